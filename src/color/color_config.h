@@ -1,0 +1,91 @@
+// Colour management on OpenColorIO: input spaces to the working space, the working space to output spaces and views.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/rgb.h"
+
+namespace etendue {
+
+/// A 3 × 3 matrix between two linear spaces, applied to column vectors.
+struct ColorMatrix {
+    std::array<float, 9> m{1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< row-major
+
+    [[nodiscard]] Rgb operator()(const Rgb& c) const {
+        return {m[0] * c.r + m[1] * c.g + m[2] * c.b, m[3] * c.r + m[4] * c.g + m[5] * c.b,
+                m[6] * c.r + m[7] * c.g + m[8] * c.b};
+    }
+};
+
+/// Any conversion, as OpenColorIO compiles it. Cheap to copy, safe to use from several threads.
+class ColorTransform {
+  public:
+    ColorTransform();
+    ~ColorTransform();
+    ColorTransform(const ColorTransform&);
+    ColorTransform& operator=(const ColorTransform&);
+
+    [[nodiscard]] Rgb operator()(const Rgb& c) const;
+    /// In place on pixels of `channels` (3 or 4) interleaved floats; alpha is left alone.
+    void apply(std::span<float> pixels, int channels) const;
+
+  private:
+    friend class ColorConfig;
+    struct Impl;
+    std::shared_ptr<const Impl> impl_;
+};
+
+/// CIE xy of the primaries and the white point of a linear RGB space.
+struct Chromaticities {
+    std::array<float, 2> red, green, blue, white;
+};
+
+/// An OpenColorIO config.
+class ColorConfig {
+  public:
+    /// $OCIO if it is set, else the project's own config, which is built into the program. Throws SceneError if $OCIO
+    /// cannot be read.
+    [[nodiscard]] static ColorConfig from_environment();
+    [[nodiscard]] static ColorConfig built_in();
+    [[nodiscard]] static ColorConfig from_file(const std::filesystem::path& path);
+
+    /// Name of the space with role `scene_linear`.
+    [[nodiscard]] std::string default_working_space() const;
+    [[nodiscard]] std::vector<std::string> spaces() const;
+    [[nodiscard]] std::vector<std::string> displays() const;
+    [[nodiscard]] std::vector<std::string> views(const std::string& display) const;
+    [[nodiscard]] std::string default_display() const;
+    [[nodiscard]] std::string default_view(const std::string& display) const;
+    /// Path of the config, or "built-in".
+    [[nodiscard]] const std::string& origin() const;
+
+    /// Canonical name of the space, alias or role `name`. Throws SceneError with the nearest known name if there is none.
+    [[nodiscard]] std::string resolve_space(const std::string& name) const;
+
+    /// Throws SceneError if a name is unknown.
+    [[nodiscard]] ColorTransform transform(const std::string& from, const std::string& to) const;
+    /// The same for two scene-linear spaces, as a matrix. Throws SceneError if either is not linear.
+    [[nodiscard]] ColorMatrix matrix(const std::string& from, const std::string& to) const;
+    /// From `working` to encoded display values; `exposure` in stops is applied first, in `working`.
+    [[nodiscard]] ColorTransform display_transform(const std::string& working, const std::string& display,
+                                                   const std::string& view, float exposure) const;
+    /// Of a scene-linear space, computed through the config's CIE XYZ (D65) space. Throws SceneError if not linear.
+    [[nodiscard]] Chromaticities chromaticities(const std::string& space) const;
+    /// Weights of R, G and B of a scene-linear space in CIE luminance Y.
+    [[nodiscard]] Rgb luminance_weights(const std::string& space) const;
+
+  private:
+    struct Impl;
+    explicit ColorConfig(std::shared_ptr<const Impl> impl);
+    std::shared_ptr<const Impl> impl_;
+};
+
+/// The space that glTF's colour factors and emission are in, by the name of the project's config.
+inline constexpr const char* kGltfColorSpace = "Linear Rec.709 (sRGB)";
+
+}  // namespace etendue

@@ -1,0 +1,30 @@
+// An axis-aligned box, grown point by point.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+
+#include "core/vec.h"
+
+namespace etendue {
+
+struct Bounds {
+    Vec3f min{std::numeric_limits<float>::infinity()};
+    Vec3f max{-std::numeric_limits<float>::infinity()};
+
+    [[nodiscard]] bool empty() const { return min.x > max.x; }
+    [[nodiscard]] Vec3f center() const { return empty() ? Vec3f(0.0f) : (min + max) * 0.5f; }
+    [[nodiscard]] Vec3f size() const { return empty() ? Vec3f(0.0f) : max - min; }
+
+    void extend(const Vec3f& p) {
+        min = {std::min(min.x, p.x), std::min(min.y, p.y), std::min(min.z, p.z)};
+        max = {std::max(max.x, p.x), std::max(max.y, p.y), std::max(max.z, p.z)};
+    }
+    void extend(const Bounds& b) {
+        if (b.empty()) return;
+        extend(b.min);
+        extend(b.max);
+    }
+};
+
+}  // namespace etendue

@@ -1,0 +1,60 @@
+#include "core/parallel.h"
+
+#include <xmmintrin.h>
+
+#include <algorithm>
+
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+namespace etendue {
+
+namespace {
+constexpr unsigned int kFlushToZero = 0x8000;
+constexpr unsigned int kDenormalsAreZero = 0x0040;
+}  // namespace
+
+FlushDenormals::FlushDenormals() : saved_(_mm_getcsr()) { _mm_setcsr(saved_ | kFlushToZero | kDenormalsAreZero); }
+
+FlushDenormals::~FlushDenormals() { _mm_setcsr(saved_); }
+
+struct ThreadPool::Impl {
+    explicit Impl(int thread_count)
+        : limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(thread_count)),
+          arena(thread_count) {}
+
+    // More threads than processors are allowed when asked for, so that determinism can be tested on a small machine.
+    tbb::global_control limit;
+    tbb::task_arena arena;
+};
+
+ThreadPool::ThreadPool(int thread_count)
+    : impl_(std::make_unique<Impl>(thread_count > 0 ? thread_count : std::max(1, tbb::info::default_concurrency()))) {}
+
+ThreadPool::~ThreadPool() = default;
+
+int ThreadPool::thread_count() const { return impl_->arena.max_concurrency(); }
+
+void ThreadPool::parallel_for(std::size_t count, const std::function<void(std::size_t, int)>& body) const {
+    impl_->arena.execute([&] {
+        tbb::parallel_for(
+            tbb::blocked_range<std::size_t>(0, count, 1),
+            [&](const tbb::blocked_range<std::size_t>& range) {
+                const FlushDenormals flush_denormals;
+                const int slot = tbb::this_task_arena::current_thread_index();
+                for (std::size_t index = range.begin(); index != range.end(); ++index) body(index, slot);
+            },
+            tbb::simple_partitioner());
+    });
+}
+
+void ThreadPool::execute(const std::function<void()>& body) const {
+    impl_->arena.execute([&] {
+        const FlushDenormals flush_denormals;
+        body();
+    });
+}
+
+}  // namespace etendue

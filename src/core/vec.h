@@ -1,0 +1,58 @@
+// Vectors, matrices and the few functions on them that every room uses. Storage and matrix algebra are Imath's.
+#pragma once
+
+#include <cmath>
+
+#include <Imath/ImathMatrix.h>
+#include <Imath/ImathVec.h>
+
+namespace etendue {
+
+using Vec2f = Imath::V2f;
+using Vec2i = Imath::V2i;
+using Vec3f = Imath::V3f;
+using Vec3d = Imath::V3d;
+using Vec4f = Imath::V4f;
+
+/// Affine or projective transform with Imath's row-vector convention: p' = p * M, translation in the last row. Its 16
+/// floats in memory are those of a column-major column-vector matrix, which is how glTF writes them.
+using Mat4f = Imath::M44f;
+
+inline constexpr float kPi = 3.14159265358979323846f;
+inline constexpr float kInvPi = 0.31830988618379067154f;
+
+[[nodiscard]] inline float dot(const Vec3f& a, const Vec3f& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+[[nodiscard]] inline Vec3f cross(const Vec3f& a, const Vec3f& b) { return a.cross(b); }
+[[nodiscard]] inline float length_squared(const Vec3f& v) { return dot(v, v); }
+[[nodiscard]] inline float length(const Vec3f& v) { return std::sqrt(length_squared(v)); }
+
+/// `v` scaled to length 1; undefined for a zero vector.
+[[nodiscard]] inline Vec3f normalize(const Vec3f& v) { return v * (1.0f / length(v)); }
+
+[[nodiscard]] inline float abs_dot(const Vec3f& a, const Vec3f& b) { return std::abs(dot(a, b)); }
+
+/// A point through an affine transform.
+[[nodiscard]] inline Vec3f transform_point(const Mat4f& m, const Vec3f& p) {
+    return {p.x * m[0][0] + p.y * m[1][0] + p.z * m[2][0] + m[3][0],
+            p.x * m[0][1] + p.y * m[1][1] + p.z * m[2][1] + m[3][1],
+            p.x * m[0][2] + p.y * m[1][2] + p.z * m[2][2] + m[3][2]};
+}
+
+/// A direction through an affine transform; its length changes with the transform's scale.
+[[nodiscard]] inline Vec3f transform_vector(const Mat4f& m, const Vec3f& v) {
+    return {v.x * m[0][0] + v.y * m[1][0] + v.z * m[2][0], v.x * m[0][1] + v.y * m[1][1] + v.z * m[2][1],
+            v.x * m[0][2] + v.y * m[1][2] + v.z * m[2][2]};
+}
+
+/// A normal through the transform whose inverse is `inverse`: n' = n * transpose(inverse), not normalised.
+[[nodiscard]] inline Vec3f transform_normal(const Mat4f& inverse, const Vec3f& n) {
+    return {n.x * inverse[0][0] + n.y * inverse[0][1] + n.z * inverse[0][2],
+            n.x * inverse[1][0] + n.y * inverse[1][1] + n.z * inverse[1][2],
+            n.x * inverse[2][0] + n.y * inverse[2][1] + n.z * inverse[2][2]};
+}
+
+[[nodiscard]] inline bool is_finite(const Vec3f& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+}  // namespace etendue

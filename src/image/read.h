@@ -1,0 +1,44 @@
+// Reading image files and encoded images in memory.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <variant>
+
+#include "image/image.h"
+
+namespace etendue {
+
+/// What an image's header says; nothing is decoded.
+struct ImageInfo {
+    int width = 0;
+    int height = 0;
+    int channels = 0;
+    int bits_per_channel = 0;
+    bool is_float = false;
+    std::string format;  ///< "png", "jpeg", "openexr", …
+};
+
+/// Largest image that is decoded: 2^28 pixels (16384²), and no side above 65536. A header that claims more is refused
+/// before any memory is taken.
+inline constexpr std::int64_t kMaxImagePixels = std::int64_t{1} << 28;
+inline constexpr int kMaxImageSide = 65536;
+
+/// Where encoded pixels come from: a file, or bytes in memory.
+using ImageSource = std::variant<std::filesystem::path, std::span<const std::byte>>;
+
+/// Reads the header only. Throws IoError if it cannot be read, is no known image or claims an absurd size; the message
+/// says which, without the file's name (the caller knows where it came from).
+[[nodiscard]] ImageInfo read_image_info(const ImageSource& source);
+
+/// Decodes to floats, 1 to 4 channels as in the file (more are dropped). Integer channels are scaled to [0, 1] and not
+/// linearised; alpha is left unassociated. Throws IoError as `read_image_info` does.
+[[nodiscard]] ImageF read_image_float(const ImageSource& source);
+
+/// Decodes to 8 bits a channel, 1 to 4 channels; deeper files are rounded. Throws IoError as `read_image_info` does.
+[[nodiscard]] Image8 read_image_8bit(const ImageSource& source);
+
+}  // namespace etendue

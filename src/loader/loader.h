@@ -1,0 +1,47 @@
+// From a scene directory or file to a SceneDesc.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <span>
+
+#include "core/error.h"
+#include "scene/scene_desc.h"
+
+namespace etendue {
+
+/// Reads one scene file format.
+///
+/// To add another: a folder under loader/, a class that implements this, and one line in `scene_loaders()`.
+class SceneLoader {
+  public:
+    virtual ~SceneLoader() = default;
+
+    /// True if `file` is of this format, judged by its name and first bytes; false says "not my format", never "broken".
+    [[nodiscard]] virtual bool can_load(const std::filesystem::path& file) const = 0;
+
+    /// Fills `scene` from `file`. Every problem goes to `problems`; throws SceneError when nothing useful can follow.
+    virtual void load(const std::filesystem::path& file, SceneDesc& scene, ProblemList& problems) const = 0;
+};
+
+/// All loaders, in the order in which they are asked.
+[[nodiscard]] std::span<const std::unique_ptr<const SceneLoader>> scene_loaders();
+
+struct LoadedScene {
+    SceneDesc scene;
+    ProblemList problems;  ///< notes and warnings; errors have been thrown
+};
+
+/// Loads the scene directory or file `path`: its scene file, then render.json beside it if there is one, then
+/// validates. Throws SceneError with all problems if any is an error.
+[[nodiscard]] LoadedScene load_scene(const std::filesystem::path& path);
+
+/// The same, but every problem is returned and none is thrown, for `inspect`.
+[[nodiscard]] LoadedScene inspect_scene(const std::filesystem::path& path);
+
+/// Every scene directory at or below `root`, sorted by path: a directory that holds a render.json or exactly one glTF
+/// file. Does not look inside a scene directory for more, nor follow links out of `root`. Throws SceneError if `root`
+/// is no directory.
+[[nodiscard]] std::vector<std::filesystem::path> find_scene_directories(const std::filesystem::path& root);
+
+}  // namespace etendue

@@ -1,0 +1,44 @@
+// Triangle meshes as plain arrays.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "core/vec.h"
+#include "scene/handle.h"
+#include "scene/material_desc.h"
+
+namespace etendue {
+
+/// Triangles with one material. Attribute arrays are empty or as long as `positions`. Strips and fans are already
+/// unrolled into `triangles`, whose indices are all below positions.size().
+struct PrimitiveDesc {
+    std::vector<Vec3f> positions;  ///< metres, mesh space, finite
+    std::vector<Vec3f> normals;    ///< unit length; generated if the file has none
+    std::vector<Vec4f> tangents;   ///< xyz unit length, w = ±1 is the bitangent's sign; empty if the file has none
+    std::vector<Vec2f> uv0;
+    std::vector<Vec2f> uv1;
+    std::vector<Vec4f> colors;     ///< linear Rec.709 rgb and alpha, multiplied with the base colour
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    Handle<MaterialDesc> material;
+    SourceLocation location;
+};
+
+struct MeshDesc {
+    std::string name;
+    std::vector<PrimitiveDesc> primitives;
+    SourceLocation location;
+};
+
+/// A mesh placed in the world. Meshes used once are baked, shared ones become instances of one BVH.
+struct InstanceDesc {
+    std::string name;
+    Handle<MeshDesc> mesh;
+    Mat4f to_world;  ///< mesh space to world space; may mirror, must not be singular
+    SourceLocation location;
+};
+
+}  // namespace etendue

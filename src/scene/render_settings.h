@@ -1,0 +1,51 @@
+// How a scene is rendered: what render.json says and the command line overrides. Defaults in place.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "core/error.h"
+
+namespace etendue {
+
+struct IntegratorSettings {
+    std::string type = "path";     ///< a name from the integrator registry
+    int max_depth = 32;            ///< most edges of a path from camera to light, >= 1; 1 is emission seen directly
+    int min_depth = 1;             ///< least edges of a path that is kept, >= 1
+    int roulette_depth = 5;        ///< edges after which Russian roulette may end a path, >= 1
+};
+
+enum class SamplerType { Sobol, Random };
+enum class PixelFilterType { BlackmanHarris, Box, Gaussian, Mitchell };
+
+struct FilmSettings {
+    int width = 1024;   ///< pixels, [1, 65536]
+    int height = 576;   ///< pixels, [1, 65536]
+    /// x0, y0, x1, y1 in pixels, half-open, y down from the top left corner.
+    std::optional<std::array<int, 4>> crop;
+    PixelFilterType filter = PixelFilterType::BlackmanHarris;
+    float filter_radius = 0.0f;  ///< pixels; 0 for the filter's own default
+};
+
+struct ColorSettings {
+    std::string working_space;  ///< empty for the config's scene_linear role
+    std::string display;        ///< empty for the config's default
+    std::string view;           ///< empty for the display's default
+    float exposure = 0.0f;      ///< stops, applied to the preview image only
+};
+
+struct RenderSettings {
+    IntegratorSettings integrator;
+    SamplerType sampler = SamplerType::Sobol;
+    int spp = 64;              ///< samples per pixel, [1, 2^24]
+    std::uint32_t seed = 0;
+    double time_limit = 0.0;   ///< seconds; 0 for none. Rendering stops after the pass that exceeds it.
+    std::string camera;        ///< name of the camera; empty for the first
+    FilmSettings film;
+    ColorSettings color;
+    SourceLocation location;
+};
+
+}  // namespace etendue

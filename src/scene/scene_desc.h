@@ -1,0 +1,55 @@
+// A whole scene as plain data: structs, vectors, integer handles. No pixels, no BVH, no behaviour.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/bounds.h"
+#include "core/error.h"
+#include "scene/camera_desc.h"
+#include "scene/light_desc.h"
+#include "scene/material_desc.h"
+#include "scene/mesh_desc.h"
+#include "scene/render_settings.h"
+#include "scene/texture_desc.h"
+
+namespace etendue {
+
+struct SceneDesc {
+    std::string name;                 ///< of the scene directory or file, without extension
+    std::filesystem::path directory;  ///< nothing outside of it is read, but for files the command line names
+    std::filesystem::path file;       ///< the scene file
+
+    std::vector<ImageDesc> images;
+    std::vector<TextureDesc> textures;
+    std::vector<MaterialDesc> materials;  ///< a primitive without one gets an index into here too
+    std::vector<MeshDesc> meshes;
+    std::vector<InstanceDesc> instances;
+    std::vector<CameraDesc> cameras;
+    std::vector<LightDesc> lights;
+    EnvironmentDesc environment;
+    RenderSettings settings;
+
+    std::vector<std::string> extensions_used;     ///< by the file and understood here
+    std::vector<std::string> extensions_ignored;  ///< by the file, not understood here and not required
+    std::vector<std::filesystem::path> inputs;    ///< every file that was or will be read
+};
+
+/// Everything that is wrong with `scene`: handles out of range, arrays of different lengths, non-finite numbers, values
+/// outside the ranges that the structs state, names that do not exist. An empty list of errors means that `World`
+/// can be compiled from it.
+[[nodiscard]] ProblemList validate(const SceneDesc& scene);
+
+/// Human-readable text with everything but the bulk arrays, for `inspect` and for tests to compare.
+[[nodiscard]] std::string dump(const SceneDesc& scene);
+
+/// World-space bounds of all instances.
+[[nodiscard]] Bounds compute_bounds(const SceneDesc& scene);
+
+/// Adds a camera that frames the bounding box if there is none, and a neutral constant environment if nothing emits
+/// light. Each addition is reported to `problems` as a note.
+void add_missing_camera_and_light(SceneDesc& scene, ProblemList& problems);
+
+}  // namespace etendue
