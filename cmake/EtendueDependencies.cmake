@@ -12,15 +12,27 @@ macro(etendue_find package debian_package)
   endif()
 endmacro()
 
+# etendue_find_pkgconfig(<name> <module> <debian-package>): imported target PkgConfig::<name>. For the packages whose CMake
+# files on Debian 12 ask for others that are not needed (Imath's and OpenImageIO's want the Python bindings).
+etendue_find(PkgConfig pkgconf)
+macro(etendue_find_pkgconfig name module debian_package)
+  pkg_check_modules(${name} QUIET IMPORTED_TARGET ${module})
+  if(NOT ${name}_FOUND)
+    message(FATAL_ERROR "${module} was not found. Install the Debian package '${debian_package}':\n"
+      "    apt-get install ${debian_package}\n"
+      "or let tools/quickstart install everything in third_party_config/apt-packages.txt.")
+  endif()
+endmacro()
+
 # Embree 4 (Debian 13) where it is there, else Embree 3 (Debian 12); src/world/embree.h hides the difference.
 find_package(embree 4 QUIET)
 if(NOT embree_FOUND)
   etendue_find(embree libembree-dev 3.13)
 endif()
 etendue_find(TBB libtbb-dev)
-etendue_find(OpenImageIO libopenimageio-dev 2.4)
-etendue_find(OpenColorIO libopencolorio-dev 2.1)
-etendue_find(Imath libimath-dev 3.1)
+etendue_find_pkgconfig(OpenImageIO OpenImageIO>=2.4 libopenimageio-dev)
+etendue_find_pkgconfig(OpenColorIO OpenColorIO>=2.1 libopencolorio-dev)
+etendue_find_pkgconfig(Imath Imath>=3.1 libimath-dev)
 etendue_find(TinyGLTF libtinygltf-dev)
 etendue_find(nlohmann_json nlohmann-json3-dev)
 etendue_find(fmt libfmt-dev)
