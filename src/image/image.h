@@ -17,7 +17,9 @@ struct ImageF {
 
     ImageF() = default;
     ImageF(int w, int h, int c)
-        : width(w), height(h), channels(c),
+        : width(w),
+          height(h),
+          channels(c),
           pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * static_cast<std::size_t>(c)) {}
 
     [[nodiscard]] std::span<float> pixel(int x, int y) { return {pixels.data() + offset(x, y), std::size_t(channels)}; }

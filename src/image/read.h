@@ -1,14 +1,14 @@
 // Reading image files and encoded images in memory.
 #pragma once
 
+#include "image/image.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
 #include <variant>
-
-#include "image/image.h"
 
 namespace etendue {
 
@@ -27,7 +27,8 @@ struct ImageInfo {
 inline constexpr std::int64_t kMaxImagePixels = std::int64_t{1} << 28;
 inline constexpr int kMaxImageSide = 65536;
 
-/// Where encoded pixels come from: a file, or bytes in memory.
+/// Where encoded pixels come from: a file, or bytes in memory. PNG, JPEG, OpenEXR, Radiance HDR and TIFF are known, by
+/// their first bytes; of a multi-part file the first part is read, of an EXR layer set R, G, B and A.
 using ImageSource = std::variant<std::filesystem::path, std::span<const std::byte>>;
 
 /// Reads the header only. Throws IoError if it cannot be read, is no known image or claims an absurd size; the message
@@ -35,7 +36,8 @@ using ImageSource = std::variant<std::filesystem::path, std::span<const std::byt
 [[nodiscard]] ImageInfo read_image_info(const ImageSource& source);
 
 /// Decodes to floats, 1 to 4 channels as in the file (more are dropped). Integer channels are scaled to [0, 1] and not
-/// linearised; alpha is left unassociated. Throws IoError as `read_image_info` does.
+/// linearised; alpha is left as in the file (PNG: unassociated, EXR: associated). Throws IoError as `read_image_info`
+/// does.
 [[nodiscard]] ImageF read_image_float(const ImageSource& source);
 
 /// Decodes to 8 bits a channel, 1 to 4 channels; deeper files are rounded. Throws IoError as `read_image_info` does.

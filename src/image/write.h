@@ -1,13 +1,14 @@
-// Writing image files: to a temporary name in the same directory, then renamed, so that no reader ever sees half a file.
+// Writing image files: to a temporary name in the same directory, then renamed, so that no reader ever sees half a
+// file.
 #pragma once
+
+#include "core/vec.h"
+#include "image/image.h"
 
 #include <filesystem>
 #include <string>
 #include <variant>
 #include <vector>
-
-#include "core/vec.h"
-#include "image/image.h"
 
 namespace etendue {
 
@@ -22,7 +23,7 @@ enum class PixelDepth { UInt8, Half, Float };
 
 struct ImageWriteOptions {
     PixelDepth depth = PixelDepth::Half;
-    std::vector<std::string> channel_names;  ///< one per channel; empty for R, G, B, A
+    std::vector<std::string> channel_names;  ///< one per channel; empty for R, G, B, A (Y, A for one or two)
     std::vector<ImageAttribute> attributes;
     /// Position of the pixels in a larger image (a crop window): x, y of the first pixel, and the full size; all zero
     /// when the image is whole.
@@ -32,8 +33,10 @@ struct ImageWriteOptions {
     int full_height = 0;
 };
 
-/// Writes `image` to `path`; the extension chooses the format. UInt8 expects values in [0, 1] that are already encoded
-/// for display, and clamps and rounds them. Throws IoError with the path and the reason; no partial file is left.
+/// Writes `image` to `path`; the extension chooses the format: .exr (Half or Float, ZIP) or .png (UInt8). UInt8 expects
+/// values in [0, 1] that are already encoded for display, and clamps and rounds them; Half clamps finite values to
+/// ±65504. Creates no directory; a path that exists and is no regular file (/dev/stdout) is written in place. Throws
+/// IoError with the path and the reason; no partial file is left.
 void write_image(const std::filesystem::path& path, const ImageF& image, const ImageWriteOptions& options);
 
 /// Writes `text` the same careful way. Throws IoError.

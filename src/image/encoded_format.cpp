@@ -1,0 +1,38 @@
+#include "image/encoded_format.h"
+
+#include <algorithm>
+#include <array>
+
+namespace etendue {
+
+namespace {
+
+using namespace std::string_view_literals;
+
+// Deflate cannot expand by more than 1032 (258 bytes from 2 bits), which bounds PNG and, with the run lengths of their
+// other codecs, Radiance and TIFF. JPEG needs a bit per 8x8 block of the densest component: 512 pixels a byte of up to
+// four channels. OpenEXR's wavelet and DCT codecs pack up to 256 constant lines into a chunk of about a hundred bytes.
+constexpr std::array kFormats{
+    EncodedFormat{"png", "\x89PNG\r\n\x1a\n"sv, 1100},
+    EncodedFormat{"jpeg", "\xff\xd8\xff"sv, 2100},
+    EncodedFormat{"openexr", "\x76\x2f\x31\x01"sv, 20000},
+    EncodedFormat{"hdr", "#?RADIANCE"sv, 1100},
+    EncodedFormat{"hdr", "#?RGBE"sv, 1100},
+    EncodedFormat{"tiff", "II*\0"sv, 1100},
+    EncodedFormat{"tiff", "MM\0*"sv, 1100},
+};
+
+}  // namespace
+
+std::optional<EncodedFormat> detect_format(std::span<const std::byte> head) {
+    for (const EncodedFormat& format : kFormats) {
+        const auto matches = [](char expected, std::byte found) { return static_cast<std::byte>(expected) == found; };
+        if (head.size() >= format.magic.size() &&
+            std::equal(format.magic.begin(), format.magic.end(), head.begin(), matches)) {
+            return format;
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace etendue

@@ -1,0 +1,156 @@
+#include "image/write.h"
+
+#include "core/error.h"
+#include "image/library_setup.h"
+#include "image/write_file.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+namespace etendue {
+
+namespace {
+
+constexpr float kLargestHalf = 65504.0f;
+
+OIIO::TypeDesc stored_type(PixelDepth depth) {
+    switch (depth) {
+        case PixelDepth::UInt8:
+            return OIIO::TypeDesc::UINT8;
+        case PixelDepth::Half:
+            return OIIO::TypeDesc::HALF;
+        case PixelDepth::Float:
+            break;
+    }
+    return OIIO::TypeDesc::FLOAT;
+}
+
+// OpenImageIO's name of the format that the extension asks for; throws if that format cannot hold the pixels.
+std::string output_format(const std::filesystem::path& path, PixelDepth depth) {
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const bool exr = extension == ".exr";
+    if (!exr && extension != ".png") throw IoError(fmt::format("cannot write {}: not .exr or .png", path.string()));
+    if (exr == (depth == PixelDepth::UInt8)) {
+        throw IoError(fmt::format("cannot write {}: {}", path.string(),
+                                  exr ? "EXR holds no 8-bit channels" : "PNG is written with 8 bits a channel only"));
+    }
+    return exr ? "openexr" : "png";
+}
+
+std::vector<std::string> default_channel_names(int channels) {
+    if (channels <= 2) return channels == 1 ? std::vector<std::string>{"Y"} : std::vector<std::string>{"Y", "A"};
+    std::vector<std::string> names{"R", "G", "B", "A"};
+    names.resize(static_cast<std::size_t>(std::min(channels, 4)));
+    for (int i = 4; i < channels; ++i) names.push_back(fmt::format("channel{}", i));
+    return names;
+}
+
+void add_attribute(OIIO::ImageSpec& spec, const ImageAttribute& attribute) {
+    struct Visitor {
+        OIIO::ImageSpec& spec;
+        const std::string& name;
+        void operator()(int value) const { spec.attribute(name, value); }
+        void operator()(float value) const { spec.attribute(name, value); }
+        void operator()(const std::string& value) const { spec.attribute(name, value); }
+        void operator()(const std::vector<float>& value) const {
+            spec.attribute(name, OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, static_cast<int>(value.size())), value.data());
+        }
+        void operator()(const Mat4f& value) const { spec.attribute(name, OIIO::TypeMatrix, value.getValue()); }
+    };
+    std::visit(Visitor{spec, attribute.name}, attribute.value);
+}
+
+OIIO::ImageSpec make_spec(const ImageF& image, const ImageWriteOptions& options) {
+    OIIO::ImageSpec spec(image.width, image.height, image.channels, stored_type(options.depth));
+    spec.channelnames = options.channel_names.empty() ? default_channel_names(image.channels) : options.channel_names;
+    spec.x = options.offset_x;
+    spec.y = options.offset_y;
+    if (options.full_width > 0 && options.full_height > 0) {
+        spec.full_width = options.full_width;
+        spec.full_height = options.full_height;
+    }
+    const auto alpha = std::find(spec.channelnames.begin(), spec.channelnames.end(), "A");
+    if (alpha != spec.channelnames.end()) spec.alpha_channel = static_cast<int>(alpha - spec.channelnames.begin());
+    if (options.depth == PixelDepth::UInt8) {
+        spec.attribute("oiio:UnassociatedAlpha", 1);  // else the pixels would be divided by alpha
+    } else {
+        spec.attribute("compression", "zip");
+    }
+    for (const ImageAttribute& attribute : options.attributes) add_attribute(spec, attribute);
+    return spec;
+}
+
+std::vector<std::uint8_t> to_8bit(std::span<const float> pixels) {
+    std::vector<std::uint8_t> bytes(pixels.size());
+    std::transform(pixels.begin(), pixels.end(), bytes.begin(), [](float value) {
+        const float clamped = value > 0.0f ? std::min(value, 1.0f) : 0.0f;  // a NaN becomes 0
+        return static_cast<std::uint8_t>(std::lround(clamped * 255.0f));
+    });
+    return bytes;
+}
+
+// A finite value stays finite: an infinity in a file poisons every filter that touches it.
+std::vector<float> to_half_range(std::span<const float> pixels) {
+    std::vector<float> clamped(pixels.begin(), pixels.end());
+    for (float& value : clamped) {
+        if (std::isfinite(value)) value = std::clamp(value, -kLargestHalf, kLargestHalf);
+    }
+    return clamped;
+}
+
+bool write_pixels(OIIO::ImageOutput& output, const ImageF& image, PixelDepth depth) {
+    switch (depth) {
+        case PixelDepth::UInt8:
+            return output.write_image(OIIO::TypeDesc::UINT8, to_8bit(image.pixels).data());
+        case PixelDepth::Half:
+            return output.write_image(OIIO::TypeDesc::FLOAT, to_half_range(image.pixels).data());
+        case PixelDepth::Float:
+            break;
+    }
+    return output.write_image(OIIO::TypeDesc::FLOAT, image.pixels.data());
+}
+
+void check_shape(const std::filesystem::path& path, const ImageF& image, const ImageWriteOptions& options) {
+    const auto expected = static_cast<std::size_t>(std::max(image.width, 0)) *
+                          static_cast<std::size_t>(std::max(image.height, 0)) *
+                          static_cast<std::size_t>(std::max(image.channels, 0));
+    const bool named =
+        options.channel_names.empty() || options.channel_names.size() == static_cast<std::size_t>(image.channels);
+    if (expected == 0 || image.pixels.size() != expected || !named) {
+        throw IoError(fmt::format("cannot write {}: {} x {} pixels of {} channels with {} values and {} channel names",
+                                  path.string(), image.width, image.height, image.channels, image.pixels.size(),
+                                  options.channel_names.size()));
+    }
+}
+
+}  // namespace
+
+void write_image(const std::filesystem::path& path, const ImageF& image, const ImageWriteOptions& options) {
+    check_shape(path, image, options);
+    const std::string format = output_format(path, options.depth);
+    configure_image_library();
+    // Encoded in memory first, so that every byte that reaches the disk is written and checked in one place.
+    std::vector<unsigned char> encoded;
+    OIIO::Filesystem::IOVecOutput memory(encoded);
+    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
+    if (!output) throw IoError(fmt::format("cannot write {}: {}", path.string(), OIIO::geterror()));
+    output->threads(1);
+    OIIO::ImageSpec spec = make_spec(image, options);
+    const bool good = output->set_ioproxy(&memory) && output->open("memory." + path.extension().string(), spec) &&
+                      write_pixels(*output, image, options.depth) && output->close();
+    if (!good) throw IoError(fmt::format("cannot write {}: {}", path.string(), output->geterror()));
+    write_bytes(path, std::as_bytes(std::span(encoded)));
+}
+
+}  // namespace etendue
