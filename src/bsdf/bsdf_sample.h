@@ -1,0 +1,35 @@
+// What every lobe speaks in. All directions are unit vectors in the local frame (z along the shading normal) and point
+// away from the surface: wo to where the walk comes from, wi to where it goes on.
+#pragma once
+
+#include "core/rgb.h"
+#include "core/vec.h"
+
+namespace etendue {
+
+/// What the walk carries. Refraction scales radiance by the squared ratio of the indices but leaves particles that carry
+/// importance alone (Veach 1997, section 5.2).
+enum class TransportMode {
+    Radiance,    ///< walks from the eye: the weight is f(wi -> wo)
+    Importance,  ///< walks from a light: the weight is f(wo -> wi)
+};
+
+/// A lobe's value for a pair of directions. Delta parts of a lobe are not in it.
+struct BsdfValue {
+    Rgb f_cos;                      ///< BSDF times |cos theta_i|, 1/sr
+    float pdf_solid_angle = 0.0f;   ///< density with which `sample` picks wi given wo, non-delta parts only
+};
+
+/// A sampled direction. An all-zero `weight` means that nothing was scattered.
+struct BsdfSample {
+    Vec3f wi{0.0f};
+    Rgb weight;                    ///< f |cos theta_i| / pdf; for a delta part, its albedo over its probability
+    float pdf_solid_angle = 0.0f;  ///< of all non-delta parts together; not meaningful if `is_delta`
+    bool is_delta = false;
+    bool is_transmission = false;
+    float eta = 1.0f;              ///< index on wi's side over the index on wo's side, for Russian roulette
+};
+
+[[nodiscard]] inline Vec3f mirror_direction(const Vec3f& wo) { return {-wo.x, -wo.y, wo.z}; }
+
+}  // namespace etendue

@@ -1,0 +1,57 @@
+// The GGX (Trowbridge-Reitz) microfacet distribution, isotropic.
+//
+// alpha is the slope's standard width, perceptual roughness squared. Heitz, "Understanding the Masking-Shadowing Function
+// in Microfacet-Based BRDFs" (JCGT 3(2), 2014); sampling of visible normals: Dupuy and Benyoub, "Sampling Visible GGX
+// Normals with Spherical Caps" (HPG 2023).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/vec.h"
+
+namespace etendue {
+
+/// Below this alpha a surface is treated as perfectly smooth: its lobe, narrower than a thousandth, is a delta.
+inline constexpr float kSmoothAlpha = 1e-3f;
+
+struct Ggx {
+    float alpha = 0.1f;
+
+    /// Density of normals (Heitz, equation 71), 1/sr, `h` unit with h.z >= 0. Built from the sines, which keep their
+    /// precision for small alpha.
+    [[nodiscard]] float d(const Vec3f& h) const {
+        const float t = (h.x * h.x + h.y * h.y) / (alpha * alpha) + h.z * h.z;
+        return 1.0f / (kPi * alpha * alpha * t * t);
+    }
+
+    /// Smith's auxiliary function (Heitz, equation 72).
+    [[nodiscard]] float lambda(const Vec3f& w) const {
+        const float cos2 = w.z * w.z;
+        if (cos2 == 0.0f) return 1e30f;
+        const float tan2 = std::max(0.0f, 1.0f - cos2) / cos2;
+        return 0.5f * (std::sqrt(1.0f + alpha * alpha * tan2) - 1.0f);
+    }
+
+    [[nodiscard]] float g1(const Vec3f& w) const { return 1.0f / (1.0f + lambda(w)); }
+
+    /// Height-correlated masking and shadowing (Heitz, equation 99).
+    [[nodiscard]] float g2(const Vec3f& wo, const Vec3f& wi) const { return 1.0f / (1.0f + lambda(wo) + lambda(wi)); }
+
+    /// Density of the normals visible from `wo` (wo.z > 0), per solid angle of the normal (Heitz, equation 2).
+    [[nodiscard]] float visible_normal_pdf(const Vec3f& wo, const Vec3f& h) const {
+        return g1(wo) * d(h) * std::max(0.0f, dot(wo, h)) / wo.z;
+    }
+
+    /// A normal visible from `wo` (wo.z > 0).
+    [[nodiscard]] Vec3f sample_visible_normal(const Vec3f& wo, Vec2f u) const {
+        const Vec3f stretched = normalize({wo.x * alpha, wo.y * alpha, wo.z});
+        const float phi = 2.0f * kPi * u.x;
+        const float z = (1.0f - u.y) * (1.0f + stretched.z) - stretched.z;
+        const float sin_theta = std::sqrt(std::clamp(1.0f - z * z, 0.0f, 1.0f));
+        const Vec3f h = Vec3f(sin_theta * std::cos(phi), sin_theta * std::sin(phi), z) + stretched;
+        return normalize({h.x * alpha, h.y * alpha, std::max(1e-7f, h.z)});
+    }
+};
+
+}  // namespace etendue

@@ -1,0 +1,30 @@
+// Directional albedo of single scattering on GGX surfaces: what is missing to one is the light that scatters several
+// times between the microfacets, which the lobes put back (Kulla and Conty, "Revisiting Physically Based Shading at
+// Imageworks", SIGGRAPH 2017 course).
+//
+// Tables are computed while the project is built, by tools/make_ggx_albedo.cpp.
+#pragma once
+
+namespace etendue {
+
+/// Of a reflecting GGX surface. With Schlick's Fresnel term the albedo is f0 · single + (1 - f0) · schlick.
+struct GgxAlbedo {
+    float single;   ///< with reflectance 1
+    float schlick;  ///< with reflectance (1 - cos)^5
+};
+
+/// `cos_theta` in [0, 1], `alpha` in [0, 1].
+[[nodiscard]] GgxAlbedo ggx_albedo(float cos_theta, float alpha);
+
+/// The same averaged over a cosine-weighted hemisphere.
+[[nodiscard]] GgxAlbedo ggx_albedo_average(float alpha);
+
+/// Largest index of refraction, and inverse of the smallest, that the dielectric tables cover.
+inline constexpr float kMaxTabulatedEta = 3.0f;
+
+/// Reflected plus transmitted share of a rough dielectric interface, seen from the side on which the relative index of the
+/// other side is `eta` in [1/3, 3].
+[[nodiscard]] float ggx_dielectric_albedo(float cos_theta, float alpha, float eta);
+[[nodiscard]] float ggx_dielectric_albedo_average(float alpha, float eta);
+
+}  // namespace etendue

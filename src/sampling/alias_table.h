@@ -1,0 +1,39 @@
+// Choosing one of n with given probabilities in constant time.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace etendue {
+
+/// Walker's alias table, built by Vose's method (Vose, "A Linear Algorithm for Generating Random Numbers with a Given
+/// Distribution", IEEE TSE 17(9), 1991). 12 bytes an entry.
+class AliasTable {
+  public:
+    AliasTable() = default;
+    /// `weights` >= 0 and finite, any sum. If all are zero, every entry is equally likely.
+    explicit AliasTable(std::span<const double> weights);
+
+    struct Choice {
+        std::uint32_t index;
+        float probability;
+        float u_remapped;  ///< in [0, 1), uniform and independent of the choice: what is left of `u`
+    };
+    /// `u` in [0, 1). The table must not be empty.
+    [[nodiscard]] Choice sample(float u) const;
+    [[nodiscard]] float probability(std::size_t index) const { return bins_[index].probability; }
+    [[nodiscard]] std::size_t size() const { return bins_.size(); }
+    [[nodiscard]] bool empty() const { return bins_.empty(); }
+
+  private:
+    struct Bin {
+        float threshold;      ///< share of the bin that belongs to its own entry
+        std::uint32_t alias;  ///< entry that owns the rest
+        float probability;
+    };
+    std::vector<Bin> bins_;
+};
+
+}  // namespace etendue

@@ -1,0 +1,80 @@
+#include "sampling/distribution.h"
+
+#include <algorithm>
+
+#include "sampling/warp.h"
+
+namespace etendue {
+
+namespace {
+
+std::size_t cell(float x, std::size_t count) {
+    const float scaled = std::clamp(x, 0.0f, kOneMinusEpsilon) * static_cast<float>(count);
+    return std::min(static_cast<std::size_t>(scaled), count - 1);
+}
+
+}  // namespace
+
+Distribution1D::Distribution1D(std::span<const float> weights) : cdf_(weights.size() + 1) {
+    double sum = 0.0;
+    for (const float weight : weights) sum += static_cast<double>(weight);
+    const auto count = static_cast<double>(weights.size());
+    integral_ = sum / count;
+    double running = 0.0;
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+        running += sum > 0.0 ? static_cast<double>(weights[i]) / sum : 1.0 / count;
+        cdf_[i + 1] = static_cast<float>(std::min(running, 1.0));
+    }
+    cdf_.back() = 1.0f;
+}
+
+Distribution1D::Sample Distribution1D::sample(float u) const {
+    // The first value above u ends the interval; intervals of zero width are never chosen.
+    const auto above = std::upper_bound(cdf_.begin() + 1, cdf_.end() - 1, u);
+    const auto index = static_cast<std::size_t>(above - cdf_.begin()) - 1;
+    const float mass = cdf_[index + 1] - cdf_[index];
+    const float within = mass > 0.0f ? std::clamp((u - cdf_[index]) / mass, 0.0f, kOneMinusEpsilon) : 0.5f;
+    const auto count = static_cast<float>(size());
+    return {std::min((static_cast<float>(index) + within) / count, kOneMinusEpsilon), mass * count, index};
+}
+
+float Distribution1D::pdf(float x) const {
+    const std::size_t index = cell(x, size());
+    return (cdf_[index + 1] - cdf_[index]) * static_cast<float>(size());
+}
+
+float Distribution1D::inverse(float x) const {
+    const std::size_t index = cell(x, size());
+    const float within = x * static_cast<float>(size()) - static_cast<float>(index);
+    return cdf_[index] + within * (cdf_[index + 1] - cdf_[index]);
+}
+
+Distribution2D::Distribution2D(std::span<const float> weights, int width, int height) {
+    const auto row_size = static_cast<std::size_t>(width);
+    std::vector<float> row_integrals;
+    for (int y = 0; y < height; ++y) {
+        rows_.emplace_back(weights.subspan(static_cast<std::size_t>(y) * row_size, row_size));
+        row_integrals.push_back(static_cast<float>(rows_.back().integral()));
+    }
+    marginal_ = Distribution1D(row_integrals);
+}
+
+const Distribution1D& Distribution2D::row(float y) const { return rows_[cell(y, rows_.size())]; }
+
+Distribution2D::Sample Distribution2D::sample(Vec2f u) const {
+    const Distribution1D::Sample y = marginal_.sample(u.y);
+    const Distribution1D::Sample x = rows_[y.index].sample(u.x);
+    return {{x.x, y.x}, x.pdf * y.pdf};
+}
+
+float Distribution2D::pdf(Vec2f position) const { return marginal_.pdf(position.y) * row(position.y).pdf(position.x); }
+
+Vec2f Distribution2D::inverse(Vec2f position) const {
+    return {row(position.y).inverse(position.x), marginal_.inverse(position.y)};
+}
+
+std::size_t Distribution2D::bytes() const {
+    return (rows_.empty() ? 0 : rows_.size() * (rows_.front().size() + 1) + rows_.size() + 1) * sizeof(float);
+}
+
+}  // namespace etendue

@@ -1,0 +1,62 @@
+// Piecewise-constant densities on [0,1) and [0,1)², sampled by inverting their distribution function, which keeps the
+// stratification of the numbers that go in.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "core/vec.h"
+
+namespace etendue {
+
+/// Density on [0,1) that is constant on n equal intervals. 4 bytes an interval.
+class Distribution1D {
+  public:
+    Distribution1D() = default;
+    /// `weights` >= 0 and finite. If all are zero, the density is uniform.
+    explicit Distribution1D(std::span<const float> weights);
+
+    struct Sample {
+        float x;
+        float pdf;
+        std::size_t index;
+    };
+    [[nodiscard]] Sample sample(float u) const;
+    [[nodiscard]] float pdf(float x) const;
+    /// The u that `sample` maps to `x`.
+    [[nodiscard]] float inverse(float x) const;
+    [[nodiscard]] std::size_t size() const { return cdf_.empty() ? 0 : cdf_.size() - 1; }
+    /// Mean of the weights: the integral over [0,1) of the function that they describe.
+    [[nodiscard]] double integral() const { return integral_; }
+
+  private:
+    std::vector<float> cdf_;  ///< size() + 1 values from 0 to 1
+    double integral_ = 0.0;
+};
+
+/// Density on [0,1)² that is constant on width × height cells: a marginal over rows, then a conditional within the row.
+class Distribution2D {
+  public:
+    Distribution2D() = default;
+    /// `weights` row by row, >= 0 and finite.
+    Distribution2D(std::span<const float> weights, int width, int height);
+
+    struct Sample {
+        Vec2f position;
+        float pdf;
+    };
+    [[nodiscard]] Sample sample(Vec2f u) const;
+    [[nodiscard]] float pdf(Vec2f position) const;
+    [[nodiscard]] Vec2f inverse(Vec2f position) const;
+    [[nodiscard]] double integral() const { return marginal_.integral(); }
+    [[nodiscard]] std::size_t bytes() const;
+
+  private:
+    [[nodiscard]] const Distribution1D& row(float y) const;
+
+    std::vector<Distribution1D> rows_;
+    Distribution1D marginal_;
+};
+
+}  // namespace etendue

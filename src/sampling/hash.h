@@ -1,0 +1,26 @@
+// Integer hashes: the source of every seed. Pure functions, so that a sample depends on nothing but its key.
+#pragma once
+
+#include <cstdint>
+
+namespace etendue {
+
+/// A bijection of 32 bits with low bias (constants of the "lowbias32" search by Chris Wellons, 2018).
+[[nodiscard]] constexpr std::uint32_t hash_u32(std::uint32_t x) {
+    x ^= x >> 16;
+    x *= 0x7feb352du;
+    x ^= x >> 15;
+    x *= 0x846ca68bu;
+    x ^= x >> 16;
+    return x;
+}
+
+/// Hash of a sequence of two; chain it for more.
+[[nodiscard]] constexpr std::uint32_t hash_combine(std::uint32_t seed, std::uint32_t value) {
+    return hash_u32(seed ^ (value * 0x9e3779b9u + 0x7f4a7c15u + (seed << 6) + (seed >> 2)));
+}
+
+/// The upper 24 bits as a float in [0, 1).
+[[nodiscard]] constexpr float to_unit_float(std::uint32_t x) { return static_cast<float>(x >> 8) * 0x1p-24f; }
+
+}  // namespace etendue

@@ -1,0 +1,16 @@
+// Multiple importance sampling of two strategies with one sample each (Veach 1997, section 9.2).
+#pragma once
+
+namespace etendue {
+
+/// Balance heuristic, equation 9.8: weight of a sample drawn with density `pdf` when the other strategy has `other_pdf`,
+/// both in the same measure.
+[[nodiscard]] constexpr float balance_heuristic(float pdf, float other_pdf) { return pdf / (pdf + other_pdf); }
+
+/// Power heuristic with exponent 2, equation 9.9. Written as a ratio, so that large densities do not overflow.
+[[nodiscard]] constexpr float power_heuristic(float pdf, float other_pdf) {
+    const float ratio = other_pdf / pdf;
+    return 1.0f / (1.0f + ratio * ratio);
+}
+
+}  // namespace etendue

@@ -1,0 +1,109 @@
+// Warps of the unit square: each with its pdf and its inverse.
+//
+// Notation: `square_to_x(u)` maps u in [0,1)² to the domain x, `x_pdf(p)` is the density of the result in the measure that
+// the name states, `x_to_square(p)` is the inverse. Sources: Shirley and Chiu, "A Low Distortion Map Between Disk and
+// Square" (JGT 2(3), 1997); pbrt, 4th edition, appendix A.5.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/vec.h"
+
+namespace etendue {
+
+inline constexpr float kOneMinusEpsilon = 0x1.fffffep-1f;
+
+/// To the unit disk, concentric.
+[[nodiscard]] inline Vec2f square_to_disk(Vec2f u) {
+    const float a = 2.0f * u.x - 1.0f;
+    const float b = 2.0f * u.y - 1.0f;
+    if (a == 0.0f && b == 0.0f) return {0.0f, 0.0f};
+    const bool wide = std::abs(a) > std::abs(b);
+    const float r = wide ? a : b;
+    const float phi = wide ? (kPi / 4.0f) * (b / a) : kPi / 2.0f - (kPi / 4.0f) * (a / b);
+    return {r * std::cos(phi), r * std::sin(phi)};
+}
+[[nodiscard]] inline float disk_pdf_area(Vec2f p) { return p.x * p.x + p.y * p.y <= 1.0f ? kInvPi : 0.0f; }
+[[nodiscard]] inline Vec2f disk_to_square(Vec2f p) {
+    const float r = std::sqrt(p.x * p.x + p.y * p.y);
+    float phi = std::atan2(p.y, p.x);
+    if (phi < -kPi / 4.0f) phi += 2.0f * kPi;
+    float a = 0.0f;
+    float b = 0.0f;
+    if (phi < kPi / 4.0f) {
+        a = r;
+        b = phi * a / (kPi / 4.0f);
+    } else if (phi < 3.0f * kPi / 4.0f) {
+        b = r;
+        a = -(phi - kPi / 2.0f) * b / (kPi / 4.0f);
+    } else if (phi < 5.0f * kPi / 4.0f) {
+        a = -r;
+        b = (phi - kPi) * a / (kPi / 4.0f);
+    } else {
+        b = -r;
+        a = -(phi - 3.0f * kPi / 2.0f) * b / (kPi / 4.0f);
+    }
+    return {(a + 1.0f) * 0.5f, (b + 1.0f) * 0.5f};
+}
+
+/// To the hemisphere around +z, density proportional to the cosine.
+[[nodiscard]] inline Vec3f square_to_cosine_hemisphere(Vec2f u) {
+    const Vec2f d = square_to_disk(u);
+    return {d.x, d.y, std::sqrt(std::max(0.0f, 1.0f - d.x * d.x - d.y * d.y))};
+}
+[[nodiscard]] inline float cosine_hemisphere_pdf_solid_angle(const Vec3f& w) { return std::max(0.0f, w.z) * kInvPi; }
+[[nodiscard]] inline Vec2f cosine_hemisphere_to_square(const Vec3f& w) { return disk_to_square({w.x, w.y}); }
+
+/// To the unit sphere, uniformly.
+[[nodiscard]] inline Vec3f square_to_sphere(Vec2f u) {
+    const float z = 1.0f - 2.0f * u.y;
+    const float r = std::sqrt(std::max(0.0f, 1.0f - z * z));
+    const float phi = 2.0f * kPi * u.x;
+    return {r * std::cos(phi), r * std::sin(phi), z};
+}
+[[nodiscard]] inline float sphere_pdf_solid_angle() { return kInvPi / 4.0f; }
+[[nodiscard]] inline Vec2f sphere_to_square(const Vec3f& w) {
+    const float phi = std::atan2(w.y, w.x) * (kInvPi * 0.5f);
+    return {phi < 0.0f ? phi + 1.0f : phi, (1.0f - w.z) * 0.5f};
+}
+
+/// To the hemisphere around +z, uniformly.
+[[nodiscard]] inline Vec3f square_to_hemisphere(Vec2f u) {
+    const float z = 1.0f - u.y;
+    const float r = std::sqrt(std::max(0.0f, 1.0f - z * z));
+    const float phi = 2.0f * kPi * u.x;
+    return {r * std::cos(phi), r * std::sin(phi), z};
+}
+[[nodiscard]] inline float hemisphere_pdf_solid_angle(const Vec3f& w) { return w.z >= 0.0f ? kInvPi * 0.5f : 0.0f; }
+[[nodiscard]] inline Vec2f hemisphere_to_square(const Vec3f& w) { return {sphere_to_square(w).x, 1.0f - w.z}; }
+
+/// To the cone of directions around +z whose half angle has the cosine `cos_max` (< 1), uniformly.
+[[nodiscard]] inline Vec3f square_to_cone(Vec2f u, float cos_max) {
+    const float one_minus_z = u.y * (1.0f - cos_max);
+    const float r = std::sqrt(std::max(0.0f, one_minus_z * (2.0f - one_minus_z)));
+    const float phi = 2.0f * kPi * u.x;
+    return {r * std::cos(phi), r * std::sin(phi), 1.0f - one_minus_z};
+}
+[[nodiscard]] inline float cone_pdf_solid_angle(const Vec3f& w, float cos_max) {
+    return w.z >= cos_max ? kInvPi * 0.5f / (1.0f - cos_max) : 0.0f;
+}
+[[nodiscard]] inline Vec2f cone_to_square(const Vec3f& w, float cos_max) {
+    return {sphere_to_square(w).x, (1.0f - w.z) / (1.0f - cos_max)};
+}
+
+/// To a triangle, uniformly: the barycentric coordinates of its second and third vertex. Low-distortion map without a
+/// square root (Heitz, "A Low-Distortion Map Between Triangle and Square", 2019).
+[[nodiscard]] inline Vec2f square_to_triangle(Vec2f u) {
+    if (u.y > u.x) {
+        const float x = u.x * 0.5f;
+        return {x, u.y - x};
+    }
+    const float y = u.y * 0.5f;
+    return {u.x - y, y};
+}
+[[nodiscard]] inline Vec2f triangle_to_square(Vec2f b) {
+    return b.y > b.x ? Vec2f{2.0f * b.x, b.y + b.x} : Vec2f{b.x + b.y, 2.0f * b.y};
+}
+
+}  // namespace etendue
