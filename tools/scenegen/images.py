@@ -1,0 +1,75 @@
+"""Images from the standard library alone: OpenEXR for environments, PNG for textures."""
+
+import struct
+import zlib
+from array import array
+from math import cos, pi, sin
+
+_EXR_HALF = 1
+
+
+def exr(width, height, pixels):
+    """Bytes of an uncompressed OpenEXR file of half-floats in linear Rec.709.
+
+    `pixels` are R, G, B per pixel, rows from the top. Values must be finite and below 65504.
+    """
+    def attribute(name, kind, value):
+        return name.encode() + b"\0" + kind.encode() + b"\0" + struct.pack("<i", len(value)) + value
+
+    channels = b"".join(name + b"\0" + struct.pack("<iB3xii", _EXR_HALF, 0, 1, 1) for name in (b"B", b"G", b"R")) + b"\0"
+    window = struct.pack("<4i", 0, 0, width - 1, height - 1)
+    header = struct.pack("<ii", 20000630, 2) + b"".join((
+        attribute("channels", "chlist", channels),
+        attribute("chromaticities", "chromaticities",
+                  struct.pack("<8f", 0.64, 0.33, 0.30, 0.60, 0.15, 0.06, 0.3127, 0.3290)),
+        attribute("compression", "compression", b"\0"),
+        attribute("dataWindow", "box2i", window),
+        attribute("displayWindow", "box2i", window),
+        attribute("lineOrder", "lineOrder", b"\0"),
+        attribute("pixelAspectRatio", "float", struct.pack("<f", 1.0)),
+        attribute("screenWindowCenter", "v2f", struct.pack("<2f", 0.0, 0.0)),
+        attribute("screenWindowWidth", "float", struct.pack("<f", 1.0)))) + b"\0"
+
+    # One block per scan line: its number, its size, then each channel's values in alphabetical order.
+    line_size = width * 3 * 2
+    first_block = len(header) + 8 * height
+    offsets = struct.pack(f"<{height}Q", *(first_block + y * (8 + line_size) for y in range(height)))
+    lines = []
+    for y in range(height):
+        row = pixels[3 * width * y:3 * width * (y + 1)]
+        lines.append(struct.pack(f"<ii{3 * width}e", y, line_size, *row[2::3], *row[1::3], *row[0::3]))
+    return header + offsets + b"".join(lines)
+
+
+def latitude_longitude(width, height, radiance):
+    """Pixels of an environment: `radiance(direction)` at the centre of each, the middle of the image towards -Z.
+
+    Columns go from +Z by -X, -Z and +X back to +Z, rows from +Y to -Y.
+    """
+    azimuths = [2.0 * pi * ((x + 0.5) / width - 0.5) for x in range(width)]
+    columns = [(sin(a), -cos(a)) for a in azimuths]
+    pixels = array("f")
+    for y in range(height):
+        polar = pi * (y + 0.5) / height
+        horizontal, up = sin(polar), cos(polar)
+        for x, z in columns:
+            pixels.extend(radiance((x * horizontal, up, z * horizontal)))
+    return pixels
+
+
+def png(width, height, pixels):
+    """Bytes of an 8-bit RGB PNG. `pixels` are bytes, rows from the top."""
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    stride = 3 * width
+    # Filter type 0 in front of each row.
+    rows = b"".join(b"\0" + pixels[stride * y:stride * (y + 1)] for y in range(height))
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0))
+            + chunk(b"IDAT", zlib.compress(rows, 9)) + chunk(b"IEND", b""))
+
+
+def to_srgb_byte(linear):
+    """A linear value in [0, 1] through the sRGB transfer function (IEC 61966-2-1), as a byte."""
+    encoded = 12.92 * linear if linear <= 0.0031308 else 1.055 * linear ** (1.0 / 2.4) - 0.055
+    return round(255.0 * min(max(encoded, 0.0), 1.0))

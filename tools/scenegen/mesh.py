@@ -1,0 +1,234 @@
+"""Triangle meshes and the closed-form surfaces that the scenes are made of. Metres, +Y up, counter-clockwise fronts."""
+
+import math
+from array import array
+
+from .vector import add, cross, dot, length, normalize, scale, sub
+
+
+class Mesh:
+    """Triangles with normals and, if wanted, texture coordinates and colours."""
+
+    def __init__(self):
+        self.positions = array("f")
+        self.normals = array("f")
+        self.uvs = array("f")
+        self.colors = array("B")
+        self.indices = array("I")
+
+    @property
+    def vertex_count(self):
+        return len(self.positions) // 3
+
+    @property
+    def triangle_count(self):
+        return len(self.indices) // 3
+
+    def add_vertex(self, position, normal, uv=None, color=None):
+        """Appends one vertex and returns its index. `uv` and `color` (RGBA bytes) for all vertices or for none."""
+        self.positions.extend(position)
+        self.normals.extend(normal)
+        if uv is not None:
+            self.uvs.extend(uv)
+        if color is not None:
+            self.colors.extend(color)
+        return self.vertex_count - 1
+
+    def add_triangle(self, a, b, c):
+        self.indices.extend((a, b, c))
+
+    def add_quad(self, corners, uvs=None):
+        """A flat-shaded quadrilateral, counter-clockwise from its front, split at its first corner.
+
+        One normal if it is flat; the triangles' own if it is not.
+        """
+        first = _face_normal(corners[0], corners[1], corners[2])
+        second = _face_normal(corners[0], corners[2], corners[3])
+        uvs = uvs or [None] * 4
+        if dot(first, second) > 1.0 - 1e-12:
+            a, b, c, d = (self.add_vertex(p, first, uv) for p, uv in zip(corners, uvs))
+            self.add_triangle(a, b, c)
+            self.add_triangle(a, c, d)
+            return
+        for normal, picked in ((first, (0, 1, 2)), (second, (0, 2, 3))):
+            self.add_triangle(*(self.add_vertex(corners[i], normal, uvs[i]) for i in picked))
+
+    def add_grid(self, columns, rows, wrap_columns=False, wrap_rows=False, first=0):
+        """Triangles between (columns + 1) × (rows + 1) vertices stored row by row, or one less where it wraps.
+
+        Fronts where column × row is the outward normal. Degenerate triangles, as at a pole, are left out.
+        """
+        stride = columns if wrap_columns else columns + 1
+        height = rows if wrap_rows else rows + 1
+        for row in range(rows):
+            for column in range(columns):
+                a = first + row * stride + column
+                b = first + row * stride + (column + 1) % stride
+                c = first + (row + 1) % height * stride + (column + 1) % stride
+                d = first + (row + 1) % height * stride + column
+                for corners in ((a, b, c), (a, c, d)):
+                    if not self._is_degenerate(corners):
+                        self.add_triangle(*corners)
+
+    def position(self, index):
+        return tuple(self.positions[3 * index:3 * index + 3])
+
+    def _is_degenerate(self, corners):
+        p, q, r = (self.position(i) for i in corners)
+        return length(cross(sub(q, p), sub(r, p))) < 1e-12
+
+
+def _face_normal(a, b, c):
+    return normalize(cross(sub(b, a), sub(c, a)))
+
+
+def box(low, high):
+    """An axis-aligned box with outward normals."""
+    (x0, y0, z0), (x1, y1, z1) = low, high
+    mesh = Mesh()
+    for corners in (
+            ((x1, y0, z1), (x1, y0, z0), (x1, y1, z0), (x1, y1, z1)),
+            ((x0, y0, z0), (x0, y0, z1), (x0, y1, z1), (x0, y1, z0)),
+            ((x0, y1, z1), (x1, y1, z1), (x1, y1, z0), (x0, y1, z0)),
+            ((x0, y0, z0), (x1, y0, z0), (x1, y0, z1), (x0, y0, z1)),
+            ((x0, y0, z1), (x1, y0, z1), (x1, y1, z1), (x0, y1, z1)),
+            ((x1, y0, z0), (x0, y0, z0), (x0, y1, z0), (x1, y1, z0))):
+        mesh.add_quad(corners)
+    return mesh
+
+
+def ground(half_size, y=0.0, uv_per_meter=0.0):
+    """A horizontal square facing up, centred on the origin; with texture coordinates if `uv_per_meter` is not 0."""
+    h, t = half_size, half_size * uv_per_meter
+    mesh = Mesh()
+    uvs = ((-t, t), (t, t), (t, -t), (-t, -t)) if t else None
+    mesh.add_quad(((-h, y, h), (h, y, h), (h, y, -h), (-h, y, -h)), uvs)
+    return mesh
+
+
+def sphere(radius, frequency, center=(0.0, 0.0, 0.0)):
+    """A geodesic sphere of 20 · frequency² triangles with exact normals: a subdivided icosahedron, pushed outwards."""
+    mesh = Mesh()
+    index_of = {}
+
+    def vertex(point):
+        normal = normalize(point)
+        # Corners shared by several faces come out of different sums: equal but for the last bits.
+        key = tuple(round(c, 9) + 0.0 for c in normal)
+        if key not in index_of:
+            index_of[key] = mesh.add_vertex(add(center, scale(normal, radius)), normal)
+        return index_of[key]
+
+    for corners in _icosahedron():
+        for indices in _subdivided(corners, frequency, vertex):
+            mesh.add_triangle(*indices)
+    return mesh
+
+
+def flat_inward_sphere(radius, frequency):
+    """The same closed surface seen from inside: fronts inwards and one normal per triangle."""
+    mesh = Mesh()
+    for corners in _icosahedron():
+        points = _subdivided(corners, frequency, lambda point: scale(normalize(point), radius))
+        for a, b, c in points:
+            normal = _face_normal(a, c, b)
+            mesh.add_triangle(*(mesh.add_vertex(p, normal) for p in (a, c, b)))
+    return mesh
+
+
+def _icosahedron():
+    """The 20 faces as triples of corners, counter-clockwise from outside."""
+    g = (1.0 + math.sqrt(5.0)) / 2.0
+    p = [(-1, g, 0), (1, g, 0), (-1, -g, 0), (1, -g, 0), (0, -1, g), (0, 1, g),
+         (0, -1, -g), (0, 1, -g), (g, 0, -1), (g, 0, 1), (-g, 0, -1), (-g, 0, 1)]
+    faces = ((0, 11, 5), (0, 5, 1), (0, 1, 7), (0, 7, 10), (0, 10, 11), (1, 5, 9), (5, 11, 4), (11, 10, 2),
+             (10, 7, 6), (7, 1, 8), (3, 9, 4), (3, 4, 2), (3, 2, 6), (3, 6, 8), (3, 8, 9), (4, 9, 5),
+             (2, 4, 11), (6, 2, 10), (8, 6, 7), (9, 8, 1))
+    return [tuple(p[i] for i in face) for face in faces]
+
+
+def _subdivided(corners, frequency, vertex):
+    """The frequency² triangles of a triangle, with `vertex` applied to each point."""
+    a, b, c = corners
+    rows = [[vertex(add(scale(a, (frequency - i) / frequency),
+                        add(scale(b, (i - j) / frequency), scale(c, j / frequency))))
+             for j in range(i + 1)] for i in range(frequency + 1)]
+    for i in range(frequency):
+        for j in range(i + 1):
+            yield rows[i][j], rows[i + 1][j], rows[i + 1][j + 1]
+            if j < i:
+                yield rows[i][j], rows[i + 1][j + 1], rows[i][j + 1]
+
+
+def lathe(profile, segments, center=(0.0, 0.0)):
+    """A surface of revolution about a vertical axis at (x, z) = `center`.
+
+    `profile` is a list of points (radius, height) from bottom to top, with the outside on the right of the way up.
+    Edges of the profile are flat bands with their own normals; around the axis it is smooth.
+    """
+    mesh = Mesh()
+    for (r0, y0), (r1, y1) in zip(profile, profile[1:]):
+        slope = math.hypot(r1 - r0, y1 - y0)
+        nr, ny = (y1 - y0) / slope, (r0 - r1) / slope
+        _add_band(mesh, (r0, y0), (r1, y1), ((nr, ny), (nr, ny)), segments, center)
+    return mesh
+
+
+def dome(radius, base, segments, rings, center=(0.0, 0.0)):
+    """The upper half of a sphere about (center x, base, center z), with exact normals and open below."""
+    mesh = Mesh()
+    angles = [0.5 * math.pi * i / rings for i in range(rings + 1)]
+    # Exactly on the axis, so that the triangles of the last ring collapse to what add_grid leaves out.
+    directions = [(math.cos(a), math.sin(a)) for a in angles[:-1]] + [(0.0, 1.0)]
+    for low, high in zip(directions, directions[1:]):
+        _add_band(mesh, (radius * low[0], base + radius * low[1]), (radius * high[0], base + radius * high[1]),
+                  (low, high), segments, center)
+    return mesh
+
+
+def _add_band(mesh, low, high, normals, segments, center):
+    """A ring of quadrilaterals between the circles (radius, height) `low` and `high`; normals in (radial, up)."""
+    first = mesh.vertex_count
+    for (radius, y), (nr, ny) in zip((low, high), normals):
+        for i in range(segments):
+            angle = 2.0 * math.pi * i / segments
+            # Angles run from +Z to +X, so that around × up points outwards.
+            s, c = math.sin(angle), math.cos(angle)
+            mesh.add_vertex((center[0] + radius * s, y, center[1] + radius * c), (nr * s, ny, nr * c))
+    mesh.add_grid(segments, 1, wrap_columns=True, first=first)
+
+
+def torus_knot(p, q, radius, reach, tube, along, around, color):
+    """A tube of radius `tube` about the (p, q) torus knot: 2 · along · around triangles, closed, with exact normals.
+
+    The knot runs on the torus of the radii `radius` and `reach` about the Y axis. The torus's own normal is
+    perpendicular to the knot everywhere and, with the tangent, gives the tube its frame without a seam.
+    `color(s, t)` is RGBA bytes for s, t in [0, 1) along and around.
+    """
+    mesh = Mesh()
+    for i in range(along):
+        s = 2.0 * math.pi * i / along
+        cp, sp, cq, sq = math.cos(p * s), math.sin(p * s), math.cos(q * s), math.sin(q * s)
+        ring = radius + reach * cq
+        point = (ring * cp, reach * sq, ring * sp)
+        tangent = normalize((-reach * q * sq * cp - ring * p * sp, reach * q * cq, -reach * q * sq * sp + ring * p * cp))
+        normal = (cq * cp, sq, cq * sp)
+        binormal = cross(tangent, normal)
+        for j in range(around):
+            t = 2.0 * math.pi * j / around
+            # Turning from the normal to the binormal makes around × along point outwards.
+            out = add(scale(normal, math.cos(t)), scale(binormal, math.sin(t)))
+            mesh.add_vertex(add(point, scale(out, tube)), out, color=color(i / along, j / around))
+    mesh.add_grid(around, along, wrap_columns=True, wrap_rows=True)
+    return mesh
+
+
+def merged(meshes):
+    """One mesh of all triangles; all must have the same attributes."""
+    result = Mesh()
+    for mesh in meshes:
+        offset = result.vertex_count
+        for name in ("positions", "normals", "uvs", "colors"):
+            getattr(result, name).extend(getattr(mesh, name))
+        result.indices.extend(i + offset for i in mesh.indices)
+    return result
