@@ -60,7 +60,7 @@ THIRD_PARTY = [
 STANDARD = re.compile(r"[a-z][a-z0-9_]*$")  # <vector>, <cstdint>: no slash, no suffix
 
 HEADER_SUFFIXES = {".h"}
-SOURCE_SUFFIXES = {".h", ".cpp"}
+SOURCE_SUFFIXES = {".h", ".cpp", ".inc"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]*)"|<([^>]*)>|(\S+))')
 
 
