@@ -2,7 +2,9 @@
 // render.json can put in its place.
 #pragma once
 
+#include <array>
 #include <string>
+#include <string_view>
 #include <variant>
 
 #include "core/error.h"
@@ -13,9 +15,12 @@ namespace etendue {
 
 enum class AlphaMode { Opaque, Mask, Blend };
 
+/// The metals whose measured complex index of refraction is known.
+inline constexpr std::array<std::string_view, 8> kMetalNames{"Ag", "Al", "Au", "Cr", "Cu", "Fe", "Ti", "W"};
+
 /// A metal, by its measured complex index of refraction.
 struct ConductorDesc {
-    std::string metal;       ///< "Ag", "Al", "Au", "Cr", "Cu", "Fe", "Ti" or "W"; empty for a lossless mirror
+    std::string metal;       ///< one of kMetalNames; empty for a lossless mirror
     float roughness = 0.0f;  ///< perceptual roughness in [0, 1], alpha = roughness²; 0 is a perfect mirror (delta)
 };
 

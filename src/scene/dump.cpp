@@ -1,0 +1,207 @@
+// SceneDesc as text: one line per thing, in the order of the struct, bulk arrays as counts.
+
+#include "scene/scene_desc.h"
+
+#include <iterator>
+#include <type_traits>
+
+#include <fmt/format.h>
+
+namespace etendue {
+
+namespace {
+
+using Out = std::back_insert_iterator<std::string>;
+
+std::string text(const Rgb& c) {
+    return fmt::format("({:g} {:g} {:g})", c.r, c.g, c.b);
+}
+
+std::string text(const Vec3f& v) {
+    return fmt::format("({:g} {:g} {:g})", v.x, v.y, v.z);
+}
+
+std::string text(const Mat4f& m) {
+    return fmt::format("x {} y {} z {} origin {}", text(Vec3f(m[0][0], m[0][1], m[0][2])),
+                       text(Vec3f(m[1][0], m[1][1], m[1][2])), text(Vec3f(m[2][0], m[2][1], m[2][2])),
+                       text(Vec3f(m[3][0], m[3][1], m[3][2])));
+}
+
+std::string text(const TextureRef& ref) {
+    if (!ref.valid()) return "none";
+    std::string result = fmt::format("texture {} uv{}", ref.texture.index, ref.texcoord);
+    const TextureTransform& t = ref.transform;
+    if (t != TextureTransform{}) {
+        result += fmt::format(" offset ({:g} {:g}) rotation {:g} scale ({:g} {:g})", t.offset.x, t.offset.y, t.rotation,
+                              t.scale.x, t.scale.y);
+    }
+    return result;
+}
+
+const char* text(AlphaMode mode) {
+    switch (mode) {
+        case AlphaMode::Opaque:
+            return "opaque";
+        case AlphaMode::Mask:
+            return "mask";
+        case AlphaMode::Blend:
+            return "blend";
+    }
+    return "?";
+}
+
+const char* text(TextureWrap wrap) {
+    switch (wrap) {
+        case TextureWrap::Repeat:
+            return "repeat";
+        case TextureWrap::MirroredRepeat:
+            return "mirrored-repeat";
+        case TextureWrap::ClampToEdge:
+            return "clamp-to-edge";
+    }
+    return "?";
+}
+
+const char* text(LightType type) {
+    switch (type) {
+        case LightType::Point:
+            return "point";
+        case LightType::Spot:
+            return "spot";
+        case LightType::Directional:
+            return "directional";
+    }
+    return "?";
+}
+
+const char* text(PixelFilterType filter) {
+    switch (filter) {
+        case PixelFilterType::BlackmanHarris:
+            return "blackman-harris";
+        case PixelFilterType::Box:
+            return "box";
+        case PixelFilterType::Gaussian:
+            return "gaussian";
+        case PixelFilterType::Mitchell:
+            return "mitchell";
+    }
+    return "?";
+}
+
+void dump_textures(const SceneDesc& scene, Out out) {
+    for (std::size_t i = 0; i < scene.images.size(); ++i) {
+        const ImageDesc& image = scene.images[i];
+        fmt::format_to(out, "image {} \"{}\": {} x {}, {}\n", i, image.name, image.width, image.height,
+                       image.path.empty() ? fmt::format("{} bytes embedded", image.encoded.size())
+                                          : image.path.filename().string());
+    }
+    for (std::size_t i = 0; i < scene.textures.size(); ++i) {
+        const TextureDesc& t = scene.textures[i];
+        fmt::format_to(out, "texture {} \"{}\": image {}, wrap {} {}, {}\n", i, t.name, t.image.index, text(t.wrap_u),
+                       text(t.wrap_v), t.filter == TextureFilter::Nearest ? "nearest" : "linear");
+    }
+}
+
+std::string text_of_override(const MaterialDesc& material) {
+    const auto describe = [](const auto& model) -> std::string {
+        using Model = std::decay_t<decltype(model)>;
+        if constexpr (std::is_same_v<Model, ConductorDesc>) {
+            return fmt::format("conductor {} roughness {:g}", model.metal.empty() ? "lossless" : model.metal,
+                               model.roughness);
+        } else if constexpr (std::is_same_v<Model, DielectricDesc>) {
+            return fmt::format("dielectric ior {:g} roughness {:g}", model.ior, model.roughness);
+        } else if constexpr (std::is_same_v<Model, DiffuseDesc>) {
+            return fmt::format("diffuse {}", text(model.albedo));
+        } else {
+            return {};
+        }
+    };
+    return std::visit(describe, material.override_model);
+}
+
+void dump_material(std::size_t index, const MaterialDesc& m, Out out) {
+    fmt::format_to(out, "material {} \"{}\": alpha {}{}{}\n", index, m.name, text(m.alpha_mode),
+                   m.double_sided ? ", double-sided" : "", m.unlit ? ", unlit" : "");
+    if (m.alpha_mode == AlphaMode::Mask) fmt::format_to(out, "  alpha cutoff {:g}\n", m.alpha_cutoff);
+    if (const std::string model = text_of_override(m); !model.empty()) fmt::format_to(out, "  override {}\n", model);
+    fmt::format_to(out, "  base colour {} alpha {:g}, {}\n", text(m.base_color), m.base_alpha,
+                   text(m.base_color_texture));
+    fmt::format_to(out, "  metallic {:g} roughness {:g}, {}\n", m.metallic, m.roughness,
+                   text(m.metallic_roughness_texture));
+    fmt::format_to(out, "  normal scale {:g}, {}\n", m.normal_scale, text(m.normal_texture));
+    fmt::format_to(out, "  emissive {} strength {:g}, {}\n", text(m.emissive), m.emissive_strength,
+                   text(m.emissive_texture));
+    fmt::format_to(out, "  ior {:g} transmission {:g}, {}\n", m.ior, m.transmission, text(m.transmission_texture));
+}
+
+void dump_geometry(const SceneDesc& scene, Out out) {
+    for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+        fmt::format_to(out, "mesh {} \"{}\"\n", i, scene.meshes[i].name);
+        for (const PrimitiveDesc& p : scene.meshes[i].primitives) {
+            fmt::format_to(out, "  {} triangles, {} vertices, material {}{}{}{}{}\n", p.triangles.size(),
+                           p.positions.size(), p.material.index, p.tangents.empty() ? "" : ", tangents",
+                           p.uv0.empty() ? "" : ", uv0", p.uv1.empty() ? "" : ", uv1",
+                           p.colors.empty() ? "" : ", colours");
+        }
+    }
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        const InstanceDesc& instance = scene.instances[i];
+        fmt::format_to(out, "instance {} \"{}\": mesh {}, {}\n", i, instance.name, instance.mesh.index,
+                       text(instance.to_world));
+    }
+}
+
+void dump_cameras_and_lights(const SceneDesc& scene, Out out) {
+    for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+        const CameraDesc& c = scene.cameras[i];
+        const bool perspective = c.type == CameraType::Perspective;
+        fmt::format_to(out, "camera {} \"{}\": {} {:g}, aspect {:g}, lens radius {:g}, focus {:g}, {}\n", i, c.name,
+                       perspective ? "perspective yfov" : "orthographic ymag", perspective ? c.yfov : c.ymag,
+                       c.aspect_ratio, c.lens_radius, c.focus_distance, text(c.to_world));
+    }
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+        const LightDesc& light = scene.lights[i];
+        fmt::format_to(out, "light {} \"{}\": {} colour {} intensity {:g}", i, light.name, text(light.type),
+                       text(light.color), light.intensity);
+        if (light.type == LightType::Spot) {
+            fmt::format_to(out, " cone {:g} to {:g}", light.inner_cone_angle, light.outer_cone_angle);
+        }
+        fmt::format_to(out, ", {}\n", text(light.to_world));
+    }
+    const EnvironmentDesc& e = scene.environment;
+    if (!e.enabled) return;
+    fmt::format_to(out, "environment: image \"{}\", colour {} scale {:g} rotation {:g}{}\n",
+                   e.image.filename().string(), text(e.color), e.scale, e.rotation,
+                   e.visible_to_camera ? "" : ", hidden from the camera");
+}
+
+void dump_settings(const RenderSettings& s, Out out) {
+    fmt::format_to(out, "integrator {}: max depth {}, min depth {}, roulette depth {}\n", s.integrator.type,
+                   s.integrator.max_depth, s.integrator.min_depth, s.integrator.roulette_depth);
+    fmt::format_to(out, "sampling: {}, {} spp, seed {}, time limit {:g}\n",
+                   s.sampler == SamplerType::Sobol ? "sobol" : "random", s.spp, s.seed, s.time_limit);
+    fmt::format_to(out, "film: {} x {}, filter {} radius {:g}\n", s.film.width, s.film.height, text(s.film.filter),
+                   s.film.filter_radius);
+    if (s.film.crop) fmt::format_to(out, "crop: {}\n", fmt::join(*s.film.crop, " "));
+    fmt::format_to(out, "camera used: \"{}\"\n", s.camera);
+    fmt::format_to(out, "colour: working space \"{}\", display \"{}\", view \"{}\", exposure {:g}\n",
+                   s.color.working_space, s.color.display, s.color.view, s.color.exposure);
+}
+
+}  // namespace
+
+std::string dump(const SceneDesc& scene) {
+    std::string result;
+    const Out out = std::back_inserter(result);
+    fmt::format_to(out, "scene \"{}\"\n", scene.name);
+    fmt::format_to(out, "extensions used: {}\nextensions ignored: {}\n", fmt::join(scene.extensions_used, " "),
+                   fmt::join(scene.extensions_ignored, " "));
+    dump_textures(scene, out);
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) dump_material(i, scene.materials[i], out);
+    dump_geometry(scene, out);
+    dump_cameras_and_lights(scene, out);
+    dump_settings(scene.settings, out);
+    return result;
+}
+
+}  // namespace etendue

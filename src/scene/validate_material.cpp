@@ -1,0 +1,90 @@
+#include "scene/validate_parts.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace etendue {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+void validate_texture_ref(const TextureRef& ref, std::string_view slot, const SceneDesc& scene,
+                          const SourceLocation& where, ProblemList& problems) {
+    if (!ref.valid()) return;
+    check_handle(ref.texture, scene.textures, fmt::format("the texture of {},", slot), where, problems);
+    if (ref.texcoord != 0 && ref.texcoord != 1) {
+        problems.error(where,
+                       fmt::format("{} uses texture coordinates {}, but only 0 and 1 exist", slot, ref.texcoord));
+    }
+    const TextureTransform& t = ref.transform;
+    for (const float v : {t.offset.x, t.offset.y, t.rotation, t.scale.x, t.scale.y}) {
+        if (std::isfinite(v)) continue;
+        problems.error(where, fmt::format("the texture transform of {} is not finite", slot));
+        return;
+    }
+}
+
+void validate_override(const ConductorDesc& model, const SourceLocation& where, ProblemList& problems) {
+    check_range(static_cast<double>(model.roughness), 0.0, 1.0, "roughness", where, problems);
+    if (model.metal.empty() || std::ranges::find(kMetalNames, model.metal) != kMetalNames.end()) return;
+    problems.error(where, fmt::format("unknown metal '{}'; known are {}", model.metal, fmt::join(kMetalNames, ", ")));
+}
+
+void validate_override(const DielectricDesc& model, const SourceLocation& where, ProblemList& problems) {
+    check_range(static_cast<double>(model.roughness), 0.0, 1.0, "roughness", where, problems);
+    if (!(model.ior > 1.0f && model.ior <= 3.0f)) {
+        problems.error(where, fmt::format("ior is {}, but must be in (1, 3]", model.ior));
+    }
+}
+
+void validate_override(const DiffuseDesc& model, const SourceLocation& where, ProblemList& problems) {
+    check_range(model.albedo, 0.0, 1.0, "albedo", where, problems);
+}
+
+void validate_override(std::monostate, const SourceLocation&, ProblemList&) {}
+
+void validate_material(const MaterialDesc& m, const SceneDesc& scene, ProblemList& problems) {
+    const auto in_range = [&](float value, double low, double high, std::string_view what) {
+        check_range(static_cast<double>(value), low, high, what, m.location, problems);
+    };
+    check_range(m.base_color, 0.0, 1.0, "base colour", m.location, problems);
+    in_range(m.base_alpha, 0.0, 1.0, "base alpha");
+    in_range(m.metallic, 0.0, 1.0, "metallic");
+    in_range(m.roughness, 0.0, 1.0, "roughness");
+    in_range(m.normal_scale, -std::numeric_limits<float>::max(), kInfinity, "normal scale");
+    check_range(m.emissive, 0.0, 1.0, "emissive", m.location, problems);
+    in_range(m.emissive_strength, 0.0, kInfinity, "emissive strength");
+    in_range(m.alpha_cutoff, 0.0, kInfinity, "alpha cutoff");
+    in_range(m.transmission, 0.0, 1.0, "transmission");
+    if (m.ior != 0.0f) in_range(m.ior, 1.0, kInfinity, "ior (other than 0)");
+
+    validate_texture_ref(m.base_color_texture, "base colour", scene, m.location, problems);
+    validate_texture_ref(m.metallic_roughness_texture, "metallic-roughness", scene, m.location, problems);
+    validate_texture_ref(m.normal_texture, "the normal map", scene, m.location, problems);
+    validate_texture_ref(m.emissive_texture, "emission", scene, m.location, problems);
+    validate_texture_ref(m.transmission_texture, "transmission", scene, m.location, problems);
+    std::visit([&](const auto& model) { validate_override(model, m.location, problems); }, m.override_model);
+}
+
+}  // namespace
+
+void validate_images_and_textures(const SceneDesc& scene, ProblemList& problems) {
+    for (const ImageDesc& image : scene.images) {
+        if (image.path.empty() == image.encoded.empty()) {
+            problems.error(image.location, "an image must be either a file or bytes in memory");
+        }
+        if (image.width < 1 || image.height < 1) {
+            problems.error(image.location, fmt::format("an image of {} x {} pixels", image.width, image.height));
+        }
+    }
+    for (const TextureDesc& texture : scene.textures) {
+        check_handle(texture.image, scene.images, "image", texture.location, problems);
+    }
+}
+
+void validate_materials(const SceneDesc& scene, ProblemList& problems) {
+    for (const MaterialDesc& material : scene.materials) validate_material(material, scene, problems);
+}
+
+}  // namespace etendue

@@ -1,0 +1,52 @@
+// The parts of `validate`, one per kind of description.
+#pragma once
+
+#include "scene/scene_desc.h"
+
+#include <cmath>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace etendue {
+
+void validate_images_and_textures(const SceneDesc& scene, ProblemList& problems);
+void validate_materials(const SceneDesc& scene, ProblemList& problems);
+void validate_meshes(const SceneDesc& scene, ProblemList& problems);
+void validate_instances(const SceneDesc& scene, ProblemList& problems);
+void validate_cameras(const SceneDesc& scene, ProblemList& problems);
+void validate_lights(const SceneDesc& scene, ProblemList& problems);
+void validate_settings(const SceneDesc& scene, ProblemList& problems);
+
+/// Adds an error unless `handle` refers to an element of `elements`.
+template <typename T>
+void check_handle(Handle<T> handle, const std::vector<T>& elements, std::string_view what, const SourceLocation& where,
+                  ProblemList& problems) {
+    if (handle.index >= 0 && static_cast<std::size_t>(handle.index) < elements.size()) return;
+    problems.error(where, fmt::format("{} {} does not exist; there are {}", what, handle.index, elements.size()));
+}
+
+/// Adds an error unless `value` is finite and in [low, high].
+inline void check_range(double value, double low, double high, std::string_view what, const SourceLocation& where,
+                        ProblemList& problems) {
+    if (std::isfinite(value) && value >= low && value <= high) return;
+    if (std::isfinite(high)) {
+        problems.error(where, fmt::format("{} is {}, but must be in [{}, {}]", what, value, low, high));
+    } else {
+        problems.error(where, fmt::format("{} is {}, but must be finite and at least {}", what, value, low));
+    }
+}
+
+/// The same for each channel of a colour.
+inline void check_range(const Rgb& value, double low, double high, std::string_view what, const SourceLocation& where,
+                        ProblemList& problems) {
+    for (const float channel : {value.r, value.g, value.b}) {
+        const std::size_t errors = problems.error_count();
+        check_range(static_cast<double>(channel), low, high, what, where, problems);
+        if (problems.error_count() > errors) return;
+    }
+}
+
+}  // namespace etendue

@@ -1,0 +1,108 @@
+#include "scene/transform.h"
+#include "scene/validate_parts.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace etendue {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr int kMaxSide = 65536;
+constexpr int kMaxSpp = 1 << 24;
+
+void validate_film(const FilmSettings& film, const SourceLocation& where, ProblemList& problems) {
+    check_range(film.width, 1, kMaxSide, "width", where, problems);
+    check_range(film.height, 1, kMaxSide, "height", where, problems);
+    check_range(static_cast<double>(film.filter_radius), 0.0, 8.0, "filter radius", where, problems);
+    if (!film.crop) return;
+    const auto [x0, y0, x1, y1] = *film.crop;
+    if (x0 < 0 || y0 < 0 || x1 > film.width || y1 > film.height || x0 >= x1 || y0 >= y1) {
+        problems.error(
+            where, fmt::format("the crop window [{}, {}, {}, {}] is empty or not inside the image of {} x {}", x0, y0,
+                               x1, y1, film.width, film.height));
+    }
+}
+
+void validate_camera_name(const SceneDesc& scene, ProblemList& problems) {
+    const std::string& name = scene.settings.camera;
+    if (name.empty()) return;
+    if (std::ranges::find(scene.cameras, name, &CameraDesc::name) != scene.cameras.end()) return;
+    std::vector<std::string_view> names;
+    for (const CameraDesc& camera : scene.cameras) names.push_back(camera.name);
+    const std::string near = nearest_name(name, names);
+    problems.error(scene.settings.location, fmt::format("there is no camera '{}'{}", name,
+                                                        near.empty() ? "; there are " + std::to_string(names.size())
+                                                                     : "; did you mean '" + near + "'?"));
+}
+
+}  // namespace
+
+void validate_cameras(const SceneDesc& scene, ProblemList& problems) {
+    for (const CameraDesc& camera : scene.cameras) {
+        const SourceLocation& where = camera.location;
+        if (camera.type == CameraType::Perspective && !(camera.yfov > 0.0f && camera.yfov < kPi)) {
+            problems.error(where, fmt::format("yfov is {}, but must be in (0, pi)", camera.yfov));
+        }
+        if (camera.type == CameraType::Orthographic && !(camera.ymag > 0.0f && std::isfinite(camera.ymag))) {
+            problems.error(where, fmt::format("ymag is {}, but must be finite and above 0", camera.ymag));
+        }
+        check_range(static_cast<double>(camera.aspect_ratio), 0.0, kInfinity, "aspect ratio", where, problems);
+        check_range(static_cast<double>(camera.lens_radius), 0.0, kInfinity, "lens radius", where, problems);
+        if (!(camera.focus_distance > 0.0f && std::isfinite(camera.focus_distance))) {
+            problems.error(where, fmt::format("focus distance is {}, but must be above 0", camera.focus_distance));
+        }
+        if (!is_invertible(camera.to_world)) {
+            problems.error(where, "the camera's transform is singular, not affine or not finite");
+        }
+    }
+}
+
+void validate_lights(const SceneDesc& scene, ProblemList& problems) {
+    for (const LightDesc& light : scene.lights) {
+        const SourceLocation& where = light.location;
+        check_range(light.color, 0.0, kInfinity, "light colour", where, problems);
+        check_range(static_cast<double>(light.intensity), 0.0, kInfinity, "light intensity", where, problems);
+        if (!is_invertible(light.to_world)) {
+            problems.error(where, "the light's transform is singular, not affine or not finite");
+        }
+        const float inner = light.inner_cone_angle;
+        const float outer = light.outer_cone_angle;
+        if (light.type == LightType::Spot && !(inner >= 0.0f && inner < outer && outer <= 0.5f * kPi + 1e-6f)) {
+            problems.error(where, fmt::format("the spot's cone angles are {} and {}, but must satisfy 0 <= inner < "
+                                              "outer <= pi/2",
+                                              inner, outer));
+        }
+    }
+    const EnvironmentDesc& environment = scene.environment;
+    if (!environment.enabled) return;
+    check_range(environment.color, 0.0, kInfinity, "environment colour", environment.location, problems);
+    check_range(static_cast<double>(environment.scale), 0.0, kInfinity, "environment scale", environment.location,
+                problems);
+    check_range(static_cast<double>(environment.rotation), -std::numeric_limits<float>::max(), kInfinity,
+                "environment rotation", environment.location, problems);
+}
+
+void validate_settings(const SceneDesc& scene, ProblemList& problems) {
+    const RenderSettings& settings = scene.settings;
+    const SourceLocation& where = settings.location;
+    const IntegratorSettings& integrator = settings.integrator;
+    constexpr int kMaxInt = std::numeric_limits<int>::max();
+    if (integrator.type.empty()) problems.error(where, "the integrator has no name");
+    check_range(integrator.max_depth, 1, kMaxInt, "max_depth", where, problems);
+    check_range(integrator.min_depth, 1, kMaxInt, "min_depth", where, problems);
+    check_range(integrator.roulette_depth, 1, kMaxInt, "roulette_depth", where, problems);
+    if (integrator.min_depth > integrator.max_depth) {
+        problems.error(where, fmt::format("min_depth {} is above max_depth {}: no path would be kept",
+                                          integrator.min_depth, integrator.max_depth));
+    }
+    check_range(settings.spp, 1, kMaxSpp, "spp", where, problems);
+    check_range(settings.time_limit, 0.0, kInfinity, "time", where, problems);
+    check_range(static_cast<double>(settings.color.exposure), -std::numeric_limits<float>::max(), kInfinity, "exposure",
+                where, problems);
+    validate_film(settings.film, where, problems);
+    validate_camera_name(scene, problems);
+}
+
+}  // namespace etendue
