@@ -1,6 +1,7 @@
 #include "image/write.h"
 
 #include "core/error.h"
+#include "image/exr_header.h"
 #include "image/library_setup.h"
 #include "image/write_file.h"
 
@@ -21,6 +22,11 @@ namespace etendue {
 namespace {
 
 constexpr float kLargestHalf = 65504.0f;
+
+// OpenImageIO's EXR writer leaves out every attribute whose name begins with "oiio:" (2.4; its reader knows this one),
+// so it is written under a name of the same length and renamed in the encoded header.
+constexpr std::string_view kColorSpace = "oiio:ColorSpace";
+constexpr std::string_view kColorSpaceStandIn = "etnd:ColorSpace";
 
 OIIO::TypeDesc stored_type(PixelDepth depth) {
     switch (depth) {
@@ -87,7 +93,11 @@ OIIO::ImageSpec make_spec(const ImageF& image, const ImageWriteOptions& options)
     } else {
         spec.attribute("compression", "zip");
     }
-    for (const ImageAttribute& attribute : options.attributes) add_attribute(spec, attribute);
+    for (ImageAttribute attribute : options.attributes) {
+        const bool renamed = attribute.name == kColorSpace && options.depth != PixelDepth::UInt8;
+        if (renamed) attribute.name = kColorSpaceStandIn;
+        add_attribute(spec, attribute);
+    }
     return spec;
 }
 
@@ -150,6 +160,7 @@ void write_image(const std::filesystem::path& path, const ImageF& image, const I
     const bool good = output->set_ioproxy(&memory) && output->open("memory." + path.extension().string(), spec) &&
                       write_pixels(*output, image, options.depth) && output->close();
     if (!good) throw IoError(fmt::format("cannot write {}: {}", path.string(), output->geterror()));
+    if (format == "openexr") rename_exr_attribute(encoded, kColorSpaceStandIn, kColorSpace);
     write_bytes(path, std::as_bytes(std::span(encoded)));
 }
 

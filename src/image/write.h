@@ -23,8 +23,8 @@ enum class PixelDepth { UInt8, Half, Float };
 
 struct ImageWriteOptions {
     PixelDepth depth = PixelDepth::Half;
-    std::vector<std::string> channel_names;  ///< one per channel; empty for R, G, B, A (Y, A for one or two)
-    std::vector<ImageAttribute> attributes;
+    std::vector<std::string> channel_names{};  ///< one per channel; empty for R, G, B, A (Y, A for one or two)
+    std::vector<ImageAttribute> attributes{};
     /// Position of the pixels in a larger image (a crop window): x, y of the first pixel, and the full size; all zero
     /// when the image is whole.
     int offset_x = 0;

@@ -1,0 +1,14 @@
+// The one thing in an EXR header that OpenImageIO does not let us write.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace etendue {
+
+/// Renames attribute `from` in the header of the single-part OpenEXR file `exr` to `to`, which must be as long, so that
+/// nothing moves. Returns false, and changes nothing, if there is no such attribute or the header is broken.
+bool rename_exr_attribute(std::span<std::uint8_t> exr, std::string_view from, std::string_view to);
+
+}  // namespace etendue

@@ -1,0 +1,33 @@
+#include "image/encoded_format.h"
+
+#include <string_view>
+
+#include <gtest/gtest.h>
+
+namespace etendue {
+
+namespace {
+
+std::string name_of(std::string_view head) {
+    const auto format = detect_format(std::as_bytes(std::span(head)));
+    return format ? std::string(format->name) : "";
+}
+
+TEST(DetectFormat, KnowsFormatsByTheirFirstBytes) {
+    EXPECT_EQ(name_of("\x89PNG\r\n\x1a\n...."), "png");
+    EXPECT_EQ(name_of("\xff\xd8\xff\xe0"), "jpeg");
+    EXPECT_EQ(name_of("\x76\x2f\x31\x01"), "openexr");
+    EXPECT_EQ(name_of("#?RADIANCE\n"), "hdr");
+    EXPECT_EQ(name_of("#?RGBE\n"), "hdr");
+    EXPECT_EQ(name_of(std::string_view("II*\0", 4)), "tiff");
+}
+
+TEST(DetectFormat, KnowsNothingElse) {
+    EXPECT_EQ(name_of(""), "");
+    EXPECT_EQ(name_of("\x89PN"), "") << "a cut magic number is none";
+    EXPECT_EQ(name_of("glTF, which is no image"), "");
+}
+
+}  // namespace
+
+}  // namespace etendue

@@ -1,0 +1,225 @@
+#include "image/read.h"
+
+#include "core/error.h"
+#include "image/write.h"
+#include "image_test_files.h"
+
+#include <chrono>
+#include <cstring>
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace etendue {
+
+namespace {
+
+std::string error_of(const ImageSource& source) {
+    try {
+        (void)read_image_float(source);
+    } catch (const IoError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+// Every pixel of a small picture differs, so that swapped axes or channels show.
+template <typename T>
+std::vector<T> ramp(std::size_t count, double scale) {
+    std::vector<T> values(count);
+    for (std::size_t i = 0; i < count; ++i) values[i] = static_cast<T>(static_cast<double>(i + 1) * scale);
+    return values;
+}
+
+TEST(ReadImage, Png8ReadsBackExactlyAtEveryChannelCount) {
+    const TemporaryFolder folder;
+    for (const int channels : {1, 2, 3, 4}) {
+        const auto values = ramp<std::uint8_t>(std::size_t(5 * 3 * channels), 4.0);
+        const auto path = write_reference(folder / "a.png", {5, 3, channels, OIIO::TypeDesc::UINT8}, values);
+        const Image8 image = read_image_8bit(path);
+        EXPECT_EQ(image.width, 5);
+        EXPECT_EQ(image.height, 3);
+        EXPECT_EQ(image.channels, channels);
+        EXPECT_EQ(image.pixels, values) << channels << " channels";
+        const ImageF floats = read_image_float(path);
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            EXPECT_FLOAT_EQ(floats.pixels[i], static_cast<float>(values[i]) / 255.0f);
+        }
+    }
+}
+
+TEST(ReadImage, Png16ReadsAsFloatAndRoundsTo8) {
+    const TemporaryFolder folder;
+    const std::vector<std::uint16_t> values{0, 65535, 32768, 257 * 100 + 120, 257 * 100 + 140, 1};
+    const auto path = write_reference(folder / "a.png", {2, 1, 3, OIIO::TypeDesc::UINT16}, values);
+    const ImageF image = read_image_float(path);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        EXPECT_FLOAT_EQ(image.pixels[i], static_cast<float>(values[i]) / 65535.0f);
+    }
+    EXPECT_EQ(read_image_8bit(path).pixels, (std::vector<std::uint8_t>{0, 255, 128, 100, 101, 0}));
+}
+
+TEST(ReadImage, PngColourIsNotMultipliedByAlpha) {
+    const TemporaryFolder folder;
+    const std::vector<std::uint8_t> values{200, 100, 50, 0, 200, 100, 50, 128};
+    const auto path = write_reference(folder / "a.png", {2, 1, 4, OIIO::TypeDesc::UINT8}, values);
+    EXPECT_EQ(read_image_8bit(path).pixels, values);
+    EXPECT_EQ(read_image_8bit(read_all(path)).pixels, values);
+}
+
+TEST(ReadImage, JpegReadsNearlyBack) {
+    const TemporaryFolder folder;
+    OIIO::ImageSpec spec(16, 16, 3, OIIO::TypeDesc::UINT8);
+    spec.attribute("CompressionQuality", 100);
+    std::vector<std::uint8_t> values;
+    for (int i = 0; i < 16 * 16; ++i) values.insert(values.end(), {200, 100, std::uint8_t(i / 2)});
+    const auto path = write_reference(folder / "a.jpg", spec, values);
+    const Image8 image = read_image_8bit(path);
+    ASSERT_EQ(image.pixels.size(), values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) EXPECT_NEAR(image.pixels[i], values[i], 6) << i;
+    EXPECT_EQ(read_image_info(path).format, "jpeg");
+}
+
+TEST(ReadImage, RadianceHdrReadsNearlyBack) {
+    const TemporaryFolder folder;
+    const auto values = ramp<float>(32 * 4 * 3, 0.5);
+    const auto path = write_reference(folder / "a.hdr", {32, 4, 3, OIIO::TypeDesc::FLOAT}, values);
+    const ImageF image = read_image_float(path);
+    ASSERT_EQ(image.pixels.size(), values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const float brightest = std::max({values[i / 3 * 3], values[i / 3 * 3 + 1], values[i / 3 * 3 + 2]});
+        EXPECT_NEAR(image.pixels[i], values[i], brightest / 128.0f);
+    }
+    EXPECT_TRUE(read_image_info(path).is_float);
+}
+
+TEST(ReadImage, ExrChannelsAreTakenByName) {
+    const TemporaryFolder folder;
+    OIIO::ImageSpec spec(2, 1, 6, OIIO::TypeDesc::FLOAT);
+    spec.channelnames = {"A", "B", "Z", "G", "diffuse.R", "R"};
+    const std::vector<float> values{0.5f, 3.0f, 9.0f, 2.0f, 8.0f, 1.0f, 0.25f, 6.0f, 9.0f, 5.0f, 8.0f, 4.0f};
+    const auto path = write_reference(folder / "a.exr", spec, values);
+    const ImageF image = read_image_float(path);
+    EXPECT_EQ(image.channels, 4);
+    EXPECT_EQ(image.pixels, (std::vector<float>{1.0f, 2.0f, 3.0f, 0.5f, 4.0f, 5.0f, 6.0f, 0.25f}));
+}
+
+TEST(ReadImage, MemoryAndFileAgreeInEveryFormat) {
+    const TemporaryFolder folder;
+    for (const char* name : {"a.png", "a.jpg", "a.exr", "a.hdr", "a.tif"}) {
+        const bool is_float = std::string(name) == "a.exr" || std::string(name) == "a.hdr";
+        const OIIO::ImageSpec spec(16, 8, 3, is_float ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8);
+        const auto path = write_reference(folder / name, spec, ramp<float>(16 * 8 * 3, 0.002));
+        const auto bytes = read_all(path);
+        EXPECT_EQ(read_image_float(path).pixels, read_image_float(bytes).pixels) << name;
+        const ImageInfo info = read_image_info(bytes);
+        EXPECT_EQ(info.width, 16) << name;
+        EXPECT_EQ(info.height, 8) << name;
+        EXPECT_EQ(info.channels, 3) << name;
+        EXPECT_EQ(info.is_float, is_float) << name;
+        EXPECT_EQ(info.bits_per_channel, is_float ? (std::string(name) == "a.hdr" ? info.bits_per_channel : 32) : 8);
+    }
+}
+
+TEST(ReadImage, TheNameDoesNotMatter) {
+    const TemporaryFolder folder;
+    const std::vector<std::uint8_t> values{1, 2, 3};
+    const auto path = write_reference(folder / "a.png", {1, 1, 3, OIIO::TypeDesc::UINT8}, values);
+    std::filesystem::rename(path, folder / "a.jpg");
+    EXPECT_EQ(read_image_info(folder / "a.jpg").format, "png");
+    EXPECT_EQ(read_image_8bit(folder / "a.jpg").pixels, values);
+}
+
+TEST(ReadImage, SaysWhyAFileCannotBeRead) {
+    const TemporaryFolder folder;
+    EXPECT_NE(error_of(folder / "none.png").find("does not exist"), std::string::npos);
+    EXPECT_NE(error_of(folder / "").find("not a regular file"), std::string::npos);
+    EXPECT_NE(error_of("/dev/zero").find("not a regular file"), std::string::npos);
+    write_text(folder / "empty.png", "");
+    EXPECT_NE(error_of(folder / "empty.png").find("empty"), std::string::npos);
+    write_text(folder / "text.png", "this is no image");
+    EXPECT_NE(error_of(folder / "text.png").find("known format"), std::string::npos);
+    EXPECT_NE(error_of(std::span<const std::byte>()).find("empty"), std::string::npos);
+}
+
+// A PNG whose header says `width` x `height`, with the checksum of the header put right.
+std::vector<std::byte> png_that_claims(std::uint32_t width, std::uint32_t height) {
+    std::vector<std::uint8_t> bytes{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n', 0, 0, 0, 13, 'I', 'H', 'D', 'R'};
+    for (const std::uint32_t side : {width, height}) {
+        for (int shift = 24; shift >= 0; shift -= 8) bytes.push_back(static_cast<std::uint8_t>(side >> shift));
+    }
+    for (const int value : {8, 2, 0, 0, 0}) bytes.push_back(static_cast<std::uint8_t>(value));
+    std::uint32_t crc = 0xffffffffu;
+    for (std::size_t i = 12; i < bytes.size(); ++i) {
+        crc ^= bytes[i];
+        for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ ((crc & 1u) != 0 ? 0xedb88320u : 0u);
+    }
+    crc = ~crc;
+    for (int shift = 24; shift >= 0; shift -= 8) bytes.push_back(static_cast<std::uint8_t>(crc >> shift));
+    for (const std::uint8_t value :
+         std::initializer_list<std::uint8_t>{0, 0, 0, 0, 'I', 'D', 'A', 'T', 53, 175, 6, 30}) {
+        bytes.push_back(static_cast<std::uint8_t>(value));
+    }
+    const auto view = std::as_bytes(std::span(bytes));
+    return {view.begin(), view.end()};
+}
+
+TEST(ReadImage, RefusesAbsurdSizes) {
+    const std::string sides = error_of(png_that_claims(70000, 1));
+    EXPECT_NE(sides.find("70000 x 1"), std::string::npos) << sides;
+    const std::string area = error_of(png_that_claims(60000, 60000));
+    EXPECT_NE(area.find("60000 x 60000"), std::string::npos) << area;
+    EXPECT_THROW((void)read_image_info(png_that_claims(60000, 60000)), IoError);
+}
+
+TEST(ReadImage, RefusesMoreThanTheBytesCanHold) {
+    const std::string message = error_of(png_that_claims(16000, 16000));
+    EXPECT_NE(message.find("cannot hold"), std::string::npos) << message;
+}
+
+TEST(ReadImage, AcceptsTheMostCompressibleImages) {
+    const TemporaryFolder folder;
+    const std::vector<float> black(2048 * 1024 * 3);
+    for (const char* name : {"a.png", "a.jpg", "a.tif"}) {
+        const auto path = write_reference(folder / name, {2048, 1024, 3, OIIO::TypeDesc::UINT8}, black);
+        EXPECT_EQ(error_of(path), "") << name;
+    }
+    EXPECT_EQ(error_of(write_reference(folder / "a.hdr", {2048, 1024, 3, OIIO::TypeDesc::FLOAT}, black)), "");
+    for (const char* compression : {"zip", "piz", "rle", "b44a", "dwab"}) {
+        OIIO::ImageSpec spec(2048, 1024, 3, OIIO::TypeDesc::HALF);
+        spec.attribute("compression", compression);
+        EXPECT_EQ(error_of(write_reference(folder / "a.exr", spec, black)), "") << compression;
+    }
+}
+
+// Cut and damaged files of every format: an error or some pixels, never a crash, whatever the sanitizers watch.
+TEST(ReadImage, SurvivesDamage) {
+    const TemporaryFolder folder;
+    std::mt19937 random(7);
+    for (const char* name : {"a.png", "a.jpg", "a.exr", "a.hdr", "a.tif"}) {
+        const bool is_float = std::string(name) == "a.exr" || std::string(name) == "a.hdr";
+        const OIIO::ImageSpec spec(24, 16, 3, is_float ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8);
+        const auto bytes = read_all(write_reference(folder / name, spec, ramp<float>(24 * 16 * 3, 0.0007)));
+        for (std::size_t length = 0; length < bytes.size(); length += 1 + bytes.size() / 97) {
+            (void)error_of(std::span(bytes).first(length));
+        }
+        for (int round = 0; round < 200; ++round) {
+            auto damaged = bytes;
+            for (int i = 0; i < 3; ++i) damaged[random() % damaged.size()] = static_cast<std::byte>(random() % 256);
+            (void)error_of(damaged);
+        }
+    }
+}
+
+TEST(ReadImage, AHalfPngIsAnError) {
+    const TemporaryFolder folder;
+    const auto path =
+        write_reference(folder / "a.png", {64, 64, 3, OIIO::TypeDesc::UINT8}, ramp<float>(64 * 64 * 3, 8e-5));
+    auto bytes = read_all(path);
+    bytes.resize(bytes.size() / 2);
+    EXPECT_NE(error_of(bytes), "");
+}
+
+}  // namespace
+
+}  // namespace etendue
