@@ -12,7 +12,7 @@ namespace {
 // Magic, version, two attributes, the end of the header and a byte of pixels.
 std::vector<std::uint8_t> make_header() {
     const std::string text("\x76\x2f\x31\x01\x02\0\0\0first\0string\0\x03\0\0\0abcsecond\0int\0\x04\0\0\0\0\0\0\0\0x",
-                           55);
+                           49);
     return {text.begin(), text.end()};
 }
 
