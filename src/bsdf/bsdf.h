@@ -1,0 +1,39 @@
+// How a surface scatters light at a point: one lobe out of the list below.
+//
+// To add another: bsdf/x.{h,cpp} with a struct that has `evaluate`, `sample` and `has_non_delta` as the others do, its
+// place in the variant, one overload in world/compile_materials.cpp, and its row in the table of tests/bsdf.
+#pragma once
+
+#include <variant>
+
+#include "bsdf/diffuse.h"
+#include "bsdf/metallic_roughness.h"
+#include "bsdf/rough_conductor.h"
+#include "bsdf/rough_dielectric.h"
+#include "bsdf/smooth_conductor.h"
+#include "bsdf/smooth_dielectric.h"
+
+namespace etendue {
+
+using Bsdf =
+    std::variant<Diffuse, MetallicRoughness, RoughConductor, RoughDielectric, SmoothConductor, SmoothDielectric>;
+
+/// f |cos theta_i| and the density of `sample_bsdf`, for local unit directions; zero across the delta parts, and where a
+/// lobe does not scatter.
+[[nodiscard]] BsdfValue evaluate_bsdf(const Bsdf& bsdf, const Vec3f& wo, const Vec3f& wi, TransportMode mode);
+
+/// Samples wi given wo. `u_lobe` and `u` in [0, 1). A weight of zero ends the walk.
+[[nodiscard]] BsdfSample sample_bsdf(const Bsdf& bsdf, const Vec3f& wo, float u_lobe, Vec2f u, TransportMode mode);
+
+/// False if everything the lobe does is a delta, so that connecting to it or sampling a light from it is useless.
+[[nodiscard]] bool has_non_delta(const Bsdf& bsdf);
+
+/// True if the lobe distinguishes the two sides of its surface (z > 0 is the outside of a body); false if it wants wo on the
+/// side z > 0.
+[[nodiscard]] bool is_two_sided_interface(const Bsdf& bsdf);
+
+/// Share of the light from `wo` that is scattered, by the lobe's own samples: an estimate from `count` of them, for
+/// the albedo image and tests.
+[[nodiscard]] Rgb estimate_albedo(const Bsdf& bsdf, const Vec3f& wo, int count);
+
+}  // namespace etendue

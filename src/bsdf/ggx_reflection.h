@@ -1,0 +1,68 @@
+// Reflection from a GGX surface without its Fresnel term: the part that conductors and glTF's specular layer share.
+//
+// Single scattering D G2 / (4 mu_o mu_i), plus the diffuse-like lobe of light that scattered several times,
+// (1 - E(o)) (1 - E(i)) / (pi (1 - E_avg)), after Kulla and Conty (SIGGRAPH 2017 course, slide 17).
+#pragma once
+
+#include <algorithm>
+
+#include "bsdf/bsdf_sample.h"
+#include "bsdf/ggx.h"
+#include "bsdf/ggx_albedo.h"
+#include "sampling/warp.h"
+
+namespace etendue {
+
+struct GgxReflection {
+    Ggx ggx;
+    GgxAlbedo albedo_o;        ///< directional albedos at wo
+    GgxAlbedo albedo_average;
+
+    GgxReflection(float alpha, float cos_o)
+        : ggx{alpha}, albedo_o(ggx_albedo(cos_o, alpha)), albedo_average(ggx_albedo_average(alpha)) {}
+
+    /// Share of the samples that go to the multiple-scattering lobe.
+    [[nodiscard]] float multiple_probability() const { return std::clamp(1.0f - albedo_o.single, 0.0f, 1.0f); }
+
+    struct Value {
+        float single = 0.0f;    ///< D G2 / (4 mu_o): times cos_i, without Fresnel
+        float multiple = 0.0f;  ///< times cos_i, without the metal's factor
+        float cos_half = 0.0f;  ///< dot(wi, h), the Fresnel term's argument
+        float pdf_solid_angle = 0.0f;
+        GgxAlbedo albedo_i{};
+    };
+    /// Requires wo.z > 0 and wi.z > 0.
+    [[nodiscard]] Value evaluate(const Vec3f& wo, const Vec3f& wi) const {
+        Value value;
+        const Vec3f h = normalize(wo + wi);
+        value.cos_half = std::min(1.0f, dot(wi, h));
+        const float d = ggx.d(h);
+        value.single = d * ggx.g2(wo, wi) / (4.0f * wo.z);
+        value.albedo_i = ggx_albedo(wi.z, ggx.alpha);
+        const float missing_average = 1.0f - albedo_average.single;
+        if (missing_average > 0.0f)
+            value.multiple =
+                (1.0f - albedo_o.single) * (1.0f - value.albedo_i.single) * wi.z * kInvPi / missing_average;
+        const float p_multiple = multiple_probability();
+        value.pdf_solid_angle =
+            (1.0f - p_multiple) * ggx.g1(wo) * d / (4.0f * wo.z) + p_multiple * cosine_hemisphere_pdf_solid_angle(wi);
+        return value;
+    }
+
+    /// A direction with the density that `evaluate` states; wi.z <= 0 means that it went below the surface.
+    [[nodiscard]] Vec3f sample(const Vec3f& wo, float u_lobe, Vec2f u) const {
+        if (u_lobe < multiple_probability()) return square_to_cosine_hemisphere(u);
+        const Vec3f h = ggx.sample_visible_normal(wo, u);
+        return h * (2.0f * dot(wo, h)) - wo;
+    }
+
+    /// Colour of light that scattered more than once on a metal whose mean reflectance is `fresnel_average` (Kulla and
+    /// Conty, slide 28): the geometric series of Fresnel losses.
+    [[nodiscard]] Rgb multiple_fresnel(const Rgb& fresnel_average) const {
+        const float e = albedo_average.single;
+        const auto channel = [e](float f) { return f * f * e / (1.0f - f * (1.0f - e)); };
+        return {channel(fresnel_average.r), channel(fresnel_average.g), channel(fresnel_average.b)};
+    }
+};
+
+}  // namespace etendue

@@ -1,0 +1,32 @@
+// glTF 2.0 metallic-roughness with KHR_materials_ior and thin-walled KHR_materials_transmission.
+//
+// material   = mix(dielectric, metal, metallic)                                  (glTF 2.0 specification, appendix B)
+// metal      = GGX with Schlick's Fresnel term, f0 = base colour
+// dielectric = GGX with f0 = ((ior - 1) / (ior + 1))² over mix(diffuse, transmission, transmission factor)
+//
+// Three things go beyond the appendix, whose formulas lose or invent energy: the specular layer has its
+// multiple-scattering lobe; what lies under it receives what it lets through, (1 - E(o)) (1 - E(i)) / (1 - E_avg), which is
+// reciprocal and makes a white dielectric reflect exactly 1 (Ashikhmin and Shirley's coupling in Kelemen's form, 2001); the
+// transmitted lobe, GGX mirrored to the other side, is energy-conserving in the same way.
+//
+// Thin-walled: light leaves opposite to where a mirror would send it, without refraction, tinted once by the base colour.
+// With alpha below kSmoothAlpha the specular and transmitted parts are deltas. Reflects for wo.z > 0 only.
+#pragma once
+
+#include "bsdf/bsdf_sample.h"
+
+namespace etendue {
+
+struct MetallicRoughness {
+    Rgb base{1.0f};             ///< [0, 1]
+    float metallic = 1.0f;      ///< [0, 1]
+    float alpha = 1.0f;         ///< roughness², [0, 1]
+    float f0 = 0.04f;           ///< of the dielectric, [0, 1]
+    float transmission = 0.0f;  ///< [0, 1]
+
+    [[nodiscard]] BsdfValue evaluate(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const;
+    [[nodiscard]] BsdfSample sample(const Vec3f& wo, float u_lobe, Vec2f u, TransportMode mode) const;
+    [[nodiscard]] bool has_non_delta() const;
+};
+
+}  // namespace etendue

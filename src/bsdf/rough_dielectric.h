@@ -1,0 +1,33 @@
+// A rough interface between two dielectrics: GGX microfacets that reflect and refract, energy kept on both sides.
+//
+// Single scattering: Walter et al. (EGSR 2007), equations 20 and 21, with height-correlated masking for both. Multiple
+// scattering, with o on side A, i on side B, e = 1 - E the missing energy, and n the indices:
+//
+//   reflected    R_A e_A(o) e_A(i) / (pi e_avg_A)
+//   transmitted  T_A e_A(o) e_B(i) / (pi e_avg_B)          as carried by particles (TransportMode::Importance)
+//
+// R_A + T_A = 1 returns exactly what was lost. Reciprocity, f(o -> i) / n_i² = f(i -> o) / n_o² (Veach 1997, equation
+// 5.14), holds when T_A / (e_avg_B n_B²) = T_B / (e_avg_A n_A²); the factor that is left free makes the larger of the two
+// shares that of a smooth interface in diffuse light. Example: frosted glass, ior 1.5, alpha = 0.2.
+#pragma once
+
+#include "bsdf/bsdf_sample.h"
+
+namespace etendue {
+
+struct RoughDielectric {
+    float ior = 1.5f;    ///< index inside (z < 0) over index outside, (1, kMaxTabulatedEta]
+    float alpha = 0.1f;  ///< [kSmoothAlpha, 1]
+    /// Share T of the multiply scattered light that is transmitted, for wo outside and inside.
+    float multiple_transmitted_outside = 0.0f;
+    float multiple_transmitted_inside = 0.0f;
+
+    /// Prepares the shares above; costs some microseconds, so once per material rather than per hit.
+    [[nodiscard]] static RoughDielectric make(float ior, float alpha);
+
+    [[nodiscard]] BsdfValue evaluate(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const;
+    [[nodiscard]] BsdfSample sample(const Vec3f& wo, float u_lobe, Vec2f u, TransportMode mode) const;
+    [[nodiscard]] bool has_non_delta() const { return true; }
+};
+
+}  // namespace etendue

@@ -1,0 +1,19 @@
+// A perfect mirror of metal.
+//
+// All light goes to the mirror direction, scaled by the metal's Fresnel reflectance: a delta. Example: silvered glass.
+#pragma once
+
+#include "bsdf/bsdf_sample.h"
+#include "bsdf/fresnel.h"
+
+namespace etendue {
+
+struct SmoothConductor {
+    FresnelMetal fresnel;
+
+    [[nodiscard]] BsdfValue evaluate(const Vec3f&, const Vec3f&, TransportMode) const { return {}; }
+    [[nodiscard]] BsdfSample sample(const Vec3f& wo, float u_lobe, Vec2f u, TransportMode mode) const;
+    [[nodiscard]] bool has_non_delta() const { return false; }
+};
+
+}  // namespace etendue

@@ -1,0 +1,19 @@
+// A smooth interface between two dielectrics: reflects and refracts, both deltas.
+//
+// Fresnel's equations for unpolarised light; radiance is divided by eta² when it passes from wi's side to wo's (Veach 1997,
+// equation 5.2). wo.z > 0 is the outside. Example: glass with ior 1.5, water with 1.33.
+#pragma once
+
+#include "bsdf/bsdf_sample.h"
+
+namespace etendue {
+
+struct SmoothDielectric {
+    float ior = 1.5f;  ///< index inside (z < 0) over index outside, > 1
+
+    [[nodiscard]] BsdfValue evaluate(const Vec3f&, const Vec3f&, TransportMode) const { return {}; }
+    [[nodiscard]] BsdfSample sample(const Vec3f& wo, float u_lobe, Vec2f u, TransportMode mode) const;
+    [[nodiscard]] bool has_non_delta() const { return false; }
+};
+
+}  // namespace etendue

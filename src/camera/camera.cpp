@@ -1,0 +1,95 @@
+#include "camera/camera.h"
+
+#include "sampling/warp.h"
+
+namespace etendue {
+
+namespace {
+
+/// Film point to the image plane at distance 1 (perspective) or to metres (orthographic), camera space, y up.
+Vec2f to_plane(Vec2f film, float half_width, float half_height) {
+    return {(2.0f * film.x - 1.0f) * half_width, (1.0f - 2.0f * film.y) * half_height};
+}
+
+const CameraPose& pose_of(const PinholeCamera& c) { return c.pose; }
+const CameraPose& pose_of(const ThinLensCamera& c) { return c.pinhole.pose; }
+const CameraPose& pose_of(const OrthographicCamera& c) { return c.pose; }
+
+Mat4f projection(const PinholeCamera& c) {
+    return {1.0f / c.half_width, 0, 0, 0, 0, 1.0f / c.half_height, 0, 0, 0, 0, -1, -1, 0, 0, 0, 0};
+}
+Mat4f projection(const ThinLensCamera& c) { return projection(c.pinhole); }
+Mat4f projection(const OrthographicCamera& c) {
+    return {1.0f / c.half_width, 0, 0, 0, 0, 1.0f / c.half_height, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1};
+}
+
+}  // namespace
+
+CameraPose CameraPose::from_matrix(const Mat4f& to_world) {
+    CameraPose pose;
+    pose.position = transform_point(to_world, Vec3f(0.0f));
+    pose.forward = normalize(transform_vector(to_world, {0.0f, 0.0f, -1.0f}));
+    const Vec3f up = transform_vector(to_world, {0.0f, 1.0f, 0.0f});
+    pose.right = normalize(cross(pose.forward, up));
+    pose.up = cross(pose.right, pose.forward);
+    return pose;
+}
+
+Ray PinholeCamera::generate_ray(Vec2f film, Vec2f) const {
+    const Vec2f p = to_plane(film, half_width, half_height);
+    Ray ray;
+    ray.origin = pose.position;
+    ray.direction = normalize(pose.to_world({p.x, p.y, -1.0f}));
+    return ray;
+}
+
+float PinholeCamera::pdf_solid_angle(const Vec3f& direction) const {
+    const float cos_theta = dot(direction, pose.forward);
+    if (cos_theta <= 0.0f) return 0.0f;
+    const float x = dot(direction, pose.right) / cos_theta;
+    const float y = dot(direction, pose.up) / cos_theta;
+    if (std::abs(x) > half_width || std::abs(y) > half_height) return 0.0f;
+    return 1.0f / (4.0f * half_width * half_height * cos_theta * cos_theta * cos_theta);
+}
+
+Ray ThinLensCamera::generate_ray(Vec2f film, Vec2f lens) const {
+    const Vec2f p = to_plane(film, pinhole.half_width, pinhole.half_height);
+    const Vec2f l = square_to_disk(lens) * lens_radius;
+    const CameraPose& pose = pinhole.pose;
+    Ray ray;
+    ray.origin = pose.position + pose.right * l.x + pose.up * l.y;
+    const Vec3f focus = Vec3f(p.x, p.y, -1.0f) * focus_distance;
+    ray.direction = normalize(pose.to_world(focus - Vec3f(l.x, l.y, 0.0f)));
+    return ray;
+}
+
+float ThinLensCamera::pdf_solid_angle(const Vec3f& direction) const { return pinhole.pdf_solid_angle(direction); }
+
+Ray OrthographicCamera::generate_ray(Vec2f film, Vec2f) const {
+    const Vec2f p = to_plane(film, half_width, half_height);
+    Ray ray;
+    ray.origin = pose.position + pose.right * p.x + pose.up * p.y;
+    ray.direction = pose.forward;
+    return ray;
+}
+
+Ray generate_ray(const Camera& camera, Vec2f film, Vec2f lens) {
+    return std::visit([&](const auto& c) { return c.generate_ray(film, lens); }, camera);
+}
+
+float camera_pdf_solid_angle(const Camera& camera, const Vec3f& direction) {
+    return std::visit([&](const auto& c) { return c.pdf_solid_angle(direction); }, camera);
+}
+
+Mat4f world_to_camera(const Camera& camera) {
+    const CameraPose& p = std::visit([](const auto& c) -> const CameraPose& { return pose_of(c); }, camera);
+    const Mat4f to_world(p.right.x, p.right.y, p.right.z, 0, p.up.x, p.up.y, p.up.z, 0, -p.forward.x, -p.forward.y,
+                         -p.forward.z, 0, p.position.x, p.position.y, p.position.z, 1);
+    return to_world.inverse();
+}
+
+Mat4f world_to_screen(const Camera& camera) {
+    return world_to_camera(camera) * std::visit([](const auto& c) { return projection(c); }, camera);
+}
+
+}  // namespace etendue

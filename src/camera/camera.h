@@ -1,0 +1,72 @@
+// Cameras: from a point on the film and one on the lens to a ray.
+//
+// To add another: a struct with `generate_ray` and `pdf_solid_angle`, its place in the variant, one case in
+// world/compile_camera.cpp, and its row in tests/camera.
+//
+// Film coordinates run over [0, 1)², x to the right and y down from the top left corner of the full image.
+#pragma once
+
+#include <variant>
+
+#include "core/ray.h"
+#include "core/vec.h"
+
+namespace etendue {
+
+/// Where a camera stands. `forward` is its viewing direction; the three axes are orthonormal.
+struct CameraPose {
+    Vec3f position{0.0f};
+    Vec3f right{1.0f, 0.0f, 0.0f};
+    Vec3f up{0.0f, 1.0f, 0.0f};
+    Vec3f forward{0.0f, 0.0f, -1.0f};
+
+    /// From a camera-to-world matrix of glTF's kind (looking along local -Z, +Y up); its scale is ignored, as the
+    /// specification asks.
+    [[nodiscard]] static CameraPose from_matrix(const Mat4f& to_world);
+    [[nodiscard]] Vec3f to_world(const Vec3f& local) const { return right * local.x + up * local.y - forward * local.z; }
+};
+
+/// Perspective through a point.
+struct PinholeCamera {
+    CameraPose pose;
+    float half_width = 0.5f;   ///< of the image plane at distance 1
+    float half_height = 0.5f;  ///< of the image plane at distance 1
+
+    [[nodiscard]] Ray generate_ray(Vec2f film, Vec2f lens) const;
+    /// Density per solid angle of the ray directions for uniform film points: 1 / (A cos³); 0 outside the image.
+    [[nodiscard]] float pdf_solid_angle(const Vec3f& direction) const;
+};
+
+/// Perspective through a disk: what lies at the focus distance is sharp.
+struct ThinLensCamera {
+    PinholeCamera pinhole;
+    float lens_radius = 0.0f;     ///< metres, > 0
+    float focus_distance = 1.0f;  ///< metres along the optical axis, > 0
+
+    [[nodiscard]] Ray generate_ray(Vec2f film, Vec2f lens) const;
+    /// Density per solid angle of the directions through the centre of the lens.
+    [[nodiscard]] float pdf_solid_angle(const Vec3f& direction) const;
+};
+
+/// Parallel rays.
+struct OrthographicCamera {
+    CameraPose pose;
+    float half_width = 1.0f;   ///< metres
+    float half_height = 1.0f;  ///< metres
+
+    [[nodiscard]] Ray generate_ray(Vec2f film, Vec2f lens) const;
+    /// All rays have one direction: a delta, so 0.
+    [[nodiscard]] float pdf_solid_angle(const Vec3f&) const { return 0.0f; }
+};
+
+using Camera = std::variant<PinholeCamera, ThinLensCamera, OrthographicCamera>;
+
+/// The ray through film point `film`, for a lens point made from `lens` in [0, 1)². Its direction is unit length.
+[[nodiscard]] Ray generate_ray(const Camera& camera, Vec2f film, Vec2f lens);
+[[nodiscard]] float camera_pdf_solid_angle(const Camera& camera, const Vec3f& direction);
+
+/// World to camera space (looking along -Z), and world to screen: x and y in [-1, 1] over the image, for image metadata.
+[[nodiscard]] Mat4f world_to_camera(const Camera& camera);
+[[nodiscard]] Mat4f world_to_screen(const Camera& camera);
+
+}  // namespace etendue

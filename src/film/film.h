@@ -1,0 +1,88 @@
+// Where samples end: sums per pixel, first of one tile, then of the image.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/rgb.h"
+
+namespace etendue {
+
+/// Pixels [x0, x1) × [y0, y1), y down, in the coordinates of the full image.
+struct PixelRect {
+    int x0 = 0;
+    int y0 = 0;
+    int x1 = 0;
+    int y1 = 0;
+
+    [[nodiscard]] int width() const { return x1 - x0; }
+    [[nodiscard]] int height() const { return y1 - y0; }
+    [[nodiscard]] std::size_t area() const {
+        return static_cast<std::size_t>(width()) * static_cast<std::size_t>(height());
+    }
+    friend bool operator==(const PixelRect&, const PixelRect&) = default;
+};
+
+/// Sums of one pixel, in double because they grow. 40 bytes.
+struct PixelSum {
+    double r = 0.0;
+    double g = 0.0;
+    double b = 0.0;
+    double alpha = 0.0;
+    std::uint32_t samples = 0;
+
+    void add(const Rgb& radiance, float sample_alpha) {
+        r += static_cast<double>(radiance.r);
+        g += static_cast<double>(radiance.g);
+        b += static_cast<double>(radiance.b);
+        alpha += static_cast<double>(sample_alpha);
+        ++samples;
+    }
+};
+
+/// The pixels of one tile while it is rendered; used by one thread.
+class TileBuffer {
+  public:
+    /// Starts a tile; memory is kept from the one before.
+    void reset(const PixelRect& rect) {
+        rect_ = rect;
+        pixels_.assign(rect.area(), PixelSum{});
+    }
+    [[nodiscard]] const PixelRect& rect() const { return rect_; }
+    /// Pixel `index` of the rectangle, row by row.
+    [[nodiscard]] PixelSum& pixel(std::size_t index) { return pixels_[index]; }
+    [[nodiscard]] const PixelSum& pixel(std::size_t index) const { return pixels_[index]; }
+
+  private:
+    PixelRect rect_;
+    std::vector<PixelSum> pixels_;
+};
+
+/// The image, or its crop window. Tiles of one pass do not overlap, so that they can be added from any thread in any
+/// order with the same result: each pixel receives its passes in their order.
+class Film {
+  public:
+    Film(int full_width, int full_height, const PixelRect& window);
+
+    /// Adds a finished tile. Calls for tiles that do not overlap may run at the same time.
+    void add(const TileBuffer& tile);
+
+    [[nodiscard]] int full_width() const { return full_width_; }
+    [[nodiscard]] int full_height() const { return full_height_; }
+    [[nodiscard]] const PixelRect& window() const { return window_; }
+
+    /// Means of red, green, blue and alpha of the window, row by row, four floats a pixel; pixels without samples are
+    /// zero.
+    [[nodiscard]] std::vector<float> resolve() const;
+    [[nodiscard]] std::uint64_t sample_count() const;
+
+  private:
+    int full_width_;
+    int full_height_;
+    PixelRect window_;
+    std::vector<PixelSum> pixels_;
+};
+
+}  // namespace etendue

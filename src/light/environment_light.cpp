@@ -1,0 +1,116 @@
+#include "light/environment_light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "sampling/warp.h"
+
+namespace etendue {
+
+namespace {
+
+/// Negative and non-finite values become zero, in place.
+ImageF& sanitize(ImageF& image) {
+    for (float& value : image.pixels)
+        if (!(value >= 0.0f) || !std::isfinite(value)) value = 0.0f;
+    return image;
+}
+
+/// Mean of the bilinear reconstruction over each texel's cell: a 3 × 3 stencil (1, 6, 1)² / 64 that wraps around in x and
+/// clamps in y. It is zero only where the reconstruction is zero.
+Distribution2D make_distribution(const ImageF& image) {
+    constexpr float kStencil[3] = {0.125f, 0.75f, 0.125f};
+    const int width = image.width;
+    const int height = image.height;
+    std::vector<float> grey(image.pixels.size() / 3);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const auto p = image.pixel(x, y);
+            grey[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)] =
+                (p[0] + p[1] + p[2]) * (1.0f / 3.0f);
+        }
+    std::vector<float> density(grey.size());
+    for (int y = 0; y < height; ++y) {
+        const float sin_theta = std::sin(kPi * (static_cast<float>(y) + 0.5f) / static_cast<float>(height));
+        for (int x = 0; x < width; ++x) {
+            float sum = 0.0f;
+            for (int dy = -1; dy <= 1; ++dy)
+                for (int dx = -1; dx <= 1; ++dx) {
+                    const auto row = static_cast<std::size_t>(std::clamp(y + dy, 0, height - 1));
+                    const auto column = static_cast<std::size_t>((x + dx + width) % width);
+                    sum += kStencil[dx + 1] * kStencil[dy + 1] * grey[row * static_cast<std::size_t>(width) + column];
+                }
+            density[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)] =
+                sum * sin_theta;
+        }
+    }
+    return {density, width, height};
+}
+
+}  // namespace
+
+LightSample ConstantEnvironment::sample(const Vec3f&, Vec2f u) const {
+    LightSample sample;
+    sample.wi = square_to_sphere(u);
+    sample.radiance = value;
+    sample.pdf_solid_angle = sphere_pdf_solid_angle();
+    return sample;
+}
+
+float ConstantEnvironment::pdf_solid_angle(const Vec3f&) const { return sphere_pdf_solid_angle(); }
+
+float ConstantEnvironment::power(float scene_radius) const {
+    return 4.0f * kPi * kPi * scene_radius * scene_radius * average(value);
+}
+
+ImageEnvironment::ImageEnvironment(ImageF image, float rotation)
+    : distribution_(make_distribution(sanitize(image))),
+      texture_(std::move(image), {.wrap_u = Wrap::Repeat, .wrap_v = Wrap::Clamp}),
+      sin_rotation_(std::sin(rotation)),
+      cos_rotation_(std::cos(rotation)),
+      // Over the sphere: the integral of L sin(theta) · 2 pi · pi over the unit square, divided by 4 pi.
+      mean_radiance_(distribution_.integral() * static_cast<double>(kPi) / 2.0) {}
+
+Vec2f ImageEnvironment::to_image(const Vec3f& direction) const {
+    const float x = direction.x * cos_rotation_ - direction.z * sin_rotation_;
+    const float z = direction.x * sin_rotation_ + direction.z * cos_rotation_;
+    const float u = 0.5f + std::atan2(x, -z) * (0.5f * kInvPi);
+    const float v = std::acos(std::clamp(direction.y, -1.0f, 1.0f)) * kInvPi;
+    return {std::clamp(u, 0.0f, kOneMinusEpsilon), std::clamp(v, 0.0f, kOneMinusEpsilon)};
+}
+
+Vec3f ImageEnvironment::from_image(Vec2f position) const {
+    const float phi = (position.x - 0.5f) * 2.0f * kPi;
+    const float theta = position.y * kPi;
+    const float sin_theta = std::sin(theta);
+    const float x = sin_theta * std::sin(phi);
+    const float z = -sin_theta * std::cos(phi);
+    return {x * cos_rotation_ + z * sin_rotation_, std::cos(theta), -x * sin_rotation_ + z * cos_rotation_};
+}
+
+Rgb ImageEnvironment::radiance(const Vec3f& direction) const { return texture_.lookup(to_image(direction)).rgb; }
+
+LightSample ImageEnvironment::sample(const Vec3f&, Vec2f u) const {
+    const Distribution2D::Sample position = distribution_.sample(u);
+    const float sin_theta = std::sin(position.position.y * kPi);
+    if (!(sin_theta > 0.0f) || !(position.pdf > 0.0f)) return {};
+    LightSample sample;
+    sample.wi = from_image(position.position);
+    sample.radiance = texture_.lookup(position.position).rgb;
+    sample.pdf_solid_angle = position.pdf / (2.0f * kPi * kPi * sin_theta);
+    return sample;
+}
+
+float ImageEnvironment::pdf_solid_angle(const Vec3f& direction) const {
+    const float sin_theta = std::sqrt(std::max(0.0f, 1.0f - direction.y * direction.y));
+    if (!(sin_theta > 0.0f)) return 0.0f;
+    return distribution_.pdf(to_image(direction)) / (2.0f * kPi * kPi * sin_theta);
+}
+
+float ImageEnvironment::power(float scene_radius) const {
+    return static_cast<float>(mean_radiance_) * 4.0f * kPi * kPi * scene_radius * scene_radius;
+}
+
+}  // namespace etendue

@@ -1,0 +1,50 @@
+// Light from infinitely far away in every direction: constant, or a latitude-longitude image.
+//
+// Image mapping (before `rotation`): the centre of the image lies towards -Z, its right half towards +X, its top row
+// towards +Y.
+#pragma once
+
+#include <memory>
+
+#include "light/light_sample.h"
+#include "sampling/distribution.h"
+#include "texture/texture.h"
+
+namespace etendue {
+
+/// The same radiance from everywhere.
+struct ConstantEnvironment {
+    Rgb value{1.0f};
+
+    [[nodiscard]] Rgb radiance(const Vec3f&) const { return value; }
+    [[nodiscard]] LightSample sample(const Vec3f& point, Vec2f u) const;
+    [[nodiscard]] float pdf_solid_angle(const Vec3f& direction) const;
+    [[nodiscard]] float power(float scene_radius) const;
+};
+
+/// An image, importance-sampled in two dimensions by its bilinear reconstruction's mean over each cell, times the sine of
+/// the polar angle. A texel costs 12 bytes for its colour and 4 for its density.
+class ImageEnvironment {
+  public:
+    /// `image` has 3 linear channels in the working space, already scaled; `rotation` in radians about +Y,
+    /// counter-clockwise seen from above. Negative and non-finite values are taken as zero.
+    ImageEnvironment(ImageF image, float rotation);
+
+    [[nodiscard]] Rgb radiance(const Vec3f& direction) const;
+    [[nodiscard]] LightSample sample(const Vec3f& point, Vec2f u) const;
+    [[nodiscard]] float pdf_solid_angle(const Vec3f& direction) const;
+    [[nodiscard]] float power(float scene_radius) const;
+    [[nodiscard]] std::size_t bytes() const { return texture_.bytes() + distribution_.bytes(); }
+
+  private:
+    [[nodiscard]] Vec2f to_image(const Vec3f& direction) const;
+    [[nodiscard]] Vec3f from_image(Vec2f position) const;
+
+    Distribution2D distribution_;
+    Texture texture_;
+    float sin_rotation_ = 0.0f;
+    float cos_rotation_ = 1.0f;
+    double mean_radiance_ = 0.0;  ///< over the sphere, average of the channels
+};
+
+}  // namespace etendue

@@ -1,0 +1,50 @@
+// An emissive mesh: triangles chosen by area, points uniform by area.
+//
+// Radiance that varies over the mesh (textures, partial transparency) is the World's to evaluate at the sampled point: the
+// same code that evaluates it where a ray hits, so that both strategies of MIS agree.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "light/light_sample.h"
+#include "sampling/alias_table.h"
+
+namespace etendue {
+
+/// A triangle in world space.
+struct LightTriangle {
+    Vec3f p0, edge1, edge2;
+};
+
+class MeshLight {
+  public:
+    /// `radiance` is emitted by every point on the front side (counter-clockwise seen from there); by both if
+    /// `two_sided`. `mean_radiance` is its mean over the area, for the choice between lights. Triangles without area get no
+    /// samples. 48 bytes a triangle.
+    MeshLight(std::vector<LightTriangle> triangles, Rgb radiance, Rgb mean_radiance, bool two_sided, bool is_uniform);
+
+    [[nodiscard]] LightSample sample(const Vec3f& point, Vec2f u) const;
+    /// Density of `sample` for a hit at `distance`, where `cos_light` is the cosine between the geometric normal and the
+    /// direction back to the lit point: d² / (A |cos|). 0 for the back of a one-sided light.
+    [[nodiscard]] float pdf_solid_angle(float distance, float cos_light) const;
+    [[nodiscard]] float power(float scene_radius) const;
+
+    [[nodiscard]] float area() const { return area_; }
+    [[nodiscard]] bool two_sided() const { return two_sided_; }
+    /// True if `radiance` of a sample is right as it is; false if the World must evaluate it at the sampled point.
+    [[nodiscard]] bool is_uniform() const { return is_uniform_; }
+    [[nodiscard]] std::span<const LightTriangle> triangles() const { return triangles_; }
+
+  private:
+    std::vector<LightTriangle> triangles_;
+    AliasTable by_area_;
+    Rgb radiance_;
+    Rgb mean_radiance_;
+    float area_ = 0.0f;  ///< m²
+    bool two_sided_ = false;
+    bool is_uniform_ = true;
+};
+
+}  // namespace etendue
