@@ -82,21 +82,6 @@ def _face_normal(a, b, c):
     return normalize(cross(sub(b, a), sub(c, a)))
 
 
-def box(low, high):
-    """An axis-aligned box with outward normals."""
-    (x0, y0, z0), (x1, y1, z1) = low, high
-    mesh = Mesh()
-    for corners in (
-            ((x1, y0, z1), (x1, y0, z0), (x1, y1, z0), (x1, y1, z1)),
-            ((x0, y0, z0), (x0, y0, z1), (x0, y1, z1), (x0, y1, z0)),
-            ((x0, y1, z1), (x1, y1, z1), (x1, y1, z0), (x0, y1, z0)),
-            ((x0, y0, z0), (x1, y0, z0), (x1, y0, z1), (x0, y0, z1)),
-            ((x0, y0, z1), (x1, y0, z1), (x1, y1, z1), (x0, y1, z1)),
-            ((x1, y0, z0), (x0, y0, z0), (x0, y1, z0), (x1, y1, z0))):
-        mesh.add_quad(corners)
-    return mesh
-
-
 def ground(half_size, y=0.0, uv_per_meter=0.0):
     """A horizontal square facing up, centred on the origin; with texture coordinates if `uv_per_meter` is not 0."""
     h, t = half_size, half_size * uv_per_meter
