@@ -17,9 +17,11 @@ endfunction()
 function(etendue_test room)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_executable(test_${room} ${ARG_SOURCES})
-  target_include_directories(test_${room} PRIVATE "${PROJECT_SOURCE_DIR}/tests" SYSTEM PRIVATE "${ETENDUE_BOOST_MATH}")
+  target_include_directories(test_${room} PRIVATE "${PROJECT_SOURCE_DIR}/tests")
+  target_include_directories(test_${room} SYSTEM PRIVATE "${ETENDUE_BOOST_MATH}")
   target_link_libraries(test_${room} PRIVATE etendue_options ${ARG_LINK} GTest::gtest_main)
   target_compile_definitions(test_${room} PRIVATE
     ETENDUE_SOURCE_DIR="${PROJECT_SOURCE_DIR}" ETENDUE_SHARED_ASSETS="${PROJECT_SOURCE_DIR}/../shared/assets")
-  gtest_discover_tests(test_${room} TEST_PREFIX "${room}." DISCOVERY_TIMEOUT 120 PROPERTIES LABELS ${room} TIMEOUT 600)
+  gtest_discover_tests(test_${room} TEST_PREFIX "${room}." DISCOVERY_TIMEOUT 120 PROPERTIES LABELS ${room} TIMEOUT 600
+    ENVIRONMENT "LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/cmake/lsan-suppressions.txt")
 endfunction()
