@@ -1,14 +1,14 @@
 // Colour management on OpenColorIO: input spaces to the working space, the working space to output spaces and views.
 #pragma once
 
+#include "core/rgb.h"
+
 #include <array>
 #include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
-
-#include "core/rgb.h"
 
 namespace etendue {
 
@@ -64,7 +64,8 @@ class ColorConfig {
     /// Path of the config, or "built-in".
     [[nodiscard]] const std::string& origin() const;
 
-    /// Canonical name of the space, alias or role `name`. Throws SceneError with the nearest known name if there is none.
+    /// Canonical name of the space, alias or role `name`. Throws SceneError with the nearest known name if there is
+    /// none.
     [[nodiscard]] std::string resolve_space(const std::string& name) const;
 
     /// Throws SceneError if a name is unknown.
@@ -74,9 +75,12 @@ class ColorConfig {
     /// From `working` to encoded display values; `exposure` in stops is applied first, in `working`.
     [[nodiscard]] ColorTransform display_transform(const std::string& working, const std::string& display,
                                                    const std::string& view, float exposure) const;
-    /// Of a scene-linear space, computed through the config's CIE XYZ (D65) space. Throws SceneError if not linear.
+    /// Of a scene-linear space: the published ones with the space's own white if its conversion to ACES2065-1 (adapted
+    /// by Bradford) is that of a known set of primaries, else those after adaptation to D65. Throws SceneError if the
+    /// space is not linear or the config has no ACES2065-1.
     [[nodiscard]] Chromaticities chromaticities(const std::string& space) const;
-    /// Weights of R, G and B of a scene-linear space in CIE luminance Y.
+    /// Weights of R, G and B of a scene-linear space in CIE luminance Y, from its chromaticities; the config's own luma
+    /// weights where those are unknown. Throws SceneError if the space is not linear.
     [[nodiscard]] Rgb luminance_weights(const std::string& space) const;
 
   private:
