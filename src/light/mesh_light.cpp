@@ -7,11 +7,12 @@
 namespace etendue {
 
 MeshLight::MeshLight(std::vector<LightTriangle> triangles, Rgb radiance, Rgb mean_radiance, bool two_sided,
-                     bool is_uniform)
+                     bool mirrored, bool is_uniform)
     : triangles_(std::move(triangles)),
       radiance_(radiance),
       mean_radiance_(mean_radiance),
       two_sided_(two_sided),
+      front_sign_(mirrored ? -1.0f : 1.0f),
       is_uniform_(is_uniform) {
     std::vector<double> areas;
     areas.reserve(triangles_.size());
@@ -34,7 +35,8 @@ LightSample MeshLight::sample(const Vec3f& point, Vec2f u) const {
     LightSample sample;
     sample.distance = std::sqrt(squared);
     sample.wi = to_light * (1.0f / sample.distance);
-    sample.pdf_solid_angle = pdf_solid_angle(sample.distance, -dot(sample.wi, normalize(cross(t.edge1, t.edge2))));
+    const Vec3f normal = normalize(cross(t.edge1, t.edge2)) * front_sign_;
+    sample.pdf_solid_angle = pdf_solid_angle(sample.distance, -dot(sample.wi, normal));
     if (sample.pdf_solid_angle > 0.0f) sample.radiance = radiance_;
     sample.triangle = choice.index;
     sample.barycentric = b;

@@ -22,8 +22,10 @@ class MeshLight {
   public:
     /// `radiance` is emitted by every point on the front side (counter-clockwise seen from there); by both if
     /// `two_sided`. `mean_radiance` is its mean over the area, for the choice between lights. Triangles without area get no
-    /// samples. 48 bytes a triangle.
-    MeshLight(std::vector<LightTriangle> triangles, Rgb radiance, Rgb mean_radiance, bool two_sided, bool is_uniform);
+    /// samples. `mirrored`: the triangles went through a transform that turned their winding around, so that their front
+    /// is where they are clockwise. 48 bytes a triangle.
+    MeshLight(std::vector<LightTriangle> triangles, Rgb radiance, Rgb mean_radiance, bool two_sided, bool mirrored,
+              bool is_uniform);
 
     [[nodiscard]] LightSample sample(const Vec3f& point, Vec2f u) const;
     /// Density of `sample` for a hit at `distance`, where `cos_light` is the cosine between the geometric normal and the
@@ -44,6 +46,7 @@ class MeshLight {
     Rgb mean_radiance_;
     float area_ = 0.0f;  ///< m²
     bool two_sided_ = false;
+    float front_sign_ = 1.0f;  ///< of cross(edge1, edge2) relative to the front's normal
     bool is_uniform_ = true;
 };
 

@@ -1,0 +1,35 @@
+// The first step of every integrator that starts at the eye: camera rays for a run of samples of a tile.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/ray.h"
+#include "integrator/integrator.h"
+
+namespace etendue {
+
+/// Pairs of dimensions that camera rays use; integrators begin after them.
+enum CameraDimension : std::uint32_t { kFilmDimension, kLensDimension, kCameraAlphaDimension, kFirstFreeDimension };
+
+/// One camera sample.
+struct CameraSample {
+    SampleKey key;
+    std::uint32_t pixel = 0;  ///< index in the tile, row by row
+    float weight = 1.0f;      ///< of the pixel filter
+};
+
+/// Samples are numbered sample by sample over the whole tile: neighbours in a wave are neighbours in the image.
+[[nodiscard]] inline std::size_t camera_sample_count(const TileJob& job) { return job.rect.area() * job.sample_count; }
+
+/// Makes the camera rays of samples [first, first + rays.size()) of the job.
+void generate_camera_rays(const World& world, const TileJob& job, std::size_t first, std::span<CameraSample> samples,
+                          std::span<Ray> rays);
+
+/// Adds `radiance` to the sample's pixel; drops, counts and locates what is not finite or negative.
+void accumulate(const TileJob& job, const CameraSample& sample, const Rgb& radiance, float alpha, TileBuffer& tile,
+                RenderCounters& counters);
+
+}  // namespace etendue

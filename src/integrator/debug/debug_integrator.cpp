@@ -1,0 +1,56 @@
+#include "integrator/debug/debug_integrator.h"
+
+#include <algorithm>
+
+#include "integrator/camera_wave.h"
+#include "world/scattering.h"
+
+namespace etendue {
+
+namespace {
+
+struct DebugScratch final : IntegratorScratch {
+    static constexpr std::size_t kCapacity = 1024;
+    std::vector<CameraSample> samples = std::vector<CameraSample>(kCapacity);
+    std::vector<Ray> rays = std::vector<Ray>(kCapacity);
+    std::vector<Hit> hits = std::vector<Hit>(kCapacity);
+};
+
+/// Samples per hit of the albedo estimate; its noise averages out over the pixel's samples.
+constexpr int kAlbedoSamples = 16;
+
+}  // namespace
+
+std::unique_ptr<IntegratorScratch> DebugIntegrator::make_scratch() const { return std::make_unique<DebugScratch>(); }
+
+void DebugIntegrator::render_tile(const World& world, const TileJob& job, IntegratorScratch& scratch, TileBuffer& tile,
+                                  RenderCounters& counters) const {
+    auto& s = static_cast<DebugScratch&>(scratch);
+    const std::size_t total = camera_sample_count(job);
+    for (std::size_t first = 0; first < total; first += DebugScratch::kCapacity) {
+        const std::size_t count = std::min(DebugScratch::kCapacity, total - first);
+        const auto rays = std::span(s.rays).first(count);
+        const auto hits = std::span(s.hits).first(count);
+        generate_camera_rays(world, job, first, std::span(s.samples).first(count), rays);
+        world.intersect(rays, hits, Coherence::Coherent);
+        counters.camera_rays += count;
+        for (std::size_t i = 0; i < count; ++i) {
+            const bool hit = hits[i].valid();
+            accumulate(job, s.samples[i], hit ? value(world, rays[i], hits[i]) : Rgb(), hit ? 1.0f : 0.0f, tile, counters);
+        }
+    }
+}
+
+Rgb DebugIntegrator::value(const World& world, const Ray& ray, const Hit& hit) const {
+    const SurfacePoint point = world.surface_point(hit);
+    if (quantity_ == DebugQuantity::Normals) {
+        const Vec3f n = point.shading.normal;
+        return {0.5f * n.x + 0.5f, 0.5f * n.y + 0.5f, 0.5f * n.z + 0.5f};
+    }
+    if (point.material->unlit) return world.unlit_color(point);
+    Bsdf storage;
+    const Scattering scattering(world.bsdf(point, storage), point.shading, point.geometric_normal, -ray.direction);
+    return estimate_albedo(scattering.bsdf(), scattering.wo_local(), kAlbedoSamples);
+}
+
+}  // namespace etendue

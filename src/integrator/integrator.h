@@ -1,0 +1,92 @@
+// What every light transport algorithm is: something that adds samples to one tile.
+//
+// To add another: a folder with a class that implements `Integrator`, and one line in registry.cpp.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "film/film.h"
+#include "film/pixel_filter.h"
+#include "sampling/sampler.h"
+#include "world/world.h"
+
+namespace etendue {
+
+/// The samples to take: `sample_count` of every pixel of `rect`, beginning with index `first_sample`.
+struct TileJob {
+    PixelRect rect;
+    int full_width = 0;
+    int full_height = 0;
+    std::uint32_t first_sample = 0;
+    std::uint32_t sample_count = 1;
+    std::uint32_t seed = 0;
+    SampleSequence sequence = SampleSequence::Sobol;
+    const PixelFilter* filter = nullptr;  ///< not null
+};
+
+/// A sample that was not a finite, non-negative number.
+struct DroppedSample {
+    int x = 0;
+    int y = 0;
+    std::uint32_t sample = 0;
+};
+
+/// What rendering counts. One per thread, added up at the end.
+struct RenderCounters {
+    std::uint64_t camera_rays = 0;
+    std::uint64_t bounce_rays = 0;
+    std::uint64_t shadow_rays = 0;
+    std::uint64_t samples = 0;
+    std::uint64_t dropped = 0;
+    std::vector<DroppedSample> first_dropped;  ///< at most kMaxLocated
+
+    static constexpr std::size_t kMaxLocated = 8;
+
+    [[nodiscard]] std::uint64_t rays() const { return camera_rays + bounce_rays + shadow_rays; }
+    void drop(const DroppedSample& sample);
+    void add(const RenderCounters& other);
+};
+
+/// Path lengths are in edges: 1 is a light seen directly, 2 is direct light on a surface.
+struct IntegratorOptions {
+    int max_depth = 32;
+    int min_depth = 1;
+    int roulette_depth = 5;
+};
+
+/// Memory that a thread keeps from tile to tile; each integrator has its own kind.
+class IntegratorScratch {
+  public:
+    virtual ~IntegratorScratch() = default;
+};
+
+class Integrator {
+  public:
+    virtual ~Integrator() = default;
+
+    [[nodiscard]] virtual std::unique_ptr<IntegratorScratch> make_scratch() const = 0;
+
+    /// Adds the samples of `job` to `tile`, which has been reset to its rectangle. The result depends on `job` and the
+    /// world only. `scratch` comes from `make_scratch` and is used by no other call at the same time.
+    virtual void render_tile(const World& world, const TileJob& job, IntegratorScratch& scratch, TileBuffer& tile,
+                             RenderCounters& counters) const = 0;
+};
+
+/// One line of the registry.
+struct IntegratorEntry {
+    std::string_view name;
+    std::string_view summary;  ///< for --help
+    std::unique_ptr<const Integrator> (*make)(const IntegratorOptions&);
+};
+
+[[nodiscard]] std::span<const IntegratorEntry> integrator_registry();
+
+/// Null if there is no integrator of that name.
+[[nodiscard]] std::unique_ptr<const Integrator> make_integrator(std::string_view name, const IntegratorOptions& options);
+
+}  // namespace etendue

@@ -1,0 +1,19 @@
+#include "integrator/path/path_integrator.h"
+
+#include <algorithm>
+
+#include "integrator/path/path_wave.h"
+
+namespace etendue {
+
+std::unique_ptr<IntegratorScratch> PathIntegrator::make_scratch() const { return std::make_unique<PathWave>(); }
+
+void PathIntegrator::render_tile(const World& world, const TileJob& job, IntegratorScratch& scratch, TileBuffer& tile,
+                                 RenderCounters& counters) const {
+    auto& wave = static_cast<PathWave&>(scratch);
+    const std::size_t total = camera_sample_count(job);
+    for (std::size_t first = 0; first < total; first += PathWave::kCapacity)
+        wave.trace(world, job, options_, first, std::min(PathWave::kCapacity, total - first), tile, counters);
+}
+
+}  // namespace etendue

@@ -1,0 +1,29 @@
+// Path tracing: eye paths that meet light by next-event estimation and by chance, combined by multiple importance sampling
+// (Kajiya 1986; Veach 1997, chapter 9; Russian roulette after Arvo and Kirk 1990).
+//
+// Written as steps over a wave of paths: generate, then per bounce intersect, shade, test shadow rays, add. With
+// `sample_lights` off it is the naive path tracer, which finds lights by chance only.
+#pragma once
+
+#include "integrator/integrator.h"
+
+namespace etendue {
+
+struct PathOptions {
+    IntegratorOptions lengths;
+    bool sample_lights = true;
+};
+
+class PathIntegrator final : public Integrator {
+  public:
+    explicit PathIntegrator(const PathOptions& options) : options_(options) {}
+
+    [[nodiscard]] std::unique_ptr<IntegratorScratch> make_scratch() const override;
+    void render_tile(const World& world, const TileJob& job, IntegratorScratch& scratch, TileBuffer& tile,
+                     RenderCounters& counters) const override;
+
+  private:
+    PathOptions options_;
+};
+
+}  // namespace etendue

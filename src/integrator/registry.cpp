@@ -1,0 +1,52 @@
+// All integrators, in the order in which --help lists them.
+#include <algorithm>
+
+#include "integrator/debug/debug_integrator.h"
+#include "integrator/integrator.h"
+#include "integrator/path/path_integrator.h"
+
+namespace etendue {
+
+namespace {
+
+std::unique_ptr<const Integrator> make_path(const IntegratorOptions& options) {
+    return std::make_unique<PathIntegrator>(PathOptions{.lengths = options});
+}
+
+std::unique_ptr<const Integrator> make_direct(const IntegratorOptions& options) {
+    IntegratorOptions one_bounce = options;
+    one_bounce.max_depth = std::min(options.max_depth, 2);
+    return std::make_unique<PathIntegrator>(PathOptions{.lengths = one_bounce});
+}
+
+std::unique_ptr<const Integrator> make_naive(const IntegratorOptions& options) {
+    return std::make_unique<PathIntegrator>(PathOptions{.lengths = options, .sample_lights = false});
+}
+
+std::unique_ptr<const Integrator> make_normals(const IntegratorOptions&) {
+    return std::make_unique<DebugIntegrator>(DebugQuantity::Normals);
+}
+
+std::unique_ptr<const Integrator> make_albedo(const IntegratorOptions&) {
+    return std::make_unique<DebugIntegrator>(DebugQuantity::Albedo);
+}
+
+constexpr IntegratorEntry kRegistry[] = {
+    {"path", "eye paths with light sampling, combined by MIS", make_path},
+    {"direct", "path, one bounce only", make_direct},
+    {"naive", "eye paths that find lights by chance", make_naive},
+    {"normals", "shading normals, for debugging", make_normals},
+    {"albedo", "scattered share of light, for debugging", make_albedo},
+};
+
+}  // namespace
+
+std::span<const IntegratorEntry> integrator_registry() { return kRegistry; }
+
+std::unique_ptr<const Integrator> make_integrator(std::string_view name, const IntegratorOptions& options) {
+    for (const IntegratorEntry& entry : kRegistry)
+        if (entry.name == name) return entry.make(options);
+    return nullptr;
+}
+
+}  // namespace etendue

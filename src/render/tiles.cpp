@@ -1,0 +1,27 @@
+#include "render/tiles.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "sampling/hash.h"
+
+namespace etendue {
+
+std::vector<PixelRect> make_tiles(const PixelRect& window, std::uint32_t order_seed) {
+    std::vector<PixelRect> tiles;
+    for (int y = window.y0 / kTileSize * kTileSize; y < window.y1; y += kTileSize)
+        for (int x = window.x0 / kTileSize * kTileSize; x < window.x1; x += kTileSize)
+            tiles.push_back({std::max(x, window.x0), std::max(y, window.y0), std::min(x + kTileSize, window.x1),
+                             std::min(y + kTileSize, window.y1)});
+    if (order_seed != 0)
+        for (std::size_t i = tiles.size(); i > 1; --i)
+            std::swap(tiles[i - 1], tiles[hash_combine(order_seed, static_cast<std::uint32_t>(i)) % i]);
+    return tiles;
+}
+
+std::uint32_t pass_size(std::uint32_t done, std::uint32_t total) {
+    constexpr std::uint32_t kLargest = 16;
+    return std::min(std::clamp(done, 1u, kLargest), total - done);
+}
+
+}  // namespace etendue

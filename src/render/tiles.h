@@ -1,0 +1,23 @@
+// How an image is cut into tiles, and samples into passes.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "film/film.h"
+
+namespace etendue {
+
+/// Side of a tile in pixels: two samples of every pixel fill a wave of paths.
+inline constexpr int kTileSize = 32;
+
+/// Tiles of a grid that is anchored at the full image's origin, cut to `window`, row by row; or shuffled by `order_seed`
+/// if it is not 0.
+[[nodiscard]] std::vector<PixelRect> make_tiles(const PixelRect& window, std::uint32_t order_seed);
+
+/// Samples of the pass that begins after `done` of `total` samples: 1, 1, 2, 4, 8, 16, 16, … so that the first picture
+/// comes soon, stopping is prompt, and later passes fill their waves. Depends on `done` only, so that a render that is
+/// cut short agrees with the beginning of a longer one.
+[[nodiscard]] std::uint32_t pass_size(std::uint32_t done, std::uint32_t total);
+
+}  // namespace etendue

@@ -1,0 +1,39 @@
+#include <cmath>
+#include <vector>
+
+#include "world/compile_parts.h"
+
+namespace etendue {
+
+namespace {
+
+const CameraDesc& find_camera(const SceneDesc& scene) {
+    if (scene.cameras.empty()) throw SceneError({scene.file.string(), ""}, "the scene has no camera");
+    if (scene.settings.camera.empty()) return scene.cameras.front();
+    std::vector<std::string_view> names;
+    for (const CameraDesc& camera : scene.cameras) {
+        if (camera.name == scene.settings.camera) return camera;
+        names.push_back(camera.name);
+    }
+    const std::string nearest = nearest_name(scene.settings.camera, names);
+    throw SceneError({scene.file.string(), ""},
+                     "no camera is named '" + scene.settings.camera + "'" +
+                         (nearest.empty() ? "; the first is '" + std::string(names.front()) + "'"
+                                          : "; did you mean '" + nearest + "'?"));
+}
+
+}  // namespace
+
+Camera compile_camera(const SceneDesc& scene) {
+    const CameraDesc& desc = find_camera(scene);
+    const FilmSettings& film = scene.settings.film;
+    const float aspect = static_cast<float>(film.width) / static_cast<float>(film.height);
+    const CameraPose pose = CameraPose::from_matrix(desc.to_world);
+    if (desc.type == CameraType::Orthographic) return OrthographicCamera{pose, desc.ymag * aspect, desc.ymag};
+    const float half_height = std::tan(0.5f * desc.yfov);
+    const PinholeCamera pinhole{pose, half_height * aspect, half_height};
+    if (desc.lens_radius > 0.0f) return ThinLensCamera{pinhole, desc.lens_radius, desc.focus_distance};
+    return pinhole;
+}
+
+}  // namespace etendue

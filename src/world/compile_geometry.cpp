@@ -1,0 +1,108 @@
+#include <cmath>
+#include <utility>
+
+#include "world/compile_parts.h"
+
+namespace etendue {
+
+namespace {
+
+Geometry take_geometry(PrimitiveDesc& primitive) {
+    Geometry geometry;
+    geometry.positions = std::move(primitive.positions);
+    // Embree reads 16 bytes at each vertex, so one float beyond the last must be ours.
+    geometry.positions.reserve(geometry.positions.size() + 1);
+    geometry.normals = std::move(primitive.normals);
+    geometry.tangents = std::move(primitive.tangents);
+    geometry.uv0 = std::move(primitive.uv0);
+    geometry.uv1 = std::move(primitive.uv1);
+    geometry.colors = std::move(primitive.colors);
+    geometry.triangles = std::move(primitive.triangles);
+    geometry.material = static_cast<std::uint32_t>(primitive.material.index);
+    return geometry;
+}
+
+bool mirrors(const Mat4f& m) {
+    const Vec3f x(m[0][0], m[0][1], m[0][2]);
+    const Vec3f y(m[1][0], m[1][1], m[1][2]);
+    const Vec3f z(m[2][0], m[2][1], m[2][2]);
+    return dot(cross(x, y), z) < 0.0f;
+}
+
+Vec3f normalized_or_zero(const Vec3f& v) {
+    const float l = length(v);
+    return l > 0.0f ? v * (1.0f / l) : v;
+}
+
+/// Moves a mesh to world space. A mirroring transform turns the winding around, which is put right here, so that the
+/// front stays the front (glTF 2.0, section 3.7.4).
+void bake(Geometry& geometry, const Mat4f& to_world) {
+    const Mat4f to_local = to_world.inverse();
+    const bool mirrored = mirrors(to_world);
+    for (Vec3f& p : geometry.positions) p = transform_point(to_world, p);
+    for (Vec3f& n : geometry.normals) n = normalized_or_zero(transform_normal(to_local, n));
+    for (Vec4f& t : geometry.tangents) {
+        const Vec3f world = normalized_or_zero(transform_vector(to_world, {t.x, t.y, t.z}));
+        t = {world.x, world.y, world.z, mirrored ? -t.w : t.w};
+    }
+    if (mirrored)
+        for (auto& triangle : geometry.triangles) std::swap(triangle[1], triangle[2]);
+}
+
+void extend_bounds(WorldData& data, const Instance& instance) {
+    for (std::uint32_t g = 0; g < instance.geometry_count; ++g) {
+        Bounds local;
+        for (const Vec3f& p : data.geometries[instance.first_geometry + g].positions) local.extend(p);
+        if (instance.baked || local.empty()) {
+            data.bounds.extend(local);
+            continue;
+        }
+        for (int corner = 0; corner < 8; ++corner)
+            data.bounds.extend(transform_point(instance.to_world, {(corner & 1) != 0 ? local.max.x : local.min.x,
+                                                                   (corner & 2) != 0 ? local.max.y : local.min.y,
+                                                                   (corner & 4) != 0 ? local.max.z : local.min.z}));
+    }
+}
+
+}  // namespace
+
+void compile_geometry(SceneDesc& scene, const ThreadPool& threads, WorldData& data) {
+    std::vector<std::uint32_t> uses(scene.meshes.size(), 0);
+    for (const InstanceDesc& desc : scene.instances) ++uses[static_cast<std::size_t>(desc.mesh.index)];
+
+    std::vector<std::uint32_t> first_geometry(scene.meshes.size(), 0);
+    for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+        first_geometry[m] = static_cast<std::uint32_t>(data.geometries.size());
+        if (uses[m] == 0) continue;
+        for (PrimitiveDesc& primitive : scene.meshes[m].primitives)
+            data.geometries.push_back(take_geometry(primitive));
+    }
+
+    std::uint32_t light_slots = 0;
+    for (const InstanceDesc& desc : scene.instances) {
+        const auto mesh = static_cast<std::size_t>(desc.mesh.index);
+        Instance instance;
+        instance.first_geometry = first_geometry[mesh];
+        instance.geometry_count = static_cast<std::uint32_t>(scene.meshes[mesh].primitives.size());
+        instance.first_light_slot = light_slots;
+        light_slots += instance.geometry_count;
+        instance.baked = uses[mesh] == 1;
+        if (!instance.baked) {
+            instance.to_world = desc.to_world;
+            instance.to_local = desc.to_world.inverse();
+            instance.mirrors = mirrors(desc.to_world);
+        }
+        data.instances.push_back(instance);
+    }
+    data.light_of_slot.assign(light_slots, kNone);
+
+    threads.parallel_for(data.instances.size(), [&](std::size_t i, int) {
+        const Instance& instance = data.instances[i];
+        if (!instance.baked) return;
+        for (std::uint32_t g = 0; g < instance.geometry_count; ++g)
+            bake(data.geometries[instance.first_geometry + g], scene.instances[i].to_world);
+    });
+    for (const Instance& instance : data.instances) extend_bounds(data, instance);
+}
+
+}  // namespace etendue

@@ -1,0 +1,124 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "image/read.h"
+#include "world/compile_parts.h"
+
+namespace etendue {
+
+namespace {
+
+/// Emissive triangles that get an entry in a light's table, all instances together: at 48 bytes each, 768 MiB. What is
+/// beyond is found by chance only, which is slower but not wrong.
+constexpr std::size_t kMaxLightTriangles = std::size_t{1} << 24;
+
+Light compile_punctual(const LightDesc& desc, const ColorMatrix& from_rec709) {
+    const Vec3f position = transform_point(desc.to_world, Vec3f(0.0f));
+    const Vec3f axis = normalize(transform_vector(desc.to_world, {0.0f, 0.0f, -1.0f}));
+    const Rgb intensity = from_rec709(desc.color) * desc.intensity;
+    switch (desc.type) {
+        case LightType::Point: return PointLight{position, intensity};
+        case LightType::Directional: return DirectionalLight{axis, intensity};
+        case LightType::Spot: break;
+    }
+    // Equal cones make a hard edge; a falloff over nothing would divide by zero.
+    const float cos_outer = std::cos(desc.outer_cone_angle);
+    const float cos_inner = std::max(std::cos(desc.inner_cone_angle), cos_outer + 1e-4f);
+    return SpotLight{position, axis, intensity, cos_inner, cos_outer};
+}
+
+Light compile_environment(const EnvironmentDesc& desc, const ColorMatrix& from_rec709) {
+    const Rgb tint = desc.color * desc.scale;
+    if (desc.image.empty()) return ConstantEnvironment{from_rec709(tint)};
+    ImageF file;
+    try {
+        file = read_image_float(desc.image);
+    } catch (const IoError& error) {
+        throw SceneError(desc.location, "the environment image '" + desc.image.string() + "' cannot be read: " +
+                                            error.what());
+    }
+    ImageF image(file.width, file.height, 3);
+    for (int y = 0; y < file.height; ++y) {
+        for (int x = 0; x < file.width; ++x) {
+            const auto from = file.pixel(x, y);
+            const Rgb rec709 = file.channels >= 3 ? Rgb(from[0], from[1], from[2]) : Rgb(from[0]);
+            const Rgb value = from_rec709(rec709 * tint);
+            const auto to = image.pixel(x, y);
+            to[0] = value.r;
+            to[1] = value.g;
+            to[2] = value.b;
+        }
+    }
+    return ImageEnvironment(std::move(image), desc.rotation);
+}
+
+std::vector<LightTriangle> world_triangles(const Geometry& geometry, const Instance& instance) {
+    std::vector<LightTriangle> triangles;
+    triangles.reserve(geometry.triangles.size());
+    for (const auto& t : geometry.triangles) {
+        Vec3f p[3] = {geometry.positions[t[0]], geometry.positions[t[1]], geometry.positions[t[2]]};
+        if (!instance.baked)
+            for (Vec3f& corner : p) corner = transform_point(instance.to_world, corner);
+        triangles.push_back({p[0], p[1] - p[0], p[2] - p[0]});
+    }
+    return triangles;
+}
+
+Rgb mean_emission(const WorldData& data, const Material& material) {
+    Rgb mean = material.emission;
+    if (material.emission_texture.valid()) {
+        const Texture& texture = data.textures[static_cast<std::size_t>(material.emission_texture.texture)];
+        mean = data.from_rec709(mean * texture.mean().rgb);
+    }
+    return mean;
+}
+
+void compile_mesh_lights(WorldData& data, ProblemList& problems) {
+    std::size_t triangle_count = 0;
+    std::size_t skipped = 0;
+    for (std::size_t i = 0; i < data.instances.size(); ++i) {
+        const Instance& instance = data.instances[i];
+        for (std::uint32_t g = 0; g < instance.geometry_count; ++g) {
+            const std::uint32_t index = instance.first_geometry + g;
+            const Geometry& geometry = data.geometries[index];
+            const Material& material = data.materials[geometry.material];
+            if (!material.emits || geometry.triangles.empty()) continue;
+            if (triangle_count + geometry.triangles.size() > kMaxLightTriangles) {
+                skipped += geometry.triangles.size();
+                continue;
+            }
+            triangle_count += geometry.triangles.size();
+            const bool uniform = !material.emission_texture.valid() && material.alpha_test == AlphaTest::Opaque;
+            MeshLight light(world_triangles(geometry, instance), material.emission, mean_emission(data, material),
+                            material.emits_both_sides, instance.mirrors, uniform);
+            if (!(light.area() > 0.0f)) continue;
+            data.light_of_slot[instance.first_light_slot + g] = static_cast<std::uint32_t>(data.lights.size());
+            data.lights.emplace_back(std::move(light));
+            data.emitter_of_light.push_back({static_cast<std::uint32_t>(i), index});
+        }
+    }
+    if (skipped > 0)
+        problems.warning({}, std::to_string(skipped) + " emissive triangles are beyond the limit of " +
+                                 std::to_string(kMaxLightTriangles) +
+                                 " for light sampling and will be found by chance only: expect noise");
+}
+
+}  // namespace
+
+void compile_lights(const SceneDesc& scene, WorldData& data, ProblemList& problems) {
+    for (const LightDesc& desc : scene.lights) {
+        if (!(desc.intensity > 0.0f) || !(max_component(desc.color) > 0.0f)) continue;
+        data.lights.push_back(compile_punctual(desc, data.from_rec709));
+        data.emitter_of_light.emplace_back();
+    }
+    compile_mesh_lights(data, problems);
+    if (scene.environment.enabled) {
+        data.environment = static_cast<std::uint32_t>(data.lights.size());
+        data.environment_visible = scene.environment.visible_to_camera;
+        data.lights.push_back(compile_environment(scene.environment, data.from_rec709));
+        data.emitter_of_light.emplace_back();
+    }
+}
+
+}  // namespace etendue

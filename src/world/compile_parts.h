@@ -1,0 +1,49 @@
+// The steps of compile_world, one file each. Each reads the description and fills its part of the WorldData.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "color/color_config.h"
+#include "core/error.h"
+#include "core/parallel.h"
+#include "scene/scene_desc.h"
+#include "world/world.h"
+
+namespace etendue {
+
+/// How a texture is used, which decides how it is decoded.
+enum class TextureUse { Color, Data };
+
+/// Hands out indices of textures and decodes each once per use, in parallel.
+class TextureCompiler {
+  public:
+    TextureCompiler(const SceneDesc& scene) : scene_(scene) {}
+
+    /// The slot for `ref`; invalid if `ref` is.
+    [[nodiscard]] TextureSlot slot(const TextureRef& ref, TextureUse use);
+    /// Decodes everything asked for. Throws SceneError if an image cannot be decoded.
+    [[nodiscard]] std::vector<Texture> decode(const ThreadPool& threads) const;
+
+  private:
+    struct Request {
+        std::size_t texture;
+        TextureUse use;
+    };
+    const SceneDesc& scene_;
+    std::vector<Request> requests_;
+};
+
+[[nodiscard]] std::vector<Material> compile_materials(const SceneDesc& scene, const ColorMatrix& from_rec709,
+                                                      TextureCompiler& textures);
+
+/// Moves the meshes of `scene` into `data`: bakes those that are placed once, keeps shared ones for instancing.
+void compile_geometry(SceneDesc& scene, const ThreadPool& threads, WorldData& data);
+
+/// Punctual lights, emissive meshes and the environment. Needs materials, textures and geometry in `data`.
+void compile_lights(const SceneDesc& scene, WorldData& data, ProblemList& problems);
+
+/// Throws SceneError if the camera that the settings name does not exist.
+[[nodiscard]] Camera compile_camera(const SceneDesc& scene);
+
+}  // namespace etendue

@@ -1,0 +1,218 @@
+#include "world/embree_scene.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <unordered_map>
+
+#include "core/error.h"
+#include "sampling/hash.h"
+
+namespace etendue {
+
+namespace {
+
+/// What a filter function needs beside the hit: the scene, and the rays of the batch for their alpha keys.
+struct QueryContext {
+    embree::Context base;  // first, so that Embree's pointer to it is a pointer to this
+    const EmbreeScene* scene;
+    const Ray* rays;
+};
+
+/// Lets rays pass partly transparent surfaces with the probability of their transparency. The decision is a hash of the
+/// ray's key and the triangle, so that a ray decides the same way however often Embree asks.
+void filter_by_opacity(const RTCFilterFunctionNArguments* args) {
+    const auto* context = reinterpret_cast<const QueryContext*>(args->context);
+    for (unsigned int i = 0; i < args->N; ++i) {
+        if (args->valid[i] != -1) continue;
+        const unsigned int inner = RTCHitN_geomID(args->hit, args->N, i);
+        const unsigned int instance = RTCHitN_instID(args->hit, args->N, i, 0);
+        const bool is_instance = instance != RTC_INVALID_GEOMETRY_ID;
+        const auto entry = context->scene->resolve(is_instance ? instance : inner, inner, is_instance);
+        const unsigned int triangle = RTCHitN_primID(args->hit, args->N, i);
+        const Vec2f barycentric{RTCHitN_u(args->hit, args->N, i), RTCHitN_v(args->hit, args->N, i)};
+        const float opacity = context->scene->opacity(entry.geometry, triangle, barycentric);
+        const std::uint32_t key = context->rays[RTCRayN_id(args->ray, args->N, i)].alpha_key;
+        const std::uint32_t bits = hash_combine(hash_combine(hash_combine(key, entry.instance), entry.geometry), triangle);
+        if (to_unit_float(bits) >= opacity) args->valid[i] = 0;
+    }
+}
+
+std::atomic<std::size_t>& memory_counter(void* pointer) { return *static_cast<std::atomic<std::size_t>*>(pointer); }
+
+bool count_memory(void* counter, ssize_t bytes, bool /*post*/) {
+    memory_counter(counter).fetch_add(static_cast<std::size_t>(bytes), std::memory_order_relaxed);
+    return true;
+}
+
+
+constexpr std::size_t kPacket = 16;
+
+/// Rays `first` … of the batch as a packet; lanes beyond the end are invalid.
+struct PacketMask {
+    alignas(64) int valid[kPacket];
+};
+
+void fill_packet(std::span<const Ray> rays, std::size_t first, RTCRay16& packet, PacketMask& mask) {
+    const std::size_t count = std::min(kPacket, rays.size() - first);
+    for (std::size_t lane = 0; lane < kPacket; ++lane) {
+        const Ray& ray = rays[first + std::min(lane, count - 1)];
+        mask.valid[lane] = lane < count ? -1 : 0;
+        packet.org_x[lane] = ray.origin.x;
+        packet.org_y[lane] = ray.origin.y;
+        packet.org_z[lane] = ray.origin.z;
+        packet.tnear[lane] = 0.0f;
+        packet.dir_x[lane] = ray.direction.x;
+        packet.dir_y[lane] = ray.direction.y;
+        packet.dir_z[lane] = ray.direction.z;
+        packet.time[lane] = 0.0f;
+        packet.tfar[lane] = ray.t_max;
+        packet.mask[lane] = 0xffffffffu;
+        packet.id[lane] = static_cast<unsigned int>(first + lane);
+        packet.flags[lane] = 0;
+    }
+}
+
+}  // namespace
+
+EmbreeScene::EmbreeScene(std::span<const Geometry> geometries, std::span<const Instance> instances,
+                         const std::vector<bool>& has_alpha, const ThreadPool& threads) {
+    std::atomic<std::size_t> memory{0};
+    threads.execute([&] {
+        // Embree's own threads would come on top of the pool's; with start_threads=0 it uses the arena it is called from.
+        device_ = rtcNewDevice("start_threads=0,set_affinity=0");
+        if (!device_) throw IoError("Embree could not be started");
+        rtcSetDeviceMemoryMonitorFunction(device_, count_memory, &memory);
+        top_ = rtcNewScene(device_);
+        rtcSetSceneBuildQuality(top_, RTC_BUILD_QUALITY_MEDIUM);
+        std::unordered_map<std::uint32_t, RTCScene> scene_of_mesh;
+        for (std::size_t i = 0; i < instances.size(); ++i) {
+            const Instance& instance = instances[i];
+            const auto index = static_cast<std::uint32_t>(i);
+            if (instance.baked) {
+                for (std::uint32_t g = 0; g < instance.geometry_count; ++g) {
+                    const std::uint32_t geometry = instance.first_geometry + g;
+                    add_triangles(top_, geometries[geometry], has_alpha[geometry]);
+                    top_level_.push_back({index, geometry});
+                }
+                continue;
+            }
+            RTCScene& shared = scene_of_mesh[instance.first_geometry];
+            if (!shared) shared = build_shared_scene(instance, geometries, has_alpha);
+            RTCGeometry placed = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
+            rtcSetGeometryInstancedScene(placed, shared);
+            rtcSetGeometryTransform(placed, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, instance.to_world.getValue());
+            rtcCommitGeometry(placed);
+            rtcAttachGeometry(top_, placed);
+            rtcReleaseGeometry(placed);
+            top_level_.push_back({index, instance.first_geometry});
+        }
+        rtcCommitScene(top_);
+    });
+    any_alpha_ = std::find(has_alpha.begin(), has_alpha.end(), true) != has_alpha.end();
+    rtcSetDeviceMemoryMonitorFunction(device_, nullptr, nullptr);
+    bytes_ = memory.load();
+    const RTCError error = rtcGetDeviceError(device_);
+    if (error != RTC_ERROR_NONE)
+        throw IoError("Embree could not build the scene (error " + std::to_string(static_cast<int>(error)) +
+                      (error == RTC_ERROR_OUT_OF_MEMORY ? ", out of memory)" : ")"));
+}
+
+EmbreeScene::~EmbreeScene() {
+    for (RTCScene scene : shared_) rtcReleaseScene(scene);
+    if (top_) rtcReleaseScene(top_);
+    if (device_) rtcReleaseDevice(device_);
+}
+
+void EmbreeScene::add_triangles(RTCScene scene, const Geometry& geometry, bool has_alpha) const {
+    RTCGeometry mesh = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+    rtcSetSharedGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, geometry.positions.data(), 0,
+                               sizeof(Vec3f), geometry.positions.size());
+    rtcSetSharedGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, geometry.triangles.data(), 0,
+                               sizeof(std::array<std::uint32_t, 3>), geometry.triangles.size());
+    if (has_alpha) {
+        rtcSetGeometryIntersectFilterFunction(mesh, filter_by_opacity);
+        rtcSetGeometryOccludedFilterFunction(mesh, filter_by_opacity);
+    }
+    rtcCommitGeometry(mesh);
+    rtcAttachGeometry(scene, mesh);
+    rtcReleaseGeometry(mesh);
+}
+
+RTCScene EmbreeScene::build_shared_scene(const Instance& instance, std::span<const Geometry> geometries,
+                                         const std::vector<bool>& has_alpha) {
+    RTCScene scene = rtcNewScene(device_);
+    shared_.push_back(scene);
+    for (std::uint32_t g = 0; g < instance.geometry_count; ++g) {
+        const std::uint32_t geometry = instance.first_geometry + g;
+        add_triangles(scene, geometries[geometry], has_alpha[geometry]);
+    }
+    rtcCommitScene(scene);
+    return scene;
+}
+
+void EmbreeScene::set_opacity(OpacityFunction function, const void* world) {
+    opacity_ = function;
+    world_ = world;
+}
+
+void EmbreeScene::intersect(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence) const {
+    const bool coherent = coherence == Coherence::Coherent;
+    QueryContext context{{}, this, rays.data()};
+    embree::init_context(context.base, coherent);
+    const auto store = [&](std::size_t i, float t, float u, float v, unsigned int triangle, unsigned int inner,
+                           unsigned int instance) {
+        Hit& hit = hits[i];
+        if (inner == RTC_INVALID_GEOMETRY_ID) {
+            hit.instance = kNone;
+            return;
+        }
+        const bool is_instance = instance != RTC_INVALID_GEOMETRY_ID;
+        const TopLevelEntry entry = resolve(is_instance ? instance : inner, inner, is_instance);
+        hit = {t, u, v, triangle, entry.geometry, entry.instance};
+    };
+    PacketMask mask;
+    RTCRayHit16 packet;
+    for (std::size_t first = 0; first < rays.size(); first += kPacket) {
+        fill_packet(rays, first, packet.ray, mask);
+        std::fill_n(packet.hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
+        std::fill_n(packet.hit.instID[0], kPacket, RTC_INVALID_GEOMETRY_ID);
+        embree::intersect16(mask.valid, top_, context.base, coherent, packet);
+        const std::size_t count = std::min(kPacket, rays.size() - first);
+        for (std::size_t lane = 0; lane < count; ++lane)
+            store(first + lane, packet.ray.tfar[lane], packet.hit.u[lane], packet.hit.v[lane], packet.hit.primID[lane],
+                  packet.hit.geomID[lane], packet.hit.instID[0][lane]);
+    }
+}
+
+void EmbreeScene::occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, Coherence coherence) const {
+    const bool coherent = coherence == Coherence::Coherent;
+    QueryContext context{{}, this, rays.data()};
+    embree::init_context(context.base, coherent);
+    PacketMask mask;
+    RTCRay16 packet;
+    for (std::size_t first = 0; first < rays.size(); first += kPacket) {
+        fill_packet(rays, first, packet, mask);
+        embree::occluded16(mask.valid, top_, context.base, coherent, packet);
+        const std::size_t count = std::min(kPacket, rays.size() - first);
+        // Embree marks occluded rays with tfar = -inf.
+        for (std::size_t lane = 0; lane < count; ++lane) occluded[first + lane] = packet.tfar[lane] < 0.0f ? 1 : 0;
+    }
+}
+
+RayTracerInfo ray_tracer_info() {
+    RayTracerInfo info;
+    info.version = RTC_VERSION_STRING;
+    RTCDevice device = rtcNewDevice("start_threads=0,set_affinity=0");
+    if (!device) return info;
+    const auto supports = [&](RTCDeviceProperty property) { return rtcGetDeviceProperty(device, property) != 0; };
+    if (supports(RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED)) info.isa = "AVX-512";
+    else if (supports(RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED)) info.isa = "AVX/AVX2";
+    else info.isa = "SSE";
+    rtcReleaseDevice(device);
+    return info;
+}
+
+}  // namespace etendue

@@ -1,0 +1,71 @@
+// The acceleration structure, and how batches of rays go through it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "core/bounds.h"
+#include "core/parallel.h"
+#include "core/ray.h"
+#include "world/embree.h"
+#include "world/geometry.h"
+#include "world/world.h"
+
+namespace etendue {
+
+/// Opacity of a triangle at a point, [0, 1].
+using OpacityFunction = float (*)(const void* world, std::uint32_t geometry, std::uint32_t triangle, Vec2f barycentric);
+
+/// Owns the Embree device and scenes. Baked geometry sits in the top-level scene; a shared mesh has a scene of its own,
+/// built once, and instances in the top-level one.
+class EmbreeScene {
+  public:
+    /// Builds all BVHs with the threads of `threads`. The geometries' vectors must stay where they are: Embree reads them.
+    /// `has_alpha[g]` says which geometries need their opacity evaluated.
+    EmbreeScene(std::span<const Geometry> geometries, std::span<const Instance> instances,
+                const std::vector<bool>& has_alpha, const ThreadPool& threads);
+    ~EmbreeScene();
+    EmbreeScene(const EmbreeScene&) = delete;
+    EmbreeScene& operator=(const EmbreeScene&) = delete;
+
+    /// Called once the World has its final address.
+    void set_opacity(OpacityFunction function, const void* world);
+
+    void intersect(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence) const;
+    void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, Coherence coherence) const;
+
+    [[nodiscard]] std::size_t bytes() const { return bytes_; }
+
+    /// What one top-level entry of Embree stands for.
+    struct TopLevelEntry {
+        std::uint32_t instance;
+        std::uint32_t geometry;  ///< of baked geometry itself, or the first of an instanced mesh
+    };
+    /// How a hit on top-level entry `top`, geometry `inner` of its scene if it is an instance, reads in our numbers.
+    [[nodiscard]] TopLevelEntry resolve(std::uint32_t top, std::uint32_t inner, bool is_instance) const {
+        const TopLevelEntry entry = top_level_[top];
+        return is_instance ? TopLevelEntry{entry.instance, entry.geometry + inner} : entry;
+    }
+    [[nodiscard]] float opacity(std::uint32_t geometry, std::uint32_t triangle, Vec2f barycentric) const {
+        return opacity_(world_, geometry, triangle, barycentric);
+    }
+
+  private:
+    void add_triangles(RTCScene scene, const Geometry& geometry, bool has_alpha) const;
+    RTCScene build_shared_scene(const Instance& instance, std::span<const Geometry> geometries,
+                                const std::vector<bool>& has_alpha);
+
+    RTCDevice device_ = nullptr;
+    RTCScene top_ = nullptr;
+    std::vector<RTCScene> shared_;
+    std::vector<TopLevelEntry> top_level_;
+    OpacityFunction opacity_ = nullptr;
+    const void* world_ = nullptr;
+    std::size_t bytes_ = 0;
+    bool any_alpha_ = false;
+};
+
+}  // namespace etendue

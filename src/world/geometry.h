@@ -1,0 +1,39 @@
+// Triangles as the World keeps them: the arrays that Embree reads and that shading interpolates.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/vec.h"
+
+namespace etendue {
+
+/// One primitive of a mesh. A mesh that is placed once is baked to world space, one that is shared stays in mesh space.
+/// Attributes are empty or one per vertex. 12 bytes a triangle, 12 to 76 bytes a vertex.
+struct Geometry {
+    std::vector<Vec3f> positions;
+    std::vector<Vec3f> normals;
+    std::vector<Vec4f> tangents;
+    std::vector<Vec2f> uv0;
+    std::vector<Vec2f> uv1;
+    std::vector<Vec4f> colors;
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    std::uint32_t material = 0;
+};
+
+inline constexpr std::uint32_t kNone = 0xffffffffu;
+
+/// A mesh in the world.
+struct Instance {
+    std::uint32_t first_geometry = 0;
+    std::uint32_t geometry_count = 0;
+    /// Where this instance's entries begin in the World's table of lights, one per geometry.
+    std::uint32_t first_light_slot = 0;
+    bool baked = true;  ///< geometry is in world space already; the matrices are identities
+    bool mirrors = false;  ///< to_world turns right-handed into left-handed
+    Mat4f to_world;
+    Mat4f to_local;
+};
+
+}  // namespace etendue

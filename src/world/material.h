@@ -1,0 +1,58 @@
+// Materials as they are evaluated: colours in the working space, textures resolved to indices.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <variant>
+
+#include "bsdf/bsdf.h"
+#include "color/color_config.h"
+#include "core/rgb.h"
+#include "core/vec.h"
+
+namespace etendue {
+
+/// A texture with its coordinates: uv' = (row0 · (u, v, 1), row1 · (u, v, 1)).
+struct TextureSlot {
+    std::int32_t texture = -1;
+    int texcoord = 0;
+    Vec3f row0{1.0f, 0.0f, 0.0f};
+    Vec3f row1{0.0f, 1.0f, 0.0f};
+
+    [[nodiscard]] bool valid() const { return texture >= 0; }
+};
+
+/// Factors of glTF's metallic-roughness model whose textures are looked up at each hit.
+struct GltfModel {
+    Rgb base_color{1.0f};  ///< linear Rec.709, as are the textures; the product is converted
+    TextureSlot base_color_texture;
+    float metallic = 1.0f;
+    float roughness = 1.0f;
+    TextureSlot metallic_roughness_texture;
+    float f0 = 0.04f;
+    float transmission = 0.0f;
+    TextureSlot transmission_texture;
+};
+
+enum class AlphaTest { Opaque, Mask, Blend };
+
+struct Material {
+    /// Either a lobe that is the same everywhere, or the model to evaluate.
+    std::variant<Bsdf, GltfModel> model;
+
+    Rgb emission;           ///< radiance in W/(m² sr): working space, or linear Rec.709 if there is a texture
+    TextureSlot emission_texture;
+    bool emits = false;
+    bool emits_both_sides = false;
+
+    AlphaTest alpha_test = AlphaTest::Opaque;
+    float alpha_cutoff = 0.5f;
+    float alpha_factor = 1.0f;
+    TextureSlot alpha_texture;
+
+    bool unlit = false;     ///< shows its base colour to the eye and scatters nothing
+    TextureSlot normal_texture;
+    float normal_scale = 1.0f;
+};
+
+}  // namespace etendue

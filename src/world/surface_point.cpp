@@ -1,0 +1,85 @@
+#include "world/surface_point.h"
+
+#include <cmath>
+
+#include "world/interpolation.h"
+#include "world/material_evaluation.h"
+#include "world/world.h"
+
+namespace etendue {
+
+namespace {
+
+/// Tangent along increasing u from the triangle's own texture coordinates, mesh space; zero if they are degenerate.
+Vec3f tangent_from_uv(const Geometry& geometry, const std::vector<Vec2f>& uv,
+                      const std::array<std::uint32_t, 3>& triangle, float& bitangent_sign) {
+    bitangent_sign = 1.0f;
+    if (uv.empty()) return Vec3f(0.0f);
+    const Vec3f e1 = geometry.positions[triangle[1]] - geometry.positions[triangle[0]];
+    const Vec3f e2 = geometry.positions[triangle[2]] - geometry.positions[triangle[0]];
+    const Vec2f d1 = uv[triangle[1]] - uv[triangle[0]];
+    const Vec2f d2 = uv[triangle[2]] - uv[triangle[0]];
+    const float determinant = d1.x * d2.y - d1.y * d2.x;
+    if (std::abs(determinant) < 1e-20f) return Vec3f(0.0f);
+    // v grows downwards in glTF's images while tangent space has +Y up, hence the sign.
+    bitangent_sign = determinant < 0.0f ? 1.0f : -1.0f;
+    return (e1 * d2.y - e2 * d1.y) * (1.0f / determinant);
+}
+
+}  // namespace
+
+SurfacePoint make_surface_point(const WorldData& data, std::uint32_t instance_index, std::uint32_t geometry_index,
+                                std::uint32_t triangle_index, Vec2f barycentric) {
+    const Instance& instance = data.instances[instance_index];
+    const Geometry& geometry = data.geometries[geometry_index];
+    const auto& triangle = geometry.triangles[triangle_index];
+    const Material& material = data.materials[geometry.material];
+
+    SurfacePoint point;
+    point.material = &material;
+    point.instance = instance_index;
+    point.geometry = geometry_index;
+    point.triangle = triangle_index;
+
+    const Vec3f p0 = geometry.positions[triangle[0]];
+    const Vec3f e1 = geometry.positions[triangle[1]] - p0;
+    const Vec3f e2 = geometry.positions[triangle[2]] - p0;
+    point.position = p0 + e1 * barycentric.x + e2 * barycentric.y;
+    Vec3f geometric = cross(e1, e2);
+    Vec3f shading = geometry.normals.empty() ? geometric : interpolate(geometry.normals, triangle, barycentric);
+
+    point.uv[0] = interpolate_uv(geometry.uv0, triangle, barycentric);
+    point.uv[1] = interpolate_uv(geometry.uv1, triangle, barycentric);
+    if (!geometry.colors.empty()) point.color = interpolate(geometry.colors, triangle, barycentric);
+
+    const bool normal_mapped = material.normal_texture.valid();
+    Vec3f tangent(0.0f);
+    float bitangent_sign = 1.0f;
+    if (!geometry.tangents.empty()) {
+        const Vec4f t = interpolate(geometry.tangents, triangle, barycentric);
+        tangent = {t.x, t.y, t.z};
+        bitangent_sign = geometry.tangents[triangle[0]].w;
+    } else if (normal_mapped) {
+        tangent = tangent_from_uv(geometry, material.normal_texture.texcoord == 1 ? geometry.uv1 : geometry.uv0,
+                                  triangle, bitangent_sign);
+    }
+
+    if (!instance.baked) {
+        point.position = transform_point(instance.to_world, point.position);
+        geometric = transform_normal(instance.to_local, geometric);
+        shading = transform_normal(instance.to_local, shading);
+        tangent = transform_vector(instance.to_world, tangent);
+        if (instance.mirrors) bitangent_sign = -bitangent_sign;
+    }
+    point.geometric_normal = normalize(geometric);
+    // Interpolated normals can cancel out or point to the back; the triangle's own then stands in.
+    const float shading_length = length(shading);
+    const bool usable = shading_length > 0.0f && dot(shading, point.geometric_normal) > 0.0f;
+    const Vec3f normal = usable ? shading * (1.0f / shading_length) : point.geometric_normal;
+    point.shading = length_squared(tangent) > 0.0f ? Frame::from_normal_and_tangent(normal, tangent)
+                                                   : Frame::from_normal(normal);
+    if (normal_mapped) point.shading = apply_normal_map(data, material, point, bitangent_sign);
+    return point;
+}
+
+}  // namespace etendue

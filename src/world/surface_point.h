@@ -1,0 +1,30 @@
+// A point on a surface, with everything that its material needs.
+#pragma once
+
+#include <cstdint>
+
+#include "core/frame.h"
+#include "core/vec.h"
+
+namespace etendue {
+
+struct Material;
+struct WorldData;
+
+struct SurfacePoint {
+    Vec3f position{0.0f};          ///< world space, metres
+    Vec3f geometric_normal{0.0f};  ///< unit, on the front side (counter-clockwise)
+    Frame shading;                 ///< interpolated and normal-mapped; its normal is on the front side too
+    Vec2f uv[2]{{0.0f, 0.0f}, {0.0f, 0.0f}};
+    Vec4f color{1.0f, 1.0f, 1.0f, 1.0f};  ///< vertex colour, linear Rec.709
+    const Material* material = nullptr;
+    std::uint32_t instance = 0;
+    std::uint32_t geometry = 0;
+    std::uint32_t triangle = 0;
+};
+
+/// The surface at `barycentric` (weights of the second and third vertex) of a triangle of an instance.
+[[nodiscard]] SurfacePoint make_surface_point(const WorldData& data, std::uint32_t instance, std::uint32_t geometry,
+                                              std::uint32_t triangle, Vec2f barycentric);
+
+}  // namespace etendue

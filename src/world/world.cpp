@@ -1,0 +1,128 @@
+#include "world/world.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "world/embree_scene.h"
+#include "world/material_evaluation.h"
+
+namespace etendue {
+
+namespace {
+
+float opacity_callback(const void* data, std::uint32_t geometry, std::uint32_t triangle, Vec2f barycentric) {
+    return evaluate_opacity(*static_cast<const WorldData*>(data), geometry, triangle, barycentric);
+}
+
+float radius_of(const Bounds& bounds) {
+    const float radius = 0.5f * length(bounds.size());
+    return radius > 0.0f ? radius : 1.0f;
+}
+
+template <typename T>
+std::size_t vector_bytes(const std::vector<T>& v) {
+    return v.capacity() * sizeof(T);
+}
+
+}  // namespace
+
+WorldData::WorldData() = default;
+WorldData::~WorldData() = default;
+WorldData::WorldData(WorldData&&) noexcept = default;
+WorldData& WorldData::operator=(WorldData&&) noexcept = default;
+
+World::World(WorldData data)
+    : data_(std::make_unique<WorldData>(std::move(data))), selector_(data_->lights, radius_of(data_->bounds)) {
+    data_->bvh->set_opacity(opacity_callback, data_.get());
+}
+
+World::~World() = default;
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+
+void World::intersect(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence) const {
+    data_->bvh->intersect(rays, hits, coherence);
+}
+
+void World::occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, Coherence coherence) const {
+    data_->bvh->occluded(rays, occluded, coherence);
+}
+
+SurfacePoint World::surface_point(const Hit& hit) const {
+    return make_surface_point(*data_, hit.instance, hit.geometry, hit.triangle, {hit.u, hit.v});
+}
+
+const Bsdf& World::bsdf(const SurfacePoint& point, Bsdf& storage) const {
+    if (const Bsdf* constant = std::get_if<Bsdf>(&point.material->model)) return *constant;
+    storage = evaluate_gltf_model(*data_, std::get<GltfModel>(point.material->model), point);
+    return storage;
+}
+
+Rgb World::emission(const SurfacePoint& point, const Vec3f& wo) const {
+    const Material& material = *point.material;
+    if (!material.emits) return {};
+    if (!material.emits_both_sides && dot(wo, point.geometric_normal) <= 0.0f) return {};
+    return evaluate_emission(*data_, material, point);
+}
+
+Rgb World::unlit_color(const SurfacePoint& point) const {
+    return evaluate_base_color(*data_, std::get<GltfModel>(point.material->model), point);
+}
+
+ChosenLight World::sample_light(const Vec3f& point, float u_light, Vec2f u) const {
+    const AliasTable::Choice choice = selector_.sample(u_light);
+    const Light& light = data_->lights[choice.index];
+    ChosenLight chosen{etendue::sample_light(light, point, u), choice.probability};
+    LightSample& sample = chosen.sample;
+    sample.pdf_solid_angle *= choice.probability;
+    const MeshLight* mesh = std::get_if<MeshLight>(&light);
+    if (mesh && !mesh->is_uniform() && !is_black(sample.radiance)) {
+        const Emitter& emitter = data_->emitter_of_light[choice.index];
+        const SurfacePoint on_light =
+            make_surface_point(*data_, emitter.instance, emitter.geometry, sample.triangle, sample.barycentric);
+        sample.radiance = emission(on_light, -sample.wi) *
+                          evaluate_opacity(*data_, emitter.geometry, sample.triangle, sample.barycentric);
+    }
+    return chosen;
+}
+
+float World::emitter_pdf_solid_angle(const SurfacePoint& point, const Vec3f& direction, float distance) const {
+    const Instance& instance = data_->instances[point.instance];
+    const std::uint32_t light =
+        data_->light_of_slot[instance.first_light_slot + point.geometry - instance.first_geometry];
+    if (light == kNone) return 0.0f;
+    const float cos_light = -dot(direction, point.geometric_normal);
+    return std::get<MeshLight>(data_->lights[light]).pdf_solid_angle(distance, cos_light) * selector_.probability(light);
+}
+
+Rgb World::environment_radiance(const Vec3f& direction) const {
+    return has_environment() ? etendue::environment_radiance(data_->lights[data_->environment], direction) : Rgb();
+}
+
+float World::environment_pdf_solid_angle(const Vec3f& direction) const {
+    if (!has_environment()) return 0.0f;
+    return etendue::environment_pdf_solid_angle(data_->lights[data_->environment], direction) *
+           selector_.probability(data_->environment);
+}
+
+float World::bounding_radius() const { return radius_of(data_->bounds); }
+
+WorldStatistics World::statistics() const {
+    WorldStatistics s;
+    for (const Geometry& g : data_->geometries) {
+        s.triangles += g.triangles.size();
+        s.geometry_bytes += vector_bytes(g.positions) + vector_bytes(g.normals) + vector_bytes(g.tangents) +
+                            vector_bytes(g.uv0) + vector_bytes(g.uv1) + vector_bytes(g.colors) +
+                            vector_bytes(g.triangles);
+    }
+    for (const Instance& instance : data_->instances)
+        for (std::uint32_t g = 0; g < instance.geometry_count; ++g)
+            s.instanced_triangles += data_->geometries[instance.first_geometry + g].triangles.size();
+    for (const Texture& texture : data_->textures) s.texture_bytes += texture.bytes();
+    s.instances = data_->instances.size();
+    s.lights = data_->lights.size();
+    s.bvh_bytes = data_->bvh->bytes();
+    return s;
+}
+
+}  // namespace etendue

@@ -1,0 +1,141 @@
+// The scene, compiled: geometry in Embree, materials, lights and a camera. Immutable, so that any number of threads may
+// query it; queries come in batches, because that is what makes them fast (docs/performance.md).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bsdf/bsdf.h"
+#include "camera/camera.h"
+#include "core/bounds.h"
+#include "core/ray.h"
+#include "light/light.h"
+#include "texture/texture.h"
+#include "world/geometry.h"
+#include "world/material.h"
+#include "world/surface_point.h"
+
+namespace etendue {
+
+class EmbreeScene;
+
+/// The nearest surface along a ray. 24 bytes.
+struct Hit {
+    float t = 0.0f;                 ///< metres along the ray
+    float u = 0.0f, v = 0.0f;       ///< barycentric coordinates of the second and third vertex
+    std::uint32_t triangle = 0;
+    std::uint32_t geometry = 0;
+    std::uint32_t instance = kNone; ///< kNone if nothing was hit
+
+    [[nodiscard]] bool valid() const { return instance != kNone; }
+};
+
+/// What is known about the rays of a batch; decides how they are traced, not what they hit.
+enum class Coherence {
+    Coherent,    ///< neighbours have similar origins or directions: camera rays, rays towards one light
+    Incoherent,  ///< anything else
+};
+
+/// Counts and sizes for reports.
+struct WorldStatistics {
+    std::size_t triangles = 0;            ///< stored, each shared mesh once
+    std::size_t instanced_triangles = 0;  ///< as seen, shared meshes as often as they are placed
+    std::size_t instances = 0;
+    std::size_t lights = 0;
+    std::size_t bvh_bytes = 0;
+    std::size_t geometry_bytes = 0;
+    std::size_t texture_bytes = 0;
+};
+
+/// Which surface a mesh light belongs to.
+struct Emitter {
+    std::uint32_t instance = kNone;
+    std::uint32_t geometry = kNone;
+};
+
+/// Everything `compile_world` fills in; the World makes it immutable.
+struct WorldData {
+    std::vector<Geometry> geometries;
+    std::vector<Instance> instances;
+    std::vector<Material> materials;
+    std::vector<Texture> textures;
+    std::vector<Light> lights;
+    std::vector<Emitter> emitter_of_light;     ///< of each light; kNone for those without a surface
+    std::vector<std::uint32_t> light_of_slot;  ///< light index of (instance, geometry), kNone if it is not sampled
+    std::uint32_t environment = kNone;         ///< index into `lights`
+    bool environment_visible = true;           ///< to camera rays
+    Camera camera;
+    ColorMatrix from_rec709;                   ///< linear Rec.709 to the working space
+    Bounds bounds;
+    std::unique_ptr<EmbreeScene> bvh;
+
+    WorldData();
+    ~WorldData();
+    WorldData(WorldData&&) noexcept;
+    WorldData& operator=(WorldData&&) noexcept;
+};
+
+/// A light chosen for a point, with the choice in its density.
+struct ChosenLight {
+    LightSample sample;      ///< pdf_solid_angle includes the choice
+    float probability = 0;   ///< of choosing this light
+};
+
+class World {
+  public:
+    explicit World(WorldData data);
+    ~World();
+    World(World&&) noexcept;
+    World& operator=(World&&) noexcept;
+
+    /// Nearest hit of each ray; `hits` is as long as `rays`.
+    void intersect(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence) const;
+    /// 1 where something lies within (0, t_max], else 0; `occluded` is as long as `rays`.
+    void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, Coherence coherence) const;
+
+    /// The surface at `hit` (valid).
+    [[nodiscard]] SurfacePoint surface_point(const Hit& hit) const;
+    /// How the surface scatters there; `storage` holds lobes that had to be evaluated from textures.
+    [[nodiscard]] const Bsdf& bsdf(const SurfacePoint& point, Bsdf& storage) const;
+    /// Radiance emitted towards `wo`, W/(m² sr).
+    [[nodiscard]] Rgb emission(const SurfacePoint& point, const Vec3f& wo) const;
+    /// Colour of an unlit surface.
+    [[nodiscard]] Rgb unlit_color(const SurfacePoint& point) const;
+
+    [[nodiscard]] bool has_lights() const { return !selector_.empty(); }
+    /// Light arriving at `point` from a light chosen by power; `u_light` in [0, 1), `u` in [0, 1)².
+    [[nodiscard]] ChosenLight sample_light(const Vec3f& point, float u_light, Vec2f u) const;
+    /// Density, choice included, with which `sample_light` would have picked the direction that hit the emitter `point` at
+    /// `distance`. 0 if it is no sampled light.
+    [[nodiscard]] float emitter_pdf_solid_angle(const SurfacePoint& point, const Vec3f& direction, float distance) const;
+
+    [[nodiscard]] bool has_environment() const { return data_->environment != kNone; }
+    [[nodiscard]] Rgb environment_radiance(const Vec3f& direction) const;
+    /// Density, choice included.
+    [[nodiscard]] float environment_pdf_solid_angle(const Vec3f& direction) const;
+    [[nodiscard]] bool environment_visible_to_camera() const { return data_->environment_visible; }
+
+    [[nodiscard]] const Camera& camera() const { return data_->camera; }
+    [[nodiscard]] const Bounds& bounds() const { return data_->bounds; }
+    /// Of a sphere around all geometry, metres; 1 for an empty world.
+    [[nodiscard]] float bounding_radius() const;
+    [[nodiscard]] WorldStatistics statistics() const;
+
+  private:
+    // On the heap, so that Embree's callbacks keep their pointer to it when a World is moved.
+    std::unique_ptr<WorldData> data_;
+    LightSelector selector_;
+};
+
+/// Name and version of the ray tracing library, and the widest instruction set that it uses here.
+struct RayTracerInfo {
+    std::string version;
+    std::string isa;
+};
+[[nodiscard]] RayTracerInfo ray_tracer_info();
+
+}  // namespace etendue
