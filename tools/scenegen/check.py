@@ -1,4 +1,4 @@
-"""Checks of a generated scene, read back from the bytes that would be written. Every function returns problems as text."""
+"""Checks of a generated scene, read back from the bytes that would be written. Functions return problems as text."""
 
 import json
 import math

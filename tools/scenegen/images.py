@@ -16,7 +16,8 @@ def exr(width, height, pixels):
     def attribute(name, kind, value):
         return name.encode() + b"\0" + kind.encode() + b"\0" + struct.pack("<i", len(value)) + value
 
-    channels = b"".join(name + b"\0" + struct.pack("<iB3xii", _EXR_HALF, 0, 1, 1) for name in (b"B", b"G", b"R")) + b"\0"
+    channels = b"".join(name + b"\0" + struct.pack("<iB3xii", _EXR_HALF, 0, 1, 1) for name in (b"B", b"G", b"R"))
+    channels += b"\0"
     window = struct.pack("<4i", 0, 0, width - 1, height - 1)
     header = struct.pack("<ii", 20000630, 2) + b"".join((
         attribute("channels", "chlist", channels),

@@ -196,7 +196,8 @@ def torus_knot(p, q, radius, reach, tube, along, around, color):
         cp, sp, cq, sq = math.cos(p * s), math.sin(p * s), math.cos(q * s), math.sin(q * s)
         ring = radius + reach * cq
         point = (ring * cp, reach * sq, ring * sp)
-        tangent = normalize((-reach * q * sq * cp - ring * p * sp, reach * q * cq, -reach * q * sq * sp + ring * p * cp))
+        outward = -reach * q * sq
+        tangent = normalize((outward * cp - ring * p * sp, reach * q * cq, outward * sp + ring * p * cp))
         normal = (cq * cp, sq, cq * sp)
         binormal = cross(tangent, normal)
         for j in range(around):

@@ -1,8 +1,9 @@
 """A clear sky and its sun, in absolute photometric units.
 
-Sky: Preetham, Shirley and Smits, "A Practical Analytic Model for Daylight", SIGGRAPH 1999, appendix A.2: Perez's formula
-with coefficients that are linear in the turbidity. Sun: a black body of 5778 K seen through the Rayleigh scattering and
-the aerosols of the same paper's appendix A.1; ozone, gases and water vapour, a few per cent in the visible, are left out.
+Sky: Preetham, Shirley and Smits, "A Practical Analytic Model for Daylight", SIGGRAPH 1999, appendix A.2: Perez's
+formula with coefficients that are linear in the turbidity. Sun: a black body of 5778 K seen through the Rayleigh
+scattering and the aerosols of the same paper's appendix A.1; ozone, gases and water vapour, a few per cent in the
+visible, are left out.
 """
 
 import math
@@ -18,7 +19,8 @@ SUN_SOLID_ANGLE = 6.80e-5
 class Sky:
     """Daylight for a sun at `elevation` and `azimuth` (radians, see vector.direction) at a turbidity of 2 to 6.
 
-    Radiances are in units of `unit` kcd/m², which is what exposes the scene.
+    Radiances are in units of `unit` kcd/m², which is what exposes the scene. `ground_albedo`, linear Rec.709, is that
+    of the plain below the horizon.
     """
 
     def __init__(self, elevation, azimuth, turbidity, unit, ground_albedo):
@@ -31,7 +33,7 @@ class Sky:
         self._factors = [zenith / f for zenith, f in zip(self._zenith(), overhead)]
         self.sun_irradiance = self._sun_irradiance()
         down = [e * math.sin(elevation) + s for e, s in zip(self.sun_irradiance, self._sky_irradiance())]
-        self._ground = tuple(ground_albedo * e / math.pi for e in down)
+        self._ground = tuple(albedo * e / math.pi for albedo, e in zip(ground_albedo, down))
 
     def sun_color_and_intensity(self):
         """For a directional light: colour with its largest component 1, and W/m² on a surface facing the sun."""

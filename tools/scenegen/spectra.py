@@ -1,8 +1,8 @@
 """From spectra to linear Rec.709.
 
 Colour matching functions: the multi-lobe fit to the CIE 1931 2° observer of Wyman, Sloan and Shirley, "Simple Analytic
-Approximations to the CIE XYZ Color Matching Functions", JCGT 2(2), 2013. Integrals are sums of 1 nm steps over the range
-that a spectrum was measured in; spectra are interpolated linearly between their samples.
+Approximations to the CIE XYZ Color Matching Functions", JCGT 2(2), 2013. Integrals are sums of 1 nm steps over the
+range that a spectrum was measured in; spectra are interpolated linearly between their samples.
 """
 
 import bisect
@@ -92,13 +92,13 @@ def reflectance_to_rec709(samples):
 
 
 def emission_to_rec709(samples):
-    """Radiance in linear Rec.709 of a measured radiance spectrum: constant 1 under the matching functions has Y = 1.
+    """Radiance in linear Rec.709 of a measured radiance spectrum; a constant spectrum of 1 is (1, 1, 1).
 
-    Rec.709's own white is kept (no adaptation), so a light that is warmer than D65 looks warm.
+    That is, illuminant E is adapted to Rec.709's white, per channel, and a light with more red than blue looks warm.
     """
-    norm = integrate_xyz(lambda wavelength: 1.0)[1]
-    xyz = integrate_xyz(interpolated(samples))
-    return to_rec709([c / norm for c in xyz])
+    flat = to_rec709(integrate_xyz(lambda wavelength: 1.0))
+    color = to_rec709(integrate_xyz(interpolated(samples)))
+    return [c / f for c, f in zip(color, flat)]
 
 
 def planck(wavelength, temperature):

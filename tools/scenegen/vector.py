@@ -32,7 +32,7 @@ def normalize(a):
 
 
 def direction(elevation, azimuth):
-    """Unit vector `elevation` radians above the horizon; azimuth 0 is -Z and grows towards +X (clockwise from above)."""
+    """Unit vector `elevation` radians above the horizon; azimuth 0 is -Z and grows towards +X."""
     return (
         math.cos(elevation) * math.sin(azimuth),
         math.sin(elevation),

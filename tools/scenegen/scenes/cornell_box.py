@@ -1,8 +1,8 @@
 """The Cornell box, from the data that the Cornell University Program of Computer Graphics measured and published
 (https://www.graphics.cornell.edu/online/box/data.html, state of 1998). Published in mm, here in m.
 
-Looking along +Z with +Y up, +X is on the left: the red wall at x ≈ 556 is left and the green one at x = 0 is right, as in
-the published image, without mirroring.
+Looking along +Z with +Y up, +X is on the left: the red wall at x ≈ 556 is left and the green one at x = 0 is right, as
+in the published image, without mirroring.
 """
 
 import math
@@ -36,6 +36,8 @@ RED = dict(zip(_WAVELENGTHS, (
 
 LIGHT_EMISSION = {400: 0.0, 500: 8.0, 600: 15.6, 700: 18.4}
 LIGHT_REFLECTANCE = 0.78
+# The unit of the published emission is not stated. Twice its values exposes the picture without further settings.
+LIGHT_SCALE = 2.0
 
 LIGHT = ((343.0, 548.8, 227.0), (343.0, 548.8, 332.0), (213.0, 548.8, 332.0), (213.0, 548.8, 227.0))
 FLOOR = ((552.8, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 559.2), (549.6, 0.0, 559.2))
@@ -79,7 +81,7 @@ def room():
     albedos = {"white": reflectance_to_rec709(WHITE), "green": reflectance_to_rec709(GREEN),
                "red": reflectance_to_rec709(RED), "light": [LIGHT_REFLECTANCE] * 3}
     scene.render_json = {f"/materials/{name}/diffuse/albedo": albedo for name, albedo in albedos.items()}
-    emission = [max(c, 0.0) for c in emission_to_rec709(LIGHT_EMISSION)]
+    emission = [LIGHT_SCALE * c for c in emission_to_rec709(LIGHT_EMISSION)]
     materials = {name: gltf.add_material(name, base_color=albedo, emission=emission if name == "light" else None)
                  for name, albedo in albedos.items()}
     for name, quads, material in (

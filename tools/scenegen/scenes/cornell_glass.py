@@ -15,7 +15,8 @@ def build():
     mirror = gltf.add_material("mirror", base_color=(0.91, 0.92, 0.92), metallic=1.0, roughness=0.0)
     glass = gltf.add_material("glass", roughness=0.0, transmission=1.0)
     for name, material, radius, center in (
-            ("mirror sphere", mirror, MIRROR_RADIUS, MIRROR_CENTER), ("glass sphere", glass, GLASS_RADIUS, GLASS_CENTER)):
+            ("mirror sphere", mirror, MIRROR_RADIUS, MIRROR_CENTER),
+            ("glass sphere", glass, GLASS_RADIUS, GLASS_CENTER)):
         gltf.add_node(name, mesh=gltf.add_mesh(name, sphere(radius, SPHERE_FREQUENCY), material), translation=center)
         scene.closed_meshes.add(name)
     scene.render_json["/materials/mirror/conductor"] = {"metal": "Al", "roughness": 0.0}

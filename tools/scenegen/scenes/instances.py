@@ -15,6 +15,7 @@ SPREAD = 0.62
 
 # The ground is y = AMPLITUDE · cos(WAVE_NUMBER · r) · exp(-(r / DECAY)²).
 AMPLITUDE, WAVE_NUMBER, DECAY = 3.0, 0.26, 70.0
+GROUND_ALBEDO = (0.26, 0.22, 0.18)
 GROUND_RADIUS, GROUND_RINGS, GROUND_SEGMENTS = 400.0, 300, 96
 
 SUN_ELEVATION, SUN_AZIMUTH, TURBIDITY, UNIT = math.radians(32.0), math.radians(250.0), 2.8, 20.0
@@ -27,7 +28,7 @@ def build():
     knot = torus_knot(2, 3, radius=0.34, reach=0.15, tube=0.075, along=KNOT_ALONG, around=KNOT_AROUND, color=_color)
     soil = _ground()
     glaze = gltf.add_material("glaze", base_color=(1.0, 1.0, 1.0), metallic=0.0, roughness=0.25)
-    ground = gltf.add_material("ground", base_color=(0.26, 0.22, 0.18), roughness=1.0)
+    ground = gltf.add_material("ground", base_color=GROUND_ALBEDO, roughness=1.0)
     knot_index = gltf.add_mesh("knot", knot, glaze)
     gltf.add_node("ground", mesh=gltf.add_mesh("ground", soil, ground))
     for i in range(COUNT):
@@ -35,13 +36,13 @@ def build():
     scene.closed_meshes.add("knot")
     scene.triangles = 2 * KNOT_ALONG * KNOT_AROUND + soil.triangle_count
 
-    sky = Sky(SUN_ELEVATION, SUN_AZIMUTH, TURBIDITY, UNIT, ground_albedo=0.22)
+    sky = Sky(SUN_ELEVATION, SUN_AZIMUTH, TURBIDITY, UNIT, GROUND_ALBEDO)
     color, intensity = sky.sun_color_and_intensity()
     gltf.add_directional_light("sun", color, intensity, look_at(sky.sun_direction, (0.0, 0.0, 0.0)))
     scene.files["sky.exr"] = sky.environment(SKY_WIDTH)
     scene.render_json["/environment/image"] = "sky.exr"
-    position = (0.0, 20.0, 64.0)
-    gltf.add_camera("camera", position, look_at(position, (0.0, 0.0, 14.0)), yfov=math.radians(40.0),
+    position = (0.0, 8.5, 45.0)
+    gltf.add_camera("camera", position, look_at(position, (0.0, 1.0, 12.0)), yfov=math.radians(38.0),
                     aspect_ratio=16.0 / 9.0)
     return scene
 
@@ -61,7 +62,7 @@ def _placement(i):
     r, angle = SPREAD * math.sqrt(i + 0.5), i * GOLDEN_ANGLE
     out = (math.cos(angle), math.sin(angle))
     normal = normalize((-slope(r) * out[0], 1.0, -slope(r) * out[1]))
-    size = 0.85 + 0.30 * math.sin(0.55 * r)
+    size = 0.90 + 0.15 * math.sin(0.55 * r)
     center = [a + b for a, b in zip((r * out[0], height(r), r * out[1]), scale(normal, 0.24 * size))]
     return {"translation": [round(c, 5) for c in center],
             # Seven digits keep the quaternion's length within what validators accept.

@@ -49,7 +49,7 @@ def build():
     floor = gltf.add_material("floor", base_color_texture=checker)
     gltf.add_node("floor", mesh=gltf.add_mesh("floor", _stairs(), floor))
     position = (0.0, 5.6, 8.4)
-    gltf.add_camera("camera", position, look_at(position, (0.0, 0.95, -1.75)), yfov=math.radians(36.0),
+    gltf.add_camera("camera", position, look_at(position, (0.0, 1.05, -1.75)), yfov=math.radians(27.0),
                     aspect_ratio=16.0 / 9.0)
 
     height = ENVIRONMENT_WIDTH // 2
@@ -81,7 +81,7 @@ def _stairs():
 
 def _checker(size=256, cells=2):
     """Two greys, `cells` × `cells` fields."""
-    dark, light = (bytes([to_srgb_byte(value)] * 3) for value in (0.10, 0.42))
+    dark, light = (bytes([to_srgb_byte(value)] * 3) for value in (0.07, 0.30))
     cell = size // cells
     rows = ((light if (x // cell + y // cell) % 2 else dark for x in range(size)) for y in range(size))
     return png(size, size, b"".join(b"".join(row) for row in rows))

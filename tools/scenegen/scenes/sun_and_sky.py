@@ -10,7 +10,7 @@ from ..vector import look_at
 SUN_ELEVATION, SUN_AZIMUTH, TURBIDITY = math.radians(38.0), math.radians(228.0), 3.0
 # Radiance 1 is 20 kcd/m²: a white wall in this sun is then about as bright as white on a display.
 UNIT = 20.0
-GROUND_ALBEDO = 0.30
+GROUND_ALBEDO = (0.30, 0.29, 0.22)
 SKY_WIDTH = 512
 
 COLUMNS, COLUMN_CIRCLE = 12, 4.15
@@ -31,7 +31,8 @@ POOL = ((-3.0, 8.0), (3.0, 16.0))
 WATER_LEVEL, RIM_HEIGHT, RIM_WIDTH = 0.22, 0.38, 0.45
 
 # x, z and height of the trees.
-TREES = ((-9.5, -2.0, 6.5), (-11.5, 3.5, 5.0), (-13.0, -7.5, 7.5), (9.5, -4.5, 6.0), (12.0, 1.0, 5.2), (15.0, -9.0, 8.0))
+TREES = ((-9.5, -2.0, 6.5), (-11.5, 3.5, 5.0), (-13.0, -7.5, 7.5),
+         (9.5, -4.5, 6.0), (7.5, -22.0, 7.5), (14.2, -16.0, 8.0))
 
 
 def build():
@@ -39,7 +40,7 @@ def build():
     gltf = scene.gltf
     stone = gltf.add_material("stone", base_color=(0.68, 0.63, 0.54), roughness=0.8)
     meshes = {
-        "ground": (ground(400.0), gltf.add_material("ground", base_color=(0.30, 0.29, 0.22), roughness=1.0)),
+        "ground": (ground(400.0), gltf.add_material("ground", base_color=GROUND_ALBEDO, roughness=1.0)),
         "steps": (lathe(STEPS, SEGMENTS), stone),
         "column": (lathe(COLUMN, SEGMENTS // 2), stone),
         "entablature": (lathe(ENTABLATURE, SEGMENTS), stone),
@@ -61,8 +62,8 @@ def build():
     gltf.add_directional_light("sun", color, intensity, look_at(sky.sun_direction, (0.0, 0.0, 0.0)))
     scene.files["sky.exr"] = sky.environment(SKY_WIDTH)
     scene.render_json["/environment/image"] = "sky.exr"
-    position = (8.5, 1.75, 20.5)
-    gltf.add_camera("camera", position, look_at(position, (-0.3, 3.35, 0.0)), yfov=math.radians(36.0),
+    position = (6.8, 1.75, 22.5)
+    gltf.add_camera("camera", position, look_at(position, (-0.4, 4.1, 0.0)), yfov=math.radians(38.0),
                     aspect_ratio=16.0 / 9.0)
     return scene
 

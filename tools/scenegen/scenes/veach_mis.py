@@ -32,8 +32,8 @@ LIGHTS = (
 RADIANCE_TIMES_RADIUS_SQUARED = 1.0
 LIGHT_FREQUENCY = 12
 
-# A fifth, outside of the picture, that makes the room visible.
-FILL_CENTER, FILL_RADIUS, FILL_RADIANCE = (10.0, 10.0, 4.0), 0.5, 800.0
+# A fifth, outside of the picture, that makes the room visible without drowning the reflections.
+FILL_CENTER, FILL_RADIUS, FILL_RADIANCE = (10.0, 10.0, 4.0), 0.5, 250.0
 
 FLOOR_Y, WALL_Z, ROOM_HALF_SIZE = -4.14615, -2.0, 10.0
 ROOM_ALBEDO = 0.4
