@@ -1,0 +1,112 @@
+#include "loader/files.h"
+
+#include "core/error.h"
+
+#include <algorithm>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <system_error>
+
+#include <fmt/format.h>
+
+namespace etendue {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::optional<int> hex_digit(char c) {
+    if (c >= '0' && c <= '9') return c - '0';
+    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+    return std::nullopt;
+}
+
+std::string percent_decode(std::string_view uri) {
+    std::string decoded;
+    decoded.reserve(uri.size());
+    for (std::size_t i = 0; i < uri.size(); ++i) {
+        if (uri[i] != '%') {
+            decoded += uri[i];
+            continue;
+        }
+        const std::optional<int> high = i + 2 < uri.size() ? hex_digit(uri[i + 1]) : std::nullopt;
+        const std::optional<int> low = high ? hex_digit(uri[i + 2]) : std::nullopt;
+        if (!low) throw IoError("a '%' is not followed by two hexadecimal digits");
+        decoded += static_cast<char>(*high * 16 + *low);
+        i += 2;
+    }
+    return decoded;
+}
+
+/// True for "http:", "file:", "C:" and whatever else starts like a URI's scheme.
+bool has_scheme(std::string_view name) {
+    const std::size_t colon = name.find(':');
+    if (colon == std::string_view::npos || colon == 0) return false;
+    const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+    const auto may_follow = [&](char c) {
+        return is_letter(c) || (c >= '0' && c <= '9') || c == '+' || c == '-' || c == '.';
+    };
+    return is_letter(name.front()) &&
+           std::all_of(name.begin(), name.begin() + static_cast<std::ptrdiff_t>(colon), may_follow);
+}
+
+void check_name(std::string_view name) {
+    if (name.empty()) throw IoError("the file name is empty");
+    if (name.size() > 4096) throw IoError("the file name is longer than 4096 bytes");
+    if (std::ranges::any_of(name, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; })) {
+        throw IoError("the file name contains control characters");
+    }
+    if (has_scheme(name)) throw IoError("only files inside the scene directory are read, no other URIs");
+    if (name.front() == '/') throw IoError("absolute paths are not read, only files inside the scene directory");
+    for (const fs::path& part : fs::path(name)) {
+        if (part == "..") throw IoError("'..' leaves the scene directory, and only files inside it are read");
+    }
+}
+
+bool is_inside(const fs::path& directory, const fs::path& file) {
+    const auto [in_directory, in_file] = std::mismatch(directory.begin(), directory.end(), file.begin(), file.end());
+    return in_directory == directory.end() && in_file != file.end();
+}
+
+}  // namespace
+
+fs::path resolve_name(const fs::path& directory, std::string_view name) {
+    check_name(name);
+    std::error_code code;
+    const fs::path root = fs::canonical(directory.empty() ? fs::path(".") : directory, code);
+    if (code) throw IoError("the scene directory cannot be read: " + code.message());
+    const fs::path file = fs::weakly_canonical(root / fs::path(name), code);
+    if (code) throw IoError("the file cannot be reached: " + code.message());
+    if (!is_inside(root, file)) throw IoError("a symbolic link leads out of the scene directory");
+
+    const fs::file_status status = fs::status(file, code);
+    if (!fs::exists(status)) throw IoError("the file does not exist in the scene directory");
+    if (!fs::is_regular_file(status)) throw IoError("this is not a regular file");
+    return file;
+}
+
+fs::path resolve_uri(const fs::path& directory, std::string_view uri) {
+    // A scheme counts before decoding, everything else after it.
+    if (has_scheme(uri)) throw IoError("only files inside the scene directory are read, no other URIs");
+    return resolve_name(directory, percent_decode(uri));
+}
+
+std::vector<unsigned char> read_bytes(const fs::path& file, std::uintmax_t limit, std::uintmax_t wanted) {
+    std::error_code code;
+    if (!fs::is_regular_file(file, code)) throw IoError("there is no such file");
+    const std::uintmax_t size = fs::file_size(file, code);
+    if (code) throw IoError("the file cannot be read: " + code.message());
+    if (size < wanted) throw IoError(fmt::format("the file has {} bytes, but {} are needed", size, wanted));
+    const std::uintmax_t length = wanted > 0 ? wanted : size;
+    if (length > limit) throw IoError(fmt::format("{} bytes are more than the limit of {}", length, limit));
+
+    std::vector<unsigned char> bytes(static_cast<std::size_t>(length));
+    std::ifstream stream(file, std::ios::binary);
+    stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(length));
+    if (!stream) throw IoError("the file cannot be read");
+    return bytes;
+}
+
+}  // namespace etendue

@@ -1,0 +1,33 @@
+// The only door to the file system that a scene file gets.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+namespace etendue {
+
+/// Largest JSON text that is parsed: 1 GiB, and 16 MiB for settings. The parsed form takes several times as much
+/// memory.
+inline constexpr std::uintmax_t kMaxJsonBytes = std::uintmax_t{1} << 30;
+inline constexpr std::uintmax_t kMaxSettingsBytes = std::uintmax_t{1} << 24;
+
+/// Largest GLB (whose lengths are 32 bits) or buffer file that is read.
+inline constexpr std::uintmax_t kMaxBufferBytes = std::uintmax_t{1} << 33;
+
+/// The regular file that the relative reference `uri` (RFC 3986, percent-encoded) names below `directory`, with
+/// symbolic links resolved. Throws IoError if it is not such a reference (a scheme, an absolute path, `..`, control
+/// characters, a broken escape), leaves `directory` through a link, or names no regular file.
+[[nodiscard]] std::filesystem::path resolve_uri(const std::filesystem::path& directory, std::string_view uri);
+
+/// The same for a plain file name such as those in render.json: '%' has no meaning.
+[[nodiscard]] std::filesystem::path resolve_name(const std::filesystem::path& directory, std::string_view name);
+
+/// The first `wanted` bytes of a file, or all of it if `wanted` is 0. Throws IoError if it is not a regular file,
+/// cannot be read, is shorter than `wanted` or longer than `limit` bytes.
+[[nodiscard]] std::vector<unsigned char> read_bytes(const std::filesystem::path& file, std::uintmax_t limit,
+                                                    std::uintmax_t wanted = 0);
+
+}  // namespace etendue

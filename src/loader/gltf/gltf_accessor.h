@@ -1,0 +1,82 @@
+// Reading accessors: every offset, length and index is checked against the bytes that are there.
+#pragma once
+
+#include "loader/gltf/gltf_document.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace etendue {
+
+/// How much may still be decoded from a file. A few lines of JSON can refer to the same bytes any number of times, so
+/// what comes out is bounded by a multiple of what went in.
+class DecodeBudget {
+  public:
+    explicit DecodeBudget(const GltfDocument& document);
+
+    /// False if `bytes` more are too much.
+    [[nodiscard]] bool take(std::uint64_t bytes);
+
+  private:
+    std::uint64_t left_;
+};
+
+/// What a vertex attribute may be stored as (glTF 2.0 specification, 3.7.2.1, without KHR_mesh_quantization).
+struct AttributeFormat {
+    int min_components;
+    int max_components;
+    bool normalized_integers;  ///< unsigned bytes and shorts are allowed besides floats
+};
+
+/// An attribute as floats, `components` of them per vertex.
+struct AttributeData {
+    std::vector<float> values;
+    int components = 0;
+};
+
+class AccessorReader {
+  public:
+    AccessorReader(const GltfDocument& document, ProblemList& problems)
+        : document_(document), problems_(problems), budget_(document) {}
+
+    /// All values of a vertex attribute, sparse ones included, normalised integers scaled to [0, 1]. Nothing, and an
+    /// error at `where`, if the accessor is not of that format or reaches outside its buffer view.
+    [[nodiscard]] std::optional<AttributeData> attribute(int accessor, const AttributeFormat& format,
+                                                         const SourceLocation& where);
+
+    /// All values of an index accessor; the same on errors.
+    [[nodiscard]] std::optional<std::vector<std::uint32_t>> indices(int accessor, const SourceLocation& where);
+
+    /// The bytes of a buffer view, at most as many as may still be decoded; the same on errors.
+    [[nodiscard]] std::optional<std::span<const unsigned char>> copyable_view(int buffer_view,
+                                                                              const SourceLocation& where);
+
+  private:
+    /// Evenly spaced elements inside a buffer view.
+    struct Elements {
+        const unsigned char* first = nullptr;
+        std::size_t count = 0;
+        std::size_t stride = 0;
+    };
+
+    [[nodiscard]] std::optional<std::span<const unsigned char>> view(int buffer_view, const SourceLocation& where);
+    [[nodiscard]] std::optional<Elements> elements(int buffer_view, std::size_t offset, std::size_t count,
+                                                   std::size_t element_size, const SourceLocation& where);
+    [[nodiscard]] std::optional<Elements> elements(const tinygltf::Accessor& accessor, std::size_t element_size,
+                                                   const SourceLocation& where);
+    [[nodiscard]] bool allocate(std::uint64_t count, std::uint64_t bytes, const SourceLocation& where);
+    template <typename Out>
+    [[nodiscard]] std::optional<std::vector<Out>> read(const tinygltf::Accessor& accessor, const SourceLocation& where);
+    template <typename Out>
+    [[nodiscard]] bool read_sparse(const tinygltf::Accessor& accessor, std::vector<Out>& values,
+                                   const SourceLocation& where);
+
+    const GltfDocument& document_;
+    ProblemList& problems_;
+    DecodeBudget budget_;
+};
+
+}  // namespace etendue

@@ -1,0 +1,110 @@
+#include "loader/gltf/gltf_buffers.h"
+
+#include "loader/files.h"
+#include "loader/json_text.h"
+
+#include <algorithm>
+#include <cstdint>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <tiny_gltf.h>
+
+namespace etendue {
+
+namespace {
+
+/// Loads one buffer after the other and remembers which files are taken.
+class BufferLoader {
+  public:
+    BufferLoader(std::optional<std::span<const unsigned char>> bin, const std::filesystem::path& directory,
+                 std::vector<std::filesystem::path>& inputs)
+        : bin_(bin), directory_(directory), inputs_(inputs) {}
+
+    /// Throws IoError.
+    std::vector<unsigned char> load(const nlohmann::json& buffer, bool is_first) {
+        const auto length = buffer["byteLength"].get<std::uintmax_t>();
+        if (!buffer.contains("uri")) return from_chunk(length, is_first);
+        const std::string& uri = buffer["uri"].get_ref<const std::string&>();
+        return is_data_uri(uri) ? from_data_uri(uri, length) : from_file(uri, length);
+    }
+
+  private:
+    std::vector<unsigned char> from_chunk(std::uintmax_t length, bool is_first) const {
+        if (!bin_ || !is_first) throw IoError("the buffer has neither a URI nor a binary chunk to take its bytes from");
+        if (length > bin_->size()) {
+            throw IoError(fmt::format("the buffer claims {} bytes, but the binary chunk has {}", length, bin_->size()));
+        }
+        const auto bytes = bin_->first(static_cast<std::size_t>(length));
+        return {bytes.begin(), bytes.end()};
+    }
+
+    static std::vector<unsigned char> from_data_uri(const std::string& uri, std::uintmax_t length) {
+        std::optional<std::vector<unsigned char>> bytes = decode_data_uri(uri);
+        if (!bytes) throw IoError("the data URI is empty or not base64");
+        if (length > bytes->size()) {
+            throw IoError(fmt::format("the buffer claims {} bytes, but its data URI has {}", length, bytes->size()));
+        }
+        bytes->resize(static_cast<std::size_t>(length));
+        return std::move(*bytes);
+    }
+
+    std::vector<unsigned char> from_file(const std::string& uri, std::uintmax_t length) {
+        try {
+            const std::filesystem::path path = resolve_uri(directory_, uri);
+            // A document of a few lines could name one large file thousands of times.
+            if (std::ranges::find(inputs_, path) != inputs_.end()) throw IoError("another buffer is already this file");
+            std::vector<unsigned char> bytes = read_bytes(path, kMaxBufferBytes, length);
+            inputs_.push_back(path);
+            return bytes;
+        } catch (const IoError& error) {
+            throw IoError(fmt::format("buffer file '{}': {}", shown(uri), error.what()));
+        }
+    }
+
+    std::optional<std::span<const unsigned char>> bin_;
+    const std::filesystem::path& directory_;
+    std::vector<std::filesystem::path>& inputs_;
+};
+
+}  // namespace
+
+bool is_data_uri(std::string_view uri) {
+    return uri.substr(0, 5) == "data:";
+}
+
+std::optional<std::vector<unsigned char>> decode_data_uri(const std::string& uri) {
+    const std::size_t comma = uri.find(',');
+    if (comma == std::string::npos || !std::string_view(uri).substr(0, comma).ends_with(";base64")) return std::nullopt;
+    const std::string_view content = std::string_view(uri).substr(comma + 1);
+
+    // tinygltf knows a few media types only, and stops without a word at a character that is not base64.
+    std::vector<unsigned char> bytes;
+    std::string media_type;
+    const std::string known = "data:application/octet-stream;base64," + std::string(content);
+    if (!tinygltf::DecodeDataURI(&bytes, media_type, known, 0, false)) return std::nullopt;
+    const std::size_t digits = content.substr(0, content.find('=')).size();
+    if (bytes.size() != digits * 3 / 4) return std::nullopt;
+    return bytes;
+}
+
+GltfBuffers load_gltf_buffers(nlohmann::json& document, std::optional<std::span<const unsigned char>> bin,
+                              const std::filesystem::path& directory, const SourceLocation& file,
+                              std::vector<std::filesystem::path>& inputs, ProblemList& problems) {
+    GltfBuffers result;
+    if (!document.contains("buffers")) return result;
+    BufferLoader loader(bin, directory, inputs);
+    nlohmann::json& buffers = document["buffers"];
+    for (std::size_t i = 0; i < buffers.size(); ++i) {
+        try {
+            const std::string name = fmt::format("buffer-{}", i);
+            result.emplace(name, loader.load(buffers[i], i == 0));
+            buffers[i]["uri"] = name;
+        } catch (const IoError& error) {
+            problems.error({file.file, child_pointer("/buffers", i)}, error.what());
+        }
+    }
+    return result;
+}
+
+}  // namespace etendue

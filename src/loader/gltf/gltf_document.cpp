@@ -1,0 +1,231 @@
+#include "loader/gltf/gltf_document.h"
+
+#include "loader/files.h"
+#include "loader/gltf/glb.h"
+#include "loader/gltf/gltf_buffers.h"
+#include "loader/gltf/gltf_shape.h"
+#include "loader/json_text.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace etendue {
+
+namespace {
+
+using Json = nlohmann::json;
+
+/// To support another extension: its line here, its properties in gltf_shape_table.cpp, and whoever reads them.
+constexpr std::array<std::string_view, 6> kSupportedExtensions{"KHR_lights_punctual", "KHR_materials_emissive_strength",
+                                                               "KHR_materials_ior",   "KHR_materials_transmission",
+                                                               "KHR_materials_unlit", "KHR_texture_transform"};
+
+bool is_supported(std::string_view extension) {
+    return std::ranges::find(kSupportedExtensions, extension) != kSupportedExtensions.end();
+}
+
+void throw_if_errors(const ProblemList& problems) {
+    if (problems.has_errors()) throw SceneError(problems);
+}
+
+/// The strings of a top-level array, if it is one; what else stands in it is the shape check's business.
+std::vector<std::string> string_array(const Json& document, const char* key) {
+    std::vector<std::string> result;
+    if (!document.is_object() || !document.contains(key) || !document[key].is_array()) return result;
+    for (const Json& element : document[key]) {
+        if (element.is_string()) result.push_back(element.get<std::string>());
+    }
+    return result;
+}
+
+/// Comes before every other check: a file that needs an unknown extension need not look like plain glTF.
+void check_extensions(const Json& document, GltfDocument& result, ProblemList& problems) {
+    const std::vector<std::string> required = string_array(document, "extensionsRequired");
+    for (std::size_t i = 0; i < required.size(); ++i) {
+        if (is_supported(required[i])) continue;
+        problems.error(result.at(child_pointer("/extensionsRequired", i)),
+                       fmt::format("the file requires the extension {}, which is not supported", shown(required[i])));
+    }
+    throw_if_errors(problems);
+
+    for (const std::string& used : string_array(document, "extensionsUsed")) {
+        (is_supported(used) ? result.extensions_used : result.extensions_ignored).push_back(shown(used));
+    }
+    if (!result.extensions_ignored.empty()) {
+        problems.warning(result.at("/extensionsUsed"),
+                         fmt::format("extensions that are not supported and are ignored: {}",
+                                     fmt::join(result.extensions_ignored, ", ")));
+    }
+}
+
+void check_version(const Json& document, const GltfDocument& result, ProblemList& problems) {
+    const std::string version = document["asset"]["version"].get<std::string>();
+    if (version.substr(0, 2) != "2.") {
+        problems.error(result.at("/asset/version"), fmt::format("glTF {} is not supported, only 2.0", shown(version)));
+    }
+}
+
+/// tinygltf refuses such accessors with a message that does not say where.
+void check_index_accessors(const Json& document, const GltfDocument& result, ProblemList& problems) {
+    if (!document.contains("meshes")) return;
+    const Json& meshes = document["meshes"];
+    for (std::size_t m = 0; m < meshes.size(); ++m) {
+        const Json& primitives = meshes[m]["primitives"];
+        for (std::size_t p = 0; p < primitives.size(); ++p) {
+            if (!primitives[p].contains("indices")) continue;
+            const auto accessor = primitives[p]["indices"].get<std::size_t>();
+            if (document["accessors"][accessor].contains("bufferView")) continue;
+            problems.error(
+                result.at(fmt::format("/meshes/{}/primitives/{}/indices", m, p)),
+                fmt::format("accessor {} has no buffer view: indices that are all zero make no triangles", accessor));
+        }
+    }
+}
+
+/// Takes the images out of the document: their pixels are decoded elsewhere, and tinygltf shall not touch their files.
+void take_images(Json& document, GltfDocument& result, ProblemList& problems) {
+    if (!document.contains("images")) return;
+    const Json& images = document["images"];
+    for (std::size_t i = 0; i < images.size(); ++i) {
+        const Json& json = images[i];
+        GltfImage image{json.value("name", ""), json.value("mimeType", ""), json.value("uri", ""), std::nullopt, {}};
+        if (json.contains("bufferView")) image.buffer_view = json["bufferView"].get<int>();
+        const SourceLocation where = result.at(child_pointer("/images", i));
+        if (json.contains("bufferView") == json.contains("uri")) {
+            problems.error(where, "an image needs either a URI or a buffer view");
+        } else if (is_data_uri(image.uri)) {
+            std::optional<std::vector<unsigned char>> bytes = decode_data_uri(image.uri);
+            if (!bytes) problems.error(where, "the data URI is empty or not base64");
+            if (bytes) image.encoded = std::move(*bytes);
+            image.uri.clear();
+        }
+        result.images.push_back(std::move(image));
+    }
+    document.erase("images");
+}
+
+/// What the document holds besides a still scene; tinygltf need not read it.
+void drop_unused_parts(Json& document, GltfDocument& result) {
+    result.has_animations = document.erase("animations") > 0;
+    result.has_skins = document.erase("skins") > 0;
+    document.erase("extras");
+}
+
+/// Callbacks that serve the buffers which are already in memory and know no file. tinygltf 2.9 added one to the struct.
+template <typename Callbacks>
+Callbacks buffer_callbacks(GltfBuffers& buffers) {
+    Callbacks callbacks{};
+    callbacks.FileExists = [](const std::string& name, void* user) {
+        return static_cast<GltfBuffers*>(user)->contains(name);
+    };
+    callbacks.ExpandFilePath = [](const std::string& name, void*) { return name; };
+    callbacks.ReadWholeFile = [](std::vector<unsigned char>* out, std::string*, const std::string& name, void* user) {
+        const auto found = static_cast<GltfBuffers*>(user)->find(name);
+        if (found == static_cast<GltfBuffers*>(user)->end()) return false;
+        *out = std::move(found->second);
+        return true;
+    };
+    callbacks.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
+        return false;
+    };
+    if constexpr (requires { callbacks.GetFileSizeInBytes; }) {
+        callbacks.GetFileSizeInBytes = [](std::size_t* size, std::string*, const std::string& name, void* user) {
+            const auto found = static_cast<GltfBuffers*>(user)->find(name);
+            if (found == static_cast<GltfBuffers*>(user)->end()) return false;
+            *size = found->second.size();
+            return true;
+        };
+    }
+    callbacks.user_data = &buffers;
+    return callbacks;
+}
+
+/// Lifts tinygltf 2.9's limit on file sizes; ours has already been applied.
+template <typename Loader>
+void lift_size_limit(Loader& loader) {
+    if constexpr (requires { loader.SetMaxExternalFileSize(std::size_t{}); }) {
+        loader.SetMaxExternalFileSize(std::numeric_limits<std::size_t>::max());
+    }
+}
+
+tinygltf::Model parse_model(const Json& document, GltfBuffers& buffers, const GltfDocument& result) {
+    const std::string text = document.dump();
+    if (text.size() > std::numeric_limits<unsigned int>::max()) throw SceneError(result.at(""), "the JSON is too long");
+
+    tinygltf::TinyGLTF loader;
+    loader.SetFsCallbacks(buffer_callbacks<tinygltf::FsCallbacks>(buffers));
+    loader.RemoveImageLoader();
+    lift_size_limit(loader);
+
+    tinygltf::Model model;
+    std::string errors;
+    std::string warnings;
+    bool loaded = false;
+    try {
+        loaded = loader.LoadASCIIFromString(&model, &errors, &warnings, text.data(),
+                                            static_cast<unsigned int>(text.size()), "");
+    } catch (const std::exception& error) {
+        errors += error.what();
+    }
+    if (loaded) return model;
+    while (!errors.empty() && errors.back() == '\n') errors.pop_back();
+    throw SceneError(result.at(""), "the glTF parser refuses the file: " + errors.substr(0, 500));
+}
+
+Json parse_file(const std::filesystem::path& file, std::vector<unsigned char>& bytes, const GltfDocument& result,
+                std::optional<std::span<const unsigned char>>& bin) {
+    try {
+        bytes = read_bytes(file, kMaxBufferBytes);
+    } catch (const IoError& error) {
+        throw SceneError(result.at(""), error.what());
+    }
+    std::string extension = file.extension().string();
+    std::ranges::transform(extension, extension.begin(),
+                           [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
+
+    std::string_view text{reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+    if (is_glb(bytes) || extension == ".glb") {
+        const GlbChunks chunks = split_glb(bytes, result.at(""));
+        text = chunks.json;
+        bin = chunks.bin;
+    }
+    if (text.size() > kMaxJsonBytes) {
+        throw SceneError(result.at(""),
+                         fmt::format("{} bytes of JSON are more than the limit of {}", text.size(), kMaxJsonBytes));
+    }
+    return parse_json(text, result.at(""));
+}
+
+}  // namespace
+
+GltfDocument read_gltf_document(const std::filesystem::path& file, ProblemList& problems) {
+    GltfDocument result;
+    result.directory = file.parent_path();
+    result.file = file.string();
+    result.inputs.push_back(file);
+
+    std::vector<unsigned char> bytes;
+    std::optional<std::span<const unsigned char>> bin;
+    Json document = parse_file(file, bytes, result, bin);
+
+    check_extensions(document, result, problems);
+    check_shape(document, gltf_shape(), result.at(""), problems);
+    throw_if_errors(problems);
+    check_version(document, result, problems);
+    check_index_accessors(document, result, problems);
+    take_images(document, result, problems);
+    drop_unused_parts(document, result);
+    GltfBuffers buffers = load_gltf_buffers(document, bin, result.directory, result.at(""), result.inputs, problems);
+    throw_if_errors(problems);
+
+    bytes = {};
+    result.model = parse_model(document, buffers, result);
+    return result;
+}
+
+}  // namespace etendue

@@ -1,0 +1,45 @@
+// A glTF file, parsed and checked, with its buffers in memory.
+#pragma once
+
+#include "core/error.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <tiny_gltf.h>
+
+namespace etendue {
+
+/// Where the encoded pixels of one glTF image are.
+struct GltfImage {
+    std::string name;
+    std::string mime_type;
+    std::string uri;                     ///< as it stood in the file, for messages; empty unless a file
+    std::optional<int> buffer_view;      ///< index; checked
+    std::vector<unsigned char> encoded;  ///< decoded data URI
+};
+
+struct GltfDocument {
+    tinygltf::Model model;  ///< without images, animations and skins
+    std::vector<GltfImage> images;
+    std::filesystem::path directory;
+    std::string file;  ///< for messages
+    bool has_animations = false;
+    bool has_skins = false;
+    std::vector<std::string> extensions_used;     ///< and supported
+    std::vector<std::string> extensions_ignored;  ///< used, not supported, not required
+    std::vector<std::filesystem::path> inputs;    ///< the file and the buffers it names
+
+    [[nodiscard]] SourceLocation at(std::string pointer) const { return {file, std::move(pointer)}; }
+};
+
+/// Reads `file`, a .gltf or .glb, and the buffers it names inside its directory.
+///
+/// After it, every index in the model refers to something that exists and every value has the type and the range of the
+/// specification's schema; what the bytes say (indices, sizes of views, coordinates) is not checked yet. Warnings go to
+/// `problems`; throws SceneError with all errors.
+[[nodiscard]] GltfDocument read_gltf_document(const std::filesystem::path& file, ProblemList& problems);
+
+}  // namespace etendue

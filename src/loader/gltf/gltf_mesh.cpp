@@ -1,0 +1,290 @@
+#include "loader/gltf/gltf_mesh.h"
+
+#include "loader/gltf/repair_log.h"
+#include "loader/gltf/vertex_data.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string_view>
+
+#include <fmt/format.h>
+
+namespace etendue {
+
+namespace {
+
+constexpr AttributeFormat kVec3{3, 3, false};
+constexpr AttributeFormat kVec4{4, 4, false};
+constexpr AttributeFormat kTexcoord{2, 2, true};
+constexpr AttributeFormat kColor{3, 4, true};
+
+bool is_finite_uv(const Vec2f& uv) {
+    return std::isfinite(uv.x) && std::isfinite(uv.y);
+}
+
+/// Reads one primitive. Nothing is returned if it cannot be rendered; why has then been reported.
+class PrimitiveReader {
+  public:
+    PrimitiveReader(const GltfDocument& document, AccessorReader& accessors, RepairLog& repairs, ProblemList& problems)
+        : document_(document), accessors_(accessors), repairs_(repairs), problems_(problems) {}
+
+    std::optional<PrimitiveDesc> read(const tinygltf::Primitive& source, const SourceLocation& where) {
+        source_ = &source;
+        where_ = where;
+        if (!is_renderable()) return std::nullopt;
+
+        PrimitiveDesc result;
+        result.location = where;
+        if (!read_triangles(result) || !read_attributes(result)) return std::nullopt;
+        repair_normals(result);
+        repair_tangents(result);
+        repair_texcoords(result);
+        repair_colors(result);
+        return result;
+    }
+
+  private:
+    bool is_renderable() {
+        if (!source_->targets.empty()) repairs_.add(Repair::MorphTargets, 1, where_);
+        if (source_->mode < TINYGLTF_MODE_TRIANGLES || source_->mode > TINYGLTF_MODE_TRIANGLE_FAN) {
+            repairs_.add(Repair::NotTriangles, 1, where_);
+            return false;
+        }
+        if (!source_->attributes.contains("POSITION")) {
+            repairs_.add(Repair::NoPositions, 1, where_);
+            return false;
+        }
+        return true;
+    }
+
+    [[nodiscard]] SourceLocation at(std::string_view member) const {
+        return document_.at(fmt::format("{}/{}", where_.pointer, member));
+    }
+
+    /// The attribute's values, if the primitive has it; `failed_` is set if it has and they cannot be read.
+    std::optional<AttributeData> attribute(const std::string& name, const AttributeFormat& format) {
+        const auto found = source_->attributes.find(name);
+        if (found == source_->attributes.end()) return std::nullopt;
+        const SourceLocation where = at("attributes/" + name);
+        std::optional<AttributeData> data = accessors_.attribute(found->second, format, where);
+        if (!data) {
+            failed_ = true;
+            return std::nullopt;
+        }
+        const std::size_t count = data->values.size() / static_cast<std::size_t>(data->components);
+        if (vertex_count_ > 0 && count != vertex_count_) {
+            problems_.error(where, fmt::format("{} values for {} vertices", count, vertex_count_));
+            failed_ = true;
+            return std::nullopt;
+        }
+        return data;
+    }
+
+    /// Positions and triangles, checked, without degenerate triangles and unused vertices.
+    bool read_triangles(PrimitiveDesc& result) {
+        failed_ = false;
+        vertex_count_ = 0;
+        const std::optional<AttributeData> data = attribute("POSITION", kVec3);
+        if (!data) return false;
+        vertex_count_ = data->values.size() / 3;
+        std::vector<Vec3f> positions(vertex_count_);
+        for (std::size_t i = 0; i < vertex_count_; ++i) {
+            positions[i] = {data->values[3 * i], data->values[3 * i + 1], data->values[3 * i + 2]};
+        }
+
+        const std::optional<std::vector<std::uint32_t>> indices = read_indices();
+        if (!indices || !check_positions(*indices, positions)) return false;
+        const auto mode = static_cast<TriangleMode>(source_->mode);
+        const bool is_list = mode == TriangleMode::List;
+        if (is_list ? indices->size() % 3 != 0 : indices->size() < 3) repairs_.add(Repair::LeftoverIndices, 1, where_);
+
+        result.triangles = assemble_triangles(*indices, mode);
+        // Strips are joined by triangles without an area on purpose.
+        const std::size_t removed = remove_degenerate_triangles(result.triangles, positions);
+        if (mode != TriangleMode::Strip) repairs_.add(Repair::DegenerateTriangles, removed, where_);
+        if (result.triangles.empty()) {
+            repairs_.add(Repair::EmptyPrimitives, 1, where_);
+            return false;
+        }
+        kept_ = compact_vertices(result.triangles, vertex_count_);
+        result.positions = gather(positions);
+        return true;
+    }
+
+    std::optional<std::vector<std::uint32_t>> read_indices() {
+        if (source_->indices >= 0) return accessors_.indices(source_->indices, at("indices"));
+        std::vector<std::uint32_t> indices(vertex_count_);
+        std::iota(indices.begin(), indices.end(), 0u);
+        return indices;
+    }
+
+    /// True if all indices exist and the positions they refer to are finite.
+    bool check_positions(const std::vector<std::uint32_t>& indices, const std::vector<Vec3f>& positions) {
+        for (std::size_t i = 0; i < indices.size(); ++i) {
+            if (indices[i] >= positions.size()) {
+                problems_.error(at("indices"), fmt::format("index {} is {}, but the primitive has {} vertices", i,
+                                                           indices[i], positions.size()));
+                return false;
+            }
+            if (!is_finite(positions[indices[i]])) {
+                problems_.error(at("attributes/POSITION"),
+                                fmt::format("the position of vertex {} is not finite", indices[i]));
+                return false;
+            }
+        }
+        return true;
+    }
+
+    template <typename T>
+    [[nodiscard]] std::vector<T> gather(const std::vector<T>& values) const {
+        std::vector<T> result(kept_.size());
+        for (std::size_t i = 0; i < kept_.size(); ++i) result[i] = values[kept_[i]];
+        return result;
+    }
+
+    /// The values of the vertices that are kept, made from `components` floats each by `make`.
+    template <typename T, typename Make>
+    std::vector<T> gather(const std::optional<AttributeData>& data, const Make& make) const {
+        if (!data) return {};
+        std::vector<T> result(kept_.size());
+        for (std::size_t i = 0; i < kept_.size(); ++i) {
+            result[i] = make(data->values.data() + kept_[i] * static_cast<std::size_t>(data->components));
+        }
+        return result;
+    }
+
+    bool read_attributes(PrimitiveDesc& result) {
+        const auto make_vec2 = [](const float* v) { return Vec2f(v[0], v[1]); };
+        const auto make_vec3 = [](const float* v) { return Vec3f(v[0], v[1], v[2]); };
+        const auto make_vec4 = [](const float* v) { return Vec4f(v[0], v[1], v[2], v[3]); };
+        result.normals = gather<Vec3f>(attribute("NORMAL", kVec3), make_vec3);
+        result.tangents = gather<Vec4f>(attribute("TANGENT", kVec4), make_vec4);
+        result.uv0 = gather<Vec2f>(attribute("TEXCOORD_0", kTexcoord), make_vec2);
+        result.uv1 = gather<Vec2f>(attribute("TEXCOORD_1", kTexcoord), make_vec2);
+        const std::optional<AttributeData> colors = attribute("COLOR_0", kColor);
+        const bool has_alpha = colors && colors->components == 4;
+        result.colors = gather<Vec4f>(
+            colors, [has_alpha](const float* v) { return Vec4f(v[0], v[1], v[2], has_alpha ? v[3] : 1.0f); });
+        return !failed_;
+    }
+
+    void repair_normals(PrimitiveDesc& p) {
+        if (p.normals.empty()) {
+            p.normals = area_weighted_normals(p.triangles, p.positions);
+            p.tangents.clear();  // the specification: tangents without normals are ignored
+            return;
+        }
+        std::vector<Vec3f> generated;
+        std::size_t bad = 0;
+        for (std::size_t i = 0; i < p.normals.size(); ++i) {
+            const float squared = length_squared(p.normals[i]);
+            if (std::isnormal(squared)) {
+                p.normals[i] *= 1.0f / std::sqrt(squared);
+                continue;
+            }
+            if (generated.empty()) generated = area_weighted_normals(p.triangles, p.positions);
+            p.normals[i] = generated[i];
+            ++bad;
+        }
+        repairs_.add(Repair::BadNormals, bad, at("attributes/NORMAL"));
+    }
+
+    void repair_tangents(PrimitiveDesc& p) {
+        for (Vec4f& t : p.tangents) {
+            const float squared = t.x * t.x + t.y * t.y + t.z * t.z;
+            if (!std::isnormal(squared)) {
+                repairs_.add(Repair::BadTangents, 1, at("attributes/TANGENT"));
+                p.tangents.clear();
+                return;
+            }
+            const float scale = 1.0f / std::sqrt(squared);
+            t = {t.x * scale, t.y * scale, t.z * scale, t.w < 0.0f ? -1.0f : 1.0f};
+        }
+    }
+
+    void repair_texcoords(PrimitiveDesc& p) {
+        for (std::vector<Vec2f>* uvs : {&p.uv0, &p.uv1}) {
+            std::size_t bad = 0;
+            for (Vec2f& uv : *uvs) {
+                if (is_finite_uv(uv)) continue;
+                uv = {0.0f, 0.0f};
+                ++bad;
+            }
+            repairs_.add(Repair::BadTexcoords, bad,
+                         at(uvs == &p.uv0 ? "attributes/TEXCOORD_0" : "attributes/TEXCOORD_1"));
+        }
+    }
+
+    void repair_colors(PrimitiveDesc& p) {
+        std::size_t bad = 0;
+        for (Vec4f& color : p.colors) {
+            bool good = true;
+            for (float* v : {&color.x, &color.y, &color.z, &color.w}) {
+                if (std::isfinite(*v) && *v >= 0.0f) continue;
+                *v = std::isfinite(*v) ? 0.0f : 1.0f;
+                good = false;
+            }
+            if (!good) ++bad;
+        }
+        repairs_.add(Repair::BadColors, bad, at("attributes/COLOR_0"));
+    }
+
+    const GltfDocument& document_;
+    AccessorReader& accessors_;
+    RepairLog& repairs_;
+    ProblemList& problems_;
+
+    // The primitive being read.
+    const tinygltf::Primitive* source_ = nullptr;
+    SourceLocation where_;
+    std::size_t vertex_count_ = 0;     ///< of its accessors; 0 until the positions are read
+    std::vector<std::uint32_t> kept_;  ///< vertices that some triangle uses
+    bool failed_ = false;
+};
+
+/// Counts primitives that their material's textures would sample without coordinates.
+void check_texcoords(const PrimitiveDesc& p, const MaterialDesc& material, RepairLog& repairs) {
+    for (const TextureRef& ref : {material.base_color_texture, material.metallic_roughness_texture,
+                                  material.normal_texture, material.emissive_texture, material.transmission_texture}) {
+        if (!ref.valid() || !(ref.texcoord == 0 ? p.uv0 : p.uv1).empty()) continue;
+        repairs.add(Repair::MissingTexcoords, 1, p.location);
+        return;
+    }
+}
+
+Handle<MaterialDesc> default_material(SceneDesc& scene, Handle<MaterialDesc>& cached, const std::string& file) {
+    if (!cached) {
+        cached.index = static_cast<std::int32_t>(scene.materials.size());
+        scene.materials.emplace_back().location = {file, {}};
+    }
+    return cached;
+}
+
+}  // namespace
+
+void read_meshes(const GltfDocument& document, AccessorReader& accessors, SceneDesc& scene, ProblemList& problems) {
+    RepairLog repairs;
+    PrimitiveReader reader(document, accessors, repairs, problems);
+    Handle<MaterialDesc> default_handle;
+    for (std::size_t m = 0; m < document.model.meshes.size(); ++m) {
+        const tinygltf::Mesh& source = document.model.meshes[m];
+        MeshDesc mesh;
+        mesh.name = source.name;
+        mesh.location = document.at(fmt::format("/meshes/{}", m));
+        for (std::size_t i = 0; i < source.primitives.size(); ++i) {
+            const SourceLocation where = document.at(fmt::format("/meshes/{}/primitives/{}", m, i));
+            std::optional<PrimitiveDesc> primitive = reader.read(source.primitives[i], where);
+            if (!primitive) continue;
+            const int material = source.primitives[i].material;
+            primitive->material =
+                material >= 0 ? Handle<MaterialDesc>{material} : default_material(scene, default_handle, document.file);
+            check_texcoords(*primitive, scene.materials[static_cast<std::size_t>(primitive->material.index)], repairs);
+            mesh.primitives.push_back(std::move(*primitive));
+        }
+        scene.meshes.push_back(std::move(mesh));
+    }
+    repairs.report(problems);
+}
+
+}  // namespace etendue

@@ -1,0 +1,268 @@
+#include "loader/gltf/gltf_nodes.h"
+
+#include "loader/gltf/gltf_value.h"
+#include "scene/transform.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+
+#include <fmt/format.h>
+
+namespace etendue {
+
+namespace {
+
+using Mat4d = Imath::M44d;
+
+/// Most nodes of a file, and so most instances, cameras and lights.
+constexpr std::size_t kMaxNodes = std::size_t{1} << 24;
+
+constexpr int kNoParent = -1;
+
+/// The parent of every node. Errors for nodes with two.
+std::vector<int> find_parents(const GltfDocument& document, ProblemList& problems) {
+    const std::vector<tinygltf::Node>& nodes = document.model.nodes;
+    std::vector<int> parents(nodes.size(), kNoParent);
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+        for (std::size_t c = 0; c < nodes[n].children.size(); ++c) {
+            const auto child = static_cast<std::size_t>(nodes[n].children[c]);
+            if (parents[child] == kNoParent) {
+                parents[child] = static_cast<int>(n);
+                continue;
+            }
+            problems.error(document.at(fmt::format("/nodes/{}/children/{}", n, c)),
+                           fmt::format("node {} already is a child of node {}", child, parents[child]));
+        }
+    }
+    return parents;
+}
+
+/// One error for each cycle. Every node has one parent at most, so walking up either ends or meets its own track.
+void check_cycles(const GltfDocument& document, const std::vector<int>& parents, ProblemList& problems) {
+    constexpr std::size_t kUnseen = 0;
+    std::vector<std::size_t> walk_of(parents.size(), kUnseen);
+    for (std::size_t start = 0; start < parents.size(); ++start) {
+        int node = static_cast<int>(start);
+        while (node != kNoParent && walk_of[static_cast<std::size_t>(node)] == kUnseen) {
+            walk_of[static_cast<std::size_t>(node)] = start + 1;
+            node = parents[static_cast<std::size_t>(node)];
+        }
+        if (node != kNoParent && walk_of[static_cast<std::size_t>(node)] == start + 1) {
+            problems.error(document.at(fmt::format("/nodes/{}", node)), "the node is its own ancestor");
+        }
+    }
+}
+
+/// The nodes to start from.
+std::vector<int> find_roots(const GltfDocument& document, const std::vector<int>& parents, ProblemList& problems) {
+    const tinygltf::Model& model = document.model;
+    if (model.scenes.empty()) {
+        std::vector<int> roots;
+        for (std::size_t n = 0; n < parents.size(); ++n) {
+            if (parents[n] == kNoParent) roots.push_back(static_cast<int>(n));
+        }
+        if (!roots.empty()) {
+            problems.warning(document.at(""), "the file has no scene: all nodes without a parent are shown");
+        }
+        return roots;
+    }
+    const std::size_t index = model.defaultScene >= 0 ? static_cast<std::size_t>(model.defaultScene) : 0;
+    const std::vector<int>& roots = model.scenes[index].nodes;
+    std::vector<bool> seen(parents.size(), false);
+    for (std::size_t i = 0; i < roots.size(); ++i) {
+        const auto root = static_cast<std::size_t>(roots[i]);
+        const SourceLocation where = document.at(fmt::format("/scenes/{}/nodes/{}", index, i));
+        if (parents[root] != kNoParent) {
+            problems.error(where, fmt::format("node {} is a child of node {}, so it is no root of the scene", root,
+                                              parents[root]));
+        } else if (seen[root]) {
+            problems.error(where, fmt::format("node {} is listed twice", root));
+        }
+        seen[root] = true;
+    }
+    return roots;
+}
+
+/// Rotation matrix of the quaternion x, y, z, w, which is normalised first. Nothing if it is zero.
+std::optional<Mat4d> rotation_matrix(const std::vector<double>& q) {
+    const double norm = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    if (!(norm > 1e-12) || !std::isfinite(norm)) return std::nullopt;
+    const double x = q[0] / norm;
+    const double y = q[1] / norm;
+    const double z = q[2] / norm;
+    const double w = q[3] / norm;
+    return Mat4d(1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w), 0,  //
+                 2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w), 0,  //
+                 2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y), 0,  //
+                 0, 0, 0, 1);
+}
+
+/// A glTF matrix, whose 16 numbers in memory are those of Imath's row-vector convention. Nothing if it is not affine.
+std::optional<Mat4d> affine_matrix(const std::vector<double>& m) {
+    constexpr double kTolerance = 1e-5;
+    const bool affine = std::abs(m[3]) <= kTolerance && std::abs(m[7]) <= kTolerance && std::abs(m[11]) <= kTolerance &&
+                        std::abs(m[15] - 1.0) <= kTolerance;
+    if (!affine) return std::nullopt;
+    return Mat4d(m[0], m[1], m[2], 0, m[4], m[5], m[6], 0, m[8], m[9], m[10], 0, m[12], m[13], m[14], 1);
+}
+
+Mat4d local_transform(const tinygltf::Node& node, const SourceLocation& where, ProblemList& problems) {
+    if (node.matrix.size() == 16) {
+        const std::optional<Mat4d> matrix = affine_matrix(node.matrix);
+        if (!matrix) problems.error(where, "the matrix is not affine: its fourth row must be 0, 0, 0, 1");
+        return matrix.value_or(Mat4d());
+    }
+    Mat4d result;
+    if (node.scale.size() == 3) result.setScale(Imath::V3d(node.scale[0], node.scale[1], node.scale[2]));
+    if (node.rotation.size() == 4) {
+        const std::optional<Mat4d> rotation = rotation_matrix(node.rotation);
+        if (!rotation) problems.warning(where, "the rotation is a zero quaternion and is ignored");
+        result *= rotation.value_or(Mat4d());
+    }
+    if (node.translation.size() == 3) {
+        for (int i = 0; i < 3; ++i) result[3][i] = node.translation[static_cast<std::size_t>(i)];
+    }
+    return result;
+}
+
+Mat4f to_float(const Mat4d& m) {
+    Mat4f result;
+    for (int row = 0; row < 4; ++row) {
+        for (int column = 0; column < 4; ++column) result[row][column] = static_cast<float>(m[row][column]);
+    }
+    return result;
+}
+
+/// Turns one node after the other into what it places.
+class Placer {
+  public:
+    Placer(const GltfDocument& document, SceneDesc& scene, ProblemList& problems)
+        : document_(document), scene_(scene), problems_(problems) {}
+
+    void place(const tinygltf::Node& node, const Mat4f& to_world, const SourceLocation& where) {
+        if (node.mesh >= 0) place_mesh(node, to_world, where);
+        const tinygltf::Value* light = find_extension(node.extensions, "KHR_lights_punctual");
+        const int light_index = light != nullptr ? integer_or(*light, "light", -1) : -1;
+        if (node.camera < 0 && light_index < 0) return;
+
+        const std::optional<Mat4f> rigid = rigid_part(to_world);
+        if (!rigid) {
+            problems_.warning(where, "the node's transform is singular: its camera and light are left out");
+            return;
+        }
+        if (node.camera >= 0) place_camera(node, *rigid);
+        if (light_index >= 0) place_light(node, static_cast<std::size_t>(light_index), *rigid);
+    }
+
+  private:
+    void place_mesh(const tinygltf::Node& node, const Mat4f& to_world, const SourceLocation& where) {
+        const MeshDesc& mesh = scene_.meshes[static_cast<std::size_t>(node.mesh)];
+        if (mesh.primitives.empty()) return;  // reported with the mesh
+        if (!is_invertible(to_world)) {
+            problems_.warning(where, "the node's transform is singular: its mesh is left out");
+            return;
+        }
+        InstanceDesc& instance = scene_.instances.emplace_back();
+        instance.name = node.name.empty() ? mesh.name : node.name;
+        instance.mesh.index = node.mesh;
+        instance.to_world = to_world;
+        instance.location = where;
+    }
+
+    void place_camera(const tinygltf::Node& node, const Mat4f& to_world) {
+        const tinygltf::Camera& source = document_.model.cameras[static_cast<std::size_t>(node.camera)];
+        CameraDesc camera;
+        camera.name = unique_camera_name(source.name.empty() ? node.name : source.name);
+        camera.to_world = to_world;
+        camera.location = document_.at(fmt::format("/cameras/{}", node.camera));
+        if (source.type == "orthographic") {
+            camera.type = CameraType::Orthographic;
+            camera.ymag = static_cast<float>(std::abs(source.orthographic.ymag));
+            const double aspect = std::abs(source.orthographic.xmag / source.orthographic.ymag);
+            camera.aspect_ratio = std::isfinite(aspect) ? static_cast<float>(aspect) : 0.0f;
+        } else {
+            camera.yfov = static_cast<float>(source.perspective.yfov);
+            camera.aspect_ratio = static_cast<float>(source.perspective.aspectRatio);
+        }
+        scene_.cameras.push_back(std::move(camera));
+    }
+
+    /// Cameras are chosen by name, so each has one of its own.
+    std::string unique_camera_name(const std::string& wanted) {
+        const std::string base = wanted.empty() ? "camera" : wanted;
+        std::string name = base;
+        for (int& n = last_number_[base]; !camera_names_.insert(name).second;)
+            name = fmt::format("{}-{}", base, ++n + 1);
+        return name;
+    }
+
+    void place_light(const tinygltf::Node& node, std::size_t index, const Mat4f& to_world) {
+        const tinygltf::Light& source = document_.model.lights[index];
+        LightDesc& light = scene_.lights.emplace_back();
+        light.name = source.name.empty() ? node.name : source.name;
+        light.type = source.type == "spot"          ? LightType::Spot
+                     : source.type == "directional" ? LightType::Directional
+                                                    : LightType::Point;
+        if (source.color.size() == 3) {
+            light.color = {static_cast<float>(source.color[0]), static_cast<float>(source.color[1]),
+                           static_cast<float>(source.color[2])};
+        }
+        light.intensity = static_cast<float>(source.intensity);
+        light.inner_cone_angle = static_cast<float>(source.spot.innerConeAngle);
+        light.outer_cone_angle = static_cast<float>(source.spot.outerConeAngle);
+        light.to_world = to_world;
+        light.location = document_.at(fmt::format("/extensions/KHR_lights_punctual/lights/{}", index));
+    }
+
+    const GltfDocument& document_;
+    SceneDesc& scene_;
+    ProblemList& problems_;
+    std::set<std::string> camera_names_;
+    std::map<std::string, int> last_number_;  ///< by name, so that finding a free one does not start over
+};
+
+/// Depth first over the forest, with a stack of its own: hierarchies may be as deep as the file likes.
+void place_nodes(const GltfDocument& document, const std::vector<int>& roots, SceneDesc& scene, ProblemList& problems) {
+    struct Visit {
+        int node;
+        Mat4d parent_to_world;
+    };
+    std::vector<Visit> stack;
+    for (auto root = roots.rbegin(); root != roots.rend(); ++root) stack.push_back({*root, Mat4d()});
+
+    Placer placer(document, scene, problems);
+    while (!stack.empty()) {
+        const Visit visit = stack.back();
+        stack.pop_back();
+        const tinygltf::Node& node = document.model.nodes[static_cast<std::size_t>(visit.node)];
+        const SourceLocation where = document.at(fmt::format("/nodes/{}", visit.node));
+        const Mat4d to_world = local_transform(node, where, problems) * visit.parent_to_world;
+        placer.place(node, to_float(to_world), where);
+        for (auto child = node.children.rbegin(); child != node.children.rend(); ++child) {
+            stack.push_back({*child, to_world});
+        }
+    }
+}
+
+}  // namespace
+
+void read_nodes(const GltfDocument& document, SceneDesc& scene, ProblemList& problems) {
+    if (document.model.nodes.size() > kMaxNodes) {
+        problems.error(document.at("/nodes"), fmt::format("more than {} nodes", kMaxNodes));
+        return;
+    }
+    ProblemList structure;
+    const std::vector<int> parents = find_parents(document, structure);
+    check_cycles(document, parents, structure);
+    const std::vector<int> roots = find_roots(document, parents, structure);
+    for (const Problem& problem : structure.all()) problems.add(problem);
+    if (structure.has_errors()) return;
+
+    place_nodes(document, roots, scene, problems);
+    if (scene.instances.empty()) problems.warning(document.at(""), "the scene shows no triangles");
+}
+
+}  // namespace etendue

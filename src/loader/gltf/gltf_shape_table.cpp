@@ -1,0 +1,293 @@
+// The parts of the glTF 2.0 schema that are used here, as data. To read another property, add its line.
+
+#include "loader/gltf/gltf_shape.h"
+
+#include <cfloat>
+
+namespace etendue {
+
+namespace {
+
+using namespace std::string_view_literals;
+
+constexpr double kMaxInt = 2147483647.0;
+constexpr double kMaxOffset = 9007199254740992.0;  // 2^53, exact in JSON
+constexpr double kMaxVertices = 4294967294.0;      // so that every index fits 32 bits
+
+constexpr Shape text(std::span<const std::string_view> allowed = {}) {
+    return {.kind = Shape::Kind::Text, .texts = allowed};
+}
+constexpr Shape boolean() {
+    return {.kind = Shape::Kind::Boolean};
+}
+constexpr Shape integer(double min, double max) {
+    return {.kind = Shape::Kind::Integer, .min = min, .max = max};
+}
+constexpr Shape one_of(std::span<const std::int64_t> allowed) {
+    return {.kind = Shape::Kind::Integer, .min = -kMaxInt, .max = kMaxInt, .integers = allowed};
+}
+constexpr Shape index_of(std::string_view target) {
+    return {.kind = Shape::Kind::Integer, .target = target};
+}
+constexpr Shape number(double min = -FLT_MAX, double max = FLT_MAX) {
+    return {.kind = Shape::Kind::Number, .min = min, .max = max};
+}
+constexpr Shape array(const Shape& element) {
+    return {.kind = Shape::Kind::Array, .element = &element};
+}
+constexpr Shape array(const Shape& element, std::size_t length) {
+    return {.kind = Shape::Kind::Array, .min_length = length, .max_length = length, .element = &element};
+}
+constexpr Shape map(const Shape& element) {
+    return {.kind = Shape::Kind::Map, .element = &element};
+}
+template <std::size_t N>
+constexpr Shape object(const ShapeField (&fields)[N]) {
+    return {.kind = Shape::Kind::Object, .fields = fields, .field_count = N};
+}
+constexpr Shape object() {
+    return {.kind = Shape::Kind::Object};
+}
+
+constexpr Shape kText = text();
+constexpr Shape kNumber = number();
+
+// ---- buffers, views, accessors ----
+
+constexpr ShapeField kBufferFields[] = {
+    {"name", text()},
+    {"uri", text()},
+    {"byteLength", integer(1, kMaxOffset), true},
+};
+constexpr Shape kBuffer = object(kBufferFields);
+
+constexpr ShapeField kBufferViewFields[] = {
+    {"name", text()},
+    {"buffer", index_of("/buffers"), true},
+    {"byteOffset", integer(0, kMaxOffset)},
+    {"byteLength", integer(1, kMaxOffset), true},
+    {"byteStride", integer(4, 252)},
+    {"target", integer(0, kMaxInt)},
+};
+constexpr Shape kBufferView = object(kBufferViewFields);
+
+constexpr std::int64_t kComponentTypes[] = {5120, 5121, 5122, 5123, 5125, 5126};
+constexpr std::int64_t kIndexTypes[] = {5121, 5123, 5125};
+constexpr std::string_view kElementTypes[] = {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
+
+constexpr ShapeField kSparseIndicesFields[] = {
+    {"bufferView", index_of("/bufferViews"), true},
+    {"byteOffset", integer(0, kMaxInt)},
+    {"componentType", one_of(kIndexTypes), true},
+};
+constexpr ShapeField kSparseValuesFields[] = {
+    {"bufferView", index_of("/bufferViews"), true},
+    {"byteOffset", integer(0, kMaxInt)},
+};
+constexpr ShapeField kSparseFields[] = {
+    {"count", integer(1, kMaxInt), true},
+    {"indices", object(kSparseIndicesFields), true},
+    {"values", object(kSparseValuesFields), true},
+};
+constexpr ShapeField kAccessorFields[] = {
+    {"name", text()},
+    {"bufferView", index_of("/bufferViews")},
+    {"byteOffset", integer(0, kMaxOffset)},
+    {"componentType", one_of(kComponentTypes), true},
+    {"normalized", boolean()},
+    {"count", integer(1, kMaxVertices), true},
+    {"type", text(kElementTypes), true},
+    {"min", array(kNumber)},
+    {"max", array(kNumber)},
+    {"sparse", object(kSparseFields)},
+};
+constexpr Shape kAccessor = object(kAccessorFields);
+
+// ---- images, textures, materials ----
+
+constexpr ShapeField kImageFields[] = {
+    {"name", text()},
+    {"uri", text()},
+    {"mimeType", text()},
+    {"bufferView", index_of("/bufferViews")},
+};
+constexpr Shape kImage = object(kImageFields);
+
+constexpr std::int64_t kMagFilters[] = {9728, 9729};
+constexpr std::int64_t kMinFilters[] = {9728, 9729, 9984, 9985, 9986, 9987};
+constexpr std::int64_t kWraps[] = {33071, 33648, 10497};
+constexpr ShapeField kSamplerFields[] = {
+    {"name", text()},          {"magFilter", one_of(kMagFilters)}, {"minFilter", one_of(kMinFilters)},
+    {"wrapS", one_of(kWraps)}, {"wrapT", one_of(kWraps)},
+};
+constexpr Shape kSampler = object(kSamplerFields);
+
+constexpr ShapeField kTextureFields[] = {
+    {"name", text()},
+    {"sampler", index_of("/samplers")},
+    {"source", index_of("/images")},
+    {"extensions", object()},
+};
+constexpr Shape kTexture = object(kTextureFields);
+
+constexpr ShapeField kTextureTransformFields[] = {
+    {"offset", array(kNumber, 2)},
+    {"rotation", number()},
+    {"scale", array(kNumber, 2)},
+    {"texCoord", integer(0, kMaxInt)},
+};
+constexpr ShapeField kTextureInfoExtensionFields[] = {
+    {"KHR_texture_transform", object(kTextureTransformFields)},
+};
+constexpr ShapeField kTextureInfoFields[] = {
+    {"index", index_of("/textures"), true},
+    {"texCoord", integer(0, kMaxInt)},
+    {"scale", number()},     // normalTexture only
+    {"strength", number()},  // occlusionTexture only
+    {"extensions", object(kTextureInfoExtensionFields)},
+};
+constexpr Shape kTextureInfo = object(kTextureInfoFields);
+
+constexpr ShapeField kMetallicRoughnessFields[] = {
+    {"baseColorFactor", array(kNumber, 4)}, {"baseColorTexture", kTextureInfo},         {"metallicFactor", number()},
+    {"roughnessFactor", number()},          {"metallicRoughnessTexture", kTextureInfo},
+};
+constexpr ShapeField kEmissiveStrengthFields[] = {{"emissiveStrength", number(0.0)}};
+constexpr ShapeField kTransmissionFields[] = {
+    {"transmissionFactor", number()},
+    {"transmissionTexture", kTextureInfo},
+};
+constexpr ShapeField kIorFields[] = {{"ior", number(0.0)}};
+constexpr ShapeField kMaterialExtensionFields[] = {
+    {"KHR_materials_emissive_strength", object(kEmissiveStrengthFields)},
+    {"KHR_materials_transmission", object(kTransmissionFields)},
+    {"KHR_materials_ior", object(kIorFields)},
+    {"KHR_materials_unlit", object()},
+};
+constexpr std::string_view kAlphaModes[] = {"OPAQUE", "MASK", "BLEND"};
+constexpr ShapeField kMaterialFields[] = {
+    {"name", text()},
+    {"pbrMetallicRoughness", object(kMetallicRoughnessFields)},
+    {"normalTexture", kTextureInfo},
+    {"occlusionTexture", kTextureInfo},
+    {"emissiveTexture", kTextureInfo},
+    {"emissiveFactor", array(kNumber, 3)},
+    {"alphaMode", text(kAlphaModes)},
+    {"alphaCutoff", number(0.0)},
+    {"doubleSided", boolean()},
+    {"extensions", object(kMaterialExtensionFields)},
+};
+constexpr Shape kMaterial = object(kMaterialFields);
+
+// ---- meshes, nodes, scenes ----
+
+constexpr Shape kAccessorIndex = index_of("/accessors");
+constexpr Shape kAttributes = map(kAccessorIndex);
+constexpr ShapeField kPrimitiveFields[] = {
+    {"attributes", kAttributes, true}, {"indices", index_of("/accessors")}, {"material", index_of("/materials")},
+    {"mode", integer(0, 6)},           {"targets", array(kAttributes)},
+};
+constexpr Shape kPrimitive = object(kPrimitiveFields);
+constexpr ShapeField kMeshFields[] = {
+    {"name", text()},
+    {"primitives", array(kPrimitive), true},
+    {"weights", array(kNumber)},
+};
+constexpr Shape kMesh = object(kMeshFields);
+
+constexpr Shape kNodeIndex = index_of("/nodes");
+constexpr ShapeField kNodeLightFields[] = {{"light", index_of("/extensions/KHR_lights_punctual/lights"), true}};
+constexpr ShapeField kNodeExtensionFields[] = {{"KHR_lights_punctual", object(kNodeLightFields)}};
+constexpr ShapeField kNodeFields[] = {
+    {"name", text()},
+    {"children", array(kNodeIndex)},
+    {"mesh", index_of("/meshes")},
+    {"camera", index_of("/cameras")},
+    {"skin", index_of("/skins")},
+    {"matrix", array(kNumber, 16)},
+    {"translation", array(kNumber, 3)},
+    {"rotation", array(kNumber, 4)},
+    {"scale", array(kNumber, 3)},
+    {"weights", array(kNumber)},
+    {"extensions", object(kNodeExtensionFields)},
+};
+constexpr Shape kNode = object(kNodeFields);
+
+constexpr ShapeField kSceneFields[] = {
+    {"name", text()},
+    {"nodes", array(kNodeIndex)},
+};
+constexpr Shape kScene = object(kSceneFields);
+
+// ---- cameras and lights ----
+
+constexpr std::string_view kCameraTypes[] = {"perspective", "orthographic"};
+constexpr ShapeField kPerspectiveFields[] = {
+    {"yfov", number(), true},
+    {"aspectRatio", number(0.0)},
+    {"znear", number()},
+    {"zfar", number()},
+};
+constexpr ShapeField kOrthographicFields[] = {
+    {"xmag", number(), true},
+    {"ymag", number(), true},
+    {"znear", number()},
+    {"zfar", number()},
+};
+constexpr ShapeField kCameraFields[] = {
+    {"name", text()},
+    {"type", text(kCameraTypes), true},
+    {"perspective", object(kPerspectiveFields)},
+    {"orthographic", object(kOrthographicFields)},
+};
+constexpr Shape kCamera = object(kCameraFields);
+
+constexpr std::string_view kLightTypes[] = {"point", "spot", "directional"};
+constexpr ShapeField kSpotFields[] = {
+    {"innerConeAngle", number()},
+    {"outerConeAngle", number()},
+};
+constexpr ShapeField kLightFields[] = {
+    {"name", text()},    {"type", text(kLightTypes), true}, {"color", array(kNumber, 3)}, {"intensity", number(0.0)},
+    {"range", number()}, {"spot", object(kSpotFields)},
+};
+constexpr Shape kLight = object(kLightFields);
+constexpr ShapeField kLightsFields[] = {{"lights", array(kLight), true}};
+constexpr ShapeField kDocumentExtensionFields[] = {{"KHR_lights_punctual", object(kLightsFields)}};
+
+// ---- the document ----
+
+constexpr ShapeField kAssetFields[] = {
+    {"version", text(), true},
+    {"minVersion", text()},
+};
+constexpr Shape kObject = object();
+constexpr ShapeField kDocumentFields[] = {
+    {"asset", object(kAssetFields), true},
+    {"extensionsUsed", array(kText)},
+    {"extensionsRequired", array(kText)},
+    {"buffers", array(kBuffer)},
+    {"bufferViews", array(kBufferView)},
+    {"accessors", array(kAccessor)},
+    {"images", array(kImage)},
+    {"samplers", array(kSampler)},
+    {"textures", array(kTexture)},
+    {"materials", array(kMaterial)},
+    {"meshes", array(kMesh)},
+    {"cameras", array(kCamera)},
+    {"nodes", array(kNode)},
+    {"scenes", array(kScene)},
+    {"skins", array(kObject)},
+    {"animations", array(kObject)},
+    {"scene", index_of("/scenes")},
+    {"extensions", object(kDocumentExtensionFields)},
+};
+constexpr Shape kDocument = object(kDocumentFields);
+
+}  // namespace
+
+const Shape& gltf_shape() {
+    return kDocument;
+}
+
+}  // namespace etendue

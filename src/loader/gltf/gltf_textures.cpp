@@ -1,0 +1,125 @@
+#include "loader/gltf/gltf_textures.h"
+
+#include "image/read.h"
+#include "loader/files.h"
+#include "loader/json_text.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace etendue {
+
+namespace {
+
+TextureWrap wrap_of(int code) {
+    switch (code) {
+        case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
+            return TextureWrap::ClampToEdge;
+        case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT:
+            return TextureWrap::MirroredRepeat;
+        default:
+            return TextureWrap::Repeat;
+    }
+}
+
+std::vector<std::byte> to_bytes(std::span<const unsigned char> source) {
+    const auto bytes = std::as_bytes(source);
+    return {bytes.begin(), bytes.end()};
+}
+
+}  // namespace
+
+TextureReader::TextureReader(const GltfDocument& document, AccessorReader& accessors, SceneDesc& scene,
+                             ProblemList& problems)
+    : document_(document), accessors_(accessors), scene_(scene), problems_(problems) {}
+
+Handle<TextureDesc> TextureReader::texture(int index) {
+    if (index < 0 || static_cast<std::size_t>(index) >= document_.model.textures.size()) return {};
+    const auto key = static_cast<std::size_t>(index);
+    const auto known = textures_.find(key);
+    if (known != textures_.end()) return known->second;
+    return textures_[key] = read_texture(key);
+}
+
+Handle<TextureDesc> TextureReader::read_texture(std::size_t index) {
+    const tinygltf::Texture& source = document_.model.textures[index];
+    const SourceLocation where = document_.at(fmt::format("/textures/{}", index));
+    if (source.source < 0) {
+        std::string extensions;
+        for (const auto& [name, value] : source.extensions)
+            extensions += (extensions.empty() ? "" : ", ") + shown(name);
+        problems_.error(where,
+                        extensions.empty()
+                            ? "the texture has no image"
+                            : "the texture's only image comes from an extension that is not supported: " + extensions);
+        return {};
+    }
+    const Handle<ImageDesc> pixels = image(static_cast<std::size_t>(source.source));
+    if (!pixels) return {};
+
+    TextureDesc texture;
+    texture.name = source.name;
+    texture.image = pixels;
+    texture.location = where;
+    if (source.sampler >= 0 && static_cast<std::size_t>(source.sampler) < document_.model.samplers.size()) {
+        const tinygltf::Sampler& sampler = document_.model.samplers[static_cast<std::size_t>(source.sampler)];
+        texture.wrap_u = wrap_of(sampler.wrapS);
+        texture.wrap_v = wrap_of(sampler.wrapT);
+        const bool nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
+        texture.filter = nearest ? TextureFilter::Nearest : TextureFilter::Linear;
+    }
+    scene_.textures.push_back(std::move(texture));
+    return {static_cast<std::int32_t>(scene_.textures.size()) - 1};
+}
+
+Handle<ImageDesc> TextureReader::image(std::size_t index) {
+    if (index >= document_.images.size()) return {};
+    const auto known = images_.find(index);
+    if (known != images_.end()) return known->second;
+    Handle<ImageDesc> handle;
+    if (std::optional<ImageDesc> image = read_image(index)) {
+        handle.index = static_cast<std::int32_t>(scene_.images.size());
+        scene_.images.push_back(std::move(*image));
+    }
+    return images_[index] = handle;
+}
+
+std::optional<ImageDesc> TextureReader::read_image(std::size_t index) {
+    const GltfImage& source = document_.images[index];
+    ImageDesc image;
+    image.name = source.name;
+    image.mime_type = source.mime_type;
+    image.location = document_.at(fmt::format("/images/{}", index));
+    try {
+        if (!take_pixels(source, image)) return std::nullopt;
+        const ImageInfo info = image.path.empty() ? read_image_info(std::span<const std::byte>(image.encoded))
+                                                  : read_image_info(image.path);
+        if (info.format != "png" && info.format != "jpeg") {
+            throw IoError("glTF images are PNG or JPEG, but this is " + info.format);
+        }
+        image.width = info.width;
+        image.height = info.height;
+    } catch (const IoError& error) {
+        const std::string name = source.uri.empty() ? "" : fmt::format("image file '{}': ", shown(source.uri));
+        problems_.error(image.location, name + error.what());
+        return std::nullopt;
+    }
+    return image;
+}
+
+bool TextureReader::take_pixels(const GltfImage& source, ImageDesc& image) {
+    if (source.buffer_view) {
+        const auto bytes = accessors_.copyable_view(*source.buffer_view, image.location);
+        if (!bytes) return false;
+        image.encoded = to_bytes(*bytes);
+    } else if (source.uri.empty()) {
+        image.encoded = to_bytes(source.encoded);
+    } else {
+        image.path = resolve_uri(document_.directory, source.uri);
+        if (std::ranges::find(scene_.inputs, image.path) == scene_.inputs.end()) scene_.inputs.push_back(image.path);
+    }
+    return true;
+}
+
+}  // namespace etendue

@@ -1,0 +1,42 @@
+#include "loader/gltf/repair_log.h"
+
+#include <string_view>
+
+#include <fmt/format.h>
+
+namespace etendue {
+
+namespace {
+
+constexpr std::array<std::string_view, static_cast<std::size_t>(Repair::Count)> kMessages{
+    "primitives of points or lines are skipped, only triangles are rendered",
+    "primitives without positions are skipped",
+    "indices left over after a primitive's last triangle are ignored",
+    "degenerate triangles are removed",
+    "primitives without any triangle are skipped",
+    "normals that are zero or not finite are computed from the triangles instead",
+    "tangents are ignored for primitives where some are zero or not finite",
+    "texture coordinates that are not finite are set to 0",
+    "vertex colours that are negative or not finite are set to 0 or 1",
+    "texture coordinates that a material needs are missing from its primitive; (0, 0) is used",
+    "morph targets are not supported and are ignored",
+};
+
+}  // namespace
+
+void RepairLog::add(Repair repair, std::size_t count, const SourceLocation& where) {
+    if (count == 0) return;
+    Entry& entry = entries_[static_cast<std::size_t>(repair)];
+    if (entry.count == 0) entry.first = where;
+    entry.count += count;
+}
+
+void RepairLog::report(ProblemList& problems) const {
+    for (std::size_t i = 0; i < entries_.size(); ++i) {
+        if (entries_[i].count == 0) continue;
+        const std::string count = entries_[i].count == 1 ? "once" : fmt::format("{} times", entries_[i].count);
+        problems.warning(entries_[i].first, fmt::format("{} ({} in this file, first here)", kMessages[i], count));
+    }
+}
+
+}  // namespace etendue

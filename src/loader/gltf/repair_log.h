@@ -1,0 +1,42 @@
+// Counts what was repaired in a file's geometry, so that a million bad vertices make one warning, not a million.
+#pragma once
+
+#include "core/error.h"
+
+#include <array>
+#include <cstddef>
+
+namespace etendue {
+
+enum class Repair {
+    NotTriangles,         ///< primitives of points and lines
+    NoPositions,          ///< primitives without a POSITION attribute
+    LeftoverIndices,      ///< primitives whose number of indices is not one of whole triangles
+    DegenerateTriangles,  ///< triangles
+    EmptyPrimitives,      ///< primitives without any triangle that can be seen
+    BadNormals,           ///< normals
+    BadTangents,          ///< primitives
+    BadTexcoords,         ///< texture coordinates
+    BadColors,            ///< vertex colours
+    MissingTexcoords,     ///< primitives
+    MorphTargets,         ///< primitives
+    Count
+};
+
+class RepairLog {
+  public:
+    /// `count` more were repaired at `where`.
+    void add(Repair repair, std::size_t count, const SourceLocation& where);
+
+    /// One warning for each kind of repair, at the place of the first.
+    void report(ProblemList& problems) const;
+
+  private:
+    struct Entry {
+        std::size_t count = 0;
+        SourceLocation first;
+    };
+    std::array<Entry, static_cast<std::size_t>(Repair::Count)> entries_;
+};
+
+}  // namespace etendue

@@ -1,0 +1,178 @@
+// From a path to a scene: which file, which settings, in which order, and what becomes of the problems.
+
+#include "loader/files.h"
+#include "loader/loader.h"
+#include "loader/settings/render_json.h"
+
+#include <algorithm>
+#include <optional>
+#include <set>
+
+#include <fmt/format.h>
+
+namespace etendue {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kSettingsName = "render.json";
+
+const SceneLoader* find_loader(const fs::path& file) {
+    for (const auto& loader : scene_loaders()) {
+        if (loader->can_load(file)) return loader.get();
+    }
+    return nullptr;
+}
+
+bool has_scene_extension(const fs::path& file) {
+    return file.extension() == ".gltf" || file.extension() == ".glb";
+}
+
+/// The glTF files directly in `directory`, sorted.
+std::vector<fs::path> scene_files(const fs::path& directory) {
+    std::vector<fs::path> files;
+    std::error_code code;
+    for (fs::directory_iterator entry(directory, code), end; !code && entry != end; entry.increment(code)) {
+        std::error_code ignored;
+        if (has_scene_extension(entry->path()) && entry->is_regular_file(ignored)) files.push_back(entry->path());
+    }
+    std::ranges::sort(files);
+    return files;
+}
+
+/// The scene file of `directory`: the one that `wanted` names, else scene.gltf or scene.glb, else the only one.
+fs::path choose_scene_file(const fs::path& directory, const std::string& wanted, const SourceLocation& settings) {
+    if (!wanted.empty()) {
+        try {
+            static_cast<void>(resolve_name(directory, wanted));
+            return directory / wanted;
+        } catch (const IoError& error) {
+            throw SceneError({settings.file, "/scene"}, fmt::format("'{}': {}", wanted, error.what()));
+        }
+    }
+    const std::vector<fs::path> files = scene_files(directory);
+    if (files.empty()) throw SceneError({directory.string(), {}}, "there is no glTF file in this directory");
+    fs::path chosen = files.front();
+    if (files.size() > 1) {
+        std::vector<fs::path> preferred;
+        std::ranges::copy_if(files, std::back_inserter(preferred),
+                             [](const fs::path& f) { return f.stem() == "scene"; });
+        if (preferred.size() != 1) {
+            std::string names;
+            for (const fs::path& file : files) names += (names.empty() ? "" : ", ") + file.filename().string();
+            throw SceneError(
+                {directory.string(), {}},
+                fmt::format("there are several glTF files ({}): name one with \"scene\" in {}, or give the "
+                            "file itself",
+                            names, kSettingsName));
+        }
+        chosen = preferred.front();
+    }
+    try {
+        static_cast<void>(resolve_name(directory, chosen.filename().string()));
+    } catch (const IoError& error) {
+        throw SceneError({chosen.string(), {}}, error.what());
+    }
+    return chosen;
+}
+
+/// True if the settings are not meant for `file`, because they name another one.
+bool is_for_another_file(const RenderJson& json, const fs::path& directory, const fs::path& file) {
+    if (json.scene.empty()) return false;
+    std::error_code code;
+    return !fs::equivalent(directory / json.scene, file, code);
+}
+
+std::optional<RenderJson> read_settings(const fs::path& directory, ProblemList& problems) {
+    const fs::path file = directory / kSettingsName;
+    std::error_code code;
+    if (!fs::exists(file, code)) return std::nullopt;
+    try {
+        static_cast<void>(resolve_name(directory, kSettingsName));
+    } catch (const IoError& error) {
+        throw SceneError({file.string(), {}}, error.what());
+    }
+    return read_render_json(file, problems);
+}
+
+void load_into(const fs::path& path, SceneDesc& scene, ProblemList& problems) {
+    std::error_code code;
+    const bool is_directory = fs::is_directory(path, code);
+    if (!fs::exists(path, code)) throw SceneError({path.string(), {}}, "there is no such file or directory");
+
+    scene.directory = is_directory ? path : path.parent_path();
+    scene.name = (path.has_filename() ? path.stem() : path.parent_path().stem()).string();
+    std::optional<RenderJson> settings = read_settings(scene.directory, problems);
+    scene.file = is_directory ? choose_scene_file(path, settings ? settings->scene : "",
+                                                  settings ? settings->location : SourceLocation{})
+                              : path;
+    if (settings && !is_directory && is_for_another_file(*settings, scene.directory, scene.file)) {
+        problems.note(settings->location, fmt::format("ignored: it is for '{}'", settings->scene));
+        settings.reset();
+    }
+
+    const SceneLoader* loader = find_loader(scene.file);
+    if (loader == nullptr) {
+        throw SceneError({scene.file.string(), {}}, "the file's format is not known; glTF files are .gltf or .glb");
+    }
+    loader->load(scene.file, scene, problems);
+    if (settings) {
+        scene.inputs.push_back(settings->location.file);
+        apply_render_json(*settings, scene, problems);
+    }
+}
+
+/// Adds the problems of `from` that `to` does not have: a loader throws a copy of its list, or one more.
+void merge(const ProblemList& from, ProblemList& to) {
+    std::set<std::string> known;
+    for (const Problem& problem : to.all()) known.insert(problem.str());
+    for (const Problem& problem : from.all()) {
+        if (known.insert(problem.str()).second) to.add(problem);
+    }
+}
+
+}  // namespace
+
+LoadedScene inspect_scene(const fs::path& path) {
+    LoadedScene result;
+    try {
+        load_into(path, result.scene, result.problems);
+        merge(validate(result.scene), result.problems);
+    } catch (const SceneError& error) {
+        merge(error.problems(), result.problems);
+    } catch (const fs::filesystem_error& error) {
+        result.problems.error({path.string(), {}}, error.what());
+    }
+    return result;
+}
+
+LoadedScene load_scene(const fs::path& path) {
+    LoadedScene result = inspect_scene(path);
+    if (result.problems.has_errors()) throw SceneError(result.problems);
+    return result;
+}
+
+std::vector<fs::path> find_scene_directories(const fs::path& root) {
+    std::error_code code;
+    if (!fs::is_directory(root, code)) throw SceneError({root.string(), {}}, "this is not a directory");
+
+    std::vector<fs::path> found;
+    std::vector<fs::path> pending{root};
+    while (!pending.empty()) {
+        const fs::path directory = std::move(pending.back());
+        pending.pop_back();
+        if (fs::exists(directory / kSettingsName, code) || scene_files(directory).size() == 1) {
+            found.push_back(directory);
+            continue;
+        }
+        for (fs::directory_iterator entry(directory, code), end; !code && entry != end; entry.increment(code)) {
+            std::error_code ignored;
+            if (entry->is_directory(ignored) && !entry->is_symlink(ignored)) pending.push_back(entry->path());
+        }
+    }
+    std::ranges::sort(found);
+    return found;
+}
+
+}  // namespace etendue

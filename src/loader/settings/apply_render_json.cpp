@@ -1,0 +1,118 @@
+#include "image/read.h"
+#include "loader/files.h"
+#include "loader/json_text.h"
+#include "loader/settings/json_object.h"
+#include "loader/settings/render_json.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace etendue {
+
+namespace {
+
+/// The distinct names that `items` have.
+template <typename Item>
+std::vector<std::string_view> names_of(const std::vector<Item>& items) {
+    std::vector<std::string_view> names;
+    for (const Item& item : items) {
+        if (!item.name.empty()) names.push_back(item.name);
+    }
+    std::ranges::sort(names);
+    names.erase(std::unique(names.begin(), names.end()), names.end());
+    return names;
+}
+
+template <typename Item>
+bool check_name(const std::vector<Item>& items, std::string_view kind, const std::string& name,
+                const SourceLocation& where, ProblemList& problems) {
+    const std::vector<std::string_view> names = names_of(items);
+    if (std::ranges::binary_search(names, std::string_view(name))) return true;
+    problems.error(where, fmt::format("the scene has no {} '{}'{}", kind, shown(name), suggestion(name, names)));
+    return false;
+}
+
+void apply_materials(const RenderJson& json, SceneDesc& scene, ProblemList& problems) {
+    for (const auto& [name, change] : json.materials) {
+        if (!check_name(scene.materials, "material", name, change.location, problems)) continue;
+        for (MaterialDesc& material : scene.materials) {
+            if (material.name != name) continue;
+            material.override_model = change.model;
+            if (!change.emission) continue;
+            // Colours above 1 go into the strength, which has no upper bound.
+            const float brightest = std::max(1.0f, max_component(change.emission->color));
+            material.emissive = change.emission->color / brightest;
+            material.emissive_strength = change.emission->strength * brightest;
+            material.emissive_texture = {};
+        }
+    }
+}
+
+void apply_lights(const RenderJson& json, SceneDesc& scene, ProblemList& problems) {
+    std::vector<std::string> disabled;
+    for (const auto& [name, change] : json.lights) {
+        if (!check_name(scene.lights, "light", name, change.location, problems)) continue;
+        if (!change.enabled) disabled.push_back(name);
+        for (LightDesc& light : scene.lights) {
+            if (light.name != name) continue;
+            light.color = change.color.value_or(light.color);
+            light.intensity = change.intensity.value_or(light.intensity) * change.scale;
+        }
+    }
+    std::erase_if(scene.lights,
+                  [&](const LightDesc& light) { return std::ranges::find(disabled, light.name) != disabled.end(); });
+}
+
+void apply_camera(const RenderJson& json, SceneDesc& scene, ProblemList& problems) {
+    if (json.camera) {
+        if (std::ranges::find(scene.cameras, json.camera->name, &CameraDesc::name) != scene.cameras.end()) {
+            problems.error(json.camera->location,
+                           fmt::format("the scene already has a camera '{}'", shown(json.camera->name)));
+        }
+        scene.cameras.push_back(*json.camera);
+    }
+    // Whichever camera is chosen in the end, by name, by default or on the command line.
+    for (CameraDesc& camera : scene.cameras) {
+        camera.lens_radius = json.lens_radius.value_or(camera.lens_radius);
+        camera.focus_distance = json.focus_distance.value_or(camera.focus_distance);
+    }
+    if ((json.lens_radius || json.focus_distance) && scene.cameras.empty()) {
+        problems.warning(json.location, "lens_radius and focus_distance are ignored: the scene has no camera");
+    }
+}
+
+void apply_environment(const RenderJson& json, SceneDesc& scene, ProblemList& problems) {
+    if (!json.environment) return;
+    scene.environment = *json.environment;
+    if (scene.environment.image.empty()) return;
+
+    const std::string name = scene.environment.image.string();
+    const SourceLocation where{json.location.file, child_pointer(scene.environment.location.pointer, "image")};
+    scene.environment.image.clear();
+    try {
+        const std::filesystem::path file = resolve_name(scene.directory, name);
+        const ImageInfo info = read_image_info(file);
+        if (info.format != "openexr" && info.format != "hdr") {
+            throw IoError("an environment is an EXR or HDR image, but this is " + info.format);
+        }
+        scene.environment.image = file;
+        scene.inputs.push_back(file);
+    } catch (const IoError& error) {
+        problems.error(where, fmt::format("'{}': {}", shown(name), error.what()));
+    }
+}
+
+}  // namespace
+
+void apply_render_json(const RenderJson& json, SceneDesc& scene, ProblemList& problems) {
+    scene.settings = json.settings;
+    apply_camera(json, scene, problems);
+    apply_environment(json, scene, problems);
+    apply_materials(json, scene, problems);
+    apply_lights(json, scene, problems);
+}
+
+}  // namespace etendue

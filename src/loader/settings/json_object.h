@@ -1,0 +1,129 @@
+// Reading a JSON object member by member, so that wrong types, wrong ranges and unknown keys all become errors.
+#pragma once
+
+#include "core/error.h"
+#include "core/rgb.h"
+#include "core/vec.h"
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace etendue {
+
+/// The numbers that a member accepts.
+struct NumberRange {
+    double min = -std::numeric_limits<float>::max();
+    double max = std::numeric_limits<float>::max();
+    bool open_min = false;  ///< `min` itself is not accepted
+    bool open_max = false;
+
+    [[nodiscard]] bool contains(double value) const;
+    /// "a number in (0, 3]", "a number >= 0"
+    [[nodiscard]] std::string str() const;
+};
+
+inline constexpr NumberRange kAnyNumber{};
+inline constexpr NumberRange kNotNegative{.min = 0.0};
+inline constexpr NumberRange kPositive{.min = 0.0, .open_min = true};
+inline constexpr NumberRange kUnit{.min = 0.0, .max = 1.0};
+
+/// One object of a settings file. Each call asks for one member and names it as known; a member that is there and good
+/// is stored, and true returned. `finish` reports the members that nobody asked for.
+class JsonObject {
+  public:
+    /// `value` may be anything; if it is no object, that is the only error and all members are absent.
+    JsonObject(const nlohmann::json& value, SourceLocation where, ProblemList& problems);
+
+    bool text(std::string_view key, std::string& out);
+    bool boolean(std::string_view key, bool& out);
+    bool number(std::string_view key, const NumberRange& range, float& out);
+    bool number(std::string_view key, const NumberRange& range, double& out);
+    bool color(std::string_view key, const NumberRange& range, Rgb& out);
+    bool vector(std::string_view key, Vec3f& out);
+
+    template <typename Integer>
+    bool integer(std::string_view key, std::int64_t min, std::int64_t max, Integer& out) {
+        std::int64_t value = 0;
+        if (!read_integer(member(key), at(key), min, max, value)) return false;
+        out = static_cast<Integer>(value);
+        return true;
+    }
+
+    template <std::size_t N>
+    bool integers(std::string_view key, std::int64_t min, std::int64_t max, std::array<int, N>& out) {
+        const nlohmann::json* value = member(key);
+        if (value == nullptr || !check_array(*value, at(key), N, "integers")) return false;
+        std::array<int, N> result{};
+        for (std::size_t i = 0; i < N; ++i) {
+            std::int64_t element = 0;
+            if (!read_integer(&(*value)[i], element_at(key, i), min, max, element)) return false;
+            result[i] = static_cast<int>(element);
+        }
+        out = result;
+        return true;
+    }
+
+    /// One of `names`, each with the value it stands for.
+    template <typename Value, std::size_t N>
+    bool choice(std::string_view key, const std::array<std::pair<std::string_view, Value>, N>& names, Value& out) {
+        std::string name;
+        if (!text(key, name)) return false;
+        std::array<std::string_view, N> known;
+        for (std::size_t i = 0; i < N; ++i) {
+            known[i] = names[i].first;
+            if (names[i].first != name) continue;
+            out = names[i].second;
+            return true;
+        }
+        report_unknown_name(at(key), name, known);
+        return false;
+    }
+
+    /// The member as it is, or null: for objects within, and for members of more than one type.
+    [[nodiscard]] const nlohmann::json* member(std::string_view key);
+
+    /// Calls `visit(name, value)` for every member, all of which are known then.
+    template <typename Visit>
+    void each(const Visit& visit) {
+        for (const auto& [name, value] : object_->items()) {
+            known_.push_back(name);
+            visit(name, value);
+        }
+    }
+
+    /// An error for each member that has not been asked for, with the nearest one that has.
+    void finish();
+
+    [[nodiscard]] bool has(std::string_view key) const { return object_->contains(key); }
+    [[nodiscard]] SourceLocation at(std::string_view key) const;
+    [[nodiscard]] const SourceLocation& where() const { return where_; }
+    [[nodiscard]] ProblemList& problems() const { return problems_; }
+
+  private:
+    [[nodiscard]] SourceLocation element_at(std::string_view key, std::size_t index) const;
+    bool check_array(const nlohmann::json& value, const SourceLocation& where, std::size_t length,
+                     std::string_view elements);
+    bool read_integer(const nlohmann::json* value, const SourceLocation& where, std::int64_t min, std::int64_t max,
+                      std::int64_t& out);
+    bool read_number(const nlohmann::json* value, const SourceLocation& where, const NumberRange& range, double& out);
+    bool read_numbers(std::string_view key, const NumberRange& range, std::span<float> out);
+    void report_unknown_name(const SourceLocation& where, std::string_view name,
+                             std::span<const std::string_view> known);
+
+    const nlohmann::json* object_;
+    SourceLocation where_;
+    ProblemList& problems_;
+    std::vector<std::string> known_;
+};
+
+/// `; did you mean 'x'?` if a name of `known` is near enough to `name`, else `; known are a, b, c` for short lists.
+[[nodiscard]] std::string suggestion(std::string_view name, std::span<const std::string_view> known);
+
+}  // namespace etendue

@@ -1,0 +1,291 @@
+#include "loader/settings/render_json.h"
+
+#include "loader/files.h"
+#include "loader/json_text.h"
+#include "loader/settings/json_object.h"
+
+#include <fmt/format.h>
+
+namespace etendue {
+
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::int64_t kMaxInt = std::numeric_limits<int>::max();
+constexpr std::int64_t kMaxSide = 65536;
+constexpr std::int64_t kMaxSpp = 1 << 24;
+constexpr std::int64_t kMaxSeed = std::numeric_limits<std::uint32_t>::max();
+constexpr NumberRange kFieldOfView{.min = 0.0, .max = 3.141592, .open_min = true};
+constexpr NumberRange kFilterRadius{.min = 0.0, .max = 8.0, .open_min = true};
+constexpr NumberRange kIor{.min = 1.0, .max = 3.0, .open_min = true};
+
+constexpr std::array<std::pair<std::string_view, SamplerType>, 2> kSamplers{{
+    {"sobol", SamplerType::Sobol},
+    {"random", SamplerType::Random},
+}};
+constexpr std::array<std::pair<std::string_view, PixelFilterType>, 4> kFilters{{
+    {"blackman-harris", PixelFilterType::BlackmanHarris},
+    {"box", PixelFilterType::Box},
+    {"gaussian", PixelFilterType::Gaussian},
+    {"mitchell", PixelFilterType::Mitchell},
+}};
+constexpr std::array<std::pair<std::string_view, CameraType>, 2> kCameraTypes{{
+    {"perspective", CameraType::Perspective},
+    {"orthographic", CameraType::Orthographic},
+}};
+constexpr auto kMetals = [] {
+    std::array<std::pair<std::string_view, std::string_view>, kMetalNames.size()> names{};
+    for (std::size_t i = 0; i < names.size(); ++i) names[i] = {kMetalNames[i], kMetalNames[i]};
+    return names;
+}();
+
+void read_integrator(const Json& value, const SourceLocation& where, ProblemList& problems, IntegratorSettings& out) {
+    JsonObject object(value, where, problems);
+    object.text("type", out.type);
+    object.integer("max_depth", 1, kMaxInt, out.max_depth);
+    object.integer("min_depth", 1, kMaxInt, out.min_depth);
+    object.integer("roulette_depth", 1, kMaxInt, out.roulette_depth);
+    object.finish();
+}
+
+void read_film(const Json& value, const SourceLocation& where, ProblemList& problems, FilmSettings& out) {
+    JsonObject object(value, where, problems);
+    object.choice("filter", kFilters, out.filter);
+    object.number("filter_radius", kFilterRadius, out.filter_radius);
+    object.finish();
+}
+
+void read_color(const Json& value, const SourceLocation& where, ProblemList& problems, ColorSettings& out) {
+    JsonObject object(value, where, problems);
+    object.text("working_space", out.working_space);
+    object.text("display", out.display);
+    object.text("view", out.view);
+    object.number("exposure", kAnyNumber, out.exposure);
+    object.finish();
+}
+
+EnvironmentDesc read_environment(const Json& value, const SourceLocation& where, ProblemList& problems) {
+    EnvironmentDesc result;
+    result.enabled = true;
+    result.location = where;
+    JsonObject object(value, where, problems);
+    std::string image;
+    if (object.text("image", image)) result.image = image;
+    object.color("color", kNotNegative, result.color);
+    object.number("scale", kNotNegative, result.scale);
+    object.number("rotation", kAnyNumber, result.rotation);
+    object.boolean("visible_to_camera", result.visible_to_camera);
+    object.finish();
+    return result;
+}
+
+/// Sets the camera's transform so that it looks from `position` to `look_at`.
+void aim(CameraDesc& camera, const Vec3f& position, const Vec3f& look_at, const Vec3f& up, JsonObject& object) {
+    const Vec3f back = position - look_at;
+    const Vec3f right = cross(up, back);
+    if (!(length_squared(back) > 0.0f) || !is_finite(back)) {
+        object.problems().error(object.at("look_at"), "must differ from position");
+        return;
+    }
+    if (!(length_squared(right) > 1e-12f * length_squared(up) * length_squared(back))) {
+        object.problems().error(object.at("up"), "must not be zero or parallel to the viewing direction");
+        return;
+    }
+    const Vec3f z = normalize(back);
+    const Vec3f x = normalize(right);
+    const Vec3f y = cross(z, x);
+    camera.to_world =
+        Mat4f(x.x, x.y, x.z, 0.0f, y.x, y.y, y.z, 0.0f, z.x, z.y, z.z, 0.0f, position.x, position.y, position.z, 1.0f);
+}
+
+CameraDesc read_camera(const Json& value, const SourceLocation& where, ProblemList& problems) {
+    CameraDesc camera;
+    camera.name = "render.json";
+    camera.location = where;
+    JsonObject object(value, where, problems);
+    object.text("name", camera.name);
+    object.choice("type", kCameraTypes, camera.type);
+    Vec3f position(0.0f);
+    Vec3f look_at(0.0f);
+    Vec3f up(0.0f, 1.0f, 0.0f);
+    for (const std::string_view key : {"position", "look_at"}) {
+        if (!object.has(key)) problems.error(where, fmt::format("'{}' is missing", key));
+    }
+    const bool has_position = object.vector("position", position);
+    const bool has_look_at = object.vector("look_at", look_at);
+    object.vector("up", up);
+    object.number("yfov", kFieldOfView, camera.yfov);
+    object.number("ymag", kPositive, camera.ymag);
+    object.number("lens_radius", kNotNegative, camera.lens_radius);
+    if (has_position && has_look_at) {
+        aim(camera, position, look_at, up, object);
+        const float distance = length(look_at - position);
+        if (distance > 0.0f) camera.focus_distance = distance;
+    }
+    object.number("focus_distance", kPositive, camera.focus_distance);
+    object.finish();
+    return camera;
+}
+
+ConductorDesc read_conductor(const Json& value, const SourceLocation& where, ProblemList& problems) {
+    ConductorDesc result;
+    JsonObject object(value, where, problems);
+    std::string_view metal;
+    if (object.choice("metal", kMetals, metal)) result.metal = metal;
+    object.number("roughness", kUnit, result.roughness);
+    object.finish();
+    return result;
+}
+
+DielectricDesc read_dielectric(const Json& value, const SourceLocation& where, ProblemList& problems) {
+    DielectricDesc result;
+    JsonObject object(value, where, problems);
+    object.number("ior", kIor, result.ior);
+    object.number("roughness", kUnit, result.roughness);
+    object.finish();
+    return result;
+}
+
+DiffuseDesc read_diffuse(const Json& value, const SourceLocation& where, ProblemList& problems) {
+    DiffuseDesc result;
+    JsonObject object(value, where, problems);
+    object.color("albedo", kUnit, result.albedo);
+    object.finish();
+    return result;
+}
+
+EmissionOverride read_emission(const Json& value, const SourceLocation& where, ProblemList& problems) {
+    EmissionOverride result;
+    JsonObject object(value, where, problems);
+    object.color("color", kNotNegative, result.color);
+    object.number("strength", kNotNegative, result.strength);
+    object.finish();
+    return result;
+}
+
+MaterialOverride read_material(const Json& value, const SourceLocation& where, ProblemList& problems) {
+    MaterialOverride result;
+    result.location = where;
+    JsonObject object(value, where, problems);
+    int models = 0;
+    if (const Json* member = object.member("conductor")) {
+        result.model = read_conductor(*member, object.at("conductor"), problems);
+        ++models;
+    }
+    if (const Json* member = object.member("dielectric")) {
+        result.model = read_dielectric(*member, object.at("dielectric"), problems);
+        ++models;
+    }
+    if (const Json* member = object.member("diffuse")) {
+        result.model = read_diffuse(*member, object.at("diffuse"), problems);
+        ++models;
+    }
+    if (const Json* member = object.member("emission")) {
+        result.emission = read_emission(*member, object.at("emission"), problems);
+    }
+    if (models > 1) problems.error(where, "only one of conductor, dielectric and diffuse may be given");
+    if (value.is_object() && models == 0 && !result.emission) {
+        problems.error(where, "one of conductor, dielectric, diffuse and emission must be given");
+    }
+    object.finish();
+    return result;
+}
+
+LightOverride read_light(const Json& value, const SourceLocation& where, ProblemList& problems) {
+    LightOverride result;
+    result.location = where;
+    JsonObject object(value, where, problems);
+    Rgb color;
+    float intensity = 0.0f;
+    if (object.color("color", kNotNegative, color)) result.color = color;
+    if (object.number("intensity", kNotNegative, intensity)) result.intensity = intensity;
+    object.number("scale", kNotNegative, result.scale);
+    object.boolean("enabled", result.enabled);
+    object.finish();
+    return result;
+}
+
+void read_camera_member(JsonObject& object, RenderJson& out) {
+    const Json* member = object.member("camera");
+    if (member == nullptr) return;
+    if (member->is_object()) {
+        out.camera = read_camera(*member, object.at("camera"), object.problems());
+        out.settings.camera = out.camera->name;
+    } else if (member->is_string()) {
+        object.text("camera", out.settings.camera);
+    } else {
+        object.problems().error(object.at("camera"), "must be the name of a camera or an object that describes one");
+    }
+}
+
+void read_film_size(JsonObject& object, FilmSettings& film) {
+    std::array<int, 2> resolution{film.width, film.height};
+    object.integers("resolution", 1, kMaxSide, resolution);
+    film.width = resolution[0];
+    film.height = resolution[1];
+    std::array<int, 4> crop{};
+    if (object.integers("crop", 0, kMaxSide, crop)) film.crop = crop;
+}
+
+void read_overrides(JsonObject& object, RenderJson& out) {
+    ProblemList& problems = object.problems();
+    if (const Json* member = object.member("materials")) {
+        JsonObject materials(*member, object.at("materials"), problems);
+        materials.each([&](const std::string& name, const Json& value) {
+            out.materials[name] = read_material(value, materials.at(name), problems);
+        });
+    }
+    if (const Json* member = object.member("lights")) {
+        JsonObject lights(*member, object.at("lights"), problems);
+        lights.each([&](const std::string& name, const Json& value) {
+            out.lights[name] = read_light(value, lights.at(name), problems);
+        });
+    }
+}
+
+/// The whole document. To add a key, add its line here or in the function of its object, and to the schema and the
+/// docs.
+void read_document(const Json& value, ProblemList& problems, RenderJson& out) {
+    JsonObject object(value, out.location, problems);
+    RenderSettings& settings = out.settings;
+    object.text("scene", out.scene);
+    object.choice("sampler", kSamplers, settings.sampler);
+    object.integer("spp", 1, kMaxSpp, settings.spp);
+    object.integer("seed", 0, kMaxSeed, settings.seed);
+    object.number("time", kNotNegative, settings.time_limit);
+    read_film_size(object, settings.film);
+    read_camera_member(object, out);
+    if (float radius = 0.0f; object.number("lens_radius", kNotNegative, radius)) out.lens_radius = radius;
+    if (float distance = 0.0f; object.number("focus_distance", kPositive, distance)) out.focus_distance = distance;
+    if (const Json* member = object.member("integrator")) {
+        read_integrator(*member, object.at("integrator"), problems, settings.integrator);
+    }
+    if (const Json* member = object.member("film")) read_film(*member, object.at("film"), problems, settings.film);
+    if (const Json* member = object.member("color")) read_color(*member, object.at("color"), problems, settings.color);
+    if (const Json* member = object.member("environment")) {
+        out.environment = read_environment(*member, object.at("environment"), problems);
+    }
+    read_overrides(object, out);
+    object.finish();
+}
+
+}  // namespace
+
+RenderJson read_render_json(const std::filesystem::path& file, ProblemList& problems) {
+    RenderJson result;
+    result.location = {file.string(), {}};
+    result.settings.location = result.location;
+    try {
+        const std::vector<unsigned char> bytes = read_bytes(file, kMaxSettingsBytes);
+        const std::string_view text{reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+        read_document(parse_json(text, result.location), problems, result);
+    } catch (const IoError& error) {
+        problems.error(result.location, error.what());
+    } catch (const SceneError& error) {
+        for (const Problem& problem : error.problems().all()) problems.add(problem);
+    }
+    return result;
+}
+
+}  // namespace etendue

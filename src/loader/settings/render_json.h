@@ -1,0 +1,52 @@
+// render.json: what it says, before it meets the scene. Its keys are described in docs/render-json.md.
+#pragma once
+
+#include "scene/scene_desc.h"
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+
+namespace etendue {
+
+struct EmissionOverride {
+    Rgb color{1.0f};
+    float strength = 1.0f;
+};
+
+struct MaterialOverride {
+    std::variant<std::monostate, ConductorDesc, DielectricDesc, DiffuseDesc> model;
+    std::optional<EmissionOverride> emission;
+    SourceLocation location;
+};
+
+struct LightOverride {
+    std::optional<Rgb> color;
+    std::optional<float> intensity;
+    float scale = 1.0f;
+    bool enabled = true;
+    SourceLocation location;
+};
+
+struct RenderJson {
+    std::string scene;                           ///< file name; empty for the only one
+    RenderSettings settings;                     ///< `camera` is the name chosen
+    std::optional<CameraDesc> camera;            ///< described here; chosen too
+    std::optional<float> lens_radius;            ///< of whichever camera is chosen
+    std::optional<float> focus_distance;         ///< the same
+    std::optional<EnvironmentDesc> environment;  ///< its image not yet resolved
+    std::map<std::string, MaterialOverride> materials;
+    std::map<std::string, LightOverride> lights;
+    SourceLocation location;
+};
+
+/// Parses `file`. All errors go to `problems`, each with its JSON pointer; members with errors keep their defaults.
+[[nodiscard]] RenderJson read_render_json(const std::filesystem::path& file, ProblemList& problems);
+
+/// Applies the settings to a scene that has been loaded: overrides by name, camera, environment (whose header is read).
+/// Names that the scene does not have are errors that suggest the nearest one.
+void apply_render_json(const RenderJson& json, SceneDesc& scene, ProblemList& problems);
+
+}  // namespace etendue
