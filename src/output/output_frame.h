@@ -1,0 +1,40 @@
+// A rendered image with everything that is said about it in files.
+#pragma once
+
+#include "core/vec.h"
+#include "image/image.h"
+
+#include <cstdint>
+#include <string>
+
+namespace etendue {
+
+struct OutputFrame {
+    /// 3 or 4 channels, linear in `working_space`, as large as the crop window. Alpha is associated (colour is already
+    /// multiplied by it).
+    ImageF pixels;
+    int crop_x = 0;             ///< column of the first pixel in the full image
+    int crop_y = 0;             ///< row of the first pixel in the full image, y down
+    int full_width = 0;         ///< pixels; 0 if the image is not cropped
+    int full_height = 0;        ///< pixels; 0 if the image is not cropped
+    float pixel_aspect = 1.0f;  ///< width over height of a pixel
+
+    std::string working_space;  ///< a scene-linear space of the OpenColorIO config
+    std::string display;        ///< of the preview; empty for the config's default
+    std::string view;           ///< of the preview; empty for the display's default
+    float exposure = 0.0f;      ///< stops, preview only
+
+    Mat4f world_to_camera;  ///< the camera looks along -Z with +Y up
+    Mat4f world_to_screen;  ///< projective; x right and y up in [-1, 1] over the full image
+
+    std::string scene;
+    std::string integrator;
+    std::string sampler;
+    int spp = 0;  ///< samples per pixel that were taken
+    std::uint32_t seed = 0;
+    double render_seconds = 0.0;
+    bool complete = true;     ///< false if rendering was stopped early
+    std::string halt_reason;  ///< why it stopped, empty if nothing to say
+};
+
+}  // namespace etendue

@@ -1,0 +1,23 @@
+// Images to look at.
+#pragma once
+
+#include "color/color_config.h"
+#include "output/output_driver.h"
+
+#include <filesystem>
+
+namespace etendue {
+
+/// An 8-bit RGB PNG of the frame over black, through its exposure, display and view. Only the crop window is written.
+class PreviewDriver final : public OutputDriver {
+  public:
+    PreviewDriver(std::filesystem::path path, ColorConfig config);
+
+    void write(const OutputFrame& frame) override;
+
+  private:
+    std::filesystem::path path_;
+    ColorConfig config_;
+};
+
+}  // namespace etendue

@@ -1,0 +1,60 @@
+#include "output/statistics.h"
+
+#include "output/software_name.h"
+
+#include <nlohmann/json.hpp>
+
+namespace etendue {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double per_second(std::uint64_t count, double seconds) {
+    return seconds > 0.0 ? static_cast<double>(count) / seconds : 0.0;
+}
+
+Json to_object(const PhaseTime& time) {
+    return {{"wall", time.wall}, {"cpu", time.cpu}};
+}
+
+Json to_object(const std::vector<DroppedSample>& samples) {
+    Json list = Json::array();
+    for (const DroppedSample& s : samples) list.push_back({{"x", s.x}, {"y", s.y}, {"sample", s.sample}});
+    return list;
+}
+
+}  // namespace
+
+std::string to_json(const RenderStatistics& s) {
+    Json json;
+    json["software"] = software_name();
+    json["scene"] = s.scene;
+    json["settings_hash"] = s.settings_hash;
+    json["size"] = {s.width, s.height};
+    json["full_size"] = {s.full_width, s.full_height};
+    json["complete"] = s.complete;
+    json["halt_reason"] = s.halt_reason;
+    json["spp"] = {{"requested", s.spp_requested}, {"done", s.spp_done}};
+    json["samples"] = s.samples;
+    json["samples_per_second"] = per_second(s.samples, s.render.wall);
+    json["rays"] = {
+        {"camera", s.rays.camera}, {"bounce", s.rays.bounce}, {"shadow", s.rays.shadow}, {"total", s.rays.total()}};
+    json["rays_per_second"] = per_second(s.rays.total(), s.render.wall);
+    json["seconds"] = {{"load", to_object(s.load)},
+                       {"build", to_object(s.build)},
+                       {"render", to_object(s.render)},
+                       {"write", to_object(s.write)}};
+    json["peak_memory_bytes"] = s.peak_memory_bytes;
+    json["bvh_bytes"] = s.bvh_bytes;
+    json["triangles"] = s.triangles;
+    json["instances"] = s.instances;
+    json["lights"] = s.lights;
+    json["dropped_samples"] = {{"count", s.dropped_samples}, {"first", to_object(s.first_dropped)}};
+    json["threads"] = s.threads;
+    json["isa"] = s.isa;
+    json["libraries"] = s.libraries;
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace etendue

@@ -1,0 +1,70 @@
+// What a render cost and did, for the JSON file beside each image.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace etendue {
+
+struct RayCounts {
+    std::uint64_t camera = 0;
+    std::uint64_t bounce = 0;
+    std::uint64_t shadow = 0;
+
+    [[nodiscard]] std::uint64_t total() const { return camera + bounce + shadow; }
+};
+
+/// Seconds that a phase took on the clock, and on all processors together.
+struct PhaseTime {
+    double wall = 0.0;
+    double cpu = 0.0;
+};
+
+/// A sample that was not finite and therefore left out.
+struct DroppedSample {
+    int x = 0;  ///< pixel of the full image
+    int y = 0;
+    std::uint32_t sample = 0;  ///< index within the pixel
+};
+
+struct RenderStatistics {
+    std::string scene;
+    std::string settings_hash;  ///< equal for equal settings and inputs
+    int width = 0;              ///< pixels rendered: the crop window's, or the image's
+    int height = 0;
+    int full_width = 0;  ///< pixels of the whole image
+    int full_height = 0;
+
+    RayCounts rays;
+    std::uint64_t samples = 0;  ///< in all pixels together
+    int spp_requested = 0;
+    int spp_done = 0;  ///< finished passes
+    bool complete = true;
+    std::string halt_reason;  ///< why rendering ended
+
+    PhaseTime load;   ///< reading the scene
+    PhaseTime build;  ///< compiling the world: BVHs, textures, lights
+    PhaseTime render;
+    PhaseTime write;  ///< the images; this file is written after them
+
+    std::uint64_t peak_memory_bytes = 0;  ///< of the process
+    std::uint64_t bvh_bytes = 0;
+    std::uint64_t triangles = 0;  ///< stored ones; a mesh counts once however often it is placed
+    std::uint64_t instances = 0;
+    std::uint64_t lights = 0;
+
+    std::uint64_t dropped_samples = 0;
+    std::vector<DroppedSample> first_dropped;  ///< the first few of them
+
+    int threads = 0;
+    std::string isa;                               ///< instruction set of the ray kernels
+    std::map<std::string, std::string> libraries;  ///< versions by name
+};
+
+/// `statistics` as an indented JSON object that ends in a newline. Adds the rates: rays and samples per second of
+/// rendering, 0 where no time was taken. Strings that are not UTF-8 are repaired.
+[[nodiscard]] std::string to_json(const RenderStatistics& statistics);
+
+}  // namespace etendue

@@ -1,0 +1,81 @@
+#include "output/statistics.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace etendue {
+
+namespace {
+
+RenderStatistics make_statistics() {
+    RenderStatistics s;
+    s.scene = "cornell-box";
+    s.settings_hash = "0123abcd";
+    s.width = 64;
+    s.height = 32;
+    s.full_width = 128;
+    s.full_height = 96;
+    s.rays = {100, 250, 50};
+    s.samples = 80;
+    s.spp_requested = 16;
+    s.spp_done = 8;
+    s.complete = false;
+    s.halt_reason = "time limit";
+    s.load = {0.25, 0.5};
+    s.build = {1.0, 1.5};
+    s.render = {2.0, 3.75};
+    s.write = {0.125, 0.0625};
+    s.peak_memory_bytes = 5'000'000'000;
+    s.bvh_bytes = 1234;
+    s.triangles = 36;
+    s.instances = 1;
+    s.lights = 2;
+    s.dropped_samples = 3;
+    s.first_dropped = {{1, 2, 3}, {4, 5, 6}};
+    s.threads = 2;
+    s.isa = "avx2";
+    s.libraries = {{"embree", "3.13.5"}, {"oiio", "2.4.7"}};
+    return s;
+}
+
+TEST(StatisticsJson, HasEveryField) {
+    const auto json = nlohmann::json::parse(to_json(make_statistics()));
+    const auto expected = nlohmann::json::parse(R"({
+        "scene": "cornell-box", "settings_hash": "0123abcd", "size": [64, 32], "full_size": [128, 96],
+        "complete": false, "halt_reason": "time limit", "spp": {"requested": 16, "done": 8},
+        "samples": 80, "samples_per_second": 40.0,
+        "rays": {"camera": 100, "bounce": 250, "shadow": 50, "total": 400}, "rays_per_second": 200.0,
+        "seconds": {"load": {"wall": 0.25, "cpu": 0.5}, "build": {"wall": 1.0, "cpu": 1.5},
+                    "render": {"wall": 2.0, "cpu": 3.75}, "write": {"wall": 0.125, "cpu": 0.0625}},
+        "peak_memory_bytes": 5000000000, "bvh_bytes": 1234, "triangles": 36, "instances": 1, "lights": 2,
+        "dropped_samples": {"count": 3, "first": [{"x": 1, "y": 2, "sample": 3}, {"x": 4, "y": 5, "sample": 6}]},
+        "threads": 2, "isa": "avx2", "libraries": {"embree": "3.13.5", "oiio": "2.4.7"}})");
+    for (const auto& [key, value] : expected.items()) {
+        ASSERT_TRUE(json.contains(key)) << key;
+        EXPECT_EQ(json.at(key), value) << key;
+    }
+    EXPECT_EQ(json.size(), expected.size() + 1) << "all of the above and the software";
+    EXPECT_EQ(json.at("software").get<std::string>().substr(0, 8), "Etendue ");
+}
+
+TEST(StatisticsJson, EmptyStatisticsHaveNoRatesAndNoHoles) {
+    const auto json = nlohmann::json::parse(to_json({}));
+    EXPECT_EQ(json.at("rays_per_second"), 0.0);
+    EXPECT_EQ(json.at("samples_per_second"), 0.0);
+    EXPECT_TRUE(json.at("dropped_samples").at("first").is_array());
+    EXPECT_TRUE(json.at("libraries").is_object());
+}
+
+TEST(StatisticsJson, TextFilesEndInANewline) {
+    EXPECT_EQ(to_json({}).back(), '\n');
+}
+
+TEST(StatisticsJson, BrokenTextIsRepaired) {
+    RenderStatistics s;
+    s.scene = "caf\xe9 \"x\"\n";
+    EXPECT_TRUE(nlohmann::json::accept(to_json(s)));
+}
+
+}  // namespace
+
+}  // namespace etendue
