@@ -1,0 +1,116 @@
+#include "scene/scene_desc.h"
+#include "scene/small_scene.h"
+
+#include <array>
+
+#include <gtest/gtest.h>
+
+namespace etendue {
+namespace {
+
+SceneDesc bare_scene() {
+    SceneDesc scene = small_scene();
+    scene.cameras.clear();
+    scene.lights.clear();
+    scene.environment = {};
+    return scene;
+}
+
+TEST(ComputeBounds, CoversAllInstances) {
+    SceneDesc scene = bare_scene();
+    InstanceDesc second = scene.instances[0];
+    second.to_world[3][0] = 10.0f;
+    second.to_world[1][1] = -2.0f;
+    scene.instances.push_back(second);
+    const Bounds bounds = compute_bounds(scene);
+    EXPECT_EQ(bounds.min, Vec3f(0, -2, 0));
+    EXPECT_EQ(bounds.max, Vec3f(11, 1, 0));
+}
+
+TEST(ComputeBounds, IgnoresWhatDoesNotExist) {
+    SceneDesc scene = bare_scene();
+    scene.instances[0].mesh.index = 5;
+    EXPECT_TRUE(compute_bounds(scene).empty());
+}
+
+/// Largest |x| and |y| of the box's corners in the frame, where 1 is its edge; 2 if one is behind the camera.
+std::array<float, 2> extent_in_frame(const SceneDesc& scene) {
+    const Bounds bounds = compute_bounds(scene);
+    const CameraDesc& camera = scene.cameras.at(0);
+    const Mat4f to_camera = camera.to_world.inverse();
+    const float tan_y = std::tan(camera.yfov / 2);
+    const float tan_x = tan_y * float(scene.settings.film.width) / float(scene.settings.film.height);
+    std::array<float, 2> extent{0, 0};
+    for (int i = 0; i < 8; ++i) {
+        const Vec3f corner((i & 1) ? bounds.max.x : bounds.min.x, (i & 2) ? bounds.max.y : bounds.min.y,
+                           (i & 4) ? bounds.max.z : bounds.min.z);
+        const Vec3f p = transform_point(to_camera, corner);
+        if (p.z >= 0.0f) return {2, 2};
+        extent[0] = std::max(extent[0], std::abs(p.x / -p.z / tan_x));
+        extent[1] = std::max(extent[1], std::abs(p.y / -p.z / tan_y));
+    }
+    return extent;
+}
+
+TEST(AddMissing, CameraFramesTheBoxTightly) {
+    for (const auto [width, height] : {std::array{1024, 576}, std::array{300, 900}, std::array{64, 64}}) {
+        for (const Vec3f& size : {Vec3f(1, 1, 1), Vec3f(10, 0.1f, 0.1f), Vec3f(0.01f, 5, 0.01f), Vec3f(1, 2, 50)}) {
+            SceneDesc scene = bare_scene();
+            scene.settings.film.width = width;
+            scene.settings.film.height = height;
+            scene.meshes[0].primitives[0].positions = {Vec3f(3, 4, 5), Vec3f(3, 4, 5) + size, Vec3f(3, 4, 5)};
+            ProblemList problems;
+            add_missing_camera_and_light(scene, problems);
+            const auto [x, y] = extent_in_frame(scene);
+            EXPECT_LE(std::max(x, y), 1.0f);
+            EXPECT_GE(std::max(x, y), 0.8f);
+            EXPECT_EQ(problems.all().size(), 2u);
+            EXPECT_FALSE(validate(scene).has_errors());
+            EXPECT_GT(scene.cameras[0].to_world[2][0], 0.0f);  // from the right
+            EXPECT_GT(scene.cameras[0].to_world[2][1], 0.0f);  // from above
+            EXPECT_GT(scene.cameras[0].to_world[2][2], 0.5f);  // from the front
+        }
+    }
+}
+
+TEST(AddMissing, WorksForAnEmptyScene) {
+    SceneDesc scene;
+    ProblemList problems;
+    add_missing_camera_and_light(scene, problems);
+    EXPECT_EQ(scene.cameras.size(), 1u);
+    EXPECT_TRUE(scene.environment.enabled);
+    EXPECT_FALSE(validate(scene).has_errors());
+}
+
+TEST(AddMissing, LeavesWhatIsThere) {
+    SceneDesc scene = small_scene();
+    ProblemList problems;
+    add_missing_camera_and_light(scene, problems);
+    EXPECT_EQ(scene.cameras.size(), 1u);
+    EXPECT_EQ(scene.cameras[0].name, "main");
+    EXPECT_TRUE(problems.all().empty());
+}
+
+TEST(AddMissing, EnvironmentOnlyIfNothingEmits) {
+    const auto adds_environment = [](SceneDesc scene) {
+        ProblemList problems;
+        add_missing_camera_and_light(scene, problems);
+        return scene.environment.enabled;
+    };
+    EXPECT_TRUE(adds_environment(bare_scene()));
+
+    SceneDesc lit = bare_scene();
+    lit.lights.emplace_back();
+    EXPECT_FALSE(adds_environment(lit));
+    lit.lights[0].intensity = 0.0f;
+    EXPECT_TRUE(adds_environment(lit));
+
+    SceneDesc glowing = bare_scene();
+    glowing.materials[0].emissive = Rgb(1.0f);
+    EXPECT_FALSE(adds_environment(glowing));
+    glowing.instances.clear();  // the material is there, but nothing with it
+    EXPECT_TRUE(adds_environment(glowing));
+}
+
+}  // namespace
+}  // namespace etendue

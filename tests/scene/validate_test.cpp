@@ -1,0 +1,123 @@
+#include "scene/scene_desc.h"
+#include "scene/small_scene.h"
+
+#include <functional>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+namespace etendue {
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInf = std::numeric_limits<float>::infinity();
+
+TEST(Validate, AcceptsAGoodScene) {
+    const ProblemList problems = validate(small_scene());
+    EXPECT_EQ(problems.error_count(), 0u) << (problems.all().empty() ? "" : problems.all()[0].str());
+}
+
+TEST(Validate, AcceptsAnEmptyScene) {
+    EXPECT_FALSE(validate(SceneDesc{}).has_errors());
+}
+
+struct Defect {
+    const char* name;
+    const char* expected;  ///< part of the message
+    std::function<void(SceneDesc&)> make;
+};
+
+class ValidateDefect : public testing::TestWithParam<Defect> {};
+
+TEST_P(ValidateDefect, IsReportedOnce) {
+    SceneDesc scene = small_scene();
+    GetParam().make(scene);
+    const ProblemList problems = validate(scene);
+    ASSERT_EQ(problems.error_count(), 1u) << problems.all().size();
+    EXPECT_NE(problems.all()[0].message.find(GetParam().expected), std::string::npos) << problems.all()[0].message;
+}
+
+PrimitiveDesc& primitive(SceneDesc& s) {
+    return s.meshes[0].primitives[0];
+}
+
+const Defect kDefects[] = {
+    {"ImageWithoutSource", "either a file or bytes", [](SceneDesc& s) { s.images[0].path.clear(); }},
+    {"ImageWithTwoSources", "either a file or bytes", [](SceneDesc& s) { s.images[0].encoded.resize(4); }},
+    {"ImageWithoutSize", "0 x 2", [](SceneDesc& s) { s.images[0].width = 0; }},
+    {"TextureWithoutImage", "image -1 does not exist", [](SceneDesc& s) { s.textures[0].image = {}; }},
+    {"TextureBeyondImages", "image 1 does not exist", [](SceneDesc& s) { s.textures[0].image.index = 1; }},
+    {"MaterialBeyondTextures", "texture of base colour, 7",
+     [](SceneDesc& s) { s.materials[0].base_color_texture.texture.index = 7; }},
+    {"TexcoordTwo", "only 0 and 1", [](SceneDesc& s) { s.materials[0].base_color_texture.texcoord = 2; }},
+    {"TextureTransformNan", "not finite",
+     [](SceneDesc& s) { s.materials[0].base_color_texture.transform.scale.y = kNan; }},
+    {"BaseColorAboveOne", "base colour is 2", [](SceneDesc& s) { s.materials[0].base_color.g = 2; }},
+    {"BaseColorNan", "base colour", [](SceneDesc& s) { s.materials[0].base_color.b = kNan; }},
+    {"NegativeRoughness", "roughness", [](SceneDesc& s) { s.materials[0].roughness = -0.1f; }},
+    {"InfiniteStrength", "emissive strength", [](SceneDesc& s) { s.materials[0].emissive_strength = kInf; }},
+    {"IorBelowOne", "ior", [](SceneDesc& s) { s.materials[0].ior = 0.5f; }},
+    {"UnknownMetal", "unknown metal 'Xx'",
+     [](SceneDesc& s) {
+         s.materials[0].override_model = ConductorDesc{"Xx", 0.0f};
+     }},
+    {"DielectricIorOne", "(1, 3]",
+     [](SceneDesc& s) {
+         s.materials[0].override_model = DielectricDesc{1.0f, 0.0f};
+     }},
+    {"AlbedoAboveOne", "albedo", [](SceneDesc& s) { s.materials[0].override_model = DiffuseDesc{Rgb(1.5f)}; }},
+    {"PositionInfinite", "positions 1", [](SceneDesc& s) { primitive(s).positions[1].x = kInf; }},
+    {"NormalsMissing", "0 normals for 3", [](SceneDesc& s) { primitive(s).normals.clear(); }},
+    {"NormalNotUnit", "normals 2",
+     [](SceneDesc& s) {
+         primitive(s).normals[2] = {0, 0, 2};
+     }},
+    {"TangentSign", "tangents 0", [](SceneDesc& s) { primitive(s).tangents[0].w = 0; }},
+    {"UvCount", "2 texture coordinates 0", [](SceneDesc& s) { primitive(s).uv0.pop_back(); }},
+    {"UvNan", "texture coordinates 1 0", [](SceneDesc& s) { primitive(s).uv1[0].y = kNan; }},
+    {"ColorNegative", "vertex colours 1", [](SceneDesc& s) { primitive(s).colors[1].w = -1; }},
+    {"IndexOutOfRange", "(0, 3, 2)", [](SceneDesc& s) { primitive(s).triangles[0][1] = 3; }},
+    {"NoTriangles", "without triangles", [](SceneDesc& s) { primitive(s).triangles.clear(); }},
+    {"NoMaterial", "material -1", [](SceneDesc& s) { primitive(s).material = {}; }},
+    {"InstanceOfNothing", "mesh 3", [](SceneDesc& s) { s.instances[0].mesh.index = 3; }},
+    {"InstanceSingular", "singular", [](SceneDesc& s) { s.instances[0].to_world[2][2] = 0; }},
+    {"InstanceNan", "singular", [](SceneDesc& s) { s.instances[0].to_world[3][0] = kNan; }},
+    {"YfovPi", "yfov", [](SceneDesc& s) { s.cameras[0].yfov = kPi; }},
+    {"YmagZero", "ymag",
+     [](SceneDesc& s) {
+         s.cameras[0].type = CameraType::Orthographic;
+         s.cameras[0].ymag = 0;
+     }},
+    {"FocusZero", "focus distance", [](SceneDesc& s) { s.cameras[0].focus_distance = 0; }},
+    {"LightNegative", "light intensity", [](SceneDesc& s) { s.lights[0].intensity = -1; }},
+    {"SpotConesSwapped", "cone", [](SceneDesc& s) { s.lights[0].inner_cone_angle = 1; }},
+    {"EnvironmentScale", "environment scale", [](SceneDesc& s) { s.environment.scale = kNan; }},
+    {"UnknownCamera", "did you mean 'main'", [](SceneDesc& s) { s.settings.camera = "mian"; }},
+    {"SppZero", "spp", [](SceneDesc& s) { s.settings.spp = 0; }},
+    {"WidthHuge", "width", [](SceneDesc& s) { s.settings.film.width = 65537; }},
+    {"CropOutside", "crop",
+     [](SceneDesc& s) {
+         s.settings.film.crop = {{0, 0, 2000, 10}};
+     }},
+    {"CropEmpty", "crop",
+     [](SceneDesc& s) {
+         s.settings.film.crop = {{10, 0, 10, 10}};
+     }},
+    {"DepthsSwapped", "min_depth", [](SceneDesc& s) { s.settings.integrator.min_depth = 99; }},
+};
+
+INSTANTIATE_TEST_SUITE_P(All, ValidateDefect, testing::ValuesIn(kDefects),
+                         [](const auto& param_info) { return std::string(param_info.param.name); });
+
+TEST(Validate, ReportsEveryProblem) {
+    SceneDesc scene = small_scene();
+    for (const Defect& defect : kDefects) {
+        if (std::string(defect.name).find("Ior") != std::string::npos) defect.make(scene);
+        if (std::string(defect.name).find("Spp") != std::string::npos) defect.make(scene);
+        if (std::string(defect.name).find("Yfov") != std::string::npos) defect.make(scene);
+    }
+    EXPECT_EQ(validate(scene).error_count(), 4u);
+}
+
+}  // namespace
+}  // namespace etendue
