@@ -4,9 +4,11 @@
 #include "image/write.h"
 #include "image_test_files.h"
 
+#include <csignal>
 #include <string>
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 namespace etendue {
 
@@ -59,6 +61,37 @@ TEST(WriteText, FailsOnAFolderAndLeavesNothing) {
     const TemporaryFolder folder;
     std::filesystem::create_directory(folder / "taken");
     EXPECT_THROW(write_text(folder / "taken", "text"), IoError);
+    EXPECT_EQ(folder.file_count(), 1u);
+}
+
+// Files of this process cannot grow beyond `bytes` while it lives, as if the disk were full.
+class FileSizeLimit {
+  public:
+    explicit FileSizeLimit(rlim_t bytes) : old_handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+        ::getrlimit(RLIMIT_FSIZE, &old_limit_);
+        const rlimit limit{bytes, old_limit_.rlim_max};
+        ::setrlimit(RLIMIT_FSIZE, &limit);
+    }
+    ~FileSizeLimit() {
+        ::setrlimit(RLIMIT_FSIZE, &old_limit_);
+        std::signal(SIGXFSZ, old_handler_);
+    }
+    FileSizeLimit(const FileSizeLimit&) = delete;
+    FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+  private:
+    rlimit old_limit_{};
+    void (*old_handler_)(int);
+};
+
+TEST(WriteText, AFailureHalfWayLeavesTheOldFileAndNoOther) {
+    const TemporaryFolder folder;
+    write_text(folder / "a.json", "old");
+    {
+        const FileSizeLimit limit(1000);
+        EXPECT_THROW(write_text(folder / "a.json", std::string(5000, 'x')), IoError);
+    }
+    EXPECT_EQ(text_of(folder / "a.json"), "old");
     EXPECT_EQ(folder.file_count(), 1u);
 }
 
