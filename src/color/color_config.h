@@ -89,6 +89,9 @@ class ColorConfig {
     std::shared_ptr<const Impl> impl_;
 };
 
+/// Version of the colour library.
+[[nodiscard]] std::string color_library_version();
+
 /// The space that glTF's colour factors and emission are in, by the name of the project's config.
 inline constexpr const char* kGltfColorSpace = "Linear Rec.709 (sRGB)";
 

@@ -8,6 +8,7 @@
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+#include <tbb/version.h>
 
 namespace etendue {
 
@@ -56,5 +57,7 @@ void ThreadPool::execute(const std::function<void()>& body) const {
         body();
     });
 }
+
+std::string parallel_library_version() { return TBB_runtime_version(); }
 
 }  // namespace etendue

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <string>
 
 namespace etendue {
 
@@ -44,5 +45,8 @@ class ThreadPool {
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };
+
+/// Version of the threading library.
+[[nodiscard]] std::string parallel_library_version();
 
 }  // namespace etendue

@@ -43,4 +43,7 @@ using ImageSource = std::variant<std::filesystem::path, std::span<const std::byt
 /// Decodes to 8 bits a channel, 1 to 4 channels; deeper files are rounded. Throws IoError as `read_image_info` does.
 [[nodiscard]] Image8 read_image_8bit(const ImageSource& source);
 
+/// Version of the image library.
+[[nodiscard]] std::string image_library_version();
+
 }  // namespace etendue

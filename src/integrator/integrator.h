@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "film/dropped_sample.h"
 #include "film/film.h"
 #include "film/pixel_filter.h"
 #include "sampling/sampler.h"
@@ -27,13 +28,6 @@ struct TileJob {
     std::uint32_t seed = 0;
     SampleSequence sequence = SampleSequence::Sobol;
     const PixelFilter* filter = nullptr;  ///< not null
-};
-
-/// A sample that was not a finite, non-negative number.
-struct DroppedSample {
-    int x = 0;
-    int y = 0;
-    std::uint32_t sample = 0;
 };
 
 /// What rendering counts. One per thread, added up at the end.

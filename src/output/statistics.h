@@ -1,6 +1,8 @@
 // What a render cost and did, for the JSON file beside each image.
 #pragma once
 
+#include "film/dropped_sample.h"
+
 #include <cstdint>
 #include <map>
 #include <string>
@@ -20,13 +22,6 @@ struct RayCounts {
 struct PhaseTime {
     double wall = 0.0;
     double cpu = 0.0;
-};
-
-/// A sample that was not finite and therefore left out.
-struct DroppedSample {
-    int x = 0;  ///< pixel of the full image
-    int y = 0;
-    std::uint32_t sample = 0;  ///< index within the pixel
 };
 
 struct RenderStatistics {

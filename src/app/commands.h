@@ -1,0 +1,22 @@
+// The subcommands. To add another: a file of its own with one function like these, and one line in main().
+#pragma once
+
+#include <functional>
+
+#include "app/exit_code.h"
+
+namespace CLI {
+class App;
+}
+
+namespace etendue {
+
+/// What a parsed command line asks for. Stays empty if no subcommand ran (--help, --version).
+using Action = std::function<ExitCode()>;
+
+// Each adds one subcommand to `app` and sets `action` when it is chosen.
+void add_render_command(CLI::App& app, Action& action);
+void add_batch_command(CLI::App& app, Action& action);
+void add_inspect_command(CLI::App& app, Action& action);
+
+}  // namespace etendue

@@ -1,0 +1,146 @@
+// etendue inspect: what is in a scene, and what is wrong with it.
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/commands.h"
+#include "color/color_config.h"
+#include "loader/loader.h"
+#include "world/compile.h"
+
+namespace etendue {
+
+namespace {
+
+struct InspectArguments {
+    std::string scene;
+    bool json = false;
+};
+
+struct Inspection {
+    SceneDesc scene;        ///< without bulk arrays if it could be compiled
+    std::string description;
+    Bounds bounds;
+    std::size_t triangles = 0;
+    std::size_t vertices = 0;
+    ProblemList problems;
+    std::optional<WorldStatistics> world;  ///< if it could be compiled
+};
+
+Inspection inspect(const std::string& path) {
+    Inspection result;
+    LoadedScene loaded = inspect_scene(path);
+    result.problems = std::move(loaded.problems);
+    result.scene = std::move(loaded.scene);
+    result.bounds = compute_bounds(result.scene);
+    for (const MeshDesc& mesh : result.scene.meshes)
+        for (const PrimitiveDesc& primitive : mesh.primitives) {
+            result.triangles += primitive.triangles.size();
+            result.vertices += primitive.positions.size();
+        }
+    result.description = dump(result.scene);
+    if (result.problems.has_errors()) return result;
+    // Images are decoded and everything is built, because much of what can be wrong shows only then.
+    add_missing_camera_and_light(result.scene, result.problems);
+    try {
+        const ThreadPool threads;
+        const ColorConfig colors = ColorConfig::from_environment();
+        SceneDesc bulk = std::move(result.scene);
+        result.scene = bulk;
+        const World world = compile_world(std::move(bulk), colors, colors.default_working_space(), threads, result.problems);
+        result.world = world.statistics();
+    } catch (const SceneError& error) {
+        for (const Problem& problem : error.problems().all()) result.problems.add(problem);
+    }
+    return result;
+}
+
+void print_text(const Inspection& i) {
+    fmt::print("{}", i.description);
+    if (i.description.empty() || i.description.back() != '\n') fmt::print("\n");
+    if (i.bounds.empty())
+        fmt::print("bounds: none (nothing is placed)\n");
+    else
+        fmt::print("bounds: ({:g} {:g} {:g}) to ({:g} {:g} {:g}) metres\n", i.bounds.min.x, i.bounds.min.y, i.bounds.min.z,
+                   i.bounds.max.x, i.bounds.max.y, i.bounds.max.z);
+    fmt::print("triangles: {}, vertices: {}\n", i.triangles, i.vertices);
+    if (i.world)
+        fmt::print("compiled: {} triangles as seen, {} lights, {:.1f} MiB BVH, {:.1f} MiB geometry, {:.1f} MiB textures\n",
+                   i.world->instanced_triangles, i.world->lights, static_cast<double>(i.world->bvh_bytes) / (1 << 20),
+                   static_cast<double>(i.world->geometry_bytes) / (1 << 20),
+                   static_cast<double>(i.world->texture_bytes) / (1 << 20));
+    if (i.problems.all().empty()) fmt::print("problems: none\n");
+    for (const Problem& problem : i.problems.all()) fmt::print("{}\n", problem.str());
+    if (i.problems.dropped() > 0) fmt::print("(and {} more problems)\n", i.problems.dropped());
+}
+
+template <typename T>
+nlohmann::json names(const std::vector<T>& things) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const T& thing : things) list.push_back(thing.name);
+    return list;
+}
+
+nlohmann::json vector_json(const Vec3f& v) { return {v.x, v.y, v.z}; }
+
+void print_json(const Inspection& i) {
+    const SceneDesc& s = i.scene;
+    nlohmann::json json{{"scene", s.name},
+                        {"file", s.file.string()},
+                        {"triangles", i.triangles},
+                        {"vertices", i.vertices},
+                        {"meshes", names(s.meshes)},
+                        {"instances", s.instances.size()},
+                        {"materials", names(s.materials)},
+                        {"textures", s.textures.size()},
+                        {"images", s.images.size()},
+                        {"lights", names(s.lights)},
+                        {"cameras", names(s.cameras)},
+                        {"environment", s.environment.enabled},
+                        {"extensions_used", s.extensions_used},
+                        {"extensions_ignored", s.extensions_ignored},
+                        {"bounds", nullptr},
+                        {"compiled", nullptr},
+                        {"problems", nlohmann::json::array()}};
+    if (!i.bounds.empty()) json["bounds"] = {{"min", vector_json(i.bounds.min)}, {"max", vector_json(i.bounds.max)}};
+    if (i.world)
+        json["compiled"] = {{"triangles_as_seen", i.world->instanced_triangles}, {"lights", i.world->lights},
+                            {"bvh_bytes", i.world->bvh_bytes},                   {"geometry_bytes", i.world->geometry_bytes},
+                            {"texture_bytes", i.world->texture_bytes}};
+    constexpr const char* kSeverities[] = {"note", "warning", "error"};
+    for (const Problem& problem : i.problems.all())
+        json["problems"].push_back({{"severity", kSeverities[static_cast<int>(problem.severity)]},
+                                    {"file", problem.where.file},
+                                    {"pointer", problem.where.pointer},
+                                    {"message", problem.message}});
+    fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+}  // namespace
+
+void add_inspect_command(CLI::App& app, Action& action) {
+    auto arguments = std::make_shared<InspectArguments>();
+    CLI::App* command = app.add_subcommand("inspect", "Say what is in a scene and everything that is wrong with it");
+    command->add_option("scene", arguments->scene, "Scene directory, .gltf or .glb")->required();
+    command->add_flag("--json", arguments->json, "Print JSON");
+    command->footer(
+        "Loads and compiles everything and renders nothing. Exit code 3 if there is an error.\n\n"
+        "Examples:\n"
+        "  etendue inspect model.glb\n"
+        "  etendue inspect scenes/cornell-box --json");
+    command->callback([arguments, &action] {
+        action = [arguments] {
+            const Inspection inspection = inspect(arguments->scene);
+            if (arguments->json) print_json(inspection);
+            else print_text(inspection);
+            return inspection.problems.has_errors() ? ExitCode::InvalidScene : ExitCode::Success;
+        };
+    });
+}
+
+}  // namespace etendue

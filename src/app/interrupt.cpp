@@ -1,0 +1,31 @@
+#include "app/interrupt.h"
+
+#include <csignal>
+
+namespace etendue {
+
+namespace {
+
+// Signal handlers can reach nothing but globals.
+std::atomic<bool> requested{false};
+std::atomic<int> signal_number{0};
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
+
+extern "C" void on_signal(int number) {
+    signal_number.store(number);
+    requested.store(true);
+    std::signal(number, SIG_DFL);
+}
+
+}  // namespace
+
+void install_interrupt_handlers() {
+    std::signal(SIGINT, on_signal);
+    std::signal(SIGTERM, on_signal);
+}
+
+const std::atomic<bool>& interrupt_requested() { return requested; }
+
+ExitCode interrupt_exit_code() { return signal_number.load() == SIGTERM ? ExitCode::Terminated : ExitCode::Interrupted; }
+
+}  // namespace etendue

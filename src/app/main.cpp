@@ -1,0 +1,57 @@
+// etendue: the command line.
+#include <cstdio>
+#include <exception>
+
+#include <CLI/CLI.hpp>
+
+#include "app/commands.h"
+#include "app/interrupt.h"
+#include "core/error.h"
+#include "core/log.h"
+#include "output/software_name.h"
+
+namespace {
+
+using namespace etendue;
+
+/// Runs `action` and turns what it throws into messages and exit codes.
+ExitCode run(const Action& action) {
+    try {
+        return action();
+    } catch (const SceneError& error) {
+        log_error("{}", error.what());
+        return ExitCode::InvalidScene;
+    } catch (const std::exception& error) {
+        log_error("error: {}", error.what());
+        return ExitCode::RenderFailed;
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("Etendue renders glTF 2.0 scenes to colour-managed EXR images.");
+    app.name("etendue");
+    app.set_version_flag("--version", std::string(software_name()));
+    app.require_subcommand(1);
+    app.footer(
+        "Exit codes: 0 success, 1 rendering failed for at least one scene, 2 usage error, 3 invalid scene or settings,\n"
+        "130/143 interrupted.\n\n"
+        "Examples:\n"
+        "  etendue render scenes/cornell-box\n"
+        "  etendue batch scenes --quality draft -o out\n"
+        "  etendue inspect model.glb\n\n"
+        "'etendue COMMAND --help' tells more.");
+    Action action;
+    add_render_command(app, action);
+    add_batch_command(app, action);
+    add_inspect_command(app, action);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        const int code = app.exit(error);
+        return code == 0 ? 0 : static_cast<int>(ExitCode::UsageError);
+    }
+    install_interrupt_handlers();
+    return static_cast<int>(run(action));
+}

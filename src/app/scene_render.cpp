@@ -1,0 +1,233 @@
+#include "app/scene_render.h"
+
+#include <sys/resource.h>
+
+#include <chrono>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "app/interrupt.h"
+#include "app/library_versions.h"
+#include "app/progress_display.h"
+#include "color/color_config.h"
+#include "core/log.h"
+#include "integrator/integrator.h"
+#include "loader/loader.h"
+#include "output/exr_driver.h"
+#include "output/preview_driver.h"
+#include "output/software_name.h"
+#include "render/render.h"
+#include "world/compile.h"
+
+namespace etendue {
+
+namespace {
+
+/// Measures one phase on the clock and on the processors.
+class PhaseTimer {
+  public:
+    [[nodiscard]] PhaseTime elapsed() const {
+        return {std::chrono::duration<double>(Clock::now() - wall_).count(), process_cpu_seconds() - cpu_};
+    }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    Clock::time_point wall_ = Clock::now();
+    double cpu_ = process_cpu_seconds();
+};
+
+std::uint64_t peak_memory_bytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+FilterShape to_filter_shape(PixelFilterType type) {
+    switch (type) {
+        case PixelFilterType::BlackmanHarris: return FilterShape::BlackmanHarris;
+        case PixelFilterType::Box: return FilterShape::Box;
+        case PixelFilterType::Gaussian: return FilterShape::Gaussian;
+        case PixelFilterType::Mitchell: return FilterShape::Mitchell;
+    }
+    return FilterShape::BlackmanHarris;
+}
+
+RenderOptions make_render_options(const RenderSettings& settings) {
+    const FilmSettings& film = settings.film;
+    RenderOptions options;
+    options.full_width = film.width;
+    options.full_height = film.height;
+    options.window = film.crop ? PixelRect{(*film.crop)[0], (*film.crop)[1], (*film.crop)[2], (*film.crop)[3]}
+                               : PixelRect{0, 0, film.width, film.height};
+    options.spp = static_cast<std::uint32_t>(settings.spp);
+    options.seed = settings.seed;
+    options.sequence = settings.sampler == SamplerType::Random ? SampleSequence::Random : SampleSequence::Sobol;
+    options.filter = PixelFilter(to_filter_shape(film.filter), film.filter_radius);
+    options.time_limit_seconds = settings.time_limit;
+    return options;
+}
+
+std::unique_ptr<const Integrator> create_integrator(const RenderSettings& settings) {
+    const IntegratorSettings& s = settings.integrator;
+    auto integrator = make_integrator(s.type, {s.max_depth, s.min_depth, s.roulette_depth});
+    if (integrator) return integrator;
+    std::vector<std::string_view> names;
+    for (const IntegratorEntry& entry : integrator_registry()) names.push_back(entry.name);
+    const std::string nearest = nearest_name(s.type, names);
+    throw SceneError(settings.location, "no integrator is named '" + s.type + "'" +
+                                            (nearest.empty() ? "" : "; did you mean '" + nearest + "'?"));
+}
+
+void report_problems(const ProblemList& problems, std::size_t& reported, bool quiet) {
+    for (; reported < problems.all().size(); ++reported)
+        if (!quiet) log_warning("{}", problems.all()[reported].str());
+}
+
+OutputFrame make_frame(const RenderResult& result, const Camera& camera, const std::string& name,
+                       const RenderSettings& settings, const std::string& working_space) {
+    const PixelRect& window = result.film.window();
+    OutputFrame frame;
+    frame.pixels = ImageF(window.width(), window.height(), 4);
+    frame.pixels.pixels = result.film.resolve();
+    if (settings.film.crop) {
+        frame.crop_x = window.x0;
+        frame.crop_y = window.y0;
+        frame.full_width = result.film.full_width();
+        frame.full_height = result.film.full_height();
+    }
+    frame.working_space = working_space;
+    frame.display = settings.color.display;
+    frame.view = settings.color.view;
+    frame.exposure = settings.color.exposure;
+    frame.world_to_camera = world_to_camera(camera);
+    frame.world_to_screen = world_to_screen(camera);
+    frame.scene = name;
+    frame.integrator = settings.integrator.type;
+    frame.sampler = settings.sampler == SamplerType::Random ? "random" : "sobol";
+    frame.spp = static_cast<int>(result.spp_done);
+    frame.seed = settings.seed;
+    frame.render_seconds = result.wall_seconds;
+    frame.complete = result.halt_reason != HaltReason::Interrupted;
+    frame.halt_reason = halt_reason_name(result.halt_reason);
+    return frame;
+}
+
+void fill_render_statistics(const RenderResult& result, RenderStatistics& s) {
+    const RenderCounters& c = result.counters;
+    s.rays = {c.camera_rays, c.bounce_rays, c.shadow_rays};
+    s.samples = c.samples;
+    s.spp_done = static_cast<int>(result.spp_done);
+    s.complete = result.halt_reason != HaltReason::Interrupted;
+    s.halt_reason = halt_reason_name(result.halt_reason);
+    s.render = {result.wall_seconds, result.cpu_seconds};
+    s.dropped_samples = c.dropped;
+    s.first_dropped = c.first_dropped;
+}
+
+/// Says where samples were dropped, with a command that renders just the first of those pixels.
+void report_dropped(const RenderCounters& counters, const SceneRenderRequest& request,
+                    const RenderSettings& settings) {
+    if (counters.dropped == 0) return;
+    const DroppedSample& first = counters.first_dropped.front();
+    log_warning("warning: {} samples were not finite and were dropped; the first is sample {} of pixel ({}, {}). To see it alone: "
+                "etendue render {} --size {}x{} --crop {},{},{},{} --spp {} --seed {}",
+                counters.dropped, first.sample, first.x, first.y, request.scene.string(), settings.film.width,
+                settings.film.height, first.x, first.y, first.x + 1, first.y + 1, first.sample + 1,
+                settings.seed);
+}
+
+}  // namespace
+
+OutputPaths OutputPaths::beside(const std::filesystem::path& exr) {
+    OutputPaths paths{exr, exr, exr};
+    paths.png.replace_extension(".png");
+    paths.json.replace_extension(".json");
+    return paths;
+}
+
+PreparedScene prepare_scene(const std::filesystem::path& path, const SettingsOverrides& overrides) {
+    const PhaseTimer timer;
+    LoadedScene loaded = load_scene(path);
+    PreparedScene prepared{std::move(loaded.scene), std::move(loaded.problems), {}};
+    overrides.apply(prepared.scene);
+    add_missing_camera_and_light(prepared.scene, prepared.problems);
+    const ProblemList remaining = validate(prepared.scene);
+    if (remaining.has_errors()) throw SceneError(remaining);
+    prepared.load = timer.elapsed();
+    return prepared;
+}
+
+std::string settings_hash(const SceneDesc& scene, PixelDepth depth) {
+    // FNV-1a, 64 bits, over the text form of the scene; nobody attacks it, it only has to tell settings apart.
+    const std::string text = fmt::format("{}\n{}\n{}", software_name(), dump(scene), static_cast<int>(depth));
+    std::uint64_t hash = 0xcbf29ce484222325u;
+    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+    return fmt::format("{:016x}", hash);
+}
+
+SceneRenderResult render_scene(PreparedScene prepared, const SceneRenderRequest& request, const ThreadPool& threads) {
+    SceneDesc scene = std::move(prepared.scene);
+    ProblemList problems = std::move(prepared.problems);
+    std::size_t reported = 0;
+    report_problems(problems, reported, request.quiet);
+
+    const RenderOptions options = make_render_options(scene.settings);
+    const auto integrator = create_integrator(scene.settings);
+    const ColorConfig colors = ColorConfig::from_environment();
+    const std::string working_space = scene.settings.color.working_space.empty()
+                                          ? colors.default_working_space()
+                                          : colors.resolve_space(scene.settings.color.working_space);
+    // Asked for now, so that a misspelt view is found before hours of rendering and not after.
+    (void)colors.display_transform(working_space, scene.settings.color.display, scene.settings.color.view, 0.0f);
+
+    SceneRenderResult result;
+    RenderStatistics& statistics = result.statistics;
+    statistics.scene = scene.name;
+    statistics.settings_hash = settings_hash(scene, request.overrides.depth);
+    statistics.width = options.window.width();
+    statistics.height = options.window.height();
+    statistics.full_width = options.full_width;
+    statistics.full_height = options.full_height;
+    statistics.spp_requested = scene.settings.spp;
+    statistics.threads = threads.thread_count();
+    statistics.isa = ray_tracer_info().isa;
+    statistics.libraries = library_versions();
+    statistics.load = prepared.load;
+
+    const PhaseTimer build_timer;
+    const std::string name = scene.name;
+    const RenderSettings settings = scene.settings;
+    const World world = compile_world(std::move(scene), colors, working_space, threads, problems);
+    report_problems(problems, reported, request.quiet);
+    const WorldStatistics world_statistics = world.statistics();
+    statistics.build = build_timer.elapsed();
+    statistics.bvh_bytes = world_statistics.bvh_bytes;
+    statistics.triangles = world_statistics.triangles;
+    statistics.instances = world_statistics.instances;
+    statistics.lights = world_statistics.lights;
+
+    ProgressDisplay display(request.title.empty() ? name : request.title, request.quiet);
+    const RenderResult rendered = render(world, *integrator, options, threads, interrupt_requested(),
+                                         [&](const RenderProgress& progress) { display.update(progress); });
+    fill_render_statistics(rendered, statistics);
+    report_dropped(rendered.counters, request, settings);
+
+    const PhaseTimer write_timer;
+    const OutputPaths paths =
+        OutputPaths::beside(request.output.empty() ? std::filesystem::path(name + ".exr") : request.output);
+    const OutputFrame frame = make_frame(rendered, world.camera(), name, settings, working_space);
+    ExrDriver(paths.exr, colors, request.overrides.depth).write(frame);
+    PreviewDriver(paths.png, colors).write(frame);
+    statistics.write = write_timer.elapsed();
+    statistics.peak_memory_bytes = peak_memory_bytes();
+    write_text(paths.json, to_json(statistics));
+
+    result.output = paths.exr;
+    result.interrupted = rendered.halt_reason == HaltReason::Interrupted;
+    return result;
+}
+
+}  // namespace etendue

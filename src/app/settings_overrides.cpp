@@ -1,0 +1,109 @@
+#include "app/settings_overrides.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "integrator/integrator.h"
+
+namespace etendue {
+
+namespace {
+
+void apply_quality(Quality quality, RenderSettings& settings) {
+    if (quality == Quality::Final) return;
+    settings.spp = std::max(1, settings.spp / (quality == Quality::Draft ? 16 : 4));
+    if (quality == Quality::Preview) return;
+    FilmSettings& film = settings.film;
+    film.width = std::max(1, film.width / 2);
+    film.height = std::max(1, film.height / 2);
+    if (film.crop) {
+        auto& c = *film.crop;
+        c = {c[0] / 2, c[1] / 2, std::min(film.width, (c[2] + 1) / 2), std::min(film.height, (c[3] + 1) / 2)};
+    }
+}
+
+/// "1920x1080" to two numbers; the message that CLI11 shows if it is not of that form.
+std::array<int, 2> parse_size(const std::string& text) {
+    std::array<int, 2> size{};
+    char rest = 0;
+    if (std::sscanf(text.c_str(), "%dx%d%c", &size[0], &size[1], &rest) != 2 || size[0] < 1 || size[1] < 1 ||
+        size[0] > 65536 || size[1] > 65536)
+        throw CLI::ValidationError("--size", "'" + text + "' is not WIDTHxHEIGHT with 1 to 65536 pixels each");
+    return size;
+}
+
+std::array<int, 4> parse_crop(const std::string& text) {
+    std::array<int, 4> c{};
+    char rest = 0;
+    if (std::sscanf(text.c_str(), "%d,%d,%d,%d%c", &c[0], &c[1], &c[2], &c[3], &rest) != 4 || c[0] < 0 || c[1] < 0 ||
+        c[2] <= c[0] || c[3] <= c[1])
+        throw CLI::ValidationError("--crop", "'" + text + "' is not x0,y0,x1,y1 with 0 <= x0 < x1 and 0 <= y0 < y1");
+    return c;
+}
+
+std::vector<std::string> integrator_names() {
+    std::vector<std::string> names;
+    for (const IntegratorEntry& entry : integrator_registry()) names.emplace_back(entry.name);
+    return names;
+}
+
+}  // namespace
+
+void SettingsOverrides::add_options(CLI::App& command) {
+    const std::map<std::string, Quality> qualities{
+        {"draft", Quality::Draft}, {"preview", Quality::Preview}, {"final", Quality::Final}};
+    command.add_option("--quality", quality, "draft: half the size, 1/16 of the samples; preview: 1/4 of the samples; final")
+        ->transform(CLI::CheckedTransformer(qualities));
+    command.add_option("--integrator", integrator, "Light transport algorithm")->check(CLI::IsMember(integrator_names()));
+    command.add_option("--spp", spp, "Samples per pixel")->check(CLI::Range(1, 1 << 24));
+    command.add_option_function<std::string>(
+        "--size", [this](const std::string& text) { size = parse_size(text); }, "Image size, WIDTHxHEIGHT");
+    command.add_option_function<std::string>(
+        "--crop", [this](const std::string& text) { crop = parse_crop(text); },
+        "Render only pixels x0,y0,x1,y1 (half-open, y down)");
+    command.add_option("--camera", camera, "Name of the camera (default: the first)");
+    command.add_option("--seed", seed, "Seed of everything random");
+    command.add_option("--time", time_seconds, "Start no new pass after this many seconds")
+        ->check(CLI::Range(1e-3, 1e9));
+    command.add_option("--max-depth", max_depth, "Most edges of a path from camera to light; 1 is emission seen directly")
+        ->check(CLI::Range(1, 1 << 20));
+    command.add_option("--environment", environment, "Environment image (EXR or HDR), in place of the scene's")
+        ->check(CLI::ExistingFile);
+    command.add_option("--exposure", exposure, "Exposure of the preview image, stops")->check(CLI::Range(-64.0, 64.0));
+    command.add_option("--view", view, "OpenColorIO view of the preview image");
+    command.add_option("--working-space", working_space, "Scene-linear space to render in and to write");
+    auto* half = command.add_flag_callback("--half", [this] { depth = PixelDepth::Half; }, "Write 16-bit floats (default)");
+    command.add_flag_callback("--float", [this] { depth = PixelDepth::Float; }, "Write 32-bit floats")->excludes(half);
+}
+
+void SettingsOverrides::apply(SceneDesc& scene) const {
+    RenderSettings& settings = scene.settings;
+    if (quality) apply_quality(*quality, settings);
+    if (integrator) settings.integrator.type = *integrator;
+    if (spp) settings.spp = *spp;
+    if (size) {
+        settings.film.width = (*size)[0];
+        settings.film.height = (*size)[1];
+    }
+    if (crop) settings.film.crop = *crop;
+    if (camera) settings.camera = *camera;
+    if (seed) settings.seed = *seed;
+    if (time_seconds) settings.time_limit = *time_seconds;
+    if (max_depth) settings.integrator.max_depth = *max_depth;
+    if (exposure) settings.color.exposure = *exposure;
+    if (view) settings.color.view = *view;
+    if (working_space) settings.color.working_space = *working_space;
+    if (environment) {
+        scene.environment.enabled = true;
+        scene.environment.image = std::filesystem::absolute(*environment);
+        scene.environment.color = Rgb(1.0f);
+        scene.environment.location = {*environment, ""};
+        scene.inputs.push_back(scene.environment.image);
+    }
+}
+
+}  // namespace etendue

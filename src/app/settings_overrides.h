@@ -1,0 +1,49 @@
+// What the command line can change about a scene, shared by `render` and `batch`.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "core/error.h"
+#include "output/exr_driver.h"
+#include "scene/scene_desc.h"
+
+namespace CLI {
+class App;
+}
+
+namespace etendue {
+
+enum class Quality {
+    Draft,    ///< half the width and height, a sixteenth of the samples
+    Preview,  ///< full size, a quarter of the samples
+    Final,    ///< as the scene says
+};
+
+struct SettingsOverrides {
+    std::optional<Quality> quality;
+    std::optional<std::string> integrator;
+    std::optional<int> spp;
+    std::optional<std::array<int, 2>> size;
+    std::optional<std::array<int, 4>> crop;
+    std::optional<std::string> camera;
+    std::optional<std::uint32_t> seed;
+    std::optional<double> time_seconds;
+    std::optional<int> max_depth;
+    std::optional<std::string> environment;
+    std::optional<float> exposure;
+    std::optional<std::string> view;
+    std::optional<std::string> working_space;
+    PixelDepth depth = PixelDepth::Half;
+
+    /// Adds the options to a subcommand; the values arrive when it is parsed.
+    void add_options(CLI::App& command);
+
+    /// Applies quality first, then everything that was stated explicitly. Throws SceneError if the environment image does
+    /// not exist.
+    void apply(SceneDesc& scene) const;
+};
+
+}  // namespace etendue
