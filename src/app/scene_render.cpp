@@ -139,6 +139,17 @@ void report_dropped(const RenderCounters& counters, const SceneRenderRequest& re
                 settings.seed);
 }
 
+/// Puts the config's defaults where nothing is set, and checks that everything exists: a misspelt view is better found
+/// before hours of rendering than after. Returns the working space.
+std::string resolve_colors(ColorSettings& settings, const ColorConfig& colors) {
+    if (settings.display.empty()) settings.display = colors.default_display();
+    if (settings.view.empty()) settings.view = colors.default_view(settings.display);
+    settings.working_space = settings.working_space.empty() ? colors.default_working_space()
+                                                            : colors.resolve_space(settings.working_space);
+    (void)colors.display_transform(settings.working_space, settings.display, settings.view, settings.exposure);
+    return settings.working_space;
+}
+
 }  // namespace
 
 OutputPaths OutputPaths::beside(const std::filesystem::path& exr) {
@@ -177,11 +188,7 @@ SceneRenderResult render_scene(PreparedScene prepared, const SceneRenderRequest&
     const RenderOptions options = make_render_options(scene.settings);
     const auto integrator = create_integrator(scene.settings);
     const ColorConfig colors = ColorConfig::from_environment();
-    const std::string working_space = scene.settings.color.working_space.empty()
-                                          ? colors.default_working_space()
-                                          : colors.resolve_space(scene.settings.color.working_space);
-    // Asked for now, so that a misspelt view is found before hours of rendering and not after.
-    (void)colors.display_transform(working_space, scene.settings.color.display, scene.settings.color.view, 0.0f);
+    const std::string working_space = resolve_colors(scene.settings.color, colors);
 
     SceneRenderResult result;
     RenderStatistics& statistics = result.statistics;
