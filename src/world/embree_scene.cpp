@@ -48,6 +48,20 @@ bool count_memory(void* counter, ssize_t bytes, bool /*post*/) {
 }
 
 
+RTCRay make_ray(const Ray& ray, unsigned int id) {
+    RTCRay r{};
+    r.org_x = ray.origin.x;
+    r.org_y = ray.origin.y;
+    r.org_z = ray.origin.z;
+    r.dir_x = ray.direction.x;
+    r.dir_y = ray.direction.y;
+    r.dir_z = ray.direction.z;
+    r.tfar = ray.t_max;
+    r.mask = 0xffffffffu;
+    r.id = id;
+    return r;
+}
+
 constexpr std::size_t kPacket = 16;
 
 /// Rays `first` … of the batch as a packet; lanes beyond the end are invalid.
@@ -111,7 +125,6 @@ EmbreeScene::EmbreeScene(std::span<const Geometry> geometries, std::span<const I
         }
         rtcCommitScene(top_);
     });
-    any_alpha_ = std::find(has_alpha.begin(), has_alpha.end(), true) != has_alpha.end();
     rtcSetDeviceMemoryMonitorFunction(device_, nullptr, nullptr);
     bytes_ = memory.load();
     const RTCError error = rtcGetDeviceError(device_);
@@ -158,21 +171,42 @@ void EmbreeScene::set_opacity(OpacityFunction function, const void* world) {
     world_ = world;
 }
 
-void EmbreeScene::intersect(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence) const {
-    const bool coherent = coherence == Coherence::Coherent;
+void EmbreeScene::intersect(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence, QueryForm form) const {
+    if (form == QueryForm::Single) intersect_single(rays, hits);
+    else intersect_packets(rays, hits, coherence == Coherence::Coherent);
+}
+
+void EmbreeScene::occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, Coherence coherence,
+                           QueryForm form) const {
+    if (form == QueryForm::Single) occluded_single(rays, occluded);
+    else occluded_packets(rays, occluded, coherence == Coherence::Coherent);
+}
+
+Hit EmbreeScene::make_hit(float t, float u, float v, unsigned int triangle, unsigned int inner,
+                          unsigned int instance) const {
+    if (inner == RTC_INVALID_GEOMETRY_ID) return {};
+    const bool is_instance = instance != RTC_INVALID_GEOMETRY_ID;
+    const TopLevelEntry entry = resolve(is_instance ? instance : inner, inner, is_instance);
+    return {t, u, v, triangle, entry.geometry, entry.instance};
+}
+
+void EmbreeScene::intersect_single(std::span<const Ray> rays, std::span<Hit> hits) const {
+    QueryContext context{{}, this, rays.data()};
+    embree::init_context(context.base, false);
+    RTCRayHit query;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        query.ray = make_ray(rays[i], static_cast<unsigned int>(i));
+        query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+        query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+        embree::intersect1(top_, context.base, query);
+        hits[i] = make_hit(query.ray.tfar, query.hit.u, query.hit.v, query.hit.primID, query.hit.geomID,
+                           query.hit.instID[0]);
+    }
+}
+
+void EmbreeScene::intersect_packets(std::span<const Ray> rays, std::span<Hit> hits, bool coherent) const {
     QueryContext context{{}, this, rays.data()};
     embree::init_context(context.base, coherent);
-    const auto store = [&](std::size_t i, float t, float u, float v, unsigned int triangle, unsigned int inner,
-                           unsigned int instance) {
-        Hit& hit = hits[i];
-        if (inner == RTC_INVALID_GEOMETRY_ID) {
-            hit.instance = kNone;
-            return;
-        }
-        const bool is_instance = instance != RTC_INVALID_GEOMETRY_ID;
-        const TopLevelEntry entry = resolve(is_instance ? instance : inner, inner, is_instance);
-        hit = {t, u, v, triangle, entry.geometry, entry.instance};
-    };
     PacketMask mask;
     RTCRayHit16 packet;
     for (std::size_t first = 0; first < rays.size(); first += kPacket) {
@@ -182,13 +216,24 @@ void EmbreeScene::intersect(std::span<const Ray> rays, std::span<Hit> hits, Cohe
         embree::intersect16(mask.valid, top_, context.base, coherent, packet);
         const std::size_t count = std::min(kPacket, rays.size() - first);
         for (std::size_t lane = 0; lane < count; ++lane)
-            store(first + lane, packet.ray.tfar[lane], packet.hit.u[lane], packet.hit.v[lane], packet.hit.primID[lane],
-                  packet.hit.geomID[lane], packet.hit.instID[0][lane]);
+            hits[first + lane] = make_hit(packet.ray.tfar[lane], packet.hit.u[lane], packet.hit.v[lane],
+                                          packet.hit.primID[lane], packet.hit.geomID[lane], packet.hit.instID[0][lane]);
     }
 }
 
-void EmbreeScene::occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, Coherence coherence) const {
-    const bool coherent = coherence == Coherence::Coherent;
+// Embree marks occluded rays with tfar = -inf.
+
+void EmbreeScene::occluded_single(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const {
+    QueryContext context{{}, this, rays.data()};
+    embree::init_context(context.base, false);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        RTCRay query = make_ray(rays[i], static_cast<unsigned int>(i));
+        embree::occluded1(top_, context.base, query);
+        occluded[i] = query.tfar < 0.0f ? 1 : 0;
+    }
+}
+
+void EmbreeScene::occluded_packets(std::span<const Ray> rays, std::span<std::uint8_t> occluded, bool coherent) const {
     QueryContext context{{}, this, rays.data()};
     embree::init_context(context.base, coherent);
     PacketMask mask;
@@ -197,7 +242,6 @@ void EmbreeScene::occluded(std::span<const Ray> rays, std::span<std::uint8_t> oc
         fill_packet(rays, first, packet, mask);
         embree::occluded16(mask.valid, top_, context.base, coherent, packet);
         const std::size_t count = std::min(kPacket, rays.size() - first);
-        // Embree marks occluded rays with tfar = -inf.
         for (std::size_t lane = 0; lane < count; ++lane) occluded[first + lane] = packet.tfar[lane] < 0.0f ? 1 : 0;
     }
 }

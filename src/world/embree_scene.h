@@ -34,8 +34,9 @@ class EmbreeScene {
     /// Called once the World has its final address.
     void set_opacity(OpacityFunction function, const void* world);
 
-    void intersect(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence) const;
-    void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, Coherence coherence) const;
+    void intersect(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence, QueryForm form) const;
+    void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, Coherence coherence,
+                  QueryForm form) const;
 
     [[nodiscard]] std::size_t bytes() const { return bytes_; }
 
@@ -54,6 +55,13 @@ class EmbreeScene {
     }
 
   private:
+    void intersect_single(std::span<const Ray> rays, std::span<Hit> hits) const;
+    void intersect_packets(std::span<const Ray> rays, std::span<Hit> hits, bool coherent) const;
+    void occluded_single(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const;
+    void occluded_packets(std::span<const Ray> rays, std::span<std::uint8_t> occluded, bool coherent) const;
+    [[nodiscard]] Hit make_hit(float t, float u, float v, unsigned int triangle, unsigned int inner,
+                               unsigned int instance) const;
+
     void add_triangles(RTCScene scene, const Geometry& geometry, bool has_alpha) const;
     RTCScene build_shared_scene(const Instance& instance, std::span<const Geometry> geometries,
                                 const std::vector<bool>& has_alpha);
@@ -65,7 +73,6 @@ class EmbreeScene {
     OpacityFunction opacity_ = nullptr;
     const void* world_ = nullptr;
     std::size_t bytes_ = 0;
-    bool any_alpha_ = false;
 };
 
 }  // namespace etendue

@@ -40,12 +40,15 @@ World::~World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 
-void World::intersect(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence) const {
-    data_->bvh->intersect(rays, hits, coherence);
+void World::intersect(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence, QueryForm form) const {
+    if (observer_) observer_->on_intersect(rays, coherence);
+    data_->bvh->intersect(rays, hits, coherence, form);
 }
 
-void World::occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, Coherence coherence) const {
-    data_->bvh->occluded(rays, occluded, coherence);
+void World::occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, Coherence coherence,
+                     QueryForm form) const {
+    if (observer_) observer_->on_occluded(rays, coherence);
+    data_->bvh->occluded(rays, occluded, coherence, form);
 }
 
 SurfacePoint World::surface_point(const Hit& hit) const {

@@ -40,6 +40,18 @@ enum class Coherence {
     Incoherent,  ///< anything else
 };
 
+/// How a batch goes through Embree. The default is what measured best for its coherence; benchmarks compare.
+enum class QueryForm { Best, Single, Packet16 };
+
+/// Sees every batch of rays before it is traced: for benchmarks that replay a render's rays. Called from the threads that
+/// render.
+class RayObserver {
+  public:
+    virtual ~RayObserver() = default;
+    virtual void on_intersect(std::span<const Ray> rays, Coherence coherence) = 0;
+    virtual void on_occluded(std::span<const Ray> rays, Coherence coherence) = 0;
+};
+
 /// Counts and sizes for reports.
 struct WorldStatistics {
     std::size_t triangles = 0;            ///< stored, each shared mesh once
@@ -93,9 +105,13 @@ class World {
     World& operator=(World&&) noexcept;
 
     /// Nearest hit of each ray; `hits` is as long as `rays`.
-    void intersect(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence) const;
+    void intersect(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence,
+                   QueryForm form = QueryForm::Best) const;
     /// 1 where something lies within (0, t_max], else 0; `occluded` is as long as `rays`.
-    void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, Coherence coherence) const;
+    void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, Coherence coherence,
+                  QueryForm form = QueryForm::Best) const;
+    /// `observer` must outlive its use; null to stop observing. Not while another thread renders.
+    void set_observer(RayObserver* observer) { observer_ = observer; }
 
     /// The surface at `hit` (valid).
     [[nodiscard]] SurfacePoint surface_point(const Hit& hit) const;
@@ -129,6 +145,7 @@ class World {
     // On the heap, so that Embree's callbacks keep their pointer to it when a World is moved.
     std::unique_ptr<WorldData> data_;
     LightSelector selector_;
+    RayObserver* observer_ = nullptr;
 };
 
 /// Name and version of the ray tracing library, and the widest instruction set that it uses here.
