@@ -4,8 +4,6 @@
 // place in the variant, one overload in world/compile_materials.cpp, and its row in the table of tests/bsdf.
 #pragma once
 
-#include <variant>
-
 #include "bsdf/diffuse.h"
 #include "bsdf/metallic_roughness.h"
 #include "bsdf/rough_conductor.h"
@@ -13,13 +11,15 @@
 #include "bsdf/smooth_conductor.h"
 #include "bsdf/smooth_dielectric.h"
 
+#include <variant>
+
 namespace etendue {
 
 using Bsdf =
     std::variant<Diffuse, MetallicRoughness, RoughConductor, RoughDielectric, SmoothConductor, SmoothDielectric>;
 
-/// f |cos theta_i| and the density of `sample_bsdf`, for local unit directions; zero across the delta parts, and where a
-/// lobe does not scatter.
+/// f |cos theta_i| and the density of `sample_bsdf`, for local unit directions; zero across the delta parts, and where
+/// a lobe does not scatter.
 [[nodiscard]] BsdfValue evaluate_bsdf(const Bsdf& bsdf, const Vec3f& wo, const Vec3f& wi, TransportMode mode);
 
 /// Samples wi given wo. `u_lobe` and `u` in [0, 1). A weight of zero ends the walk.
@@ -28,8 +28,8 @@ using Bsdf =
 /// False if everything the lobe does is a delta, so that connecting to it or sampling a light from it is useless.
 [[nodiscard]] bool has_non_delta(const Bsdf& bsdf);
 
-/// True if the lobe distinguishes the two sides of its surface (z > 0 is the outside of a body); false if it wants wo on the
-/// side z > 0.
+/// True if the lobe distinguishes the two sides of its surface (z > 0 is the outside of a body); false if it wants wo
+/// on the side z > 0.
 [[nodiscard]] bool is_two_sided_interface(const Bsdf& bsdf);
 
 /// Share of the light from `wo` that is scattered, by the lobe's own samples: an estimate from `count` of them, for

@@ -7,8 +7,8 @@
 
 namespace etendue {
 
-/// What the walk carries. Refraction scales radiance by the squared ratio of the indices but leaves particles that carry
-/// importance alone (Veach 1997, section 5.2).
+/// What the walk carries. Refraction scales radiance by the squared ratio of the indices but leaves particles that
+/// carry importance alone (Veach 1997, section 5.2).
 enum class TransportMode {
     Radiance,    ///< walks from the eye: the weight is f(wi -> wo)
     Importance,  ///< walks from a light: the weight is f(wo -> wi)
@@ -16,8 +16,8 @@ enum class TransportMode {
 
 /// A lobe's value for a pair of directions. Delta parts of a lobe are not in it.
 struct BsdfValue {
-    Rgb f_cos;                      ///< BSDF times |cos theta_i|, 1/sr
-    float pdf_solid_angle = 0.0f;   ///< density with which `sample` picks wi given wo, non-delta parts only
+    Rgb f_cos;                     ///< BSDF times |cos theta_i|, 1/sr
+    float pdf_solid_angle = 0.0f;  ///< density with which `sample` picks wi given wo, non-delta parts only
 };
 
 /// A sampled direction. An all-zero `weight` means that nothing was scattered.
@@ -27,9 +27,11 @@ struct BsdfSample {
     float pdf_solid_angle = 0.0f;  ///< of all non-delta parts together; not meaningful if `is_delta`
     bool is_delta = false;
     bool is_transmission = false;
-    float eta = 1.0f;              ///< index on wi's side over the index on wo's side, for Russian roulette
+    float eta = 1.0f;  ///< index on wi's side over the index on wo's side, for Russian roulette
 };
 
-[[nodiscard]] inline Vec3f mirror_direction(const Vec3f& wo) { return {-wo.x, -wo.y, wo.z}; }
+[[nodiscard]] inline Vec3f mirror_direction(const Vec3f& wo) {
+    return {-wo.x, -wo.y, wo.z};
+}
 
 }  // namespace etendue

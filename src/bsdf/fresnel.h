@@ -1,11 +1,11 @@
 // Fresnel reflectance: exact for dielectrics, fitted to measured spectra for metals.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-
 #include "core/rgb.h"
 #include "core/vec.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace etendue {
 
@@ -53,8 +53,8 @@ namespace etendue {
     return lerp(f0, Rgb(1.0f), pow5(std::clamp(1.0f - cos_i, 0.0f, 1.0f)));
 }
 
-/// Schlick's curve bent to pass through a measured reflectance near 82 degrees, where metals dip (Kutz, Hasan, Edmondson,
-/// "Novel Aspects of the Adobe Standard Material", 2023, section 2.1).
+/// Schlick's curve bent to pass through a measured reflectance near 82 degrees, where metals dip (Kutz, Hasan,
+/// Edmondson, "Novel Aspects of the Adobe Standard Material", 2023, section 2.1).
 struct FresnelMetal {
     Rgb f0{1.0f};  ///< reflectance at normal incidence
     Rgb dip;       ///< coefficient of mu (1 - mu)^6; zero gives Schlick's curve

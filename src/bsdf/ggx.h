@@ -1,14 +1,14 @@
 // The GGX (Trowbridge-Reitz) microfacet distribution, isotropic.
 //
-// alpha is the slope's standard width, perceptual roughness squared. Heitz, "Understanding the Masking-Shadowing Function
-// in Microfacet-Based BRDFs" (JCGT 3(2), 2014); sampling of visible normals: Dupuy and Benyoub, "Sampling Visible GGX
-// Normals with Spherical Caps" (HPG 2023).
+// alpha is the slope's standard width, perceptual roughness squared. Heitz, "Understanding the Masking-Shadowing
+// Function in Microfacet-Based BRDFs" (JCGT 3(2), 2014); sampling of visible normals: Dupuy and Benyoub, "Sampling
+// Visible GGX Normals with Spherical Caps" (HPG 2023).
 #pragma once
+
+#include "core/vec.h"
 
 #include <algorithm>
 #include <cmath>
-
-#include "core/vec.h"
 
 namespace etendue {
 

@@ -1,25 +1,29 @@
 // Reflection from a GGX surface without its Fresnel term: the part that conductors and glTF's specular layer share.
 //
-// Single scattering D G2 / (4 mu_o mu_i), plus the diffuse-like lobe of light that scattered several times,
+// Single scattering D G2 / (4 mu_o mu_i), plus the lobe of light that scattered several times,
 // (1 - E(o)) (1 - E(i)) / (pi (1 - E_avg)), after Kulla and Conty (SIGGRAPH 2017 course, slide 17).
 #pragma once
-
-#include <algorithm>
 
 #include "bsdf/bsdf_sample.h"
 #include "bsdf/ggx.h"
 #include "bsdf/ggx_albedo.h"
-#include "sampling/warp.h"
+#include "bsdf/ggx_multiple.h"
+
+#include <algorithm>
 
 namespace etendue {
 
 struct GgxReflection {
     Ggx ggx;
-    GgxAlbedo albedo_o;        ///< directional albedos at wo
+    GgxMultiple multiple_directions;
+    GgxAlbedo albedo_o;  ///< directional albedos at wo
     GgxAlbedo albedo_average;
 
     GgxReflection(float alpha, float cos_o)
-        : ggx{alpha}, albedo_o(ggx_albedo(cos_o, alpha)), albedo_average(ggx_albedo_average(alpha)) {}
+        : ggx{alpha},
+          multiple_directions(alpha),
+          albedo_o(ggx_albedo(cos_o, alpha)),
+          albedo_average(ggx_albedo_average(alpha)) {}
 
     /// Share of the samples that go to the multiple-scattering lobe.
     [[nodiscard]] float multiple_probability() const { return std::clamp(1.0f - albedo_o.single, 0.0f, 1.0f); }
@@ -44,14 +48,14 @@ struct GgxReflection {
             value.multiple =
                 (1.0f - albedo_o.single) * (1.0f - value.albedo_i.single) * wi.z * kInvPi / missing_average;
         const float p_multiple = multiple_probability();
-        value.pdf_solid_angle =
-            (1.0f - p_multiple) * ggx.g1(wo) * d / (4.0f * wo.z) + p_multiple * cosine_hemisphere_pdf_solid_angle(wi);
+        value.pdf_solid_angle = (1.0f - p_multiple) * ggx.g1(wo) * d / (4.0f * wo.z) +
+                                p_multiple * multiple_directions.pdf_solid_angle(wi.z);
         return value;
     }
 
     /// A direction with the density that `evaluate` states; wi.z <= 0 means that it went below the surface.
     [[nodiscard]] Vec3f sample(const Vec3f& wo, float u_lobe, Vec2f u) const {
-        if (u_lobe < multiple_probability()) return square_to_cosine_hemisphere(u);
+        if (u_lobe < multiple_probability()) return multiple_directions.sample(u);
         const Vec3f h = ggx.sample_visible_normal(wo, u);
         return h * (2.0f * dot(wo, h)) - wo;
     }

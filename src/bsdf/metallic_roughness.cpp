@@ -1,9 +1,10 @@
 #include "bsdf/metallic_roughness.h"
 
-#include <algorithm>
-
 #include "bsdf/fresnel.h"
 #include "bsdf/ggx_reflection.h"
+#include "sampling/warp.h"
+
+#include <algorithm>
 
 namespace etendue {
 
@@ -13,11 +14,11 @@ namespace {
 struct Layers {
     GgxReflection reflection;
     bool smooth;
-    Rgb f0;                   ///< of the mixed specular layer
+    Rgb f0;  ///< of the mixed specular layer
     Rgb multiple_fresnel;
-    float coupling;           ///< (1 - E_d(o)) of the dielectric's specular layer
-    float coupling_average;   ///< 1 - E_d averaged
-    Rgb diffuse;              ///< albedo under the layer
+    float coupling;          ///< (1 - E_d(o)) of the dielectric's specular layer
+    float coupling_average;  ///< 1 - E_d averaged
+    Rgb diffuse;             ///< albedo under the layer
     Rgb transmitted;
     float f0_dielectric;
     float dielectric_multiple;  ///< the multiple-scattering factor for f0_dielectric
@@ -27,18 +28,20 @@ struct Layers {
         : reflection(std::max(m.alpha, kSmoothAlpha), cos_o),
           smooth(m.alpha < kSmoothAlpha),
           f0(lerp(Rgb(m.f0), m.base, m.metallic)),
-          multiple_fresnel(reflection.multiple_fresnel(schlick_average(f0))),
           f0_dielectric(m.f0),
           dielectric_multiple(reflection.multiple_fresnel(schlick_average(Rgb(m.f0))).r) {
+        // Schlick's term is linear in f0 and may be mixed before it is evaluated; the series of multiple scattering is
+        // not.
+        const Rgb metal_multiple = reflection.multiple_fresnel(schlick_average(m.base));
+        multiple_fresnel = lerp(Rgb(dielectric_multiple), metal_multiple, m.metallic);
         coupling = smooth ? 1.0f - fresnel_schlick(Rgb(m.f0), cos_o).r : 1.0f - layer_albedo(reflection.albedo_o);
         coupling_average = 1.0f - layer_albedo(reflection.albedo_average);
         const float under = 1.0f - m.metallic;
         diffuse = m.base * (under * (1.0f - m.transmission));
         transmitted = m.base * (under * m.transmission);
 
-        const Rgb specular_albedo =
-            f0 * reflection.albedo_o.single + (Rgb(1.0f) - f0) * reflection.albedo_o.schlick +
-            multiple_fresnel * (1.0f - reflection.albedo_o.single);
+        const Rgb specular_albedo = f0 * reflection.albedo_o.single + (Rgb(1.0f) - f0) * reflection.albedo_o.schlick +
+                                    multiple_fresnel * (1.0f - reflection.albedo_o.single);
         const float specular = max_component(specular_albedo);
         const float diffuse_weight = max_component(diffuse) * coupling;
         const float transmitted_weight = max_component(transmitted) * coupling;
@@ -64,14 +67,14 @@ BsdfValue evaluate_above(const Layers& layers, const Vec3f& wo, const Vec3f& wi)
     const GgxReflection::Value specular = layers.reflection.evaluate(wo, wi);
     const float cosine_pdf = cosine_hemisphere_pdf_solid_angle(wi);
     // A smooth layer over a diffuse base: its average is Schlick's own.
-    const float average = layers.smooth ? 1.0f - Layers::schlick_average(Rgb(layers.f0_dielectric)).r
-                                        : layers.coupling_average;
+    const float average =
+        layers.smooth ? 1.0f - Layers::schlick_average(Rgb(layers.f0_dielectric)).r : layers.coupling_average;
     const float coupling =
         average > 0.0f ? layers.coupling * layers.coupling_i(specular.albedo_i, wi.z) / average : 0.0f;
     BsdfValue value{layers.diffuse * (coupling * cosine_pdf), layers.p_diffuse * cosine_pdf};
     if (layers.smooth) return value;
-    value.f_cos += fresnel_schlick(layers.f0, specular.cos_half) * specular.single +
-                   layers.multiple_fresnel * specular.multiple;
+    value.f_cos +=
+        fresnel_schlick(layers.f0, specular.cos_half) * specular.single + layers.multiple_fresnel * specular.multiple;
     value.pdf_solid_angle += layers.p_specular * specular.pdf_solid_angle;
     return value;
 }
@@ -91,9 +94,8 @@ BsdfSample sample_smooth(const Layers& layers, const Vec3f& wo, bool transmit) {
                 .weight = layers.transmitted * (layers.coupling / layers.p_transmitted),
                 .is_delta = true,
                 .is_transmission = true};
-    return {.wi = mirror_direction(wo),
-            .weight = fresnel_schlick(layers.f0, wo.z) / layers.p_specular,
-            .is_delta = true};
+    return {
+        .wi = mirror_direction(wo), .weight = fresnel_schlick(layers.f0, wo.z) / layers.p_specular, .is_delta = true};
 }
 
 }  // namespace

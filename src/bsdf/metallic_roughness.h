@@ -5,12 +5,12 @@
 // dielectric = GGX with f0 = ((ior - 1) / (ior + 1))² over mix(diffuse, transmission, transmission factor)
 //
 // Three things go beyond the appendix, whose formulas lose or invent energy: the specular layer has its
-// multiple-scattering lobe; what lies under it receives what it lets through, (1 - E(o)) (1 - E(i)) / (1 - E_avg), which is
-// reciprocal and makes a white dielectric reflect exactly 1 (Ashikhmin and Shirley's coupling in Kelemen's form, 2001); the
-// transmitted lobe, GGX mirrored to the other side, is energy-conserving in the same way.
+// multiple-scattering lobe; what lies under it receives what it lets through, (1 - E(o)) (1 - E(i)) / (1 - E_avg),
+// which is reciprocal and makes a white dielectric reflect exactly 1 (Ashikhmin and Shirley's coupling in Kelemen's
+// form, 2001); the transmitted lobe, GGX mirrored to the other side, is energy-conserving in the same way.
 //
-// Thin-walled: light leaves opposite to where a mirror would send it, without refraction, tinted once by the base colour.
-// With alpha below kSmoothAlpha the specular and transmitted parts are deltas. Reflects for wo.z > 0 only.
+// Thin-walled: light leaves opposite to where a mirror would send it, without refraction, tinted once by the base
+// colour. With alpha below kSmoothAlpha the specular and transmitted parts are deltas. Reflects for wo.z > 0 only.
 #pragma once
 
 #include "bsdf/bsdf_sample.h"

@@ -1,12 +1,12 @@
 #include "bsdf/rough_dielectric.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "bsdf/fresnel.h"
 #include "bsdf/ggx.h"
 #include "bsdf/ggx_albedo.h"
-#include "sampling/warp.h"
+#include "bsdf/ggx_multiple.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace etendue {
 
@@ -15,12 +15,14 @@ namespace {
 /// The interface seen from wo's side, mirrored so that wo.z > 0.
 struct Side {
     Ggx ggx;
+    GgxMultiple multiple_directions;
     float eta;                   ///< index on the other side over the index on wo's
     float missing;               ///< 1 - E(wo)
     float multiple_transmitted;  ///< share of the missing energy that is transmitted
 
     Side(const RoughDielectric& lobe, float wo_z)
         : ggx{lobe.alpha},
+          multiple_directions(lobe.alpha),
           eta(wo_z > 0.0f ? lobe.ior : 1.0f / lobe.ior),
           missing(std::clamp(1.0f - ggx_dielectric_albedo(std::abs(wo_z), lobe.alpha, eta), 0.0f, 1.0f)),
           multiple_transmitted(wo_z > 0.0f ? lobe.multiple_transmitted_outside : lobe.multiple_transmitted_inside) {}
@@ -42,7 +44,7 @@ BsdfValue evaluate_reflection(const Side& side, const Vec3f& wo, const Vec3f& wi
     const float single = f * d * side.ggx.g2(wo, wi) / (4.0f * wo.z);
     const float multiple = reflected * side.missing * multiple_shape(side, side.eta, wi.z);
     const float pdf = (1.0f - side.missing) * f * d * side.ggx.g1(wo) / (4.0f * wo.z) +
-                      side.missing * reflected * cosine_hemisphere_pdf_solid_angle(wi);
+                      side.missing * reflected * side.multiple_directions.pdf_solid_angle(wi.z);
     return {Rgb(single + multiple), pdf};
 }
 
@@ -50,7 +52,8 @@ BsdfValue evaluate_reflection(const Side& side, const Vec3f& wo, const Vec3f& wi
 BsdfValue evaluate_transmission(const Side& side, const Vec3f& wo, const Vec3f& wi) {
     const float cos_i = -wi.z;
     const float multiple = side.multiple_transmitted * side.missing * multiple_shape(side, 1.0f / side.eta, cos_i);
-    BsdfValue value{Rgb(multiple), side.missing * side.multiple_transmitted * cos_i * kInvPi};
+    BsdfValue value{Rgb(multiple),
+                    side.missing * side.multiple_transmitted * side.multiple_directions.pdf_solid_angle(cos_i)};
     Vec3f h = wo + wi * side.eta;
     h = normalize(h.z < 0.0f ? -h : h);
     const float o_h = dot(wo, h);
@@ -73,7 +76,9 @@ BsdfValue evaluate_side(const Side& side, const Vec3f& wo, const Vec3f& wi, Tran
     return value;
 }
 
-Vec3f flip(const Vec3f& w) { return {w.x, w.y, -w.z}; }
+Vec3f flip(const Vec3f& w) {
+    return {w.x, w.y, -w.z};
+}
 
 }  // namespace
 
@@ -84,7 +89,8 @@ RoughDielectric RoughDielectric::make(float ior, float alpha) {
     return {.ior = ior,
             .alpha = alpha,
             .multiple_transmitted_outside = (1.0f - fresnel_dielectric_average(ior)) * missing_inside / larger,
-            .multiple_transmitted_inside = (1.0f - fresnel_dielectric_average(ior)) / (ior * ior) * missing_outside / larger};
+            .multiple_transmitted_inside =
+                (1.0f - fresnel_dielectric_average(ior)) / (ior * ior) * missing_outside / larger};
 }
 
 BsdfValue RoughDielectric::evaluate(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const {
@@ -101,7 +107,7 @@ BsdfSample RoughDielectric::sample(const Vec3f& wo_signed, float u_lobe, Vec2f u
 
     Vec3f wi;
     if (u_lobe < side.missing) {
-        wi = square_to_cosine_hemisphere(u);
+        wi = side.multiple_directions.sample(u);
         if (u_lobe < side.missing * side.multiple_transmitted) wi = flip(wi);
     } else {
         const float u_fresnel = (u_lobe - side.missing) / (1.0f - side.missing);

@@ -1,7 +1,7 @@
 // A smooth interface between two dielectrics: reflects and refracts, both deltas.
 //
-// Fresnel's equations for unpolarised light; radiance is divided by eta² when it passes from wi's side to wo's (Veach 1997,
-// equation 5.2). wo.z > 0 is the outside. Example: glass with ior 1.5, water with 1.33.
+// Fresnel's equations for unpolarised light; radiance is divided by eta² when it passes from wi's side to wo's (Veach
+// 1997, equation 5.2). wo.z > 0 is the outside. Example: glass with ior 1.5, water with 1.33.
 #pragma once
 
 #include "bsdf/bsdf_sample.h"
