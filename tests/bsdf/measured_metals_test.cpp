@@ -26,7 +26,7 @@ float largest_difference(const Rgb& a, const Rgb& b) {
 }
 
 std::string text(const Rgb& c) {
-    return "(" + std::to_string(c.r) + ", " + std::to_string(c.g) + ", " + std::to_string(c.b) + ")";
+    return std::string("(").append(std::to_string(c.r)) + ", " + std::to_string(c.g) + ", " + std::to_string(c.b) + ")";
 }
 
 // Linear Rec.709 reflectances at normal incidence, computed by others. Lagarde: "Feeding a physically based shading
@@ -95,7 +95,7 @@ TEST(MeasuredMetals, FittedCurveStaysCloseToSpectralIntegration) {
             exact_average += exact * (2.0f * cos_i / kSteps);
             curve_average += curve(cos_i) * (2.0f * cos_i / kSteps);
         }
-        RecordProperty("worst_" + std::string(symbol), std::to_string(worst));
+        RecordProperty(std::string("worst_").append(symbol), std::to_string(worst));
         EXPECT_LT(worst, 0.035f);
         EXPECT_LT(largest_difference(curve_average, exact_average), 0.01f);
         EXPECT_LT(largest_difference(curve.average(), exact_average), 0.01f);
