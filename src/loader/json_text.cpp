@@ -12,48 +12,70 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Watches the parser's events. nlohmann's parser keeps its own stack, so that depth costs heap, not the call stack;
-/// but whoever walks the document afterwards may recurse.
-class Watch {
-  public:
-    explicit Watch(const SourceLocation& where) : where_(where) {}
+/// "[json.exception.parse_error.101] parse error at line 1, column 2: ...": the bracket is of no use to a reader.
+std::string reason(const Json::exception& error) {
+    const std::string_view what = error.what();
+    const std::size_t bracket = what.find("] ");
+    return "not valid JSON: " + std::string(bracket == std::string_view::npos ? what : what.substr(bracket + 2));
+}
 
-    bool operator()(int depth, Json::parse_event_t event, Json& value) {
-        if (depth > kMaxJsonDepth) {
-            throw SceneError(where_, fmt::format("arrays and objects nest deeper than {} levels", kMaxJsonDepth));
-        }
-        if (event == Json::parse_event_t::object_start) keys_.emplace_back();
-        if (event == Json::parse_event_t::object_end) keys_.pop_back();
-        if (event == Json::parse_event_t::key) {
-            const std::string& key = value.get_ref<const std::string&>();
-            if (!keys_.back().insert(key).second) {
-                throw SceneError(where_, fmt::format("the key '{}' stands twice in the same object", shown(key)));
-            }
-        }
-        return true;
+/// Reads through a text without keeping it, and stops at the first thing that is not accepted. nlohmann's parser keeps
+/// its own stack, so that depth costs heap, not the call stack; but whoever walks the document afterwards may recurse.
+/// (Its callback while parsing would do as well, but takes quadratic time in the length of arrays.)
+class StrictReader : public nlohmann::json_sax<Json> {
+  public:
+    std::string failure;  ///< empty if all is well
+
+    bool null() override { return true; }
+    bool boolean(bool) override { return true; }
+    bool number_integer(number_integer_t) override { return true; }
+    bool number_unsigned(number_unsigned_t) override { return true; }
+    bool number_float(number_float_t, const string_t&) override { return true; }
+    bool string(string_t&) override { return true; }
+    bool binary(binary_t&) override { return true; }
+
+    bool start_array(std::size_t) override { return descend(); }
+    bool end_array() override { return ascend(); }
+    bool end_object() override { return ascend(); }
+    bool start_object(std::size_t) override { return descend(); }
+
+    bool key(string_t& name) override {
+        if (keys_.back().insert(name).second) return true;
+        failure = fmt::format("the key '{}' stands twice in the same object", shown(name));
+        return false;
+    }
+
+    bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception& error) override {
+        failure = reason(error);
+        return false;
     }
 
   private:
-    const SourceLocation& where_;
-    std::vector<std::unordered_set<std::string>> keys_;
+    bool descend() {
+        keys_.emplace_back();
+        if (keys_.size() <= static_cast<std::size_t>(kMaxJsonDepth)) return true;
+        failure = fmt::format("arrays and objects nest deeper than {} levels", kMaxJsonDepth);
+        return false;
+    }
+
+    bool ascend() {
+        keys_.pop_back();
+        return true;
+    }
+
+    std::vector<std::unordered_set<std::string>> keys_;  ///< of every open object; empty for arrays
 };
 
 }  // namespace
 
 Json parse_json(std::string_view text, const SourceLocation& where) {
-    Watch watch(where);
-    const Json::parser_callback_t callback = [&watch](int depth, Json::parse_event_t event, Json& value) {
-        return watch(depth, event, value);
-    };
+    StrictReader reader;
+    Json::sax_parse(text.begin(), text.end(), &reader);
+    if (!reader.failure.empty()) throw SceneError(where, reader.failure);
     try {
-        return Json::parse(text.begin(), text.end(), callback);
+        return Json::parse(text.begin(), text.end());
     } catch (const Json::exception& error) {
-        // "[json.exception.parse_error.101] parse error at line 1, column 2: ...": the bracket is of no use to a
-        // reader.
-        const std::string_view what = error.what();
-        const std::size_t bracket = what.find("] ");
-        throw SceneError(where,
-                         "not valid JSON: " + std::string(bracket == what.npos ? what : what.substr(bracket + 2)));
+        throw SceneError(where, reason(error));
     }
 }
 

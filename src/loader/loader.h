@@ -20,7 +20,8 @@ class SceneLoader {
     /// True if `file` is of this format, judged by its name and first bytes; false says "not my format", never "broken".
     [[nodiscard]] virtual bool can_load(const std::filesystem::path& file) const = 0;
 
-    /// Fills `scene` from `file`. Every problem goes to `problems`; throws SceneError when nothing useful can follow.
+    /// Fills `scene` from `file`. Every problem goes to `problems`; when nothing useful can follow, throws SceneError with
+    /// those that are not in `problems` yet.
     virtual void load(const std::filesystem::path& file, SceneDesc& scene, ProblemList& problems) const = 0;
 };
 

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <set>
 
 #include <fmt/format.h>
 
@@ -123,13 +122,8 @@ void load_into(const fs::path& path, SceneDesc& scene, ProblemList& problems) {
     }
 }
 
-/// Adds the problems of `from` that `to` does not have: a loader throws a copy of its list, or one more.
-void merge(const ProblemList& from, ProblemList& to) {
-    std::set<std::string> known;
-    for (const Problem& problem : to.all()) known.insert(problem.str());
-    for (const Problem& problem : from.all()) {
-        if (known.insert(problem.str()).second) to.add(problem);
-    }
+void append(const ProblemList& from, ProblemList& to) {
+    for (const Problem& problem : from.all()) to.add(problem);
 }
 
 }  // namespace
@@ -138,9 +132,9 @@ LoadedScene inspect_scene(const fs::path& path) {
     LoadedScene result;
     try {
         load_into(path, result.scene, result.problems);
-        merge(validate(result.scene), result.problems);
+        append(validate(result.scene), result.problems);
     } catch (const SceneError& error) {
-        merge(error.problems(), result.problems);
+        append(error.problems(), result.problems);
     } catch (const fs::filesystem_error& error) {
         result.problems.error({path.string(), {}}, error.what());
     }

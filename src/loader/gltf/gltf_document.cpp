@@ -213,18 +213,21 @@ GltfDocument read_gltf_document(const std::filesystem::path& file, ProblemList& 
     std::optional<std::span<const unsigned char>> bin;
     Json document = parse_file(file, bytes, result, bin);
 
-    check_extensions(document, result, problems);
-    check_shape(document, gltf_shape(), result.at(""), problems);
-    throw_if_errors(problems);
-    check_version(document, result, problems);
-    check_index_accessors(document, result, problems);
-    take_images(document, result, problems);
+    // A list of its own: what the caller has found before must not end this.
+    ProblemList found;
+    check_extensions(document, result, found);
+    check_shape(document, gltf_shape(), result.at(""), found);
+    throw_if_errors(found);
+    check_version(document, result, found);
+    check_index_accessors(document, result, found);
+    take_images(document, result, found);
     drop_unused_parts(document, result);
-    GltfBuffers buffers = load_gltf_buffers(document, bin, result.directory, result.at(""), result.inputs, problems);
-    throw_if_errors(problems);
+    GltfBuffers buffers = load_gltf_buffers(document, bin, result.directory, result.at(""), result.inputs, found);
+    throw_if_errors(found);
 
     bytes = {};
     result.model = parse_model(document, buffers, result);
+    for (const Problem& problem : found.all()) problems.add(problem);
     return result;
 }
 

@@ -39,7 +39,7 @@ struct GltfDocument {
 ///
 /// After it, every index in the model refers to something that exists and every value has the type and the range of the
 /// specification's schema; what the bytes say (indices, sizes of views, coordinates) is not checked yet. Warnings go to
-/// `problems`; throws SceneError with all errors.
+/// `problems`, or all of them into the SceneError that is thrown if there is an error.
 [[nodiscard]] GltfDocument read_gltf_document(const std::filesystem::path& file, ProblemList& problems);
 
 }  // namespace etendue

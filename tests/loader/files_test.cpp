@@ -1,0 +1,114 @@
+#include "loader/files.h"
+
+#include "core/error.h"
+#include "loader/gltf_builder.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+namespace etendue {
+namespace {
+
+std::string refusal(const std::filesystem::path& directory, const std::string& uri) {
+    try {
+        return "resolved to " + resolve_uri(directory, uri).string();
+    } catch (const IoError& error) {
+        return error.what();
+    }
+}
+
+TEST(ResolveUri, FindsFilesInside) {
+    const TempDir dir;
+    dir.write("a.bin", "x");
+    dir.write("sub/b c.bin", "x");
+    EXPECT_EQ(resolve_uri(dir.path(), "a.bin"), dir.path() / "a.bin");
+    EXPECT_EQ(resolve_uri(dir.path(), "./a.bin"), dir.path() / "a.bin");
+    EXPECT_EQ(resolve_uri(dir.path(), "sub/b%20c.bin"), dir.path() / "sub/b c.bin");
+    EXPECT_EQ(resolve_uri(dir.path(), "sub/b c.bin"), dir.path() / "sub/b c.bin");
+}
+
+TEST(ResolveUri, RefusesWhatIsNoFileInside) {
+    const TempDir outside;
+    outside.write("secret", "x");
+    const TempDir dir;
+    dir.write("a.bin", "x");
+    const std::pair<std::string, const char*> cases[] = {
+        {"", "empty"},
+        {"../a.bin", "'..'"},
+        {"sub/../../a.bin", "'..'"},
+        {"%2e%2e/a.bin", "'..'"},
+        {"..%2fa.bin", "'..'"},
+        {"/etc/passwd", "absolute"},
+        {"%2fetc/passwd", "absolute"},
+        {"//host/share", "absolute"},
+        {outside.path().string() + "/secret", "absolute"},
+        {"http://example.com/a.bin", "other URIs"},
+        {"file:///etc/passwd", "other URIs"},
+        {"http%3a//example.com", "other URIs"},
+        {"C:\\a.bin", "other URIs"},
+        {std::string("a.bin\0.png", 10), "control"},
+        {"a.bin%00.png", "control"},
+        {"a%0a.bin", "control"},
+        {"100%", "hexadecimal"},
+        {"a%zz", "hexadecimal"},
+        {"missing.bin", "does not exist"},
+        {".", "link leads out"},
+        {std::string(5000, 'a'), "longer than"},
+        {std::string(1000, 'a'), "reached"},
+    };
+    for (const auto& [uri, expected] : cases) {
+        EXPECT_NE(refusal(dir.path(), uri).find(expected), std::string::npos)
+            << uri.substr(0, 100) << ": " << refusal(dir.path(), uri);
+    }
+}
+
+TEST(ResolveUri, FollowsLinksInsideOnly) {
+    const TempDir outside;
+    outside.write("secret", "x");
+    const TempDir dir;
+    dir.write("a.bin", "x");
+    std::filesystem::create_symlink(dir.path() / "a.bin", dir.path() / "inside");
+    std::filesystem::create_symlink(outside.path() / "secret", dir.path() / "outside");
+    std::filesystem::create_directory_symlink(outside.path(), dir.path() / "folder");
+    std::filesystem::create_symlink("loop", dir.path() / "loop");
+    EXPECT_EQ(resolve_uri(dir.path(), "inside"), dir.path() / "a.bin");
+    EXPECT_NE(refusal(dir.path(), "outside").find("link leads out"), std::string::npos);
+    EXPECT_NE(refusal(dir.path(), "folder/secret").find("link leads out"), std::string::npos);
+    EXPECT_EQ(refusal(dir.path(), "loop").find("resolved"), std::string::npos);
+}
+
+TEST(ResolveUri, DoesNotTakeASiblingForInside) {
+    const TempDir dir;
+    dir.write("scene/a.bin", "x");
+    dir.write("scene-2/secret", "x");
+    std::filesystem::create_symlink(dir.path() / "scene-2/secret", dir.path() / "scene/link");
+    EXPECT_NE(refusal(dir.path() / "scene", "link").find("link leads out"), std::string::npos);
+}
+
+TEST(ResolveUri, RefusesPipesAndDirectories) {
+    const TempDir dir;
+    dir.write("sub/a", "x");
+    ASSERT_EQ(mkfifo((dir.path() / "pipe").c_str(), 0600), 0);
+    EXPECT_NE(refusal(dir.path(), "pipe").find("regular file"), std::string::npos);
+    EXPECT_NE(refusal(dir.path(), "sub").find("regular file"), std::string::npos);
+}
+
+TEST(ResolveName, GivesPercentNoMeaning) {
+    const TempDir dir;
+    dir.write("100%.hdr", "x");
+    EXPECT_EQ(resolve_name(dir.path(), "100%.hdr"), dir.path() / "100%.hdr");
+}
+
+TEST(ReadBytes, ReadsAllOrTheFirstOnes) {
+    const TempDir dir;
+    dir.write("a", "hello");
+    EXPECT_EQ(read_bytes(dir.path() / "a", 100).size(), 5u);
+    EXPECT_EQ(read_bytes(dir.path() / "a", 100, 2).size(), 2u);
+    EXPECT_THROW(static_cast<void>(read_bytes(dir.path() / "a", 4)), IoError);
+    EXPECT_THROW(static_cast<void>(read_bytes(dir.path() / "a", 100, 6)), IoError);
+    EXPECT_THROW(static_cast<void>(read_bytes(dir.path() / "b", 100)), IoError);
+    EXPECT_THROW(static_cast<void>(read_bytes(dir.path(), 100)), IoError);
+}
+
+}  // namespace
+}  // namespace etendue

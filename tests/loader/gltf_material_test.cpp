@@ -1,0 +1,153 @@
+#include "loader/gltf_builder.h"
+
+#include <gtest/gtest.h>
+
+namespace etendue {
+namespace {
+
+/// A triangle with texture coordinates and one material, three textures of one image, and `material`.
+LoadedScene load_with(const char* material) {
+    GltfBuilder builder;
+    nlohmann::json& primitive = builder.add_triangle();
+    const int uv = builder.floats({0, 0, 1, 0, 0, 1}, 2);
+    primitive["attributes"]["TEXCOORD_0"] = uv;
+    primitive["attributes"]["TEXCOORD_1"] = uv;
+    primitive["material"] = 0;
+    builder.json["materials"] = nlohmann::json::array({nlohmann::json::parse(material)});
+    builder.json["images"] = {{{"uri", "a.png"}}};
+    builder.json["textures"] = {
+        {{"source", 0}, {"name", "t0"}}, {{"source", 0}, {"name", "t1"}}, {{"source", 0}, {"name", "t2"}}};
+    const TempDir dir;
+    builder.write(dir);
+    dir.write("a.png", png_bytes());
+    return inspect_scene(dir.path() / "scene.gltf");
+}
+
+const MaterialDesc& material_of(const LoadedScene& loaded) {
+    EXPECT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
+    return loaded.scene.materials.at(0);
+}
+
+std::string texture_name(const LoadedScene& loaded, const TextureRef& ref) {
+    return ref.valid() ? loaded.scene.textures.at(std::size_t(ref.texture.index)).name : "none";
+}
+
+TEST(Material, DefaultsAreTheSpecifications) {
+    const LoadedScene loaded = load_with("{}");
+    const MaterialDesc& m = material_of(loaded);
+    EXPECT_EQ(m.base_color, Rgb(1.0f));
+    EXPECT_EQ(m.base_alpha, 1.0f);
+    EXPECT_EQ(m.metallic, 1.0f);
+    EXPECT_EQ(m.roughness, 1.0f);
+    EXPECT_EQ(m.emissive, Rgb(0.0f));
+    EXPECT_EQ(m.emissive_strength, 1.0f);
+    EXPECT_EQ(m.alpha_mode, AlphaMode::Opaque);
+    EXPECT_EQ(m.alpha_cutoff, 0.5f);
+    EXPECT_EQ(m.ior, 1.5f);
+    EXPECT_EQ(m.transmission, 0.0f);
+    EXPECT_FALSE(m.double_sided);
+    EXPECT_FALSE(m.unlit);
+    EXPECT_FALSE(m.base_color_texture.valid());
+    EXPECT_TRUE(loaded.scene.images.empty());  // nothing that no material uses is opened
+}
+
+TEST(Material, EverythingIsRead) {
+    const LoadedScene loaded = load_with(R"({
+        "name": "all",
+        "pbrMetallicRoughness": {
+            "baseColorFactor": [0.1, 0.2, 0.3, 0.4], "baseColorTexture": {"index": 0},
+            "metallicFactor": 0.5, "roughnessFactor": 0.6, "metallicRoughnessTexture": {"index": 1, "texCoord": 1}},
+        "normalTexture": {"index": 2, "scale": -2}, "occlusionTexture": {"index": 1},
+        "emissiveTexture": {"index": 1}, "emissiveFactor": [0.7, 0.8, 0.9],
+        "alphaMode": "MASK", "alphaCutoff": 0.25, "doubleSided": true,
+        "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 30},
+                       "KHR_materials_transmission": {"transmissionFactor": 0.5, "transmissionTexture": {"index": 2}},
+                       "KHR_materials_ior": {"ior": 1.33}, "KHR_materials_unlit": {}}})");
+    const MaterialDesc& m = material_of(loaded);
+    EXPECT_EQ(m.name, "all");
+    EXPECT_EQ(m.base_color, Rgb(0.1f, 0.2f, 0.3f));
+    EXPECT_EQ(m.base_alpha, 0.4f);
+    EXPECT_EQ(texture_name(loaded, m.base_color_texture), "t0");
+    EXPECT_EQ(m.metallic, 0.5f);
+    EXPECT_EQ(m.roughness, 0.6f);
+    EXPECT_EQ(texture_name(loaded, m.metallic_roughness_texture), "t1");
+    EXPECT_EQ(m.metallic_roughness_texture.texcoord, 1);
+    EXPECT_EQ(texture_name(loaded, m.normal_texture), "t2");
+    EXPECT_EQ(m.normal_scale, -2.0f);
+    EXPECT_EQ(texture_name(loaded, m.emissive_texture), "t1");
+    EXPECT_EQ(m.emissive, Rgb(0.7f, 0.8f, 0.9f));
+    EXPECT_EQ(m.emissive_strength, 30.0f);
+    EXPECT_EQ(m.alpha_mode, AlphaMode::Mask);
+    EXPECT_EQ(m.alpha_cutoff, 0.25f);
+    EXPECT_TRUE(m.double_sided);
+    EXPECT_TRUE(m.unlit);
+    EXPECT_EQ(m.ior, 1.33f);
+    EXPECT_EQ(m.transmission, 0.5f);
+    EXPECT_EQ(texture_name(loaded, m.transmission_texture), "t2");
+    EXPECT_EQ(loaded.scene.images.size(), 1u);  // shared by the three
+}
+
+TEST(Material, TextureTransformsAndTheirTexcoord) {
+    const LoadedScene loaded = load_with(R"({
+        "pbrMetallicRoughness": {"baseColorTexture": {"index": 0, "extensions": {"KHR_texture_transform":
+            {"offset": [0.1, 0.2], "rotation": 0.3, "scale": [2, 3], "texCoord": 1}}}},
+        "emissiveTexture": {"index": 0, "texCoord": 1, "extensions": {"KHR_texture_transform": {}}},
+        "extensions": {"KHR_materials_transmission": {"transmissionTexture": {"index": 0, "extensions":
+            {"KHR_texture_transform": {"rotation": 1}}}}}})");
+    const MaterialDesc& m = material_of(loaded);
+    const TextureTransform& t = m.base_color_texture.transform;
+    EXPECT_EQ(t.offset, Vec2f(0.1f, 0.2f));
+    EXPECT_EQ(t.rotation, 0.3f);
+    EXPECT_EQ(t.scale, Vec2f(2, 3));
+    EXPECT_EQ(m.base_color_texture.texcoord, 1);
+    EXPECT_EQ(m.emissive_texture.transform, TextureTransform{});
+    EXPECT_EQ(m.emissive_texture.texcoord, 1);
+    EXPECT_EQ(m.transmission_texture.transform.rotation, 1.0f);
+}
+
+TEST(Material, FactorsOutsideTheirRangeAreMovedIntoIt) {
+    const LoadedScene loaded = load_with(R"({
+        "pbrMetallicRoughness": {"baseColorFactor": [2, -1, 0.5, 1], "roughnessFactor": 7},
+        "extensions": {"KHR_materials_ior": {"ior": 0.5}}})");
+    const MaterialDesc& m = material_of(loaded);
+    EXPECT_EQ(m.base_color, Rgb(1, 0, 0.5f));
+    EXPECT_EQ(m.roughness, 1.0f);
+    EXPECT_EQ(m.ior, 1.0f);
+    EXPECT_TRUE(has_problem(loaded.problems, Severity::Warning, "outside [0, 1]", "/roughnessFactor"));
+    EXPECT_TRUE(has_problem(loaded.problems, Severity::Warning, "neither 0 nor at least 1", "/ior"));
+}
+
+TEST(Material, IorZeroIsKept) {
+    EXPECT_EQ(material_of(load_with(R"({"extensions": {"KHR_materials_ior": {"ior": 0}}})")).ior, 0.0f);
+}
+
+TEST(Material, BrightEmissionBecomesStrength) {
+    const LoadedScene loaded = load_with(R"({"emissiveFactor": [10, 5, 0]})");
+    EXPECT_EQ(material_of(loaded).emissive, Rgb(1, 0.5f, 0));
+    EXPECT_EQ(material_of(loaded).emissive_strength, 10.0f);
+    EXPECT_TRUE(has_problem(loaded.problems, Severity::Warning, "emissive strength"));
+}
+
+TEST(Material, TexcoordsBeyondOneAreIgnoredWithAWarning) {
+    const LoadedScene loaded =
+        load_with(R"({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0, "texCoord": 2}}})");
+    EXPECT_FALSE(material_of(loaded).base_color_texture.valid());
+    EXPECT_TRUE(has_problem(loaded.problems, Severity::Warning, "texture coordinates 2", "/baseColorTexture"));
+}
+
+TEST(Material, MissingTexcoordsAreAWarning) {
+    GltfBuilder builder;
+    builder.add_triangle()["material"] = 0;
+    builder.json["materials"] = {{{"emissiveTexture", {{"index", 0}}}}};
+    builder.json["images"] = {{{"uri", "a.png"}}};
+    builder.json["textures"] = {{{"source", 0}}};
+    const TempDir dir;
+    builder.write(dir);
+    dir.write("a.png", png_bytes());
+    const LoadedScene loaded = inspect_scene(dir.path() / "scene.gltf");
+    EXPECT_FALSE(loaded.problems.has_errors());
+    EXPECT_TRUE(has_problem(loaded.problems, Severity::Warning, "texture coordinates that a material needs"));
+}
+
+}  // namespace
+}  // namespace etendue

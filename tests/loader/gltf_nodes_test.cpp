@@ -1,0 +1,213 @@
+#include "loader/gltf_builder.h"
+
+#include <gtest/gtest.h>
+
+namespace etendue {
+namespace {
+
+/// A triangle whose nodes and scenes the test writes itself.
+GltfBuilder with_nodes(nlohmann::json nodes, nlohmann::json roots = {0}) {
+    GltfBuilder builder;
+    builder.add_triangle();
+    builder.json["nodes"] = std::move(nodes);
+    builder.json["scenes"] = {{{"nodes", std::move(roots)}}};
+    return builder;
+}
+
+Vec3f origin(const Mat4f& m) {
+    return {m[3][0], m[3][1], m[3][2]};
+}
+
+void expect_near(const Vec3f& a, const Vec3f& b) {
+    EXPECT_LT(length(a - b), 1e-5f) << a << b;
+}
+
+TEST(Nodes, TrsIsScaleThenRotationThenTranslation) {
+    const float s = std::sqrt(0.5f);
+    const LoadedScene loaded =
+        with_nodes({{{"mesh", 0}, {"scale", {2, 3, 4}}, {"rotation", {0, 0, s, s}}, {"translation", {10, 0, 0}}}})
+            .load();
+    ASSERT_EQ(loaded.scene.instances.size(), 1u) << listing(loaded.problems);
+    const Mat4f& m = loaded.scene.instances[0].to_world;
+    expect_near(transform_point(m, {1, 0, 0}), {10, 2, 0});  // x goes to y
+    expect_near(transform_point(m, {0, 1, 0}), {7, 0, 0});
+}
+
+TEST(Nodes, MatrixIsColumnMajor) {
+    const LoadedScene loaded =
+        with_nodes({{{"mesh", 0}, {"matrix", {0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1}}}}).load();
+    const Mat4f& m = loaded.scene.instances.at(0).to_world;
+    expect_near(transform_point(m, {1, 0, 0}), {5, 7, 7});
+}
+
+TEST(Nodes, ChildrenAreRelativeToTheirParent) {
+    const LoadedScene loaded = with_nodes({{{"children", {1}}, {"translation", {1, 0, 0}}, {"scale", {2, 2, 2}}},
+                                           {{"children", {2}}, {"translation", {0, 1, 0}}},
+                                           {{"mesh", 0}, {"translation", {0, 0, 1}}}})
+                                   .load();
+    expect_near(origin(loaded.scene.instances.at(0).to_world), {1, 2, 2});
+}
+
+TEST(Nodes, RotationsAreNormalised) {
+    const LoadedScene loaded = with_nodes({{{"mesh", 0}, {"rotation", {0, 0, 0, 5}}}}).load();
+    EXPECT_EQ(loaded.scene.instances.at(0).to_world, Mat4f());
+    const LoadedScene zero = with_nodes({{{"mesh", 0}, {"rotation", {0, 0, 0, 0}}}}).load();
+    EXPECT_EQ(zero.scene.instances.at(0).to_world, Mat4f());
+    EXPECT_TRUE(has_problem(zero.problems, Severity::Warning, "zero quaternion", "/nodes/0"));
+}
+
+TEST(Nodes, SharedMeshesAreInstances) {
+    const LoadedScene loaded = with_nodes({{{"mesh", 0}}, {{"mesh", 0}, {"translation", {1, 0, 0}}}}, {0, 1}).load();
+    EXPECT_EQ(loaded.scene.meshes.size(), 1u);
+    EXPECT_EQ(loaded.scene.instances.size(), 2u);
+}
+
+TEST(Nodes, NegativeScaleIsKept) {
+    const LoadedScene loaded = with_nodes({{{"mesh", 0}, {"scale", {-1, 1, 1}}}}).load();
+    EXPECT_TRUE(loaded.problems.all().empty()) << listing(loaded.problems);
+    EXPECT_LT(loaded.scene.instances.at(0).to_world.determinant(), 0.0f);
+}
+
+TEST(Nodes, SingularTransformsAreLeftOut) {
+    const LoadedScene loaded = with_nodes({{{"mesh", 0}, {"scale", {1, 0, 1}}}, {{"mesh", 0}}}, {0, 1}).load();
+    EXPECT_EQ(loaded.scene.instances.size(), 1u);
+    EXPECT_TRUE(has_problem(loaded.problems, Severity::Warning, "singular", "/nodes/0"));
+    EXPECT_FALSE(loaded.problems.has_errors());
+}
+
+TEST(Nodes, TransformsThatOverflowAreLeftOut) {
+    const LoadedScene loaded =
+        with_nodes({{{"children", {1}}, {"scale", {1e30, 1e30, 1e30}}}, {{"mesh", 0}, {"scale", {1e30, 1e30, 1e30}}}})
+            .load();
+    EXPECT_TRUE(loaded.scene.instances.empty());
+    EXPECT_TRUE(has_problem(loaded.problems, Severity::Warning, "singular", "/nodes/1"));
+}
+
+TEST(Nodes, ProjectiveMatricesAreErrors) {
+    const LoadedScene loaded =
+        with_nodes({{{"mesh", 0}, {"matrix", {1, 0, 0, 0.5, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}}}).load();
+    EXPECT_TRUE(has_problem(loaded.problems, Severity::Error, "not affine", "/nodes/0"));
+}
+
+TEST(Nodes, CyclesAreErrors) {
+    const auto expect_cycle = [](nlohmann::json nodes, nlohmann::json roots) {
+        const LoadedScene loaded = with_nodes(std::move(nodes), std::move(roots)).load();
+        EXPECT_TRUE(has_problem(loaded.problems, Severity::Error, "its own ancestor")) << listing(loaded.problems);
+    };
+    expect_cycle({{{"children", {0}}}}, {0});
+    expect_cycle({{{"children", {1}}}, {{"children", {0}}}}, {0});
+    expect_cycle({{{"mesh", 0}}, {{"children", {2}}}, {{"children", {3}}}, {{"children", {1}}}}, {0});
+}
+
+TEST(Nodes, TwoParentsAreAnError) {
+    const LoadedScene loaded = with_nodes({{{"children", {2}}}, {{"children", {2}}}, {{"mesh", 0}}}, {0, 1}).load();
+    EXPECT_TRUE(
+        has_problem(loaded.problems, Severity::Error, "node 2 already is a child of node 0", "/nodes/1/children/0"));
+}
+
+TEST(Nodes, ListedTwiceIsAnError) {
+    EXPECT_TRUE(has_problem(with_nodes({{{"mesh", 0}}}, {0, 0}).load().problems, Severity::Error, "listed twice"));
+    EXPECT_TRUE(has_problem(with_nodes({{{"children", {1, 1}}}, {{"mesh", 0}}}).load().problems, Severity::Error,
+                            "already is a child"));
+    EXPECT_TRUE(has_problem(with_nodes({{{"children", {1}}}, {{"mesh", 0}}}, {0, 1}).load().problems, Severity::Error,
+                            "no root"));
+}
+
+TEST(Nodes, DeepHierarchiesNeedNoStack) {
+    constexpr int kDepth = 200'000;
+    nlohmann::json nodes = nlohmann::json::array();
+    for (int i = 0; i + 1 < kDepth; ++i) nodes.push_back({{"children", {i + 1}}});
+    nodes.push_back({{"mesh", 0}});
+    const LoadedScene loaded = with_nodes(std::move(nodes)).load();
+    EXPECT_EQ(loaded.scene.instances.size(), 1u) << listing(loaded.problems);
+}
+
+TEST(Nodes, SceneSelection) {
+    GltfBuilder builder = with_nodes({{{"mesh", 0}, {"name", "a"}}, {{"mesh", 0}, {"name", "b"}}});
+    builder.json["scenes"] = {{{"nodes", {0}}}, {{"nodes", {1}}}};
+    EXPECT_EQ(builder.load().scene.instances.at(0).name, "a");
+    builder.json["scene"] = 1;
+    EXPECT_EQ(builder.load().scene.instances.at(0).name, "b");
+
+    builder.json.erase("scene");
+    builder.json.erase("scenes");
+    const LoadedScene all = builder.load();
+    EXPECT_EQ(all.scene.instances.size(), 2u);
+    EXPECT_TRUE(has_problem(all.problems, Severity::Warning, "no scene"));
+}
+
+TEST(Cameras, TakeTheirNodesTransformWithoutScale) {
+    GltfBuilder builder =
+        with_nodes({{{"mesh", 0}},
+                    {{"camera", 0}, {"scale", {3, 3, 3}}, {"translation", {0, 0, 5}}, {"name", "node"}},
+                    {{"camera", 1}},
+                    {{"camera", 1}}},
+                   {0, 1, 2, 3});
+    builder.json["cameras"] = {
+        {{"type", "perspective"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.1}, {"aspectRatio", 1.5}}}},
+        {{"type", "orthographic"},
+         {"name", "flat"},
+         {"orthographic", {{"xmag", 4}, {"ymag", 2}, {"znear", 0}, {"zfar", 9}}}}};
+    const LoadedScene loaded = builder.load();
+    ASSERT_EQ(loaded.scene.cameras.size(), 3u) << listing(loaded.problems);
+    const CameraDesc& perspective = loaded.scene.cameras[0];
+    EXPECT_EQ(perspective.name, "node");
+    EXPECT_FLOAT_EQ(perspective.yfov, 0.5f);
+    EXPECT_FLOAT_EQ(perspective.aspect_ratio, 1.5f);
+    EXPECT_NEAR(perspective.to_world.determinant(), 1.0f, 1e-5f);
+    expect_near(origin(perspective.to_world), {0, 0, 5});
+    const CameraDesc& flat = loaded.scene.cameras[1];
+    EXPECT_EQ(flat.type, CameraType::Orthographic);
+    EXPECT_FLOAT_EQ(flat.ymag, 2.0f);
+    EXPECT_FLOAT_EQ(flat.aspect_ratio, 2.0f);
+    EXPECT_EQ(flat.name, "flat");
+    EXPECT_EQ(loaded.scene.cameras[2].name, "flat-2");
+}
+
+TEST(Cameras, WithoutTheirDescriptionAreErrors) {
+    GltfBuilder builder = with_nodes({{{"camera", 0}}});
+    builder.json["cameras"] = {{{"type", "perspective"}}};
+    EXPECT_TRUE(builder.load().problems.has_errors());
+    builder.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 4}, {"znear", 1}}}}};
+    EXPECT_TRUE(has_problem(builder.load().problems, Severity::Error, "yfov is 4", "/cameras/0"));
+}
+
+TEST(Lights, AreReadAndPlaced) {
+    GltfBuilder builder =
+        with_nodes({{{"mesh", 0}},
+                    {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}, {"translation", {1, 2, 3}}},
+                    {{"extensions", {{"KHR_lights_punctual", {{"light", 1}}}}}, {"name", "sun"}}},
+                   {0, 1, 2});
+    builder.json["extensionsUsed"] = {"KHR_lights_punctual"};
+    builder.json["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "spot"},
+         {"name", "lamp"},
+         {"color", {1, 0.5, 0}},
+         {"intensity", 7},
+         {"spot", {{"innerConeAngle", 0.1}, {"outerConeAngle", 0.2}}}},
+        {{"type", "directional"}}};
+    const LoadedScene loaded = builder.load();
+    ASSERT_EQ(loaded.scene.lights.size(), 2u) << listing(loaded.problems);
+    const LightDesc& lamp = loaded.scene.lights[0];
+    EXPECT_EQ(lamp.type, LightType::Spot);
+    EXPECT_EQ(lamp.name, "lamp");
+    EXPECT_EQ(lamp.color, Rgb(1, 0.5f, 0));
+    EXPECT_EQ(lamp.intensity, 7.0f);
+    EXPECT_FLOAT_EQ(lamp.inner_cone_angle, 0.1f);
+    EXPECT_FLOAT_EQ(lamp.outer_cone_angle, 0.2f);
+    expect_near(origin(lamp.to_world), {1, 2, 3});
+    EXPECT_EQ(loaded.scene.lights[1].type, LightType::Directional);
+    EXPECT_EQ(loaded.scene.lights[1].name, "sun");
+    EXPECT_EQ(loaded.scene.lights[1].intensity, 1.0f);
+    EXPECT_EQ(loaded.scene.extensions_used.size(), 1u);
+}
+
+TEST(Lights, BadConesAreErrors) {
+    GltfBuilder builder = with_nodes({{{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}}});
+    builder.json["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.5}, {"outerConeAngle", 0.2}}}}};
+    EXPECT_TRUE(has_problem(builder.load().problems, Severity::Error, "cone", "/lights/0"));
+}
+
+}  // namespace
+}  // namespace etendue

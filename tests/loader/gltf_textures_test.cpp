@@ -1,0 +1,150 @@
+#include "loader/gltf_builder.h"
+
+#include <functional>
+
+#include <gtest/gtest.h>
+
+namespace etendue {
+namespace {
+
+/// A textured triangle whose image the test describes.
+GltfBuilder textured(nlohmann::json image) {
+    GltfBuilder builder;
+    nlohmann::json& primitive = builder.add_triangle();
+    primitive["attributes"]["TEXCOORD_0"] = builder.floats({0, 0, 1, 0, 0, 1}, 2);
+    primitive["material"] = 0;
+    builder.json["materials"] = {{{"emissiveTexture", {{"index", 0}}}}};
+    builder.json["textures"] = {{{"source", 0}}};
+    builder.json["images"] = nlohmann::json::array({std::move(image)});
+    return builder;
+}
+
+LoadedScene load_with_file(const GltfBuilder& builder, const std::string& name, const std::string& content) {
+    const TempDir dir;
+    builder.write(dir);
+    dir.write(name, content);
+    return inspect_scene(dir.path() / "scene.gltf");
+}
+
+const ImageDesc& only_image(const LoadedScene& loaded) {
+    EXPECT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
+    return loaded.scene.images.at(0);
+}
+
+TEST(Textures, FromAFile) {
+    const LoadedScene loaded =
+        load_with_file(textured({{"uri", "my%20image.png"}, {"name", "n"}}), "my image.png", png_bytes());
+    EXPECT_EQ(only_image(loaded).path.filename(), "my image.png");
+    EXPECT_TRUE(only_image(loaded).encoded.empty());
+    EXPECT_EQ(only_image(loaded).width, 1);
+    EXPECT_EQ(only_image(loaded).name, "n");
+    EXPECT_EQ(loaded.scene.inputs.size(), 3u);
+}
+
+TEST(Textures, FromABufferView) {
+    GltfBuilder builder = textured({{"mimeType", "image/png"}});
+    const std::vector<char> bytes(png_bytes().begin(), png_bytes().end());
+    builder.json["images"][0]["bufferView"] = builder.view(bytes);
+    const LoadedScene loaded = builder.load();
+    EXPECT_EQ(only_image(loaded).encoded.size(), png_bytes().size());
+    EXPECT_EQ(only_image(loaded).encoded[1], std::byte{'P'});
+    EXPECT_EQ(only_image(loaded).mime_type, "image/png");
+    EXPECT_TRUE(only_image(loaded).path.empty());
+    EXPECT_EQ(only_image(loaded).height, 1);
+}
+
+TEST(Textures, FromADataUri) {
+    const LoadedScene loaded =
+        textured({{"uri",
+                   "data:image/png;base64,"
+                   "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg=="}})
+            .load();
+    EXPECT_EQ(only_image(loaded).encoded.size(), png_bytes().size());
+    EXPECT_EQ(only_image(loaded).width, 1);
+}
+
+TEST(Textures, SamplersAreRead) {
+    GltfBuilder builder = textured({{"uri", "a.png"}});
+    builder.json["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}, {"minFilter", 9987}}};
+    builder.json["textures"][0]["sampler"] = 0;
+    const LoadedScene loaded = load_with_file(builder, "a.png", png_bytes());
+    const TextureDesc& texture = loaded.scene.textures.at(0);
+    EXPECT_EQ(texture.wrap_u, TextureWrap::ClampToEdge);
+    EXPECT_EQ(texture.wrap_v, TextureWrap::MirroredRepeat);
+    EXPECT_EQ(texture.filter, TextureFilter::Nearest);
+
+    const LoadedScene plain = load_with_file(textured({{"uri", "a.png"}}), "a.png", png_bytes());
+    EXPECT_EQ(plain.scene.textures.at(0).wrap_u, TextureWrap::Repeat);
+    EXPECT_EQ(plain.scene.textures.at(0).filter, TextureFilter::Linear);
+}
+
+TEST(Textures, MinificationFilterIsIrrelevant) {
+    GltfBuilder builder = textured({{"uri", "a.png"}});
+    builder.json["samplers"] = {{{"minFilter", 9728}}};
+    builder.json["textures"][0]["sampler"] = 0;
+    const LoadedScene loaded = load_with_file(builder, "a.png", png_bytes());
+    EXPECT_EQ(loaded.scene.textures.at(0).filter, TextureFilter::Linear);
+}
+
+TEST(Textures, BadFilesAreErrors) {
+    const auto expect_error = [](const nlohmann::json& image, const std::string& content, const char* expected) {
+        const LoadedScene loaded = load_with_file(textured(image), "a.png", content);
+        EXPECT_TRUE(has_problem(loaded.problems, Severity::Error, expected, "/images/0")) << listing(loaded.problems);
+    };
+    expect_error({{"uri", "b.png"}}, png_bytes(), "'b.png': the file does not exist");
+    expect_error({{"uri", "../a.png"}}, png_bytes(), "'..'");
+    expect_error({{"uri", "https://example.com/a.png"}}, png_bytes(), "other URIs");
+    expect_error({{"uri", "a.png"}}, "", "a.png");
+    expect_error({{"uri", "a.png"}}, "not an image at all", "a.png");
+    expect_error({{"uri", "a.png"}}, png_bytes().substr(0, 20), "a.png");
+    expect_error({{"uri", "a.png"}}, "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n" + std::string(4, '\1'),
+                 "PNG or JPEG");
+    expect_error({{"uri", "data:image/png;base64,AAAA"}}, png_bytes(), "");
+
+    std::string absurd = png_bytes();
+    absurd.replace(16, 8, std::string("\x7f\xff\xff\xff\x7f\xff\xff\xff", 8));
+    expect_error({{"uri", "a.png"}}, absurd, "a.png");
+}
+
+TEST(Textures, FilesBehindLinksOutsideAreErrors) {
+    const TempDir outside;
+    outside.write("a.png", png_bytes());
+    const TempDir dir;
+    textured({{"uri", "a.png"}}).write(dir);
+    std::filesystem::create_symlink(outside.path() / "a.png", dir.path() / "a.png");
+    const LoadedScene loaded = inspect_scene(dir.path() / "scene.gltf");
+    EXPECT_TRUE(has_problem(loaded.problems, Severity::Error, "link leads out", "/images/0"));
+}
+
+TEST(Textures, ViewsOutsideTheBufferAreErrors) {
+    GltfBuilder builder = textured({{"mimeType", "image/png"}});
+    builder.json["images"][0]["bufferView"] = builder.view(std::vector<char>(8));
+    builder.json["bufferViews"].back()["byteLength"] = 1'000'000'000;
+    EXPECT_TRUE(has_problem(builder.load().problems, Severity::Error, "covers 1000000000", "/images/0"));
+}
+
+TEST(Textures, OnlyFromAnUnsupportedExtensionIsAnError) {
+    GltfBuilder builder = textured({{"uri", "a.ktx2"}});
+    builder.json["textures"][0] = {{"extensions", {{"KHR_texture_basisu", {{"source", 0}}}}}};
+    EXPECT_TRUE(has_problem(builder.load().problems, Severity::Error, "KHR_texture_basisu", "/textures/0"));
+    builder.json["textures"][0] = nlohmann::json::object();
+    EXPECT_TRUE(has_problem(builder.load().problems, Severity::Error, "no image", "/textures/0"));
+}
+
+TEST(Textures, FallbackBesideAnUnsupportedExtensionIsUsed) {
+    GltfBuilder builder = textured({{"uri", "a.png"}});
+    builder.json["extensionsUsed"] = {"EXT_texture_webp"};
+    builder.json["textures"][0]["extensions"] = {{"EXT_texture_webp", {{"source", 0}}}};
+    EXPECT_EQ(only_image(load_with_file(builder, "a.png", png_bytes())).width, 1);
+}
+
+TEST(Textures, UnusedImagesAreNotOpened) {
+    GltfBuilder builder = textured({{"uri", "a.png"}});
+    builder.json["images"].push_back({{"uri", "missing.png"}});
+    const LoadedScene loaded = load_with_file(builder, "a.png", png_bytes());
+    EXPECT_EQ(only_image(loaded).width, 1);
+    EXPECT_EQ(loaded.scene.images.size(), 1u);
+}
+
+}  // namespace
+}  // namespace etendue

@@ -1,0 +1,63 @@
+#include "loader/json_text.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace etendue {
+namespace {
+
+const SourceLocation kWhere{"file.json", ""};
+
+std::string failure(const std::string& text) {
+    try {
+        static_cast<void>(parse_json(text, kWhere));
+        return "";
+    } catch (const SceneError& error) {
+        return error.what();
+    }
+}
+
+TEST(ParseJson, ParsesJson) {
+    EXPECT_EQ(parse_json(R"({"a": [1, 2.5, "x"]})", kWhere)["a"][1], 2.5);
+}
+
+TEST(ParseJson, SaysWhereTheSyntaxIsBroken) {
+    const std::string message = failure("{\n\"a\": }");
+    EXPECT_NE(message.find("file.json"), std::string::npos) << message;
+    EXPECT_NE(message.find("line 2"), std::string::npos) << message;
+}
+
+TEST(ParseJson, RefusesWhatIsNotStrict) {
+    for (const char* text : {"", " ", "{", "[1,]", "{'a': 1}", "{\"a\": 1} x", "// c\n{}", "{\"a\": NaN}",
+                             "{\"a\": 1e999}", "{\"a\": \"\xff\"}", "{\"a\": \"\xc0\xaf\"}"}) {
+        EXPECT_NE(failure(text), "") << text;
+    }
+}
+
+TEST(ParseJson, RefusesDuplicateKeysInOneObjectOnly) {
+    EXPECT_NE(failure(R"({"a": 1, "b": {}, "a": 2})").find("'a' stands twice"), std::string::npos);
+    EXPECT_EQ(failure(R"({"a": {"a": 1}, "b": [{"a": 1}, {"a": 2}]})"), "");
+}
+
+TEST(ParseJson, LimitsDepthWithoutDeepRecursion) {
+    const auto nested = [](int depth) {
+        return std::string(static_cast<std::size_t>(depth), '[') + std::string(static_cast<std::size_t>(depth), ']');
+    };
+    EXPECT_EQ(failure(nested(kMaxJsonDepth)), "");
+    EXPECT_NE(failure(nested(kMaxJsonDepth + 1)).find("nest deeper"), std::string::npos);
+    EXPECT_NE(failure(nested(5'000'000)).find("nest deeper"), std::string::npos);
+    EXPECT_NE(failure(std::string(5'000'000, '[')).find("nest deeper"), std::string::npos);
+}
+
+TEST(ChildPointer, EscapesAsTheRfcSays) {
+    EXPECT_EQ(child_pointer("/a", "b/c~d"), "/a/b~1c~0d");
+    EXPECT_EQ(child_pointer("", std::size_t{3}), "/3");
+}
+
+TEST(Shown, CutsAndCleans) {
+    EXPECT_EQ(shown("a\nb"), "a?b");
+    EXPECT_LT(shown(std::string(1000, 'x')).size(), 100u);
+}
+
+}  // namespace
+}  // namespace etendue

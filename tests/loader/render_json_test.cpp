@@ -1,0 +1,222 @@
+#include "loader/settings/render_json.h"
+
+#include "loader/gltf_builder.h"
+
+#include <gtest/gtest.h>
+
+namespace etendue {
+namespace {
+
+struct Parsed {
+    RenderJson json;
+    ProblemList problems;
+};
+
+Parsed parse(const std::string& text) {
+    const TempDir dir;
+    dir.write("render.json", text);
+    Parsed result;
+    result.json = read_render_json(dir.path() / "render.json", result.problems);
+    return result;
+}
+
+/// A triangle of material "paper" lit by a light "lamp" and seen by a camera "main", with this render.json.
+LoadedScene load_with(const std::string& text) {
+    GltfBuilder builder;
+    builder.add_triangle()["material"] = 0;
+    builder.json["materials"] = {{{"name", "paper"}, {"emissiveFactor", {1, 1, 1}}}};
+    builder.json["cameras"] = {
+        {{"type", "perspective"}, {"name", "main"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.1}}}}};
+    builder.json["nodes"][0]["camera"] = 0;
+    builder.json["nodes"][0]["extensions"] = {{"KHR_lights_punctual", {{"light", 0}}}};
+    builder.json["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "point"}, {"name", "lamp"}, {"intensity", 10}}};
+    const TempDir dir;
+    builder.write(dir);
+    dir.write("render.json", text);
+    return inspect_scene(dir.path());
+}
+
+TEST(RenderJson, DefaultsStayWhenNothingIsSaid) {
+    const Parsed parsed = parse("{}");
+    EXPECT_TRUE(parsed.problems.all().empty());
+    EXPECT_EQ(parsed.json.settings.spp, RenderSettings{}.spp);
+    EXPECT_FALSE(parsed.json.environment);
+}
+
+TEST(RenderJson, EverySettingIsRead) {
+    const Parsed parsed = parse(R"({
+        "scene": "x.glb", "integrator": {"type": "direct", "max_depth": 7, "min_depth": 2, "roulette_depth": 3},
+        "sampler": "random", "spp": 9, "seed": 4294967295, "time": 1.5, "resolution": [30, 20], "crop": [1, 2, 3, 4],
+        "camera": "c", "lens_radius": 0.5, "focus_distance": 4,
+        "film": {"filter": "mitchell", "filter_radius": 2.5},
+        "environment": {"image": "i.exr", "color": [1, 2, 3], "scale": 4, "rotation": 5, "visible_to_camera": false},
+        "color": {"working_space": "w", "display": "d", "view": "v", "exposure": -1}})");
+    EXPECT_TRUE(parsed.problems.all().empty()) << listing(parsed.problems);
+    const RenderSettings& s = parsed.json.settings;
+    EXPECT_EQ(parsed.json.scene, "x.glb");
+    EXPECT_EQ(s.integrator.type, "direct");
+    EXPECT_EQ(s.integrator.max_depth, 7);
+    EXPECT_EQ(s.integrator.min_depth, 2);
+    EXPECT_EQ(s.integrator.roulette_depth, 3);
+    EXPECT_EQ(s.sampler, SamplerType::Random);
+    EXPECT_EQ(s.spp, 9);
+    EXPECT_EQ(s.seed, 4294967295u);
+    EXPECT_EQ(s.time_limit, 1.5);
+    EXPECT_EQ(s.film.width, 30);
+    EXPECT_EQ(s.film.height, 20);
+    EXPECT_EQ(s.film.crop, (std::array{1, 2, 3, 4}));
+    EXPECT_EQ(s.camera, "c");
+    EXPECT_EQ(parsed.json.lens_radius, 0.5f);
+    EXPECT_EQ(parsed.json.focus_distance, 4.0f);
+    EXPECT_EQ(s.film.filter, PixelFilterType::Mitchell);
+    EXPECT_EQ(s.film.filter_radius, 2.5f);
+    EXPECT_EQ(parsed.json.environment->image, "i.exr");
+    EXPECT_EQ(parsed.json.environment->color, Rgb(1, 2, 3));
+    EXPECT_EQ(parsed.json.environment->scale, 4.0f);
+    EXPECT_EQ(parsed.json.environment->rotation, 5.0f);
+    EXPECT_FALSE(parsed.json.environment->visible_to_camera);
+    EXPECT_EQ(s.color.working_space, "w");
+    EXPECT_EQ(s.color.display, "d");
+    EXPECT_EQ(s.color.view, "v");
+    EXPECT_EQ(s.color.exposure, -1.0f);
+}
+
+TEST(RenderJson, UnknownKeysSuggestTheNearest) {
+    const Parsed parsed =
+        parse(R"({"sppp": 3, "integrator": {"maxdepth": 4}, "color": {"veiw": "x"}, "film": {"zzz": 1}})");
+    EXPECT_TRUE(has_problem(parsed.problems, Severity::Error, "did you mean 'spp'", "/sppp"));
+    EXPECT_TRUE(has_problem(parsed.problems, Severity::Error, "did you mean 'max_depth'", "/integrator/maxdepth"));
+    EXPECT_TRUE(has_problem(parsed.problems, Severity::Error, "did you mean 'view'", "/color/veiw"));
+    EXPECT_TRUE(has_problem(parsed.problems, Severity::Error, "known are filter, filter_radius", "/film/zzz"));
+    EXPECT_EQ(parsed.problems.error_count(), 4u);
+    EXPECT_NE(parsed.problems.all()[0].where.file.find("render.json"), std::string::npos);
+}
+
+TEST(RenderJson, ErrorsStateWhatIsExpected) {
+    const Parsed parsed = parse(R"({"spp": 0, "time": "x", "resolution": [3], "camera":
+        {"position": [0, 0, 1], "look_at": [0, 0, 0], "yfov": 4}, "sampler": "sobel", "focus_distance": 0})");
+    EXPECT_TRUE(has_problem(parsed.problems, Severity::Error, "integer in [1, 16777216], but is 0", "/spp"));
+    EXPECT_TRUE(has_problem(parsed.problems, Severity::Error, "a number >= 0, but is a string", "/time"));
+    EXPECT_TRUE(
+        has_problem(parsed.problems, Severity::Error, "an array of 2 integers, but is an array of 1", "/resolution"));
+    EXPECT_TRUE(has_problem(parsed.problems, Severity::Error, "a number in (0, 3.14159], but is 4", "/camera/yfov"));
+    EXPECT_TRUE(has_problem(parsed.problems, Severity::Error, "did you mean 'sobol'", "/sampler"));
+    EXPECT_TRUE(has_problem(parsed.problems, Severity::Error, "a number > 0", "/focus_distance"));
+    EXPECT_EQ(parsed.problems.error_count(), 6u);
+}
+
+TEST(RenderJson, BrokenFilesAreErrors) {
+    for (const char* text : {"", "{", "{\"spp\": 1,}", "{\"spp\": 1, \"spp\": 2}", "\xff"}) {
+        EXPECT_TRUE(parse(text).problems.has_errors()) << text;
+    }
+    EXPECT_TRUE(parse(std::string(100'000, '[')).problems.has_errors());
+}
+
+TEST(RenderJson, CameraObjectIsAddedAndChosen) {
+    const LoadedScene loaded = load_with(R"({"camera": {"position": [3, 0, 0], "look_at": [1, 0, 0], "yfov": 1}})");
+    ASSERT_EQ(loaded.scene.cameras.size(), 2u) << listing(loaded.problems);
+    const CameraDesc& camera = loaded.scene.cameras[1];
+    EXPECT_EQ(camera.name, "render.json");
+    EXPECT_EQ(loaded.scene.settings.camera, "render.json");
+    EXPECT_EQ(camera.focus_distance, 2.0f);
+    EXPECT_EQ(camera.yfov, 1.0f);
+    // It looks along -x: its local -z.
+    EXPECT_NEAR(camera.to_world[2][0], 1.0f, 1e-6f);
+    EXPECT_NEAR(camera.to_world[1][1], 1.0f, 1e-6f);
+    EXPECT_NEAR(camera.to_world.determinant(), 1.0f, 1e-6f);
+    EXPECT_EQ(camera.to_world[3][0], 3.0f);
+}
+
+TEST(RenderJson, CameraThatCannotBeAimedIsAnError) {
+    const auto problems_of = [](const char* camera) {
+        return load_with(std::string("{\"camera\": ") + camera + "}").problems;
+    };
+    EXPECT_TRUE(has_problem(problems_of(R"({"position": [1, 1, 1], "look_at": [1, 1, 1]})"), Severity::Error, "differ",
+                            "/camera/look_at"));
+    EXPECT_TRUE(has_problem(problems_of(R"({"position": [0, 5, 0], "look_at": [0, 0, 0]})"), Severity::Error,
+                            "parallel", "/camera/up"));
+    EXPECT_TRUE(has_problem(problems_of(R"({"name": "main", "position": [0, 0, 5], "look_at": [0, 0, 0]})"),
+                            Severity::Error, "already has a camera", "/camera"));
+}
+
+TEST(RenderJson, LensAppliesToTheCamera) {
+    const LoadedScene loaded = load_with(R"({"lens_radius": 0.25, "focus_distance": 9})");
+    EXPECT_EQ(loaded.scene.cameras.at(0).lens_radius, 0.25f);
+    EXPECT_EQ(loaded.scene.cameras.at(0).focus_distance, 9.0f);
+}
+
+TEST(RenderJson, UnknownNamesSuggestTheNearest) {
+    const LoadedScene loaded =
+        load_with(R"({"camera": "mian", "materials": {"papier": {"diffuse": {}}}, "lights": {"lamb": {"scale": 2}}})");
+    EXPECT_TRUE(has_problem(loaded.problems, Severity::Error, "did you mean 'main'"));
+    EXPECT_TRUE(has_problem(loaded.problems, Severity::Error, "did you mean 'paper'", "/materials/papier"));
+    EXPECT_TRUE(has_problem(loaded.problems, Severity::Error, "did you mean 'lamp'", "/lights/lamb"));
+}
+
+TEST(RenderJson, MaterialOverrides) {
+    const auto material = [](const std::string& change) {
+        const LoadedScene loaded = load_with("{\"materials\": {\"paper\": " + change + "}}");
+        EXPECT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
+        return loaded.scene.materials.at(0);
+    };
+    const MaterialDesc gold = material(R"({"conductor": {"metal": "Au", "roughness": 0.5}})");
+    ASSERT_TRUE(std::holds_alternative<ConductorDesc>(gold.override_model));
+    EXPECT_EQ(std::get<ConductorDesc>(gold.override_model).metal, "Au");
+    EXPECT_EQ(std::get<ConductorDesc>(gold.override_model).roughness, 0.5f);
+    EXPECT_EQ(gold.emissive, Rgb(1.0f));  // untouched
+
+    const MaterialDesc glass = material(R"({"dielectric": {"ior": 1.33}})");
+    EXPECT_EQ(std::get<DielectricDesc>(glass.override_model).ior, 1.33f);
+
+    const MaterialDesc clay = material(R"({"diffuse": {"albedo": [0.1, 0.2, 0.3]}, "emission": {"color": [0, 0, 0]}})");
+    EXPECT_EQ(std::get<DiffuseDesc>(clay.override_model).albedo, Rgb(0.1f, 0.2f, 0.3f));
+    EXPECT_EQ(clay.emissive, Rgb(0.0f));
+
+    const MaterialDesc lamp = material(R"({"emission": {"color": [4, 2, 0], "strength": 10}})");
+    EXPECT_TRUE(std::holds_alternative<std::monostate>(lamp.override_model));
+    EXPECT_EQ(lamp.emissive, Rgb(1, 0.5f, 0));
+    EXPECT_EQ(lamp.emissive_strength, 40.0f);
+}
+
+TEST(RenderJson, LightOverrides) {
+    const LoadedScene changed = load_with(R"({"lights": {"lamp": {"color": [1, 0, 0], "scale": 3}}})");
+    EXPECT_EQ(changed.scene.lights.at(0).color, Rgb(1, 0, 0));
+    EXPECT_EQ(changed.scene.lights.at(0).intensity, 30.0f);
+    const LoadedScene replaced = load_with(R"({"lights": {"lamp": {"intensity": 2, "scale": 3}}})");
+    EXPECT_EQ(replaced.scene.lights.at(0).intensity, 6.0f);
+    EXPECT_TRUE(load_with(R"({"lights": {"lamp": {"enabled": false}}})").scene.lights.empty());
+}
+
+TEST(RenderJson, EnvironmentImagesAreCheckedAndStayInside) {
+    EXPECT_TRUE(load_with(R"({"environment": {}})").scene.environment.enabled);
+    for (const auto& [image, expected] :
+         {std::pair{"sky.hdr", "does not exist"}, std::pair{"../sky.hdr", "'..'"}, std::pair{"/sky.hdr", "absolute"},
+          std::pair{"http://x/sky.hdr", "other URIs"}, std::pair{"scene.gltf", "scene.gltf"}}) {
+        const LoadedScene loaded = load_with(std::string(R"({"environment": {"image": ")") + image + "\"}}");
+        EXPECT_TRUE(has_problem(loaded.problems, Severity::Error, expected, "/environment/image"))
+            << image << "\n"
+            << listing(loaded.problems);
+    }
+}
+
+TEST(RenderJson, EnvironmentImageIsAnInput) {
+    GltfBuilder builder;
+    builder.add_triangle();
+    const TempDir dir;
+    builder.write(dir);
+    dir.write("sky.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n" + std::string("\x80\x80\x80\x81"));
+    dir.write("render.json", R"({"environment": {"image": "sky.hdr", "scale": 2}})");
+    const LoadedScene loaded = inspect_scene(dir.path());
+    EXPECT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
+    EXPECT_EQ(loaded.scene.environment.image.filename(), "sky.hdr");
+    EXPECT_EQ(loaded.scene.inputs.size(), 4u);
+}
+
+TEST(RenderJson, CropMustLieInTheImage) {
+    EXPECT_TRUE(has_problem(load_with(R"({"resolution": [10, 10], "crop": [0, 0, 11, 10]})").problems, Severity::Error,
+                            "crop window"));
+}
+
+}  // namespace
+}  // namespace etendue

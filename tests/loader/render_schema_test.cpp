@@ -1,0 +1,242 @@
+// scenes/render.schema.json and the parser must accept and refuse the same documents.
+
+#include "loader/gltf_builder.h"
+#include "loader/json_schema.h"
+#include "loader/settings/render_json.h"
+
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+namespace etendue {
+namespace {
+
+using Json = nlohmann::json;
+
+std::string read_text(const std::filesystem::path& file) {
+    std::ifstream stream(file);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    return text.str();
+}
+
+const Json& schema() {
+    static const Json document = Json::parse(read_text(ETENDUE_SOURCE_DIR "/scenes/render.schema.json"));
+    return document;
+}
+
+std::string join(const std::vector<std::string>& lines) {
+    std::string text;
+    for (const std::string& line : lines) text += line + "\n";
+    return text;
+}
+
+ProblemList parse(const std::string& text) {
+    const TempDir dir;
+    dir.write("render.json", text);
+    ProblemList problems;
+    static_cast<void>(read_render_json(dir.path() / "render.json", problems));
+    return problems;
+}
+
+TEST(SchemaValidator, FindsViolations) {
+    const Json object = Json::parse(R"({"type": "object", "additionalProperties": false, "required": ["a"],
+                                        "properties": {"a": {"type": "integer", "minimum": 1}}})");
+    EXPECT_TRUE(schema_violations(object, {{"a", 1}}).empty());
+    EXPECT_EQ(schema_violations(object, {{"a", 0}}).size(), 1u);
+    EXPECT_EQ(schema_violations(object, {{"a", 1.5}}).size(), 1u);
+    EXPECT_EQ(schema_violations(object, {{"b", 1}}).size(), 2u);
+    EXPECT_EQ(schema_violations(object, 3).size(), 1u);
+}
+
+TEST(SchemaValidator, RefusesKeywordsItDoesNotKnow) {
+    EXPECT_THROW(static_cast<void>(schema_violations({{"patternProperties", Json::object()}}, 1)), std::runtime_error);
+    EXPECT_THROW(static_cast<void>(schema_violations({{"type", "tuple"}}, 1)), std::runtime_error);
+}
+
+const char* const kGood[] = {
+    R"({})",
+    R"({"scene": "a.glb"})",
+    R"({"integrator": {}})",
+    R"({"integrator": {"type": "direct", "max_depth": 1, "min_depth": 1, "roulette_depth": 2147483647}})",
+    R"({"sampler": "sobol"})",
+    R"({"sampler": "random", "spp": 16777216, "seed": 4294967295, "time": 0.5})",
+    R"({"spp": 16.0})",
+    R"({"resolution": [1, 65536], "crop": [0, 0, 1, 1]})",
+    R"({"camera": "main", "lens_radius": 0, "focus_distance": 3})",
+    R"({"camera": {"position": [0, 0, 5], "look_at": [0, 0, 0]}})",
+    R"({"camera": {"name": "n", "type": "orthographic", "position": [1, 2, 3], "look_at": [0, 0, 0], "up": [0, 0, 1],
+                   "ymag": 2, "yfov": 3.14, "lens_radius": 0.1, "focus_distance": 0.5}})",
+    R"({"film": {"filter": "blackman-harris", "filter_radius": 8}})",
+    R"({"film": {"filter": "box"}})",
+    R"({"film": {"filter": "gaussian"}})",
+    R"({"film": {"filter": "mitchell"}})",
+    R"({"environment": {}})",
+    R"({"environment": {"image": "sky.hdr", "color": [0, 1, 200], "scale": 0, "rotation": -7, "visible_to_camera": false}})",
+    R"({"color": {"working_space": "ACEScg", "display": "sRGB", "view": "ACES SDR", "exposure": -1.5}})",
+    R"({"materials": {}, "lights": {}})",
+    R"({"materials": {"a": {"conductor": {}}, "b": {"conductor": {"metal": "Au", "roughness": 1}}}})",
+    R"({"materials": {"a": {"dielectric": {"ior": 3, "roughness": 0}}, "b": {"diffuse": {"albedo": [0, 0.5, 1]}}}})",
+    R"({"materials": {"a": {"emission": {"color": [0, 5, 1], "strength": 100}}, "b": {"diffuse": {}, "emission": {}}}})",
+    R"({"lights": {"a": {"color": [1, 2, 3], "intensity": 0, "scale": 2, "enabled": false}, "b": {}}})",
+};
+
+const char* const kBad[] = {
+    R"([])",
+    R"(3)",
+    R"(null)",
+    R"({"unknown": 1})",
+    R"({"scene": 1})",
+    R"({"scene": ""})",
+    R"({"integrator": "path"})",
+    R"({"integrator": {"type": 1}})",
+    R"({"integrator": {"depth": 1}})",
+    R"({"integrator": {"max_depth": 0}})",
+    R"({"integrator": {"max_depth": 2147483648}})",
+    R"({"integrator": {"min_depth": 1.5}})",
+    R"({"integrator": {"roulette_depth": "5"}})",
+    R"({"sampler": "halton"})",
+    R"({"sampler": 3})",
+    R"({"spp": 0})",
+    R"({"spp": 16777217})",
+    R"({"spp": true})",
+    R"({"spp": null})",
+    R"({"seed": -1})",
+    R"({"seed": 4294967296})",
+    R"({"time": -1})",
+    R"({"resolution": 3})",
+    R"({"resolution": [3]})",
+    R"({"resolution": [3, 3, 3]})",
+    R"({"resolution": [0, 3]})",
+    R"({"resolution": [3, 65537]})",
+    R"({"resolution": {"0": 3}})",
+    R"({"crop": [0, 0, 1]})",
+    R"({"crop": [-1, 0, 1, 1]})",
+    R"({"crop": [0, 0, 1.5, 1]})",
+    R"({"camera": 3})",
+    R"({"camera": ""})",
+    R"({"camera": []})",
+    R"({"camera": {}})",
+    R"({"camera": {"position": [0, 0, 1]}})",
+    R"({"camera": {"look_at": [0, 0, 1]}})",
+    R"({"camera": {"position": [0, 0], "look_at": [0, 0, 0]}})",
+    R"({"camera": {"position": [0, 0, "1"], "look_at": [0, 0, 0]}})",
+    R"({"camera": {"position": [0, 0, 1], "look_at": [0, 0, 0], "yfov": 0}})",
+    R"({"camera": {"position": [0, 0, 1], "look_at": [0, 0, 0], "yfov": 3.2}})",
+    R"({"camera": {"position": [0, 0, 1], "look_at": [0, 0, 0], "ymag": 0}})",
+    R"({"camera": {"position": [0, 0, 1], "look_at": [0, 0, 0], "type": "fisheye"}})",
+    R"({"camera": {"position": [0, 0, 1], "look_at": [0, 0, 0], "fov": 1}})",
+    R"({"camera": {"position": [0, 0, 1], "look_at": [0, 0, 0], "lens_radius": -1}})",
+    R"({"camera": {"position": [0, 0, 1], "look_at": [0, 0, 0], "focus_distance": 0}})",
+    R"({"lens_radius": -0.1})",
+    R"({"focus_distance": 0})",
+    R"({"film": {"filter": "triangle"}})",
+    R"({"film": {"filter_radius": 0}})",
+    R"({"film": {"filter_radius": 8.5}})",
+    R"({"film": {"radius": 1}})",
+    R"({"environment": true})",
+    R"({"environment": {"image": 1}})",
+    R"({"environment": {"color": [1, 1]}})",
+    R"({"environment": {"color": [1, 1, -1]}})",
+    R"({"environment": {"color": 1}})",
+    R"({"environment": {"scale": -1}})",
+    R"({"environment": {"rotation": "90"}})",
+    R"({"environment": {"visible_to_camera": 1}})",
+    R"({"environment": {"visible": true}})",
+    R"({"color": {"view": ""}})",
+    R"({"color": {"exposure": "1"}})",
+    R"({"color": {"gamma": 2.2}})",
+    R"({"materials": []})",
+    R"({"materials": {"a": 1}})",
+    R"({"materials": {"a": {}}})",
+    R"({"materials": {"a": {"glass": {}}}})",
+    R"({"materials": {"a": {"conductor": {}, "diffuse": {}}}})",
+    R"({"materials": {"a": {"conductor": {}, "dielectric": {}, "emission": {}}}})",
+    R"({"materials": {"a": {"conductor": {"metal": "Pb"}}}})",
+    R"({"materials": {"a": {"conductor": {"roughness": 1.1}}}})",
+    R"({"materials": {"a": {"dielectric": {"ior": 1}}}})",
+    R"({"materials": {"a": {"dielectric": {"ior": 3.5}}}})",
+    R"({"materials": {"a": {"diffuse": {"albedo": [0, 0, 1.5]}}}})",
+    R"({"materials": {"a": {"emission": {"strength": -1}}}})",
+    R"({"materials": {"a": {"emission": {"power": 1}}}})",
+    R"({"lights": {"a": {"intensity": -1}}})",
+    R"({"lights": {"a": {"enabled": "no"}}})",
+    R"({"lights": {"a": {"radius": 1}}})",
+    R"({"lights": 3})",
+};
+
+TEST(RenderSchema, AcceptsWhatTheParserAccepts) {
+    for (const char* text : kGood) {
+        const std::vector<std::string> violations = schema_violations(schema(), Json::parse(text));
+        EXPECT_TRUE(violations.empty()) << text << "\n" << join(violations);
+        const ProblemList problems = parse(text);
+        EXPECT_TRUE(problems.all().empty()) << text << "\n" << listing(problems);
+    }
+}
+
+TEST(RenderSchema, RefusesWhatTheParserRefuses) {
+    for (const char* text : kBad) {
+        EXPECT_FALSE(schema_violations(schema(), Json::parse(text)).empty()) << text;
+        EXPECT_TRUE(parse(text).has_errors()) << text;
+    }
+}
+
+/// All keys of all objects in a document, and, for a schema, of all objects it describes.
+void collect_property_names(const Json& schema_part, std::set<std::string>& names) {
+    if (!schema_part.is_object() && !schema_part.is_array()) return;
+    for (const auto& [key, value] : schema_part.items()) {
+        if (key == "properties") {
+            for (const auto& [name, unused] : value.items()) names.insert(name);
+        }
+        collect_property_names(value, names);
+    }
+}
+
+void collect_keys(const Json& document, std::set<std::string>& names) {
+    if (document.is_object()) {
+        for (const auto& [key, value] : document.items()) names.insert(key);
+    }
+    if (document.is_structured()) {
+        for (const Json& value : document) collect_keys(value, names);
+    }
+}
+
+TEST(RenderSchema, EveryKeyIsInAGoodDocument) {
+    std::set<std::string> described;
+    collect_property_names(schema(), described);
+    std::set<std::string> tested;
+    for (const char* text : kGood) collect_keys(Json::parse(text), tested);
+    for (const std::string& name : described) EXPECT_TRUE(tested.contains(name)) << name;
+}
+
+TEST(RenderSchema, EveryKeyIsInTheDocumentation) {
+    const std::string documentation = read_text(ETENDUE_SOURCE_DIR "/docs/render-json.md");
+    std::set<std::string> described;
+    collect_property_names(schema(), described);
+    for (const std::string& name : described) EXPECT_NE(documentation.find(name), std::string::npos) << name;
+}
+
+TEST(RenderSchema, EveryPropertyIsDescribed) {
+    for (const auto& [name, property] : schema()["properties"].items()) {
+        EXPECT_TRUE(property.contains("description")) << name;
+    }
+}
+
+TEST(RenderSchema, EverySceneOfTheTreeFollowsIt) {
+    std::size_t found = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(ETENDUE_SOURCE_DIR "/scenes/")) {
+        if (entry.path().filename() != "render.json") continue;
+        ++found;
+        const std::string text = read_text(entry.path());
+        const std::vector<std::string> violations = schema_violations(schema(), Json::parse(text));
+        EXPECT_TRUE(violations.empty()) << entry.path() << "\n" << join(violations);
+        const ProblemList problems = parse(text);
+        EXPECT_TRUE(problems.all().empty()) << entry.path() << "\n" << listing(problems);
+    }
+    if (found == 0) GTEST_SKIP() << "no render.json in scenes/";
+}
+
+}  // namespace
+}  // namespace etendue

@@ -1,0 +1,154 @@
+#include "loader/gltf_builder.h"
+
+#include <gtest/gtest.h>
+
+namespace etendue {
+namespace {
+
+const std::string& triangle_glb() {
+    static const std::string bytes = [] {
+        GltfBuilder builder;
+        builder.add_triangle();
+        return builder.glb();
+    }();
+    return bytes;
+}
+
+std::string failure(const std::filesystem::path& path) {
+    try {
+        static_cast<void>(load_scene(path));
+        return "";
+    } catch (const SceneError& error) {
+        return error.what();
+    }
+}
+
+TEST(LoadScene, TakesTheOnlyFile) {
+    const TempDir dir;
+    dir.write("thing.glb", triangle_glb());
+    const LoadedScene loaded = load_scene(dir.path());
+    EXPECT_EQ(loaded.scene.file, dir.path() / "thing.glb");
+    EXPECT_EQ(loaded.scene.directory, dir.path());
+    EXPECT_EQ(loaded.scene.name, dir.path().filename());
+    EXPECT_EQ(load_scene(dir.path() / "thing.glb").scene.name, "thing");
+    EXPECT_EQ(load_scene(dir.path() / "").scene.name, dir.path().filename());
+}
+
+TEST(LoadScene, SeveralFilesNeedAChoice) {
+    const TempDir dir;
+    dir.write("a.glb", triangle_glb());
+    dir.write("b.gltf", "{}");
+    EXPECT_NE(failure(dir.path()).find("a.glb, b.gltf"), std::string::npos) << failure(dir.path());
+    EXPECT_EQ(failure(dir.path() / "a.glb"), "");
+
+    dir.write("render.json", R"({"scene": "a.glb"})");
+    EXPECT_EQ(load_scene(dir.path()).scene.file.filename(), "a.glb");
+    dir.write("render.json", R"({"scene": "c.glb"})");
+    EXPECT_NE(failure(dir.path()).find("#/scene: 'c.glb': the file does not exist"), std::string::npos);
+    dir.write("render.json", R"({"scene": "../a.glb"})");
+    EXPECT_NE(failure(dir.path()).find("'..'"), std::string::npos);
+}
+
+TEST(LoadScene, PrefersTheNameScene) {
+    const TempDir dir;
+    dir.write("a.glb", triangle_glb());
+    dir.write("scene.glb", triangle_glb());
+    EXPECT_EQ(load_scene(dir.path()).scene.file.filename(), "scene.glb");
+    dir.write("scene.gltf", "{}");
+    EXPECT_NE(failure(dir.path()).find("several"), std::string::npos);
+}
+
+TEST(LoadScene, SettingsForAnotherFileAreNotApplied) {
+    const TempDir dir;
+    dir.write("a.glb", triangle_glb());
+    dir.write("b.glb", triangle_glb());
+    dir.write("render.json", R"({"scene": "a.glb", "spp": 7})");
+    EXPECT_EQ(load_scene(dir.path() / "a.glb").scene.settings.spp, 7);
+    const LoadedScene other = load_scene(dir.path() / "b.glb");
+    EXPECT_EQ(other.scene.settings.spp, RenderSettings{}.spp);
+    EXPECT_TRUE(has_problem(other.problems, Severity::Note, "it is for 'a.glb'"));
+}
+
+TEST(LoadScene, SaysWhatIsNotThere) {
+    const TempDir dir;
+    EXPECT_NE(failure(dir.path() / "nothing").find("no such file or directory"), std::string::npos);
+    EXPECT_NE(failure(dir.path()).find("no glTF file"), std::string::npos);
+    dir.write("a.obj", "v 0 0 0");
+    EXPECT_NE(failure(dir.path() / "a.obj").find("format is not known"), std::string::npos);
+    dir.write("render.json", "{}");
+    EXPECT_NE(failure(dir.path()).find("no glTF file"), std::string::npos);
+}
+
+TEST(LoadScene, RecognisesTheFormatByContentToo) {
+    const TempDir dir;
+    dir.write("model.bin", triangle_glb());
+    EXPECT_EQ(failure(dir.path() / "model.bin"), "");
+    dir.write("model.gltf", triangle_glb());
+    EXPECT_EQ(failure(dir.path() / "model.gltf"), "");
+    dir.write("model.glb", "{}");
+    EXPECT_NE(failure(dir.path() / "model.glb").find("does not start with 'glTF'"), std::string::npos);
+    dir.write("MODEL.GLB", triangle_glb());
+    EXPECT_EQ(failure(dir.path() / "MODEL.GLB"), "");
+}
+
+TEST(LoadScene, CollectsTheProblemsOfSettingsAndScene) {
+    const TempDir dir;
+    dir.write("scene.gltf", R"({"asset": {"version": "2.0"}, "scene": 3})");
+    dir.write("render.json", R"({"spp": 0, "sead": 1})");
+    const LoadedScene loaded = inspect_scene(dir.path());
+    EXPECT_EQ(loaded.problems.error_count(), 3u) << listing(loaded.problems);
+    EXPECT_NE(failure(dir.path()).find("did you mean 'seed'"), std::string::npos);
+}
+
+TEST(LoadScene, EachProblemIsReportedOnce) {
+    const TempDir dir;
+    dir.write("scene.gltf", R"({"asset": {"version": "2.0"}, "extensionsUsed": ["X"], "scene": 3})");
+    EXPECT_EQ(inspect_scene(dir.path()).problems.all().size(), 2u);
+}
+
+TEST(LoadScene, FilesBehindLinksOutsideAreNotFoundInADirectory) {
+    const TempDir outside;
+    outside.write("scene.glb", triangle_glb());
+    outside.write("render.json", "{}");
+    const TempDir dir;
+    std::filesystem::create_symlink(outside.path() / "scene.glb", dir.path() / "scene.glb");
+    EXPECT_NE(failure(dir.path()).find("link leads out"), std::string::npos);
+    EXPECT_EQ(failure(dir.path() / "scene.glb"), "");  // the user named it
+    std::filesystem::create_symlink(outside.path() / "render.json", dir.path() / "render.json");
+    EXPECT_NE(failure(dir.path() / "scene.glb").find("link leads out"), std::string::npos);
+}
+
+TEST(FindSceneDirectories, FindsThemSortedAndStopsThere) {
+    const TempDir dir;
+    dir.write("b/scene.glb", triangle_glb());
+    dir.write("b/inner/scene.glb", triangle_glb());
+    dir.write("a/render.json", "{}");
+    dir.write("c/d/e/x.gltf", "{}");
+    dir.write("two/x.gltf", "{}");
+    dir.write("two/y.glb", "");
+    dir.write("two/deeper/z.glb", "");
+    dir.write("none/readme.txt", "");
+    const auto& root = dir.path();
+    EXPECT_EQ(find_scene_directories(root),
+              (std::vector<std::filesystem::path>{root / "a", root / "b", root / "c/d/e", root / "two/deeper"}));
+    EXPECT_EQ(find_scene_directories(root / "b"), (std::vector<std::filesystem::path>{root / "b"}));
+}
+
+TEST(FindSceneDirectories, DoesNotFollowLinks) {
+    const TempDir outside;
+    outside.write("scene.glb", "");
+    const TempDir dir;
+    std::filesystem::create_directory_symlink(outside.path(), dir.path() / "link");
+    std::filesystem::create_directory_symlink(dir.path(), dir.path() / "loop");
+    EXPECT_TRUE(find_scene_directories(dir.path()).empty());
+}
+
+TEST(FindSceneDirectories, NeedsADirectory) {
+    const TempDir dir;
+    dir.write("file", "");
+    EXPECT_THROW(static_cast<void>(find_scene_directories(dir.path() / "file")), SceneError);
+    EXPECT_THROW(static_cast<void>(find_scene_directories(dir.path() / "nothing")), SceneError);
+}
+
+}  // namespace
+}  // namespace etendue
