@@ -1,4 +1,12 @@
 // etendue batch: every scene directory below some directories.
+#include "app/commands.h"
+#include "app/interrupt.h"
+#include "app/progress_display.h"
+#include "app/scene_render.h"
+#include "app/up_to_date.h"
+#include "core/log.h"
+#include "loader/loader.h"
+
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -11,14 +19,6 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-
-#include "app/commands.h"
-#include "app/interrupt.h"
-#include "app/progress_display.h"
-#include "app/scene_render.h"
-#include "app/up_to_date.h"
-#include "core/log.h"
-#include "loader/loader.h"
 
 namespace etendue {
 
@@ -38,8 +38,8 @@ struct BatchArguments {
 
 struct BatchItem {
     fs::path scene;
-    fs::path output;  ///< the EXR
-    std::string name; ///< path below the output directory, without extension
+    fs::path output;   ///< the EXR
+    std::string name;  ///< path below the output directory, without extension
 };
 
 enum class Outcome { Rendered, UpToDate, Failed, Interrupted };
@@ -53,10 +53,14 @@ struct BatchRow {
 
 const char* outcome_name(Outcome outcome) {
     switch (outcome) {
-        case Outcome::Rendered: return "rendered";
-        case Outcome::UpToDate: return "up to date";
-        case Outcome::Failed: return "failed";
-        case Outcome::Interrupted: return "interrupted";
+        case Outcome::Rendered:
+            return "rendered";
+        case Outcome::UpToDate:
+            return "up to date";
+        case Outcome::Failed:
+            return "failed";
+        case Outcome::Interrupted:
+            return "interrupted";
     }
     return "?";
 }
@@ -83,8 +87,8 @@ std::vector<BatchItem> collect_items(const BatchArguments& arguments) {
     for (BatchItem& item : items) {
         if (uses[item.name] > 1) item.name = (fs::absolute(item.output).filename() / item.name).string();
         if (!taken.insert(item.name).second)
-            throw SceneError({item.scene.string(), ""},
-                             "two scenes would be written to '" + item.name + "'; render them to different directories");
+            throw SceneError({item.scene.string(), ""}, "two scenes would be written to '" + item.name +
+                                                            "'; render them to different directories");
         item.output = fs::path(arguments.output) / (item.name + ".exr");
     }
     return items;
@@ -149,17 +153,22 @@ void print_json(const std::vector<BatchRow>& rows) {
 ExitCode run_batch(const BatchArguments& arguments) {
     const std::vector<BatchItem> items = collect_items(arguments);
     if (items.empty()) {
-        log_error("error: no scene directory was found; a scene directory holds a render.json or exactly one glTF file");
+        log_error(
+            "error: no scene directory was found; a scene directory holds a render.json or exactly one glTF file");
         return ExitCode::InvalidScene;
     }
     const ThreadPool threads(arguments.threads);
     std::vector<BatchRow> rows;
     for (std::size_t i = 0; i < items.size() && !interrupt_requested(); ++i)
-        rows.push_back(process(items[i], fmt::format("[{}/{}] {}", i + 1, items.size(), items[i].name), arguments, threads));
-    if (arguments.json) print_json(rows);
-    else if (!arguments.quiet) print_table(rows);
+        rows.push_back(
+            process(items[i], fmt::format("[{}/{}] {}", i + 1, items.size(), items[i].name), arguments, threads));
+    if (arguments.json)
+        print_json(rows);
+    else if (!arguments.quiet)
+        print_table(rows);
     if (interrupt_requested()) return interrupt_exit_code();
-    const bool failed = std::any_of(rows.begin(), rows.end(), [](const BatchRow& r) { return r.outcome == Outcome::Failed; });
+    const bool failed =
+        std::any_of(rows.begin(), rows.end(), [](const BatchRow& r) { return r.outcome == Outcome::Failed; });
     return failed ? ExitCode::RenderFailed : ExitCode::Success;
 }
 
@@ -171,7 +180,8 @@ void add_batch_command(CLI::App& app, Action& action) {
     command->add_option("dirs", arguments->roots, "Directories to look for scene directories in")
         ->required()
         ->check(CLI::ExistingDirectory);
-    command->add_option("-o,--output", arguments->output, "Directory for the images; made if it does not exist")->required();
+    command->add_option("-o,--output", arguments->output, "Directory for the images; made if it does not exist")
+        ->required();
     arguments->overrides.add_options(*command);
     command->add_option("--threads", arguments->threads, "Threads to use (default: one per processor)")
         ->check(CLI::Range(1, 4096));
@@ -179,7 +189,8 @@ void add_batch_command(CLI::App& app, Action& action) {
     command->add_flag("--quiet", arguments->quiet, "No progress, notes, warnings or summary; errors only");
     command->add_flag("--json", arguments->json, "Print the summary as JSON on stdout");
     command->footer(
-        "A scene directory holds a render.json or exactly one glTF file. A scene that fails is reported and the others go\n"
+        "A scene directory holds a render.json or exactly one glTF file. A scene that fails is reported and the others "
+        "go\n"
         "on; images that are newer than all of their inputs and were made with the same settings are skipped.\n\n"
         "Examples:\n"
         "  etendue batch scenes -o out --quality draft\n"

@@ -1,9 +1,9 @@
 // The subcommands. To add another: a file of its own with one function like these, and one line in main().
 #pragma once
 
-#include <functional>
-
 #include "app/exit_code.h"
+
+#include <functional>
 
 namespace CLI {
 class App;

@@ -5,11 +5,11 @@ namespace etendue {
 
 enum class ExitCode : int {
     Success = 0,
-    RenderFailed = 1,      ///< at least one scene could not be rendered or written
+    RenderFailed = 1,  ///< at least one scene could not be rendered or written
     UsageError = 2,
-    InvalidScene = 3,      ///< invalid scene or settings
-    Interrupted = 130,     ///< SIGINT
-    Terminated = 143,      ///< SIGTERM
+    InvalidScene = 3,   ///< invalid scene or settings
+    Interrupted = 130,  ///< SIGINT
+    Terminated = 143,   ///< SIGTERM
 };
 
 }  // namespace etendue

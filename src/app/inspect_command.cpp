@@ -1,4 +1,9 @@
 // etendue inspect: what is in a scene, and what is wrong with it.
+#include "app/commands.h"
+#include "color/color_config.h"
+#include "loader/loader.h"
+#include "world/compile.h"
+
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -7,11 +12,6 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-
-#include "app/commands.h"
-#include "color/color_config.h"
-#include "loader/loader.h"
-#include "world/compile.h"
 
 namespace etendue {
 
@@ -23,7 +23,7 @@ struct InspectArguments {
 };
 
 struct Inspection {
-    SceneDesc scene;        ///< without bulk arrays if it could be compiled
+    SceneDesc scene;  ///< without bulk arrays if it could be compiled
     std::string description;
     Bounds bounds;
     std::size_t triangles = 0;
@@ -52,7 +52,8 @@ Inspection inspect(const std::string& path) {
         const ColorConfig colors = ColorConfig::from_environment();
         SceneDesc bulk = std::move(result.scene);
         result.scene = bulk;
-        const World world = compile_world(std::move(bulk), colors, colors.default_working_space(), threads, result.problems);
+        const World world =
+            compile_world(std::move(bulk), colors, colors.default_working_space(), threads, result.problems);
         result.world = world.statistics();
     } catch (const SceneError& error) {
         for (const Problem& problem : error.problems().all()) result.problems.add(problem);
@@ -66,14 +67,15 @@ void print_text(const Inspection& i) {
     if (i.bounds.empty())
         fmt::print("bounds: none (nothing is placed)\n");
     else
-        fmt::print("bounds: ({:g} {:g} {:g}) to ({:g} {:g} {:g}) metres\n", i.bounds.min.x, i.bounds.min.y, i.bounds.min.z,
-                   i.bounds.max.x, i.bounds.max.y, i.bounds.max.z);
+        fmt::print("bounds: ({:g} {:g} {:g}) to ({:g} {:g} {:g}) metres\n", i.bounds.min.x, i.bounds.min.y,
+                   i.bounds.min.z, i.bounds.max.x, i.bounds.max.y, i.bounds.max.z);
     fmt::print("triangles: {}, vertices: {}\n", i.triangles, i.vertices);
     if (i.world)
-        fmt::print("compiled: {} triangles as seen, {} lights, {:.1f} MiB BVH, {:.1f} MiB geometry, {:.1f} MiB textures\n",
-                   i.world->instanced_triangles, i.world->lights, static_cast<double>(i.world->bvh_bytes) / (1 << 20),
-                   static_cast<double>(i.world->geometry_bytes) / (1 << 20),
-                   static_cast<double>(i.world->texture_bytes) / (1 << 20));
+        fmt::print(
+            "compiled: {} triangles as seen, {} lights, {:.1f} MiB BVH, {:.1f} MiB geometry, {:.1f} MiB textures\n",
+            i.world->instanced_triangles, i.world->lights, static_cast<double>(i.world->bvh_bytes) / (1 << 20),
+            static_cast<double>(i.world->geometry_bytes) / (1 << 20),
+            static_cast<double>(i.world->texture_bytes) / (1 << 20));
     if (i.problems.all().empty()) fmt::print("problems: none\n");
     for (const Problem& problem : i.problems.all()) fmt::print("{}\n", problem.str());
     if (i.problems.dropped() > 0) fmt::print("(and {} more problems)\n", i.problems.dropped());
@@ -86,7 +88,9 @@ nlohmann::json names(const std::vector<T>& things) {
     return list;
 }
 
-nlohmann::json vector_json(const Vec3f& v) { return {v.x, v.y, v.z}; }
+nlohmann::json vector_json(const Vec3f& v) {
+    return {v.x, v.y, v.z};
+}
 
 void print_json(const Inspection& i) {
     const SceneDesc& s = i.scene;
@@ -109,8 +113,10 @@ void print_json(const Inspection& i) {
                         {"problems", nlohmann::json::array()}};
     if (!i.bounds.empty()) json["bounds"] = {{"min", vector_json(i.bounds.min)}, {"max", vector_json(i.bounds.max)}};
     if (i.world)
-        json["compiled"] = {{"triangles_as_seen", i.world->instanced_triangles}, {"lights", i.world->lights},
-                            {"bvh_bytes", i.world->bvh_bytes},                   {"geometry_bytes", i.world->geometry_bytes},
+        json["compiled"] = {{"triangles_as_seen", i.world->instanced_triangles},
+                            {"lights", i.world->lights},
+                            {"bvh_bytes", i.world->bvh_bytes},
+                            {"geometry_bytes", i.world->geometry_bytes},
                             {"texture_bytes", i.world->texture_bytes}};
     constexpr const char* kSeverities[] = {"note", "warning", "error"};
     for (const Problem& problem : i.problems.all())
@@ -136,8 +142,10 @@ void add_inspect_command(CLI::App& app, Action& action) {
     command->callback([arguments, &action] {
         action = [arguments] {
             const Inspection inspection = inspect(arguments->scene);
-            if (arguments->json) print_json(inspection);
-            else print_text(inspection);
+            if (arguments->json)
+                print_json(inspection);
+            else
+                print_text(inspection);
             return inspection.problems.has_errors() ? ExitCode::InvalidScene : ExitCode::Success;
         };
     });

@@ -24,8 +24,12 @@ void install_interrupt_handlers() {
     std::signal(SIGTERM, on_signal);
 }
 
-const std::atomic<bool>& interrupt_requested() { return requested; }
+const std::atomic<bool>& interrupt_requested() {
+    return requested;
+}
 
-ExitCode interrupt_exit_code() { return signal_number.load() == SIGTERM ? ExitCode::Terminated : ExitCode::Interrupted; }
+ExitCode interrupt_exit_code() {
+    return signal_number.load() == SIGTERM ? ExitCode::Terminated : ExitCode::Interrupted;
+}
 
 }  // namespace etendue

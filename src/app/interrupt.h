@@ -1,9 +1,9 @@
 // SIGINT and SIGTERM: the first asks the render to stop and write what there is, the second ends the process at once.
 #pragma once
 
-#include <atomic>
-
 #include "app/exit_code.h"
+
+#include <atomic>
 
 namespace etendue {
 

@@ -1,14 +1,14 @@
 // etendue: the command line.
-#include <cstdio>
-#include <exception>
-
-#include <CLI/CLI.hpp>
-
 #include "app/commands.h"
 #include "app/interrupt.h"
 #include "core/error.h"
 #include "core/log.h"
 #include "output/software_name.h"
+
+#include <cstdio>
+#include <exception>
+
+#include <CLI/CLI.hpp>
 
 namespace {
 
@@ -35,7 +35,8 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version", std::string(software_name()));
     app.require_subcommand(1);
     app.footer(
-        "Exit codes: 0 success, 1 rendering failed for at least one scene, 2 usage error, 3 invalid scene or settings,\n"
+        "Exit codes: 0 success, 1 rendering failed for at least one scene, 2 usage error, 3 invalid scene or "
+        "settings,\n"
         "130/143 interrupted.\n\n"
         "Examples:\n"
         "  etendue render scenes/cornell-box\n"

@@ -1,14 +1,13 @@
 #include "app/progress_display.h"
 
-#include <sys/ioctl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <utility>
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
 
 namespace etendue {
 
@@ -40,11 +39,11 @@ std::string format_duration(double seconds) {
 std::string format_progress(const std::string& title, const RenderProgress& p, int width) {
     const double seconds = std::max(p.seconds, 1e-9);
     const double remaining = p.fraction > 0.0 ? p.seconds * (1.0 - p.fraction) / p.fraction : 0.0;
-    const std::string numbers = fmt::format(
-        "{:3.0f}%  {} elapsed, {} left  {}  {}", std::floor(p.fraction * 100.0), format_duration(p.seconds),
-        p.fraction > 0.0 ? format_duration(remaining) : "?",
-        format_rate(static_cast<double>(p.samples) / seconds, "samples"),
-        fmt::format("{:.1f} Mrays/s", static_cast<double>(p.rays) / seconds * 1e-6));
+    const std::string numbers =
+        fmt::format("{:3.0f}%  {} elapsed, {} left  {}  {}", std::floor(p.fraction * 100.0), format_duration(p.seconds),
+                    p.fraction > 0.0 ? format_duration(remaining) : "?",
+                    format_rate(static_cast<double>(p.samples) / seconds, "samples"),
+                    fmt::format("{:.1f} Mrays/s", static_cast<double>(p.rays) / seconds * 1e-6));
     const int room = width - static_cast<int>(title.size() + numbers.size()) - 5;
     std::string bar;
     if (room >= 8) {

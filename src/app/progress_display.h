@@ -1,9 +1,9 @@
 // Progress on stderr: a bar that redraws itself on a terminal, a plain line every few seconds elsewhere.
 #pragma once
 
-#include <string>
-
 #include "render/render.h"
+
+#include <string>
 
 namespace etendue {
 

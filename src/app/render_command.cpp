@@ -1,4 +1,10 @@
 // etendue render: one scene.
+#include "app/commands.h"
+#include "app/interrupt.h"
+#include "app/progress_display.h"
+#include "app/scene_render.h"
+#include "core/log.h"
+
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -7,12 +13,6 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-
-#include "app/commands.h"
-#include "app/interrupt.h"
-#include "app/progress_display.h"
-#include "app/scene_render.h"
-#include "core/log.h"
 
 namespace etendue {
 

@@ -1,14 +1,5 @@
 #include "app/scene_render.h"
 
-#include <sys/resource.h>
-
-#include <chrono>
-#include <memory>
-#include <utility>
-#include <vector>
-
-#include <fmt/format.h>
-
 #include "app/interrupt.h"
 #include "app/library_versions.h"
 #include "app/progress_display.h"
@@ -21,6 +12,14 @@
 #include "output/software_name.h"
 #include "render/render.h"
 #include "world/compile.h"
+
+#include <chrono>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <sys/resource.h>
 
 namespace etendue {
 
@@ -47,10 +46,14 @@ std::uint64_t peak_memory_bytes() {
 
 FilterShape to_filter_shape(PixelFilterType type) {
     switch (type) {
-        case PixelFilterType::BlackmanHarris: return FilterShape::BlackmanHarris;
-        case PixelFilterType::Box: return FilterShape::Box;
-        case PixelFilterType::Gaussian: return FilterShape::Gaussian;
-        case PixelFilterType::Mitchell: return FilterShape::Mitchell;
+        case PixelFilterType::BlackmanHarris:
+            return FilterShape::BlackmanHarris;
+        case PixelFilterType::Box:
+            return FilterShape::Box;
+        case PixelFilterType::Gaussian:
+            return FilterShape::Gaussian;
+        case PixelFilterType::Mitchell:
+            return FilterShape::Mitchell;
     }
     return FilterShape::BlackmanHarris;
 }
@@ -128,15 +131,15 @@ void fill_render_statistics(const RenderResult& result, RenderStatistics& s) {
 }
 
 /// Says where samples were dropped, with a command that renders just the first of those pixels.
-void report_dropped(const RenderCounters& counters, const SceneRenderRequest& request,
-                    const RenderSettings& settings) {
+void report_dropped(const RenderCounters& counters, const SceneRenderRequest& request, const RenderSettings& settings) {
     if (counters.dropped == 0) return;
     const DroppedSample& first = counters.first_dropped.front();
-    log_warning("warning: {} samples were not finite and were dropped; the first is sample {} of pixel ({}, {}). To see it alone: "
-                "etendue render {} --size {}x{} --crop {},{},{},{} --spp {} --seed {}",
-                counters.dropped, first.sample, first.x, first.y, request.scene.string(), settings.film.width,
-                settings.film.height, first.x, first.y, first.x + 1, first.y + 1, first.sample + 1,
-                settings.seed);
+    log_warning(
+        "warning: {} samples were not finite and were dropped; the first is sample {} of pixel ({}, {}). To see it "
+        "alone: "
+        "etendue render {} --size {}x{} --crop {},{},{},{} --spp {} --seed {}",
+        counters.dropped, first.sample, first.x, first.y, request.scene.string(), settings.film.width,
+        settings.film.height, first.x, first.y, first.x + 1, first.y + 1, first.sample + 1, settings.seed);
 }
 
 /// Puts the config's defaults where nothing is set, and checks that everything exists: a misspelt view is better found
@@ -144,8 +147,8 @@ void report_dropped(const RenderCounters& counters, const SceneRenderRequest& re
 std::string resolve_colors(ColorSettings& settings, const ColorConfig& colors) {
     if (settings.display.empty()) settings.display = colors.default_display();
     if (settings.view.empty()) settings.view = colors.default_view(settings.display);
-    settings.working_space = settings.working_space.empty() ? colors.default_working_space()
-                                                            : colors.resolve_space(settings.working_space);
+    settings.working_space =
+        settings.working_space.empty() ? colors.default_working_space() : colors.resolve_space(settings.working_space);
     (void)colors.display_transform(settings.working_space, settings.display, settings.view, settings.exposure);
     return settings.working_space;
 }

@@ -1,21 +1,22 @@
 // One scene, from its directory to its files: the data flow of the program in one function.
 #pragma once
 
-#include <filesystem>
-#include <string>
-
 #include "app/settings_overrides.h"
 #include "core/parallel.h"
 #include "output/statistics.h"
 
+#include <filesystem>
+#include <string>
+
 namespace etendue {
 
 struct SceneRenderRequest {
-    std::filesystem::path scene;   ///< scene directory or file, for messages
-    std::filesystem::path output;  ///< the EXR; PNG and JSON stand beside it under the same name. Empty for NAME.exr here.
+    std::filesystem::path scene;  ///< scene directory or file, for messages
+    std::filesystem::path
+        output;  ///< the EXR; PNG and JSON stand beside it under the same name. Empty for NAME.exr here.
     SettingsOverrides overrides;
     bool quiet = false;
-    std::string title;             ///< before the progress bar
+    std::string title;  ///< before the progress bar
 };
 
 struct SceneRenderResult {
@@ -43,13 +44,13 @@ struct PreparedScene {
 /// Loads the scene directory or file `path` and applies overrides and defaults. Throws SceneError.
 [[nodiscard]] PreparedScene prepare_scene(const std::filesystem::path& path, const SettingsOverrides& overrides);
 
-/// Compiles, renders and writes. Notes and warnings go to stderr unless `quiet`. Throws SceneError for what is wrong with the
-/// scene or its settings, IoError when a file cannot be written.
+/// Compiles, renders and writes. Notes and warnings go to stderr unless `quiet`. Throws SceneError for what is wrong
+/// with the scene or its settings, IoError when a file cannot be written.
 [[nodiscard]] SceneRenderResult render_scene(PreparedScene prepared, const SceneRenderRequest& request,
                                              const ThreadPool& threads);
 
-/// Hash of every setting that the image depends on, and of the program's version. Equal for equal pictures as long as the
-/// input files are the same.
+/// Hash of every setting that the image depends on, and of the program's version. Equal for equal pictures as long as
+/// the input files are the same.
 [[nodiscard]] std::string settings_hash(const SceneDesc& scene, PixelDepth depth);
 
 }  // namespace etendue

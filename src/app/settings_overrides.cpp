@@ -1,13 +1,13 @@
 #include "app/settings_overrides.h"
 
+#include "integrator/integrator.h"
+
 #include <algorithm>
 #include <filesystem>
 #include <map>
 #include <vector>
 
 #include <CLI/CLI.hpp>
-
-#include "integrator/integrator.h"
 
 namespace etendue {
 
@@ -56,9 +56,12 @@ std::vector<std::string> integrator_names() {
 void SettingsOverrides::add_options(CLI::App& command) {
     const std::map<std::string, Quality> qualities{
         {"draft", Quality::Draft}, {"preview", Quality::Preview}, {"final", Quality::Final}};
-    command.add_option("--quality", quality, "draft: half the size, 1/16 of the samples; preview: 1/4 of the samples; final")
+    command
+        .add_option("--quality", quality,
+                    "draft: half the size, 1/16 of the samples; preview: 1/4 of the samples; final")
         ->transform(CLI::CheckedTransformer(qualities));
-    command.add_option("--integrator", integrator, "Light transport algorithm")->check(CLI::IsMember(integrator_names()));
+    command.add_option("--integrator", integrator, "Light transport algorithm")
+        ->check(CLI::IsMember(integrator_names()));
     command.add_option("--spp", spp, "Samples per pixel")->check(CLI::Range(1, 1 << 24));
     command.add_option_function<std::string>(
         "--size", [this](const std::string& text) { size = parse_size(text); }, "Image size, WIDTHxHEIGHT");
@@ -69,15 +72,20 @@ void SettingsOverrides::add_options(CLI::App& command) {
     command.add_option("--seed", seed, "Seed of everything random");
     command.add_option("--time", time_seconds, "Start no new pass after this many seconds")
         ->check(CLI::Range(1e-3, 1e9));
-    command.add_option("--max-depth", max_depth, "Most edges of a path from camera to light; 1 is emission seen directly")
+    command
+        .add_option("--max-depth", max_depth, "Most edges of a path from camera to light; 1 is emission seen directly")
         ->check(CLI::Range(1, 1 << 20));
     command.add_option("--environment", environment, "Environment image (EXR or HDR), in place of the scene's")
         ->check(CLI::ExistingFile);
     command.add_option("--exposure", exposure, "Exposure of the preview image, stops")->check(CLI::Range(-64.0, 64.0));
     command.add_option("--view", view, "OpenColorIO view of the preview image");
     command.add_option("--working-space", working_space, "Scene-linear space to render in and to write");
-    auto* half = command.add_flag_callback("--half", [this] { depth = PixelDepth::Half; }, "Write 16-bit floats (default)");
-    command.add_flag_callback("--float", [this] { depth = PixelDepth::Float; }, "Write 32-bit floats")->excludes(half);
+    auto* half = command.add_flag_callback(
+        "--half", [this] { depth = PixelDepth::Half; }, "Write 16-bit floats (default)");
+    command
+        .add_flag_callback(
+            "--float", [this] { depth = PixelDepth::Float; }, "Write 32-bit floats")
+        ->excludes(half);
 }
 
 void SettingsOverrides::apply(SceneDesc& scene) const {

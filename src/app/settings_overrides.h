@@ -1,14 +1,14 @@
 // What the command line can change about a scene, shared by `render` and `batch`.
 #pragma once
 
+#include "core/error.h"
+#include "output/exr_driver.h"
+#include "scene/scene_desc.h"
+
 #include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
-
-#include "core/error.h"
-#include "output/exr_driver.h"
-#include "scene/scene_desc.h"
 
 namespace CLI {
 class App;
@@ -41,8 +41,8 @@ struct SettingsOverrides {
     /// Adds the options to a subcommand; the values arrive when it is parsed.
     void add_options(CLI::App& command);
 
-    /// Applies quality first, then everything that was stated explicitly. Throws SceneError if the environment image does
-    /// not exist.
+    /// Applies quality first, then everything that was stated explicitly. Throws SceneError if the environment image
+    /// does not exist.
     void apply(SceneDesc& scene) const;
 };
 

@@ -1,16 +1,16 @@
 // Whether an image must be rendered again.
 #pragma once
 
+#include "app/scene_render.h"
+
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "app/scene_render.h"
-
 namespace etendue {
 
-/// True if all three files of `output` exist, are newer than every file in `inputs`, and were completed with the settings
-/// whose hash is `hash`.
+/// True if all three files of `output` exist, are newer than every file in `inputs`, and were completed with the
+/// settings whose hash is `hash`.
 [[nodiscard]] bool is_up_to_date(const OutputPaths& output, const std::vector<std::filesystem::path>& inputs,
                                  const std::string& hash);
 

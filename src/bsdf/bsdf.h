@@ -20,17 +20,26 @@ using Bsdf =
 
 /// f |cos theta_i| and the density of `sample_bsdf`, for local unit directions; zero across the delta parts, and where
 /// a lobe does not scatter.
-[[nodiscard]] BsdfValue evaluate_bsdf(const Bsdf& bsdf, const Vec3f& wo, const Vec3f& wi, TransportMode mode);
+[[nodiscard]] inline BsdfValue evaluate_bsdf(const Bsdf& bsdf, const Vec3f& wo, const Vec3f& wi, TransportMode mode) {
+    return std::visit([&](const auto& lobe) { return lobe.evaluate(wo, wi, mode); }, bsdf);
+}
 
 /// Samples wi given wo. `u_lobe` and `u` in [0, 1). A weight of zero ends the walk.
-[[nodiscard]] BsdfSample sample_bsdf(const Bsdf& bsdf, const Vec3f& wo, float u_lobe, Vec2f u, TransportMode mode);
+[[nodiscard]] inline BsdfSample sample_bsdf(const Bsdf& bsdf, const Vec3f& wo, float u_lobe, Vec2f u,
+                                            TransportMode mode) {
+    return std::visit([&](const auto& lobe) { return lobe.sample(wo, u_lobe, u, mode); }, bsdf);
+}
 
 /// False if everything the lobe does is a delta, so that connecting to it or sampling a light from it is useless.
-[[nodiscard]] bool has_non_delta(const Bsdf& bsdf);
+[[nodiscard]] inline bool has_non_delta(const Bsdf& bsdf) {
+    return std::visit([](const auto& lobe) { return lobe.has_non_delta(); }, bsdf);
+}
 
 /// True if the lobe distinguishes the two sides of its surface (z > 0 is the outside of a body); false if it wants wo
 /// on the side z > 0.
-[[nodiscard]] bool is_two_sided_interface(const Bsdf& bsdf);
+[[nodiscard]] inline bool is_two_sided_interface(const Bsdf& bsdf) {
+    return std::holds_alternative<SmoothDielectric>(bsdf) || std::holds_alternative<RoughDielectric>(bsdf);
+}
 
 /// Share of the light from `wo` that is scattered, by the lobe's own samples: an estimate from `count` of them, for
 /// the albedo image and tests.

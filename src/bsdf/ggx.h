@@ -5,6 +5,7 @@
 // Visible GGX Normals with Spherical Caps" (HPG 2023).
 #pragma once
 
+#include "core/trigonometry.h"
 #include "core/vec.h"
 
 #include <algorithm>
@@ -46,10 +47,10 @@ struct Ggx {
     /// A normal visible from `wo` (wo.z > 0).
     [[nodiscard]] Vec3f sample_visible_normal(const Vec3f& wo, Vec2f u) const {
         const Vec3f stretched = normalize({wo.x * alpha, wo.y * alpha, wo.z});
-        const float phi = 2.0f * kPi * u.x;
+        const SinCos phi = sin_cos_turns(u.x);
         const float z = (1.0f - u.y) * (1.0f + stretched.z) - stretched.z;
         const float sin_theta = std::sqrt(std::clamp(1.0f - z * z, 0.0f, 1.0f));
-        const Vec3f h = Vec3f(sin_theta * std::cos(phi), sin_theta * std::sin(phi), z) + stretched;
+        const Vec3f h = Vec3f(sin_theta * phi.cos, sin_theta * phi.sin, z) + stretched;
         return normalize({h.x * alpha, h.y * alpha, std::max(1e-7f, h.z)});
     }
 };

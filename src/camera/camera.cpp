@@ -11,14 +11,22 @@ Vec2f to_plane(Vec2f film, float half_width, float half_height) {
     return {(2.0f * film.x - 1.0f) * half_width, (1.0f - 2.0f * film.y) * half_height};
 }
 
-const CameraPose& pose_of(const PinholeCamera& c) { return c.pose; }
-const CameraPose& pose_of(const ThinLensCamera& c) { return c.pinhole.pose; }
-const CameraPose& pose_of(const OrthographicCamera& c) { return c.pose; }
+const CameraPose& pose_of(const PinholeCamera& c) {
+    return c.pose;
+}
+const CameraPose& pose_of(const ThinLensCamera& c) {
+    return c.pinhole.pose;
+}
+const CameraPose& pose_of(const OrthographicCamera& c) {
+    return c.pose;
+}
 
 Mat4f projection(const PinholeCamera& c) {
     return {1.0f / c.half_width, 0, 0, 0, 0, 1.0f / c.half_height, 0, 0, 0, 0, -1, -1, 0, 0, 0, 0};
 }
-Mat4f projection(const ThinLensCamera& c) { return projection(c.pinhole); }
+Mat4f projection(const ThinLensCamera& c) {
+    return projection(c.pinhole);
+}
 Mat4f projection(const OrthographicCamera& c) {
     return {1.0f / c.half_width, 0, 0, 0, 0, 1.0f / c.half_height, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1};
 }
@@ -63,7 +71,9 @@ Ray ThinLensCamera::generate_ray(Vec2f film, Vec2f lens) const {
     return ray;
 }
 
-float ThinLensCamera::pdf_solid_angle(const Vec3f& direction) const { return pinhole.pdf_solid_angle(direction); }
+float ThinLensCamera::pdf_solid_angle(const Vec3f& direction) const {
+    return pinhole.pdf_solid_angle(direction);
+}
 
 Ray OrthographicCamera::generate_ray(Vec2f film, Vec2f) const {
     const Vec2f p = to_plane(film, half_width, half_height);

@@ -6,10 +6,10 @@
 // Film coordinates run over [0, 1)², x to the right and y down from the top left corner of the full image.
 #pragma once
 
-#include <variant>
-
 #include "core/ray.h"
 #include "core/vec.h"
+
+#include <variant>
 
 namespace etendue {
 
@@ -23,7 +23,9 @@ struct CameraPose {
     /// From a camera-to-world matrix of glTF's kind (looking along local -Z, +Y up); its scale is ignored, as the
     /// specification asks.
     [[nodiscard]] static CameraPose from_matrix(const Mat4f& to_world);
-    [[nodiscard]] Vec3f to_world(const Vec3f& local) const { return right * local.x + up * local.y - forward * local.z; }
+    [[nodiscard]] Vec3f to_world(const Vec3f& local) const {
+        return right * local.x + up * local.y - forward * local.z;
+    }
 };
 
 /// Perspective through a point.
@@ -65,7 +67,8 @@ using Camera = std::variant<PinholeCamera, ThinLensCamera, OrthographicCamera>;
 [[nodiscard]] Ray generate_ray(const Camera& camera, Vec2f film, Vec2f lens);
 [[nodiscard]] float camera_pdf_solid_angle(const Camera& camera, const Vec3f& direction);
 
-/// World to camera space (looking along -Z), and world to screen: x and y in [-1, 1] over the image, for image metadata.
+/// World to camera space (looking along -Z), and world to screen: x and y in [-1, 1] over the image, for image
+/// metadata.
 [[nodiscard]] Mat4f world_to_camera(const Camera& camera);
 [[nodiscard]] Mat4f world_to_screen(const Camera& camera);
 

@@ -1,10 +1,10 @@
 // An axis-aligned box, grown point by point.
 #pragma once
 
+#include "core/vec.h"
+
 #include <algorithm>
 #include <limits>
-
-#include "core/vec.h"
 
 namespace etendue {
 

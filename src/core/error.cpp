@@ -9,9 +9,12 @@ namespace {
 
 const char* severity_name(Severity severity) {
     switch (severity) {
-        case Severity::Note: return "note";
-        case Severity::Warning: return "warning";
-        case Severity::Error: return "error";
+        case Severity::Note:
+            return "note";
+        case Severity::Warning:
+            return "warning";
+        case Severity::Error:
+            return "error";
     }
     return "error";
 }
@@ -64,7 +67,8 @@ void ProblemList::add(Problem problem) {
     problems_.push_back(std::move(problem));
 }
 
-SceneError::SceneError(ProblemList problems) : std::runtime_error(join_errors(problems)), problems_(std::move(problems)) {}
+SceneError::SceneError(ProblemList problems)
+    : std::runtime_error(join_errors(problems)), problems_(std::move(problems)) {}
 
 SceneError::SceneError(SourceLocation where, std::string message)
     : SceneError(single_error(std::move(where), std::move(message))) {}

@@ -37,7 +37,9 @@ class ProblemList {
   public:
     static constexpr std::size_t kMaxProblems = 1000;
 
-    void note(SourceLocation where, std::string message) { add({Severity::Note, std::move(where), std::move(message)}); }
+    void note(SourceLocation where, std::string message) {
+        add({Severity::Note, std::move(where), std::move(message)});
+    }
     void warning(SourceLocation where, std::string message) {
         add({Severity::Warning, std::move(where), std::move(message)});
     }

@@ -1,9 +1,9 @@
 // An orthonormal frame around a normal; local coordinates have z along the normal.
 #pragma once
 
-#include <cmath>
-
 #include "core/vec.h"
+
+#include <cmath>
 
 namespace etendue {
 
@@ -24,7 +24,8 @@ struct Frame {
         return {{1.0f + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}, n};
     }
 
-    /// The frame around the unit normal `n` whose tangent is `t` made orthogonal to `n`; any frame if they are parallel.
+    /// The frame around the unit normal `n` whose tangent is `t` made orthogonal to `n`; any frame if they are
+    /// parallel.
     [[nodiscard]] static Frame from_normal_and_tangent(const Vec3f& n, const Vec3f& t) {
         const Vec3f in_plane = t - n * dot(n, t);
         const float squared = length_squared(in_plane);

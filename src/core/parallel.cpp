@@ -1,7 +1,5 @@
 #include "core/parallel.h"
 
-#include <xmmintrin.h>
-
 #include <algorithm>
 
 #include <tbb/global_control.h>
@@ -9,6 +7,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 #include <tbb/version.h>
+#include <xmmintrin.h>
 
 namespace etendue {
 
@@ -17,9 +16,13 @@ constexpr unsigned int kFlushToZero = 0x8000;
 constexpr unsigned int kDenormalsAreZero = 0x0040;
 }  // namespace
 
-FlushDenormals::FlushDenormals() : saved_(_mm_getcsr()) { _mm_setcsr(saved_ | kFlushToZero | kDenormalsAreZero); }
+FlushDenormals::FlushDenormals() : saved_(_mm_getcsr()) {
+    _mm_setcsr(saved_ | kFlushToZero | kDenormalsAreZero);
+}
 
-FlushDenormals::~FlushDenormals() { _mm_setcsr(saved_); }
+FlushDenormals::~FlushDenormals() {
+    _mm_setcsr(saved_);
+}
 
 struct ThreadPool::Impl {
     explicit Impl(int thread_count)
@@ -36,7 +39,9 @@ ThreadPool::ThreadPool(int thread_count)
 
 ThreadPool::~ThreadPool() = default;
 
-int ThreadPool::thread_count() const { return impl_->arena.max_concurrency(); }
+int ThreadPool::thread_count() const {
+    return impl_->arena.max_concurrency();
+}
 
 void ThreadPool::parallel_for(std::size_t count, const std::function<void(std::size_t, int)>& body) const {
     impl_->arena.execute([&] {
@@ -58,6 +63,8 @@ void ThreadPool::execute(const std::function<void()>& body) const {
     });
 }
 
-std::string parallel_library_version() { return TBB_runtime_version(); }
+std::string parallel_library_version() {
+    return TBB_runtime_version();
+}
 
 }  // namespace etendue

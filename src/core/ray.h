@@ -1,11 +1,11 @@
 // What is asked of the World: rays, and the key that makes stochastic transparency repeatable.
 #pragma once
 
+#include "core/vec.h"
+
 #include <algorithm>
 #include <cstdint>
 #include <limits>
-
-#include "core/vec.h"
 
 namespace etendue {
 

@@ -23,26 +23,50 @@ struct Rgb {
     friend constexpr bool operator==(const Rgb&, const Rgb&) = default;
 };
 
-[[nodiscard]] constexpr Rgb operator+(Rgb a, const Rgb& b) { return a += b; }
-[[nodiscard]] constexpr Rgb operator-(Rgb a, const Rgb& b) { return a -= b; }
-[[nodiscard]] constexpr Rgb operator*(Rgb a, const Rgb& b) { return a *= b; }
-[[nodiscard]] constexpr Rgb operator*(Rgb a, float s) { return a *= s; }
-[[nodiscard]] constexpr Rgb operator*(float s, Rgb a) { return a *= s; }
-[[nodiscard]] constexpr Rgb operator/(const Rgb& a, const Rgb& b) { return {a.r / b.r, a.g / b.g, a.b / b.b}; }
-[[nodiscard]] constexpr Rgb operator/(const Rgb& a, float s) { return a * (1.0f / s); }
+[[nodiscard]] constexpr Rgb operator+(Rgb a, const Rgb& b) {
+    return a += b;
+}
+[[nodiscard]] constexpr Rgb operator-(Rgb a, const Rgb& b) {
+    return a -= b;
+}
+[[nodiscard]] constexpr Rgb operator*(Rgb a, const Rgb& b) {
+    return a *= b;
+}
+[[nodiscard]] constexpr Rgb operator*(Rgb a, float s) {
+    return a *= s;
+}
+[[nodiscard]] constexpr Rgb operator*(float s, Rgb a) {
+    return a *= s;
+}
+[[nodiscard]] constexpr Rgb operator/(const Rgb& a, const Rgb& b) {
+    return {a.r / b.r, a.g / b.g, a.b / b.b};
+}
+[[nodiscard]] constexpr Rgb operator/(const Rgb& a, float s) {
+    return a * (1.0f / s);
+}
 
-[[nodiscard]] constexpr float max_component(const Rgb& c) { return std::max(c.r, std::max(c.g, c.b)); }
-[[nodiscard]] constexpr float min_component(const Rgb& c) { return std::min(c.r, std::min(c.g, c.b)); }
+[[nodiscard]] constexpr float max_component(const Rgb& c) {
+    return std::max(c.r, std::max(c.g, c.b));
+}
+[[nodiscard]] constexpr float min_component(const Rgb& c) {
+    return std::min(c.r, std::min(c.g, c.b));
+}
 
 /// Mean of the three channels: a weight for choosing between lobes and lights that needs no colour space.
-[[nodiscard]] constexpr float average(const Rgb& c) { return (c.r + c.g + c.b) * (1.0f / 3.0f); }
+[[nodiscard]] constexpr float average(const Rgb& c) {
+    return (c.r + c.g + c.b) * (1.0f / 3.0f);
+}
 
-[[nodiscard]] constexpr bool is_black(const Rgb& c) { return c.r == 0.0f && c.g == 0.0f && c.b == 0.0f; }
+[[nodiscard]] constexpr bool is_black(const Rgb& c) {
+    return c.r == 0.0f && c.g == 0.0f && c.b == 0.0f;
+}
 
 [[nodiscard]] inline bool is_finite(const Rgb& c) {
     return std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b);
 }
 
-[[nodiscard]] constexpr Rgb lerp(const Rgb& a, const Rgb& b, float t) { return a * (1.0f - t) + b * t; }
+[[nodiscard]] constexpr Rgb lerp(const Rgb& a, const Rgb& b, float t) {
+    return a * (1.0f - t) + b * t;
+}
 
 }  // namespace etendue

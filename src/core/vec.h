@@ -21,15 +21,27 @@ using Mat4f = Imath::M44f;
 inline constexpr float kPi = 3.14159265358979323846f;
 inline constexpr float kInvPi = 0.31830988618379067154f;
 
-[[nodiscard]] inline float dot(const Vec3f& a, const Vec3f& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-[[nodiscard]] inline Vec3f cross(const Vec3f& a, const Vec3f& b) { return a.cross(b); }
-[[nodiscard]] inline float length_squared(const Vec3f& v) { return dot(v, v); }
-[[nodiscard]] inline float length(const Vec3f& v) { return std::sqrt(length_squared(v)); }
+[[nodiscard]] inline float dot(const Vec3f& a, const Vec3f& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+[[nodiscard]] inline Vec3f cross(const Vec3f& a, const Vec3f& b) {
+    return a.cross(b);
+}
+[[nodiscard]] inline float length_squared(const Vec3f& v) {
+    return dot(v, v);
+}
+[[nodiscard]] inline float length(const Vec3f& v) {
+    return std::sqrt(length_squared(v));
+}
 
 /// `v` scaled to length 1; undefined for a zero vector.
-[[nodiscard]] inline Vec3f normalize(const Vec3f& v) { return v * (1.0f / length(v)); }
+[[nodiscard]] inline Vec3f normalize(const Vec3f& v) {
+    return v * (1.0f / length(v));
+}
 
-[[nodiscard]] inline float abs_dot(const Vec3f& a, const Vec3f& b) { return std::abs(dot(a, b)); }
+[[nodiscard]] inline float abs_dot(const Vec3f& a, const Vec3f& b) {
+    return std::abs(dot(a, b));
+}
 
 /// A point through an affine transform.
 [[nodiscard]] inline Vec3f transform_point(const Mat4f& m, const Vec3f& p) {

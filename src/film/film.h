@@ -1,12 +1,12 @@
 // Where samples end: sums per pixel, first of one tile, then of the image.
 #pragma once
 
+#include "core/rgb.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
-
-#include "core/rgb.h"
 
 namespace etendue {
 

@@ -10,10 +10,14 @@ namespace {
 
 float default_radius(FilterShape shape) {
     switch (shape) {
-        case FilterShape::BlackmanHarris: return 1.5f;
-        case FilterShape::Box: return 0.5f;
-        case FilterShape::Gaussian: return 1.5f;
-        case FilterShape::Mitchell: return 2.0f;
+        case FilterShape::BlackmanHarris:
+            return 1.5f;
+        case FilterShape::Box:
+            return 0.5f;
+        case FilterShape::Gaussian:
+            return 1.5f;
+        case FilterShape::Mitchell:
+            return 2.0f;
     }
     return 0.5f;
 }
@@ -24,8 +28,7 @@ float mitchell(float x) {
     constexpr float kC = 1.0f / 3.0f;
     const float x2 = x * x;
     const float x3 = x2 * x;
-    if (x < 1.0f)
-        return ((12 - 9 * kB - 6 * kC) * x3 + (-18 + 12 * kB + 6 * kC) * x2 + (6 - 2 * kB)) / 6.0f;
+    if (x < 1.0f) return ((12 - 9 * kB - 6 * kC) * x3 + (-18 + 12 * kB + 6 * kC) * x2 + (6 - 2 * kB)) / 6.0f;
     return ((-kB - 6 * kC) * x3 + (6 * kB + 30 * kC) * x2 + (-12 * kB - 48 * kC) * x + (8 * kB + 24 * kC)) / 6.0f;
 }
 
@@ -38,9 +41,12 @@ float shape_value(FilterShape shape, float t) {
             return 0.35875f - 0.48829f * std::cos(phase) + 0.14128f * std::cos(2.0f * phase) -
                    0.01168f * std::cos(3.0f * phase);
         }
-        case FilterShape::Box: return 1.0f;
-        case FilterShape::Gaussian: return std::exp(-4.5f * t * t) - std::exp(-4.5f);
-        case FilterShape::Mitchell: return mitchell(2.0f * std::abs(t));
+        case FilterShape::Box:
+            return 1.0f;
+        case FilterShape::Gaussian:
+            return std::exp(-4.5f * t * t) - std::exp(-4.5f);
+        case FilterShape::Mitchell:
+            return mitchell(2.0f * std::abs(t));
     }
     return 0.0f;
 }
@@ -48,36 +54,35 @@ float shape_value(FilterShape shape, float t) {
 }  // namespace
 
 PixelFilter::PixelFilter(FilterShape shape, float radius)
-    : shape_(shape), radius_(radius > 0.0f ? radius : default_radius(shape)) {
-    constexpr std::size_t kCells = 1024;
-    std::vector<float> magnitudes(kCells);
+    : shape_(shape), radius_(radius > 0.0f ? radius : default_radius(shape)), edges_(kCells + 1) {
+    // The distribution function on a grid much finer than the cells, then its inverse at equal steps.
+    constexpr std::size_t kSteps = 64 * kCells;
+    std::vector<double> cdf(kSteps + 1, 0.0);
     double integral = 0.0;
-    for (std::size_t i = 0; i < kCells; ++i) {
-        const float t = 2.0f * (static_cast<float>(i) + 0.5f) / kCells - 1.0f;
-        const float value = shape_value(shape_, t);
-        magnitudes[i] = std::abs(value);
-        integral += static_cast<double>(value);
+    positive_radius_ = radius_;
+    for (std::size_t i = 0; i < kSteps; ++i) {
+        const float t = 2.0f * (static_cast<float>(i) + 0.5f) / kSteps - 1.0f;
+        const auto value = static_cast<double>(shape_value(shape_, t));
+        cdf[i + 1] = cdf[i] + std::abs(value);
+        integral += value;
+        if (value < 0.0) positive_radius_ = std::min(positive_radius_, std::abs(t) * radius_);
     }
-    magnitude_ = Distribution1D(magnitudes);
-    normalization_ = static_cast<float>(kCells / (integral * 2.0 * static_cast<double>(radius_)));
+    std::size_t step = 0;
+    for (std::size_t cell = 0; cell <= kCells; ++cell) {
+        const double mass = cdf.back() * static_cast<double>(cell) / kCells;
+        while (step + 1 < kSteps && cdf[step + 1] < mass) ++step;
+        const double inside = cdf[step + 1] - cdf[step];
+        const double fraction = inside > 0.0 ? (mass - cdf[step]) / inside : 0.0;
+        const double t = 2.0 * (static_cast<double>(step) + fraction) / kSteps - 1.0;
+        edges_[cell] = static_cast<float>(t) * radius_;
+    }
+    weight_ = static_cast<float>(cdf.back() / integral);
+    normalization_ = static_cast<float>(kSteps / (integral * 2.0 * static_cast<double>(radius_)));
 }
 
 float PixelFilter::evaluate(float x) const {
     if (std::abs(x) > radius_) return 0.0f;
     return shape_value(shape_, x / radius_) * normalization_;
-}
-
-PixelFilter::Sample1D PixelFilter::sample_1d(float u) const {
-    const Distribution1D::Sample sample = magnitude_.sample(u);
-    const float offset = (2.0f * sample.x - 1.0f) * radius_;
-    const float pdf = sample.pdf / (2.0f * radius_);
-    return {offset, evaluate(offset) / pdf};
-}
-
-PixelFilter::Sample PixelFilter::sample(Vec2f u) const {
-    const Sample1D x = sample_1d(u.x);
-    const Sample1D y = sample_1d(u.y);
-    return {{x.offset, y.offset}, x.weight * y.weight};
 }
 
 }  // namespace etendue

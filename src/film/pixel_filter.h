@@ -1,9 +1,13 @@
-// Pixel filters, by importance sampling: each sample is placed with the filter's density and counts once, so that pixels
-// need no neighbours and tiles no borders (Ernst, Stamminger, Greiner, "Filter Importance Sampling", RT 2006).
+// Pixel filters, by importance sampling: each sample is placed with the filter's density and counts once, so that
+// pixels need no neighbours and tiles no borders (Ernst, Stamminger, Greiner, "Filter Importance Sampling", RT 2006).
 #pragma once
 
 #include "core/vec.h"
-#include "sampling/distribution.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
 
 namespace etendue {
 
@@ -21,12 +25,17 @@ class PixelFilter {
 
     struct Sample {
         Vec2f offset;  ///< from the pixel's centre, pixels
-        float weight;  ///< filter over density; its mean is 1
+        float weight;  ///< filter over density, plus or minus a constant; its mean is 1
     };
     /// `u` in [0, 1)².
-    [[nodiscard]] Sample sample(Vec2f u) const;
+    [[nodiscard]] Sample sample(Vec2f u) const {
+        const Sample1D x = sample_1d(u.x);
+        const Sample1D y = sample_1d(u.y);
+        return {{x.offset, y.offset}, x.weight * y.weight};
+    }
 
-    /// The filter in one dimension at `x` pixels from the centre, normalised to integrate to 1; the filter is separable.
+    /// The filter in one dimension at `x` pixels from the centre, normalised to integrate to 1; the filter is
+    /// separable.
     [[nodiscard]] float evaluate(float x) const;
     [[nodiscard]] float radius() const { return radius_; }
 
@@ -35,12 +44,24 @@ class PixelFilter {
         float offset;
         float weight;
     };
-    [[nodiscard]] Sample1D sample_1d(float u) const;
+    [[nodiscard]] Sample1D sample_1d(float u) const {
+        const float scaled = u * static_cast<float>(kCells);
+        const std::size_t cell = std::min(static_cast<std::size_t>(scaled), kCells - 1);
+        const float within = scaled - static_cast<float>(cell);
+        const float offset = edges_[cell] + (edges_[cell + 1] - edges_[cell]) * within;
+        return {offset, std::abs(offset) < positive_radius_ ? weight_ : -weight_};
+    }
+
+    /// Cells of equal mass of |filter|: small enough for the first-level cache, fine enough that the steps between them
+    /// (the density is constant within a cell) do not show.
+    static constexpr std::size_t kCells = 512;
 
     FilterShape shape_;
     float radius_;
     float normalization_ = 1.0f;
-    Distribution1D magnitude_;  ///< of |filter| over [-radius, radius]
+    float weight_ = 1.0f;           ///< ∫ |filter| / ∫ filter
+    float positive_radius_ = 0.0f;  ///< beyond it the filter is negative
+    std::vector<float> edges_;      ///< of the cells, kCells + 1 offsets
 };
 
 }  // namespace etendue

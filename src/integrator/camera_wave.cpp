@@ -21,9 +21,9 @@ void generate_camera_rays(const World& world, const TileJob& job, std::size_t fi
         const Vec2i position = pixel_position(job, pixel);
         CameraSample& sample = samples[i];
         sample.pixel = pixel;
-        sample.key = {make_pixel_seed(job.seed, static_cast<std::uint32_t>(position.x),
-                                      static_cast<std::uint32_t>(position.y)),
-                      index};
+        sample.key = {
+            make_pixel_seed(job.seed, static_cast<std::uint32_t>(position.x), static_cast<std::uint32_t>(position.y)),
+            index};
         const PixelFilter::Sample filtered = job.filter->sample(sample_2d(job.sequence, sample.key, kFilmDimension));
         sample.weight = filtered.weight;
         const Vec2f film{(static_cast<float>(position.x) + 0.5f + filtered.offset.x) * to_film.x,

@@ -1,13 +1,13 @@
 // The first step of every integrator that starts at the eye: camera rays for a run of samples of a tile.
 #pragma once
 
+#include "core/ray.h"
+#include "integrator/integrator.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
-
-#include "core/ray.h"
-#include "integrator/integrator.h"
 
 namespace etendue {
 
@@ -22,7 +22,9 @@ struct CameraSample {
 };
 
 /// Samples are numbered sample by sample over the whole tile: neighbours in a wave are neighbours in the image.
-[[nodiscard]] inline std::size_t camera_sample_count(const TileJob& job) { return job.rect.area() * job.sample_count; }
+[[nodiscard]] inline std::size_t camera_sample_count(const TileJob& job) {
+    return job.rect.area() * job.sample_count;
+}
 
 /// Makes the camera rays of samples [first, first + rays.size()) of the job.
 void generate_camera_rays(const World& world, const TileJob& job, std::size_t first, std::span<CameraSample> samples,

@@ -3,18 +3,18 @@
 // To add another: a folder with a class that implements `Integrator`, and one line in registry.cpp.
 #pragma once
 
+#include "film/dropped_sample.h"
+#include "film/film.h"
+#include "film/pixel_filter.h"
+#include "sampling/sampler.h"
+#include "world/world.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <string_view>
 #include <vector>
-
-#include "film/dropped_sample.h"
-#include "film/film.h"
-#include "film/pixel_filter.h"
-#include "sampling/sampler.h"
-#include "world/world.h"
 
 namespace etendue {
 
@@ -81,6 +81,7 @@ struct IntegratorEntry {
 [[nodiscard]] std::span<const IntegratorEntry> integrator_registry();
 
 /// Null if there is no integrator of that name.
-[[nodiscard]] std::unique_ptr<const Integrator> make_integrator(std::string_view name, const IntegratorOptions& options);
+[[nodiscard]] std::unique_ptr<const Integrator> make_integrator(std::string_view name,
+                                                                const IntegratorOptions& options);
 
 }  // namespace etendue

@@ -1,9 +1,9 @@
 // All integrators, in the order in which --help lists them.
-#include <algorithm>
-
 #include "integrator/debug/debug_integrator.h"
 #include "integrator/integrator.h"
 #include "integrator/path/path_integrator.h"
+
+#include <algorithm>
 
 namespace etendue {
 
@@ -41,7 +41,9 @@ constexpr IntegratorEntry kRegistry[] = {
 
 }  // namespace
 
-std::span<const IntegratorEntry> integrator_registry() { return kRegistry; }
+std::span<const IntegratorEntry> integrator_registry() {
+    return kRegistry;
+}
 
 std::unique_ptr<const Integrator> make_integrator(std::string_view name, const IntegratorOptions& options) {
     for (const IntegratorEntry& entry : kRegistry)

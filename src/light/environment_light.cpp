@@ -1,11 +1,11 @@
 #include "light/environment_light.h"
 
+#include "sampling/warp.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
-
-#include "sampling/warp.h"
 
 namespace etendue {
 
@@ -18,8 +18,8 @@ ImageF& sanitize(ImageF& image) {
     return image;
 }
 
-/// Mean of the bilinear reconstruction over each texel's cell: a 3 × 3 stencil (1, 6, 1)² / 64 that wraps around in x and
-/// clamps in y. It is zero only where the reconstruction is zero.
+/// Mean of the bilinear reconstruction over each texel's cell: a 3 × 3 stencil (1, 6, 1)² / 64 that wraps around in x
+/// and clamps in y. It is zero only where the reconstruction is zero.
 Distribution2D make_distribution(const ImageF& image) {
     constexpr float kStencil[3] = {0.125f, 0.75f, 0.125f};
     const int width = image.width;
@@ -59,7 +59,9 @@ LightSample ConstantEnvironment::sample(const Vec3f&, Vec2f u) const {
     return sample;
 }
 
-float ConstantEnvironment::pdf_solid_angle(const Vec3f&) const { return sphere_pdf_solid_angle(); }
+float ConstantEnvironment::pdf_solid_angle(const Vec3f&) const {
+    return sphere_pdf_solid_angle();
+}
 
 float ConstantEnvironment::power(float scene_radius) const {
     return 4.0f * kPi * kPi * scene_radius * scene_radius * average(value);
@@ -90,7 +92,9 @@ Vec3f ImageEnvironment::from_image(Vec2f position) const {
     return {x * cos_rotation_ + z * sin_rotation_, std::cos(theta), -x * sin_rotation_ + z * cos_rotation_};
 }
 
-Rgb ImageEnvironment::radiance(const Vec3f& direction) const { return texture_.lookup(to_image(direction)).rgb; }
+Rgb ImageEnvironment::radiance(const Vec3f& direction) const {
+    return texture_.lookup(to_image(direction)).rgb;
+}
 
 LightSample ImageEnvironment::sample(const Vec3f&, Vec2f u) const {
     const Distribution2D::Sample position = distribution_.sample(u);

@@ -4,11 +4,11 @@
 // towards +Y.
 #pragma once
 
-#include <memory>
-
 #include "light/light_sample.h"
 #include "sampling/distribution.h"
 #include "texture/texture.h"
+
+#include <memory>
 
 namespace etendue {
 
@@ -22,8 +22,8 @@ struct ConstantEnvironment {
     [[nodiscard]] float power(float scene_radius) const;
 };
 
-/// An image, importance-sampled in two dimensions by its bilinear reconstruction's mean over each cell, times the sine of
-/// the polar angle. A texel costs 12 bytes for its colour and 4 for its density.
+/// An image, importance-sampled in two dimensions by its bilinear reconstruction's mean over each cell, times the sine
+/// of the polar angle. A texel costs 12 bytes for its colour and 4 for its density.
 class ImageEnvironment {
   public:
     /// `image` has 3 linear channels in the working space, already scaled; `rotation` in radians about +Y,

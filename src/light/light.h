@@ -4,20 +4,19 @@
 // world/compile_lights.cpp, and its row in tests/light.
 #pragma once
 
-#include <cstdint>
-#include <span>
-#include <variant>
-#include <vector>
-
 #include "light/environment_light.h"
 #include "light/mesh_light.h"
 #include "light/punctual_light.h"
 #include "sampling/alias_table.h"
 
+#include <cstdint>
+#include <span>
+#include <variant>
+#include <vector>
+
 namespace etendue {
 
-using Light =
-    std::variant<PointLight, SpotLight, DirectionalLight, MeshLight, ConstantEnvironment, ImageEnvironment>;
+using Light = std::variant<PointLight, SpotLight, DirectionalLight, MeshLight, ConstantEnvironment, ImageEnvironment>;
 
 /// Light at `point` from a direction chosen with `u` in [0, 1)².
 [[nodiscard]] LightSample sample_light(const Light& light, const Vec3f& point, Vec2f u);

@@ -1,24 +1,25 @@
 // What every light answers when asked for light at a point.
 #pragma once
 
-#include <cstdint>
-#include <limits>
-
 #include "core/rgb.h"
 #include "core/vec.h"
+
+#include <cstdint>
+#include <limits>
 
 namespace etendue {
 
 struct LightSample {
-    Vec3f wi{0.0f};                ///< unit, from the lit point towards the light
-    float distance = std::numeric_limits<float>::infinity();  ///< metres; infinite for directional and environment light
+    Vec3f wi{0.0f};  ///< unit, from the lit point towards the light
+    float distance =
+        std::numeric_limits<float>::infinity();  ///< metres; infinite for directional and environment light
     /// Radiance that arrives along wi if nothing is in the way. For a delta light the irradiance on a surface facing it
     /// (point: I/d²; directional: E), which takes the place of radiance over pdf.
     Rgb radiance;
     float pdf_solid_angle = 0.0f;  ///< of wi, without the choice of the light; not meaningful if `is_delta`
     bool is_delta = false;
-    std::uint32_t triangle = 0;    ///< mesh lights: which triangle was chosen
-    Vec2f barycentric{0.0f, 0.0f}; ///< mesh lights: of the second and third vertex
+    std::uint32_t triangle = 0;     ///< mesh lights: which triangle was chosen
+    Vec2f barycentric{0.0f, 0.0f};  ///< mesh lights: of the second and third vertex
 };
 
 }  // namespace etendue

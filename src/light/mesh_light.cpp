@@ -1,8 +1,8 @@
 #include "light/mesh_light.h"
 
-#include <utility>
-
 #include "sampling/warp.h"
+
+#include <utility>
 
 namespace etendue {
 
@@ -48,6 +48,8 @@ float MeshLight::pdf_solid_angle(float distance, float cos_light) const {
     return cosine > 0.0f ? distance * distance / (area_ * cosine) : 0.0f;
 }
 
-float MeshLight::power(float) const { return kPi * area_ * average(mean_radiance_) * (two_sided_ ? 2.0f : 1.0f); }
+float MeshLight::power(float) const {
+    return kPi * area_ * average(mean_radiance_) * (two_sided_ ? 2.0f : 1.0f);
+}
 
 }  // namespace etendue

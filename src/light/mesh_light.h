@@ -1,15 +1,15 @@
 // An emissive mesh: triangles chosen by area, points uniform by area.
 //
-// Radiance that varies over the mesh (textures, partial transparency) is the World's to evaluate at the sampled point: the
-// same code that evaluates it where a ray hits, so that both strategies of MIS agree.
+// Radiance that varies over the mesh (textures, partial transparency) is the World's to evaluate at the sampled point:
+// the same code that evaluates it where a ray hits, so that both strategies of MIS agree.
 #pragma once
+
+#include "light/light_sample.h"
+#include "sampling/alias_table.h"
 
 #include <cstdint>
 #include <span>
 #include <vector>
-
-#include "light/light_sample.h"
-#include "sampling/alias_table.h"
 
 namespace etendue {
 
@@ -21,15 +21,15 @@ struct LightTriangle {
 class MeshLight {
   public:
     /// `radiance` is emitted by every point on the front side (counter-clockwise seen from there); by both if
-    /// `two_sided`. `mean_radiance` is its mean over the area, for the choice between lights. Triangles without area get no
-    /// samples. `mirrored`: the triangles went through a transform that turned their winding around, so that their front
-    /// is where they are clockwise. 48 bytes a triangle.
+    /// `two_sided`. `mean_radiance` is its mean over the area, for the choice between lights. Triangles without area
+    /// get no samples. `mirrored`: the triangles went through a transform that turned their winding around, so that
+    /// their front is where they are clockwise. 48 bytes a triangle.
     MeshLight(std::vector<LightTriangle> triangles, Rgb radiance, Rgb mean_radiance, bool two_sided, bool mirrored,
               bool is_uniform);
 
     [[nodiscard]] LightSample sample(const Vec3f& point, Vec2f u) const;
-    /// Density of `sample` for a hit at `distance`, where `cos_light` is the cosine between the geometric normal and the
-    /// direction back to the lit point: d² / (A |cos|). 0 for the back of a one-sided light.
+    /// Density of `sample` for a hit at `distance`, where `cos_light` is the cosine between the geometric normal and
+    /// the direction back to the lit point: d² / (A |cos|). 0 for the back of a one-sided light.
     [[nodiscard]] float pdf_solid_angle(float distance, float cos_light) const;
     [[nodiscard]] float power(float scene_radius) const;
 

@@ -26,7 +26,9 @@ LightSample PointLight::sample(const Vec3f& point, Vec2f) const {
     return sample;
 }
 
-float PointLight::power(float) const { return 4.0f * kPi * average(intensity); }
+float PointLight::power(float) const {
+    return 4.0f * kPi * average(intensity);
+}
 
 float SpotLight::falloff(float cos_angle) const {
     const float ramp = std::clamp((cos_angle - cos_outer) / (cos_inner - cos_outer), 0.0f, 1.0f);

@@ -1,13 +1,13 @@
 #include "render/render.h"
 
-#include <sys/resource.h>
+#include "render/tiles.h"
 
 #include <chrono>
 #include <memory>
 #include <mutex>
 #include <vector>
 
-#include "render/tiles.h"
+#include <sys/resource.h>
 
 namespace etendue {
 
@@ -15,7 +15,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 /// What one thread keeps between tiles.
 struct Worker {
@@ -64,9 +66,12 @@ class ProgressReporter {
 
 const char* halt_reason_name(HaltReason reason) {
     switch (reason) {
-        case HaltReason::SamplesDone: return "samples done";
-        case HaltReason::TimeLimit: return "time limit";
-        case HaltReason::Interrupted: return "interrupted";
+        case HaltReason::SamplesDone:
+            return "samples done";
+        case HaltReason::TimeLimit:
+            return "time limit";
+        case HaltReason::Interrupted:
+            return "interrupted";
     }
     return "unknown";
 }
@@ -74,7 +79,9 @@ const char* halt_reason_name(HaltReason reason) {
 double process_cpu_seconds() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
-    const auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
+    const auto seconds = [](const timeval& t) {
+        return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+    };
     return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 

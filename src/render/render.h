@@ -1,16 +1,16 @@
 // Scheduling: tiles, passes, progress and stopping. Knows nothing of light transport.
 #pragma once
 
-#include <atomic>
-#include <cstdint>
-#include <functional>
-#include <string>
-
 #include "core/parallel.h"
 #include "film/film.h"
 #include "film/pixel_filter.h"
 #include "integrator/integrator.h"
 #include "world/world.h"
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <string>
 
 namespace etendue {
 
@@ -51,7 +51,7 @@ struct RenderResult {
     HaltReason halt_reason = HaltReason::SamplesDone;
     std::uint32_t spp_done = 0;  ///< complete passes; single tiles may have more
     double wall_seconds = 0.0;
-    double cpu_seconds = 0.0;    ///< of all threads
+    double cpu_seconds = 0.0;  ///< of all threads
 };
 
 /// Renders `world`. The image is bit-identical for every thread count and tile order. `stop` is looked at before every

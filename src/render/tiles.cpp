@@ -1,9 +1,9 @@
 #include "render/tiles.h"
 
+#include "sampling/hash.h"
+
 #include <algorithm>
 #include <utility>
-
-#include "sampling/hash.h"
 
 namespace etendue {
 

@@ -1,18 +1,18 @@
 // How an image is cut into tiles, and samples into passes.
 #pragma once
 
+#include "film/film.h"
+
 #include <cstdint>
 #include <vector>
-
-#include "film/film.h"
 
 namespace etendue {
 
 /// Side of a tile in pixels: two samples of every pixel fill a wave of paths.
 inline constexpr int kTileSize = 32;
 
-/// Tiles of a grid that is anchored at the full image's origin, cut to `window`, row by row; or shuffled by `order_seed`
-/// if it is not 0.
+/// Tiles of a grid that is anchored at the full image's origin, cut to `window`, row by row; or shuffled by
+/// `order_seed` if it is not 0.
 [[nodiscard]] std::vector<PixelRect> make_tiles(const PixelRect& window, std::uint32_t order_seed);
 
 /// Samples of the pass that begins after `done` of `total` samples: 1, 1, 2, 4, 8, 16, 16, … so that the first picture

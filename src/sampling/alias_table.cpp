@@ -1,9 +1,6 @@
 #include "sampling/alias_table.h"
 
-#include <algorithm>
 #include <numeric>
-
-#include "sampling/warp.h"
 
 namespace etendue {
 
@@ -31,16 +28,6 @@ AliasTable::AliasTable(std::span<const double> weights) : bins_(weights.size()) 
             small.push_back(lender);
         }
     }
-}
-
-AliasTable::Choice AliasTable::sample(float u) const {
-    const float scaled = u * static_cast<float>(bins_.size());
-    const auto bin = std::min(static_cast<std::uint32_t>(scaled), static_cast<std::uint32_t>(bins_.size() - 1));
-    const float within = std::min(scaled - static_cast<float>(bin), kOneMinusEpsilon);
-    const Bin& b = bins_[bin];
-    if (within < b.threshold) return {bin, b.probability, std::min(within / b.threshold, kOneMinusEpsilon)};
-    const float rest = (within - b.threshold) / (1.0f - b.threshold);
-    return {b.alias, bins_[b.alias].probability, std::min(rest, kOneMinusEpsilon)};
 }
 
 }  // namespace etendue

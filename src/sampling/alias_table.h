@@ -1,6 +1,9 @@
 // Choosing one of n with given probabilities in constant time.
 #pragma once
 
+#include "sampling/warp.h"
+
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -35,5 +38,15 @@ class AliasTable {
     };
     std::vector<Bin> bins_;
 };
+
+inline AliasTable::Choice AliasTable::sample(float u) const {
+    const float scaled = u * static_cast<float>(bins_.size());
+    const auto bin = std::min(static_cast<std::uint32_t>(scaled), static_cast<std::uint32_t>(bins_.size() - 1));
+    const float within = std::min(scaled - static_cast<float>(bin), kOneMinusEpsilon);
+    const Bin& b = bins_[bin];
+    if (within < b.threshold) return {bin, b.probability, std::min(within / b.threshold, kOneMinusEpsilon)};
+    const float rest = (within - b.threshold) / (1.0f - b.threshold);
+    return {b.alias, bins_[b.alias].probability, std::min(rest, kOneMinusEpsilon)};
+}
 
 }  // namespace etendue

@@ -1,8 +1,8 @@
 #include "sampling/distribution.h"
 
-#include <algorithm>
-
 #include "sampling/warp.h"
+
+#include <algorithm>
 
 namespace etendue {
 
@@ -59,7 +59,9 @@ Distribution2D::Distribution2D(std::span<const float> weights, int width, int he
     marginal_ = Distribution1D(row_integrals);
 }
 
-const Distribution1D& Distribution2D::row(float y) const { return rows_[cell(y, rows_.size())]; }
+const Distribution1D& Distribution2D::row(float y) const {
+    return rows_[cell(y, rows_.size())];
+}
 
 Distribution2D::Sample Distribution2D::sample(Vec2f u) const {
     const Distribution1D::Sample y = marginal_.sample(u.y);
@@ -67,7 +69,9 @@ Distribution2D::Sample Distribution2D::sample(Vec2f u) const {
     return {{x.x, y.x}, x.pdf * y.pdf};
 }
 
-float Distribution2D::pdf(Vec2f position) const { return marginal_.pdf(position.y) * row(position.y).pdf(position.x); }
+float Distribution2D::pdf(Vec2f position) const {
+    return marginal_.pdf(position.y) * row(position.y).pdf(position.x);
+}
 
 Vec2f Distribution2D::inverse(Vec2f position) const {
     return {row(position.y).inverse(position.x), marginal_.inverse(position.y)};

@@ -2,11 +2,11 @@
 // stratification of the numbers that go in.
 #pragma once
 
+#include "core/vec.h"
+
 #include <cstddef>
 #include <span>
 #include <vector>
-
-#include "core/vec.h"
 
 namespace etendue {
 

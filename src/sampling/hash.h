@@ -21,6 +21,8 @@ namespace etendue {
 }
 
 /// The upper 24 bits as a float in [0, 1).
-[[nodiscard]] constexpr float to_unit_float(std::uint32_t x) { return static_cast<float>(x >> 8) * 0x1p-24f; }
+[[nodiscard]] constexpr float to_unit_float(std::uint32_t x) {
+    return static_cast<float>(x >> 8) * 0x1p-24f;
+}
 
 }  // namespace etendue

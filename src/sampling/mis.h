@@ -3,9 +3,11 @@
 
 namespace etendue {
 
-/// Balance heuristic, equation 9.8: weight of a sample drawn with density `pdf` when the other strategy has `other_pdf`,
-/// both in the same measure.
-[[nodiscard]] constexpr float balance_heuristic(float pdf, float other_pdf) { return pdf / (pdf + other_pdf); }
+/// Balance heuristic, equation 9.8: weight of a sample drawn with density `pdf` when the other strategy has
+/// `other_pdf`, both in the same measure.
+[[nodiscard]] constexpr float balance_heuristic(float pdf, float other_pdf) {
+    return pdf / (pdf + other_pdf);
+}
 
 /// Power heuristic with exponent 2, equation 9.9. Written as a ratio, so that large densities do not overflow.
 [[nodiscard]] constexpr float power_heuristic(float pdf, float other_pdf) {

@@ -1,10 +1,11 @@
 // Where random numbers come from: a function of (seed, pixel, sample index, dimension) and of nothing else.
 #pragma once
 
-#include <cstdint>
-
 #include "core/vec.h"
 #include "sampling/sobol.h"
+
+#include <cstdint>
+#include <span>
 
 namespace etendue {
 
@@ -23,14 +24,19 @@ struct SampleKey {
     return hash_combine(hash_combine(hash_u32(seed), x), y);
 }
 
-/// Two numbers in [0, 1)² for `dimension`, an index of pairs. Pairs of different dimensions are independent; within one,
-/// the samples of a pixel are well distributed in two dimensions.
+/// Two numbers in [0, 1)² for `dimension`, an index of pairs. Pairs of different dimensions are independent; within
+/// one, the samples of a pixel are well distributed in two dimensions.
 [[nodiscard]] inline Vec2f sample_2d(SampleSequence sequence, SampleKey key, std::uint32_t dimension) {
     const std::uint32_t seed = hash_combine(key.pixel_seed, dimension);
     if (sequence == SampleSequence::Sobol) return owen_sobol_2d(key.index, seed);
     const std::uint32_t x = hash_combine(seed, key.index);
     return {to_unit_float(x), to_unit_float(hash_u32(x ^ 0x9e3779b9u))};
 }
+
+/// The same for many samples at once: `x[i]`, `y[i]` are those of the key (`pixel_seeds[i]`, `indices[i]`). All spans
+/// have one length. Written so that compilers vectorise it: several times as fast as one call per sample.
+void sample_2d(SampleSequence sequence, std::span<const std::uint32_t> pixel_seeds,
+               std::span<const std::uint32_t> indices, std::uint32_t dimension, std::span<float> x, std::span<float> y);
 
 /// 32 random bits for `dimension`, unrelated to those of `sample_2d`.
 [[nodiscard]] constexpr std::uint32_t sample_bits(SampleKey key, std::uint32_t dimension) {

@@ -5,10 +5,10 @@
 // next: Burley, "Practical Hash-based Owen Scrambling", JCGT 9(4), 2020.
 #pragma once
 
-#include <cstdint>
-
 #include "core/vec.h"
 #include "sampling/hash.h"
+
+#include <cstdint>
 
 namespace etendue {
 
@@ -30,7 +30,8 @@ namespace etendue {
     return x;
 }
 
-/// Second dimension of the Sobol' sequence with its bits reversed: the index times the Pascal matrix modulo 2, by halves.
+/// Second dimension of the Sobol' sequence with its bits reversed: the index times the Pascal matrix modulo 2, by
+/// halves.
 [[nodiscard]] constexpr std::uint32_t sobol_second_reversed(std::uint32_t index) {
     index ^= (index >> 16);
     index ^= (index & 0xff00ff00u) >> 8;

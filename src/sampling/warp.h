@@ -1,14 +1,15 @@
 // Warps of the unit square: each with its pdf and its inverse.
 //
-// Notation: `square_to_x(u)` maps u in [0,1)² to the domain x, `x_pdf(p)` is the density of the result in the measure that
-// the name states, `x_to_square(p)` is the inverse. Sources: Shirley and Chiu, "A Low Distortion Map Between Disk and
-// Square" (JGT 2(3), 1997); pbrt, 4th edition, appendix A.5.
+// Notation: `square_to_x(u)` maps u in [0,1)² to the domain x, `x_pdf(p)` is the density of the result in the measure
+// that the name states, `x_to_square(p)` is the inverse. Sources: Shirley and Chiu, "A Low Distortion Map Between Disk
+// and Square" (JGT 2(3), 1997); pbrt, 4th edition, appendix A.5.
 #pragma once
+
+#include "core/trigonometry.h"
+#include "core/vec.h"
 
 #include <algorithm>
 #include <cmath>
-
-#include "core/vec.h"
 
 namespace etendue {
 
@@ -21,10 +22,12 @@ inline constexpr float kOneMinusEpsilon = 0x1.fffffep-1f;
     if (a == 0.0f && b == 0.0f) return {0.0f, 0.0f};
     const bool wide = std::abs(a) > std::abs(b);
     const float r = wide ? a : b;
-    const float phi = wide ? (kPi / 4.0f) * (b / a) : kPi / 2.0f - (kPi / 4.0f) * (a / b);
-    return {r * std::cos(phi), r * std::sin(phi)};
+    const SinCos angle = sin_cos_octant((kPi / 4.0f) * ((wide ? b : a) / r));
+    return wide ? Vec2f(r * angle.cos, r * angle.sin) : Vec2f(r * angle.sin, r * angle.cos);
 }
-[[nodiscard]] inline float disk_pdf_area(Vec2f p) { return p.x * p.x + p.y * p.y <= 1.0f ? kInvPi : 0.0f; }
+[[nodiscard]] inline float disk_pdf_area(Vec2f p) {
+    return p.x * p.x + p.y * p.y <= 1.0f ? kInvPi : 0.0f;
+}
 [[nodiscard]] inline Vec2f disk_to_square(Vec2f p) {
     const float r = std::sqrt(p.x * p.x + p.y * p.y);
     float phi = std::atan2(p.y, p.x);
@@ -52,17 +55,23 @@ inline constexpr float kOneMinusEpsilon = 0x1.fffffep-1f;
     const Vec2f d = square_to_disk(u);
     return {d.x, d.y, std::sqrt(std::max(0.0f, 1.0f - d.x * d.x - d.y * d.y))};
 }
-[[nodiscard]] inline float cosine_hemisphere_pdf_solid_angle(const Vec3f& w) { return std::max(0.0f, w.z) * kInvPi; }
-[[nodiscard]] inline Vec2f cosine_hemisphere_to_square(const Vec3f& w) { return disk_to_square({w.x, w.y}); }
+[[nodiscard]] inline float cosine_hemisphere_pdf_solid_angle(const Vec3f& w) {
+    return std::max(0.0f, w.z) * kInvPi;
+}
+[[nodiscard]] inline Vec2f cosine_hemisphere_to_square(const Vec3f& w) {
+    return disk_to_square({w.x, w.y});
+}
 
 /// To the unit sphere, uniformly.
 [[nodiscard]] inline Vec3f square_to_sphere(Vec2f u) {
     const float z = 1.0f - 2.0f * u.y;
     const float r = std::sqrt(std::max(0.0f, 1.0f - z * z));
-    const float phi = 2.0f * kPi * u.x;
-    return {r * std::cos(phi), r * std::sin(phi), z};
+    const SinCos phi = sin_cos_turns(u.x);
+    return {r * phi.cos, r * phi.sin, z};
 }
-[[nodiscard]] inline float sphere_pdf_solid_angle() { return kInvPi / 4.0f; }
+[[nodiscard]] inline float sphere_pdf_solid_angle() {
+    return kInvPi / 4.0f;
+}
 [[nodiscard]] inline Vec2f sphere_to_square(const Vec3f& w) {
     const float phi = std::atan2(w.y, w.x) * (kInvPi * 0.5f);
     return {phi < 0.0f ? phi + 1.0f : phi, (1.0f - w.z) * 0.5f};
@@ -72,18 +81,22 @@ inline constexpr float kOneMinusEpsilon = 0x1.fffffep-1f;
 [[nodiscard]] inline Vec3f square_to_hemisphere(Vec2f u) {
     const float z = 1.0f - u.y;
     const float r = std::sqrt(std::max(0.0f, 1.0f - z * z));
-    const float phi = 2.0f * kPi * u.x;
-    return {r * std::cos(phi), r * std::sin(phi), z};
+    const SinCos phi = sin_cos_turns(u.x);
+    return {r * phi.cos, r * phi.sin, z};
 }
-[[nodiscard]] inline float hemisphere_pdf_solid_angle(const Vec3f& w) { return w.z >= 0.0f ? kInvPi * 0.5f : 0.0f; }
-[[nodiscard]] inline Vec2f hemisphere_to_square(const Vec3f& w) { return {sphere_to_square(w).x, 1.0f - w.z}; }
+[[nodiscard]] inline float hemisphere_pdf_solid_angle(const Vec3f& w) {
+    return w.z >= 0.0f ? kInvPi * 0.5f : 0.0f;
+}
+[[nodiscard]] inline Vec2f hemisphere_to_square(const Vec3f& w) {
+    return {sphere_to_square(w).x, 1.0f - w.z};
+}
 
 /// To the cone of directions around +z whose half angle has the cosine `cos_max` (< 1), uniformly.
 [[nodiscard]] inline Vec3f square_to_cone(Vec2f u, float cos_max) {
     const float one_minus_z = u.y * (1.0f - cos_max);
     const float r = std::sqrt(std::max(0.0f, one_minus_z * (2.0f - one_minus_z)));
-    const float phi = 2.0f * kPi * u.x;
-    return {r * std::cos(phi), r * std::sin(phi), 1.0f - one_minus_z};
+    const SinCos phi = sin_cos_turns(u.x);
+    return {r * phi.cos, r * phi.sin, 1.0f - one_minus_z};
 }
 [[nodiscard]] inline float cone_pdf_solid_angle(const Vec3f& w, float cos_max) {
     return w.z >= cos_max ? kInvPi * 0.5f / (1.0f - cos_max) : 0.0f;

@@ -24,7 +24,8 @@ float decode_srgb(std::uint8_t value) {
 
 int wrap_index(int i, int size, Wrap wrap) {
     switch (wrap) {
-        case Wrap::Clamp: return std::clamp(i, 0, size - 1);
+        case Wrap::Clamp:
+            return std::clamp(i, 0, size - 1);
         case Wrap::Repeat: {
             const int remainder = i % size;
             return remainder < 0 ? remainder + size : remainder;
@@ -48,14 +49,20 @@ float texel_coordinate(float u, int size, Wrap wrap) {
 
 Texel make_texel(int channels, float c0, float c1, float c2, float c3) {
     switch (channels) {
-        case 1: return {Rgb(c0), 1.0f};
-        case 2: return {Rgb(c0), c1};
-        case 3: return {{c0, c1, c2}, 1.0f};
-        default: return {{c0, c1, c2}, c3};
+        case 1:
+            return {Rgb(c0), 1.0f};
+        case 2:
+            return {Rgb(c0), c1};
+        case 3:
+            return {{c0, c1, c2}, 1.0f};
+        default:
+            return {{c0, c1, c2}, c3};
     }
 }
 
-Texel mix(const Texel& a, const Texel& b, float t) { return {lerp(a.rgb, b.rgb, t), a.alpha + (b.alpha - a.alpha) * t}; }
+Texel mix(const Texel& a, const Texel& b, float t) {
+    return {lerp(a.rgb, b.rgb, t), a.alpha + (b.alpha - a.alpha) * t};
+}
 
 }  // namespace
 
@@ -106,7 +113,8 @@ Texel Texture::lookup(Vec2f uv) const {
     const float fy = y - 0.5f - top;
     const int ix = static_cast<int>(left);
     const int iy = static_cast<int>(top);
-    return mix(mix(wrapped(ix, iy), wrapped(ix + 1, iy), fx), mix(wrapped(ix, iy + 1), wrapped(ix + 1, iy + 1), fx), fy);
+    return mix(mix(wrapped(ix, iy), wrapped(ix + 1, iy), fx), mix(wrapped(ix, iy + 1), wrapped(ix + 1, iy + 1), fx),
+               fy);
 }
 
 Texel Texture::mean() const {
@@ -129,8 +137,8 @@ Texel Texture::mean() const {
 }
 
 std::size_t Texture::bytes() const {
-    const std::size_t count = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) *
-                              static_cast<std::size_t>(channels_);
+    const std::size_t count =
+        static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) * static_cast<std::size_t>(channels_);
     return count * (std::holds_alternative<std::vector<float>>(texels_) ? sizeof(float) : sizeof(std::uint8_t));
 }
 

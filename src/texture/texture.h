@@ -1,15 +1,15 @@
 // Decoded images, looked up by texture coordinate.
 #pragma once
 
+#include "core/rgb.h"
+#include "core/vec.h"
+#include "image/image.h"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <variant>
 #include <vector>
-
-#include "core/rgb.h"
-#include "core/vec.h"
-#include "image/image.h"
 
 namespace etendue {
 
@@ -28,7 +28,7 @@ struct TextureOptions {
 };
 
 struct Texel {
-    Rgb rgb;            ///< linear, in the image's own primaries
+    Rgb rgb;  ///< linear, in the image's own primaries
     float alpha = 1.0f;
 };
 
@@ -38,8 +38,8 @@ class Texture {
     Texture(Image8 image, TextureOptions options);
     Texture(ImageF image, TextureOptions options);
 
-    /// Bilinear (or nearest) value at `uv`: (0, 0) is the corner of the first texel of the top row, v grows downwards, as
-    /// in glTF. One channel reads as grey, two as grey and alpha. Non-finite coordinates read as (0, 0).
+    /// Bilinear (or nearest) value at `uv`: (0, 0) is the corner of the first texel of the top row, v grows downwards,
+    /// as in glTF. One channel reads as grey, two as grey and alpha. Non-finite coordinates read as (0, 0).
     [[nodiscard]] Texel lookup(Vec2f uv) const;
 
     /// Mean of rgb and of alpha over all texels, linear.

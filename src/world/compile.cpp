@@ -1,10 +1,10 @@
 #include "world/compile.h"
 
-#include <algorithm>
-#include <utility>
-
 #include "world/compile_parts.h"
 #include "world/embree_scene.h"
+
+#include <algorithm>
+#include <utility>
 
 namespace etendue {
 

@@ -11,8 +11,8 @@ namespace etendue {
 
 /// Compiles `scene`, which must have passed `validate`. Colours are converted to `working_space` (a canonical name of
 /// `colors`, scene-linear). Bulk arrays are moved out of `scene`, not copied. Images are decoded and BVHs built with
-/// `threads`. Warnings go to `problems`; throws SceneError for what cannot be rendered (an image that cannot be decoded, no
-/// camera) and IoError when Embree fails.
+/// `threads`. Warnings go to `problems`; throws SceneError for what cannot be rendered (an image that cannot be
+/// decoded, no camera) and IoError when Embree fails.
 [[nodiscard]] World compile_world(SceneDesc scene, const ColorConfig& colors, const std::string& working_space,
                                   const ThreadPool& threads, ProblemList& problems);
 

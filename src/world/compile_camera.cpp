@@ -1,7 +1,7 @@
+#include "world/compile_parts.h"
+
 #include <cmath>
 #include <vector>
-
-#include "world/compile_parts.h"
 
 namespace etendue {
 

@@ -1,7 +1,7 @@
+#include "world/compile_parts.h"
+
 #include <cmath>
 #include <utility>
-
-#include "world/compile_parts.h"
 
 namespace etendue {
 
@@ -74,8 +74,7 @@ void compile_geometry(SceneDesc& scene, const ThreadPool& threads, WorldData& da
     for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
         first_geometry[m] = static_cast<std::uint32_t>(data.geometries.size());
         if (uses[m] == 0) continue;
-        for (PrimitiveDesc& primitive : scene.meshes[m].primitives)
-            data.geometries.push_back(take_geometry(primitive));
+        for (PrimitiveDesc& primitive : scene.meshes[m].primitives) data.geometries.push_back(take_geometry(primitive));
     }
 
     std::uint32_t light_slots = 0;

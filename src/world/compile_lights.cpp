@@ -1,9 +1,9 @@
+#include "image/read.h"
+#include "world/compile_parts.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
-
-#include "image/read.h"
-#include "world/compile_parts.h"
 
 namespace etendue {
 
@@ -18,9 +18,12 @@ Light compile_punctual(const LightDesc& desc, const ColorMatrix& from_rec709) {
     const Vec3f axis = normalize(transform_vector(desc.to_world, {0.0f, 0.0f, -1.0f}));
     const Rgb intensity = from_rec709(desc.color) * desc.intensity;
     switch (desc.type) {
-        case LightType::Point: return PointLight{position, intensity};
-        case LightType::Directional: return DirectionalLight{axis, intensity};
-        case LightType::Spot: break;
+        case LightType::Point:
+            return PointLight{position, intensity};
+        case LightType::Directional:
+            return DirectionalLight{axis, intensity};
+        case LightType::Spot:
+            break;
     }
     // Equal cones make a hard edge; a falloff over nothing would divide by zero.
     const float cos_outer = std::cos(desc.outer_cone_angle);
@@ -35,8 +38,8 @@ Light compile_environment(const EnvironmentDesc& desc, const ColorMatrix& from_r
     try {
         file = read_image_float(desc.image);
     } catch (const IoError& error) {
-        throw SceneError(desc.location, "the environment image '" + desc.image.string() + "' cannot be read: " +
-                                            error.what());
+        throw SceneError(desc.location,
+                         "the environment image '" + desc.image.string() + "' cannot be read: " + error.what());
     }
     ImageF image(file.width, file.height, 3);
     for (int y = 0; y < file.height; ++y) {

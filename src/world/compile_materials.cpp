@@ -1,16 +1,18 @@
-#include <algorithm>
-#include <cmath>
-
 #include "bsdf/ggx.h"
 #include "bsdf/measured_metals.h"
 #include "world/compile_parts.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace etendue {
 
 namespace {
 
 /// Perceptual roughness to alpha; below what is visible the lobe is a delta.
-bool is_smooth(float roughness) { return roughness * roughness < kSmoothAlpha; }
+bool is_smooth(float roughness) {
+    return roughness * roughness < kSmoothAlpha;
+}
 
 Bsdf compile_conductor(const ConductorDesc& desc, const ColorMatrix& from_rec709) {
     FresnelMetal fresnel;
@@ -88,8 +90,7 @@ std::vector<Material> compile_materials(const SceneDesc& scene, const ColorMatri
                                         TextureCompiler& textures) {
     std::vector<Material> materials;
     materials.reserve(scene.materials.size());
-    for (const MaterialDesc& desc : scene.materials)
-        materials.push_back(compile_material(desc, from_rec709, textures));
+    for (const MaterialDesc& desc : scene.materials) materials.push_back(compile_material(desc, from_rec709, textures));
     return materials;
 }
 

@@ -1,14 +1,14 @@
 // The steps of compile_world, one file each. Each reads the description and fills its part of the WorldData.
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
 #include "color/color_config.h"
 #include "core/error.h"
 #include "core/parallel.h"
 #include "scene/scene_desc.h"
 #include "world/world.h"
+
+#include <cstdint>
+#include <vector>
 
 namespace etendue {
 

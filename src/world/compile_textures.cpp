@@ -1,9 +1,9 @@
-#include <cmath>
-#include <algorithm>
-#include <optional>
-
 #include "image/read.h"
 #include "world/compile_parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
 
 namespace etendue {
 
@@ -11,14 +11,19 @@ namespace {
 
 Wrap to_wrap(TextureWrap wrap) {
     switch (wrap) {
-        case TextureWrap::Repeat: return Wrap::Repeat;
-        case TextureWrap::MirroredRepeat: return Wrap::Mirror;
-        case TextureWrap::ClampToEdge: return Wrap::Clamp;
+        case TextureWrap::Repeat:
+            return Wrap::Repeat;
+        case TextureWrap::MirroredRepeat:
+            return Wrap::Mirror;
+        case TextureWrap::ClampToEdge:
+            return Wrap::Clamp;
     }
     return Wrap::Repeat;
 }
 
-float linear_from_srgb(float v) { return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f); }
+float linear_from_srgb(float v) {
+    return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
+}
 
 /// Deep integer files under the sRGB curve are linearised once; 8-bit ones keep their bytes and are decoded when read.
 void linearize(ImageF& image) {
@@ -33,8 +38,8 @@ void linearize(ImageF& image) {
 
 Texture decode_texture(const SceneDesc& scene, const TextureDesc& desc, TextureUse use) {
     const ImageDesc& image = scene.images[static_cast<std::size_t>(desc.image.index)];
-    const ImageSource source = image.path.empty() ? ImageSource(std::span<const std::byte>(image.encoded))
-                                                  : ImageSource(image.path);
+    const ImageSource source =
+        image.path.empty() ? ImageSource(std::span<const std::byte>(image.encoded)) : ImageSource(image.path);
     TextureOptions options{.wrap_u = to_wrap(desc.wrap_u),
                            .wrap_v = to_wrap(desc.wrap_v),
                            .encoding = use == TextureUse::Color ? Encoding::Srgb : Encoding::Linear,

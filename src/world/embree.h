@@ -28,7 +28,9 @@ inline RTCOccludedArguments occluded_arguments(Context& context, bool coherent) 
     return arguments;
 }
 
-inline void init_context(Context& context, bool /*coherent*/) { rtcInitRayQueryContext(&context); }
+inline void init_context(Context& context, bool /*coherent*/) {
+    rtcInitRayQueryContext(&context);
+}
 inline void intersect1(RTCScene scene, Context& context, RTCRayHit& ray) {
     RTCIntersectArguments arguments = intersect_arguments(context, false);
     rtcIntersect1(scene, &ray, &arguments);
@@ -54,11 +56,15 @@ inline void init_context(Context& context, bool coherent) {
     rtcInitIntersectContext(&context);
     context.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
 }
-inline void intersect1(RTCScene scene, Context& context, RTCRayHit& ray) { rtcIntersect1(scene, &context, &ray); }
+inline void intersect1(RTCScene scene, Context& context, RTCRayHit& ray) {
+    rtcIntersect1(scene, &context, &ray);
+}
 inline void intersect16(const int* valid, RTCScene scene, Context& context, bool /*coherent*/, RTCRayHit16& rays) {
     rtcIntersect16(valid, scene, &context, &rays);
 }
-inline void occluded1(RTCScene scene, Context& context, RTCRay& ray) { rtcOccluded1(scene, &context, &ray); }
+inline void occluded1(RTCScene scene, Context& context, RTCRay& ray) {
+    rtcOccluded1(scene, &context, &ray);
+}
 inline void occluded16(const int* valid, RTCScene scene, Context& context, bool /*coherent*/, RTCRay16& rays) {
     rtcOccluded16(valid, scene, &context, &rays);
 }

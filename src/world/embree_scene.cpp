@@ -1,14 +1,14 @@
 #include "world/embree_scene.h"
 
+#include "core/error.h"
+#include "sampling/hash.h"
+
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <unordered_map>
-
-#include "core/error.h"
-#include "sampling/hash.h"
 
 namespace etendue {
 
@@ -35,18 +35,20 @@ void filter_by_opacity(const RTCFilterFunctionNArguments* args) {
         const Vec2f barycentric{RTCHitN_u(args->hit, args->N, i), RTCHitN_v(args->hit, args->N, i)};
         const float opacity = context->scene->opacity(entry.geometry, triangle, barycentric);
         const std::uint32_t key = context->rays[RTCRayN_id(args->ray, args->N, i)].alpha_key;
-        const std::uint32_t bits = hash_combine(hash_combine(hash_combine(key, entry.instance), entry.geometry), triangle);
+        const std::uint32_t bits =
+            hash_combine(hash_combine(hash_combine(key, entry.instance), entry.geometry), triangle);
         if (to_unit_float(bits) >= opacity) args->valid[i] = 0;
     }
 }
 
-std::atomic<std::size_t>& memory_counter(void* pointer) { return *static_cast<std::atomic<std::size_t>*>(pointer); }
+std::atomic<std::size_t>& memory_counter(void* pointer) {
+    return *static_cast<std::atomic<std::size_t>*>(pointer);
+}
 
 bool count_memory(void* counter, ssize_t bytes, bool /*post*/) {
     memory_counter(counter).fetch_add(static_cast<std::size_t>(bytes), std::memory_order_relaxed);
     return true;
 }
-
 
 RTCRay make_ray(const Ray& ray, unsigned int id) {
     RTCRay r{};
@@ -95,7 +97,8 @@ EmbreeScene::EmbreeScene(std::span<const Geometry> geometries, std::span<const I
                          const std::vector<bool>& has_alpha, const ThreadPool& threads) {
     std::atomic<std::size_t> memory{0};
     threads.execute([&] {
-        // Embree's own threads would come on top of the pool's; with start_threads=0 it uses the arena it is called from.
+        // Embree's own threads would come on top of the pool's; with start_threads=0 it uses the arena it is called
+        // from.
         device_ = rtcNewDevice("start_threads=0,set_affinity=0");
         if (!device_) throw IoError("Embree could not be started");
         rtcSetDeviceMemoryMonitorFunction(device_, count_memory, &memory);
@@ -172,14 +175,18 @@ void EmbreeScene::set_opacity(OpacityFunction function, const void* world) {
 }
 
 void EmbreeScene::intersect(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence, QueryForm form) const {
-    if (form == QueryForm::Single) intersect_single(rays, hits);
-    else intersect_packets(rays, hits, coherence == Coherence::Coherent);
+    if (form == QueryForm::Single)
+        intersect_single(rays, hits);
+    else
+        intersect_packets(rays, hits, coherence == Coherence::Coherent);
 }
 
 void EmbreeScene::occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, Coherence coherence,
                            QueryForm form) const {
-    if (form == QueryForm::Single) occluded_single(rays, occluded);
-    else occluded_packets(rays, occluded, coherence == Coherence::Coherent);
+    if (form == QueryForm::Single)
+        occluded_single(rays, occluded);
+    else
+        occluded_packets(rays, occluded, coherence == Coherence::Coherent);
 }
 
 Hit EmbreeScene::make_hit(float t, float u, float v, unsigned int triangle, unsigned int inner,
@@ -199,8 +206,8 @@ void EmbreeScene::intersect_single(std::span<const Ray> rays, std::span<Hit> hit
         query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
         query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
         embree::intersect1(top_, context.base, query);
-        hits[i] = make_hit(query.ray.tfar, query.hit.u, query.hit.v, query.hit.primID, query.hit.geomID,
-                           query.hit.instID[0]);
+        hits[i] =
+            make_hit(query.ray.tfar, query.hit.u, query.hit.v, query.hit.primID, query.hit.geomID, query.hit.instID[0]);
     }
 }
 
@@ -252,9 +259,12 @@ RayTracerInfo ray_tracer_info() {
     RTCDevice device = rtcNewDevice("start_threads=0,set_affinity=0");
     if (!device) return info;
     const auto supports = [&](RTCDeviceProperty property) { return rtcGetDeviceProperty(device, property) != 0; };
-    if (supports(RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED)) info.isa = "AVX-512";
-    else if (supports(RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED)) info.isa = "AVX/AVX2";
-    else info.isa = "SSE";
+    if (supports(RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED))
+        info.isa = "AVX-512";
+    else if (supports(RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED))
+        info.isa = "AVX/AVX2";
+    else
+        info.isa = "SSE";
     rtcReleaseDevice(device);
     return info;
 }

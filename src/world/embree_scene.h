@@ -1,18 +1,18 @@
 // The acceleration structure, and how batches of rays go through it.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <span>
-#include <vector>
-
 #include "core/bounds.h"
 #include "core/parallel.h"
 #include "core/ray.h"
 #include "world/embree.h"
 #include "world/geometry.h"
 #include "world/world.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
 
 namespace etendue {
 
@@ -23,8 +23,8 @@ using OpacityFunction = float (*)(const void* world, std::uint32_t geometry, std
 /// built once, and instances in the top-level one.
 class EmbreeScene {
   public:
-    /// Builds all BVHs with the threads of `threads`. The geometries' vectors must stay where they are: Embree reads them.
-    /// `has_alpha[g]` says which geometries need their opacity evaluated.
+    /// Builds all BVHs with the threads of `threads`. The geometries' vectors must stay where they are: Embree reads
+    /// them. `has_alpha[g]` says which geometries need their opacity evaluated.
     EmbreeScene(std::span<const Geometry> geometries, std::span<const Instance> instances,
                 const std::vector<bool>& has_alpha, const ThreadPool& threads);
     ~EmbreeScene();

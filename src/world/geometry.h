@@ -1,11 +1,11 @@
 // Triangles as the World keeps them: the arrays that Embree reads and that shading interpolates.
 #pragma once
 
+#include "core/vec.h"
+
 #include <array>
 #include <cstdint>
 #include <vector>
-
-#include "core/vec.h"
 
 namespace etendue {
 
@@ -30,7 +30,7 @@ struct Instance {
     std::uint32_t geometry_count = 0;
     /// Where this instance's entries begin in the World's table of lights, one per geometry.
     std::uint32_t first_light_slot = 0;
-    bool baked = true;  ///< geometry is in world space already; the matrices are identities
+    bool baked = true;     ///< geometry is in world space already; the matrices are identities
     bool mirrors = false;  ///< to_world turns right-handed into left-handed
     Mat4f to_world;
     Mat4f to_local;

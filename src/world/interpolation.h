@@ -1,11 +1,11 @@
 // Vertex attributes at a point of a triangle.
 #pragma once
 
+#include "core/vec.h"
+
 #include <array>
 #include <cstdint>
 #include <vector>
-
-#include "core/vec.h"
 
 namespace etendue {
 

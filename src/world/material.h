@@ -1,14 +1,14 @@
 // Materials as they are evaluated: colours in the working space, textures resolved to indices.
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <variant>
-
 #include "bsdf/bsdf.h"
 #include "color/color_config.h"
 #include "core/rgb.h"
 #include "core/vec.h"
+
+#include <cstdint>
+#include <optional>
+#include <variant>
 
 namespace etendue {
 
@@ -40,7 +40,7 @@ struct Material {
     /// Either a lobe that is the same everywhere, or the model to evaluate.
     std::variant<Bsdf, GltfModel> model;
 
-    Rgb emission;           ///< radiance in W/(m² sr): working space, or linear Rec.709 if there is a texture
+    Rgb emission;  ///< radiance in W/(m² sr): working space, or linear Rec.709 if there is a texture
     TextureSlot emission_texture;
     bool emits = false;
     bool emits_both_sides = false;
@@ -50,7 +50,7 @@ struct Material {
     float alpha_factor = 1.0f;
     TextureSlot alpha_texture;
 
-    bool unlit = false;     ///< shows its base colour to the eye and scatters nothing
+    bool unlit = false;  ///< shows its base colour to the eye and scatters nothing
     TextureSlot normal_texture;
     float normal_scale = 1.0f;
 };

@@ -1,9 +1,9 @@
 #include "world/material_evaluation.h"
 
+#include "world/interpolation.h"
+
 #include <algorithm>
 #include <cmath>
-
-#include "world/interpolation.h"
 
 namespace etendue {
 
@@ -60,7 +60,8 @@ Bsdf evaluate_gltf_model(const WorldData& data, const GltfModel& model, const Su
     lobe.alpha = roughness * roughness;
     lobe.f0 = model.f0;
     lobe.transmission = model.transmission;
-    if (model.transmission_texture.valid()) lobe.transmission *= lookup(data, model.transmission_texture, point.uv).rgb.r;
+    if (model.transmission_texture.valid())
+        lobe.transmission *= lookup(data, model.transmission_texture, point.uv).rgb.r;
     return lobe;
 }
 

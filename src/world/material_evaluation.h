@@ -1,12 +1,12 @@
 // Materials at a point: textures looked up, numbers handed to the lobes.
 #pragma once
 
-#include <cstdint>
-
 #include "bsdf/bsdf.h"
 #include "core/rgb.h"
 #include "world/surface_point.h"
 #include "world/world.h"
+
+#include <cstdint>
 
 namespace etendue {
 

@@ -1,16 +1,16 @@
 // A BSDF placed on a surface: world directions in and out, and the two rules for shading normals that all integrators
 // share.
 //
-// Leaks: a direction that lies on different sides of the shading and of the geometric normal scatters nothing, whichever
-// end of the walk it is (Veach 1997, section 5.3.3, for why both must agree).
-// Adjoint: walks that carry importance have the factor |wi·n_s| |wo·n_g| / (|wi·n_g| |wo·n_s|), in the names of this walk
-// (Veach 1997, equation 5.19); `evaluate` and `sample` both include it.
+// Leaks: a direction that lies on different sides of the shading and of the geometric normal scatters nothing,
+// whichever end of the walk it is (Veach 1997, section 5.3.3, for why both must agree). Adjoint: walks that carry
+// importance have the factor |wi·n_s| |wo·n_g| / (|wi·n_g| |wo·n_s|), in the names of this walk (Veach 1997,
+// equation 5.19); `evaluate` and `sample` both include it.
 #pragma once
-
-#include <variant>
 
 #include "bsdf/bsdf.h"
 #include "core/frame.h"
+
+#include <variant>
 
 namespace etendue {
 

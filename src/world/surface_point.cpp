@@ -1,10 +1,10 @@
 #include "world/surface_point.h"
 
-#include <cmath>
-
 #include "world/interpolation.h"
 #include "world/material_evaluation.h"
 #include "world/world.h"
+
+#include <cmath>
 
 namespace etendue {
 
@@ -76,8 +76,8 @@ SurfacePoint make_surface_point(const WorldData& data, std::uint32_t instance_in
     const float shading_length = length(shading);
     const bool usable = shading_length > 0.0f && dot(shading, point.geometric_normal) > 0.0f;
     const Vec3f normal = usable ? shading * (1.0f / shading_length) : point.geometric_normal;
-    point.shading = length_squared(tangent) > 0.0f ? Frame::from_normal_and_tangent(normal, tangent)
-                                                   : Frame::from_normal(normal);
+    point.shading =
+        length_squared(tangent) > 0.0f ? Frame::from_normal_and_tangent(normal, tangent) : Frame::from_normal(normal);
     if (normal_mapped) point.shading = apply_normal_map(data, material, point, bitangent_sign);
     return point;
 }

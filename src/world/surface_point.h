@@ -1,10 +1,10 @@
 // A point on a surface, with everything that its material needs.
 #pragma once
 
-#include <cstdint>
-
 #include "core/frame.h"
 #include "core/vec.h"
+
+#include <cstdint>
 
 namespace etendue {
 

@@ -1,10 +1,10 @@
 #include "world/world.h"
 
-#include <algorithm>
-#include <utility>
-
 #include "world/embree_scene.h"
 #include "world/material_evaluation.h"
+
+#include <algorithm>
+#include <utility>
 
 namespace etendue {
 
@@ -34,6 +34,8 @@ WorldData& WorldData::operator=(WorldData&&) noexcept = default;
 World::World(WorldData data)
     : data_(std::make_unique<WorldData>(std::move(data))), selector_(data_->lights, radius_of(data_->bounds)) {
     data_->bvh->set_opacity(opacity_callback, data_.get());
+    has_transparency_ = std::any_of(data_->materials.begin(), data_->materials.end(),
+                                    [](const Material& m) { return m.alpha_test != AlphaTest::Opaque; });
 }
 
 World::~World() = default;
@@ -95,7 +97,8 @@ float World::emitter_pdf_solid_angle(const SurfacePoint& point, const Vec3f& dir
         data_->light_of_slot[instance.first_light_slot + point.geometry - instance.first_geometry];
     if (light == kNone) return 0.0f;
     const float cos_light = -dot(direction, point.geometric_normal);
-    return std::get<MeshLight>(data_->lights[light]).pdf_solid_angle(distance, cos_light) * selector_.probability(light);
+    return std::get<MeshLight>(data_->lights[light]).pdf_solid_angle(distance, cos_light) *
+           selector_.probability(light);
 }
 
 Rgb World::environment_radiance(const Vec3f& direction) const {
@@ -108,7 +111,9 @@ float World::environment_pdf_solid_angle(const Vec3f& direction) const {
            selector_.probability(data_->environment);
 }
 
-float World::bounding_radius() const { return radius_of(data_->bounds); }
+float World::bounding_radius() const {
+    return radius_of(data_->bounds);
+}
 
 WorldStatistics World::statistics() const {
     WorldStatistics s;

@@ -2,13 +2,6 @@
 // query it; queries come in batches, because that is what makes them fast (docs/performance.md).
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <memory>
-#include <span>
-#include <string>
-#include <vector>
-
 #include "bsdf/bsdf.h"
 #include "camera/camera.h"
 #include "core/bounds.h"
@@ -19,17 +12,24 @@
 #include "world/material.h"
 #include "world/surface_point.h"
 
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
 namespace etendue {
 
 class EmbreeScene;
 
 /// The nearest surface along a ray. 24 bytes.
 struct Hit {
-    float t = 0.0f;                 ///< metres along the ray
-    float u = 0.0f, v = 0.0f;       ///< barycentric coordinates of the second and third vertex
+    float t = 0.0f;            ///< metres along the ray
+    float u = 0.0f, v = 0.0f;  ///< barycentric coordinates of the second and third vertex
     std::uint32_t triangle = 0;
     std::uint32_t geometry = 0;
-    std::uint32_t instance = kNone; ///< kNone if nothing was hit
+    std::uint32_t instance = kNone;  ///< kNone if nothing was hit
 
     [[nodiscard]] bool valid() const { return instance != kNone; }
 };
@@ -43,8 +43,8 @@ enum class Coherence {
 /// How a batch goes through Embree. The default is what measured best for its coherence; benchmarks compare.
 enum class QueryForm { Best, Single, Packet16 };
 
-/// Sees every batch of rays before it is traced: for benchmarks that replay a render's rays. Called from the threads that
-/// render.
+/// Sees every batch of rays before it is traced: for benchmarks that replay a render's rays. Called from the threads
+/// that render.
 class RayObserver {
   public:
     virtual ~RayObserver() = default;
@@ -81,7 +81,7 @@ struct WorldData {
     std::uint32_t environment = kNone;         ///< index into `lights`
     bool environment_visible = true;           ///< to camera rays
     Camera camera;
-    ColorMatrix from_rec709;                   ///< linear Rec.709 to the working space
+    ColorMatrix from_rec709;  ///< linear Rec.709 to the working space
     Bounds bounds;
     std::unique_ptr<EmbreeScene> bvh;
 
@@ -93,8 +93,8 @@ struct WorldData {
 
 /// A light chosen for a point, with the choice in its density.
 struct ChosenLight {
-    LightSample sample;      ///< pdf_solid_angle includes the choice
-    float probability = 0;   ///< of choosing this light
+    LightSample sample;     ///< pdf_solid_angle includes the choice
+    float probability = 0;  ///< of choosing this light
 };
 
 class World {
@@ -122,12 +122,15 @@ class World {
     /// Colour of an unlit surface.
     [[nodiscard]] Rgb unlit_color(const SurfacePoint& point) const;
 
+    /// False if every surface stops all light, so that rays need no alpha keys.
+    [[nodiscard]] bool has_transparency() const { return has_transparency_; }
     [[nodiscard]] bool has_lights() const { return !selector_.empty(); }
     /// Light arriving at `point` from a light chosen by power; `u_light` in [0, 1), `u` in [0, 1)².
     [[nodiscard]] ChosenLight sample_light(const Vec3f& point, float u_light, Vec2f u) const;
-    /// Density, choice included, with which `sample_light` would have picked the direction that hit the emitter `point` at
-    /// `distance`. 0 if it is no sampled light.
-    [[nodiscard]] float emitter_pdf_solid_angle(const SurfacePoint& point, const Vec3f& direction, float distance) const;
+    /// Density, choice included, with which `sample_light` would have picked the direction that hit the emitter `point`
+    /// at `distance`. 0 if it is no sampled light.
+    [[nodiscard]] float emitter_pdf_solid_angle(const SurfacePoint& point, const Vec3f& direction,
+                                                float distance) const;
 
     [[nodiscard]] bool has_environment() const { return data_->environment != kNone; }
     [[nodiscard]] Rgb environment_radiance(const Vec3f& direction) const;
@@ -145,6 +148,7 @@ class World {
     // On the heap, so that Embree's callbacks keep their pointer to it when a World is moved.
     std::unique_ptr<WorldData> data_;
     LightSelector selector_;
+    bool has_transparency_ = false;
     RayObserver* observer_ = nullptr;
 };
 

@@ -2,13 +2,18 @@
 //
 // Usage: bench_render SCENE_DIRECTORY [--spp N] [--size WxH] [--repeat N]
 //
-// Renders the scene with the path integrator on 1 and 2 threads, records every ray of one render, and traces exactly those
-// rays again with bare Embree, as single rays and in packets of 16:
+// Renders the scene with the path integrator on 1 and 2 threads, records every ray of one render, and traces exactly
+// those rays again with bare Embree, as single rays and in packets of 16:
 //
 //   efficiency = time bare Embree takes for exactly the rays that the renderer traced, as single rays
 //                / time that the renderer took
 //
 // All figures come from one process and are the best of `--repeat` interleaved runs.
+
+#include "app/scene_render.h"
+#include "integrator/integrator.h"
+#include "render/render.h"
+#include "world/compile.h"
 
 #include <algorithm>
 #include <atomic>
@@ -19,11 +24,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-
-#include "app/scene_render.h"
-#include "integrator/integrator.h"
-#include "render/render.h"
-#include "world/compile.h"
 
 namespace {
 
@@ -65,7 +65,9 @@ double replay(const World& world, const std::vector<Batch>& batches, QueryForm f
     std::vector<std::uint8_t> occluded;
     double total = 0.0;
     for (const Batch& batch : batches) {
-        const Kind of_batch = batch.shadow ? Kind::Shadow : batch.coherence == Coherence::Coherent ? Kind::Camera : Kind::Bounce;
+        const Kind of_batch = batch.shadow                             ? Kind::Shadow
+                              : batch.coherence == Coherence::Coherent ? Kind::Camera
+                                                                       : Kind::Bounce;
         if (of_batch != kind) continue;
         hits.resize(std::max(hits.size(), batch.rays.size()));
         occluded.resize(std::max(occluded.size(), batch.rays.size()));
@@ -91,11 +93,17 @@ bool parse(int argc, char** argv, Arguments& arguments) {
     for (int i = 1; i < argc; ++i) {
         const std::string option = argv[i];
         const bool has_value = i + 1 < argc;
-        if (option == "--spp" && has_value) arguments.spp = std::atoi(argv[++i]);
-        else if (option == "--repeat" && has_value) arguments.repeat = std::atoi(argv[++i]);
-        else if (option == "--size" && has_value && std::sscanf(argv[++i], "%dx%d", &arguments.width, &arguments.height) == 2) continue;
-        else if (arguments.scene.empty() && option[0] != '-') arguments.scene = option;
-        else return false;
+        if (option == "--spp" && has_value)
+            arguments.spp = std::atoi(argv[++i]);
+        else if (option == "--repeat" && has_value)
+            arguments.repeat = std::atoi(argv[++i]);
+        else if (option == "--size" && has_value &&
+                 std::sscanf(argv[++i], "%dx%d", &arguments.width, &arguments.height) == 2)
+            continue;
+        else if (arguments.scene.empty() && option[0] != '-')
+            arguments.scene = option;
+        else
+            return false;
     }
     return !arguments.scene.empty() && arguments.spp > 0 && arguments.repeat > 0;
 }

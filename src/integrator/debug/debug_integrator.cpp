@@ -1,9 +1,9 @@
 #include "integrator/debug/debug_integrator.h"
 
-#include <algorithm>
-
 #include "integrator/camera_wave.h"
 #include "world/scattering.h"
+
+#include <algorithm>
 
 namespace etendue {
 
@@ -21,7 +21,9 @@ constexpr int kAlbedoSamples = 16;
 
 }  // namespace
 
-std::unique_ptr<IntegratorScratch> DebugIntegrator::make_scratch() const { return std::make_unique<DebugScratch>(); }
+std::unique_ptr<IntegratorScratch> DebugIntegrator::make_scratch() const {
+    return std::make_unique<DebugScratch>();
+}
 
 void DebugIntegrator::render_tile(const World& world, const TileJob& job, IntegratorScratch& scratch, TileBuffer& tile,
                                   RenderCounters& counters) const {
@@ -36,7 +38,8 @@ void DebugIntegrator::render_tile(const World& world, const TileJob& job, Integr
         counters.camera_rays += count;
         for (std::size_t i = 0; i < count; ++i) {
             const bool hit = hits[i].valid();
-            accumulate(job, s.samples[i], hit ? value(world, rays[i], hits[i]) : Rgb(), hit ? 1.0f : 0.0f, tile, counters);
+            accumulate(job, s.samples[i], hit ? value(world, rays[i], hits[i]) : Rgb(), hit ? 1.0f : 0.0f, tile,
+                       counters);
         }
     }
 }

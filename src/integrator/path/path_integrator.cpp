@@ -1,12 +1,14 @@
 #include "integrator/path/path_integrator.h"
 
-#include <algorithm>
-
 #include "integrator/path/path_wave.h"
+
+#include <algorithm>
 
 namespace etendue {
 
-std::unique_ptr<IntegratorScratch> PathIntegrator::make_scratch() const { return std::make_unique<PathWave>(); }
+std::unique_ptr<IntegratorScratch> PathIntegrator::make_scratch() const {
+    return std::make_unique<PathWave>();
+}
 
 void PathIntegrator::render_tile(const World& world, const TileJob& job, IntegratorScratch& scratch, TileBuffer& tile,
                                  RenderCounters& counters) const {

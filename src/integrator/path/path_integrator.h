@@ -1,5 +1,5 @@
-// Path tracing: eye paths that meet light by next-event estimation and by chance, combined by multiple importance sampling
-// (Kajiya 1986; Veach 1997, chapter 9; Russian roulette after Arvo and Kirk 1990).
+// Path tracing: eye paths that meet light by next-event estimation and by chance, combined by multiple importance
+// sampling (Kajiya 1986; Veach 1997, chapter 9; Russian roulette after Arvo and Kirk 1990).
 //
 // Written as steps over a wave of paths: generate, then per bounce intersect, shade, test shadow rays, add. With
 // `sample_lights` off it is the naive path tracer, which finds lights by chance only.

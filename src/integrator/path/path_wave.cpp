@@ -1,9 +1,9 @@
 #include "integrator/path/path_wave.h"
 
-#include <algorithm>
-
 #include "sampling/mis.h"
 #include "world/scattering.h"
+
+#include <algorithm>
 
 namespace etendue {
 
@@ -13,13 +13,13 @@ namespace {
 enum BounceDimension : std::uint32_t {
     kLightDirection,
     kBsdfDirection,
-    kChoices,   ///< x: which light, y: which lobe
-    kRoulette,  ///< x
-    kAlpha,     ///< bits for the bounce ray and the shadow ray
+    kChoices,
+    kRoulette,
+    kAlpha,
     kBounceDimensions
 };
 
-std::uint32_t bounce_dimension(int depth, BounceDimension which) {
+std::uint32_t bounce_dimension(int depth, std::uint32_t which) {
     return kFirstFreeDimension + static_cast<std::uint32_t>(depth) * kBounceDimensions + which;
 }
 
@@ -32,12 +32,19 @@ PathWave::PathWave()
     : states_(kCapacity),
       rays_(kCapacity),
       hits_(kCapacity),
+      pixel_seeds_(kCapacity),
+      sample_indices_(kCapacity),
       shadow_rays_(kCapacity),
       pending_(kCapacity),
       occluded_(kCapacity),
       samples_(kCapacity),
       radiance_(kCapacity),
-      alpha_(kCapacity) {}
+      alpha_(kCapacity) {
+    for (Numbers* numbers : {&light_direction_, &bsdf_direction_, &choices_, &roulette_}) {
+        numbers->x.resize(kCapacity);
+        numbers->y.resize(kCapacity);
+    }
+}
 
 void PathWave::trace(const World& world, const TileJob& job, const PathOptions& options, std::size_t first,
                      std::size_t count, TileBuffer& tile, RenderCounters& counters) {
@@ -45,6 +52,8 @@ void PathWave::trace(const World& world, const TileJob& job, const PathOptions& 
     for (std::size_t i = 0; i < count; ++i) {
         states_[i] = PathState{};
         states_[i].slot = static_cast<std::uint32_t>(i);
+        pixel_seeds_[i] = samples_[i].key.pixel_seed;
+        sample_indices_[i] = samples_[i].key.index;
         radiance_[i] = Rgb();
         alpha_[i] = 1.0f;
     }
@@ -53,10 +62,26 @@ void PathWave::trace(const World& world, const TileJob& job, const PathOptions& 
         const Coherence coherence = depth == 1 ? Coherence::Coherent : Coherence::Incoherent;
         world.intersect(std::span(rays_).first(active_), std::span(hits_).first(active_), coherence);
         (depth == 1 ? counters.camera_rays : counters.bounce_rays) += active_;
-        shade({world, job, options, depth});
+        const Context context{world, job, options, depth};
+        draw_numbers(context);
+        shade(context);
         add_unoccluded(world, counters);
     }
     for (std::size_t i = 0; i < count; ++i) accumulate(job, samples_[i], radiance_[i], alpha_[i], tile, counters);
+}
+
+void PathWave::draw(const Context& context, std::uint32_t which, Numbers& numbers) {
+    sample_2d(context.job.sequence, std::span(pixel_seeds_).first(active_), std::span(sample_indices_).first(active_),
+              bounce_dimension(context.depth, which), std::span(numbers.x).first(active_),
+              std::span(numbers.y).first(active_));
+}
+
+void PathWave::draw_numbers(const Context& context) {
+    if (context.depth >= context.options.lengths.max_depth) return;
+    if (context.options.sample_lights) draw(context, kLightDirection, light_direction_);
+    draw(context, kBsdfDirection, bsdf_direction_);
+    draw(context, kChoices, choices_);
+    if (context.depth >= context.options.lengths.roulette_depth) draw(context, kRoulette, roulette_);
 }
 
 void PathWave::shade(const Context& context) {
@@ -68,6 +93,8 @@ void PathWave::shade(const Context& context) {
         if (!shade_path(context, i, next, next_ray)) continue;
         states_[kept] = next;
         rays_[kept] = next_ray;
+        pixel_seeds_[kept] = pixel_seeds_[i];
+        sample_indices_[kept] = sample_indices_[i];
         ++kept;
     }
     active_ = kept;
@@ -92,16 +119,13 @@ bool PathWave::shade_path(const Context& context, std::size_t i, PathState& next
     if (context.depth >= context.options.lengths.max_depth) return false;
 
     Bsdf storage;
-    const Scattering scattering(context.world.bsdf(point, storage), point.shading, point.geometric_normal, -ray.direction);
+    const Scattering scattering(context.world.bsdf(point, storage), point.shading, point.geometric_normal,
+                                -ray.direction);
     if (context.options.sample_lights && scattering.has_non_delta() && context.world.has_lights() &&
         context.depth + 1 >= context.options.lengths.min_depth)
-        queue_direct_light(context, state, point, scattering);
+        queue_direct_light(context, i, point, scattering);
 
-    const SampleKey key = samples_[state.slot].key;
-    const auto dimension = [&](BounceDimension which) { return bounce_dimension(context.depth, which); };
-    const float u_lobe = sample_2d(context.job.sequence, key, dimension(kChoices)).y;
-    const BsdfSample sample = scattering.sample(u_lobe, sample_2d(context.job.sequence, key, dimension(kBsdfDirection)),
-                                                TransportMode::Radiance);
+    const BsdfSample sample = scattering.sample(choices_.y[i], bsdf_direction_.pair(i), TransportMode::Radiance);
     if (is_black(sample.weight)) return false;
 
     next = state;
@@ -112,12 +136,12 @@ bool PathWave::shade_path(const Context& context, std::size_t i, PathState& next
     if (sample.is_transmission) next.eta_scale *= sample.eta * sample.eta;
     if (context.depth >= context.options.lengths.roulette_depth) {
         const float survival = std::min(1.0f, max_component(next.throughput) * next.eta_scale);
-        if (sample_2d(context.job.sequence, key, dimension(kRoulette)).x >= survival) return false;
+        if (roulette_.x[i] >= survival) return false;
         next.throughput *= 1.0f / survival;
     }
     next_ray.origin = offset_origin(point.position, point.geometric_normal, sample.wi);
     next_ray.direction = sample.wi;
-    next_ray.alpha_key = sample_bits(key, dimension(kAlpha));
+    next_ray.alpha_key = alpha_key(context, i);
     return true;
 }
 
@@ -141,32 +165,34 @@ void PathWave::add_emission(const Context& context, const PathState& state, cons
     if (is_black(emitted)) return;
     float weight = 1.0f;
     if (context.options.sample_lights && !state.after_delta)
-        weight = power_heuristic(state.pdf_solid_angle,
-                                 context.world.emitter_pdf_solid_angle(point, ray.direction, hit.t));
+        weight =
+            power_heuristic(state.pdf_solid_angle, context.world.emitter_pdf_solid_angle(point, ray.direction, hit.t));
     radiance_[state.slot] += state.throughput * emitted * weight;
 }
 
-void PathWave::queue_direct_light(const Context& context, const PathState& state, const SurfacePoint& point,
+std::uint32_t PathWave::alpha_key(const Context& context, std::size_t i) const {
+    if (!context.world.has_transparency()) return 0;
+    return sample_bits({pixel_seeds_[i], sample_indices_[i]}, bounce_dimension(context.depth, kAlpha));
+}
+
+void PathWave::queue_direct_light(const Context& context, std::size_t i, const SurfacePoint& point,
                                   const Scattering& scattering) {
-    const SampleKey key = samples_[state.slot].key;
-    const auto dimension = [&](BounceDimension which) { return bounce_dimension(context.depth, which); };
-    const float u_light = sample_2d(context.job.sequence, key, dimension(kChoices)).x;
-    const ChosenLight chosen = context.world.sample_light(
-        point.position, u_light, sample_2d(context.job.sequence, key, dimension(kLightDirection)));
+    const PathState& state = states_[i];
+    const ChosenLight chosen = context.world.sample_light(point.position, choices_.x[i], light_direction_.pair(i));
     const LightSample& light = chosen.sample;
     if (is_black(light.radiance)) return;
     const BsdfValue value = scattering.evaluate(light.wi, TransportMode::Radiance);
     if (is_black(value.f_cos)) return;
 
     // A delta light can be found in no other way; its density is the choice's probability alone.
-    const float scale = light.is_delta ? 1.0f / chosen.probability
-                                       : power_heuristic(light.pdf_solid_angle, value.pdf_solid_angle) /
-                                             light.pdf_solid_angle;
+    const float scale = light.is_delta
+                            ? 1.0f / chosen.probability
+                            : power_heuristic(light.pdf_solid_angle, value.pdf_solid_angle) / light.pdf_solid_angle;
     Ray& ray = shadow_rays_[pending_count_];
     ray.origin = offset_origin(point.position, point.geometric_normal, light.wi);
     ray.direction = light.wi;
     ray.t_max = light.distance * kShadowRayEnd;
-    ray.alpha_key = hash_u32(sample_bits(key, dimension(kAlpha)));
+    ray.alpha_key = ~alpha_key(context, i);  // another key than the bounce ray's
     pending_[pending_count_] = {state.throughput * value.f_cos * light.radiance * scale, state.slot};
     ++pending_count_;
 }
