@@ -1,8 +1,7 @@
 #include "render/tiles.h"
 
-#include "sampling/hash.h"
-
 #include <algorithm>
+#include <random>
 #include <utility>
 
 namespace etendue {
@@ -13,9 +12,10 @@ std::vector<PixelRect> make_tiles(const PixelRect& window, std::uint32_t order_s
         for (int x = window.x0 / kTileSize * kTileSize; x < window.x1; x += kTileSize)
             tiles.push_back({std::max(x, window.x0), std::max(y, window.y0), std::min(x + kTileSize, window.x1),
                              std::min(y + kTileSize, window.y1)});
-    if (order_seed != 0)
-        for (std::size_t i = tiles.size(); i > 1; --i)
-            std::swap(tiles[i - 1], tiles[hash_combine(order_seed, static_cast<std::uint32_t>(i)) % i]);
+    if (order_seed != 0) {
+        std::minstd_rand random(order_seed);
+        for (std::size_t i = tiles.size(); i > 1; --i) std::swap(tiles[i - 1], tiles[random() % i]);
+    }
     return tiles;
 }
 
