@@ -1,0 +1,128 @@
+#include "metrics/block_agreement.h"
+
+#include "metrics/error_metrics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+namespace etendue {
+
+namespace {
+
+struct Region {
+    int x0 = 0;
+    int y0 = 0;
+    int x1 = 0;
+    int y1 = 0;
+};
+
+struct Moments {
+    double mean = 0.0;
+    double variance = 0.0;  ///< of `mean`
+};
+
+Moments moments(const ImageEstimate& image, const Region& region, int channel) {
+    Moments sum;
+    const auto c = static_cast<std::size_t>(channel);
+    for (int y = region.y0; y < region.y1; ++y) {
+        for (int x = region.x0; x < region.x1; ++x) {
+            sum.mean += static_cast<double>(image.mean.pixel(x, y)[c]);
+            sum.variance += static_cast<double>(image.variance.pixel(x, y)[c]);
+        }
+    }
+    const double pixels = static_cast<double>(region.x1 - region.x0) * static_cast<double>(region.y1 - region.y0);
+    return {sum.mean / pixels, sum.variance / (pixels * pixels)};
+}
+
+BlockDifference compare(const ImageEstimate& a, const ImageEstimate& b, const Region& region, int channel,
+                        double tolerance) {
+    const Moments of_a = moments(a, region, channel);
+    const Moments of_b = moments(b, region, channel);
+    BlockDifference result{region.x0, region.y0, channel, of_a.mean, of_b.mean, 0.0};
+    const double difference = of_a.mean - of_b.mean;
+    const double excess = std::abs(difference) - tolerance * std::max(std::abs(of_a.mean), std::abs(of_b.mean));
+    // Written so that what is not a number does not pass.
+    if (excess <= 0.0) return result;
+    result.z = std::copysign(excess / std::sqrt(of_a.variance + of_b.variance), difference);
+    if (std::isnan(result.z)) result.z = std::numeric_limits<double>::infinity();
+    return result;
+}
+
+/// Largest relative difference of the means of the whole images over the channels; NaN if one is not a number.
+double mean_difference(const ImageEstimate& a, const ImageEstimate& b) {
+    const Region whole{0, 0, a.mean.width, a.mean.height};
+    double largest = 0.0;
+    for (int channel = 0; channel < a.mean.channels; ++channel) {
+        const double mean_a = moments(a, whole, channel).mean;
+        const double mean_b = moments(b, whole, channel).mean;
+        const double difference = std::abs(mean_a - mean_b);
+        if (difference == 0.0) continue;
+        const double relative = difference / std::max(std::abs(mean_a), std::abs(mean_b));
+        if (!(relative <= largest)) largest = relative;
+    }
+    return largest;
+}
+
+}  // namespace
+
+ImageEstimate estimate_image(std::span<const ImageF> renders) {
+    if (renders.size() < 2) throw std::invalid_argument("a variance needs at least two renders");
+    const ImageF& first = renders.front();
+    for (const ImageF& render : renders) require_same_shape(render, first, "independent renders");
+    ImageEstimate result{ImageF(first.width, first.height, first.channels),
+                         ImageF(first.width, first.height, first.channels)};
+    const auto count = static_cast<double>(renders.size());
+    for (std::size_t i = 0; i < first.pixels.size(); ++i) {
+        double sum = 0.0;
+        for (const ImageF& render : renders) sum += static_cast<double>(render.pixels[i]);
+        const double mean = sum / count;
+        double squares = 0.0;
+        for (const ImageF& render : renders) {
+            const double deviation = static_cast<double>(render.pixels[i]) - mean;
+            squares += deviation * deviation;
+        }
+        result.mean.pixels[i] = static_cast<float>(mean);
+        result.variance.pixels[i] = static_cast<float>(squares / (count - 1.0) / count);
+    }
+    return result;
+}
+
+BlockAgreement test_agreement(const ImageEstimate& a, const ImageEstimate& b, const AgreementOptions& options) {
+    require_same_shape(a.mean, b.mean, "images");
+    require_same_shape(a.mean, a.variance, "an image and its variance");
+    require_same_shape(b.mean, b.variance, "an image and its variance");
+    BlockAgreement result;
+    for (int y = 0; y < a.mean.height; y += options.block_size) {
+        for (int x = 0; x < a.mean.width; x += options.block_size) {
+            const Region region{x, y, std::min(x + options.block_size, a.mean.width),
+                                std::min(y + options.block_size, a.mean.height)};
+            for (int channel = 0; channel < a.mean.channels; ++channel) {
+                const BlockDifference difference = compare(a, b, region, channel, options.block_tolerance);
+                if (result.tests == 0 || std::abs(difference.z) > std::abs(result.worst.z)) result.worst = difference;
+                ++result.tests;
+            }
+        }
+    }
+    const double p = std::erfc(std::abs(result.worst.z) / std::numbers::sqrt2);
+    // 1 - (1 - p)^n without losing small p.
+    result.p_value = p < 1.0 ? -std::expm1(static_cast<double>(result.tests) * std::log1p(-p)) : 1.0;
+    result.blocks_agree = result.p_value >= options.significance;
+    result.mean_difference = mean_difference(a, b);
+    result.means_agree = result.mean_difference <= options.mean_tolerance;
+    return result;
+}
+
+std::string BlockAgreement::str() const {
+    return fmt::format(
+        "{} block tests {}: the worst is at pixel ({}, {}), channel {}: {:.6g} against {:.6g}, z = {:.2f}, "
+        "p = {:.3g} for all tests together; the means of the whole images differ by {:.3f}%{}",
+        tests, blocks_agree ? "agree" : "disagree", worst.x, worst.y, worst.channel, worst.mean_a, worst.mean_b,
+        worst.z, p_value, 100.0 * mean_difference, means_agree ? "" : ", which is too much");
+}
+
+}  // namespace etendue

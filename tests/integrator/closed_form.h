@@ -1,0 +1,49 @@
+// Scenes with one known radiance, and what every integrator and sampler should find there.
+//
+// An image of 16 × 16 pixels looks at nearly one point, so that the radiance is the same in all of them, and gives 256
+// independent estimates of it: numbers of different pixels are independent, also those of the Sobol' sampler. A t-test
+// compares their mean with the closed form.
+//
+// To add a scene: a case in one of the lists below, or a list of its own that closed_form_test.cpp joins.
+#pragma once
+
+#include "film/film.h"
+#include "integrator/integrator.h"
+#include "sampling/sampler.h"
+#include "scene/scene_desc.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace etendue::test {
+
+struct ClosedFormCase {
+    std::string name;
+    SceneDesc scene;
+    double radiance = 0.0;    ///< what the camera sees, the same in all channels
+    double tolerance = 1e-5;  ///< relative: rounding, and the tessellation's difference from the curved surface
+    IntegratorOptions lengths{};
+    /// Those that can find all the light within `lengths`.
+    std::vector<std::string> integrators{"path", "direct", "naive"};
+    std::uint32_t spp = 64;
+    bool is_exact = false;  ///< no sample may differ from the mean: every pixel is compared
+};
+
+/// Plane receivers under mesh lights, punctual lights and environments.
+[[nodiscard]] std::vector<ClosedFormCase> direct_light_cases();
+[[nodiscard]] std::vector<ClosedFormCase> environment_cases();
+/// Closed spheres, empty or with lossless bodies in them.
+[[nodiscard]] std::vector<ClosedFormCase> furnace_cases();
+/// Partly transparent cards, lights and films.
+[[nodiscard]] std::vector<ClosedFormCase> transparency_cases();
+
+/// Side of the images in pixels.
+inline constexpr int kImageSide = 16;
+
+/// Renders `scene` in `working_space`, pixels in rows.
+[[nodiscard]] std::vector<Rgb> render_pixels(const SceneDesc& scene, const Integrator& integrator,
+                                             SampleSequence sequence, std::uint32_t spp, std::uint32_t seed,
+                                             const std::string& working_space);
+
+}  // namespace etendue::test

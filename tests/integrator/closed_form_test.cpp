@@ -1,0 +1,73 @@
+// Closed-form scenes × integrators × samplers. All comparisons together fail with probability 0.01 if everything is
+// right (Sidak's correction); seeds are fixed, so that what passes goes on passing until code or seeds change.
+#include "integrator/closed_form.h"
+
+#include "support/chi2.h"
+#include "support/t_test.h"
+
+#include <cmath>
+#include <cstdint>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace etendue::test {
+namespace {
+
+struct Comparison {
+    ClosedFormCase scene;
+    std::string integrator;
+    SampleSequence sequence;
+    std::uint32_t seed;
+};
+
+void PrintTo(const Comparison& comparison, std::ostream* out) {
+    *out << comparison.scene.name;
+}
+
+std::vector<Comparison> all_comparisons() {
+    std::vector<Comparison> comparisons;
+    for (const auto& list : {direct_light_cases(), environment_cases(), furnace_cases(), transparency_cases()})
+        for (const ClosedFormCase& scene : list)
+            for (const std::string& integrator : scene.integrators)
+                for (const SampleSequence sequence : {SampleSequence::Sobol, SampleSequence::Random})
+                    comparisons.push_back(
+                        {scene, integrator, sequence, 1000 + static_cast<std::uint32_t>(comparisons.size())});
+    return comparisons;
+}
+
+const std::vector<Comparison>& comparisons() {
+    static const std::vector<Comparison> all = all_comparisons();
+    return all;
+}
+
+std::string test_name(const testing::TestParamInfo<Comparison>& info) {
+    return info.param.scene.name + "_" + info.param.integrator +
+           (info.param.sequence == SampleSequence::Sobol ? "_sobol" : "_random");
+}
+
+class ClosedForm : public testing::TestWithParam<Comparison> {};
+
+TEST_P(ClosedForm, RadianceIsTheKnownOne) {
+    const auto& [scene, integrator_name, sequence, seed] = GetParam();
+    const auto integrator = make_integrator(integrator_name, scene.lengths);
+    ASSERT_NE(integrator, nullptr);
+    const std::vector<Rgb> pixels =
+        render_pixels(scene.scene, *integrator, sequence, scene.spp, seed, "Linear Rec.709 (sRGB)");
+
+    std::vector<double> estimates;
+    for (const Rgb& pixel : pixels) estimates.push_back(static_cast<double>(pixel.g));
+    const double tolerance = scene.tolerance * scene.radiance;
+    const TTestResult result = t_test(estimates, scene.radiance, tolerance);
+    EXPECT_GE(result.p_value, sidak_level(kFamilyLevel, comparisons().size()))
+        << "expected " << scene.radiance << ", " << result.str();
+    if (!scene.is_exact) return;
+    for (const double estimate : estimates) ASSERT_NEAR(estimate, scene.radiance, tolerance);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, ClosedForm, testing::ValuesIn(comparisons()), test_name);
+
+}  // namespace
+}  // namespace etendue::test

@@ -1,0 +1,136 @@
+// Form factors from J. R. Howell, "A Catalog of Radiation Heat Transfer Configuration Factors", sections B.
+#include "integrator/closed_form.h"
+#include "integrator/closed_form_scene.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace etendue::test {
+
+namespace {
+
+constexpr float kAlbedo = 0.6f;
+constexpr double kRho = 0.6;
+constexpr double kPiD = std::numbers::pi;
+const std::vector<std::string> kLightSamplers{"path", "direct"};
+
+/// A large floor at y = 0, seen from above at (x, 0, 0).
+SceneDesc floor_seen_at(float x) {
+    SceneDesc scene;
+    add(scene, quad_facing_up({0.0f, 0.0f, 0.0f}, 100.0f), diffuse(kAlbedo));
+    look(scene, {x, 0.4f, 0.013f}, {0.0f, -1.0f, 0.0f});
+    return scene;
+}
+
+/// From a plane element to a parallel disk of radius r at height h whose axis is a away (B-13).
+double disk_form_factor(double r, double h, double a) {
+    const double sum = a * a + h * h + r * r;
+    return 0.5 * (1.0 - (a * a + h * h - r * r) / std::sqrt(sum * sum - 4.0 * a * a * r * r));
+}
+
+/// From a plane element to a parallel rectangle of sides a and b at height h, one corner right above it (B-3).
+double corner_form_factor(double a, double b, double h) {
+    const double x = a / h;
+    const double y = b / h;
+    const double root_x = std::sqrt(1.0 + x * x);
+    const double root_y = std::sqrt(1.0 + y * y);
+    return (x / root_x * std::atan(y / root_x) + y / root_y * std::atan(x / root_y)) / (2.0 * kPiD);
+}
+
+/// From the origin to [x0, x1] × [z0, z1] at height h; corners in other quadrants count negatively.
+double rectangle_form_factor(double x0, double x1, double z0, double z1, double h) {
+    const auto signed_corner = [h](double x, double z) {
+        return std::copysign(1.0, x) * std::copysign(1.0, z) * corner_form_factor(std::abs(x), std::abs(z), h);
+    };
+    return signed_corner(x1, z1) - signed_corner(x0, z1) - signed_corner(x1, z0) + signed_corner(x0, z0);
+}
+
+std::vector<ClosedFormCase> mesh_light_cases() {
+    constexpr int kSegments = 1024;
+    constexpr float kZ = 0.013f;
+    std::vector<ClosedFormCase> cases;
+
+    SceneDesc centre = floor_seen_at(0.0f);
+    add(centre, disk_facing_down({0.0f, 1.0f, kZ}, 0.5f, kSegments), emitter(3.0f));
+    cases.push_back({"disk_centre", centre, kRho * 3.0 * disk_form_factor(0.5, 1.0, 0.0), 1e-4});
+
+    SceneDesc beside = floor_seen_at(0.8f);
+    add(beside, disk_facing_down({0.0f, 0.5f, kZ}, 0.6f, kSegments), emitter(3.0f));
+    cases.push_back({"disk_beside", beside, kRho * 3.0 * disk_form_factor(0.6, 0.5, 0.8), 1e-4});
+
+    SceneDesc square = floor_seen_at(0.0f);
+    add(square, quad_facing_down({0.7f, 1.0f, kZ + 0.2f}, 1.0f), emitter(2.0f));
+    const double square_factor = rectangle_form_factor(0.2, 1.2, -0.3, 0.7, 1.0);
+    cases.push_back({"quad", square, kRho * 2.0 * square_factor});
+
+    SceneDesc behind = floor_seen_at(0.0f);
+    add(behind, quad_facing_up({0.7f, 1.0f, kZ + 0.2f}, 1.0f), emitter(2.0f));
+    cases.push_back({"quad_from_behind", behind, 0.0});
+
+    MaterialDesc both_sides = emitter(2.0f);
+    both_sides.double_sided = true;
+    SceneDesc double_sided = floor_seen_at(0.0f);
+    add(double_sided, quad_facing_up({0.7f, 1.0f, kZ + 0.2f}, 1.0f), both_sides);
+    cases.push_back({"quad_double_sided", double_sided, kRho * 2.0 * square_factor});
+
+    // One mesh in two places, once mirrored: instances in the BVH, and unequal areas.
+    SceneDesc instanced = floor_seen_at(0.0f);
+    Mat4f mirrored;
+    mirrored.setScale(Vec3f(-2.0f, 1.0f, 1.0f));
+    add(instanced, quad_facing_down({0.7f, 1.0f, kZ + 0.2f}, 1.0f), emitter(2.0f), mirrored);
+    instanced.instances.push_back(instanced.instances.back());
+    instanced.instances.back().to_world = Mat4f();
+    const double mirrored_factor = rectangle_form_factor(-2.4, -0.4, -0.3, 0.7, 1.0);
+    cases.push_back({"quad_instances", instanced, kRho * 2.0 * (square_factor + mirrored_factor)});
+
+    // Lights of very different power, so that a wrong probability of the choice shows.
+    SceneDesc several = square;
+    add(several, disk_facing_down({0.0f, 1.5f, kZ}, 0.3f, kSegments), emitter(7.0f));
+    add_light(several, LightType::Point, 0.5f, {-1.0f, 1.0f, kZ});
+    const double several_light =
+        2.0 * square_factor + 7.0 * disk_form_factor(0.3, 1.5, 0.0) + 0.5 / (2.0 * std::sqrt(2.0)) / kPiD;
+    cases.push_back({"several_lights", several, kRho * several_light, 1e-4, {}, kLightSamplers});
+    return cases;
+}
+
+std::vector<ClosedFormCase> punctual_light_cases() {
+    std::vector<ClosedFormCase> cases;
+    constexpr float kZ = 0.013f;
+    const double distance = std::hypot(0.75, 1.0);
+
+    SceneDesc point = floor_seen_at(0.75f);
+    add_light(point, LightType::Point, 5.0f, {0.0f, 1.0f, kZ});
+    const double irradiance = 5.0 / distance / (distance * distance);
+    cases.push_back({"point", point, kRho / kPiD * irradiance, 1e-4, {}, kLightSamplers});
+    cases.push_back({"point_by_chance", point, 0.0, 0.0, {}, {"naive"}});
+
+    // The floor's point lies at atan(0.75) = 0.6435 from the axis.
+    const auto spot = [&](float inner, float outer) {
+        SceneDesc scene = floor_seen_at(0.75f);
+        LightDesc& light = add_light(scene, LightType::Spot, 5.0f, {0.0f, 1.0f, kZ});
+        light.inner_cone_angle = inner;
+        light.outer_cone_angle = outer;
+        return scene;
+    };
+    cases.push_back({"spot_inner", spot(0.7f, 0.9f), kRho / kPiD * irradiance, 1e-4, {}, kLightSamplers});
+    // KHR_lights_punctual: the square of a ramp in the cosine.
+    const double ramp = (1.0 / distance - std::cos(0.9)) / (std::cos(0.3) - std::cos(0.9));
+    const double on_edge = kRho / kPiD * irradiance * ramp * ramp;
+    cases.push_back({"spot_falloff", spot(0.3f, 0.9f), on_edge, 3e-4, {}, kLightSamplers});
+    cases.push_back({"spot_outside", spot(0.3f, 0.6f), 0.0, 0.0, {}, kLightSamplers});
+
+    SceneDesc sun = floor_seen_at(0.0f);
+    add_light(sun, LightType::Directional, 3.0f, {0.0f, 5.0f, 0.0f}, {0.6f, -0.8f, 0.0f});
+    cases.push_back({"directional", sun, kRho / kPiD * 3.0 * 0.8, 1e-5, {}, kLightSamplers});
+    return cases;
+}
+
+}  // namespace
+
+std::vector<ClosedFormCase> direct_light_cases() {
+    std::vector<ClosedFormCase> cases = mesh_light_cases();
+    for (ClosedFormCase& c : punctual_light_cases()) cases.push_back(std::move(c));
+    return cases;
+}
+
+}  // namespace etendue::test

@@ -1,0 +1,168 @@
+// In a closed space whose walls emit e and reflect rho, L = e + rho L everywhere: L = e / (1 - rho), and its part of
+// paths with k edges is e rho^(k-1). Lossless bodies in it do not show. Within a body of index n radiance is n² L.
+#include "integrator/closed_form.h"
+#include "integrator/closed_form_scene.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace etendue::test {
+
+namespace {
+
+const std::vector<std::string> kUnbounded{"path", "naive"};
+
+MaterialDesc glowing(float emission, float albedo) {
+    MaterialDesc material = emitter(emission);
+    material.override_model = DiffuseDesc{Rgb(albedo)};
+    return material;
+}
+
+SceneDesc furnace(float emission, float albedo) {
+    SceneDesc scene;
+    add(scene, sphere({0.0f, 0.0f, 0.0f}, 2.0f, 2, Facing::Inwards), glowing(emission, albedo));
+    look(scene, {0.0f, 0.0f, 1.5f}, {0.0f, 0.0f, -1.0f}, 0.3f);
+    return scene;
+}
+
+std::vector<ClosedFormCase> empty_furnace_cases() {
+    std::vector<ClosedFormCase> cases;
+    const SceneDesc half = furnace(0.5f, 0.5f);
+    cases.push_back({"furnace", half, 1.0, 1e-5, {.max_depth = 64}, kUnbounded});
+    cases.push_back(
+        {"furnace_roulette_at_once", half, 1.0, 1e-5, {.max_depth = 1000, .roulette_depth = 1}, kUnbounded});
+    cases.push_back(
+        {"furnace_without_roulette", half, 1.0, 1e-5, {.max_depth = 30, .roulette_depth = 1000}, kUnbounded});
+    cases.push_back({"furnace_bright_walls", furnace(0.1f, 0.9f), 1.0, 1e-5, {.max_depth = 400}, kUnbounded});
+    cases.push_back({"furnace_depth_1", half, 0.5, 1e-5, {.max_depth = 1}});
+    cases.push_back({"furnace_depth_2", half, 0.75, 1e-5, {.max_depth = 2}});
+    cases.push_back({"furnace_depth_5", half, 1.0 - std::exp2(-5.0), 1e-5, {.max_depth = 5}, kUnbounded});
+    // Windows of lengths that together are "furnace_depth_5".
+    cases.push_back({"furnace_edges_2", half, 0.25, 1e-5, {.max_depth = 2, .min_depth = 2}});
+    cases.push_back({"furnace_edges_3_to_4", half, 0.1875, 1e-5, {.max_depth = 4, .min_depth = 3}, kUnbounded});
+    cases.push_back({"furnace_edges_5",
+                     half,
+                     std::exp2(-5.0),
+                     1e-5,
+                     {.max_depth = 5, .min_depth = 5, .roulette_depth = 2},
+                     kUnbounded});
+    return cases;
+}
+
+ClosedFormCase body_case(const std::string& name, const MaterialDesc& material, double tolerance, bool in_environment) {
+    SceneDesc scene;
+    if (in_environment) {
+        set_environment(scene);
+        look(scene, {0.0f, 0.0f, 1.5f}, {0.0f, 0.0f, -1.0f}, 0.4f);
+    } else {
+        scene = furnace(0.5f, 0.5f);
+    }
+    add(scene, sphere({0.0f, 0.0f, 0.0f}, 0.8f, 3, Facing::Outwards), material);
+    return {(in_environment ? "environment_with_" : "furnace_with_") + name,
+            scene,
+            1.0,
+            tolerance,
+            {.max_depth = 1000},
+            kUnbounded,
+            32};
+}
+
+std::vector<ClosedFormCase> lossless_body_cases() {
+    /// The tabulated albedos of rough lobes are good to 0.5%.
+    constexpr double kTables = 5e-3;
+    const auto conductor = [](float roughness) {
+        MaterialDesc m;
+        m.override_model = ConductorDesc{"", roughness};
+        return m;
+    };
+    const auto glass = [](float roughness) {
+        MaterialDesc m;
+        m.override_model = DielectricDesc{1.5f, roughness};
+        return m;
+    };
+    MaterialDesc white_metal;
+    white_metal.roughness = 0.4f;
+    MaterialDesc white_plastic = white_metal;
+    white_plastic.metallic = 0.0f;
+
+    std::vector<ClosedFormCase> cases;
+    for (const bool in_environment : {false, true}) {
+        cases.push_back(body_case("mirror", conductor(0.0f), 1e-4, in_environment));
+        cases.push_back(body_case("rough_conductor", conductor(0.5f), kTables, in_environment));
+        cases.push_back(body_case("glass", glass(0.0f), 1e-4, in_environment));
+        cases.push_back(body_case("rough_glass", glass(0.5f), kTables, in_environment));
+        cases.push_back(body_case("white_metal", white_metal, kTables, in_environment));
+        cases.push_back(body_case("white_plastic", white_plastic, kTables, in_environment));
+    }
+    // Roulette that forgets that refraction scales radiance ends paths in glass without need, and exactness with them.
+    ClosedFormCase exact = body_case("glass_and_roulette_at_once", glass(0.0f), 1e-4, true);
+    exact.lengths.roulette_depth = 1;
+    exact.is_exact = true;
+    cases.push_back(exact);
+
+    // The camera in the glass. Most of what it sees is totally reflected.
+    ClosedFormCase inside = body_case("camera_in_glass", glass(0.0f), 1e-4, false);
+    inside.scene.cameras.clear();
+    look(inside.scene, {0.1f, 0.3f, 0.2f}, {0.0f, 0.0f, -1.0f}, 0.1f);
+    inside.radiance = 1.5 * 1.5;
+    cases.push_back(inside);
+    return cases;
+}
+
+/// A point light in a sphere of radius r: after the first bounce irradiance is the same everywhere (Ulbricht 1900), and
+/// every further bounce brings albedo times the one before.
+std::vector<ClosedFormCase> integrating_sphere_cases() {
+    constexpr double kRho = 0.8;
+    constexpr double kIntensity = 3.0;
+    constexpr double kRadius = 2.0;
+    // The facet that is looked at, at right angles, is the one through which -Z leaves.
+    const auto sphere_with_light = [](float light_z) {
+        SceneDesc scene;
+        add(scene, sphere({0.0f, 0.0f, 0.0f}, 2.0f, 6, Facing::Inwards), diffuse(0.8f));
+        add_light(scene, LightType::Point, 3.0f, {0.0f, 0.0f, light_z});
+        look(scene, {0.0f, 0.0f, 1.0f}, {0.0f, 0.0f, -1.0f});
+        return scene;
+    };
+    const double mean = kIntensity / (kRadius * kRadius);
+    const double near = kIntensity / (1.5 * 1.5);
+    const auto radiance = [](double irradiance) { return kRho * std::numbers::inv_pi * irradiance; };
+    constexpr double kTessellation = 1e-3;
+    std::vector<ClosedFormCase> cases;
+    cases.push_back({"integrating_sphere",
+                     sphere_with_light(0.0f),
+                     radiance(mean / (1.0 - kRho)),
+                     kTessellation,
+                     {.max_depth = 400},
+                     {"path"}});
+    const SceneDesc off_centre = sphere_with_light(-0.5f);
+    cases.push_back({"integrating_sphere_one_bounce",
+                     off_centre,
+                     radiance(near),
+                     kTessellation,
+                     {.max_depth = 2},
+                     {"path", "direct"}});
+    cases.push_back({"integrating_sphere_two_bounces",
+                     off_centre,
+                     radiance(near + kRho * mean),
+                     kTessellation,
+                     {.max_depth = 3},
+                     {"path"}});
+    cases.push_back({"integrating_sphere_off_centre",
+                     off_centre,
+                     radiance(near + kRho * mean / (1.0 - kRho)),
+                     kTessellation,
+                     {.max_depth = 400},
+                     {"path"}});
+    return cases;
+}
+
+}  // namespace
+
+std::vector<ClosedFormCase> furnace_cases() {
+    std::vector<ClosedFormCase> cases = empty_furnace_cases();
+    for (ClosedFormCase& c : lossless_body_cases()) cases.push_back(std::move(c));
+    for (ClosedFormCase& c : integrating_sphere_cases()) cases.push_back(std::move(c));
+    return cases;
+}
+
+}  // namespace etendue::test

@@ -1,0 +1,143 @@
+#include "metrics/block_agreement.h"
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <random>
+#include <stdexcept>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace etendue {
+namespace {
+
+/// A grey image with the same mean and variance everywhere.
+ImageEstimate constant_estimate(int width, int height, float mean, float variance) {
+    ImageEstimate e{ImageF(width, height, 1), ImageF(width, height, 1)};
+    e.mean.pixels.assign(e.mean.pixels.size(), mean);
+    e.variance.pixels.assign(e.variance.pixels.size(), variance);
+    return e;
+}
+
+/// Renders of an image that is 1 everywhere but for `extra` in the 8 × 8 pixels at the top left, with noise.
+ImageEstimate noisy_estimate(std::uint32_t seed, double extra) {
+    std::mt19937 generator(seed);
+    std::exponential_distribution<double> noise(1.0);  // mean 1, as skewed as radiance is
+    std::vector<ImageF> renders(4, ImageF(32, 24, 3));
+    for (ImageF& render : renders)
+        for (int y = 0; y < render.height; ++y)
+            for (int x = 0; x < render.width; ++x)
+                for (float& value : render.pixel(x, y)) {
+                    double sum = 0.0;
+                    for (int sample = 0; sample < 16; ++sample) sum += noise(generator);
+                    value = static_cast<float>(sum / 16.0 + (x < 8 && y < 8 ? extra : 0.0));
+                }
+    return estimate_image(renders);
+}
+
+TEST(EstimateImage, IsMeanAndVarianceOfTheMean) {
+    std::vector<ImageF> renders(3, ImageF(1, 1, 2));
+    renders[0].pixels = {1.0f, 5.0f};
+    renders[1].pixels = {2.0f, 5.0f};
+    renders[2].pixels = {6.0f, 5.0f};
+    const ImageEstimate e = estimate_image(renders);
+    EXPECT_EQ(e.mean.pixels, (std::vector<float>{3.0f, 5.0f}));
+    // (4 + 1 + 9) / 2 / 3
+    EXPECT_FLOAT_EQ(e.variance.pixels[0], 7.0f / 3.0f);
+    EXPECT_EQ(e.variance.pixels[1], 0.0f);
+}
+
+TEST(EstimateImage, RefusesTooFewAndDifferentRenders) {
+    EXPECT_THROW((void)estimate_image(std::vector<ImageF>(1, ImageF(1, 1, 1))), std::invalid_argument);
+    EXPECT_THROW((void)estimate_image(std::vector<ImageF>{ImageF(1, 1, 1), ImageF(2, 1, 1)}), std::invalid_argument);
+}
+
+TEST(BlockAgreement, ComputesZFromBothVariances) {
+    // 16 pixels a block: variances 0.16 / 16 and 0.09 / 16 · … make a standard error of 0.125.
+    const ImageEstimate a = constant_estimate(4, 4, 1.25f, 0.16f);
+    const ImageEstimate b = constant_estimate(4, 4, 1.0f, 0.09f);
+    const BlockAgreement result = test_agreement(a, b, {.block_size = 4, .mean_tolerance = 1.0});
+    EXPECT_EQ(result.tests, 1u);
+    EXPECT_NEAR(result.worst.z, 2.0, 1e-6);
+    EXPECT_NEAR(result.p_value, 0.0455002639, 1e-7);
+    EXPECT_NEAR(result.mean_difference, 0.2, 1e-6);
+    EXPECT_TRUE(result.agree());
+}
+
+TEST(BlockAgreement, CorrectsForTheNumberOfBlocks) {
+    ImageEstimate a = constant_estimate(8, 4, 1.0f, 0.16f);
+    const ImageEstimate b = constant_estimate(8, 4, 1.0f, 0.09f);
+    for (int y = 0; y < 4; ++y)
+        for (int x = 4; x < 8; ++x) a.mean.pixel(x, y)[0] = 0.75f;
+    const BlockAgreement result = test_agreement(a, b, {.block_size = 4, .mean_tolerance = 1.0});
+    EXPECT_EQ(result.tests, 2u);
+    EXPECT_EQ(result.worst.x, 4);
+    EXPECT_EQ(result.worst.y, 0);
+    EXPECT_NEAR(result.worst.z, -2.0, 1e-6);
+    EXPECT_NEAR(result.p_value, 1.0 - 0.9544997361 * 0.9544997361, 1e-7);
+}
+
+TEST(BlockAgreement, CutsBlocksAtTheBorder) {
+    const ImageEstimate a = constant_estimate(17, 20, 1.0f, 0.1f);
+    EXPECT_EQ(test_agreement(a, a).tests, 4u);
+    ImageEstimate brighter = a;
+    for (int y = 16; y < 20; ++y) brighter.mean.pixel(16, y)[0] = 9.0f;
+    const BlockAgreement result = test_agreement(brighter, a);
+    EXPECT_EQ(result.worst.x, 16);
+    EXPECT_EQ(result.worst.y, 16);
+    EXPECT_NEAR(result.worst.mean_a, 9.0, 1e-12);
+    EXPECT_FALSE(result.blocks_agree);
+}
+
+TEST(BlockAgreement, AcceptsIndependentRendersOfOneImage) {
+    // At significance 0.01 one in a hundred pairs would fail by chance; these seeds do not. Their means are too noisy
+    // for 1%.
+    for (std::uint32_t seed = 0; seed < 20; ++seed) {
+        const BlockAgreement result =
+            test_agreement(noisy_estimate(2 * seed, 0.0), noisy_estimate(2 * seed + 1, 0.0), {.block_size = 8});
+        EXPECT_TRUE(result.blocks_agree) << result.str();
+    }
+}
+
+TEST(BlockAgreement, FindsOneBlockThatDiffers) {
+    const BlockAgreement result = test_agreement(noisy_estimate(1, 0.1), noisy_estimate(2, 0.0), {.block_size = 8});
+    EXPECT_FALSE(result.blocks_agree) << result.str();
+    EXPECT_EQ(result.worst.x, 0);
+    EXPECT_EQ(result.worst.y, 0);
+    EXPECT_GT(result.worst.z, 0.0);
+}
+
+TEST(BlockAgreement, HoldsTheImagesMeansToOnePercent) {
+    const ImageEstimate a = constant_estimate(4, 4, 1.0f, 1.0f);
+    const ImageEstimate nearly = constant_estimate(4, 4, 1.009f, 1.0f);
+    const ImageEstimate off = constant_estimate(4, 4, 1.02f, 1.0f);
+    EXPECT_TRUE(test_agreement(nearly, a).agree());
+    EXPECT_TRUE(test_agreement(off, a).blocks_agree);
+    EXPECT_FALSE(test_agreement(off, a).agree());
+    EXPECT_NE(test_agreement(off, a).str().find("too much"), std::string::npos);
+}
+
+TEST(BlockAgreement, WithoutVarianceOnlyTheToleranceCounts) {
+    const ImageEstimate a = constant_estimate(4, 4, 1.0f, 0.0f);
+    const ImageEstimate b = constant_estimate(4, 4, 1.001f, 0.0f);
+    EXPECT_TRUE(test_agreement(a, a).agree());
+    EXPECT_FALSE(test_agreement(a, b).agree());
+    EXPECT_TRUE(test_agreement(a, b, {.block_tolerance = 2e-3}).agree());
+}
+
+TEST(BlockAgreement, WhatIsNoNumberDoesNotAgree) {
+    const ImageEstimate a = constant_estimate(4, 4, 1.0f, 0.1f);
+    ImageEstimate b = a;
+    b.mean.pixels[3] = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_FALSE(test_agreement(a, b).blocks_agree);
+    EXPECT_FALSE(test_agreement(a, b).means_agree);
+}
+
+TEST(BlockAgreement, RefusesImagesOfDifferentShape) {
+    EXPECT_THROW((void)test_agreement(constant_estimate(4, 4, 1, 1), constant_estimate(4, 5, 1, 1)),
+                 std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace etendue
