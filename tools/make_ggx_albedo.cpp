@@ -122,18 +122,19 @@ void fill_directional(Tables& tables) {
 }
 
 /// 2 ∫ f(mu) mu dmu of an interpolated function: what the lobes divide by must be the average of what they look up. `f`
-/// takes mu and the place in the row. Steps are fine in the coordinate and exact in mu dmu.
+/// takes mu and its place in the row. Steps are even in mu between two nodes, and exact in mu dmu.
 template <typename Function>
 float average(float row_alpha, const Function& f) {
-    constexpr int kStepsPerNode = 32;
-    constexpr int kSteps = (kCosines - 1) * kStepsPerNode;
+    constexpr int kSteps = 32;
     double sum = 0.0;
-    double low = 0.0;
-    for (int i = 0; i < kSteps; ++i) {
-        const double high = static_cast<double>(cosine(static_cast<float>(i + 1) / kStepsPerNode, row_alpha));
-        const float middle = (static_cast<float>(i) + 0.5f) / kStepsPerNode;
-        sum += static_cast<double>(f(cosine(middle, row_alpha), place(middle, kCosines))) * (high * high - low * low);
-        low = high;
+    for (int node = 0; node + 1 < kCosines; ++node) {
+        const float first = cosine(static_cast<float>(node), row_alpha);
+        const float step = (cosine(static_cast<float>(node + 1), row_alpha) - first) / kSteps;
+        for (int i = 0; i < kSteps; ++i) {
+            const float mu = first + (static_cast<float>(i) + 0.5f) * step;
+            const Place c = place(cosine_coordinate(mu, row_alpha), kCosines);
+            sum += static_cast<double>(f(mu, c)) * 2.0 * static_cast<double>(mu) * static_cast<double>(step);
+        }
     }
     return static_cast<float>(sum);
 }

@@ -24,13 +24,16 @@ namespace etendue {
 /// Mean of `fresnel_dielectric` over a cosine-weighted hemisphere, within 0.2% for eta in [1/3, 3]; 0 at eta = 1.
 /// Quadrature, not a fit: used while a lobe's constants are prepared, not per ray.
 [[nodiscard]] inline float fresnel_dielectric_average(float eta) {
+    // What leaves the denser side in diffuse light is what enters it, by reciprocity.
+    if (eta < 1.0f) return 1.0f - (1.0f - fresnel_dielectric_average(1.0f / eta)) * eta * eta;
+    // 2 ∫ F(mu) mu dmu with mu = t², which puts most steps at grazing angles, where the reflectance rises.
     constexpr int kSteps = 64;
     float sum = 0.0f;
     for (int i = 0; i < kSteps; ++i) {
-        const float cos2 = (static_cast<float>(i) + 0.5f) / kSteps;
-        sum += fresnel_dielectric(std::sqrt(cos2), eta);
+        const float t = (static_cast<float>(i) + 0.5f) / kSteps;
+        sum += fresnel_dielectric(t * t, eta) * t * t * t;
     }
-    return sum / kSteps;
+    return 4.0f * sum / kSteps;
 }
 
 /// Direction refracted through the interface with normal `n` (on wo's side, dot(wo, n) > 0); false under total internal

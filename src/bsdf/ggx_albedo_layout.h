@@ -15,10 +15,11 @@
 namespace etendue::ggx_albedo_layout {
 
 inline constexpr int kCosines = 48;
-inline constexpr int kAlphas = 24;          ///< alpha = t², t in [0, 1]: uniform in perceptual roughness
-inline constexpr int kShareAlphas = 64;     ///< the same for Schlick's share, which grazing angles bend more
-inline constexpr int kAverageAlphas = 128;  ///< the same for the averages, which are not piecewise linear in t
-inline constexpr int kEtas = 24;            ///< from eta = 1 to 3, for each side
+inline constexpr int kAlphas = 24;       ///< alpha = t², t in [0, 1]: uniform in perceptual roughness
+inline constexpr int kShareAlphas = 64;  ///< the same for Schlick's share, which grazing angles bend more
+/// The same for the averages. They are not piecewise linear in t, but have kinks at the nodes of the albedos.
+inline constexpr int kAverageAlphas = 10 * (kAlphas - 1) + 1;
+inline constexpr int kEtas = 24;  ///< from eta = 1 to 3, for each side
 
 using Slice = std::array<std::array<float, kCosines>, kAlphas>;  ///< [alpha][cosine]
 using ShareSlice = std::array<std::array<float, kCosines>, kShareAlphas>;
@@ -44,7 +45,7 @@ inline constexpr float kLargestR0Root = 0.5f;  ///< (3 - 1) / (3 + 1)
 [[nodiscard]] inline float cosine(float coordinate, float alpha_of_row) {
     const float a = 4.0f * alpha_of_row;
     const float t = coordinate / (kCosines - 1);
-    return std::min(1.0f, t * t * a / (1.0f + a - t * t));
+    return std::min(1.0f, t * t * a / (a + (1.0f - t) * (1.0f + t)));
 }
 [[nodiscard]] inline float cosine_coordinate(float cos_theta, float alpha_of_row) {
     const float a = 4.0f * std::max(alpha_of_row, kSmallestAlpha);

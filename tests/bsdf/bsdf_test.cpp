@@ -170,8 +170,8 @@ std::optional<Pair> random_pair(const BsdfSetting& setting, Random& random) {
     return Pair{wo, wi};
 }
 
-/// Seen nearly edge-on, a microfacet of an interface refracts next to the critical angle, where the Fresnel term computed
-/// from the denser side has lost its digits to rounding.
+/// Seen nearly edge-on, a microfacet of an interface refracts next to the critical angle, where the Fresnel term
+/// computed from the denser side has lost its digits to rounding.
 bool is_edge_on(const BsdfSetting& setting, const Pair& pair) {
     const float n_o = index_at(setting.bsdf, pair.wo);
     const float n_i = index_at(setting.bsdf, pair.wi);
