@@ -23,8 +23,8 @@ struct InspectArguments {
 };
 
 struct Inspection {
-    SceneDesc scene;  ///< without bulk arrays if it could be compiled
     std::string description;
+    nlohmann::json summary;
     Bounds bounds;
     std::size_t triangles = 0;
     std::size_t vertices = 0;
@@ -32,28 +32,49 @@ struct Inspection {
     std::optional<WorldStatistics> world;  ///< if it could be compiled
 };
 
+template <typename T>
+nlohmann::json names(const std::vector<T>& things) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const T& thing : things) list.push_back(thing.name);
+    return list;
+}
+
+nlohmann::json summarize(const SceneDesc& s) {
+    return {{"scene", s.name},
+            {"file", s.file.string()},
+            {"meshes", names(s.meshes)},
+            {"instances", s.instances.size()},
+            {"materials", names(s.materials)},
+            {"textures", s.textures.size()},
+            {"images", s.images.size()},
+            {"lights", names(s.lights)},
+            {"cameras", names(s.cameras)},
+            {"environment", s.environment.enabled},
+            {"extensions_used", s.extensions_used},
+            {"extensions_ignored", s.extensions_ignored}};
+}
+
 Inspection inspect(const std::string& path) {
     Inspection result;
     LoadedScene loaded = inspect_scene(path);
+    SceneDesc& scene = loaded.scene;
     result.problems = std::move(loaded.problems);
-    result.scene = std::move(loaded.scene);
-    result.bounds = compute_bounds(result.scene);
-    for (const MeshDesc& mesh : result.scene.meshes)
+    result.description = dump(scene);
+    result.summary = summarize(scene);
+    result.bounds = compute_bounds(scene);
+    for (const MeshDesc& mesh : scene.meshes)
         for (const PrimitiveDesc& primitive : mesh.primitives) {
             result.triangles += primitive.triangles.size();
             result.vertices += primitive.positions.size();
         }
-    result.description = dump(result.scene);
     if (result.problems.has_errors()) return result;
     // Images are decoded and everything is built, because much of what can be wrong shows only then.
-    add_missing_camera_and_light(result.scene, result.problems);
+    add_missing_camera_and_light(scene, result.problems);
     try {
         const ThreadPool threads;
         const ColorConfig colors = ColorConfig::from_environment();
-        SceneDesc bulk = std::move(result.scene);
-        result.scene = bulk;
         const World world =
-            compile_world(std::move(bulk), colors, colors.default_working_space(), threads, result.problems);
+            compile_world(std::move(scene), colors, colors.default_working_space(), threads, result.problems);
         result.world = world.statistics();
     } catch (const SceneError& error) {
         for (const Problem& problem : error.problems().all()) result.problems.add(problem);
@@ -81,36 +102,17 @@ void print_text(const Inspection& i) {
     if (i.problems.dropped() > 0) fmt::print("(and {} more problems)\n", i.problems.dropped());
 }
 
-template <typename T>
-nlohmann::json names(const std::vector<T>& things) {
-    nlohmann::json list = nlohmann::json::array();
-    for (const T& thing : things) list.push_back(thing.name);
-    return list;
-}
-
 nlohmann::json vector_json(const Vec3f& v) {
     return {v.x, v.y, v.z};
 }
 
 void print_json(const Inspection& i) {
-    const SceneDesc& s = i.scene;
-    nlohmann::json json{{"scene", s.name},
-                        {"file", s.file.string()},
-                        {"triangles", i.triangles},
-                        {"vertices", i.vertices},
-                        {"meshes", names(s.meshes)},
-                        {"instances", s.instances.size()},
-                        {"materials", names(s.materials)},
-                        {"textures", s.textures.size()},
-                        {"images", s.images.size()},
-                        {"lights", names(s.lights)},
-                        {"cameras", names(s.cameras)},
-                        {"environment", s.environment.enabled},
-                        {"extensions_used", s.extensions_used},
-                        {"extensions_ignored", s.extensions_ignored},
-                        {"bounds", nullptr},
-                        {"compiled", nullptr},
-                        {"problems", nlohmann::json::array()}};
+    nlohmann::json json = i.summary;
+    json["triangles"] = i.triangles;
+    json["vertices"] = i.vertices;
+    json["bounds"] = nullptr;
+    json["compiled"] = nullptr;
+    json["problems"] = nlohmann::json::array();
     if (!i.bounds.empty()) json["bounds"] = {{"min", vector_json(i.bounds.min)}, {"max", vector_json(i.bounds.max)}};
     if (i.world)
         json["compiled"] = {{"triangles_as_seen", i.world->instanced_triangles},
