@@ -3,12 +3,40 @@
 #include "color/color_config.h"
 #include "core/error.h"
 #include "core/parallel.h"
+#include "image/write.h"
 #include "render/render.h"
 #include "world/compile.h"
 
+#include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <system_error>
+
+#include <unistd.h>
 
 namespace etendue::test {
+
+CosineImage::CosineImage(const Vec3f& axis)
+    : path_(std::filesystem::temp_directory_path() /
+            ("etendue_cosine_environment_" + std::to_string(getpid()) + ".exr")) {
+    constexpr int kWidth = 256;
+    constexpr int kHeight = 128;
+    ImageF image(kWidth, kHeight, 3);
+    for (int y = 0; y < kHeight; ++y) {
+        const float theta = kPi * (static_cast<float>(y) + 0.5f) / kHeight;
+        for (int x = 0; x < kWidth; ++x) {
+            const float phi = 2.0f * kPi * ((static_cast<float>(x) + 0.5f) / kWidth - 0.5f);
+            const Vec3f direction(std::sin(theta) * std::sin(phi), std::cos(theta), -std::sin(theta) * std::cos(phi));
+            std::ranges::fill(image.pixel(x, y), std::max(0.0f, dot(direction, axis)));
+        }
+    }
+    write_image(path_, image, {.depth = PixelDepth::Float});
+}
+
+CosineImage::~CosineImage() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+}
 
 std::vector<Rgb> render_pixels(const SceneDesc& scene, const Integrator& integrator, SampleSequence sequence,
                                std::uint32_t spp, std::uint32_t seed, const std::string& working_space) {

@@ -7,12 +7,15 @@
 // To add a scene: a case in one of the lists below, or a list of its own that closed_form_test.cpp joins.
 #pragma once
 
-#include "film/film.h"
+#include "core/rgb.h"
+#include "core/vec.h"
 #include "integrator/integrator.h"
 #include "sampling/sampler.h"
 #include "scene/scene_desc.h"
 
 #include <cstdint>
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +30,8 @@ struct ClosedFormCase {
     /// Those that can find all the light within `lengths`.
     std::vector<std::string> integrators{"path", "direct", "naive"};
     std::uint32_t spp = 64;
+    /// Set: the environment is an image of max(0, direction · axis), before the environment's rotation.
+    std::optional<Vec3f> environment_axis{};
     bool is_exact = false;  ///< no sample may differ from the mean: every pixel is compared
 };
 
@@ -37,6 +42,20 @@ struct ClosedFormCase {
 [[nodiscard]] std::vector<ClosedFormCase> furnace_cases();
 /// Partly transparent cards, lights and films.
 [[nodiscard]] std::vector<ClosedFormCase> transparency_cases();
+
+/// A latitude-longitude image of max(0, direction · axis) in a file that lives as long as this.
+class CosineImage {
+  public:
+    explicit CosineImage(const Vec3f& axis);
+    ~CosineImage();
+    CosineImage(const CosineImage&) = delete;
+    CosineImage& operator=(const CosineImage&) = delete;
+
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_;
+};
 
 /// Side of the images in pixels.
 inline constexpr int kImageSide = 16;

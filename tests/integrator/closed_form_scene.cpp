@@ -143,9 +143,8 @@ LightDesc& add_light(SceneDesc& scene, LightType type, float intensity, const Ve
     return light;
 }
 
-void set_environment(SceneDesc& scene, const std::filesystem::path& image) {
+void set_environment(SceneDesc& scene) {
     scene.environment.enabled = true;
-    scene.environment.image = image;
 }
 
 void look(SceneDesc& scene, const Vec3f& eye, const Vec3f& direction, float half_width) {

@@ -4,8 +4,6 @@
 #include "core/vec.h"
 #include "scene/scene_desc.h"
 
-#include <filesystem>
-
 namespace etendue::test {
 
 /// A Lambertian surface.
@@ -32,8 +30,8 @@ void add(SceneDesc& scene, const PrimitiveDesc& shape, const MaterialDesc& mater
 /// Adds a light at `position` that points along the unit vector `direction`. Returns it for the settings of spots.
 LightDesc& add_light(SceneDesc& scene, LightType type, float intensity, const Vec3f& position,
                      const Vec3f& direction = {0.0f, -1.0f, 0.0f});
-/// Sets a white environment of radiance 1, or the image `image`.
-void set_environment(SceneDesc& scene, const std::filesystem::path& image = {});
+/// Sets a white environment of radiance 1.
+void set_environment(SceneDesc& scene);
 
 /// Makes an orthographic camera at `eye` that looks along the unit vector `direction` and sees `half_width` metres to
 /// each side.

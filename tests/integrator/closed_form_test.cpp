@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -17,24 +18,31 @@ namespace etendue::test {
 namespace {
 
 struct Comparison {
-    ClosedFormCase scene;
+    const ClosedFormCase* scene;
     std::string integrator;
     SampleSequence sequence;
     std::uint32_t seed;
 };
 
 void PrintTo(const Comparison& comparison, std::ostream* out) {
-    *out << comparison.scene.name;
+    *out << comparison.scene->name;
+}
+
+std::vector<ClosedFormCase> all_cases() {
+    std::vector<ClosedFormCase> cases;
+    for (auto&& list : {direct_light_cases(), environment_cases(), furnace_cases(), transparency_cases()})
+        cases.insert(cases.end(), list.begin(), list.end());
+    return cases;
 }
 
 std::vector<Comparison> all_comparisons() {
+    static const std::vector<ClosedFormCase> cases = all_cases();
     std::vector<Comparison> comparisons;
-    for (const auto& list : {direct_light_cases(), environment_cases(), furnace_cases(), transparency_cases()})
-        for (const ClosedFormCase& scene : list)
-            for (const std::string& integrator : scene.integrators)
-                for (const SampleSequence sequence : {SampleSequence::Sobol, SampleSequence::Random})
-                    comparisons.push_back(
-                        {scene, integrator, sequence, 1000 + static_cast<std::uint32_t>(comparisons.size())});
+    for (const ClosedFormCase& scene : cases)
+        for (const std::string& integrator : scene.integrators)
+            for (const SampleSequence sequence : {SampleSequence::Sobol, SampleSequence::Random})
+                comparisons.push_back(
+                    {&scene, integrator, sequence, 1000 + static_cast<std::uint32_t>(comparisons.size())});
     return comparisons;
 }
 
@@ -44,18 +52,21 @@ const std::vector<Comparison>& comparisons() {
 }
 
 std::string test_name(const testing::TestParamInfo<Comparison>& info) {
-    return info.param.scene.name + "_" + info.param.integrator +
+    return info.param.scene->name + "_" + info.param.integrator +
            (info.param.sequence == SampleSequence::Sobol ? "_sobol" : "_random");
 }
 
 class ClosedForm : public testing::TestWithParam<Comparison> {};
 
 TEST_P(ClosedForm, RadianceIsTheKnownOne) {
-    const auto& [scene, integrator_name, sequence, seed] = GetParam();
-    const auto integrator = make_integrator(integrator_name, scene.lengths);
+    const ClosedFormCase& scene = *GetParam().scene;
+    const auto integrator = make_integrator(GetParam().integrator, scene.lengths);
     ASSERT_NE(integrator, nullptr);
+    SceneDesc desc = scene.scene;
+    std::optional<CosineImage> image;
+    if (scene.environment_axis) desc.environment.image = image.emplace(*scene.environment_axis).path();
     const std::vector<Rgb> pixels =
-        render_pixels(scene.scene, *integrator, sequence, scene.spp, seed, "Linear Rec.709 (sRGB)");
+        render_pixels(desc, *integrator, GetParam().sequence, scene.spp, GetParam().seed, "Linear Rec.709 (sRGB)");
 
     std::vector<double> estimates;
     for (const Rgb& pixel : pixels) estimates.push_back(static_cast<double>(pixel.g));

@@ -118,7 +118,7 @@ std::vector<ClosedFormCase> integrating_sphere_cases() {
     // The facet that is looked at, at right angles, is the one through which -Z leaves.
     const auto sphere_with_light = [](float light_z) {
         SceneDesc scene;
-        add(scene, sphere({0.0f, 0.0f, 0.0f}, 2.0f, 6, Facing::Inwards), diffuse(0.8f));
+        add(scene, sphere({0.0f, 0.0f, 0.0f}, 2.0f, 5, Facing::Inwards), diffuse(0.8f));
         add_light(scene, LightType::Point, 3.0f, {0.0f, 0.0f, light_z});
         look(scene, {0.0f, 0.0f, 1.0f}, {0.0f, 0.0f, -1.0f});
         return scene;
@@ -126,7 +126,7 @@ std::vector<ClosedFormCase> integrating_sphere_cases() {
     const double mean = kIntensity / (kRadius * kRadius);
     const double near = kIntensity / (1.5 * 1.5);
     const auto radiance = [](double irradiance) { return kRho * std::numbers::inv_pi * irradiance; };
-    constexpr double kTessellation = 1e-3;
+    constexpr double kTessellation = 1e-3;  // the sphere's radius varies by 1.5e-4
     std::vector<ClosedFormCase> cases;
     cases.push_back({"integrating_sphere",
                      sphere_with_light(0.0f),
