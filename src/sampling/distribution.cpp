@@ -3,13 +3,15 @@
 #include "sampling/warp.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace etendue {
 
 namespace {
 
+/// The interval that holds `x`. In double precision the product is exact, so that no x belongs to a neighbour.
 std::size_t cell(float x, std::size_t count) {
-    const float scaled = std::clamp(x, 0.0f, kOneMinusEpsilon) * static_cast<float>(count);
+    const double scaled = static_cast<double>(std::clamp(x, 0.0f, kOneMinusEpsilon)) * static_cast<double>(count);
     return std::min(static_cast<std::size_t>(scaled), count - 1);
 }
 
@@ -35,7 +37,11 @@ Distribution1D::Sample Distribution1D::sample(float u) const {
     const float mass = cdf_[index + 1] - cdf_[index];
     const float within = mass > 0.0f ? std::clamp((u - cdf_[index]) / mass, 0.0f, kOneMinusEpsilon) : 0.5f;
     const auto count = static_cast<float>(size());
-    return {std::min((static_cast<float>(index) + within) / count, kOneMinusEpsilon), mass * count, index};
+    float x = std::min((static_cast<float>(index) + within) / count, kOneMinusEpsilon);
+    // Rounding may step over a border, to an interval of another density or of none.
+    if (const std::size_t rounded = cell(x, size()); rounded != index)
+        x = std::nextafter(x, rounded > index ? 0.0f : 1.0f);
+    return {x, mass * count, index};
 }
 
 float Distribution1D::pdf(float x) const {
