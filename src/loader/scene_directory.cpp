@@ -95,13 +95,20 @@ std::optional<RenderJson> read_settings(const fs::path& directory, ProblemList& 
     return read_render_json(file, problems);
 }
 
+/// What the user would call it, also for "." and "scenes/box/".
+std::string scene_name(const fs::path& path, bool is_directory) {
+    const fs::path full = fs::absolute(path).lexically_normal();
+    if (!is_directory) return full.stem().string();
+    return (full.has_filename() ? full.filename() : full.parent_path().filename()).string();
+}
+
 void load_into(const fs::path& path, SceneDesc& scene, ProblemList& problems) {
     std::error_code code;
     const bool is_directory = fs::is_directory(path, code);
     if (!fs::exists(path, code)) throw SceneError({path.string(), {}}, "there is no such file or directory");
 
-    scene.directory = is_directory ? path : path.parent_path();
-    scene.name = (path.has_filename() ? path.stem() : path.parent_path().stem()).string();
+    scene.directory = is_directory ? path : path.has_parent_path() ? path.parent_path() : fs::path(".");
+    scene.name = scene_name(path, is_directory);
     std::optional<RenderJson> settings = read_settings(scene.directory, problems);
     scene.file = is_directory ? choose_scene_file(path, settings ? settings->scene : "",
                                                   settings ? settings->location : SourceLocation{})

@@ -114,7 +114,7 @@ TEST(Nodes, ListedTwiceIsAnError) {
 }
 
 TEST(Nodes, DeepHierarchiesNeedNoStack) {
-    constexpr int kDepth = 200'000;
+    constexpr int kDepth = 100'000;
     nlohmann::json nodes = nlohmann::json::array();
     for (int i = 0; i + 1 < kDepth; ++i) nodes.push_back({{"children", {i + 1}}});
     nodes.push_back({{"mesh", 0}});

@@ -32,6 +32,7 @@ TEST(LoadScene, TakesTheOnlyFile) {
     EXPECT_EQ(loaded.scene.name, dir.path().filename());
     EXPECT_EQ(load_scene(dir.path() / "thing.glb").scene.name, "thing");
     EXPECT_EQ(load_scene(dir.path() / "").scene.name, dir.path().filename());
+    EXPECT_EQ(load_scene(dir.path() / ".").scene.name, dir.path().filename());
 }
 
 TEST(LoadScene, SeveralFilesNeedAChoice) {
