@@ -21,6 +21,16 @@ struct Region {
     int y1 = 0;
 };
 
+/// The blocks, then the whole image if it is more than one block.
+std::vector<Region> regions(const ImageF& image, int block_size) {
+    std::vector<Region> result;
+    for (int y = 0; y < image.height; y += block_size)
+        for (int x = 0; x < image.width; x += block_size)
+            result.push_back({x, y, std::min(x + block_size, image.width), std::min(y + block_size, image.height)});
+    if (result.size() > 1) result.push_back({0, 0, image.width, image.height});
+    return result;
+}
+
 struct Moments {
     double mean = 0.0;
     double variance = 0.0;  ///< of `mean`
@@ -43,7 +53,8 @@ BlockDifference compare(const ImageEstimate& a, const ImageEstimate& b, const Re
                         double tolerance) {
     const Moments of_a = moments(a, region, channel);
     const Moments of_b = moments(b, region, channel);
-    BlockDifference result{region.x0, region.y0, channel, of_a.mean, of_b.mean, 0.0};
+    BlockDifference result{region.x0, region.y0, region.x1 - region.x0, region.y1 - region.y0, channel, of_a.mean,
+                           of_b.mean, 0.0};
     const double difference = of_a.mean - of_b.mean;
     const double excess = std::abs(difference) - tolerance * std::max(std::abs(of_a.mean), std::abs(of_b.mean));
     // Written so that what is not a number does not pass.
@@ -97,15 +108,11 @@ BlockAgreement test_agreement(const ImageEstimate& a, const ImageEstimate& b, co
     require_same_shape(a.mean, a.variance, "an image and its variance");
     require_same_shape(b.mean, b.variance, "an image and its variance");
     BlockAgreement result;
-    for (int y = 0; y < a.mean.height; y += options.block_size) {
-        for (int x = 0; x < a.mean.width; x += options.block_size) {
-            const Region region{x, y, std::min(x + options.block_size, a.mean.width),
-                                std::min(y + options.block_size, a.mean.height)};
-            for (int channel = 0; channel < a.mean.channels; ++channel) {
-                const BlockDifference difference = compare(a, b, region, channel, options.block_tolerance);
-                if (result.tests == 0 || std::abs(difference.z) > std::abs(result.worst.z)) result.worst = difference;
-                ++result.tests;
-            }
+    for (const Region& region : regions(a.mean, options.block_size)) {
+        for (int channel = 0; channel < a.mean.channels; ++channel) {
+            const BlockDifference difference = compare(a, b, region, channel, options.block_tolerance);
+            if (result.tests == 0 || std::abs(difference.z) > std::abs(result.worst.z)) result.worst = difference;
+            ++result.tests;
         }
     }
     const double p = std::erfc(std::abs(result.worst.z) / std::numbers::sqrt2);
@@ -119,10 +126,11 @@ BlockAgreement test_agreement(const ImageEstimate& a, const ImageEstimate& b, co
 
 std::string BlockAgreement::str() const {
     return fmt::format(
-        "{} block tests {}: the worst is at pixel ({}, {}), channel {}: {:.6g} against {:.6g}, z = {:.2f}, "
+        "{} block tests {}: the worst is of {}x{} pixels at ({}, {}), channel {}: {:.6g} against {:.6g}, z = {:.2f}, "
         "p = {:.3g} for all tests together; the means of the whole images differ by {:.3f}%{}",
-        tests, blocks_agree ? "agree" : "disagree", worst.x, worst.y, worst.channel, worst.mean_a, worst.mean_b,
-        worst.z, p_value, 100.0 * mean_difference, means_agree ? "" : ", which is too much");
+        tests, blocks_agree ? "agree" : "disagree", worst.width, worst.height, worst.x, worst.y, worst.channel,
+        worst.mean_a, worst.mean_b, worst.z, p_value, 100.0 * mean_difference,
+        means_agree ? "" : ", which is too much");
 }
 
 }  // namespace etendue

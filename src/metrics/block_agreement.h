@@ -31,10 +31,12 @@ struct AgreementOptions {
     double block_tolerance = 0.0;  ///< relative; smaller differences of a block count as none: what rounding explains
 };
 
-/// A block and how it differs.
+/// A block, or the whole image, and how it differs.
 struct BlockDifference {
     int x = 0;  ///< of the first pixel
     int y = 0;
+    int width = 0;
+    int height = 0;
     int channel = 0;
     double mean_a = 0.0;
     double mean_b = 0.0;
@@ -45,7 +47,7 @@ struct BlockAgreement {
     bool blocks_agree = false;
     bool means_agree = false;
     double p_value = 1.0;   ///< of the worst block, corrected for the number of blocks and channels (Sidak 1967)
-    std::size_t tests = 0;  ///< blocks times channels
+    std::size_t tests = 0;  ///< blocks and the whole image, times channels
     BlockDifference worst;
     /// Largest relative difference of the images' means over the channels.
     double mean_difference = 0.0;
@@ -55,8 +57,9 @@ struct BlockAgreement {
     [[nodiscard]] std::string str() const;
 };
 
-/// Two-sided z-tests of all blocks and channels of `a` against those of `b`, and a comparison of the images' means.
-/// Throws std::invalid_argument if the shapes differ. Values that are not finite do not agree.
+/// Two-sided z-tests of all blocks and channels of `a` against those of `b`, and of the whole image as one more block,
+/// which sees small differences everywhere; and a comparison of the images' means by their size. Throws
+/// std::invalid_argument if the shapes differ. Values that are not finite do not agree.
 [[nodiscard]] BlockAgreement test_agreement(const ImageEstimate& a, const ImageEstimate& b,
                                             const AgreementOptions& options = {});
 

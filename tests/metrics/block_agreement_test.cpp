@@ -71,16 +71,16 @@ TEST(BlockAgreement, CorrectsForTheNumberOfBlocks) {
     for (int y = 0; y < 4; ++y)
         for (int x = 4; x < 8; ++x) a.mean.pixel(x, y)[0] = 0.75f;
     const BlockAgreement result = test_agreement(a, b, {.block_size = 4, .mean_tolerance = 1.0});
-    EXPECT_EQ(result.tests, 2u);
+    EXPECT_EQ(result.tests, 3u) << "two blocks and the whole image";
     EXPECT_EQ(result.worst.x, 4);
     EXPECT_EQ(result.worst.y, 0);
     EXPECT_NEAR(result.worst.z, -2.0, 1e-6);
-    EXPECT_NEAR(result.p_value, 1.0 - 0.9544997361 * 0.9544997361, 1e-7);
+    EXPECT_NEAR(result.p_value, 1.0 - std::pow(0.9544997361, 3.0), 1e-7);
 }
 
 TEST(BlockAgreement, CutsBlocksAtTheBorder) {
     const ImageEstimate a = constant_estimate(17, 20, 1.0f, 0.1f);
-    EXPECT_EQ(test_agreement(a, a).tests, 4u);
+    EXPECT_EQ(test_agreement(a, a).tests, 5u);
     ImageEstimate brighter = a;
     for (int y = 16; y < 20; ++y) brighter.mean.pixel(16, y)[0] = 9.0f;
     const BlockAgreement result = test_agreement(brighter, a);
@@ -106,6 +106,16 @@ TEST(BlockAgreement, FindsOneBlockThatDiffers) {
     EXPECT_EQ(result.worst.x, 0);
     EXPECT_EQ(result.worst.y, 0);
     EXPECT_GT(result.worst.z, 0.0);
+}
+
+TEST(BlockAgreement, FindsASmallDifferenceOfTheWholeImage) {
+    // Every block is within its noise, all together are not.
+    const ImageEstimate a = constant_estimate(32, 32, 1.0f, 0.01f);
+    const ImageEstimate b = constant_estimate(32, 32, 1.04f, 0.01f);
+    const BlockAgreement result = test_agreement(a, b, {.block_size = 8, .mean_tolerance = 1.0});
+    EXPECT_FALSE(result.blocks_agree) << result.str();
+    EXPECT_EQ(result.worst.width, 32);
+    EXPECT_EQ(result.worst.height, 32);
 }
 
 TEST(BlockAgreement, HoldsTheImagesMeansToOnePercent) {
