@@ -75,7 +75,8 @@ void ProgressDisplay::update(const RenderProgress& progress) {
         return;
     }
     const bool last = progress.fraction >= 1.0;
-    if (!last && progress.seconds - last_line_seconds_ < kSecondsBetweenLines) return;
+    if (drawn_ || (!last && progress.seconds - last_line_seconds_ < kSecondsBetweenLines)) return;
+    drawn_ = last;
     last_line_seconds_ = progress.seconds;
     std::fprintf(stderr, "%s\n", format_progress(title_, progress, 160).c_str());
 }

@@ -22,7 +22,7 @@ class ProgressDisplay {
     std::string title_;
     bool quiet_;
     bool terminal_;
-    bool drawn_ = false;
+    bool drawn_ = false;  ///< terminal: a bar stands there; elsewhere: the last line has been written
     double last_line_seconds_ = 0.0;
 };
 

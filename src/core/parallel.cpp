@@ -1,6 +1,7 @@
 #include "core/parallel.h"
 
 #include <algorithm>
+#include <optional>
 
 #include <tbb/global_control.h>
 #include <tbb/info.h>
@@ -25,12 +26,14 @@ FlushDenormals::~FlushDenormals() {
 }
 
 struct ThreadPool::Impl {
-    explicit Impl(int thread_count)
-        : limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(thread_count)),
-          arena(thread_count) {}
+    explicit Impl(int thread_count) : arena(thread_count) {
+        // TBB keeps one worker per processor; more are allowed when asked for, so that determinism can be tested on a
+        // small machine. Fewer are the arena's business: a global limit would hold for other pools too.
+        if (thread_count > tbb::info::default_concurrency())
+            limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(thread_count));
+    }
 
-    // More threads than processors are allowed when asked for, so that determinism can be tested on a small machine.
-    tbb::global_control limit;
+    std::optional<tbb::global_control> limit;
     tbb::task_arena arena;
 };
 
