@@ -64,7 +64,7 @@ TEST(Warp, DirectionsAreUnitVectorsAndInvert) {
             ASSERT_NEAR(back.y, u.y, 1e-4f);
         }
         for (const Vec2f& corner : {Vec2f(0.0f, 0.0f), Vec2f(0.0f, kLargest), Vec2f(kLargest, 0.0f),
-                                   Vec2f(kLargest, kLargest), Vec2f(0.5f, 0.5f)}) {
+                                    Vec2f(kLargest, kLargest), Vec2f(0.5f, 0.5f)}) {
             const Vec3f w = warp.forward(corner);
             EXPECT_TRUE(is_finite(w)) << corner.x << " " << corner.y;
             EXPECT_NEAR(length(w), 1.0f, 1e-5f);
