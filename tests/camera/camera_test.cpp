@@ -1,0 +1,180 @@
+#include "camera/camera.h"
+
+#include "support/chi2.h"
+#include "support/random.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <optional>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace etendue::test {
+
+namespace {
+
+Mat4f translation(const Vec3f& t) {
+    return {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, t.x, t.y, t.z, 1};
+}
+Mat4f scaling(const Vec3f& s) {
+    return {s.x, 0, 0, 0, 0, s.y, 0, 0, 0, 0, s.z, 0, 0, 0, 0, 1};
+}
+/// About +X: +Y goes to +Z.
+Mat4f turn_x(float a) {
+    return {1, 0, 0, 0, 0, std::cos(a), std::sin(a), 0, 0, -std::sin(a), std::cos(a), 0, 0, 0, 0, 1};
+}
+/// About +Y: +Z goes to +X.
+Mat4f turn_y(float a) {
+    return {std::cos(a), 0, -std::sin(a), 0, 0, 1, 0, 0, std::sin(a), 0, std::cos(a), 0, 0, 0, 0, 1};
+}
+
+CameraPose tilted_pose() {
+    return CameraPose::from_matrix(turn_x(0.4f) * turn_y(1.1f) * translation({3, -2, 5}));
+}
+
+std::vector<Camera> cameras() {
+    const PinholeCamera pinhole{tilted_pose(), 0.8f, 0.45f};
+    return {pinhole, ThinLensCamera{pinhole, 0.1f, 4.0f}, OrthographicCamera{tilted_pose(), 2.0f, 1.5f}};
+}
+
+TEST(CameraPose, LooksAlongMinusZWithYUp) {
+    const CameraPose pose = CameraPose::from_matrix(Mat4f());
+    EXPECT_EQ(pose.forward, Vec3f(0, 0, -1));
+    EXPECT_EQ(pose.right, Vec3f(1, 0, 0));
+    EXPECT_EQ(pose.up, Vec3f(0, 1, 0));
+    // A quarter turn about +Y, counter-clockwise from above, looks along -X.
+    const CameraPose turned = CameraPose::from_matrix(turn_y(kPi / 2.0f) * translation({1, 2, 3}));
+    EXPECT_LT(length(turned.forward - Vec3f(-1, 0, 0)), 1e-6f);
+    EXPECT_LT(length(turned.right - Vec3f(0, 0, -1)), 1e-6f);
+    EXPECT_EQ(turned.position, Vec3f(1, 2, 3));
+}
+
+TEST(CameraPose, IgnoresScaleAndNeverMirrorsTheImage) {
+    for (const Vec3f& scale : {Vec3f(5, 5, 5), Vec3f(0.1f, 2, 7), Vec3f(-1, 1, 1)}) {
+        const CameraPose pose = CameraPose::from_matrix(scaling(scale) * turn_x(0.4f) * turn_y(1.1f));
+        const CameraPose plain = CameraPose::from_matrix(turn_x(0.4f) * turn_y(1.1f));
+        EXPECT_LT(length(pose.forward - plain.forward), 1e-5f);
+        EXPECT_LT(length(pose.up - plain.up), 1e-5f);
+        EXPECT_LT(length(pose.right - plain.right), 1e-5f);
+    }
+    const CameraPose pose = CameraPose::from_matrix(scaling({-3, 0.5f, 2}) * turn_x(2.0f));
+    EXPECT_NEAR(dot(cross(pose.right, pose.up), -pose.forward), 1.0f, 1e-5f);
+}
+
+TEST(Camera, FilmRunsRightAndDownFromTheTopLeft) {
+    for (const Camera& camera : cameras()) {
+        const CameraPose pose = tilted_pose();
+        const Vec2f middle_of_lens(0.5f, 0.5f);
+        // On the plane of focus, to compare places rather than directions.
+        const auto place = [&](Vec2f film) {
+            const Ray ray = generate_ray(camera, film, middle_of_lens);
+            EXPECT_NEAR(length(ray.direction), 1.0f, 1e-6f);
+            return ray.origin + ray.direction * (4.0f / dot(ray.direction, pose.forward)) - pose.position;
+        };
+        const Vec3f center = place({0.5f, 0.5f});
+        EXPECT_NEAR(dot(center, pose.right), 0.0f, 1e-5f);
+        EXPECT_NEAR(dot(center, pose.up), 0.0f, 1e-5f);
+        EXPECT_GT(dot(place({0.9f, 0.5f}), pose.right), 0.5f);
+        EXPECT_GT(dot(place({0.5f, 0.1f}), pose.up), 0.5f);
+        EXPECT_LT(dot(place({0.5f, 0.9f}), pose.up), -0.5f);
+    }
+}
+
+TEST(Pinhole, TheEdgesOfTheFilmAreTheFieldOfView) {
+    const PinholeCamera camera{{}, 0.8f, 0.45f};
+    const Vec3f corner = camera.generate_ray({0.0f, 0.0f}, {}).direction;
+    EXPECT_NEAR(corner.x / -corner.z, -0.8f, 1e-6f);
+    EXPECT_NEAR(corner.y / -corner.z, 0.45f, 1e-6f);
+}
+
+TEST(Pinhole, DirectionsHaveTheStatedDensity) {
+    const PinholeCamera shapes[] = {{tilted_pose(), 0.8f, 0.45f}, {{}, 3.0f, 2.0f}, {{}, 0.01f, 0.02f}};
+    for (const PinholeCamera& pinhole : shapes) {
+        const Camera camera = pinhole;
+        const auto sampler = [&](Random& random) -> std::optional<Vec3f> {
+            return generate_ray(camera, random.next_2d(), {0.5f, 0.5f}).direction;
+        };
+        const SamplerCheck check = check_sphere_sampler(
+            sampler, [&](const Vec3f& w) { return static_cast<double>(camera_pdf_solid_angle(camera, w)); });
+        EXPECT_GT(check.chi2.p_value, sidak_level(kFamilyLevel, std::size(shapes))) << check.chi2.str();
+        EXPECT_NEAR(check.pdf_integral, 1.0, 5e-3);
+    }
+}
+
+TEST(Pinhole, OutsideOfTheImageThereIsNoDensity) {
+    const Camera camera = PinholeCamera{{}, 0.8f, 0.45f};
+    EXPECT_EQ(camera_pdf_solid_angle(camera, {0, 0, 1}), 0.0f);
+    EXPECT_EQ(camera_pdf_solid_angle(camera, normalize(Vec3f(0.81f, 0, -1))), 0.0f);
+    EXPECT_EQ(camera_pdf_solid_angle(camera, normalize(Vec3f(0, -0.46f, -1))), 0.0f);
+    EXPECT_GT(camera_pdf_solid_angle(camera, normalize(Vec3f(0.79f, -0.44f, -1))), 0.0f);
+}
+
+TEST(ThinLens, RaysOfAFilmPointMeetInThePlaneOfFocus) {
+    const ThinLensCamera camera{{tilted_pose(), 0.8f, 0.45f}, 0.25f, 4.0f};
+    const CameraPose& pose = camera.pinhole.pose;
+    Random random(2);
+    float widest = 0.0f;
+    for (int i = 0; i < 50; ++i) {
+        const Vec2f film = random.next_2d();
+        const Ray through_center = camera.pinhole.generate_ray(film, {});
+        const Vec3f focus =
+            through_center.origin + through_center.direction * (4.0f / dot(through_center.direction, pose.forward));
+        for (int j = 0; j < 50; ++j) {
+            const Ray ray = camera.generate_ray(film, random.next_2d());
+            const Vec3f from_center = ray.origin - pose.position;
+            EXPECT_LE(length(from_center), 0.25f + 1e-5f);
+            EXPECT_NEAR(dot(from_center, pose.forward), 0.0f, 1e-5f);
+            EXPECT_LT(length(cross(focus - ray.origin, ray.direction)), 1e-4f);
+            widest = std::max(widest, length(from_center));
+        }
+    }
+    EXPECT_GT(widest, 0.24f);
+}
+
+TEST(Orthographic, RaysAreParallelAndFillTheRectangle) {
+    const OrthographicCamera camera{tilted_pose(), 2.0f, 1.5f};
+    Random random(3);
+    for (int i = 0; i < 100; ++i) {
+        const Vec2f film = random.next_2d();
+        const Ray ray = camera.generate_ray(film, {});
+        EXPECT_EQ(ray.direction, camera.pose.forward);
+        const Vec3f offset = ray.origin - camera.pose.position;
+        EXPECT_NEAR(dot(offset, camera.pose.right), (2.0f * film.x - 1.0f) * 2.0f, 1e-5f);
+        EXPECT_NEAR(dot(offset, camera.pose.up), (1.0f - 2.0f * film.y) * 1.5f, 1e-5f);
+    }
+    EXPECT_EQ(camera.pdf_solid_angle(camera.pose.forward), 0.0f);
+}
+
+// x and y in [-1, 1] over the image, y up.
+TEST(WorldToScreen, TakesPointsOfARayToTheirFilmPoint) {
+    Random random(4);
+    for (const Camera& camera : cameras()) {
+        const Mat4f matrix = world_to_screen(camera);
+        for (int i = 0; i < 100; ++i) {
+            const Vec2f film = random.next_2d();
+            const Ray ray = generate_ray(camera, film, {0.5f, 0.5f});
+            const Vec3f p = ray.origin + ray.direction * (0.5f + 20.0f * random.next());
+            Vec3f screen;
+            matrix.multVecMatrix(p, screen);
+            EXPECT_NEAR(screen.x, 2.0f * film.x - 1.0f, 2e-4f);
+            EXPECT_NEAR(screen.y, 1.0f - 2.0f * film.y, 2e-4f);
+        }
+    }
+}
+
+TEST(WorldToCamera, PutsTheCameraAtTheOriginLookingAlongMinusZ) {
+    for (const Camera& camera : cameras()) {
+        const CameraPose pose = tilted_pose();
+        const Mat4f matrix = world_to_camera(camera);
+        EXPECT_LT(length(transform_point(matrix, pose.position)), 1e-5f);
+        EXPECT_LT(length(transform_point(matrix, pose.position + pose.forward * 2.0f) - Vec3f(0, 0, -2)), 1e-5f);
+        EXPECT_LT(length(transform_point(matrix, pose.position + pose.right) - Vec3f(1, 0, 0)), 1e-5f);
+        EXPECT_LT(length(transform_point(matrix, pose.position + pose.up) - Vec3f(0, 1, 0)), 1e-5f);
+    }
+}
+
+}  // namespace
+
+}  // namespace etendue::test

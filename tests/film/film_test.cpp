@@ -1,0 +1,100 @@
+#include "film/film.h"
+
+#include "support/random.h"
+
+#include <algorithm>
+#include <cstring>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace etendue::test {
+
+namespace {
+
+TileBuffer filled(const PixelRect& rect, std::uint32_t seed, int samples) {
+    TileBuffer tile;
+    tile.reset(rect);
+    Random random(seed);
+    for (std::size_t i = 0; i < rect.area(); ++i)
+        for (int s = 0; s < samples; ++s) {
+            const Vec2f rg = random.next_2d();
+            tile.pixel(i).add({rg.x, rg.y * 1e4f, random.next()}, random.next());
+        }
+    return tile;
+}
+
+TEST(Film, ResolvesToMeans) {
+    Film film(2, 1, {0, 0, 2, 1});
+    TileBuffer tile;
+    tile.reset({0, 0, 2, 1});
+    tile.pixel(0).add({1.0f, 2.0f, 3.0f}, 1.0f);
+    tile.pixel(0).add({3.0f, 4.0f, -1.0f}, 0.0f);
+    film.add(tile);
+    EXPECT_EQ(film.resolve(), (std::vector<float>{2.0f, 3.0f, 1.0f, 0.5f, 0.0f, 0.0f, 0.0f, 0.0f}));
+    EXPECT_EQ(film.sample_count(), 2u);
+}
+
+TEST(Film, WindowsPlaceTilesByTheFullImagesCoordinates) {
+    const PixelRect window{10, 20, 14, 23};
+    Film film(100, 50, window);
+    EXPECT_EQ(film.full_width(), 100);
+    EXPECT_EQ(film.full_height(), 50);
+    EXPECT_EQ(film.window(), window);
+    TileBuffer tile;
+    tile.reset({12, 21, 14, 23});
+    for (std::size_t i = 0; i < 4; ++i) tile.pixel(i).add(Rgb(static_cast<float>(i + 1)), 1.0f);
+    film.add(tile);
+    const std::vector<float> image = film.resolve();
+    ASSERT_EQ(image.size(), 4u * 3u * 4u);
+    const auto red = [&](int x, int y) { return image[static_cast<std::size_t>((y - 20) * 4 + x - 10) * 4]; };
+    EXPECT_EQ(red(12, 21), 1.0f);
+    EXPECT_EQ(red(13, 21), 2.0f);
+    EXPECT_EQ(red(12, 22), 3.0f);
+    EXPECT_EQ(red(13, 22), 4.0f);
+    EXPECT_EQ(red(11, 21), 0.0f);
+    EXPECT_EQ(red(12, 20), 0.0f);
+}
+
+TEST(Film, TheOrderOfTilesDoesNotChangeABit) {
+    std::vector<TileBuffer> tiles;
+    for (int y = 0; y < 4; ++y)
+        for (int x = 0; x < 5; ++x)
+            tiles.push_back(filled({x * 8, y * 8, x * 8 + 8, y * 8 + 8}, static_cast<std::uint32_t>(x + 5 * y), 3));
+    const auto render = [&] {
+        Film film(40, 32, {0, 0, 40, 32});
+        for (int pass = 0; pass < 2; ++pass)
+            for (const TileBuffer& tile : tiles) film.add(tile);
+        return film.resolve();
+    };
+    const std::vector<float> in_order = render();
+    std::reverse(tiles.begin(), tiles.end());
+    std::swap(tiles[3], tiles[11]);
+    const std::vector<float> other = render();
+    ASSERT_EQ(in_order.size(), other.size());
+    EXPECT_EQ(std::memcmp(in_order.data(), other.data(), in_order.size() * sizeof(float)), 0);
+}
+
+TEST(Film, ManySmallSamplesAreNotLost) {
+    // In single precision the sum of 2^25 ones stops at 2^24.
+    Film film(1, 1, {0, 0, 1, 1});
+    TileBuffer tile;
+    for (int pass = 0; pass < 2; ++pass) {
+        tile.reset({0, 0, 1, 1});
+        for (int i = 0; i < (1 << 24) + 5; ++i) tile.pixel(0).add(Rgb(1.0f), 1.0f);
+        film.add(tile);
+    }
+    EXPECT_EQ(film.resolve(), (std::vector<float>{1.0f, 1.0f, 1.0f, 1.0f}));
+    EXPECT_EQ(film.sample_count(), 2u * ((1u << 24) + 5u));
+}
+
+TEST(TileBuffer, ResetForgets) {
+    TileBuffer tile = filled({0, 0, 4, 4}, 1, 2);
+    tile.reset({8, 8, 10, 10});
+    EXPECT_EQ(tile.rect(), (PixelRect{8, 8, 10, 10}));
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(tile.pixel(i).samples, 0u);
+}
+
+}  // namespace
+
+}  // namespace etendue::test

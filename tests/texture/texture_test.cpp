@@ -1,0 +1,173 @@
+#include "texture/texture.h"
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace etendue::test {
+
+namespace {
+
+double srgb_to_linear(int value) {
+    const double v = value / 255.0;
+    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+}
+
+Image8 bytes(int width, int height, int channels, std::vector<std::uint8_t> pixels) {
+    Image8 image;
+    image.width = width;
+    image.height = height;
+    image.channels = channels;
+    image.pixels = std::move(pixels);
+    return image;
+}
+
+/// One row of floats 0, 1, 2, …
+Texture ramp(int width, Wrap wrap, bool nearest) {
+    ImageF image(width, 1, 1);
+    for (int x = 0; x < width; ++x) image.pixel(x, 0)[0] = static_cast<float>(x);
+    return {std::move(image), {.wrap_u = wrap, .wrap_v = wrap, .nearest = nearest}};
+}
+
+float at(const Texture& texture, float u, float v = 0.5f) {
+    return texture.lookup({u, v}).rgb.r;
+}
+
+TEST(Texture, EveryByteIsDecodedByTheSrgbCurveAndAlphaNever) {
+    for (int value = 0; value < 256; ++value) {
+        const auto byte = static_cast<std::uint8_t>(value);
+        const double linear = value / 255.0;
+        for (const int channels : {1, 2, 3, 4}) {
+            const Image8 image =
+                bytes(1, 1, channels, std::vector<std::uint8_t>(static_cast<std::size_t>(channels), byte));
+            const Texel color = Texture(image, {.encoding = Encoding::Srgb}).lookup({0.5f, 0.5f});
+            EXPECT_NEAR(color.rgb.r, srgb_to_linear(value), 1e-6);
+            EXPECT_NEAR(color.rgb.g, srgb_to_linear(value), 1e-6);
+            EXPECT_NEAR(color.rgb.b, srgb_to_linear(value), 1e-6);
+            const Texel data = Texture(image, {.encoding = Encoding::Linear}).lookup({0.5f, 0.5f});
+            EXPECT_NEAR(data.rgb.r, linear, 1e-6);
+            EXPECT_NEAR(data.rgb.b, linear, 1e-6);
+            const bool has_alpha = channels == 2 || channels == 4;
+            EXPECT_NEAR(color.alpha, has_alpha ? linear : 1.0, 1e-6);
+            EXPECT_NEAR(data.alpha, has_alpha ? linear : 1.0, 1e-6);
+        }
+    }
+}
+
+TEST(Texture, ChannelsBecomeGreyAlphaAndColour) {
+    const auto lookup = [](int channels) {
+        ImageF image(1, 1, channels);
+        for (int c = 0; c < channels; ++c) image.pixels[static_cast<std::size_t>(c)] = 0.1f * static_cast<float>(c + 1);
+        return Texture(image, {}).lookup({0.5f, 0.5f});
+    };
+    EXPECT_EQ(lookup(1).rgb, Rgb(0.1f));
+    EXPECT_EQ(lookup(1).alpha, 1.0f);
+    EXPECT_EQ(lookup(2).rgb, Rgb(0.1f));
+    EXPECT_FLOAT_EQ(lookup(2).alpha, 0.2f);
+    EXPECT_FLOAT_EQ(lookup(3).rgb.b, 0.3f);
+    EXPECT_EQ(lookup(3).alpha, 1.0f);
+    EXPECT_FLOAT_EQ(lookup(4).alpha, 0.4f);
+}
+
+TEST(Texture, TheOriginIsTheFirstTexelOfTheTopRow) {
+    const Image8 image = bytes(2, 2, 1, {0, 51, 102, 255});
+    for (const bool nearest : {false, true}) {
+        const Texture texture(image, {.nearest = nearest});
+        EXPECT_NEAR(at(texture, 0.25f, 0.25f), 0.0f, 1e-6f);
+        EXPECT_NEAR(at(texture, 0.75f, 0.25f), 0.2f, 1e-6f);
+        EXPECT_NEAR(at(texture, 0.25f, 0.75f), 0.4f, 1e-6f);
+        EXPECT_NEAR(at(texture, 0.75f, 0.75f), 1.0f, 1e-6f);
+    }
+}
+
+TEST(Texture, BilinearPassesThroughCentresAndIsLinearBetween) {
+    const Texture texture = ramp(4, Wrap::Clamp, false);
+    for (int x = 0; x < 4; ++x) EXPECT_NEAR(at(texture, (static_cast<float>(x) + 0.5f) / 4.0f), x, 1e-6f);
+    EXPECT_NEAR(at(texture, 1.75f / 4.0f), 1.25f, 1e-6f);
+    const Texture square(bytes(2, 2, 1, {0, 0, 0, 255}), {.wrap_u = Wrap::Clamp, .wrap_v = Wrap::Clamp});
+    EXPECT_NEAR(at(square, 0.5f, 0.5f), 0.25f, 1e-6f);
+}
+
+TEST(Texture, NearestDoesNotMix) {
+    const Texture texture = ramp(4, Wrap::Repeat, true);
+    for (const float u : {0.26f, 0.3f, 0.45f, 0.49f}) EXPECT_EQ(at(texture, u), 1.0f);
+}
+
+TEST(Texture, RepeatWrapsBothWays) {
+    for (const bool nearest : {false, true}) {
+        const Texture texture = ramp(5, Wrap::Repeat, nearest);
+        for (const float u : {0.1f, 0.3f, 0.5f, 0.7f, 0.9f})
+            for (const float turns : {-7.0f, -1.0f, 1.0f, 2.0f, 100.0f})
+                EXPECT_NEAR(at(texture, u + turns), at(texture, u), 1e-3f) << u << " + " << turns;
+    }
+    // Over the seam the last texel mixes with the first.
+    EXPECT_NEAR(at(ramp(4, Wrap::Repeat, false), 0.0f), 1.5f, 1e-5f);
+    EXPECT_NEAR(at(ramp(4, Wrap::Repeat, false), 1.0f), 1.5f, 1e-5f);
+}
+
+TEST(Texture, MirrorTurnsBackAtItsSeamWithoutAStep) {
+    for (const bool nearest : {false, true}) {
+        const Texture texture = ramp(5, Wrap::Mirror, nearest);
+        for (const float u : {0.1f, 0.3f, 0.5f, 0.7f, 0.9f}) {
+            EXPECT_NEAR(at(texture, -u), at(texture, u), 1e-4f);
+            EXPECT_NEAR(at(texture, 2.0f - u), at(texture, u), 1e-4f);
+            EXPECT_NEAR(at(texture, u + 2.0f), at(texture, u), 1e-4f);
+            EXPECT_NEAR(at(texture, u - 4.0f), at(texture, u), 1e-4f);
+        }
+    }
+    // At the seams both neighbours are the same texel.
+    EXPECT_NEAR(at(ramp(4, Wrap::Mirror, false), 0.0f), 0.0f, 1e-5f);
+    EXPECT_NEAR(at(ramp(4, Wrap::Mirror, false), 1.0f), 3.0f, 1e-5f);
+}
+
+TEST(Texture, ClampHoldsTheEdge) {
+    for (const bool nearest : {false, true}) {
+        const Texture texture = ramp(4, Wrap::Clamp, nearest);
+        for (const float u : {-1e9f, -3.0f, -0.01f, 0.0f}) EXPECT_EQ(at(texture, u), 0.0f);
+        for (const float u : {1.0f, 1.01f, 5.0f, 1e9f}) EXPECT_EQ(at(texture, u), 3.0f);
+    }
+}
+
+TEST(Texture, WrapsApplyPerAxis) {
+    const Texture texture(bytes(2, 2, 1, {0, 255, 0, 255}),
+                          {.wrap_u = Wrap::Repeat, .wrap_v = Wrap::Clamp, .nearest = true});
+    EXPECT_EQ(at(texture, 1.25f, 7.0f), 0.0f);
+    EXPECT_EQ(at(texture, 1.75f, -7.0f), 1.0f);
+}
+
+TEST(Texture, AnyCoordinateReadsATexel) {
+    const float infinity = std::numeric_limits<float>::infinity();
+    const float extremes[] = {1e10f,  -1e10f,       3e38f,       -3e38f,       1e-45f, -1e-45f,
+                              -1e-9f, 1.0f - 1e-7f, 16777216.0f, -16777217.0f, 0.0f,   -0.0f};
+    for (const Wrap wrap : {Wrap::Repeat, Wrap::Mirror, Wrap::Clamp})
+        for (const bool nearest : {false, true}) {
+            const Texture texture = ramp(3, wrap, nearest);
+            for (const float u : extremes) {
+                const float value = at(texture, u, u);
+                EXPECT_TRUE(value >= 0.0f && value <= 2.0f) << u;
+            }
+            const float origin = at(texture, 0.0f, 0.0f);
+            for (const float u : {infinity, -infinity, std::numeric_limits<float>::quiet_NaN()})
+                EXPECT_EQ(at(texture, u, u), origin);
+        }
+}
+
+TEST(Texture, TheMeanIsOfLinearValues) {
+    const Texture texture(bytes(2, 1, 4, {0, 255, 100, 0, 255, 255, 200, 51}), {.encoding = Encoding::Srgb});
+    const Texel mean = texture.mean();
+    EXPECT_NEAR(mean.rgb.r, 0.5, 1e-6);
+    EXPECT_NEAR(mean.rgb.g, 1.0, 1e-6);
+    EXPECT_NEAR(mean.rgb.b, 0.5 * (srgb_to_linear(100) + srgb_to_linear(200)), 1e-6);
+    EXPECT_NEAR(mean.alpha, 0.1, 1e-6);
+}
+
+TEST(Texture, KeepsTheFilesDepth) {
+    EXPECT_EQ(Texture(bytes(4, 2, 3, std::vector<std::uint8_t>(24)), {}).bytes(), 24u);
+    EXPECT_EQ(Texture(ImageF(4, 2, 3), {}).bytes(), 96u);
+}
+
+}  // namespace
+
+}  // namespace etendue::test
