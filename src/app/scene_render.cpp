@@ -190,13 +190,15 @@ SceneRenderResult render_scene(PreparedScene prepared, const SceneRenderRequest&
 
     const RenderOptions options = make_render_options(scene.settings);
     const auto integrator = create_integrator(scene.settings);
+    // Before names are resolved: batch compares it with that of a scene that was only prepared.
+    const std::string hash = settings_hash(scene, request.overrides.depth);
     const ColorConfig colors = ColorConfig::from_environment();
     const std::string working_space = resolve_colors(scene.settings.color, colors);
 
     SceneRenderResult result;
     RenderStatistics& statistics = result.statistics;
     statistics.scene = scene.name;
-    statistics.settings_hash = settings_hash(scene, request.overrides.depth);
+    statistics.settings_hash = hash;
     statistics.width = options.window.width();
     statistics.height = options.window.height();
     statistics.full_width = options.full_width;
