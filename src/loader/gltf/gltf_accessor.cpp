@@ -125,7 +125,7 @@ std::optional<AccessorReader::Elements> AccessorReader::elements(int buffer_view
     if (!bytes) return std::nullopt;
     const std::size_t view_stride = document_.model.bufferViews[as_index(buffer_view)].byteStride;
     const std::size_t stride = view_stride == 0 ? element_size : view_stride;
-    if (stride < element_size) {
+    if (stride == 0 || stride < element_size) {
         problems_.error(where, fmt::format("elements of {} bytes overlap: buffer view {} has a stride of {}",
                                            element_size, buffer_view, stride));
         return std::nullopt;
