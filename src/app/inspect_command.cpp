@@ -1,5 +1,6 @@
 // etendue inspect: what is in a scene, and what is wrong with it.
 #include "app/commands.h"
+#include "app/scene_render.h"
 #include "color/color_config.h"
 #include "loader/loader.h"
 #include "world/compile.h"
@@ -71,6 +72,7 @@ Inspection inspect(const std::string& path) {
     // Images are decoded and everything is built, because much of what can be wrong shows only then.
     add_missing_camera_and_light(scene, result.problems);
     try {
+        (void)create_integrator(scene.settings);
         const ThreadPool threads;
         const ColorConfig colors = ColorConfig::from_environment();
         const World world =

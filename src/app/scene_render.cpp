@@ -73,17 +73,6 @@ RenderOptions make_render_options(const RenderSettings& settings) {
     return options;
 }
 
-std::unique_ptr<const Integrator> create_integrator(const RenderSettings& settings) {
-    const IntegratorSettings& s = settings.integrator;
-    auto integrator = make_integrator(s.type, {s.max_depth, s.min_depth, s.roulette_depth});
-    if (integrator) return integrator;
-    std::vector<std::string_view> names;
-    for (const IntegratorEntry& entry : integrator_registry()) names.push_back(entry.name);
-    const std::string nearest = nearest_name(s.type, names);
-    throw SceneError(settings.location, "no integrator is named '" + s.type + "'" +
-                                            (nearest.empty() ? "" : "; did you mean '" + nearest + "'?"));
-}
-
 void report_problems(const ProblemList& problems, std::size_t& reported, bool quiet) {
     for (; reported < problems.all().size(); ++reported)
         if (!quiet) log_warning("{}", problems.all()[reported].str());
@@ -154,6 +143,17 @@ std::string resolve_colors(ColorSettings& settings, const ColorConfig& colors) {
 }
 
 }  // namespace
+
+std::unique_ptr<const Integrator> create_integrator(const RenderSettings& settings) {
+    const IntegratorSettings& s = settings.integrator;
+    auto integrator = make_integrator(s.type, {s.max_depth, s.min_depth, s.roulette_depth});
+    if (integrator) return integrator;
+    std::vector<std::string_view> names;
+    for (const IntegratorEntry& entry : integrator_registry()) names.push_back(entry.name);
+    const std::string nearest = nearest_name(s.type, names);
+    throw SceneError(settings.location, "no integrator is named '" + s.type + "'" +
+                                            (nearest.empty() ? "" : "; did you mean '" + nearest + "'?"));
+}
 
 OutputPaths OutputPaths::beside(const std::filesystem::path& exr) {
     OutputPaths paths{exr, exr, exr};

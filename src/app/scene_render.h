@@ -3,9 +3,11 @@
 
 #include "app/settings_overrides.h"
 #include "core/parallel.h"
+#include "integrator/integrator.h"
 #include "output/statistics.h"
 
 #include <filesystem>
+#include <memory>
 #include <string>
 
 namespace etendue {
@@ -48,6 +50,9 @@ struct PreparedScene {
 /// with the scene or its settings, IoError when a file cannot be written.
 [[nodiscard]] SceneRenderResult render_scene(PreparedScene prepared, const SceneRenderRequest& request,
                                              const ThreadPool& threads);
+
+/// The integrator that the settings ask for. Throws SceneError with the nearest name if there is none of that name.
+[[nodiscard]] std::unique_ptr<const Integrator> create_integrator(const RenderSettings& settings);
 
 /// Hash of every setting that the image depends on, and of the program's version. Equal for equal pictures as long as
 /// the input files are the same.

@@ -1,12 +1,12 @@
 // From a scene directory or file to a SceneDesc.
 #pragma once
 
+#include "core/error.h"
+#include "scene/scene_desc.h"
+
 #include <filesystem>
 #include <memory>
 #include <span>
-
-#include "core/error.h"
-#include "scene/scene_desc.h"
 
 namespace etendue {
 
@@ -17,11 +17,12 @@ class SceneLoader {
   public:
     virtual ~SceneLoader() = default;
 
-    /// True if `file` is of this format, judged by its name and first bytes; false says "not my format", never "broken".
+    /// True if `file` is of this format, judged by its name and first bytes; false says "not my format", never
+    /// "broken".
     [[nodiscard]] virtual bool can_load(const std::filesystem::path& file) const = 0;
 
-    /// Fills `scene` from `file`. Every problem goes to `problems`; when nothing useful can follow, throws SceneError with
-    /// those that are not in `problems` yet.
+    /// Fills `scene` from `file`. Every problem goes to `problems`; when nothing useful can follow, throws SceneError
+    /// with those that are not in `problems` yet.
     virtual void load(const std::filesystem::path& file, SceneDesc& scene, ProblemList& problems) const = 0;
 };
 

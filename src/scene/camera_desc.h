@@ -1,10 +1,10 @@
 // Cameras. They look along their local -Z with +Y up, as in glTF.
 #pragma once
 
-#include <string>
-
 #include "core/error.h"
 #include "core/vec.h"
+
+#include <string>
 
 namespace etendue {
 
@@ -13,8 +13,8 @@ enum class CameraType { Perspective, Orthographic };
 struct CameraDesc {
     std::string name;
     CameraType type = CameraType::Perspective;
-    float yfov = 0.8f;            ///< perspective: full vertical field of view, radians, (0, pi)
-    float ymag = 1.0f;            ///< orthographic: half the height of the view, metres, > 0
+    float yfov = 0.8f;  ///< perspective: full vertical field of view, radians, (0, pi)
+    float ymag = 1.0f;  ///< orthographic: half the height of the view, metres, > 0
     /// Width over height that the file asks for; 0 to follow the image's. When both are known and differ, the image's
     /// wins and the vertical field of view is kept.
     float aspect_ratio = 0.0f;

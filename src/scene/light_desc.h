@@ -1,12 +1,12 @@
 // Lights without a surface (KHR_lights_punctual) and the environment. Emissive surfaces are materials.
 #pragma once
 
-#include <filesystem>
-#include <string>
-
 #include "core/error.h"
 #include "core/rgb.h"
 #include "core/vec.h"
+
+#include <filesystem>
+#include <string>
 
 namespace etendue {
 
@@ -17,9 +17,9 @@ enum class LightType { Point, Spot, Directional };
 struct LightDesc {
     std::string name;
     LightType type = LightType::Point;
-    Rgb color{1.0f};         ///< linear Rec.709
-    float intensity = 1.0f;  ///< point and spot: W/sr; directional: W/m² on a surface facing the light; >= 0
-    float inner_cone_angle = 0.0f;          ///< spot: radians from the axis to where falloff begins
+    Rgb color{1.0f};                ///< linear Rec.709
+    float intensity = 1.0f;         ///< point and spot: W/sr; directional: W/m² on a surface facing the light; >= 0
+    float inner_cone_angle = 0.0f;  ///< spot: radians from the axis to where falloff begins
     float outer_cone_angle = 0.785398163f;  ///< spot: radians from the axis to where light ends, (inner, pi/2]
     Mat4f to_world;
     SourceLocation location;

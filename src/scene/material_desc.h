@@ -2,14 +2,14 @@
 // render.json can put in its place.
 #pragma once
 
+#include "core/error.h"
+#include "core/rgb.h"
+#include "scene/texture_desc.h"
+
 #include <array>
 #include <string>
 #include <string_view>
 #include <variant>
-
-#include "core/error.h"
-#include "core/rgb.h"
-#include "scene/texture_desc.h"
 
 namespace etendue {
 
@@ -47,18 +47,19 @@ struct MaterialDesc {
     TextureRef normal_texture;              ///< data: tangent-space normal
     float normal_scale = 1.0f;
 
-    Rgb emissive{0.0f};          ///< linear Rec.709, [0, 1]
-    float emissive_strength = 1.0f;  ///< KHR_materials_emissive_strength, >= 0; radiance = emissive · strength, W/(m² sr)
-    TextureRef emissive_texture;     ///< sRGB
+    Rgb emissive{0.0f};  ///< linear Rec.709, [0, 1]
+    float emissive_strength =
+        1.0f;  ///< KHR_materials_emissive_strength, >= 0; radiance = emissive · strength, W/(m² sr)
+    TextureRef emissive_texture;  ///< sRGB
 
     AlphaMode alpha_mode = AlphaMode::Opaque;
     float alpha_cutoff = 0.5f;
     bool double_sided = false;
     bool unlit = false;  ///< KHR_materials_unlit: base colour is shown as it is and does not light anything
 
-    float ior = 1.5f;                  ///< KHR_materials_ior: 0 (full reflection) or >= 1
-    float transmission = 0.0f;         ///< KHR_materials_transmission, [0, 1], through a thin wall
-    TextureRef transmission_texture;   ///< data: R
+    float ior = 1.5f;                 ///< KHR_materials_ior: 0 (full reflection) or >= 1
+    float transmission = 0.0f;        ///< KHR_materials_transmission, [0, 1], through a thin wall
+    TextureRef transmission_texture;  ///< data: R
 
     /// Set by render.json; replaces everything above but normal, emission, alpha and double_sided.
     std::variant<std::monostate, ConductorDesc, DielectricDesc, DiffuseDesc> override_model;

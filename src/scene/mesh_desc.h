@@ -1,15 +1,15 @@
 // Triangle meshes as plain arrays.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <string>
-#include <vector>
-
 #include "core/error.h"
 #include "core/vec.h"
 #include "scene/handle.h"
 #include "scene/material_desc.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
 
 namespace etendue {
 
@@ -21,7 +21,7 @@ struct PrimitiveDesc {
     std::vector<Vec4f> tangents;   ///< xyz unit length, w = ±1 is the bitangent's sign; empty if the file has none
     std::vector<Vec2f> uv0;
     std::vector<Vec2f> uv1;
-    std::vector<Vec4f> colors;     ///< linear Rec.709 rgb and alpha, multiplied with the base colour
+    std::vector<Vec4f> colors;  ///< linear Rec.709 rgb and alpha, multiplied with the base colour
     std::vector<std::array<std::uint32_t, 3>> triangles;
     Handle<MaterialDesc> material;
     SourceLocation location;

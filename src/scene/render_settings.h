@@ -1,28 +1,28 @@
 // How a scene is rendered: what render.json says and the command line overrides. Defaults in place.
 #pragma once
 
+#include "core/error.h"
+
 #include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
 
-#include "core/error.h"
-
 namespace etendue {
 
 struct IntegratorSettings {
-    std::string type = "path";     ///< a name from the integrator registry
-    int max_depth = 32;            ///< most edges of a path from camera to light, >= 1; 1 is emission seen directly
-    int min_depth = 1;             ///< least edges of a path that is kept, >= 1
-    int roulette_depth = 5;        ///< edges after which Russian roulette may end a path, >= 1
+    std::string type = "path";  ///< a name from the integrator registry
+    int max_depth = 32;         ///< most edges of a path from camera to light, >= 1; 1 is emission seen directly
+    int min_depth = 1;          ///< least edges of a path that is kept, >= 1
+    int roulette_depth = 5;     ///< edges after which Russian roulette may end a path, >= 1
 };
 
 enum class SamplerType { Sobol, Random };
 enum class PixelFilterType { BlackmanHarris, Box, Gaussian, Mitchell };
 
 struct FilmSettings {
-    int width = 1024;   ///< pixels, [1, 65536]
-    int height = 576;   ///< pixels, [1, 65536]
+    int width = 1024;  ///< pixels, [1, 65536]
+    int height = 576;  ///< pixels, [1, 65536]
     /// x0, y0, x1, y1 in pixels, half-open, y down from the top left corner.
     std::optional<std::array<int, 4>> crop;
     PixelFilterType filter = PixelFilterType::BlackmanHarris;
@@ -39,10 +39,10 @@ struct ColorSettings {
 struct RenderSettings {
     IntegratorSettings integrator;
     SamplerType sampler = SamplerType::Sobol;
-    int spp = 64;              ///< samples per pixel, [1, 2^24]
+    int spp = 64;  ///< samples per pixel, [1, 2^24]
     std::uint32_t seed = 0;
-    double time_limit = 0.0;   ///< seconds; 0 for none. Rendering stops after the pass that exceeds it.
-    std::string camera;        ///< name of the camera; empty for the first
+    double time_limit = 0.0;  ///< seconds; 0 for none. Rendering stops after the pass that exceeds it.
+    std::string camera;       ///< name of the camera; empty for the first
     FilmSettings film;
     ColorSettings color;
     SourceLocation location;

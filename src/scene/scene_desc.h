@@ -1,11 +1,6 @@
 // A whole scene as plain data: structs, vectors, integer handles. No pixels, no BVH, no behaviour.
 #pragma once
 
-#include <filesystem>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "core/bounds.h"
 #include "core/error.h"
 #include "scene/camera_desc.h"
@@ -14,6 +9,11 @@
 #include "scene/mesh_desc.h"
 #include "scene/render_settings.h"
 #include "scene/texture_desc.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace etendue {
 

@@ -1,25 +1,25 @@
 // Images, samplers and references to textures, as a scene file names them. No pixels are decoded here.
 #pragma once
 
+#include "core/error.h"
+#include "core/vec.h"
+#include "scene/handle.h"
+
 #include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
-
-#include "core/error.h"
-#include "core/vec.h"
-#include "scene/handle.h"
 
 namespace etendue {
 
 /// An encoded image: a file, or bytes from a buffer view or a data URI. Exactly one of the two is set.
 struct ImageDesc {
     std::string name;
-    std::filesystem::path path;        ///< resolved and inside the scene directory; empty if `encoded` is used
-    std::vector<std::byte> encoded;    ///< PNG or JPEG bytes as they stood in the file
-    std::string mime_type;             ///< "image/png", "image/jpeg", or empty if the file did not say
-    int width = 0;                     ///< pixels, from the image's header
-    int height = 0;                    ///< pixels, from the image's header
+    std::filesystem::path path;      ///< resolved and inside the scene directory; empty if `encoded` is used
+    std::vector<std::byte> encoded;  ///< PNG or JPEG bytes as they stood in the file
+    std::string mime_type;           ///< "image/png", "image/jpeg", or empty if the file did not say
+    int width = 0;                   ///< pixels, from the image's header
+    int height = 0;                  ///< pixels, from the image's header
     SourceLocation location;
 };
 
