@@ -31,7 +31,7 @@ std::string format_rate(double per_second, const char* unit) {
 
 std::string format_duration(double seconds) {
     if (seconds < 10.0) return fmt::format("{:.1f} s", seconds);
-    const auto whole = static_cast<long long>(seconds + 0.5);
+    const long long whole = std::llround(seconds);
     if (whole >= 3600) return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
     return fmt::format("{}:{:02}", whole / 60, whole % 60);
 }

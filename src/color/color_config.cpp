@@ -44,6 +44,7 @@ constexpr OCIO::OptimizationFlags kExact = OCIO::OPTIMIZATION_LOSSLESS;
 
 std::vector<std::string> names_of_spaces(const OCIO::Config& config) {
     std::vector<std::string> names;
+    names.reserve(static_cast<std::size_t>(config.getNumColorSpaces()));
     for (int i = 0; i < config.getNumColorSpaces(); ++i) names.emplace_back(config.getColorSpaceNameByIndex(i));
     return names;
 }
@@ -113,7 +114,7 @@ void ColorConfig::Impl::fail_unknown(std::string_view what, const std::string& n
 }
 
 OCIO::ConstColorSpaceRcPtr ColorConfig::Impl::find_space(const std::string& name) const {
-    const auto space = config->getColorSpace(name.c_str());
+    auto space = config->getColorSpace(name.c_str());
     if (!space) fail_unknown("colour space", name, everything_that_names_a_space(*config));
     return space;
 }
@@ -186,12 +187,14 @@ std::vector<std::string> ColorConfig::spaces() const {
 
 std::vector<std::string> ColorConfig::displays() const {
     std::vector<std::string> names;
+    names.reserve(static_cast<std::size_t>(impl_->config->getNumDisplays()));
     for (int i = 0; i < impl_->config->getNumDisplays(); ++i) names.emplace_back(impl_->config->getDisplay(i));
     return names;
 }
 
 std::vector<std::string> ColorConfig::views(const std::string& display) const {
     std::vector<std::string> names;
+    names.reserve(static_cast<std::size_t>(impl_->config->getNumViews(display.c_str())));
     for (int i = 0; i < impl_->config->getNumViews(display.c_str()); ++i) {
         names.emplace_back(impl_->config->getView(display.c_str(), i));
     }

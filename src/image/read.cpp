@@ -126,7 +126,7 @@ std::vector<int> select_channels(const OIIO::ImageSpec& spec) {
 template <typename T>
 std::vector<T> read_pixels(OpenImage& image, const std::vector<int>& channels, OIIO::TypeDesc type) {
     const auto [first, last] = std::minmax_element(channels.begin(), channels.end());
-    const auto stored = static_cast<std::size_t>(*last - *first + 1);
+    const auto stored = static_cast<std::size_t>(*last - *first) + 1;
     const std::size_t pixel_count =
         static_cast<std::size_t>(image.spec.width) * static_cast<std::size_t>(image.spec.height);
     std::vector<T> pixels(pixel_count * stored);

@@ -77,7 +77,7 @@ fs::path resolve_name(const fs::path& directory, std::string_view name) {
     std::error_code code;
     const fs::path root = fs::canonical(directory.empty() ? fs::path(".") : directory, code);
     if (code) throw IoError("the scene directory cannot be read: " + code.message());
-    const fs::path file = fs::weakly_canonical(root / fs::path(name), code);
+    fs::path file = fs::weakly_canonical(root / fs::path(name), code);
     if (code) throw IoError("the file cannot be reached: " + code.message());
     if (!is_inside(root, file)) throw IoError("a symbolic link leads out of the scene directory");
 
