@@ -86,7 +86,7 @@ MaterialDesc black_card(float alpha, AlphaMode mode) {
     return material;
 }
 
-PrimitiveDesc quad(const Vec3f& center, const Vec3f& edge_u, const Vec3f& edge_v) {
+PrimitiveDesc parallelogram(const Vec3f& center, const Vec3f& edge_u, const Vec3f& edge_v) {
     const Vec3f u = edge_u * 0.5f;
     const Vec3f v = edge_v * 0.5f;
     PrimitiveDesc p;
@@ -96,11 +96,11 @@ PrimitiveDesc quad(const Vec3f& center, const Vec3f& edge_u, const Vec3f& edge_v
 }
 
 PrimitiveDesc quad_facing_up(const Vec3f& center, float size) {
-    return quad(center, {0.0f, 0.0f, size}, {size, 0.0f, 0.0f});
+    return parallelogram(center, {0.0f, 0.0f, size}, {size, 0.0f, 0.0f});
 }
 
 PrimitiveDesc quad_facing_down(const Vec3f& center, float size) {
-    return quad(center, {size, 0.0f, 0.0f}, {0.0f, 0.0f, size});
+    return parallelogram(center, {size, 0.0f, 0.0f}, {0.0f, 0.0f, size});
 }
 
 PrimitiveDesc disk_facing_down(const Vec3f& center, float radius, int segments) {

@@ -14,7 +14,7 @@ namespace etendue::test {
 [[nodiscard]] MaterialDesc black_card(float alpha, AlphaMode mode = AlphaMode::Blend);
 
 /// A parallelogram; its front is the side to which edge_u × edge_v points.
-[[nodiscard]] PrimitiveDesc quad(const Vec3f& center, const Vec3f& edge_u, const Vec3f& edge_v);
+[[nodiscard]] PrimitiveDesc parallelogram(const Vec3f& center, const Vec3f& edge_u, const Vec3f& edge_v);
 /// A square of side `size` in a plane of constant y.
 [[nodiscard]] PrimitiveDesc quad_facing_up(const Vec3f& center, float size);
 [[nodiscard]] PrimitiveDesc quad_facing_down(const Vec3f& center, float size);

@@ -31,7 +31,7 @@ std::vector<ClosedFormCase> environment_cases() {
     SceneDesc turned;
     set_environment(turned);
     turned.environment.rotation = 0.5f * kPi;
-    add(turned, quad({0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 10.0f}, {0.0f, 10.0f, 0.0f}), diffuse(0.6f));
+    add(turned, parallelogram({0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 10.0f}, {0.0f, 10.0f, 0.0f}), diffuse(0.6f));
     look(turned, {-1.0f, 0.1f, 0.2f}, {1.0f, 0.0f, 0.0f});
     cases.push_back({"environment_turned", turned, kRadiance, 5e-4});
     cases.back().environment_axis = Vec3f(0.0f, 0.0f, -1.0f);

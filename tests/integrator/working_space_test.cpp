@@ -17,7 +17,7 @@ SceneDesc red_wall() {
     SceneDesc scene;
     MaterialDesc red;
     red.override_model = DiffuseDesc{{0.7f, 0.08f, 0.05f}};
-    add(scene, quad({0.0f, 0.0f, 0.0f}, {4.0f, 0.0f, 0.0f}, {0.0f, 4.0f, 0.0f}), red);
+    add(scene, parallelogram({0.0f, 0.0f, 0.0f}, {4.0f, 0.0f, 0.0f}, {0.0f, 4.0f, 0.0f}), red);
     look(scene, {0.0f, 0.0f, 2.0f}, {0.0f, 0.0f, -1.0f}, 0.5f);
     add_light(scene, LightType::Directional, 2.0f, {0.0f, 5.0f, 0.0f}, {0.0f, -0.6f, -0.8f});
     return scene;
