@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -72,8 +73,10 @@ ImageEnvironment::ImageEnvironment(ImageF image, float rotation)
       texture_(std::move(image), {.wrap_u = Wrap::Repeat, .wrap_v = Wrap::Clamp}),
       sin_rotation_(std::sin(rotation)),
       cos_rotation_(std::cos(rotation)),
-      // Over the sphere: the integral of L sin(theta) · 2 pi · pi over the unit square, divided by 4 pi.
-      mean_radiance_(distribution_.integral() * static_cast<double>(kPi) / 2.0) {}
+      // A row between the polar angles a and b covers 2 pi (cos a - cos b) = 4 pi sin((a + b) / 2) sin(pi / (2
+      // height)); the first sine is in the weights already, the sphere has 4 pi.
+      mean_radiance_(distribution_.integral() * texture_.height() *
+                     std::sin(0.5 * std::numbers::pi / texture_.height())) {}
 
 Vec2f ImageEnvironment::to_image(const Vec3f& direction) const {
     const float x = direction.x * cos_rotation_ - direction.z * sin_rotation_;

@@ -1,7 +1,5 @@
 #include "light/punctual_light.h"
 
-#include <algorithm>
-
 namespace etendue {
 
 namespace {
@@ -31,7 +29,10 @@ float PointLight::power(float) const {
 }
 
 float SpotLight::falloff(float cos_angle) const {
-    const float ramp = std::clamp((cos_angle - cos_outer) / (cos_inner - cos_outer), 0.0f, 1.0f);
+    // Equal cones, also those that only single precision makes equal, are a hard edge; the ramp is never over nothing.
+    if (cos_angle >= cos_inner) return 1.0f;
+    if (cos_angle <= cos_outer) return 0.0f;
+    const float ramp = (cos_angle - cos_outer) / (cos_inner - cos_outer);
     return ramp * ramp;
 }
 

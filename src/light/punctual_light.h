@@ -21,7 +21,7 @@ struct SpotLight {
     Vec3f axis{0.0f, 0.0f, -1.0f};  ///< unit, the direction it shines in
     Rgb intensity{1.0f};            ///< W/sr inside the inner cone
     float cos_inner = 1.0f;
-    float cos_outer = 0.7f;  ///< < cos_inner
+    float cos_outer = 0.7f;  ///< <= cos_inner; a hard edge if they are equal
 
     [[nodiscard]] float falloff(float cos_angle) const;
     [[nodiscard]] LightSample sample(const Vec3f& point, Vec2f u) const;

@@ -25,9 +25,8 @@ Light compile_punctual(const LightDesc& desc, const ColorMatrix& from_rec709) {
         case LightType::Spot:
             break;
     }
-    // Equal cones make a hard edge; a falloff over nothing would divide by zero.
     const float cos_outer = std::cos(desc.outer_cone_angle);
-    const float cos_inner = std::max(std::cos(desc.inner_cone_angle), cos_outer + 1e-4f);
+    const float cos_inner = std::cos(desc.inner_cone_angle);
     return SpotLight{position, axis, intensity, cos_inner, cos_outer};
 }
 

@@ -35,8 +35,7 @@ class EmbreeScene {
     void set_opacity(OpacityFunction function, const void* world);
 
     void intersect(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence, QueryForm form) const;
-    void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, Coherence coherence,
-                  QueryForm form) const;
+    void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, QueryForm form) const;
 
     [[nodiscard]] std::size_t bytes() const { return bytes_; }
 
@@ -58,7 +57,7 @@ class EmbreeScene {
     void intersect_single(std::span<const Ray> rays, std::span<Hit> hits) const;
     void intersect_packets(std::span<const Ray> rays, std::span<Hit> hits, bool coherent) const;
     void occluded_single(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const;
-    void occluded_packets(std::span<const Ray> rays, std::span<std::uint8_t> occluded, bool coherent) const;
+    void occluded_packets(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const;
     [[nodiscard]] Hit make_hit(float t, float u, float v, unsigned int triangle, unsigned int inner,
                                unsigned int instance) const;
 

@@ -2,9 +2,11 @@
 // share.
 //
 // Leaks: a direction that lies on different sides of the shading and of the geometric normal scatters nothing,
-// whichever end of the walk it is (Veach 1997, section 5.3.3, for why both must agree). Adjoint: walks that carry
-// importance have the factor |wi·n_s| |wo·n_g| / (|wi·n_g| |wo·n_s|), in the names of this walk (Veach 1997,
-// equation 5.19); `evaluate` and `sample` both include it.
+// whichever end of the walk it is (Veach 1997, section 5.3.3, for why both must agree).
+//
+// Adjoint: walks that carry importance have the factor |wo·n_s| |wi·n_g| / (|wo·n_g| |wi·n_s|), where wo is the side
+// that the light comes from and wi the one that was sampled (Veach 1997, equation 5.19). `evaluate` and `sample` both
+// include it.
 #pragma once
 
 #include "bsdf/bsdf.h"
@@ -61,8 +63,8 @@ class Scattering {
         return dot(w, geometric_normal_) * local.z > 0.0f;
     }
     [[nodiscard]] float adjoint_factor(const Vec3f& wi, const Vec3f& wi_local) const {
-        const float above = std::abs(wi_local.z) * abs_dot(wo_, geometric_normal_);
-        const float below = abs_dot(wi, geometric_normal_) * std::abs(wo_local_.z);
+        const float above = std::abs(wo_local_.z) * abs_dot(wi, geometric_normal_);
+        const float below = abs_dot(wo_, geometric_normal_) * std::abs(wi_local.z);
         return below > 0.0f ? above / below : 0.0f;
     }
 

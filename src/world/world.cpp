@@ -50,7 +50,7 @@ void World::intersect(std::span<const Ray> rays, std::span<Hit> hits, Coherence 
 void World::occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, Coherence coherence,
                      QueryForm form) const {
     if (observer_) observer_->on_occluded(rays, coherence);
-    data_->bvh->occluded(rays, occluded, coherence, form);
+    data_->bvh->occluded(rays, occluded, form);
 }
 
 SurfacePoint World::surface_point(const Hit& hit) const {
