@@ -22,7 +22,9 @@ void apply_quality(Quality quality, RenderSettings& settings) {
     film.height = std::max(1, film.height / 2);
     if (film.crop) {
         auto& c = *film.crop;
-        c = {c[0] / 2, c[1] / 2, std::min(film.width, (c[2] + 1) / 2), std::min(film.height, (c[3] + 1) / 2)};
+        // An odd size loses its last column or row; a window that was only there keeps the one before.
+        c = {std::min(c[0] / 2, film.width - 1), std::min(c[1] / 2, film.height - 1),
+             std::min(film.width, (c[2] + 1) / 2), std::min(film.height, (c[3] + 1) / 2)};
     }
 }
 
