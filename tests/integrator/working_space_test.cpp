@@ -32,12 +32,12 @@ std::vector<Rgb> displayed(const SceneDesc& scene, const std::string& space, con
     return pixels;
 }
 
-TEST(WorkingSpace, DoesNotShowInDirectLightOnARedWall) {
+void expect_same_display(const SceneDesc& scene) {
     const ColorConfig colors = ColorConfig::built_in();
     for (const std::string& view : colors.views(colors.default_display())) {
         if (view == "Raw") continue;  // shows the working space's own numbers
-        const std::vector<Rgb> wide = displayed(red_wall(), "ACEScg", view);
-        const std::vector<Rgb> narrow = displayed(red_wall(), "Linear Rec.709 (sRGB)", view);
+        const std::vector<Rgb> wide = displayed(scene, "ACEScg", view);
+        const std::vector<Rgb> narrow = displayed(scene, "Linear Rec.709 (sRGB)", view);
         ASSERT_GT(narrow.front().r, 2.0f * narrow.front().g) << view << ": the wall should be red";
         for (std::size_t i = 0; i < wide.size(); ++i) {
             ASSERT_NEAR(wide[i].r, narrow[i].r, 5e-4f) << view;
@@ -45,6 +45,17 @@ TEST(WorkingSpace, DoesNotShowInDirectLightOnARedWall) {
             ASSERT_NEAR(wide[i].b, narrow[i].b, 5e-4f) << view;
         }
     }
+}
+
+TEST(WorkingSpace, DoesNotShowInDirectLightOnARedWall) {
+    expect_same_display(red_wall());
+}
+
+TEST(WorkingSpace, DoesNotShowInRedLightOnAGreyWall) {
+    SceneDesc scene = red_wall();
+    scene.materials.front() = diffuse(0.5f);
+    scene.lights.front().color = {1.0f, 0.1f, 0.05f};
+    expect_same_display(scene);
 }
 
 TEST(WorkingSpace, RadianceIsTheKnownOneInEachChannel) {

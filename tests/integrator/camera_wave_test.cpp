@@ -1,0 +1,105 @@
+#include "integrator/camera_wave.h"
+
+#include "world/test_scene.h"
+
+#include <cmath>
+#include <limits>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace etendue::test {
+
+namespace {
+
+class CameraWave : public testing::Test {
+  protected:
+    void generate(std::size_t first, std::size_t count) {
+        samples_.resize(count);
+        rays_.resize(count);
+        generate_camera_rays(world_, job_, first, samples_, rays_);
+    }
+
+    World world_ = compile(empty_scene());
+    PixelFilter filter_{FilterShape::Box};
+    TileJob job_{{10, 20, 15, 24}, 40, 30, 3, 6, 9, SampleSequence::Sobol, &filter_};
+    std::vector<CameraSample> samples_;
+    std::vector<Ray> rays_;
+};
+
+TEST_F(CameraWave, EveryPixelGetsEachOfItsSamplesOnce) {
+    generate(0, camera_sample_count(job_));
+    std::set<std::pair<std::uint32_t, std::uint32_t>> seen;
+    for (const CameraSample& s : samples_) {
+        EXPECT_LT(s.pixel, job_.rect.area());
+        EXPECT_GE(s.key.index, 3u);
+        EXPECT_LT(s.key.index, 9u);
+        EXPECT_TRUE(seen.emplace(s.pixel, s.key.index).second);
+    }
+    EXPECT_EQ(seen.size(), job_.rect.area() * 6);
+}
+
+TEST_F(CameraWave, RaysPassThroughTheirPixels) {
+    generate(0, camera_sample_count(job_));
+    const Mat4f to_screen = world_to_screen(world_.camera());
+    for (std::size_t i = 0; i < rays_.size(); ++i) {
+        Vec3f screen;
+        to_screen.multVecMatrix(rays_[i].origin + rays_[i].direction, screen);
+        const float x = (screen.x + 1.0f) * 0.5f * 40.0f;
+        const float y = (1.0f - screen.y) * 0.5f * 30.0f;
+        const auto left = static_cast<float>(10 + samples_[i].pixel % 5);
+        const auto top = static_cast<float>(20 + samples_[i].pixel / 5);
+        EXPECT_TRUE(x >= left - 1e-3f && x <= left + 1.0f + 1e-3f) << x << " in pixel " << left;
+        EXPECT_TRUE(y >= top - 1e-3f && y <= top + 1.0f + 1e-3f) << y << " in pixel " << top;
+    }
+}
+
+TEST_F(CameraWave, SamplesDoNotDependOnWavesOrTiles) {
+    generate(0, camera_sample_count(job_));
+    const std::vector<Ray> all = rays_;
+    generate(37, 20);
+    for (std::size_t i = 0; i < 20; ++i) {
+        EXPECT_EQ(rays_[i].direction, all[37 + i].direction);
+        EXPECT_EQ(rays_[i].alpha_key, all[37 + i].alpha_key);
+    }
+    // The same pixel in another tile: pixel (12, 21) is the eighth of the first and the first of the second.
+    job_.rect = {12, 21, 14, 22};
+    generate(0, 1);
+    EXPECT_EQ(rays_[0].direction, all[7].direction);
+    EXPECT_EQ(rays_[0].alpha_key, all[7].alpha_key);
+}
+
+TEST_F(CameraWave, AccumulateWeighsAndDrops) {
+    generate(0, 8);
+    TileBuffer tile;
+    tile.reset(job_.rect);
+    RenderCounters counters;
+    CameraSample sample = samples_[7];
+    sample.weight = 2.0f;
+    accumulate(job_, sample, {1.0f, 2.0f, 3.0f}, 0.5f, tile, counters);
+    EXPECT_EQ(tile.pixel(7).g, 4.0);
+    EXPECT_EQ(tile.pixel(7).alpha, 1.0);
+    EXPECT_EQ(tile.pixel(7).samples, 1u);
+    EXPECT_EQ(counters.dropped, 0u);
+
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const float infinity = std::numeric_limits<float>::infinity();
+    std::uint64_t dropped = 0;
+    // The last is finite, but not after the filter's weight.
+    for (const Rgb& bad : {Rgb(nan, 0, 0), Rgb(0, infinity, 0), Rgb(0, 0, -1e-3f), Rgb(3e38f)}) {
+        accumulate(job_, sample, bad, 1.0f, tile, counters);
+        EXPECT_EQ(counters.dropped, ++dropped);
+    }
+    EXPECT_EQ(tile.pixel(7).g, 4.0);
+    EXPECT_EQ(tile.pixel(7).samples, 5u);
+    EXPECT_EQ(counters.samples, 5u);
+    EXPECT_EQ(counters.first_dropped[0].x, 12);
+    EXPECT_EQ(counters.first_dropped[0].y, 21);
+    EXPECT_EQ(counters.first_dropped[0].sample, sample.key.index);
+}
+
+}  // namespace
+
+}  // namespace etendue::test

@@ -1,0 +1,39 @@
+#include "integrator/integrator.h"
+
+#include <gtest/gtest.h>
+
+namespace etendue::test {
+
+namespace {
+
+TEST(RenderCounters, AddUp) {
+    RenderCounters a;
+    a.camera_rays = 1;
+    a.bounce_rays = 20;
+    a.shadow_rays = 300;
+    a.samples = 5;
+    RenderCounters b = a;
+    b.camera_rays = 7;
+    a.add(b);
+    EXPECT_EQ(a.camera_rays, 8u);
+    EXPECT_EQ(a.rays(), 8u + 40u + 600u);
+    EXPECT_EQ(a.samples, 10u);
+}
+
+TEST(RenderCounters, LocateTheFirstDroppedSamplesAndCountAll) {
+    RenderCounters a;
+    for (int i = 0; i < 5; ++i) a.drop({i, 0, 0});
+    RenderCounters b;
+    for (int i = 0; i < 20; ++i) b.drop({i, 1, 0});
+    EXPECT_EQ(b.first_dropped.size(), RenderCounters::kMaxLocated);
+    a.add(b);
+    EXPECT_EQ(a.dropped, 25u);
+    ASSERT_EQ(a.first_dropped.size(), RenderCounters::kMaxLocated);
+    EXPECT_EQ(a.first_dropped[4].x, 4);
+    EXPECT_EQ(a.first_dropped[5].x, 0);
+    EXPECT_EQ(a.first_dropped[5].y, 1);
+}
+
+}  // namespace
+
+}  // namespace etendue::test

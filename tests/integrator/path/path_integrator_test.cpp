@@ -1,0 +1,228 @@
+// Path lengths, transparency and agreement of the strategies, on scenes whose answer is known. Tolerances are 5
+// standard errors where there is noise.
+#include "integrator/path/path_integrator.h"
+
+#include "integrator/render_tile.h"
+#include "world/test_scene.h"
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+namespace etendue::test {
+
+namespace {
+
+PathIntegrator path_of(int max_depth, int min_depth = 1, bool sample_lights = true, int roulette_depth = 5) {
+    return PathIntegrator({.lengths = {max_depth, min_depth, roulette_depth}, .sample_lights = sample_lights});
+}
+
+SceneDesc with_environment(float radiance) {
+    SceneDesc scene = empty_scene();
+    scene.environment.enabled = true;
+    scene.environment.color = Rgb(radiance);
+    return scene;
+}
+
+/// The camera sits inside a sphere that emits `radiance` and reflects `albedo`: every further bounce adds the same.
+SceneDesc furnace(float radiance, float albedo) {
+    SceneDesc scene = empty_scene();
+    MaterialDesc wall = diffuse(Rgb(albedo));
+    wall.emissive = Rgb(radiance);
+    PrimitiveDesc inside = sphere(Vec3f(0.0f), 2.0f, 12);
+    for (auto& triangle : inside.triangles) std::swap(triangle[1], triangle[2]);
+    for (Vec3f& n : inside.normals) n = -n;
+    add_object(scene, std::move(inside), add_material(scene, wall));
+    return scene;
+}
+
+TEST(PathIntegrator, DepthCountsEdges) {
+    // A closed furnace with emission E and albedo a: n edges bring E (1 + a + ... + a^(n-1)).
+    const World world = compile(furnace(0.5f, 0.5f));
+    double expected = 0.0;
+    for (int depth = 1; depth <= 4; ++depth) {
+        expected += 0.5 * std::pow(0.5, depth - 1);
+        for (const bool sample_lights : {true, false}) {
+            const TileResult all = render_tile(world, path_of(depth, 1, sample_lights), 256);
+            EXPECT_NEAR(all.mean.g, expected, 5.0 * all.error + 2e-3) << depth << " edges";
+            const TileResult last = render_tile(world, path_of(depth, depth, sample_lights), 256);
+            EXPECT_NEAR(last.mean.g, 0.5 * std::pow(0.5, depth - 1), 5.0 * last.error + 2e-3) << "only " << depth;
+        }
+    }
+}
+
+TEST(PathIntegrator, RouletteDoesNotChangeTheMean) {
+    const World world = compile(furnace(0.5f, 0.5f));
+    for (const int roulette_depth : {1, 5}) {
+        const TileResult result = render_tile(world, path_of(64, 1, true, roulette_depth), 512);
+        EXPECT_NEAR(result.mean.g, 1.0, 5.0 * result.error + 3e-3);
+    }
+}
+
+TEST(PathIntegrator, RouletteKeepsLightInGlass) {
+    // Radiance is scaled by eta² going in and back going out; roulette must not see that. A lossless ball before a
+    // constant environment is invisible.
+    SceneDesc scene = with_environment(1.0f);
+    MaterialDesc glass;
+    glass.override_model = DielectricDesc{1.8f, 0.0f};
+    add_object(scene, sphere({0, 0, -3}, 1.2f, 24), add_material(scene, glass));
+    const World world = compile(std::move(scene));
+    for (const int roulette_depth : {1, 64}) {
+        const TileResult result = render_tile(world, path_of(256, 1, true, roulette_depth), 1024);
+        EXPECT_NEAR(result.mean.g, 1.0, 5.0 * result.error + 3e-3) << "roulette after " << roulette_depth;
+        EXPECT_EQ(result.counters.dropped, 0u);
+    }
+}
+
+TEST(PathIntegrator, AConvexBodyInAConstantEnvironmentShowsItsAlbedo) {
+    SceneDesc scene = with_environment(2.0f);
+    add_object(scene, sphere({0, 0, -2}, 1.9f, 24), add_material(scene, diffuse({0.2f, 0.5f, 0.8f})));
+    const World world = compile(std::move(scene));
+    for (const bool sample_lights : {true, false})
+        for (const SampleSequence sequence : {SampleSequence::Sobol, SampleSequence::Random}) {
+            const TileResult result = render_tile(world, path_of(32, 1, sample_lights), 256, sequence);
+            EXPECT_NEAR(result.mean.r, 0.4, 5.0 * result.error + 4e-3);
+            EXPECT_NEAR(result.mean.g, 1.0, 5.0 * result.error + 1e-2);
+            EXPECT_NEAR(result.mean.b, 1.6, 10.0 * result.error + 1.6e-2);
+        }
+}
+
+TEST(PathIntegrator, StrategiesAgreeOnALampAndAGlossyWall) {
+    for (const float roughness : {0.2f, 0.6f, 1.0f}) {
+        SceneDesc scene = empty_scene();
+        MaterialDesc wall;
+        wall.base_color = {0.9f, 0.6f, 0.3f};
+        wall.metallic = 0.5f;
+        wall.roughness = roughness;
+        add_object(scene, quad({0, 0, -3}, {4, 0, 0}, {0, 4, 0}), add_material(scene, wall));
+        add_object(scene, quad({0, 0.5f, -1}, {0, 0, -0.7f}, {0.7f, 0, 0}), add_material(scene, emissive(Rgb(8.0f))));
+        const World world = compile(std::move(scene));
+        const TileResult by_mis = render_tile(world, path_of(2, 2, true), 1024);
+        const TileResult by_chance = render_tile(world, path_of(2, 2, false), 8192);
+        EXPECT_GT(by_mis.mean.g, 0.01f);
+        EXPECT_NEAR(by_mis.mean.g, by_chance.mean.g, 5.0 * std::hypot(by_mis.error, by_chance.error))
+            << "roughness " << roughness;
+        // Multiple importance sampling is there to lower the noise.
+        EXPECT_LT(by_mis.error, by_chance.error);
+    }
+}
+
+TEST(PathIntegrator, PointLightsFollowTheInverseSquare) {
+    SceneDesc scene = empty_scene();
+    add_object(scene, quad({0, 0, -1}, {0.05f, 0, 0}, {0, 0.05f, 0}), add_material(scene, diffuse(Rgb(1.0f))));
+    scene.cameras[0].yfov = 0.01f;
+    LightDesc light;
+    light.intensity = 12.0f;
+    light.to_world = translation({0, 0, 1});
+    scene.lights.push_back(light);
+    const World world = compile(std::move(scene));
+    // I / d² times albedo / pi.
+    EXPECT_NEAR(render_tile(world, path_of(2), 4).mean.g, 12.0f / 4.0f * kInvPi, 1e-4f);
+    // By chance a point is never found.
+    EXPECT_EQ(render_tile(world, path_of(2, 1, false), 4).mean.g, 0.0f);
+}
+
+TEST(PathIntegrator, DirectLightIsBlockedByWhatStandsBetween) {
+    SceneDesc scene = empty_scene();
+    add_object(scene, quad({0, 0, -2}, {3, 0, 0}, {0, 3, 0}), add_material(scene, diffuse(Rgb(1.0f))));
+    MaterialDesc screen = diffuse(Rgb(0.0f));
+    screen.alpha_mode = AlphaMode::Blend;
+    screen.base_alpha = 0.25f;
+    // Behind the camera, before the light.
+    add_object(scene, quad({0, 0, 1}, {9, 0, 0}, {0, 9, 0}), add_material(scene, screen));
+    LightDesc sun;
+    sun.type = LightType::Directional;
+    sun.intensity = 4.0f;
+    scene.lights.push_back(sun);
+    const TileResult result = render_tile(compile(std::move(scene)), path_of(2), 1024);
+    EXPECT_NEAR(result.mean.g, 4.0 * 0.75 / M_PI, 5.0 * result.error);
+    EXPECT_GT(result.error, 0.0);
+}
+
+TEST(PathIntegrator, TranslucentSurfacesLetTheBackgroundThrough) {
+    SceneDesc scene = with_environment(1.0f);
+    scene.environment.visible_to_camera = false;
+    MaterialDesc sheet = emissive(Rgb(3.0f));
+    sheet.alpha_mode = AlphaMode::Blend;
+    sheet.base_alpha = 0.4f;
+    add_object(scene, quad({0, 0, -2}, {5, 0, 0}, {0, 5, 0}), add_material(scene, sheet));
+    const TileResult result = render_tile(compile(std::move(scene)), path_of(1), 4096);
+    EXPECT_NEAR(result.mean.g, 1.2, 5.0 * result.error);
+    EXPECT_NEAR(result.alpha, 0.4, 5.0 * result.error / 3.0);
+}
+
+TEST(PathIntegrator, AnInvisibleEnvironmentStillLights) {
+    for (const bool visible : {true, false}) {
+        SceneDesc scene = with_environment(2.0f);
+        scene.environment.visible_to_camera = visible;
+        const TileResult empty = render_tile(compile(scene), path_of(8), 4);
+        EXPECT_EQ(empty.mean, Rgb(visible ? 2.0f : 0.0f));
+        EXPECT_EQ(empty.alpha, visible ? 1.0 : 0.0);
+        add_object(scene, quad({0, 0, -2}, {5, 0, 0}, {0, 5, 0}), add_material(scene, diffuse(Rgb(0.5f))));
+        const TileResult wall = render_tile(compile(scene), path_of(8), 256);
+        EXPECT_NEAR(wall.mean.g, 1.0, 5.0 * wall.error + 5e-3);
+        EXPECT_EQ(wall.alpha, 1.0);
+    }
+}
+
+TEST(PathIntegrator, UnlitSurfacesAreSeenButLightNothing) {
+    SceneDesc scene = empty_scene();
+    MaterialDesc unlit;
+    unlit.unlit = true;
+    unlit.base_color = Rgb(0.5f);
+    const auto handle = add_material(scene, unlit);
+    add_object(scene, quad({0, 0, -2}, {5, 0, 0}, {0, 5, 0}), handle);
+    EXPECT_NEAR(render_tile(compile(scene), path_of(8), 1).mean.g, 0.5f, 1e-6f);
+    // Behind the camera it does not reach a diffuse wall, but a mirror shows it.
+    for (const bool mirror : {false, true}) {
+        SceneDesc lit = empty_scene();
+        MaterialDesc wall = diffuse(Rgb(1.0f));
+        if (mirror) wall.override_model = ConductorDesc{"", 0.0f};
+        add_object(lit, quad({0, 0, -2}, {5, 0, 0}, {0, 5, 0}), add_material(lit, wall));
+        add_object(lit, quad({0, 0, 2}, {-9, 0, 0}, {0, 9, 0}), add_material(lit, unlit));
+        EXPECT_NEAR(render_tile(compile(std::move(lit)), path_of(8), 16).mean.g, mirror ? 0.5f : 0.0f, 1e-5f);
+    }
+}
+
+TEST(PathIntegrator, WithoutAnythingTheImageIsTransparentBlack) {
+    const TileResult result = render_tile(compile(empty_scene()), path_of(8), 2);
+    EXPECT_EQ(result.mean, Rgb(0.0f));
+    EXPECT_EQ(result.alpha, 0.0);
+}
+
+TEST(PathIntegrator, LightSamplingOfSeveralLightsAddsThemUp) {
+    // Each light alone, then all together: the choice by power must not weigh any twice.
+    const auto scene_with = [](bool lamp, bool sun, bool sky) {
+        SceneDesc scene = empty_scene();
+        add_object(scene, quad({0, 0, -3}, {4, 0, 0}, {0, 4, 0}), add_material(scene, diffuse(Rgb(0.8f))));
+        if (lamp)
+            add_object(scene, quad({0, 1.5f, -2}, {0.4f, 0, 0}, {0, 0, 0.4f}),
+                       add_material(scene, emissive(Rgb(9.0f))));
+        if (sun) {
+            LightDesc light;
+            light.type = LightType::Directional;
+            scene.lights.push_back(light);
+        }
+        if (sky) {
+            scene.environment.enabled = true;
+            scene.environment.color = Rgb(0.3f);
+        }
+        return compile(std::move(scene));
+    };
+    double sum = 0.0;
+    double variance = 0.0;
+    for (const auto& [lamp, sun, sky] : {std::array{true, false, false}, {false, true, false}, {false, false, true}}) {
+        const TileResult one = render_tile(scene_with(lamp, sun, sky), path_of(2, 2), 1024);
+        sum += static_cast<double>(one.mean.g);
+        variance += one.error * one.error;
+    }
+    const TileResult all = render_tile(scene_with(true, true, true), path_of(2, 2), 4096);
+    // The lamp hides a little of the sky.
+    EXPECT_NEAR(all.mean.g, sum, 5.0 * std::sqrt(variance + all.error * all.error) + 0.02 * sum);
+}
+
+}  // namespace
+
+}  // namespace etendue::test

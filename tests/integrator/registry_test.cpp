@@ -1,0 +1,31 @@
+#include "integrator/integrator.h"
+
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace etendue::test {
+
+namespace {
+
+TEST(IntegratorRegistry, HoldsWhatTheDocumentationNames) {
+    std::set<std::string> names;
+    for (const IntegratorEntry& entry : integrator_registry()) {
+        EXPECT_TRUE(names.insert(std::string(entry.name)).second) << entry.name << " twice";
+        EXPECT_FALSE(entry.summary.empty());
+        const auto integrator = make_integrator(entry.name, {});
+        ASSERT_NE(integrator, nullptr);
+        EXPECT_NE(integrator->make_scratch(), nullptr);
+    }
+    for (const char* name : {"path", "direct", "naive", "normals", "albedo"}) EXPECT_TRUE(names.contains(name)) << name;
+}
+
+TEST(IntegratorRegistry, UnknownNamesMakeNothing) {
+    EXPECT_EQ(make_integrator("pathtracer", {}), nullptr);
+    EXPECT_EQ(make_integrator("", {}), nullptr);
+}
+
+}  // namespace
+
+}  // namespace etendue::test

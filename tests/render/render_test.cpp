@@ -1,0 +1,245 @@
+// Scheduling: what an image must not depend on, and how a render stops.
+#include "render/render.h"
+
+#include "world/test_scene.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <set>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace etendue::test {
+
+namespace {
+
+/// A bit of everything: glass, metal, a translucent sheet, instances, a lamp, a spot, an environment, and holes through
+/// which the background shows.
+SceneDesc busy_scene(int width, int height) {
+    SceneDesc scene = empty_scene();
+    scene.settings.film.width = width;
+    scene.settings.film.height = height;
+    MaterialDesc glass;
+    glass.override_model = DielectricDesc{1.5f, 0.0f};
+    MaterialDesc brushed;
+    brushed.override_model = ConductorDesc{"Cu", 0.4f};
+    MaterialDesc sheet = diffuse({0.2f, 0.6f, 0.3f});
+    sheet.alpha_mode = AlphaMode::Blend;
+    sheet.base_alpha = 0.4f;
+    add_object(scene, sphere({-0.4f, 0.0f, -2.5f}, 0.35f, 10), add_material(scene, glass));
+    add_object(scene, quad({0, 0, -1.5f}, {0.3f, 0, 0}, {0, 0.3f, 0}), add_material(scene, sheet));
+    add_object(scene, quad({0, -0.6f, -3}, {1.2f, 0, 0}, {0, 0, -1.2f}), add_material(scene, diffuse(Rgb(0.7f))));
+    add_object(scene, quad({0, 1.1f, -3}, {0.4f, 0, 0}, {0, 0, 0.4f}), add_material(scene, emissive(Rgb(6.0f))));
+    PrimitiveDesc ball = sphere(Vec3f(0.0f), 0.2f, 8);
+    ball.material = add_material(scene, brushed);
+    const auto shared = add_mesh(scene, {ball});
+    for (const float x : {0.3f, 0.8f}) place(scene, shared, translation({x, -0.3f, -2.8f}));
+    LightDesc spot;
+    spot.type = LightType::Spot;
+    spot.intensity = 3.0f;
+    scene.lights.push_back(spot);
+    scene.environment.enabled = true;
+    scene.environment.color = {0.2f, 0.3f, 0.5f};
+    scene.environment.visible_to_camera = false;
+    return scene;
+}
+
+RenderOptions options_for(int width, int height, std::uint32_t spp) {
+    RenderOptions options;
+    options.full_width = width;
+    options.full_height = height;
+    options.window = {0, 0, width, height};
+    options.spp = spp;
+    options.seed = 5;
+    return options;
+}
+
+RenderResult render_now(const World& world, const char* integrator, const RenderOptions& options, int threads,
+                        const ProgressCallback& progress = {}) {
+    const ThreadPool pool(threads);
+    const std::atomic<bool> stop{false};
+    return render(world, *make_integrator(integrator, {}), options, pool, stop, progress);
+}
+
+bool same_bytes(const std::vector<float>& a, const std::vector<float>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
+}
+
+class Determinism : public testing::TestWithParam<std::tuple<const char*, SampleSequence>> {};
+
+TEST_P(Determinism, ThreadsAndTileOrderDoNotChangeABit) {
+    constexpr int kWidth = 100;
+    constexpr int kHeight = 70;
+    const auto [integrator, sequence] = GetParam();
+    const World world = compile(busy_scene(kWidth, kHeight));
+    RenderOptions options = options_for(kWidth, kHeight, 6);
+    options.sequence = sequence;
+    const RenderResult reference = render_now(world, integrator, options, 1);
+    const std::vector<float> image = reference.film.resolve();
+    for (const int threads : {1, 2, 5})
+        for (const std::uint32_t order : {0u, 12345u}) {
+            options.tile_order_seed = order;
+            const RenderResult again = render_now(world, integrator, options, threads);
+            EXPECT_TRUE(same_bytes(again.film.resolve(), image)) << threads << " threads, tile order " << order;
+            EXPECT_EQ(again.counters.rays(), reference.counters.rays());
+        }
+    // The image is one: it has light, darkness, and pixels that are partly covered.
+    std::set<float> alphas;
+    float brightest = 0.0f;
+    for (std::size_t i = 0; i < image.size(); i += 4) {
+        alphas.insert(image[i + 3]);
+        brightest = std::max(brightest, image[i]);
+    }
+    EXPECT_GT(brightest, 0.1f);
+    EXPECT_GT(alphas.size(), 3u);
+    // Another seed is another image.
+    options.seed = 6;
+    EXPECT_FALSE(same_bytes(render_now(world, integrator, options, 2).film.resolve(), image));
+}
+
+TEST_P(Determinism, ACropIsThePartOfTheWholeBitForBit) {
+    constexpr int kWidth = 100;
+    constexpr int kHeight = 70;
+    const auto [integrator, sequence] = GetParam();
+    const World world = compile(busy_scene(kWidth, kHeight));
+    RenderOptions options = options_for(kWidth, kHeight, 5);
+    options.sequence = sequence;
+    const std::vector<float> whole = render_now(world, integrator, options, 2).film.resolve();
+    const PixelRect crops[] = {{13, 21, 81, 60}, {0, 0, 33, 1}, {99, 69, 100, 70}};
+    for (const PixelRect& crop : crops) {
+        options.window = crop;
+        const std::vector<float> part = render_now(world, integrator, options, 2).film.resolve();
+        ASSERT_EQ(part.size(), crop.area() * 4);
+        for (int y = crop.y0; y < crop.y1; ++y) {
+            const auto row = static_cast<std::size_t>(crop.width()) * 4;
+            const float* expected = &whole[static_cast<std::size_t>(y * kWidth + crop.x0) * 4];
+            const float* actual = &part[static_cast<std::size_t>(y - crop.y0) * row];
+            EXPECT_EQ(std::memcmp(expected, actual, row * sizeof(float)), 0) << "row " << y;
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Render, Determinism,
+                         testing::Combine(testing::Values("path", "naive", "direct"),
+                                          testing::Values(SampleSequence::Sobol, SampleSequence::Random)),
+                         [](const auto& param) {
+                             return std::string(std::get<0>(param.param)) +
+                                    (std::get<1>(param.param) == SampleSequence::Sobol ? "Sobol" : "Random");
+                         });
+
+TEST(Render, CountsSamplesAndRays) {
+    const World world = compile(busy_scene(50, 40));
+    const RenderOptions options = options_for(50, 40, 7);
+    const RenderResult result = render_now(world, "path", options, 2);
+    EXPECT_EQ(result.halt_reason, HaltReason::SamplesDone);
+    EXPECT_EQ(result.spp_done, 7u);
+    EXPECT_EQ(result.counters.samples, 50u * 40u * 7u);
+    EXPECT_EQ(result.film.sample_count(), 50u * 40u * 7u);
+    EXPECT_EQ(result.counters.camera_rays, 50u * 40u * 7u);
+    EXPECT_GT(result.counters.bounce_rays, 0u);
+    EXPECT_GT(result.counters.shadow_rays, 0u);
+    EXPECT_EQ(result.counters.dropped, 0u);
+    EXPECT_GT(result.wall_seconds, 0.0);
+    EXPECT_EQ(render_now(world, "naive", options, 2).counters.shadow_rays, 0u);
+}
+
+TEST(Render, ProgressGrowsAndEndsAtOne) {
+    const World world = compile(busy_scene(64, 64));
+    std::vector<RenderProgress> reports;
+    const RenderResult result =
+        render_now(world, "path", options_for(64, 64, 16), 2, [&](const RenderProgress& p) { reports.push_back(p); });
+    ASSERT_FALSE(reports.empty());
+    EXPECT_DOUBLE_EQ(reports.back().fraction, 1.0);
+    EXPECT_EQ(reports.back().samples, result.counters.samples);
+    EXPECT_EQ(reports.back().rays, result.counters.rays());
+    for (std::size_t i = 1; i < reports.size(); ++i) {
+        EXPECT_GE(reports[i].fraction, reports[i - 1].fraction);
+        EXPECT_GE(reports[i].seconds, reports[i - 1].seconds);
+    }
+}
+
+TEST(Render, AStopFlagThatIsSetRendersNothing) {
+    const World world = compile(busy_scene(40, 40));
+    const ThreadPool pool(2);
+    const std::atomic<bool> stop{true};
+    const RenderResult result = render(world, *make_integrator("path", {}), options_for(40, 40, 4), pool, stop, {});
+    EXPECT_EQ(result.halt_reason, HaltReason::Interrupted);
+    EXPECT_EQ(result.spp_done, 0u);
+    EXPECT_EQ(result.film.sample_count(), 0u);
+    for (const float value : result.film.resolve()) EXPECT_EQ(value, 0.0f);
+}
+
+TEST(Render, StoppingOnTheWayKeepsFinishedTiles) {
+    const World world = compile(busy_scene(96, 96));
+    const ThreadPool pool(2);
+    std::atomic<bool> stop{false};
+    // No report comes before a tenth of a second; what was done by then is kept.
+    const RenderOptions options = options_for(96, 96, 1u << 20);
+    const RenderResult result =
+        render(world, *make_integrator("path", {}), options, pool, stop, [&](const RenderProgress&) { stop = true; });
+    EXPECT_EQ(result.halt_reason, HaltReason::Interrupted);
+    EXPECT_GT(result.film.sample_count(), 0u);
+    EXPECT_EQ(result.film.sample_count(), result.counters.samples);
+    EXPECT_GE(result.film.sample_count(), std::uint64_t{96 * 96} * result.spp_done);
+    EXPECT_LT(result.spp_done, options.spp);
+}
+
+TEST(Render, TheTimeLimitStopsBetweenPassesAndAgreesWithAShorterRender) {
+    const World world = compile(busy_scene(64, 64));
+    RenderOptions options = options_for(64, 64, 1u << 20);
+    options.time_limit_seconds = 0.15;
+    const RenderResult result = render_now(world, "path", options, 2);
+    EXPECT_EQ(result.halt_reason, HaltReason::TimeLimit);
+    ASSERT_GT(result.spp_done, 0u);
+    EXPECT_EQ(result.film.sample_count(), std::uint64_t{64 * 64} * result.spp_done);
+    options.time_limit_seconds = 0.0;
+    options.spp = result.spp_done;
+    EXPECT_TRUE(same_bytes(render_now(world, "path", options, 2).film.resolve(), result.film.resolve()));
+}
+
+TEST(Render, SamplesThatOverflowAreDroppedCountedAndLocated) {
+    // One wall in the left half shines so brightly that two reflections overflow.
+    SceneDesc scene = empty_scene();
+    scene.settings.film.width = 32;
+    scene.settings.film.height = 32;
+    MaterialDesc glare = diffuse(Rgb(0.0f));
+    glare.emissive = Rgb(1.0f);
+    glare.emissive_strength = 3e38f;
+    add_object(scene, quad({-1, 0, -1}, {0.9f, 0, 0}, {0, 1, 0}), add_material(scene, glare));
+    LightDesc lamp;
+    lamp.intensity = 3e38f;
+    lamp.to_world = translation({0.5f, 0, -0.9f});
+    scene.lights.push_back(lamp);
+    add_object(scene, quad({1, 0, -1}, {0.9f, 0, 0}, {0, 1, 0}), add_material(scene, diffuse(Rgb(1.0f))));
+    const World world = compile(std::move(scene));
+    RenderOptions options = options_for(32, 32, 4);
+    options.filter = PixelFilter(FilterShape::Box);
+    const RenderResult result = render_now(world, "direct", options, 2);
+    EXPECT_GT(result.counters.dropped, 0u);
+    EXPECT_EQ(result.counters.samples, 32u * 32u * 4u);
+    ASSERT_EQ(result.counters.first_dropped.size(), RenderCounters::kMaxLocated);
+    for (const DroppedSample& dropped : result.counters.first_dropped) {
+        EXPECT_GE(dropped.x, 16);
+        EXPECT_LT(dropped.x, 32);
+        EXPECT_TRUE(dropped.y >= 0 && dropped.y < 32);
+        EXPECT_LT(dropped.sample, 4u);
+        // Rendering that pixel alone finds it again.
+        RenderOptions one = options;
+        one.window = {dropped.x, dropped.y, dropped.x + 1, dropped.y + 1};
+        one.spp = dropped.sample + 1;
+        const RenderResult replay = render_now(world, "direct", one, 1);
+        ASSERT_FALSE(replay.counters.first_dropped.empty());
+        EXPECT_EQ(replay.counters.first_dropped.back().sample, dropped.sample);
+    }
+    for (const float value : result.film.resolve()) EXPECT_TRUE(std::isfinite(value));
+}
+
+}  // namespace
+
+}  // namespace etendue::test

@@ -1,0 +1,133 @@
+#include "color/color_config.h"
+#include "image/write.h"
+#include "world/compile_parts.h"
+#include "world/test_scene.h"
+
+#include <cmath>
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+namespace etendue::test {
+
+namespace {
+
+LightDesc punctual(LightType type, float intensity) {
+    LightDesc light;
+    light.type = type;
+    light.intensity = intensity;
+    return light;
+}
+
+TEST(CompileLights, PunctualLightsTakePlaceAndAxisFromTheirNode) {
+    Random random(4);
+    // Scale, shear and mirroring must not change how bright they are.
+    for (const bool mirrored : {false, true}) {
+        const Mat4f to_world = random_transform(random, mirrored);
+        const Vec3f position = transform_point(to_world, Vec3f(0.0f));
+        const Vec3f axis = normalize(transform_vector(to_world, {0, 0, -1}));
+        for (const LightType type : {LightType::Point, LightType::Spot, LightType::Directional}) {
+            SceneDesc scene = empty_scene();
+            LightDesc light = punctual(type, 6.0f);
+            light.color = {1.0f, 0.5f, 0.25f};
+            light.to_world = to_world;
+            scene.lights.push_back(light);
+            const World world = compile(std::move(scene));
+            const ChosenLight chosen = world.sample_light(position + axis * 2.0f, 0.5f, {0.5f, 0.5f});
+            EXPECT_EQ(chosen.probability, 1.0f);
+            EXPECT_TRUE(chosen.sample.is_delta);
+            EXPECT_GT(dot(chosen.sample.wi, -axis), 0.99999f);
+            const float expected = type == LightType::Directional ? 6.0f : 6.0f / 4.0f;
+            EXPECT_NEAR(chosen.sample.radiance.r, expected, 1e-4f);
+            EXPECT_NEAR(chosen.sample.radiance.b, 0.25f * expected, 1e-4f);
+        }
+    }
+}
+
+TEST(CompileLights, SpotsKeepTheirFullIntensityHoweverNarrow) {
+    for (const float outer : {1.5f, 0.3f, 0.02f, 0.005f})
+        for (const float inner : {0.0f, 0.5f, 0.999f}) {
+            SceneDesc scene = empty_scene();
+            LightDesc light = punctual(LightType::Spot, 3.0f);
+            light.outer_cone_angle = outer;
+            light.inner_cone_angle = inner * outer;
+            scene.lights.push_back(light);
+            const World world = compile(std::move(scene));
+            EXPECT_NEAR(world.sample_light({0, 0, -1}, 0.5f, {0.5f, 0.5f}).sample.radiance.g, 3.0f, 1e-3f)
+                << "outer " << outer << ", inner share " << inner;
+        }
+}
+
+TEST(CompileLights, LightsThatAreOffAreLeftOut) {
+    SceneDesc scene = empty_scene();
+    scene.lights.push_back(punctual(LightType::Point, 0.0f));
+    LightDesc black = punctual(LightType::Directional, 1.0f);
+    black.color = Rgb(0.0f);
+    scene.lights.push_back(black);
+    EXPECT_FALSE(compile(scene).has_lights());
+    scene.lights.push_back(punctual(LightType::Point, 1.0f));
+    EXPECT_EQ(compile(std::move(scene)).statistics().lights, 1u);
+}
+
+TEST(CompileLights, EveryInstanceOfAnEmitterIsALight) {
+    SceneDesc scene = empty_scene();
+    const auto glow = add_material(scene, emissive(Rgb(1.0f)));
+    PrimitiveDesc lamp = quad(Vec3f(0.0f), {1, 0, 0}, {0, 1, 0});
+    lamp.material = glow;
+    PrimitiveDesc stand = quad(Vec3f(0.0f), {1, 0, 0}, {0, 0, 1});
+    stand.material = add_material(scene, diffuse(Rgb(0.5f)));
+    const auto mesh = add_mesh(scene, {stand, lamp});
+    for (const float x : {0.0f, 5.0f, 10.0f}) place(scene, mesh, translation({x, 0, 0}));
+    EXPECT_EQ(compile(std::move(scene)).statistics().lights, 3u);
+}
+
+TEST(CompileLights, ConstantEnvironmentsAreColourTimesScale) {
+    SceneDesc scene = empty_scene();
+    scene.environment.enabled = true;
+    scene.environment.color = {1.0f, 0.5f, 0.25f};
+    scene.environment.scale = 4.0f;
+    const World world = compile(std::move(scene));
+    ASSERT_TRUE(world.has_environment());
+    EXPECT_EQ(world.environment_radiance({0, 1, 0}), Rgb(4.0f, 2.0f, 1.0f));
+    EXPECT_NEAR(world.environment_pdf_solid_angle({0, 1, 0}), 1.0f / (4.0f * kPi), 1e-6f);
+}
+
+TEST(CompileLights, DisabledEnvironmentsAreNone) {
+    const World world = compile(empty_scene());
+    EXPECT_FALSE(world.has_environment());
+    EXPECT_TRUE(is_black(world.environment_radiance({0, 1, 0})));
+    EXPECT_EQ(world.environment_pdf_solid_angle({0, 1, 0}), 0.0f);
+}
+
+TEST(CompileLights, EnvironmentImagesAreTintedScaledAndTurned) {
+    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "etendue-world-environment.exr";
+    // Four columns; what lies right of the middle is lit: towards -Z and turning to +X.
+    ImageF image(4, 2, 3);
+    for (int y = 0; y < 2; ++y)
+        for (float& value : image.pixel(2, y)) value = 2.0f;
+    write_image(file, image, {.depth = PixelDepth::Float});
+    SceneDesc scene = empty_scene();
+    scene.environment.enabled = true;
+    scene.environment.image = file;
+    scene.environment.color = {1.0f, 0.5f, 0.0f};
+    scene.environment.scale = 3.0f;
+    const Vec3f lit = normalize(Vec3f(1, 0, -1));
+    {
+        const World world = compile(scene);
+        EXPECT_NEAR(world.environment_radiance(lit).r, 6.0f, 1e-4f);
+        EXPECT_NEAR(world.environment_radiance(lit).g, 3.0f, 1e-4f);
+        EXPECT_EQ(world.environment_radiance(lit).b, 0.0f);
+        EXPECT_NEAR(world.environment_radiance(-lit).r, 0.0f, 1e-4f);
+    }
+    // A quarter turn counter-clockwise seen from above takes -Z to -X, and +X to -Z.
+    scene.environment.rotation = kPi / 2.0f;
+    const World world = compile(scene);
+    EXPECT_NEAR(world.environment_radiance(normalize(Vec3f(-1, 0, -1))).r, 6.0f, 1e-4f);
+    EXPECT_NEAR(world.environment_radiance(lit).r, 0.0f, 1e-4f);
+    std::filesystem::remove(file);
+    EXPECT_THROW((void)compile(scene), SceneError);
+}
+
+}  // namespace
+
+}  // namespace etendue::test

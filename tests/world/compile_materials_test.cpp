@@ -1,0 +1,115 @@
+#include "color/color_config.h"
+#include "world/compile_parts.h"
+#include "world/test_scene.h"
+
+#include <string>
+#include <variant>
+
+#include <gtest/gtest.h>
+
+namespace etendue::test {
+
+namespace {
+
+Material compile_one(const MaterialDesc& desc, const std::string& working_space = kGltfColorSpace) {
+    SceneDesc scene = empty_scene();
+    add_material(scene, desc);
+    TextureCompiler textures(scene);
+    return compile_materials(scene, ColorConfig::built_in().matrix(kGltfColorSpace, working_space), textures).front();
+}
+
+template <typename Lobe>
+Lobe lobe_of(const MaterialDesc& desc) {
+    return std::get<Lobe>(std::get<Bsdf>(compile_one(desc).model));
+}
+
+MaterialDesc with_override(decltype(MaterialDesc::override_model) model) {
+    MaterialDesc desc;
+    desc.override_model = std::move(model);
+    return desc;
+}
+
+TEST(CompileMaterials, OverridesBecomeTheLobesTheyName) {
+    EXPECT_EQ(lobe_of<Diffuse>(with_override(DiffuseDesc{{0.1f, 0.2f, 0.3f}})).albedo, Rgb(0.1f, 0.2f, 0.3f));
+    EXPECT_EQ(lobe_of<SmoothDielectric>(with_override(DielectricDesc{1.33f, 0.0f})).ior, 1.33f);
+    const auto frosted = lobe_of<RoughDielectric>(with_override(DielectricDesc{1.5f, 0.5f}));
+    EXPECT_EQ(frosted.ior, 1.5f);
+    EXPECT_FLOAT_EQ(frosted.alpha, 0.25f);
+    EXPECT_FLOAT_EQ(lobe_of<RoughConductor>(with_override(ConductorDesc{"Au", 0.4f})).alpha, 0.16f);
+    (void)lobe_of<SmoothConductor>(with_override(ConductorDesc{"", 0.0f}));
+}
+
+TEST(CompileMaterials, TheUnnamedMetalLosesNothingAndGoldIsYellow) {
+    const auto reflectance = [](const char* metal) {
+        const Bsdf mirror = lobe_of<SmoothConductor>(with_override(ConductorDesc{metal, 0.0f}));
+        return sample_bsdf(mirror, {0, 0, 1}, 0.5f, {0.5f, 0.5f}, TransportMode::Radiance).weight;
+    };
+    EXPECT_EQ(reflectance(""), Rgb(1.0f));
+    const Rgb gold = reflectance("Au");
+    EXPECT_GT(gold.r, 0.9f);
+    EXPECT_GT(gold.r, gold.g);
+    EXPECT_GT(gold.g, gold.b + 0.2f);
+}
+
+TEST(CompileMaterials, UnknownMetalsAreRefused) {
+    EXPECT_THROW((void)compile_one(with_override(ConductorDesc{"Unobtainium", 0.1f})), SceneError);
+}
+
+TEST(CompileMaterials, OverridesKeepAlphaEmissionAndSides) {
+    MaterialDesc desc = with_override(DiffuseDesc{});
+    desc.alpha_mode = AlphaMode::Mask;
+    desc.alpha_cutoff = 0.25f;
+    desc.base_alpha = 0.75f;
+    desc.double_sided = true;
+    desc.emissive = {1.0f, 0.5f, 0.0f};
+    desc.emissive_strength = 4.0f;
+    const Material material = compile_one(desc);
+    EXPECT_EQ(material.alpha_test, AlphaTest::Mask);
+    EXPECT_EQ(material.alpha_cutoff, 0.25f);
+    EXPECT_EQ(material.alpha_factor, 0.75f);
+    EXPECT_TRUE(material.emits);
+    EXPECT_TRUE(material.emits_both_sides);
+    EXPECT_NEAR(material.emission.r, 4.0f, 1e-5f);
+    EXPECT_NEAR(material.emission.g, 2.0f, 1e-5f);
+}
+
+TEST(CompileMaterials, ColoursGoToTheWorkingSpace) {
+    MaterialDesc desc = with_override(DiffuseDesc{{1.0f, 0.0f, 0.0f}});
+    desc.emissive = Rgb(1.0f);
+    const Material material = compile_one(desc, "ACEScg");
+    const Rgb albedo = std::get<Diffuse>(std::get<Bsdf>(material.model)).albedo;
+    // Rec.709 red lies inside ACEScg's triangle.
+    EXPECT_NEAR(albedo.r, 0.613f, 0.002f);
+    EXPECT_NEAR(albedo.g, 0.070f, 0.002f);
+    EXPECT_NEAR(albedo.b, 0.021f, 0.002f);
+    // White stays white.
+    EXPECT_NEAR(material.emission.r, 1.0f, 1e-3f);
+    EXPECT_NEAR(material.emission.b, 1.0f, 1e-3f);
+}
+
+TEST(CompileMaterials, BlackEmissionIsNone) {
+    MaterialDesc desc;
+    EXPECT_FALSE(compile_one(desc).emits);
+    desc.emissive = Rgb(1.0f);
+    desc.emissive_strength = 0.0f;
+    EXPECT_FALSE(compile_one(desc).emits);
+}
+
+TEST(CompileMaterials, TexturesAreSharedByUseOnly) {
+    SceneDesc scene = empty_scene();
+    scene.textures.resize(2);
+    TextureCompiler textures(scene);
+    TextureRef first;
+    first.texture.index = 0;
+    TextureRef second;
+    second.texture.index = 1;
+    const auto color = textures.slot(first, TextureUse::Color).texture;
+    EXPECT_EQ(textures.slot(first, TextureUse::Color).texture, color);
+    EXPECT_NE(textures.slot(first, TextureUse::Data).texture, color);
+    EXPECT_NE(textures.slot(second, TextureUse::Color).texture, color);
+    EXPECT_FALSE(textures.slot(TextureRef{}, TextureUse::Color).valid());
+}
+
+}  // namespace
+
+}  // namespace etendue::test

@@ -1,0 +1,347 @@
+// Ray queries against a search through all triangles in double precision, and stochastic transparency.
+#include "world/embree_scene.h"
+
+#include "world/test_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include <gtest/gtest.h>
+
+namespace etendue::test {
+
+namespace {
+
+struct ReferenceTriangle {
+    Vec3d p[3];
+    Vec2f uv[3];
+    std::uint32_t instance;
+    std::uint32_t geometry;
+    std::uint32_t triangle;
+};
+
+struct ReferenceHit {
+    double t = std::numeric_limits<double>::infinity();
+    double u = 0.0;
+    double v = 0.0;
+    const ReferenceTriangle* triangle = nullptr;
+    bool ambiguous = false;  ///< passes an edge, or another surface, too closely for single precision
+};
+
+Vec3d transform(const Mat4f& m, const Vec3f& p) {
+    const auto row = [&](int i) { return Vec3d(m[i][0], m[i][1], m[i][2]); };
+    return row(0) * double(p.x) + row(1) * double(p.y) + row(2) * double(p.z) + row(3);
+}
+
+/// All triangles of the scene in world space. Every mesh must be placed.
+std::vector<ReferenceTriangle> flatten(const SceneDesc& scene) {
+    std::vector<std::uint32_t> first_geometry;
+    std::uint32_t geometries = 0;
+    for (const MeshDesc& mesh : scene.meshes) {
+        first_geometry.push_back(geometries);
+        geometries += static_cast<std::uint32_t>(mesh.primitives.size());
+    }
+    std::vector<ReferenceTriangle> triangles;
+    for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+        const InstanceDesc& instance = scene.instances[i];
+        const auto mesh = static_cast<std::size_t>(instance.mesh.index);
+        for (std::uint32_t g = 0; g < scene.meshes[mesh].primitives.size(); ++g) {
+            const PrimitiveDesc& primitive = scene.meshes[mesh].primitives[g];
+            for (std::uint32_t t = 0; t < primitive.triangles.size(); ++t) {
+                ReferenceTriangle triangle{{}, {}, i, first_geometry[mesh] + g, t};
+                for (std::size_t c = 0; c < 3; ++c) {
+                    const std::uint32_t vertex = primitive.triangles[t][c];
+                    triangle.p[c] = transform(instance.to_world, primitive.positions[vertex]);
+                    triangle.uv[c] = primitive.uv0[vertex];
+                }
+                triangles.push_back(triangle);
+            }
+        }
+    }
+    return triangles;
+}
+
+/// Moeller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection" (1997), in double precision.
+ReferenceHit search(const std::vector<ReferenceTriangle>& triangles, const Ray& ray) {
+    constexpr double kEdge = 2e-4;
+    const Vec3d origin(ray.origin);
+    const Vec3d direction(ray.direction);
+    ReferenceHit nearest;
+    double nearest_edge = std::numeric_limits<double>::infinity();
+    double second = std::numeric_limits<double>::infinity();
+    for (const ReferenceTriangle& triangle : triangles) {
+        const Vec3d e1 = triangle.p[1] - triangle.p[0];
+        const Vec3d e2 = triangle.p[2] - triangle.p[0];
+        const Vec3d p = direction.cross(e2);
+        const double determinant = e1.dot(p);
+        const double inverse = 1.0 / determinant;
+        const Vec3d s = origin - triangle.p[0];
+        const double u = s.dot(p) * inverse;
+        const Vec3d q = s.cross(e1);
+        const double v = direction.dot(q) * inverse;
+        const double t = e2.dot(q) * inverse;
+        const double inside = std::min(u, std::min(v, 1.0 - u - v));
+        if (!(t > 0.0) || !(inside > -kEdge)) continue;
+        // Nearly parallel triangles have badly conditioned barycentrics.
+        const bool grazing = std::abs(determinant) < 1e-3 * e1.cross(e2).length();
+        if (std::abs(inside) <= kEdge || grazing || t < 1e-4) {
+            nearest_edge = std::min(nearest_edge, t);
+            continue;
+        }
+        if (t < nearest.t) {
+            second = nearest.t;
+            nearest = {t, u, v, &triangle};
+        } else {
+            second = std::min(second, t);
+        }
+    }
+    nearest.ambiguous = nearest_edge < nearest.t + 1e-4 || second < nearest.t + 1e-4;
+    return nearest;
+}
+
+/// Baked meshes, plain and mirrored, and a mesh of two primitives with several placements.
+SceneDesc mixed_scene() {
+    Random random(11);
+    SceneDesc scene = empty_scene();
+    const auto material = add_material(scene, diffuse(Rgb(0.5f)));
+    const auto soup_with_uv = [&](int count) {
+        PrimitiveDesc primitive = soup(random, count, 0.4f);
+        for (std::size_t i = 0; i < primitive.positions.size(); ++i) primitive.uv0.push_back(random.next_2d());
+        primitive.material = material;
+        return primitive;
+    };
+    place(scene, add_mesh(scene, {soup_with_uv(60)}), random_transform(random, false));
+    place(scene, add_mesh(scene, {soup_with_uv(40), soup_with_uv(1)}), random_transform(random, true));
+    const auto shared = add_mesh(scene, {soup_with_uv(25), soup_with_uv(17)});
+    place(scene, shared);
+    place(scene, shared, random_transform(random, true));
+    place(scene, shared, random_transform(random, false));
+    return scene;
+}
+
+std::vector<Ray> random_rays(std::uint32_t seed, std::size_t count) {
+    Random random(seed);
+    std::vector<Ray> rays(count);
+    for (Ray& ray : rays) {
+        ray.origin = random_direction(random) * (3.0f * random.next());
+        ray.direction = random_direction(random);
+        ray.alpha_key = random.next() < 0.5f ? 1u : 2u;
+    }
+    return rays;
+}
+
+constexpr QueryForm kForms[] = {QueryForm::Best, QueryForm::Single, QueryForm::Packet16};
+constexpr Coherence kCoherences[] = {Coherence::Coherent, Coherence::Incoherent};
+
+TEST(EmbreeScene, FindsTheNearestTriangleOfASearchThroughAll) {
+    SceneDesc scene = mixed_scene();
+    const std::vector<ReferenceTriangle> triangles = flatten(scene);
+    const World world = compile(std::move(scene));
+    const std::vector<Ray> rays = random_rays(3, 3001);  // no multiple of a packet
+    for (const QueryForm form : kForms)
+        for (const Coherence coherence : kCoherences) {
+            std::vector<Hit> hits(rays.size());
+            world.intersect(rays, hits, coherence, form);
+            std::size_t compared = 0;
+            std::size_t found = 0;
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+                SCOPED_TRACE(testing::Message() << "ray " << i << ", form " << int(form));
+                const ReferenceHit expected = search(triangles, rays[i]);
+                if (expected.ambiguous) continue;
+                ++compared;
+                ASSERT_EQ(hits[i].valid(), expected.triangle != nullptr);
+                if (!expected.triangle) continue;
+                ++found;
+                const ReferenceTriangle& triangle = *expected.triangle;
+                ASSERT_EQ(hits[i].instance, triangle.instance);
+                ASSERT_EQ(hits[i].geometry, triangle.geometry);
+                ASSERT_EQ(hits[i].triangle, triangle.triangle);
+                EXPECT_NEAR(hits[i].t, expected.t, 2e-4);
+
+                const SurfacePoint point = world.surface_point(hits[i]);
+                const Vec3f on_ray = rays[i].origin + rays[i].direction * hits[i].t;
+                EXPECT_LT(length(point.position - on_ray), 5e-4f);
+                const auto u = static_cast<float>(expected.u);
+                const auto v = static_cast<float>(expected.v);
+                const Vec2f uv = triangle.uv[0] * (1.0f - u - v) + triangle.uv[1] * u + triangle.uv[2] * v;
+                EXPECT_NEAR(point.uv[0].x, uv.x, 2e-3f);
+                EXPECT_NEAR(point.uv[0].y, uv.y, 2e-3f);
+            }
+            EXPECT_GT(compared, rays.size() * 9 / 10);
+            EXPECT_GT(found, rays.size() / 5);
+        }
+}
+
+TEST(EmbreeScene, OccludedAgreesWithTheSearchUpToTMax) {
+    SceneDesc scene = mixed_scene();
+    const std::vector<ReferenceTriangle> triangles = flatten(scene);
+    const World world = compile(std::move(scene));
+    std::vector<Ray> rays = random_rays(4, 3001);
+    Random random(5);
+    for (Ray& ray : rays) ray.t_max = 3.0f * random.next();
+    for (const QueryForm form : kForms)
+        for (const Coherence coherence : kCoherences) {
+            std::vector<std::uint8_t> results(rays.size());
+            world.occluded(rays, results, coherence, form);
+            std::vector<Hit> hits(rays.size());
+            world.intersect(rays, hits, coherence, form);
+            std::size_t compared = 0;
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+                const ReferenceHit expected = search(triangles, rays[i]);
+                const double limit = static_cast<double>(rays[i].t_max);
+                if (expected.ambiguous || std::abs(expected.t - limit) < 1e-3) continue;
+                ++compared;
+                EXPECT_EQ(results[i] != 0, expected.t <= limit) << "ray " << i;
+                EXPECT_EQ(hits[i].valid(), expected.t <= limit) << "ray " << i;
+            }
+            EXPECT_GT(compared, rays.size() * 9 / 10);
+        }
+}
+
+TEST(EmbreeScene, AnEmptyWorldIsMissed) {
+    const World world = compile(empty_scene());
+    EXPECT_FALSE(intersect(world, Ray{}).valid());
+    EXPECT_FALSE(occluded(world, Ray{}));
+    EXPECT_TRUE(world.bounds().empty());
+    EXPECT_EQ(world.bounding_radius(), 1.0f);
+}
+
+TEST(EmbreeScene, SharedMeshesWithoutPrimitivesDoNotHideOthers) {
+    SceneDesc scene = empty_scene();
+    const auto material = add_material(scene, diffuse(Rgb(0.5f)));
+    const auto lines_only = add_mesh(scene, {});
+    PrimitiveDesc front = quad({0, 0, -2}, {1, 0, 0}, {0, 1, 0});
+    front.material = material;
+    const auto shared = add_mesh(scene, {front});
+    place(scene, lines_only);
+    place(scene, lines_only);
+    place(scene, shared);
+    place(scene, shared, translation({0, 0, -1}));
+    const World world = compile(std::move(scene));
+    const Hit hit = intersect(world, Ray{.direction = {0, 0, -1}});
+    ASSERT_TRUE(hit.valid());
+    EXPECT_EQ(hit.instance, 2u);
+    EXPECT_FLOAT_EQ(hit.t, 2.0f);
+}
+
+/// Rays with independent keys, straight through the quad at z = -1 of the opacity tests.
+std::vector<Ray> keyed_rays(std::size_t count) {
+    Random random(21);
+    std::vector<Ray> rays(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        rays[i].origin = {1.8f * random.next() - 0.9f, 1.8f * random.next() - 0.9f, 0.0f};
+        rays[i].direction = {0, 0, -1};
+        rays[i].alpha_key = static_cast<std::uint32_t>(random.next() * 0x1p24f) * 2654435761u + 17u;
+    }
+    return rays;
+}
+
+/// Share of `rays` that is stopped; fails if intersect, occluded and the forms of query do not decide alike.
+double stopped_share(const World& world, const std::vector<Ray>& rays) {
+    std::vector<Hit> first(rays.size());
+    world.intersect(rays, first, Coherence::Incoherent);
+    for (const QueryForm form : kForms) {
+        std::vector<Hit> hits(rays.size());
+        std::vector<std::uint8_t> results(rays.size());
+        world.intersect(rays, hits, Coherence::Coherent, form);
+        world.occluded(rays, results, Coherence::Coherent, form);
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            EXPECT_EQ(hits[i].valid(), first[i].valid()) << "ray " << i;
+            EXPECT_EQ(results[i] != 0, first[i].valid()) << "ray " << i;
+        }
+    }
+    const auto stopped = std::count_if(first.begin(), first.end(), [](const Hit& hit) { return hit.valid(); });
+    return static_cast<double>(stopped) / static_cast<double>(rays.size());
+}
+
+/// 4.5 standard deviations of a share: false alarms below 1e-5.
+double share_tolerance(double share, std::size_t count) {
+    return 4.5 * std::sqrt(share * (1.0 - share) / static_cast<double>(count)) + 1e-9;
+}
+
+MaterialDesc translucent(float alpha) {
+    MaterialDesc material = diffuse(Rgb(0.5f));
+    material.alpha_mode = AlphaMode::Blend;
+    material.base_alpha = alpha;
+    return material;
+}
+
+TEST(Opacity, BlendStopsAShareOfRaysEqualToAlpha) {
+    const std::vector<Ray> rays = keyed_rays(20'001);
+    for (const float alpha : {0.0f, 0.1f, 0.5f, 0.9f, 1.0f}) {
+        SceneDesc scene = empty_scene();
+        add_object(scene, quad({0, 0, -1}, {1, 0, 0}, {0, 1, 0}), add_material(scene, translucent(alpha)));
+        const double share = stopped_share(compile(std::move(scene)), rays);
+        EXPECT_NEAR(share, alpha, share_tolerance(double(alpha), rays.size()));
+    }
+}
+
+TEST(Opacity, LayersDecideIndependently) {
+    // Two baked layers, and three instances of one mesh: no two may share their decision.
+    SceneDesc scene = empty_scene();
+    const auto material = add_material(scene, translucent(0.3f));
+    for (const float z : {-1.0f, -2.0f}) add_object(scene, quad({0, 0, z}, {1, 0, 0}, {0, 1, 0}), material);
+    PrimitiveDesc layer = quad({0, 0, -3}, {1, 0, 0}, {0, 1, 0});
+    layer.material = material;
+    const auto shared = add_mesh(scene, {layer});
+    for (const float z : {0.0f, -1.0f, -2.0f}) place(scene, shared, translation({0, 0, z}));
+    const std::vector<Ray> rays = keyed_rays(20'000);
+    const double expected = 1.0 - std::pow(0.7, 5);
+    EXPECT_NEAR(stopped_share(compile(std::move(scene)), rays), expected, share_tolerance(expected, rays.size()));
+}
+
+TEST(Opacity, OpaqueMaterialsIgnoreAlpha) {
+    SceneDesc scene = empty_scene();
+    MaterialDesc material = translucent(0.2f);
+    material.alpha_mode = AlphaMode::Opaque;
+    add_object(scene, quad({0, 0, -1}, {1, 0, 0}, {0, 1, 0}), add_material(scene, material));
+    EXPECT_EQ(stopped_share(compile(std::move(scene)), keyed_rays(500)), 1.0);
+}
+
+TEST(Opacity, VertexColoursMultiplyAlpha) {
+    SceneDesc scene = empty_scene();
+    PrimitiveDesc layer = quad({0, 0, -1}, {1, 0, 0}, {0, 1, 0});
+    layer.colors.assign(4, {1, 1, 1, 0.5f});
+    add_object(scene, std::move(layer), add_material(scene, translucent(0.8f)));
+    const std::vector<Ray> rays = keyed_rays(20'000);
+    EXPECT_NEAR(stopped_share(compile(std::move(scene)), rays), 0.4, share_tolerance(0.4, rays.size()));
+}
+
+TEST(Opacity, TexturesAreLookedUpWhereTheRayPasses) {
+    const std::filesystem::path png = std::filesystem::path(testing::TempDir()) / "etendue-world-opacity.png";
+    for (const AlphaMode mode : {AlphaMode::Mask, AlphaMode::Blend}) {
+        SceneDesc scene = empty_scene();
+        // Left half alpha 0.2, right half 0.8, as exactly as eight bits can.
+        MaterialDesc material = diffuse(Rgb(0.5f));
+        material.base_color_texture.texture = add_texture(scene, png, 2, {{255, 255, 255, 51}, {255, 255, 255, 204}});
+        scene.textures.back().filter = TextureFilter::Nearest;
+        material.alpha_mode = mode;
+        const auto handle = add_material(scene, material);
+        add_object(scene, quad({0, 0, -1}, {1, 0, 0}, {0, 1, 0}), handle);
+        const World world = compile(std::move(scene));
+        std::vector<Ray> left;
+        std::vector<Ray> right;
+        for (const Ray& ray : keyed_rays(20'000)) (ray.origin.x < 0.0f ? left : right).push_back(ray);
+        const bool mask = mode == AlphaMode::Mask;
+        EXPECT_NEAR(stopped_share(world, left), mask ? 0.0 : 0.2, mask ? 0.0 : share_tolerance(0.2, left.size()));
+        EXPECT_NEAR(stopped_share(world, right), mask ? 1.0 : 0.8, mask ? 0.0 : share_tolerance(0.8, right.size()));
+    }
+    std::filesystem::remove(png);
+}
+
+TEST(Opacity, TheMaskKeepsWhatReachesTheCutoff) {
+    for (const float cutoff : {0.3f, 0.7f}) {
+        SceneDesc scene = empty_scene();
+        MaterialDesc material = translucent(0.5f);
+        material.alpha_mode = AlphaMode::Mask;
+        material.alpha_cutoff = cutoff;
+        add_object(scene, quad({0, 0, -1}, {1, 0, 0}, {0, 1, 0}), add_material(scene, material));
+        EXPECT_EQ(stopped_share(compile(std::move(scene)), keyed_rays(500)), cutoff < 0.5f ? 1.0 : 0.0);
+    }
+}
+
+}  // namespace
+
+}  // namespace etendue::test

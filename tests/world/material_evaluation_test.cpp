@@ -1,0 +1,171 @@
+#include "world/material_evaluation.h"
+
+#include "world/test_scene.h"
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <variant>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace etendue::test {
+
+namespace {
+
+double srgb_to_linear(int value) {
+    const double v = value / 255.0;
+    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+}
+
+class MaterialEvaluation : public testing::Test {
+  protected:
+    Handle<TextureDesc> texture(int width, const std::vector<std::array<int, 4>>& texels) {
+        const std::filesystem::path png = std::filesystem::path(testing::TempDir()) /
+                                          ("etendue-world-material-" + std::to_string(files_.size()) + ".png");
+        files_.push_back(png);
+        const auto handle = add_texture(scene_, png, width, texels);
+        scene_.textures.back().filter = TextureFilter::Nearest;
+        return handle;
+    }
+    World world_with(const MaterialDesc& material) {
+        surface_.material = add_material(scene_, material);
+        place(scene_, add_mesh(scene_, {surface_}));
+        return compile(scene_);
+    }
+    /// The lobe at (x, y) of the quad [-1, 1]² at z = -1; u and v of its texture run right and down.
+    static MetallicRoughness lobe_at(const World& world, float x, float y) {
+        const Hit hit = intersect(world, Ray{.origin = {x, y, 0}, .direction = {0, 0, -1}});
+        EXPECT_TRUE(hit.valid());
+        Bsdf storage;
+        return std::get<MetallicRoughness>(world.bsdf(world.surface_point(hit), storage));
+    }
+    void TearDown() override {
+        for (const std::filesystem::path& file : files_) std::filesystem::remove(file);
+    }
+
+    SceneDesc scene_ = empty_scene();
+    PrimitiveDesc surface_ = quad({0, 0, -1}, {1, 0, 0}, {0, 1, 0});
+    std::vector<std::filesystem::path> files_;
+};
+
+TEST_F(MaterialEvaluation, BaseColourIsFactorTimesTextureTimesVertexColour) {
+    surface_.colors.assign(4, {0.5f, 1.0f, 0.25f, 1.0f});
+    MaterialDesc material;
+    material.base_color = {0.8f, 0.6f, 1.0f};
+    material.base_color_texture.texture = texture(1, {{188, 100, 20, 255}});
+    const MetallicRoughness lobe = lobe_at(world_with(material), 0.1f, 0.1f);
+    EXPECT_NEAR(lobe.base.r, 0.8 * 0.5 * srgb_to_linear(188), 1e-5);
+    EXPECT_NEAR(lobe.base.g, 0.6 * srgb_to_linear(100), 1e-5);
+    EXPECT_NEAR(lobe.base.b, 0.25 * srgb_to_linear(20), 1e-5);
+}
+
+TEST_F(MaterialEvaluation, RoughnessIsGreenAndMetallicBlueAndNeitherIsColour) {
+    MaterialDesc material;
+    material.roughness = 0.9f;
+    material.metallic = 0.5f;
+    material.metallic_roughness_texture.texture = texture(1, {{255, 128, 64, 255}});
+    const MetallicRoughness lobe = lobe_at(world_with(material), 0.1f, 0.1f);
+    const float roughness = 0.9f * 128.0f / 255.0f;
+    EXPECT_NEAR(lobe.alpha, roughness * roughness, 1e-5f);
+    EXPECT_NEAR(lobe.metallic, 0.5f * 64.0f / 255.0f, 1e-5f);
+}
+
+TEST_F(MaterialEvaluation, TransmissionIsRedAndTheIndexGivesF0) {
+    MaterialDesc material;
+    material.metallic = 0.0f;
+    material.ior = 1.33f;
+    material.transmission = 0.8f;
+    material.transmission_texture.texture = texture(1, {{128, 255, 255, 255}});
+    const MetallicRoughness lobe = lobe_at(world_with(material), 0.1f, 0.1f);
+    EXPECT_NEAR(lobe.transmission, 0.8f * 128.0f / 255.0f, 1e-5f);
+    EXPECT_NEAR(lobe.f0, std::pow(0.33f / 2.33f, 2.0f), 1e-6f);
+}
+
+TEST_F(MaterialEvaluation, AnIndexOfZeroReflectsEverything) {
+    MaterialDesc material;
+    material.ior = 0.0f;
+    EXPECT_EQ(lobe_at(world_with(material), 0.1f, 0.1f).f0, 1.0f);
+}
+
+TEST_F(MaterialEvaluation, TheSecondCoordinatesAreUsedWhereAskedFor) {
+    surface_.uv1.assign(4, {0.75f, 0.5f});
+    MaterialDesc material;
+    material.base_color_texture.texture = texture(2, {{0, 0, 0, 255}, {255, 255, 255, 255}});
+    material.base_color_texture.texcoord = 1;
+    EXPECT_EQ(lobe_at(world_with(material), -0.5f, 0.0f).base, Rgb(1.0f));
+}
+
+TEST_F(MaterialEvaluation, TheFirstRowOfTheImageIsAtTheTop) {
+    MaterialDesc material;
+    material.base_color_texture.texture =
+        texture(2, {{255, 0, 0, 255}, {0, 255, 0, 255}, {0, 0, 255, 255}, {0, 0, 0, 255}});
+    const World world = world_with(material);
+    EXPECT_EQ(lobe_at(world, -0.5f, 0.5f).base, Rgb(1, 0, 0));
+    EXPECT_EQ(lobe_at(world, 0.5f, 0.5f).base, Rgb(0, 1, 0));
+    EXPECT_EQ(lobe_at(world, -0.5f, -0.5f).base, Rgb(0, 0, 1));
+    EXPECT_EQ(lobe_at(world, 0.5f, -0.5f).base, Rgb(0, 0, 0));
+}
+
+// The example of KHR_texture_transform's text: "utilizes only the lower left quadrant of the source image, rotated
+// clockwise 90 degrees".
+TEST_F(MaterialEvaluation, TextureTransformsDoWhatTheExtensionsExampleSays) {
+    std::vector<std::array<int, 4>> texels(16, {0, 0, 0, 255});
+    // The lower left quadrant of 4 × 4: red and green over blue and white.
+    texels[8] = {255, 0, 0, 255};
+    texels[9] = {0, 255, 0, 255};
+    texels[12] = {0, 0, 255, 255};
+    texels[13] = {255, 255, 255, 255};
+    MaterialDesc material;
+    material.base_color_texture.texture = texture(4, texels);
+    material.base_color_texture.transform = {{0.0f, 1.0f}, kPi / 2.0f, {0.5f, 0.5f}};
+    const World world = world_with(material);
+    // Turned clockwise, the left column becomes the top row, its lower end first.
+    EXPECT_EQ(lobe_at(world, -0.5f, 0.5f).base, Rgb(0, 0, 1));
+    EXPECT_EQ(lobe_at(world, 0.5f, 0.5f).base, Rgb(1, 0, 0));
+    EXPECT_EQ(lobe_at(world, -0.5f, -0.5f).base, Rgb(1, 1, 1));
+    EXPECT_EQ(lobe_at(world, 0.5f, -0.5f).base, Rgb(0, 1, 0));
+}
+
+TEST_F(MaterialEvaluation, TextureTransformsScaleBeforeTheyShift) {
+    MaterialDesc material;
+    material.base_color_texture.texture = texture(2, {{255, 0, 0, 255}, {0, 255, 0, 255}});
+    material.base_color_texture.transform.offset = {0.5f, 0.0f};
+    material.base_color_texture.transform.scale = {0.25f, 1.0f};
+    const World world = world_with(material);
+    // u' = 0.25 u + 0.5 stays in the right half.
+    for (const float x : {-0.9f, 0.0f, 0.9f}) EXPECT_EQ(lobe_at(world, x, 0.0f).base, Rgb(0, 1, 0));
+}
+
+TEST_F(MaterialEvaluation, EmissionTexturesAreColour) {
+    MaterialDesc material = emissive(Rgb(6.0f, 3.0f, 0.0f));
+    material.emissive_texture.texture = texture(2, {{0, 0, 0, 255}, {188, 188, 188, 255}});
+    const World world = world_with(material);
+    const auto emission_at = [&](float x) {
+        const Hit hit = intersect(world, Ray{.origin = {x, 0, 0}, .direction = {0, 0, -1}});
+        return world.emission(world.surface_point(hit), {0, 0, 1});
+    };
+    EXPECT_EQ(emission_at(-0.5f), Rgb(0.0f));
+    EXPECT_NEAR(emission_at(0.5f).r, 6.0 * srgb_to_linear(188), 1e-4);
+    EXPECT_NEAR(emission_at(0.5f).g, 3.0 * srgb_to_linear(188), 1e-4);
+    EXPECT_EQ(emission_at(0.5f).b, 0.0f);
+}
+
+TEST_F(MaterialEvaluation, UnlitSurfacesShowTheirBaseColourAndEmitNothing) {
+    MaterialDesc material;
+    material.unlit = true;
+    material.base_color = {0.2f, 0.4f, 0.6f};
+    material.emissive = Rgb(1.0f);
+    const World world = world_with(material);
+    const Hit hit = intersect(world, Ray{.direction = {0, 0, -1}});
+    const SurfacePoint point = world.surface_point(hit);
+    EXPECT_TRUE(point.material->unlit);
+    EXPECT_NEAR(world.unlit_color(point).g, 0.4f, 1e-6f);
+    EXPECT_TRUE(is_black(world.emission(point, {0, 0, 1})));
+    EXPECT_FALSE(world.has_lights());
+}
+
+}  // namespace
+
+}  // namespace etendue::test

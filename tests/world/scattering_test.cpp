@@ -1,0 +1,165 @@
+#include "world/scattering.h"
+
+#include "world/test_scene.h"
+
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace etendue::test {
+
+namespace {
+
+struct NamedLobe {
+    std::string name;
+    Bsdf bsdf;
+};
+
+std::vector<NamedLobe> lobes() {
+    return {{"diffuse", Diffuse{Rgb(0.7f)}},
+            {"plastic", MetallicRoughness{Rgb(0.5f, 0.6f, 0.7f), 0.0f, 0.3f, 0.04f, 0.0f}},
+            {"thin transmission", MetallicRoughness{Rgb(0.9f), 0.2f, 0.4f, 0.04f, 0.8f}},
+            {"rough conductor", RoughConductor{{}, 0.4f}},
+            {"rough dielectric", RoughDielectric::make(1.5f, 0.4f)}};
+}
+
+/// A surface whose shading normal leans away from its geometric one.
+struct Surface {
+    Vec3f geometric_normal;
+    Frame frame;
+};
+
+Surface random_surface(Random& random) {
+    const Vec3f n = random_direction(random);
+    const Vec3f leaning = normalize(n + random_direction(random) * 0.7f);
+    return {n, Frame::from_normal(leaning)};
+}
+
+bool same_side(const Surface& s, const Vec3f& w) {
+    return dot(w, s.geometric_normal) * dot(w, s.frame.normal) > 0.0f;
+}
+
+TEST(Scattering, LeaksAreBlackFromBothEnds) {
+    for (const auto& [name, bsdf] : lobes()) {
+        SCOPED_TRACE(name);
+        Random random(1);
+        int leaks = 0;
+        int kept = 0;
+        for (int i = 0; i < 5000; ++i) {
+            const Surface s = random_surface(random);
+            const Vec3f a = random_direction(random);
+            const Vec3f b = random_direction(random);
+            const bool may_scatter = same_side(s, a) && same_side(s, b);
+            for (const TransportMode mode : {TransportMode::Radiance, TransportMode::Importance}) {
+                const bool forward =
+                    !is_black(Scattering(bsdf, s.frame, s.geometric_normal, a).evaluate(b, mode).f_cos);
+                const bool backward =
+                    !is_black(Scattering(bsdf, s.frame, s.geometric_normal, b).evaluate(a, mode).f_cos);
+                EXPECT_EQ(forward, backward);
+                if (!may_scatter) {
+                    EXPECT_FALSE(forward);
+                    ++leaks;
+                } else if (forward) {
+                    ++kept;
+                }
+            }
+            const BsdfSample sample = Scattering(bsdf, s.frame, s.geometric_normal, a)
+                                          .sample(random.next(), random.next_2d(), TransportMode::Radiance);
+            EXPECT_TRUE(is_black(sample.weight) || (same_side(s, a) && same_side(s, sample.wi)));
+        }
+        EXPECT_GT(leaks, 1000);
+        EXPECT_GT(kept, 1000);
+    }
+}
+
+// A path through the surface carries the same whichever end it is traced from. With f the BSDF and the geometry terms'
+// cosines to n_g, its vertex contributes f(L -> E) |L.n_s| |E.n_g| (Veach 1997, section 5.3.2). The eye walk has
+// f |L.n_s| and the next edge |E.n_g|; the light walk has its own weight and the edge before it |L.n_g|.
+TEST(Scattering, EyeAndLightWalksCarryTheSameThroughShadingNormals) {
+    for (const auto& [name, bsdf] : lobes()) {
+        SCOPED_TRACE(name);
+        Random random(2);
+        int compared = 0;
+        for (int i = 0; i < 5000; ++i) {
+            const Surface s = random_surface(random);
+            const Vec3f eye = random_direction(random);
+            const Vec3f light = random_direction(random);
+            // Grazing directions amplify rounding.
+            if (abs_dot(eye, s.frame.normal) < 0.05f || abs_dot(light, s.frame.normal) < 0.05f) continue;
+            const Rgb from_eye =
+                Scattering(bsdf, s.frame, s.geometric_normal, eye).evaluate(light, TransportMode::Radiance).f_cos *
+                abs_dot(eye, s.geometric_normal);
+            const Rgb from_light =
+                Scattering(bsdf, s.frame, s.geometric_normal, light).evaluate(eye, TransportMode::Importance).f_cos *
+                abs_dot(light, s.geometric_normal);
+            if (is_black(from_eye) && is_black(from_light)) continue;
+            ++compared;
+            const float scale = max_component(from_eye) + max_component(from_light);
+            EXPECT_NEAR(from_eye.r, from_light.r, 2e-3f * scale);
+            EXPECT_NEAR(from_eye.b, from_light.b, 2e-3f * scale);
+        }
+        EXPECT_GT(compared, 500);
+    }
+}
+
+TEST(Scattering, SampledWeightsAreWhatEvaluateSays) {
+    for (const auto& [name, bsdf] : lobes()) {
+        SCOPED_TRACE(name);
+        Random random(3);
+        int compared = 0;
+        for (int i = 0; i < 5000; ++i) {
+            const Surface s = random_surface(random);
+            const Scattering scattering(bsdf, s.frame, s.geometric_normal, random_direction(random));
+            for (const TransportMode mode : {TransportMode::Radiance, TransportMode::Importance}) {
+                const BsdfSample sample = scattering.sample(random.next(), random.next_2d(), mode);
+                if (is_black(sample.weight) || sample.is_delta) continue;
+                if (abs_dot(sample.wi, s.frame.normal) < 0.02f) continue;
+                const BsdfValue value = scattering.evaluate(sample.wi, mode);
+                ++compared;
+                EXPECT_NEAR(value.pdf_solid_angle / sample.pdf_solid_angle, 1.0f, 2e-2f);
+                EXPECT_NEAR(value.f_cos.g / value.pdf_solid_angle / sample.weight.g, 1.0f, 2e-2f);
+            }
+        }
+        EXPECT_GT(compared, 2000);
+    }
+}
+
+TEST(Scattering, FramesStayRightHandedWhenTheyAreTurned) {
+    const Bsdf bsdf = Diffuse{Rgb(0.5f)};
+    const Frame frame = Frame::from_normal(normalize(Vec3f(0.3f, -0.5f, 0.8f)));
+    for (const float side : {1.0f, -1.0f}) {
+        const Scattering scattering(bsdf, frame, frame.normal, frame.normal * side);
+        EXPECT_GT(scattering.wo_local().z, 0.99f);
+        EXPECT_NEAR(dot(scattering.geometric_normal(), frame.normal), side, 1e-6f);
+        // The cosine-weighted lobe maps the same numbers to the same local directions.
+        Vec3f world[3];
+        Vec3f local[3];
+        const Vec2f numbers[3] = {{0.1f, 0.4f}, {0.8f, 0.3f}, {0.5f, 0.9f}};
+        for (int i = 0; i < 3; ++i) {
+            world[i] = scattering.sample(0.5f, numbers[i], TransportMode::Radiance).wi;
+            local[i] = sample_bsdf(bsdf, {0, 0, 1}, 0.5f, numbers[i], TransportMode::Radiance).wi;
+            EXPECT_GT(dot(world[i], frame.normal) * side, 0.0f);
+        }
+        EXPECT_NEAR(dot(cross(world[0], world[1]), world[2]), dot(cross(local[0], local[1]), local[2]), 1e-5f);
+    }
+}
+
+TEST(Scattering, InterfacesKnowTheirSides) {
+    const Bsdf glass = SmoothDielectric{1.5f};
+    const Frame frame;
+    // Straight through, from outside and from inside: eta is the index on wi's side over that on wo's.
+    for (const float side : {1.0f, -1.0f}) {
+        const Scattering scattering(glass, frame, frame.normal, {0, 0, side});
+        const BsdfSample sample = scattering.sample(0.999f, {0.5f, 0.5f}, TransportMode::Radiance);
+        ASSERT_TRUE(sample.is_transmission);
+        EXPECT_NEAR(sample.wi.z, -side, 1e-6f);
+        EXPECT_NEAR(sample.eta, side > 0.0f ? 1.5f : 1.0f / 1.5f, 1e-6f);
+    }
+}
+
+}  // namespace
+
+}  // namespace etendue::test

@@ -1,0 +1,190 @@
+// Light choice and emission: what a light's sample says must be what a ray that goes there finds (light transport rule
+// 9), or multiple importance sampling is wrong.
+#include "world/world.h"
+
+#include "world/test_scene.h"
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace etendue::test {
+
+namespace {
+
+/// Two lamps of different power, placed so that a mirroring transform and an instance are among them.
+struct LampCase {
+    std::string name;
+    bool two_sided = false;
+    bool instanced = false;
+    bool mirrored = false;
+};
+
+SceneDesc lamp_scene(const LampCase& c) {
+    SceneDesc scene = empty_scene();
+    MaterialDesc glow = emissive({3.0f, 2.0f, 1.0f});
+    glow.double_sided = c.two_sided;
+    PrimitiveDesc lamp = sphere(Vec3f(0.0f), 0.5f, 8);
+    lamp.material = add_material(scene, glow);
+    const auto mesh = add_mesh(scene, {lamp});
+    Random random(31);
+    const Mat4f to_world = random_transform(random, c.mirrored) * translation({0, 0, -3});
+    place(scene, mesh, to_world);
+    if (c.instanced) place(scene, mesh, translation({2, 1, -4}));
+    glow.emissive_strength = 9.0f;
+    add_object(scene, quad({-2, 0, -3}, {0, 0, 0.4f}, {0, 0.4f, 0}), add_material(scene, glow));
+    return scene;
+}
+
+TEST(World, LightSamplesAndHitsAgree) {
+    std::vector<LampCase> cases;
+    for (const bool two_sided : {false, true})
+        for (const bool instanced : {false, true})
+            for (const bool mirrored : {false, true})
+                cases.push_back({std::string(two_sided ? "two-sided" : "one-sided") +
+                                     (instanced ? ", instanced" : ", baked") + (mirrored ? ", mirrored" : ""),
+                                 two_sided, instanced, mirrored});
+    for (const LampCase& c : cases) {
+        SCOPED_TRACE(c.name);
+        const World world = compile(lamp_scene(c));
+        Random random(5);
+        int lit = 0;
+        int dark = 0;
+        for (int i = 0; i < 3000; ++i) {
+            const Vec3f from = random_direction(random) * 1.2f;
+            const ChosenLight chosen = world.sample_light(from, random.next(), random.next_2d());
+            const LightSample& sample = chosen.sample;
+            // What lies in between is another matter; start close to the sampled point.
+            const float back = 0.02f * sample.distance;
+            const Ray ray{.origin = from + sample.wi * (sample.distance - back), .direction = sample.wi};
+            const Hit hit = intersect(world, ray);
+            if (!hit.valid() || std::abs(hit.t - back) > 1e-3f) continue;  // grazing an edge
+            const SurfacePoint point = world.surface_point(hit);
+            const float cosine = abs_dot(point.geometric_normal, sample.wi);
+            if (cosine < 0.02f) continue;
+            EXPECT_EQ(world.emission(point, -sample.wi), sample.radiance);
+            const float pdf = world.emitter_pdf_solid_angle(point, sample.wi, sample.distance);
+            if (is_black(sample.radiance)) {
+                ++dark;
+                EXPECT_EQ(pdf, 0.0f);
+            } else {
+                ++lit;
+                EXPECT_NEAR(pdf / sample.pdf_solid_angle, 1.0f, 2e-2f);
+                EXPECT_GT(chosen.probability, 0.0f);
+            }
+        }
+        EXPECT_GT(lit, 500);
+        EXPECT_EQ(dark > 500, !c.two_sided);
+        if (c.two_sided) {
+            EXPECT_EQ(dark, 0);
+        }
+    }
+}
+
+TEST(World, OneSidedEmittersAreDarkBehind) {
+    for (const bool two_sided : {false, true}) {
+        SceneDesc scene = empty_scene();
+        MaterialDesc glow = emissive(Rgb(5.0f));
+        glow.double_sided = two_sided;
+        add_object(scene, quad(Vec3f(0.0f), {1, 0, 0}, {0, 1, 0}), add_material(scene, glow));
+        const World world = compile(std::move(scene));
+        for (const float side : {1.0f, -1.0f}) {
+            const Vec3f from(0.1f, 0.2f, side);
+            const Hit hit = intersect(world, Ray{.origin = from, .direction = {0, 0, -side}});
+            const bool lit = two_sided || side > 0.0f;
+            EXPECT_EQ(world.emission(world.surface_point(hit), {0, 0, side}), lit ? Rgb(5.0f) : Rgb(0.0f));
+            EXPECT_EQ(is_black(world.sample_light(from, 0.5f, {0.3f, 0.6f}).sample.radiance), !lit);
+        }
+    }
+}
+
+// Irradiance at a point from a textured, partly transparent emitter: once by light samples and once by rays over the
+// hemisphere, as the two strategies of a path tracer see it. Tolerance: 4.5 standard errors.
+TEST(World, BothStrategiesSeeTexturedAndTranslucentEmittersAlike) {
+    const std::filesystem::path png = std::filesystem::path(testing::TempDir()) / "etendue-world-emitter.png";
+    SceneDesc scene = empty_scene();
+    MaterialDesc glow = emissive(Rgb(4.0f));
+    // Bright where it lets half of the light through, dimmer where it is opaque, and a hole.
+    const auto texture =
+        add_texture(scene, png, 2, {{255, 255, 255, 128}, {90, 90, 90, 255}, {255, 255, 255, 0}, {160, 160, 160, 200}});
+    glow.emissive_texture.texture = texture;
+    glow.base_color_texture.texture = texture;
+    glow.alpha_mode = AlphaMode::Blend;
+    add_object(scene, quad({0, 0, -1}, {1, 0, 0}, {0, 1, 0}), add_material(scene, glow));
+    const World world = compile(std::move(scene));
+    std::filesystem::remove(png);
+
+    Random random(9);
+    constexpr int kSamples = 60'000;
+    struct Sum {
+        double sum = 0.0;
+        double squares = 0.0;
+        void add(double x) { sum += x, squares += x * x; }
+        [[nodiscard]] double mean() const { return sum / kSamples; }
+        [[nodiscard]] double error() const { return std::sqrt((squares / kSamples - mean() * mean()) / kSamples); }
+    };
+    Sum by_light;
+    Sum by_chance;
+    for (int i = 0; i < kSamples; ++i) {
+        const LightSample light = world.sample_light(Vec3f(0.0f), random.next(), random.next_2d()).sample;
+        by_light.add(is_black(light.radiance)
+                         ? 0.0
+                         : static_cast<double>(light.radiance.g * -light.wi.z / light.pdf_solid_angle));
+        const float z = random.next();  // uniform over the hemisphere around -z
+        const float phi = 2.0f * kPi * random.next();
+        const float r = std::sqrt(1.0f - z * z);
+        Ray ray{.direction = {r * std::cos(phi), r * std::sin(phi), -z}};
+        ray.alpha_key = static_cast<std::uint32_t>(i) * 2654435761u;
+        const Hit hit = intersect(world, ray);
+        by_chance.add(hit.valid() ? static_cast<double>(world.emission(world.surface_point(hit), -ray.direction).g * z *
+                                                        2.0f * kPi)
+                                  : 0.0);
+    }
+    EXPECT_GT(by_light.mean(), 0.1);
+    EXPECT_NEAR(by_light.mean(), by_chance.mean(), 4.5 * std::hypot(by_light.error(), by_chance.error()));
+}
+
+TEST(World, LightsAreChosenByPower) {
+    SceneDesc scene = empty_scene();
+    // Both have a square metre; one is three times as bright, so it gets three quarters of the samples.
+    add_object(scene, quad({-2, 0, -3}, {0.5f, 0, 0}, {0, 0.5f, 0}), add_material(scene, emissive(Rgb(1.0f))));
+    add_object(scene, quad({2, 0, -3}, {0.5f, 0, 0}, {0, 0.5f, 0}), add_material(scene, emissive(Rgb(3.0f))));
+    const World world = compile(std::move(scene));
+    Random random(3);
+    int bright = 0;
+    constexpr int kSamples = 10'000;
+    for (int i = 0; i < kSamples; ++i) {
+        const ChosenLight chosen = world.sample_light(Vec3f(0.0f), random.next(), random.next_2d());
+        const bool is_bright = chosen.sample.wi.x > 0.0f;
+        EXPECT_NEAR(chosen.probability, is_bright ? 0.75f : 0.25f, 1e-6f);
+        bright += is_bright ? 1 : 0;
+    }
+    EXPECT_NEAR(bright, 0.75 * kSamples, 4.5 * std::sqrt(0.1875 * kSamples));
+}
+
+TEST(World, MovingAWorldKeepsItWorking) {
+    SceneDesc scene = empty_scene();
+    MaterialDesc half = diffuse(Rgb(0.5f));
+    half.alpha_mode = AlphaMode::Blend;
+    half.base_alpha = 0.5f;
+    add_object(scene, quad({0, 0, -1}, {1, 0, 0}, {0, 1, 0}), add_material(scene, half));
+    World first = compile(std::move(scene));
+    const World second = std::move(first);
+    int hits = 0;
+    for (std::uint32_t key = 0; key < 64; ++key)
+        hits += intersect(second, Ray{.alpha_key = key, .direction = {0, 0, -1}}).valid() ? 1 : 0;
+    EXPECT_GT(hits, 10);
+    EXPECT_LT(hits, 54);
+}
+
+TEST(World, ReportsItsRayTracer) {
+    EXPECT_FALSE(ray_tracer_info().version.empty());
+    EXPECT_FALSE(ray_tracer_info().isa.empty());
+}
+
+}  // namespace
+
+}  // namespace etendue::test
