@@ -1,0 +1,251 @@
+// The program from outside: exit codes, files, and what it prints.
+#include "app/run_program.h"
+#include "app/small_files.h"
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace etendue::test {
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using Names = std::vector<std::string>;
+
+class CommandLine : public testing::Test {
+  protected:
+    void SetUp() override { fs::create_directories(work_); }
+    [[nodiscard]] ProgramResult run(const std::vector<std::string>& arguments) const {
+        return run_etendue(arguments, work_);
+    }
+    /// Written beside the working directory, so that `list(work_)` shows what the program made.
+    std::string scene(const std::string& name, const std::string& extra = "") const {
+        write_scene(folder_ / ("scenes/" + name), extra);
+        return (folder_ / ("scenes/" + name)).string();
+    }
+    [[nodiscard]] std::string scenes() const { return (folder_ / "scenes").string(); }
+
+    TestFolder folder_;
+    fs::path work_ = folder_ / "work";
+};
+
+TEST_F(CommandLine, HelpHasExamplesForEachCommand) {
+    const ProgramResult top = run({"--help"});
+    EXPECT_EQ(top.exit_code, 0);
+    for (const char* word : {"render", "batch", "inspect", "Examples:", "130"})
+        EXPECT_NE(top.out.find(word), std::string::npos) << word;
+    for (const char* command : {"render", "batch", "inspect"}) {
+        const ProgramResult help = run({command, "--help"});
+        EXPECT_EQ(help.exit_code, 0);
+        EXPECT_NE(help.out.find("Examples:"), std::string::npos) << command;
+        EXPECT_NE(help.out.find(std::string("  etendue ") + command), std::string::npos) << command;
+    }
+    const ProgramResult render_help = run({"render", "--help"});
+    for (const char* option : {"--integrator", "--spp", "--size", "--crop", "--camera", "--threads", "--seed", "--time",
+                               "--quality", "--max-depth", "--environment", "--exposure", "--view", "--working-space",
+                               "--half", "--float", "--quiet", "--json"})
+        EXPECT_NE(render_help.out.find(option), std::string::npos) << option;
+    EXPECT_EQ(run({"--version"}).exit_code, 0);
+    EXPECT_TRUE(list(work_).empty());
+}
+
+TEST_F(CommandLine, UsageErrorsEndWithTwo) {
+    const std::string box = scene("box");
+    const std::vector<std::vector<std::string>> bad = {{},
+                                                       {"paint"},
+                                                       {"render"},
+                                                       {"render", box, "--speed"},
+                                                       {"render", box, "--spp", "0"},
+                                                       {"render", box, "--size", "12"},
+                                                       {"render", box, "-o", "image.png"},
+                                                       {"render", box, "--threads", "0"},
+                                                       {"batch", scenes()},
+                                                       {"batch", "no-such-directory", "-o", "out"},
+                                                       {"inspect"},
+                                                       {"inspect", box, "--spp", "4"}};
+    for (const auto& arguments : bad) {
+        const ProgramResult result = run(arguments);
+        EXPECT_EQ(result.exit_code, 2) << (arguments.empty() ? "" : arguments.back()) << "\n" << result.err;
+        EXPECT_FALSE(result.err.empty());
+    }
+    EXPECT_TRUE(list(work_).empty());
+}
+
+TEST_F(CommandLine, RenderWritesThreeFilesAndNothingElse) {
+    const ProgramResult result = run({"render", scene("box"), "-o", "image.exr"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(list(work_), (Names{"image.exr", "image.json", "image.png"}));
+    const json statistics = json::parse(read_file(work_ / "image.json"));
+    EXPECT_EQ(statistics["complete"], true);
+    EXPECT_EQ(statistics["samples"], 16 * 12 * 2);
+    EXPECT_EQ(statistics["size"], (json{16, 12}));
+    EXPECT_TRUE(result.out.empty()) << result.out;
+    EXPECT_NE(result.err.find("image.exr"), std::string::npos) << result.err;
+}
+
+TEST_F(CommandLine, TheSceneNamesTheImageByDefault) {
+    EXPECT_EQ(run({"render", scene("box"), "--quiet"}).exit_code, 0);
+    EXPECT_EQ(list(work_), (Names{"box.exr", "box.json", "box.png"}));
+}
+
+TEST_F(CommandLine, QuietPrintsNothingAndJsonOnlyJson) {
+    const std::string box = scene("box");
+    const ProgramResult quiet = run({"render", box, "--quiet"});
+    EXPECT_EQ(quiet.out + quiet.err, "");
+    const ProgramResult with_json = run({"render", box, "--quiet", "--json", "--spp", "5", "--seed", "3"});
+    EXPECT_EQ(with_json.err, "");
+    const json statistics = json::parse(with_json.out);
+    EXPECT_EQ(statistics["spp"]["done"], 5);
+    EXPECT_EQ(statistics["rays"]["camera"], 16 * 12 * 5);
+    EXPECT_EQ(json::parse(read_file(work_ / "box.json")), statistics);
+}
+
+TEST_F(CommandLine, AMissingCameraAndLightAreAddedAndSaid) {
+    const std::string box = scene("box");
+    write_file(box + "/render.json", R"({"resolution": [8, 8], "spp": 1})");
+    std::string text = read_file(box + "/scene.gltf");
+    text.replace(text.find(", \"camera\": 0"), 13, "");
+    write_file(box + "/scene.gltf", text);
+    const ProgramResult result = run({"render", box});
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_NE(result.err.find("camera"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("environment"), std::string::npos) << result.err;
+}
+
+TEST_F(CommandLine, InvalidScenesAndSettingsEndWithThree) {
+    const std::string box = scene("box");
+    const ProgramResult camera = run({"render", box, "--camera", "mian"});
+    EXPECT_EQ(camera.exit_code, 3);
+    EXPECT_NE(camera.err.find("'main'"), std::string::npos) << camera.err;
+    EXPECT_EQ(run({"render", box, "--crop", "0,0,100,100"}).exit_code, 3);
+    EXPECT_EQ(run({"render", box, "--view", "Sepia"}).exit_code, 3);
+    EXPECT_EQ(run({"render", box, "--working-space", "no-such-space"}).exit_code, 3);
+    EXPECT_EQ(run({"render", folder_.path().string() + "/nowhere"}).exit_code, 3);
+    EXPECT_EQ(run({"inspect", folder_.path().string() + "/nowhere"}).exit_code, 3);
+    const ProgramResult key = run({"render", scene("typo", R"("ssp": 4,)")});
+    EXPECT_EQ(key.exit_code, 3);
+    EXPECT_NE(key.err.find("spp"), std::string::npos) << key.err;
+    EXPECT_NE(key.err.find("/ssp"), std::string::npos) << key.err;
+    EXPECT_TRUE(list(work_).empty());
+}
+
+TEST_F(CommandLine, WhatCannotBeWrittenEndsWithOne) {
+    const ProgramResult result = run({"render", scene("box"), "-o", "no/such/folder/image.exr"});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_NE(result.err.find("no/such/folder"), std::string::npos) << result.err;
+    EXPECT_TRUE(list(work_).empty());
+}
+
+TEST_F(CommandLine, InterruptsWriteWhatThereIs) {
+    for (const auto& [signal, code] : {std::pair{SIGINT, 130}, std::pair{SIGTERM, 143}}) {
+        const ProgramResult result = run_etendue({"render", scene("box"), "--spp", "10000000", "-o", "image.exr"},
+                                                 work_, [signal = signal](int pid) {
+                                                     std::this_thread::sleep_for(std::chrono::milliseconds(300));
+                                                     kill(pid, signal);
+                                                 });
+        EXPECT_EQ(result.exit_code, code) << result.err;
+        EXPECT_EQ(list(work_), (Names{"image.exr", "image.json", "image.png"}));
+        const json statistics = json::parse(read_file(work_ / "image.json"));
+        EXPECT_EQ(statistics["complete"], false);
+        EXPECT_EQ(statistics["halt_reason"], "interrupted");
+        EXPECT_LT(statistics["spp"]["done"], statistics["spp"]["requested"]);
+        EXPECT_NE(read_file(work_ / "image.exr").find("interrupted"), std::string::npos);
+    }
+}
+
+TEST_F(CommandLine, TheTimeLimitEndsTheRenderInOrder) {
+    const ProgramResult result = run({"render", scene("box"), "--spp", "10000000", "--time", "0.2", "-o", "image.exr"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const json statistics = json::parse(read_file(work_ / "image.json"));
+    EXPECT_EQ(statistics["halt_reason"], "time limit");
+    EXPECT_GT(statistics["spp"]["done"], 0);
+}
+
+/// The results of a batch by scene, from its JSON summary.
+std::vector<std::string> batch_results(const ProgramResult& result) {
+    std::vector<std::string> lines;
+    for (const json& row : json::parse(result.out))
+        lines.push_back(fs::path(row["scene"].get<std::string>()).filename().string() + ": " +
+                        row["result"].get<std::string>());
+    return lines;
+}
+
+TEST_F(CommandLine, BatchSkipsWhatIsUpToDate) {
+    const std::string one = scene("one");
+    (void)scene("two");
+    const std::vector<std::string> batch = {"batch", scenes(), "-o", "out", "--quiet", "--json"};
+    const auto run_with = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments = batch;
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const ProgramResult result = run(arguments);
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        return batch_results(result);
+    };
+    const Names rendered = {"one: rendered", "two: rendered"};
+    const Names skipped = {"one: up to date", "two: up to date"};
+    EXPECT_EQ(run_with({}), rendered);
+    EXPECT_EQ(list(work_), (Names{"out", "out/one.exr", "out/one.json", "out/one.png", "out/two.exr", "out/two.json",
+                                  "out/two.png"}));
+    EXPECT_EQ(run_with({}), skipped);
+    EXPECT_EQ(run_with({"--force"}), rendered);
+    EXPECT_EQ(run_with({"--seed", "8"}), rendered);
+    EXPECT_EQ(run_with({"--seed", "8"}), skipped);
+    fs::last_write_time(one + "/triangle.bin", fs::file_time_type::clock::now() + std::chrono::seconds(2));
+    EXPECT_EQ(run_with({"--seed", "8"}), (Names{"one: rendered", "two: up to date"}));
+}
+
+TEST_F(CommandLine, BatchGoesOnAfterABrokenScene) {
+    (void)scene("a");
+    write_file(scene("b") + "/scene.gltf", "{ broken");
+    (void)scene("nested/c");
+    const ProgramResult result = run({"batch", scenes(), "-o", "out"});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_NE(result.err.find("scenes/b"), std::string::npos) << result.err;
+    // The table names all three.
+    for (const char* text : {"rendered", "failed", "nested/c"})
+        EXPECT_NE(result.out.find(text), std::string::npos) << result.out;
+    EXPECT_EQ(list(work_ / "out"),
+              (Names{"a.exr", "a.json", "a.png", "nested", "nested/c.exr", "nested/c.json", "nested/c.png"}));
+    EXPECT_EQ(batch_results(run({"batch", scenes(), "-o", "out", "--json", "--quiet"})),
+              (Names{"a: up to date", "b: failed", "c: up to date"}));
+}
+
+TEST_F(CommandLine, BatchOfNothingIsAnError) {
+    fs::create_directories(scenes());
+    EXPECT_EQ(run({"batch", scenes(), "-o", "out"}).exit_code, 3);
+}
+
+TEST_F(CommandLine, InspectTellsWhatWasLoadedAndRendersNothing) {
+    const std::string box = scene("box");
+    const ProgramResult text = run({"inspect", box});
+    EXPECT_EQ(text.exit_code, 0) << text.err;
+    EXPECT_NE(text.out.find("triangles: 1"), std::string::npos) << text.out;
+    const json inspected = json::parse(run({"inspect", box, "--json"}).out);
+    EXPECT_EQ(inspected["triangles"], 1);
+    EXPECT_EQ(inspected["cameras"], json{"main"});
+    EXPECT_EQ(inspected["bounds"]["min"], (json{-1.0, -1.0, -2.0}));
+    EXPECT_TRUE(list(work_).empty());
+}
+
+TEST_F(CommandLine, InspectReportsEveryProblem) {
+    const std::string broken = scene("broken", R"("ssp": 4, "samplre": "sobol",)");
+    const ProgramResult result = run({"inspect", broken, "--json"});
+    EXPECT_EQ(result.exit_code, 3);
+    int errors = 0;
+    const json inspected = json::parse(result.out);
+    for (const json& problem : inspected["problems"]) errors += problem["severity"] == "error" ? 1 : 0;
+    EXPECT_EQ(errors, 2) << result.out;
+}
+
+}  // namespace
+
+}  // namespace etendue::test

@@ -1,0 +1,134 @@
+#include "app/settings_overrides.h"
+
+#include "app/small_files.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <gtest/gtest.h>
+
+namespace etendue::test {
+
+namespace {
+
+SettingsOverrides parse(std::vector<std::string> arguments) {
+    CLI::App app;
+    SettingsOverrides overrides;
+    overrides.add_options(app);
+    // CLI11 takes them in reverse.
+    app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
+    return overrides;
+}
+
+SceneDesc scene_of(int width, int height, int spp) {
+    SceneDesc scene;
+    scene.settings.film.width = width;
+    scene.settings.film.height = height;
+    scene.settings.spp = spp;
+    return scene;
+}
+
+TEST(SettingsOverrides, WithoutOptionsNothingChanges) {
+    SceneDesc scene = scene_of(640, 360, 100);
+    const std::string before = dump(scene);
+    parse({}).apply(scene);
+    EXPECT_EQ(dump(scene), before);
+}
+
+TEST(SettingsOverrides, QualityScalesSizeAndSamples) {
+    SceneDesc draft = scene_of(641, 360, 100);
+    parse({"--quality", "draft"}).apply(draft);
+    EXPECT_EQ(draft.settings.film.width, 320);
+    EXPECT_EQ(draft.settings.film.height, 180);
+    EXPECT_EQ(draft.settings.spp, 6);
+    SceneDesc preview = scene_of(641, 360, 100);
+    parse({"--quality", "preview"}).apply(preview);
+    EXPECT_EQ(preview.settings.film.width, 641);
+    EXPECT_EQ(preview.settings.spp, 25);
+    SceneDesc final_quality = scene_of(641, 360, 100);
+    parse({"--quality", "final"}).apply(final_quality);
+    EXPECT_EQ(final_quality.settings.spp, 100);
+    SceneDesc least = scene_of(1, 1, 1);
+    parse({"--quality", "draft"}).apply(least);
+    EXPECT_EQ(least.settings.film.width, 1);
+    EXPECT_EQ(least.settings.spp, 1);
+}
+
+TEST(SettingsOverrides, DraftKeepsTheCropInsideTheHalvedImage) {
+    for (const std::array<int, 4>& crop :
+         {std::array{0, 0, 101, 51}, std::array{100, 50, 101, 51}, std::array{3, 5, 7, 9}, std::array{99, 0, 100, 1}}) {
+        SceneDesc scene = scene_of(101, 51, 16);
+        scene.settings.film.crop = crop;
+        parse({"--quality", "draft"}).apply(scene);
+        const FilmSettings& film = scene.settings.film;
+        const auto [x0, y0, x1, y1] = *film.crop;
+        EXPECT_TRUE(0 <= x0 && x0 < x1 && x1 <= film.width) << x0 << " " << x1 << " of " << film.width;
+        EXPECT_TRUE(0 <= y0 && y0 < y1 && y1 <= film.height) << y0 << " " << y1 << " of " << film.height;
+    }
+}
+
+TEST(SettingsOverrides, WhatIsStatedWinsOverQuality) {
+    SceneDesc scene = scene_of(640, 360, 100);
+    parse({"--size", "100x50", "--quality", "draft", "--spp", "7", "--crop", "1,2,30,40"}).apply(scene);
+    EXPECT_EQ(scene.settings.film.width, 100);
+    EXPECT_EQ(scene.settings.film.height, 50);
+    EXPECT_EQ(scene.settings.spp, 7);
+    EXPECT_EQ(scene.settings.film.crop, (std::array{1, 2, 30, 40}));
+}
+
+TEST(SettingsOverrides, EachOptionReachesItsSetting) {
+    const TestFolder folder;
+    write_file(folder / "sky.exr", "");
+    SceneDesc scene = scene_of(640, 360, 100);
+    const SettingsOverrides overrides =
+        parse({"--integrator", "naive", "--camera", "side", "--seed", "4294967295", "--time", "2.5", "--max-depth", "3",
+               "--environment", (folder / "sky.exr").string(), "--exposure", "-1.5", "--view", "Raw", "--working-space",
+               "ACEScg", "--float"});
+    overrides.apply(scene);
+    EXPECT_EQ(scene.settings.integrator.type, "naive");
+    EXPECT_EQ(scene.settings.camera, "side");
+    EXPECT_EQ(scene.settings.seed, 4294967295u);
+    EXPECT_EQ(scene.settings.time_limit, 2.5);
+    EXPECT_EQ(scene.settings.integrator.max_depth, 3);
+    EXPECT_TRUE(scene.environment.enabled);
+    EXPECT_EQ(scene.environment.image, folder / "sky.exr");
+    EXPECT_EQ(scene.settings.color.exposure, -1.5f);
+    EXPECT_EQ(scene.settings.color.view, "Raw");
+    EXPECT_EQ(scene.settings.color.working_space, "ACEScg");
+    EXPECT_EQ(overrides.depth, PixelDepth::Float);
+    EXPECT_EQ(parse({"--half"}).depth, PixelDepth::Half);
+    // A scene rendered with another image depends on that image.
+    EXPECT_EQ(scene.inputs.back(), folder / "sky.exr");
+}
+
+TEST(SettingsOverrides, NonsenseIsAUsageError) {
+    const std::vector<std::vector<std::string>> bad = {{"--size", "100"},
+                                                       {"--size", "100x"},
+                                                       {"--size", "0x10"},
+                                                       {"--size", "10x99999"},
+                                                       {"--size", "10x10x"},
+                                                       {"--crop", "1,2,3"},
+                                                       {"--crop", "5,0,5,9"},
+                                                       {"--crop", "-1,0,5,9"},
+                                                       {"--crop", "0,9,5,0"},
+                                                       {"--spp", "0"},
+                                                       {"--spp", "16777217"},
+                                                       {"--spp", "many"},
+                                                       {"--seed", "-1"},
+                                                       {"--time", "0"},
+                                                       {"--time", "-3"},
+                                                       {"--max-depth", "0"},
+                                                       {"--quality", "best"},
+                                                       {"--integrator", "bdpt"},
+                                                       {"--environment", "/no/such/file.exr"},
+                                                       {"--half", "--float"},
+                                                       {"--colour", "red"}};
+    for (const auto& arguments : bad)
+        EXPECT_THROW((void)parse(arguments), CLI::ParseError) << arguments[0] << " " << arguments.back();
+}
+
+}  // namespace
+
+}  // namespace etendue::test

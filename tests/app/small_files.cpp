@@ -1,0 +1,71 @@
+#include "app/small_files.h"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <iterator>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+namespace etendue::test {
+
+namespace fs = std::filesystem;
+
+TestFolder::TestFolder() {
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    path_ =
+        fs::temp_directory_path() / fmt::format("etendue-{}-{}-{}", test->test_suite_name(), test->name(), ::getpid());
+    fs::remove_all(path_);
+    fs::create_directories(path_);
+}
+
+TestFolder::~TestFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+}
+
+std::vector<std::string> list(const fs::path& folder) {
+    std::vector<std::string> names;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
+        names.push_back(entry.path().lexically_relative(folder).string());
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+std::string read_file(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    EXPECT_TRUE(stream) << file;
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+void write_file(const fs::path& file, const std::string& text) {
+    std::ofstream stream(file, std::ios::binary);
+    stream << text;
+    EXPECT_TRUE(stream.flush()) << file;
+}
+
+void write_scene(const fs::path& directory, const std::string& extra) {
+    fs::create_directories(directory);
+    constexpr std::array<float, 9> kPositions = {-1, -1, -2, 1, -1, -2, 0, 1, -2};
+    write_file(directory / "triangle.bin",
+               std::string(reinterpret_cast<const char*>(kPositions.data()), sizeof kPositions));
+    write_file(directory / "scene.gltf", R"({
+  "asset": {"version": "2.0"},
+  "scene": 0,
+  "scenes": [{"nodes": [0, 1]}],
+  "nodes": [{"mesh": 0}, {"name": "main", "camera": 0}],
+  "cameras": [{"name": "main", "type": "perspective", "perspective": {"yfov": 0.8, "znear": 0.1}}],
+  "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+  "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [-1, -1, -2],
+                 "max": [1, 1, -2]}],
+  "bufferViews": [{"buffer": 0, "byteLength": 36}],
+  "buffers": [{"uri": "triangle.bin", "byteLength": 36}]
+})");
+    write_file(directory / "render.json",
+               "{" + extra + R"("resolution": [16, 12], "spp": 2, "camera": "main", "environment": {}})");
+}
+
+}  // namespace etendue::test
