@@ -1,0 +1,72 @@
+#include "light/light.h"
+
+#include "support/chi2.h"
+
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace etendue::test {
+
+namespace {
+
+std::vector<Light> mixed_lights() {
+    std::vector<Light> lights;
+    lights.emplace_back(PointLight{{0, 0, 0}, Rgb(1.0f)});
+    lights.emplace_back(DirectionalLight{{0, -1, 0}, Rgb(0.5f)});
+    lights.emplace_back(PointLight{{0, 0, 0}, Rgb(0.0f)});
+    lights.emplace_back(ConstantEnvironment{Rgb(0.1f)});
+    lights.emplace_back(MeshLight({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}, Rgb(3.0f), Rgb(3.0f), true, false, true));
+    return lights;
+}
+
+TEST(LightSelector, ChoosesByPower) {
+    const std::vector<Light> lights = mixed_lights();
+    const float radius = 2.0f;
+    const LightSelector selector(lights, radius);
+    double total = 0.0;
+    for (const Light& light : lights) total += static_cast<double>(light_power(light, radius));
+    constexpr int kSamples = 40'000;
+    std::vector<double> expected;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        const double share = static_cast<double>(light_power(lights[i], radius)) / total;
+        EXPECT_NEAR(selector.probability(i), share, 1e-6);
+        sum += static_cast<double>(selector.probability(i));
+        expected.push_back(share * kSamples);
+    }
+    EXPECT_NEAR(sum, 1.0, 1e-6);
+    std::vector<double> observed(lights.size());
+    Random random(8);
+    for (int i = 0; i < kSamples; ++i) {
+        const AliasTable::Choice choice = selector.sample(random.next());
+        EXPECT_EQ(choice.probability, selector.probability(choice.index));
+        ++observed[choice.index];
+    }
+    const Chi2Result result = chi2_counts(observed, expected);
+    EXPECT_GT(result.p_value, kFamilyLevel) << result.str();
+    EXPECT_EQ(observed[2], 0.0) << "a light without power was chosen";
+}
+
+TEST(LightSelector, WithoutPowerAllAreEquallyLikely) {
+    const std::vector<Light> lights = {PointLight{{0, 0, 0}, Rgb(0.0f)}, ConstantEnvironment{Rgb(0.0f)}};
+    const LightSelector selector(lights, 1.0f);
+    EXPECT_FLOAT_EQ(selector.probability(0), 0.5f);
+    EXPECT_FLOAT_EQ(selector.probability(1), 0.5f);
+}
+
+TEST(LightSelector, IsEmptyWithoutLights) {
+    EXPECT_TRUE(LightSelector({}, 1.0f).empty());
+}
+
+TEST(Light, OnlyEnvironmentsShineFromInfinity) {
+    for (const Light& light : mixed_lights()) {
+        const bool environment = std::holds_alternative<ConstantEnvironment>(light);
+        EXPECT_EQ(is_black(environment_radiance(light, {0, 1, 0})), !environment);
+        EXPECT_EQ(environment_pdf_solid_angle(light, {0, 1, 0}) > 0.0f, environment);
+    }
+}
+
+}  // namespace
+
+}  // namespace etendue::test

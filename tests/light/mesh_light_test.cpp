@@ -1,0 +1,162 @@
+#include "light/mesh_light.h"
+
+#include "light/light_checks.h"
+#include "support/chi2.h"
+#include "support/t_test.h"
+
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace etendue::test {
+
+namespace {
+
+/// Moeller-Trumbore: distance along `d` from `o`, if it meets the triangle.
+std::optional<float> meet(const LightTriangle& t, const Vec3f& o, const Vec3f& d) {
+    const Vec3f p = cross(d, t.edge2);
+    const float inverse = 1.0f / dot(t.edge1, p);
+    const Vec3f s = o - t.p0;
+    const float u = dot(s, p) * inverse;
+    const Vec3f q = cross(s, t.edge1);
+    const float v = dot(d, q) * inverse;
+    const float distance = dot(t.edge2, q) * inverse;
+    if (!(u >= 0.0f && v >= 0.0f && u + v <= 1.0f && distance > 0.0f)) return std::nullopt;
+    return distance;
+}
+
+/// Density per solid angle, summed over all triangles that the direction meets: no matter which is nearest.
+double density(const MeshLight& light, const Vec3f& from, const Vec3f& direction) {
+    double sum = 0.0;
+    for (const LightTriangle& t : light.triangles())
+        if (const auto distance = meet(t, from, direction))
+            sum += static_cast<double>(
+                light.pdf_solid_angle(*distance, -dot(direction, normalize(cross(t.edge1, t.edge2)))));
+    return sum;
+}
+
+MeshLight make_light(std::vector<LightTriangle> triangles, bool two_sided = false, bool mirrored = false) {
+    return {std::move(triangles), {2.0f, 4.0f, 6.0f}, {2.0f, 4.0f, 6.0f}, two_sided, mirrored, true};
+}
+
+std::vector<LightTriangle> quad_triangles(const Vec3f& center, const Vec3f& x, const Vec3f& y) {
+    return {{center - x - y, x * 2.0f, x * 2.0f + y * 2.0f}, {center - x - y, x * 2.0f + y * 2.0f, y * 2.0f}};
+}
+
+/// Disk towards -y at height `height`, as a fan of `n` triangles of the disk's area.
+std::vector<LightTriangle> disk_triangles(float radius, float height, int n) {
+    std::vector<LightTriangle> triangles;
+    const float step = 2.0f * kPi / static_cast<float>(n);
+    const float r = radius * std::sqrt(step / std::sin(step));
+    for (int i = 0; i < n; ++i) {
+        const float a = step * static_cast<float>(i);
+        const Vec3f p(r * std::cos(a), 0, r * std::sin(a));
+        const Vec3f q(r * std::cos(a + step), 0, r * std::sin(a + step));
+        triangles.push_back({{0, height, 0}, p, q});
+    }
+    return triangles;
+}
+
+TEST(MeshLight, DirectionsHaveTheStatedDensity) {
+    // Triangles of unequal size, one without area, all facing the origin's side.
+    std::vector<LightTriangle> triangles = quad_triangles({0, 3, 0}, {1.5f, 0, 0}, {0, 0, 0.5f});
+    triangles.push_back({{0, 3, 2}, {1, 0, 0}, {2, 0, 0}});
+    triangles.push_back({{-1, 2.5f, 1}, {0.3f, 0, 0}, {0, 0.1f, 0.3f}});
+    const MeshLight light = make_light(triangles, true);
+    const Vec3f points[] = {{0, 0, 0}, {2, 1, -1}, {0.2f, 2.7f, 0.1f}};
+    for (const Vec3f& point : points) {
+        const auto sampler = [&](Random& random) -> std::optional<Vec3f> {
+            const LightSample s = light.sample(point, random.next_2d());
+            if (!(s.pdf_solid_angle > 0.0f)) return std::nullopt;
+            return s.wi;
+        };
+        const SamplerCheck check =
+            check_sphere_sampler(sampler, [&](const Vec3f& w) { return density(light, point, w); });
+        EXPECT_GT(check.chi2.p_value, sidak_level(kFamilyLevel, std::size(points))) << check.chi2.str();
+        EXPECT_NEAR(check.pdf_integral, 1.0, 5e-3);
+    }
+}
+
+TEST(MeshLight, SamplesStateTheDensityOfTheirHit) {
+    const MeshLight light = make_light(quad_triangles({0, 3, 0}, {1, 0, 0}, {0, 0, 1}), true);
+    Random random(3);
+    for (int i = 0; i < 1000; ++i) {
+        const Vec3f from(random.next() - 0.5f, random.next(), random.next());
+        const LightSample s = light.sample(from, random.next_2d());
+        const LightTriangle& t = light.triangles()[s.triangle];
+        const Vec3f on_light = t.p0 + t.edge1 * s.barycentric.x + t.edge2 * s.barycentric.y;
+        EXPECT_LT(length(from + s.wi * s.distance - on_light), 1e-5f);
+        EXPECT_NEAR(light.pdf_solid_angle(s.distance, s.wi.y) / s.pdf_solid_angle, 1.0f, 1e-4f);
+    }
+}
+
+TEST(MeshLight, TrianglesGetSamplesByArea) {
+    std::vector<LightTriangle> triangles;
+    std::vector<double> expected;
+    double total = 0.0;
+    for (const float size : {1.0f, 0.1f, 0.0f, 2.0f, 0.5f}) {
+        triangles.push_back({{0, 0, 0}, {size, 0, 0}, {0, 1, 0}});
+        expected.push_back(static_cast<double>(size));
+        total += static_cast<double>(size);
+    }
+    const MeshLight light = make_light(triangles);
+    EXPECT_FLOAT_EQ(light.area(), 1.8f);
+    constexpr int kSamples = 20'000;
+    for (double& e : expected) e *= kSamples / total;
+    std::vector<double> observed(expected.size());
+    Random random(1);
+    for (int i = 0; i < kSamples; ++i) ++observed[light.sample({0, 0, 1}, random.next_2d()).triangle];
+    const Chi2Result result = chi2_counts(observed, expected);
+    EXPECT_GT(result.p_value, kFamilyLevel) << result.str();
+    EXPECT_EQ(observed[2], 0.0);
+}
+
+TEST(MeshLight, OneSidedLightShinesToItsFrontOnly) {
+    const std::vector<LightTriangle> triangles = quad_triangles(Vec3f(0.0f), {1, 0, 0}, {0, 1, 0});  // front: +z
+    for (const bool mirrored : {false, true})
+        for (const float z : {2.0f, -2.0f}) {
+            const bool front = (z > 0.0f) != mirrored;
+            const LightSample one = make_light(triangles, false, mirrored).sample({0, 0, z}, {0.2f, 0.7f});
+            EXPECT_EQ(one.pdf_solid_angle > 0.0f, front);
+            EXPECT_EQ(is_black(one.radiance), !front);
+            const LightSample two = make_light(triangles, true, mirrored).sample({0, 0, z}, {0.2f, 0.7f});
+            EXPECT_GT(two.pdf_solid_angle, 0.0f);
+            EXPECT_EQ(two.radiance, Rgb(2.0f, 4.0f, 6.0f));
+        }
+}
+
+// Irradiance on the axis of a disk of radius r at distance h: pi L r² / (r² + h²).
+TEST(MeshLight, ADiskBringsItsFormFactor) {
+    const float radius = 1.5f;
+    const float height = 2.0f;
+    const Light light = make_light(disk_triangles(radius, height, 256));
+    const double expected = static_cast<double>(kPi) * 4.0 * 2.25 / (2.25 + 4.0);
+    const TTestResult result = t_test(irradiance_samples(light, Vec3f(0.0f), {0, 1, 0}, 50'000, 2), expected, 1e-3);
+    EXPECT_GT(result.p_value, 0.001) << result.str();
+}
+
+// A rectangle a × b parallel to a surface at distance h above one of its corners, form factor of differential area:
+// (A atan(B / sqrt(1 + A²)) / sqrt(1 + A²) + B atan(A / sqrt(1 + B²)) / sqrt(1 + B²)) / (2 pi), A = a/h, B = b/h.
+TEST(MeshLight, ARectangleBringsItsFormFactor) {
+    const Light light = make_light(quad_triangles({1.0f, 2.0f, 0.75f}, {1.0f, 0, 0}, {0, 0, 0.75f}), true);
+    const double a = 2.0 / 2.0;
+    const double b = 1.5 / 2.0;
+    const double ra = std::sqrt(1.0 + a * a);
+    const double rb = std::sqrt(1.0 + b * b);
+    const double form_factor = (a / ra * std::atan(b / ra) + b / rb * std::atan(a / rb)) / (2.0 * M_PI);
+    const TTestResult result =
+        t_test(irradiance_samples(light, Vec3f(0.0f), {0, 1, 0}, 50'000, 4), M_PI * 4.0 * form_factor, 1e-4);
+    EXPECT_GT(result.p_value, 0.001) << result.str();
+}
+
+TEST(MeshLight, PowerIsRadianceTimesPiTimesAreaPerSide) {
+    const std::vector<LightTriangle> triangles = quad_triangles(Vec3f(0.0f), {1, 0, 0}, {0, 0.5f, 0});
+    EXPECT_NEAR(make_light(triangles).power(1.0f), kPi * 2.0f * 4.0f, 1e-3f);
+    EXPECT_NEAR(make_light(triangles, true).power(1.0f), 2.0f * kPi * 2.0f * 4.0f, 1e-3f);
+}
+
+}  // namespace
+
+}  // namespace etendue::test
