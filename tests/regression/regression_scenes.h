@@ -1,0 +1,35 @@
+// Which scenes are rendered, how, and what their references are made of.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace etendue::test {
+
+/// How many independent renders make an estimate, and of what.
+struct Sampling {
+    std::string_view integrator;
+    int renders = 4;  ///< independent seeds, from whose spread the variance is measured
+    int spp = 32;     ///< of each render
+};
+
+/// A scene of scenes/, seen small.
+///
+/// To add one: a row in regression_scenes.cpp, then tools/update_references with a filter for its name.
+struct RegressionScene {
+    std::string_view name;  ///< of the directory
+    int width = 0;          ///< pixels
+    int height = 0;         ///< pixels
+    int block_size = 8;     ///< pixels; larger for scenes with fireflies, whose small blocks are far from normal
+    /// Most relative difference of the images' means; what their noise allows.
+    double mean_tolerance = 0.01;
+    Sampling test;
+    /// Made with the random sampler, and where that is possible without light sampling: an estimate that shares little
+    /// with what is tested.
+    Sampling reference;
+};
+
+[[nodiscard]] std::span<const RegressionScene> regression_scenes();
+
+}  // namespace etendue::test
