@@ -285,6 +285,8 @@ Rgb ColorConfig::luminance_weights(const std::string& space) const {
     return {static_cast<float>(to_xyz[3]), static_cast<float>(to_xyz[4]), static_cast<float>(to_xyz[5])};
 }
 
-std::string color_library_version() { return OCIO::GetVersion(); }
+std::string color_library_version() {
+    return OCIO::GetVersion();
+}
 
 }  // namespace etendue

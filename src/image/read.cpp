@@ -184,6 +184,8 @@ Image8 read_image_8bit(const ImageSource& source) {
     return read_image<Image8>(source, OIIO::TypeDesc::UINT8);
 }
 
-std::string image_library_version() { return OIIO_VERSION_STRING; }
+std::string image_library_version() {
+    return OIIO_VERSION_STRING;
+}
 
 }  // namespace etendue
