@@ -100,7 +100,7 @@ TEST(CompileLights, DisabledEnvironmentsAreNone) {
 }
 
 TEST(CompileLights, EnvironmentImagesAreTintedScaledAndTurned) {
-    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "etendue-world-environment.exr";
+    const std::filesystem::path file = temporary_file("etendue-world-environment.exr");
     // Four columns; what lies right of the middle is lit: towards -Z and turning to +X.
     ImageF image(4, 2, 3);
     for (int y = 0; y < 2; ++y)

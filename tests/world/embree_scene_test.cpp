@@ -310,7 +310,7 @@ TEST(Opacity, VertexColoursMultiplyAlpha) {
 }
 
 TEST(Opacity, TexturesAreLookedUpWhereTheRayPasses) {
-    const std::filesystem::path png = std::filesystem::path(testing::TempDir()) / "etendue-world-opacity.png";
+    const std::filesystem::path png = temporary_file("etendue-world-opacity.png");
     for (const AlphaMode mode : {AlphaMode::Mask, AlphaMode::Blend}) {
         SceneDesc scene = empty_scene();
         // Left half alpha 0.2, right half 0.8, as exactly as eight bits can.

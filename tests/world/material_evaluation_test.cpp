@@ -22,8 +22,8 @@ double srgb_to_linear(int value) {
 class MaterialEvaluation : public testing::Test {
   protected:
     Handle<TextureDesc> texture(int width, const std::vector<std::array<int, 4>>& texels) {
-        const std::filesystem::path png = std::filesystem::path(testing::TempDir()) /
-                                          ("etendue-world-material-" + std::to_string(files_.size()) + ".png");
+        const std::filesystem::path png =
+            temporary_file("etendue-world-material-" + std::to_string(files_.size()) + ".png");
         files_.push_back(png);
         const auto handle = add_texture(scene_, png, width, texels);
         scene_.textures.back().filter = TextureFilter::Nearest;

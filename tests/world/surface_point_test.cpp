@@ -102,7 +102,7 @@ class NormalMap : public testing::Test {
     }
     void TearDown() override { std::filesystem::remove(png_); }
 
-    std::filesystem::path png_ = std::filesystem::path(testing::TempDir()) / "etendue-world-normal-map.png";
+    std::filesystem::path png_ = temporary_file("etendue-world-normal-map.png");
 };
 
 PrimitiveDesc with_tangents(PrimitiveDesc surface) {

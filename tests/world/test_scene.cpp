@@ -10,6 +10,7 @@
 #include <utility>
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 namespace etendue::test {
 
@@ -105,6 +106,10 @@ PrimitiveDesc soup(Random& random, int count, float size) {
         primitive.triangles.push_back({first, first + 1, first + 2});
     }
     return primitive;
+}
+
+std::filesystem::path temporary_file(const std::string& name) {
+    return std::filesystem::temp_directory_path() / (std::to_string(getpid()) + "-" + name);
 }
 
 Handle<TextureDesc> add_texture(SceneDesc& scene, const std::filesystem::path& png, int width,

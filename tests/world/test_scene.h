@@ -37,6 +37,9 @@ void add_object(SceneDesc& scene, PrimitiveDesc primitive, Handle<MaterialDesc> 
 /// `count` random triangles inside the cube [-1, 1]³, of sides up to `size`, flat normals.
 [[nodiscard]] PrimitiveDesc soup(Random& random, int count, float size);
 
+/// A path that no other test process uses: CTest runs several at a time.
+[[nodiscard]] std::filesystem::path temporary_file(const std::string& name);
+
 /// Writes `texels` (rgba, row by row, values 0 … 255) as a PNG and adds it as a texture.
 Handle<TextureDesc> add_texture(SceneDesc& scene, const std::filesystem::path& png, int width,
                                 const std::vector<std::array<int, 4>>& texels);

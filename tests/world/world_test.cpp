@@ -104,7 +104,7 @@ TEST(World, OneSidedEmittersAreDarkBehind) {
 // Irradiance at a point from a textured, partly transparent emitter: once by light samples and once by rays over the
 // hemisphere, as the two strategies of a path tracer see it. Tolerance: 4.5 standard errors.
 TEST(World, BothStrategiesSeeTexturedAndTranslucentEmittersAlike) {
-    const std::filesystem::path png = std::filesystem::path(testing::TempDir()) / "etendue-world-emitter.png";
+    const std::filesystem::path png = temporary_file("etendue-world-emitter.png");
     SceneDesc scene = empty_scene();
     MaterialDesc glow = emissive(Rgb(4.0f));
     // Bright where it lets half of the light through, dimmer where it is opaque, and a hole.
