@@ -14,6 +14,7 @@
 #include "world/compile.h"
 
 #include <chrono>
+#include <cstdlib>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -126,9 +127,10 @@ void report_dropped(const RenderCounters& counters, const SceneRenderRequest& re
     log_warning(
         "warning: {} samples were not finite and were dropped; the first is sample {} of pixel ({}, {}). To see it "
         "alone: "
-        "etendue render {} --size {}x{} --crop {},{},{},{} --spp {} --seed {}",
-        counters.dropped, first.sample, first.x, first.y, request.scene.string(), settings.film.width,
-        settings.film.height, first.x, first.y, first.x + 1, first.y + 1, first.sample + 1, settings.seed);
+        "etendue render {} --integrator {} --size {}x{} --crop {},{},{},{} --spp {} --seed {}",
+        counters.dropped, first.sample, first.x, first.y, request.scene.string(), settings.integrator.type,
+        settings.film.width, settings.film.height, first.x, first.y, first.x + 1, first.y + 1, first.sample + 1,
+        settings.seed);
 }
 
 /// Puts the config's defaults where nothing is set, and checks that everything exists: a misspelt view is better found
@@ -167,6 +169,7 @@ PreparedScene prepare_scene(const std::filesystem::path& path, const SettingsOve
     LoadedScene loaded = load_scene(path);
     PreparedScene prepared{std::move(loaded.scene), std::move(loaded.problems), {}};
     overrides.apply(prepared.scene);
+    if (const char* colors = std::getenv("OCIO")) prepared.scene.inputs.emplace_back(colors);
     add_missing_camera_and_light(prepared.scene, prepared.problems);
     const ProblemList remaining = validate(prepared.scene);
     if (remaining.has_errors()) throw SceneError(remaining);
@@ -176,7 +179,8 @@ PreparedScene prepare_scene(const std::filesystem::path& path, const SettingsOve
 
 std::string settings_hash(const SceneDesc& scene, PixelDepth depth) {
     // FNV-1a, 64 bits, over the text form of the scene; nobody attacks it, it only has to tell settings apart.
-    const std::string text = fmt::format("{}\n{}\n{}", software_name(), dump(scene), static_cast<int>(depth));
+    std::string text = fmt::format("{}\n{}\n{}", software_name(), dump(scene), static_cast<int>(depth));
+    if (const char* colors = std::getenv("OCIO")) text += colors;
     std::uint64_t hash = 0xcbf29ce484222325u;
     for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
     return fmt::format("{:016x}", hash);
