@@ -36,8 +36,8 @@ struct PendingLight {
 /// Structure-of-arrays state of a wave. About 200 bytes a path.
 class PathWave final : public IntegratorScratch {
   public:
-    /// Paths in a wave; large enough to fill ray packets after many have ended, small enough for the L2 cache (chosen
-    /// by measurement, docs/performance.md).
+    /// Paths in a wave: enough to fill ray packets after many have ended, and about 400 KiB, a fifth of an L2 cache of
+    /// 2 MiB.
     static constexpr std::size_t kCapacity = 2048;
 
     PathWave();
