@@ -24,7 +24,7 @@ struct SinCos {
 /// Of `turns` · 2 pi radians, `turns` in [0, 1].
 [[nodiscard]] inline SinCos sin_cos_turns(float turns) {
     const float quarters = turns * 4.0f;
-    const int nearest = static_cast<int>(quarters + 0.5f);
+    const int nearest = static_cast<int>(std::floor(quarters + 0.5f));
     const SinCos octant = sin_cos_octant((quarters - static_cast<float>(nearest)) * (kPi / 2.0f));
     const bool swap = (nearest & 1) != 0;
     const float s = swap ? octant.cos : octant.sin;
