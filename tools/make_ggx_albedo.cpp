@@ -21,7 +21,7 @@ namespace {
 using namespace etendue;
 using namespace etendue::ggx_albedo_layout;
 
-constexpr std::uint32_t kSamples = 8192;
+constexpr std::uint32_t kSamples = 4096;
 
 struct Tables {
     Slice single;

@@ -4,7 +4,8 @@
 // The albedo falls where cos theta comes near alpha, so the cosine's coordinate is sqrt(mu (1 + a) / (mu + a)) with
 // a = 4 alpha: the fall then has the same place for every alpha, and interpolating between two alphas does not blur it.
 // Schlick's albedo is stored as a share of the former, which varies with mu alone and has the coordinate sqrt(mu).
-// Indices have the coordinate sqrt((eta - 1) / (eta + 1)), in which the critical angle moves evenly.
+// Indices have the coordinate cbrt((eta - 1) / (eta + 1)). The cosine of the critical angle moves as the square root of
+// that fraction; the cube root sets the nodes closer where the angle is grazing, as there it is where the albedo falls.
 #pragma once
 
 #include <algorithm>
@@ -15,11 +16,11 @@
 namespace etendue::ggx_albedo_layout {
 
 inline constexpr int kCosines = 48;
-inline constexpr int kAlphas = 24;       ///< alpha = t², t in [0, 1]: uniform in perceptual roughness
+inline constexpr int kAlphas = 40;       ///< alpha = t², t in [0, 1]: uniform in perceptual roughness
 inline constexpr int kShareAlphas = 64;  ///< the same for Schlick's share, which grazing angles bend more
 /// The same for the averages. They are not piecewise linear in t, but have kinks at the nodes of the albedos.
 inline constexpr int kAverageAlphas = 10 * (kAlphas - 1) + 1;
-inline constexpr int kEtas = 24;  ///< from eta = 1 to 3, for each side
+inline constexpr int kEtas = 36;  ///< from eta = 1 to 3, for each side
 
 using Slice = std::array<std::array<float, kCosines>, kAlphas>;  ///< [alpha][cosine]
 using ShareSlice = std::array<std::array<float, kCosines>, kShareAlphas>;
@@ -62,12 +63,12 @@ inline constexpr float kLargestR0Root = 0.5f;  ///< (3 - 1) / (3 + 1)
 
 [[nodiscard]] inline float eta(int node) {
     const float t = fraction(node, kEtas);
-    const float root = kLargestR0Root * t * t;
+    const float root = kLargestR0Root * t * t * t;
     return (1.0f + root) / (1.0f - root);
 }
 /// For eta >= 1.
 [[nodiscard]] inline float eta_coordinate(float e) {
-    return std::sqrt((e - 1.0f) / (e + 1.0f) / kLargestR0Root) * (kEtas - 1);
+    return std::cbrt((e - 1.0f) / (e + 1.0f) / kLargestR0Root) * (kEtas - 1);
 }
 
 /// Between nodes `index` and `index + 1`, at `t` in [0, 1].

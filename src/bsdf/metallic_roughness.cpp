@@ -83,9 +83,10 @@ BsdfValue evaluate_below(const Layers& layers, const Vec3f& wo, const Vec3f& wi)
     if (layers.smooth || layers.p_transmitted == 0.0f) return {};
     const Vec3f mirrored{wi.x, wi.y, -wi.z};
     const GgxReflection::Value lobe = layers.reflection.evaluate(wo, mirrored);
-    const float coupling = std::min(layers.coupling, layers.coupling_i(lobe.albedo_i, mirrored.z));
-    return {layers.transmitted * (coupling * (lobe.single + lobe.multiple)),
-            layers.p_transmitted * lobe.pdf_solid_angle};
+    // What the facets do not reflect; with the reflected part it adds up to all of GGX's lobe.
+    const float single = (1.0f - fresnel_schlick(Rgb(layers.f0_dielectric), lobe.cos_half).r) * lobe.single;
+    const float multiple = (1.0f - layers.dielectric_multiple) * lobe.multiple;
+    return {layers.transmitted * (single + multiple), layers.p_transmitted * lobe.pdf_solid_angle};
 }
 
 BsdfSample sample_smooth(const Layers& layers, const Vec3f& wo, bool transmit) {

@@ -7,8 +7,8 @@
 // Three things go beyond the appendix, whose formulas lose or invent energy: the specular layer has its
 // multiple-scattering lobe; what lies under it receives what it lets through, (1 - E(o)) (1 - E(i)) / (1 - E_avg),
 // which is reciprocal and makes a white dielectric reflect exactly 1 (Ashikhmin and Shirley's coupling in Kelemen's
-// form, 2001); the transmitted lobe is all of GGX's reflection, mirrored to the other side, times the smaller of
-// 1 - E(o) and 1 - E(i): reciprocal, never above 1, and at most 3.3% below it for a white sheet.
+// form, 2001); the transmitted lobe is GGX's reflection, mirrored to the other side, with 1 - F in place of F in the
+// single and in the multiple scattering: reciprocal, and with the reflected part exactly 1 for a white sheet.
 //
 // Thin-walled: light leaves opposite to where a mirror would send it, without refraction, tinted once by the base
 // colour. With alpha below kSmoothAlpha the specular and transmitted parts are deltas. Reflects for wo.z > 0 only.

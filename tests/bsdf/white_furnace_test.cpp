@@ -89,8 +89,19 @@ TEST(WhiteFurnace, WhiteMetallicRoughness) {
         }
 }
 
+TEST(WhiteFurnace, WhiteThinSheet) {
+    for (const float transmission : {0.5f, 1.0f})
+        for (const float f0 : {0.0f, 0.04f, 0.3f}) {
+            const auto make = [=](float alpha) {
+                return MetallicRoughness{
+                    .base = Rgb(1.0f), .metallic = 0.0f, .alpha = alpha, .f0 = f0, .transmission = transmission};
+            };
+            expect_white("transmission " + std::to_string(transmission) + " f0 " + std::to_string(f0), make, 1.0f);
+        }
+}
+
 TEST(WhiteFurnace, DielectricFromBothSides) {
-    for (const float ior : {1.1f, 1.33f, 1.5f, 1.9f, 2.5f})
+    for (const float ior : {1.01f, 1.05f, 1.1f, 1.33f, 1.5f, 1.9f, 2.5f})
         for (const float side : {1.0f, -1.0f})
             expect_white(
                 "dielectric " + std::to_string(ior) + (side > 0.0f ? " outside" : " inside"),
