@@ -17,12 +17,15 @@ DEFAULT_OUTPUT = Path(__file__).resolve().parent.parent / "scenes"
 
 
 def write(directory, contents):
-    """Writes the files `contents` (bytes by name), each under a temporary name first."""
+    """Writes the files `contents` (bytes by name), each under a temporary name first; what is there already stays."""
     directory.mkdir(parents=True, exist_ok=True)
     for name, data in contents.items():
+        target = directory / name
+        if target.exists() and target.read_bytes() == data:
+            continue
         temporary = directory / f".{name}.{os.getpid()}"
         temporary.write_bytes(data)
-        temporary.replace(directory / name)
+        temporary.replace(target)
 
 
 def check(name, directory):

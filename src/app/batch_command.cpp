@@ -69,23 +69,22 @@ const char* outcome_name(Outcome outcome) {
 std::vector<BatchItem> collect_items(const BatchArguments& arguments) {
     std::vector<BatchItem> items;
     std::map<std::string, int> uses;
-    const auto relative_name = [](const fs::path& scene, const fs::path& root) {
-        const fs::path relative = scene.lexically_relative(root);
-        return relative.empty() || relative == "." ? fs::absolute(scene).lexically_normal().filename() : relative;
-    };
+    std::set<fs::path> seen;
     for (const std::string& text : arguments.roots) {
-        // Without a trailing slash, so that the last component has a name.
-        fs::path root = fs::path(text).lexically_normal();
+        // Absolute, so that "." has a name, and without a trailing slash, so that the last component has one.
+        fs::path root = fs::absolute(text).lexically_normal();
         if (!root.has_filename()) root = root.parent_path();
         for (const fs::path& scene : find_scene_directories(root)) {
-            const std::string name = relative_name(scene, root).string();
-            items.push_back({scene, root, name});
+            if (!seen.insert(scene).second) continue;
+            const fs::path relative = scene.lexically_relative(root);
+            const std::string name = (relative == "." ? root.filename() : relative).string();
+            items.push_back({scene.lexically_proximate(fs::current_path()), root, name});
             ++uses[name];
         }
     }
     std::set<std::string> taken;
     for (BatchItem& item : items) {
-        if (uses[item.name] > 1) item.name = (fs::absolute(item.output).filename() / item.name).string();
+        if (uses[item.name] > 1) item.name = (item.output.filename() / item.name).string();
         if (!taken.insert(item.name).second)
             throw SceneError({item.scene.string(), ""}, "two scenes would be written to '" + item.name +
                                                             "'; render them to different directories");

@@ -60,7 +60,8 @@ Inspection inspect(const std::string& path) {
     LoadedScene loaded = inspect_scene(path);
     SceneDesc& scene = loaded.scene;
     result.problems = std::move(loaded.problems);
-    result.description = dump(scene);
+    // Without a scene file there is nothing to describe.
+    if (!scene.file.empty()) result.description = dump(scene);
     result.summary = summarize(scene);
     result.bounds = compute_bounds(scene);
     for (const MeshDesc& mesh : scene.meshes)
@@ -75,8 +76,8 @@ Inspection inspect(const std::string& path) {
         (void)create_integrator(scene.settings);
         const ThreadPool threads;
         const ColorConfig colors = ColorConfig::from_environment();
-        const World world =
-            compile_world(std::move(scene), colors, colors.default_working_space(), threads, result.problems);
+        const std::string working_space = resolve_colors(scene.settings, colors);
+        const World world = compile_world(std::move(scene), colors, working_space, threads, result.problems);
         result.world = world.statistics();
     } catch (const SceneError& error) {
         for (const Problem& problem : error.problems().all()) result.problems.add(problem);
@@ -86,7 +87,6 @@ Inspection inspect(const std::string& path) {
 
 void print_text(const Inspection& i) {
     fmt::print("{}", i.description);
-    if (i.description.empty() || i.description.back() != '\n') fmt::print("\n");
     if (i.bounds.empty())
         fmt::print("bounds: none (nothing is placed)\n");
     else

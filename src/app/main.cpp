@@ -3,10 +3,15 @@
 #include "app/interrupt.h"
 #include "core/error.h"
 #include "core/log.h"
+#include "film/film.h"
 #include "output/software_name.h"
 
-#include <cstdio>
+#include <algorithm>
 #include <exception>
+#include <new>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -21,6 +26,10 @@ ExitCode run(const Action& action) {
     } catch (const SceneError& error) {
         log_error("{}", error.what());
         return ExitCode::InvalidScene;
+    } catch (const std::bad_alloc&) {
+        log_error("error: there is not enough memory; a smaller --size or --crop needs less: {} bytes a pixel",
+                  sizeof(PixelSum));
+        return ExitCode::RenderFailed;
     } catch (const std::exception& error) {
         log_error("error: {}", error.what());
         return ExitCode::RenderFailed;
@@ -47,6 +56,17 @@ int main(int argc, char** argv) {
     add_render_command(app, action);
     add_batch_command(app, action);
     add_inspect_command(app, action);
+    // CLI11 would only say that a command is missing.
+    if (argc > 1 && argv[1][0] != '-') {
+        const std::vector<CLI::App*> commands = app.get_subcommands({});
+        std::vector<std::string> names;
+        for (const CLI::App* command : commands) names.push_back(command->get_name());
+        if (std::ranges::find(names, argv[1]) == names.end()) {
+            const std::vector<std::string_view> known(names.begin(), names.end());
+            log_error("error: there is no command '{}'; {}", argv[1], name_hint(argv[1], known));
+            return static_cast<int>(ExitCode::UsageError);
+        }
+    }
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

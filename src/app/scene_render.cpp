@@ -3,7 +3,6 @@
 #include "app/interrupt.h"
 #include "app/library_versions.h"
 #include "app/progress_display.h"
-#include "color/color_config.h"
 #include "core/log.h"
 #include "integrator/integrator.h"
 #include "loader/loader.h"
@@ -14,13 +13,13 @@
 #include "world/compile.h"
 
 #include <chrono>
-#include <cstdlib>
 #include <memory>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 namespace etendue {
 
@@ -120,41 +119,81 @@ void fill_render_statistics(const RenderResult& result, RenderStatistics& s) {
     s.first_dropped = c.first_dropped;
 }
 
-/// Says where samples were dropped, with a command that renders just the first of those pixels.
-void report_dropped(const RenderCounters& counters, const SceneRenderRequest& request, const RenderSettings& settings) {
-    if (counters.dropped == 0) return;
-    const DroppedSample& first = counters.first_dropped.front();
-    log_warning(
-        "warning: {} samples were not finite and were dropped; the first is sample {} of pixel ({}, {}). To see it "
-        "alone: "
-        "etendue render {} --integrator {} --size {}x{} --crop {},{},{},{} --spp {} --seed {}",
-        counters.dropped, first.sample, first.x, first.y, request.scene.string(), settings.integrator.type,
-        settings.film.width, settings.film.height, first.x, first.y, first.x + 1, first.y + 1, first.sample + 1,
-        settings.seed);
+/// For a shell.
+std::string quoted(const std::string& text) {
+    std::string result = "'";
+    for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return result + "'";
 }
 
-/// Puts the config's defaults where nothing is set, and checks that everything exists: a misspelt view is better found
-/// before hours of rendering than after. Returns the working space.
-std::string resolve_colors(ColorSettings& settings, const ColorConfig& colors) {
-    if (settings.display.empty()) settings.display = colors.default_display();
-    if (settings.view.empty()) settings.view = colors.default_view(settings.display);
-    settings.working_space =
-        settings.working_space.empty() ? colors.default_working_space() : colors.resolve_space(settings.working_space);
-    (void)colors.display_transform(settings.working_space, settings.display, settings.view, settings.exposure);
-    return settings.working_space;
+/// Says where samples were dropped, with a command that renders just the first of those pixels.
+void report_dropped(const RenderCounters& counters, const SceneRenderRequest& request, const RenderSettings& settings,
+                    const std::string& working_space) {
+    if (counters.dropped == 0) return;
+    const DroppedSample& first = counters.first_dropped.front();
+    std::string command = fmt::format(
+        "etendue render {} --integrator {} --max-depth {} --size {}x{} --crop {},{},{},{} --spp {} --seed {} "
+        "--working-space {}",
+        quoted(request.scene.string()), settings.integrator.type, settings.integrator.max_depth, settings.film.width,
+        settings.film.height, first.x, first.y, first.x + 1, first.y + 1, first.sample + 1, settings.seed,
+        quoted(working_space));
+    if (!settings.camera.empty()) command += " --camera " + quoted(settings.camera);
+    if (request.overrides.environment) command += " --environment " + quoted(*request.overrides.environment);
+    log_warning(
+        "warning: {} samples were not finite and were dropped; the first is sample {} of pixel ({}, {}). To see it "
+        "alone: {}",
+        counters.dropped, first.sample, first.x, first.y, command);
+}
+
+/// Fails now if the files cannot be written later: better found before hours of rendering than after.
+void check_writable(const OutputPaths& paths) {
+    const std::filesystem::path parent = paths.exr.parent_path();
+    const std::filesystem::path directory = parent.empty() ? "." : parent;
+    if (!std::filesystem::is_directory(directory))
+        throw IoError(fmt::format("cannot write {}: there is no directory {}", paths.exr.string(), directory.string()));
+    for (const std::filesystem::path& path : {paths.exr, paths.png, paths.json})
+        if (std::filesystem::is_directory(path))
+            throw IoError(fmt::format("cannot write {}: it is a directory", path.string()));
+    if (access(directory.c_str(), W_OK | X_OK) != 0)
+        throw IoError(fmt::format("cannot write {}: {} is not writable", paths.exr.string(), directory.string()));
 }
 
 }  // namespace
 
 std::unique_ptr<const Integrator> create_integrator(const RenderSettings& settings) {
     const IntegratorSettings& s = settings.integrator;
+    std::vector<std::string_view> names;
+    for (const IntegratorEntry& entry : integrator_registry()) {
+        names.push_back(entry.name);
+        if (entry.name == s.type && s.min_depth > entry.longest_path)
+            throw SceneError(settings.at("/integrator/min_depth"),
+                             fmt::format("min_depth is {}, but the paths of '{}' have at most {} edges", s.min_depth,
+                                         s.type, entry.longest_path));
+    }
     auto integrator = make_integrator(s.type, {s.max_depth, s.min_depth, s.roulette_depth});
     if (integrator) return integrator;
-    std::vector<std::string_view> names;
-    for (const IntegratorEntry& entry : integrator_registry()) names.push_back(entry.name);
-    const std::string nearest = nearest_name(s.type, names);
-    throw SceneError(settings.location, "no integrator is named '" + s.type + "'" +
-                                            (nearest.empty() ? "" : "; did you mean '" + nearest + "'?"));
+    throw SceneError(settings.at("/integrator/type"),
+                     fmt::format("no integrator is named '{}'; {}", s.type, name_hint(s.type, names)));
+}
+
+std::string resolve_colors(RenderSettings& settings, const ColorConfig& colors) {
+    ColorSettings& s = settings.color;
+    // The config knows names only; where they stood is known here.
+    const auto located = [&](const char* pointer, const auto& look_up) {
+        try {
+            return look_up();
+        } catch (const SceneError& error) {
+            throw SceneError(settings.at(pointer), error.problems().all().front().message);
+        }
+    };
+    s.working_space = located("/color/working_space", [&] {
+        return s.working_space.empty() ? colors.default_working_space() : colors.resolve_space(s.working_space);
+    });
+    if (s.display.empty()) s.display = colors.default_display();
+    if (s.view.empty()) s.view = located("/color/display", [&] { return colors.default_view(s.display); });
+    (void)located("/color/view",
+                  [&] { return colors.display_transform(s.working_space, s.display, s.view, s.exposure); });
+    return s.working_space;
 }
 
 OutputPaths OutputPaths::beside(const std::filesystem::path& exr) {
@@ -169,7 +208,8 @@ PreparedScene prepare_scene(const std::filesystem::path& path, const SettingsOve
     LoadedScene loaded = load_scene(path);
     PreparedScene prepared{std::move(loaded.scene), std::move(loaded.problems), {}};
     overrides.apply(prepared.scene);
-    if (const char* colors = std::getenv("OCIO")) prepared.scene.inputs.emplace_back(colors);
+    const std::filesystem::path colors = ColorConfig::environment_path();
+    if (!colors.empty()) prepared.scene.inputs.push_back(colors);
     add_missing_camera_and_light(prepared.scene, prepared.problems);
     const ProblemList remaining = validate(prepared.scene);
     if (remaining.has_errors()) throw SceneError(remaining);
@@ -179,8 +219,8 @@ PreparedScene prepare_scene(const std::filesystem::path& path, const SettingsOve
 
 std::string settings_hash(const SceneDesc& scene, PixelDepth depth) {
     // FNV-1a, 64 bits, over the text form of the scene; nobody attacks it, it only has to tell settings apart.
-    std::string text = fmt::format("{}\n{}\n{}", software_name(), dump(scene), static_cast<int>(depth));
-    if (const char* colors = std::getenv("OCIO")) text += colors;
+    const std::string text = fmt::format("{}\n{}\n{}\n{}", software_name(), dump(scene), static_cast<int>(depth),
+                                         ColorConfig::environment_path().string());
     std::uint64_t hash = 0xcbf29ce484222325u;
     for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
     return fmt::format("{:016x}", hash);
@@ -192,12 +232,15 @@ SceneRenderResult render_scene(PreparedScene prepared, const SceneRenderRequest&
     std::size_t reported = 0;
     report_problems(problems, reported, request.quiet);
 
+    const OutputPaths paths =
+        OutputPaths::beside(request.output.empty() ? std::filesystem::path(scene.name + ".exr") : request.output);
+    check_writable(paths);
     const RenderOptions options = make_render_options(scene.settings);
     const auto integrator = create_integrator(scene.settings);
     // Before names are resolved: batch compares it with that of a scene that was only prepared.
     const std::string hash = settings_hash(scene, request.overrides.depth);
     const ColorConfig colors = ColorConfig::from_environment();
-    const std::string working_space = resolve_colors(scene.settings.color, colors);
+    const std::string working_space = resolve_colors(scene.settings, colors);
 
     SceneRenderResult result;
     RenderStatistics& statistics = result.statistics;
@@ -225,24 +268,27 @@ SceneRenderResult render_scene(PreparedScene prepared, const SceneRenderRequest&
     statistics.instances = world_statistics.instances;
     statistics.lights = world_statistics.lights;
 
+    if (!request.quiet)
+        for (const std::string& missing : integrator->unreachable_light(world)) log_warning("note: {}", missing);
+
     ProgressDisplay display(request.title.empty() ? name : request.title, request.quiet);
     const RenderResult rendered = render(world, *integrator, options, threads, interrupt_requested(),
                                          [&](const RenderProgress& progress) { display.update(progress); });
     fill_render_statistics(rendered, statistics);
-    report_dropped(rendered.counters, request, settings);
+    report_dropped(rendered.counters, request, settings, working_space);
+
+    result.output = paths.exr;
+    result.interrupted = rendered.halt_reason == HaltReason::Interrupted;
+    // An earlier image is worth more than a black one.
+    if (result.interrupted && rendered.counters.samples == 0) return result;
 
     const PhaseTimer write_timer;
-    const OutputPaths paths =
-        OutputPaths::beside(request.output.empty() ? std::filesystem::path(name + ".exr") : request.output);
     const OutputFrame frame = make_frame(rendered, world.camera(), name, settings, working_space);
     ExrDriver(paths.exr, colors, request.overrides.depth).write(frame);
     PreviewDriver(paths.png, colors).write(frame);
     statistics.write = write_timer.elapsed();
     statistics.peak_memory_bytes = peak_memory_bytes();
     write_text(paths.json, to_json(statistics));
-
-    result.output = paths.exr;
-    result.interrupted = rendered.halt_reason == HaltReason::Interrupted;
     return result;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/settings_overrides.h"
+#include "color/color_config.h"
 #include "core/parallel.h"
 #include "integrator/integrator.h"
 #include "output/statistics.h"
@@ -53,6 +54,10 @@ struct PreparedScene {
 
 /// The integrator that the settings ask for. Throws SceneError with the nearest name if there is none of that name.
 [[nodiscard]] std::unique_ptr<const Integrator> create_integrator(const RenderSettings& settings);
+
+/// Puts the config's defaults where `settings` name no space, display or view, and checks that everything exists.
+/// Returns the working space. Throws SceneError with the setting's location.
+[[nodiscard]] std::string resolve_colors(RenderSettings& settings, const ColorConfig& colors);
 
 /// Hash of every setting that the image depends on, and of the program's version. Equal for equal pictures as long as
 /// the input files are the same.

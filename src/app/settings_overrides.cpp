@@ -13,6 +13,9 @@ namespace etendue {
 
 namespace {
 
+const std::map<std::string, Quality> kQualities{
+    {"draft", Quality::Draft}, {"preview", Quality::Preview}, {"final", Quality::Final}};
+
 void apply_quality(Quality quality, RenderSettings& settings) {
     if (quality == Quality::Final) return;
     settings.spp = std::max(1, settings.spp / (quality == Quality::Draft ? 16 : 4));
@@ -56,12 +59,11 @@ std::vector<std::string> integrator_names() {
 }  // namespace
 
 void SettingsOverrides::add_options(CLI::App& command) {
-    const std::map<std::string, Quality> qualities{
-        {"draft", Quality::Draft}, {"preview", Quality::Preview}, {"final", Quality::Final}};
     command
-        .add_option("--quality", quality,
-                    "draft: half the size, 1/16 of the samples; preview: 1/4 of the samples; final")
-        ->transform(CLI::CheckedTransformer(qualities));
+        .add_option_function<std::string>(
+            "--quality", [this](const std::string& text) { quality = kQualities.at(text); },
+            "draft: half the size, 1/16 of the samples; preview: 1/4 of the samples; final: as the scene says")
+        ->check(CLI::IsMember(kQualities));
     command.add_option("--integrator", integrator, "Light transport algorithm")
         ->check(CLI::IsMember(integrator_names()));
     command.add_option("--spp", spp, "Samples per pixel")->check(CLI::Range(1, 1 << 24));
@@ -93,20 +95,26 @@ void SettingsOverrides::add_options(CLI::App& command) {
 void SettingsOverrides::apply(SceneDesc& scene) const {
     RenderSettings& settings = scene.settings;
     if (quality) apply_quality(*quality, settings);
-    if (integrator) settings.integrator.type = *integrator;
-    if (spp) settings.spp = *spp;
+    const auto set = [&](const auto& given, auto& setting, const char* pointer, const char* option) {
+        if (!given) return;
+        setting = *given;
+        settings.options[pointer] = option;
+    };
+    set(integrator, settings.integrator.type, "/integrator/type", "--integrator");
+    set(max_depth, settings.integrator.max_depth, "/integrator/max_depth", "--max-depth");
+    set(spp, settings.spp, "/spp", "--spp");
+    set(crop, settings.film.crop, "/crop", "--crop");
+    set(camera, settings.camera, "/camera", "--camera");
+    set(seed, settings.seed, "/seed", "--seed");
+    set(time_seconds, settings.time_limit, "/time", "--time");
+    set(exposure, settings.color.exposure, "/color/exposure", "--exposure");
+    set(view, settings.color.view, "/color/view", "--view");
+    set(working_space, settings.color.working_space, "/color/working_space", "--working-space");
     if (size) {
         settings.film.width = (*size)[0];
         settings.film.height = (*size)[1];
+        settings.options["/resolution"] = "--size";
     }
-    if (crop) settings.film.crop = *crop;
-    if (camera) settings.camera = *camera;
-    if (seed) settings.seed = *seed;
-    if (time_seconds) settings.time_limit = *time_seconds;
-    if (max_depth) settings.integrator.max_depth = *max_depth;
-    if (exposure) settings.color.exposure = *exposure;
-    if (view) settings.color.view = *view;
-    if (working_space) settings.color.working_space = *working_space;
     if (environment) {
         scene.environment.enabled = true;
         scene.environment.image = std::filesystem::absolute(*environment);

@@ -41,8 +41,8 @@ using Bsdf =
     return std::holds_alternative<SmoothDielectric>(bsdf) || std::holds_alternative<RoughDielectric>(bsdf);
 }
 
-/// Share of the light from `wo` that is scattered, by the lobe's own samples: an estimate from `count` of them, for
-/// the albedo image and tests.
-[[nodiscard]] Rgb estimate_albedo(const Bsdf& bsdf, const Vec3f& wo, int count);
+/// Share of the light from `wo` that is scattered, by the lobe's own samples: an unbiased estimate from `count` of
+/// them. Different seeds give independent estimates.
+[[nodiscard]] Rgb estimate_albedo(const Bsdf& bsdf, const Vec3f& wo, int count, std::uint32_t seed);
 
 }  // namespace etendue

@@ -108,9 +108,7 @@ void ColorConfig::Impl::fail(const std::string& message) const {
 void ColorConfig::Impl::fail_unknown(std::string_view what, const std::string& name,
                                      const std::vector<std::string>& known) const {
     const std::vector<std::string_view> views(known.begin(), known.end());
-    const std::string nearest = nearest_name(name, views);
-    const std::string hint = nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest);
-    fail(fmt::format("there is no {} '{}'{}", what, name, hint));
+    fail(fmt::format("there is no {} '{}'; {}", what, name, name_hint(name, views)));
 }
 
 OCIO::ConstColorSpaceRcPtr ColorConfig::Impl::find_space(const std::string& name) const {
@@ -152,9 +150,14 @@ std::optional<Matrix3d> ColorConfig::Impl::to_ap0(const std::string& space) cons
 
 ColorConfig::ColorConfig(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
 
-ColorConfig ColorConfig::from_environment() {
+std::filesystem::path ColorConfig::environment_path() {
     const char* path = std::getenv("OCIO");
-    return path && *path ? from_file(path) : built_in();
+    return path ? path : "";
+}
+
+ColorConfig ColorConfig::from_environment() {
+    const std::filesystem::path path = environment_path();
+    return path.empty() ? built_in() : from_file(path);
 }
 
 ColorConfig ColorConfig::built_in() {

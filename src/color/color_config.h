@@ -48,8 +48,9 @@ struct Chromaticities {
 /// An OpenColorIO config.
 class ColorConfig {
   public:
-    /// $OCIO if it is set, else the project's own config, which is built into the program. Throws SceneError if $OCIO
-    /// cannot be read.
+    /// Path of the config that $OCIO names; empty if it is unset or empty.
+    [[nodiscard]] static std::filesystem::path environment_path();
+    /// That config, else the project's own, which is built into the program. Throws SceneError if it cannot be read.
     [[nodiscard]] static ColorConfig from_environment();
     [[nodiscard]] static ColorConfig built_in();
     [[nodiscard]] static ColorConfig from_file(const std::filesystem::path& path);

@@ -73,6 +73,20 @@ SceneError::SceneError(ProblemList problems)
 SceneError::SceneError(SourceLocation where, std::string message)
     : SceneError(single_error(std::move(where), std::move(message))) {}
 
+std::string name_hint(std::string_view name, std::span<const std::string_view> known) {
+    constexpr std::size_t kMostListed = 20;
+    if (known.empty()) return "there are none";
+    const std::string nearest = nearest_name(name, known);
+    if (!nearest.empty()) return "did you mean '" + nearest + "'?";
+    std::string list = "there are ";
+    for (std::size_t i = 0; i < std::min(known.size(), kMostListed); ++i) {
+        if (i > 0) list += ", ";
+        list.append("'").append(known[i]).append("'");
+    }
+    if (known.size() > kMostListed) list += " and " + std::to_string(known.size() - kMostListed) + " more";
+    return list;
+}
+
 std::string nearest_name(std::string_view name, std::span<const std::string_view> known) {
     constexpr std::size_t kLongestName = 64;  // the distance is quadratic in the length; longer names get no suggestion
     if (name.size() > kLongestName) return {};

@@ -77,6 +77,9 @@ class IoError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// What to write instead of `name`: "did you mean 'x'?" if one of `known` is near enough, else the first of them.
+[[nodiscard]] std::string name_hint(std::string_view name, std::span<const std::string_view> known);
+
 /// The member of `known` nearest to `name` in edit distance if it is near enough to suggest, else an empty string.
 [[nodiscard]] std::string nearest_name(std::string_view name, std::span<const std::string_view> known);
 

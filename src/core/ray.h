@@ -3,7 +3,6 @@
 
 #include "core/vec.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <limits>
 
@@ -21,16 +20,9 @@ struct Ray {
 };
 static_assert(sizeof(Ray) == 32);
 
-/// A point just off the surface at `p`, on the side of the unit geometric normal `n` towards which `direction` points.
-///
-/// The distance is a few units in the last place of the largest coordinate, which bounds the error of a hit point
-/// interpolated from its triangle (Waechter and Binder, "A Fast and Robust Method for Avoiding Self-Intersection",
-/// Ray Tracing Gems, 2019, chapter 6).
-[[nodiscard]] inline Vec3f offset_origin(const Vec3f& p, const Vec3f& n, const Vec3f& direction) {
-    constexpr float kUlps = 64.0f * std::numeric_limits<float>::epsilon() / 2.0f;
-    constexpr float kSmallest = 1.0f / 65536.0f;
-    const float extent = std::max(kSmallest * 16.0f, std::max(std::abs(p.x), std::max(std::abs(p.y), std::abs(p.z))));
-    const float distance = extent * kUlps;
+/// The point `distance` metres off the surface at `p`, on the side of the unit geometric normal `n` towards which
+/// `direction` points.
+[[nodiscard]] inline Vec3f offset_origin(const Vec3f& p, const Vec3f& n, float distance, const Vec3f& direction) {
     return p + n * (dot(n, direction) >= 0.0f ? distance : -distance);
 }
 

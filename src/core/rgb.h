@@ -65,6 +65,11 @@ struct Rgb {
     return std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b);
 }
 
+/// Negative channels, which colours outside of a working space's gamut have there, become zero.
+[[nodiscard]] constexpr Rgb clamp_negative(const Rgb& c) {
+    return {std::max(0.0f, c.r), std::max(0.0f, c.g), std::max(0.0f, c.b)};
+}
+
 [[nodiscard]] constexpr Rgb lerp(const Rgb& a, const Rgb& b, float t) {
     return a * (1.0f - t) + b * t;
 }

@@ -35,8 +35,17 @@ inline constexpr float kInvPi = 0.31830988618379067154f;
 }
 
 /// `v` scaled to length 1; undefined for a zero vector.
+/// Largest absolute value of the components.
+[[nodiscard]] inline float max_abs(const Vec3f& v) {
+    return std::max(std::abs(v.x), std::max(std::abs(v.y), std::abs(v.z)));
+}
 [[nodiscard]] inline Vec3f normalize(const Vec3f& v) {
     return v * (1.0f / length(v));
+}
+/// Unit normal of the triangle with these two edges, not parallel: counter-clockwise is the front. The edges are scaled
+/// first, as the squares of small or large triangles' areas are beyond single precision.
+[[nodiscard]] inline Vec3f triangle_normal(const Vec3f& edge1, const Vec3f& edge2) {
+    return normalize(cross(edge1 * (1.0f / max_abs(edge1)), edge2 * (1.0f / max_abs(edge2))));
 }
 
 [[nodiscard]] inline float abs_dot(const Vec3f& a, const Vec3f& b) {

@@ -12,13 +12,7 @@ void Film::add(const TileBuffer& tile) {
         std::size_t target = static_cast<std::size_t>(y - window_.y0) * static_cast<std::size_t>(window_.width()) +
                              static_cast<std::size_t>(rect.x0 - window_.x0);
         for (int x = rect.x0; x < rect.x1; ++x, ++source, ++target) {
-            const PixelSum& from = tile.pixel(source);
-            PixelSum& to = pixels_[target];
-            to.r += from.r;
-            to.g += from.g;
-            to.b += from.b;
-            to.alpha += from.alpha;
-            to.samples += from.samples;
+            pixels_[target].add(tile.pixel(source));
         }
     }
 }
@@ -27,7 +21,11 @@ std::vector<float> Film::resolve() const {
     std::vector<float> image;
     image.reserve(pixels_.size() * 4);
     for (const PixelSum& p : pixels_) {
-        const double scale = p.samples > 0 ? 1.0 / static_cast<double>(p.samples) : 0.0;
+        // Dividing by the weights keeps even regions even. Where a filter with negative parts has by chance left little
+        // weight (a few samples), their number, which is the weight's mean, stands in.
+        const auto count = static_cast<double>(p.samples);
+        const double weight = p.weight > 0.5 * count ? p.weight : count;
+        const double scale = weight > 0.0 ? 1.0 / weight : 0.0;
         for (const double sum : {p.r, p.g, p.b, p.alpha}) image.push_back(static_cast<float>(sum * scale));
     }
     return image;

@@ -25,20 +25,32 @@ struct PixelRect {
     friend bool operator==(const PixelRect&, const PixelRect&) = default;
 };
 
-/// Sums of one pixel, in double because they grow. 40 bytes.
+/// Sums of one pixel, in double because they grow. 48 bytes.
 struct PixelSum {
     double r = 0.0;
     double g = 0.0;
     double b = 0.0;
     double alpha = 0.0;
+    double weight = 0.0;
     std::uint32_t samples = 0;
 
-    void add(const Rgb& radiance, float sample_alpha) {
-        r += static_cast<double>(radiance.r);
-        g += static_cast<double>(radiance.g);
-        b += static_cast<double>(radiance.b);
-        alpha += static_cast<double>(sample_alpha);
+    /// `filter_weight` is 1 on average; negative in the negative parts of a filter.
+    void add(const Rgb& radiance, float sample_alpha, float filter_weight) {
+        const auto w = static_cast<double>(filter_weight);
+        r += w * static_cast<double>(radiance.r);
+        g += w * static_cast<double>(radiance.g);
+        b += w * static_cast<double>(radiance.b);
+        alpha += w * static_cast<double>(sample_alpha);
+        weight += w;
         ++samples;
+    }
+    void add(const PixelSum& other) {
+        r += other.r;
+        g += other.g;
+        b += other.b;
+        alpha += other.alpha;
+        weight += other.weight;
+        samples += other.samples;
     }
 };
 

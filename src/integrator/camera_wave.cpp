@@ -36,14 +36,12 @@ void generate_camera_rays(const World& world, const TileJob& job, std::size_t fi
 void accumulate(const TileJob& job, const CameraSample& sample, const Rgb& radiance, float alpha, TileBuffer& tile,
                 RenderCounters& counters) {
     ++counters.samples;
-    const Rgb weighted = radiance * sample.weight;
-    if (!is_finite(weighted) || min_component(radiance) < 0.0f) {
+    if (!is_finite(radiance) || min_component(radiance) < 0.0f) {
         const Vec2i position = pixel_position(job, sample.pixel);
         counters.drop({position.x, position.y, sample.key.index});
-        tile.pixel(sample.pixel).add(Rgb(), 0.0f);
         return;
     }
-    tile.pixel(sample.pixel).add(weighted, alpha * sample.weight);
+    tile.pixel(sample.pixel).add(radiance, alpha, sample.weight);
 }
 
 }  // namespace etendue

@@ -11,8 +11,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -65,6 +67,9 @@ class Integrator {
 
     [[nodiscard]] virtual std::unique_ptr<IntegratorScratch> make_scratch() const = 0;
 
+    /// What light of `world` this algorithm can never find, a sentence for each kind of path; empty if it finds all.
+    [[nodiscard]] virtual std::vector<std::string> unreachable_light(const World& world) const = 0;
+
     /// Adds the samples of `job` to `tile`, which has been reset to its rectangle. The result depends on `job` and the
     /// world only. `scratch` comes from `make_scratch` and is used by no other call at the same time.
     virtual void render_tile(const World& world, const TileJob& job, IntegratorScratch& scratch, TileBuffer& tile,
@@ -76,6 +81,7 @@ struct IntegratorEntry {
     std::string_view name;
     std::string_view summary;  ///< for --help
     std::unique_ptr<const Integrator> (*make)(const IntegratorOptions&);
+    int longest_path = std::numeric_limits<int>::max();  ///< edges
 };
 
 [[nodiscard]] std::span<const IntegratorEntry> integrator_registry();

@@ -9,13 +9,16 @@ namespace etendue {
 
 namespace {
 
+/// Camera, surface, light.
+constexpr int kDirectPath = 2;
+
 std::unique_ptr<const Integrator> make_path(const IntegratorOptions& options) {
     return std::make_unique<PathIntegrator>(PathOptions{.lengths = options});
 }
 
 std::unique_ptr<const Integrator> make_direct(const IntegratorOptions& options) {
     IntegratorOptions one_bounce = options;
-    one_bounce.max_depth = std::min(options.max_depth, 2);
+    one_bounce.max_depth = std::min(options.max_depth, kDirectPath);
     return std::make_unique<PathIntegrator>(PathOptions{.lengths = one_bounce});
 }
 
@@ -33,7 +36,7 @@ std::unique_ptr<const Integrator> make_albedo(const IntegratorOptions&) {
 
 constexpr IntegratorEntry kRegistry[] = {
     {"path", "eye paths with light sampling, combined by MIS", make_path},
-    {"direct", "path, one bounce only", make_direct},
+    {"direct", "path, one bounce only", make_direct, kDirectPath},
     {"naive", "eye paths that find lights by chance", make_naive},
     {"normals", "shading normals, for debugging", make_normals},
     {"albedo", "scattered share of light, for debugging", make_albedo},

@@ -82,7 +82,8 @@ Vec2f ImageEnvironment::to_image(const Vec3f& direction) const {
     const float x = direction.x * cos_rotation_ - direction.z * sin_rotation_;
     const float z = direction.x * sin_rotation_ + direction.z * cos_rotation_;
     const float u = 0.5f + std::atan2(x, -z) * (0.5f * kInvPi);
-    const float v = std::acos(std::clamp(direction.y, -1.0f, 1.0f)) * kInvPi;
+    // Not the arc cosine of y, which loses all digits near the poles.
+    const float v = std::atan2(std::hypot(x, z), direction.y) * kInvPi;
     return {std::clamp(u, 0.0f, kOneMinusEpsilon), std::clamp(v, 0.0f, kOneMinusEpsilon)};
 }
 
@@ -111,7 +112,7 @@ LightSample ImageEnvironment::sample(const Vec3f&, Vec2f u) const {
 }
 
 float ImageEnvironment::pdf_solid_angle(const Vec3f& direction) const {
-    const float sin_theta = std::sqrt(std::max(0.0f, 1.0f - direction.y * direction.y));
+    const float sin_theta = std::hypot(direction.x, direction.z);
     if (!(sin_theta > 0.0f)) return 0.0f;
     return distribution_.pdf(to_image(direction)) / (2.0f * kPi * kPi * sin_theta);
 }

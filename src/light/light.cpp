@@ -1,9 +1,19 @@
 #include "light/light.h"
 
+#include <algorithm>
+
 namespace etendue {
 
-LightSample sample_light(const Light& light, const Vec3f& point, Vec2f u) {
-    return std::visit([&](const auto& l) { return l.sample(point, u); }, light);
+LightSample sample_light(const Light& light, const Vec3f& point, Vec2f u_triangle, Vec2f u) {
+    if (const MeshLight* mesh = std::get_if<MeshLight>(&light)) return mesh->sample(point, u_triangle, u);
+    return std::visit(
+        [&](const auto& l) {
+            if constexpr (requires { l.sample(point, u); })
+                return l.sample(point, u);
+            else
+                return LightSample{};
+        },
+        light);
 }
 
 float light_power(const Light& light, float scene_radius) {
@@ -23,10 +33,19 @@ float environment_pdf_solid_angle(const Light& light, const Vec3f& direction) {
 }
 
 LightSelector::LightSelector(std::span<const Light> lights, float scene_radius) {
-    std::vector<double> powers;
-    powers.reserve(lights.size());
-    for (const Light& light : lights) powers.push_back(static_cast<double>(light_power(light, scene_radius)));
-    by_power_ = AliasTable(powers);
+    constexpr double kAny = 0.1;
+    std::vector<double> weights;
+    weights.reserve(lights.size());
+    double total = 0.0;
+    double shining = 0.0;
+    for (const Light& light : lights) {
+        weights.push_back(static_cast<double>(light_power(light, scene_radius)));
+        total += weights.back();
+        if (weights.back() > 0.0) shining += 1.0;
+    }
+    for (double& weight : weights)
+        if (weight > 0.0) weight += kAny / (1.0 - kAny) * total / shining;
+    table_ = AliasTable(weights);
 }
 
 }  // namespace etendue

@@ -18,8 +18,8 @@ namespace etendue {
 
 using Light = std::variant<PointLight, SpotLight, DirectionalLight, MeshLight, ConstantEnvironment, ImageEnvironment>;
 
-/// Light at `point` from a direction chosen with `u` in [0, 1)².
-[[nodiscard]] LightSample sample_light(const Light& light, const Vec3f& point, Vec2f u);
+/// Light at `point` from a direction chosen with `u`; of a mesh, `u_triangle` chooses the triangle. Both in [0, 1)².
+[[nodiscard]] LightSample sample_light(const Light& light, const Vec3f& point, Vec2f u_triangle, Vec2f u);
 
 /// Emitted power in watts, mean of the channels; lights at infinity count what crosses a disk of `scene_radius` metres.
 [[nodiscard]] float light_power(const Light& light, float scene_radius);
@@ -29,19 +29,20 @@ using Light = std::variant<PointLight, SpotLight, DirectionalLight, MeshLight, C
 /// Density with which `sample_light` picks `direction`; zero for lights that are no environment.
 [[nodiscard]] float environment_pdf_solid_angle(const Light& light, const Vec3f& direction);
 
-/// Chooses a light with a probability proportional to its power.
+/// Chooses a light by its power, and one time in ten any: a lamp beside the sun must be found too, and the light of one
+/// that is almost never chosen would come as fireflies.
 class LightSelector {
   public:
     LightSelector() = default;
     LightSelector(std::span<const Light> lights, float scene_radius);
 
-    [[nodiscard]] bool empty() const { return by_power_.empty(); }
-    /// `u` in [0, 1). Must not be empty.
-    [[nodiscard]] AliasTable::Choice sample(float u) const { return by_power_.sample(u); }
-    [[nodiscard]] float probability(std::size_t light) const { return by_power_.probability(light); }
+    /// `u` in [0, 1)². Must not be empty.
+    [[nodiscard]] AliasTable::Choice sample(Vec2f u) const { return table_.sample(u); }
+    [[nodiscard]] float probability(std::size_t light) const { return table_.probability(light); }
+    [[nodiscard]] bool empty() const { return table_.empty(); }
 
   private:
-    AliasTable by_power_;
+    AliasTable table_;
 };
 
 }  // namespace etendue

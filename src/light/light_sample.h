@@ -13,6 +13,7 @@ struct LightSample {
     Vec3f wi{0.0f};  ///< unit, from the lit point towards the light
     float distance =
         std::numeric_limits<float>::infinity();  ///< metres; infinite for directional and environment light
+    Vec3f end{0.0f};  ///< where a shadow ray ends, clear of the light's own surface; not meaningful at infinity
     /// Radiance that arrives along wi if nothing is in the way. For a delta light the irradiance on a surface facing it
     /// (point: I/d²; directional: E), which takes the place of radiance over pdf.
     Rgb radiance;

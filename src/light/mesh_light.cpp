@@ -1,5 +1,7 @@
 #include "light/mesh_light.h"
 
+#include "core/position_error.h"
+#include "core/ray.h"
 #include "sampling/warp.h"
 
 #include <utility>
@@ -7,35 +9,40 @@
 namespace etendue {
 
 MeshLight::MeshLight(std::vector<LightTriangle> triangles, Rgb radiance, Rgb mean_radiance, bool two_sided,
-                     bool mirrored, bool is_uniform)
+                     bool mirrored, bool is_uniform, const Vec3f& position_error)
     : triangles_(std::move(triangles)),
       radiance_(radiance),
       mean_radiance_(mean_radiance),
       two_sided_(two_sided),
       front_sign_(mirrored ? -1.0f : 1.0f),
-      is_uniform_(is_uniform) {
+      is_uniform_(is_uniform),
+      position_error_(position_error) {
     std::vector<double> areas;
     areas.reserve(triangles_.size());
     double total = 0.0;
     for (const LightTriangle& t : triangles_) {
-        areas.push_back(0.5 * static_cast<double>(length(cross(t.edge1, t.edge2))));
+        // In double: squares of small triangles' areas are below what single precision holds.
+        const Imath::V3d edge1(t.edge1);
+        areas.push_back(0.5 * edge1.cross(Imath::V3d(t.edge2)).length());
         total += areas.back();
     }
     area_ = static_cast<float>(total);
     by_area_ = AliasTable(areas);
 }
 
-LightSample MeshLight::sample(const Vec3f& point, Vec2f u) const {
-    const AliasTable::Choice choice = by_area_.sample(u.x);
+LightSample MeshLight::sample(const Vec3f& point, Vec2f u_triangle, Vec2f u) const {
+    const AliasTable::Choice choice = by_area_.sample(u_triangle);
     const LightTriangle& t = triangles_[choice.index];
-    const Vec2f b = square_to_triangle({choice.u_remapped, u.y});
-    const Vec3f to_light = t.p0 + t.edge1 * b.x + t.edge2 * b.y - point;
+    const Vec2f b = square_to_triangle(u);
+    const Vec3f on_light = t.p0 + t.edge1 * b.x + t.edge2 * b.y;
+    const Vec3f to_light = on_light - point;
     const float squared = length_squared(to_light);
     if (!(squared > 0.0f)) return {};
     LightSample sample;
     sample.distance = std::sqrt(squared);
     sample.wi = to_light * (1.0f / sample.distance);
-    const Vec3f normal = normalize(cross(t.edge1, t.edge2)) * front_sign_;
+    const Vec3f normal = triangle_normal(t.edge1, t.edge2) * front_sign_;
+    sample.end = offset_origin(on_light, normal, clearance(normal, position_error_), -sample.wi);
     sample.pdf_solid_angle = pdf_solid_angle(sample.distance, -dot(sample.wi, normal));
     if (sample.pdf_solid_angle > 0.0f) sample.radiance = radiance_;
     sample.triangle = choice.index;

@@ -23,18 +23,19 @@ class MeshLight {
     /// `radiance` is emitted by every point on the front side (counter-clockwise seen from there); by both if
     /// `two_sided`. `mean_radiance` is its mean over the area, for the choice between lights. Triangles without area
     /// get no samples. `mirrored`: the triangles went through a transform that turned their winding around, so that
-    /// their front is where they are clockwise. 48 bytes a triangle.
+    /// their front is where they are clockwise. `position_error`: of points of the mesh, metres per axis; shadow rays
+    /// end that far before it. 48 bytes a triangle.
     MeshLight(std::vector<LightTriangle> triangles, Rgb radiance, Rgb mean_radiance, bool two_sided, bool mirrored,
-              bool is_uniform);
+              bool is_uniform, const Vec3f& position_error);
 
-    [[nodiscard]] LightSample sample(const Vec3f& point, Vec2f u) const;
+    /// `u_triangle` chooses the triangle, `u` the point in it; both in [0, 1)².
+    [[nodiscard]] LightSample sample(const Vec3f& point, Vec2f u_triangle, Vec2f u) const;
     /// Density of `sample` for a hit at `distance`, where `cos_light` is the cosine between the geometric normal and
     /// the direction back to the lit point: d² / (A |cos|). 0 for the back of a one-sided light.
     [[nodiscard]] float pdf_solid_angle(float distance, float cos_light) const;
     [[nodiscard]] float power(float scene_radius) const;
 
     [[nodiscard]] float area() const { return area_; }
-    [[nodiscard]] bool two_sided() const { return two_sided_; }
     /// True if `radiance` of a sample is right as it is; false if the World must evaluate it at the sampled point.
     [[nodiscard]] bool is_uniform() const { return is_uniform_; }
     [[nodiscard]] std::span<const LightTriangle> triangles() const { return triangles_; }
@@ -48,6 +49,7 @@ class MeshLight {
     bool two_sided_ = false;
     float front_sign_ = 1.0f;  ///< of cross(edge1, edge2) relative to the front's normal
     bool is_uniform_ = true;
+    Vec3f position_error_{0.0f};
 };
 
 }  // namespace etendue

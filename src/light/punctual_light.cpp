@@ -12,6 +12,7 @@ LightSample sample_position(const Vec3f& position, const Vec3f& point) {
     LightSample sample;
     sample.distance = std::sqrt(squared);
     sample.wi = to_light * (1.0f / sample.distance);
+    sample.end = position;
     sample.is_delta = true;
     return sample;
 }

@@ -163,10 +163,8 @@ std::vector<fs::path> find_scene_directories(const fs::path& root) {
     while (!pending.empty()) {
         const fs::path directory = std::move(pending.back());
         pending.pop_back();
-        if (fs::exists(directory / kSettingsName, code) || scene_files(directory).size() == 1) {
+        if (fs::exists(directory / kSettingsName, code) || scene_files(directory).size() == 1)
             found.push_back(directory);
-            continue;
-        }
         for (fs::directory_iterator entry(directory, code), end; !code && entry != end; entry.increment(code)) {
             std::error_code ignored;
             if (entry->is_directory(ignored) && !entry->is_symlink(ignored)) pending.push_back(entry->path());

@@ -97,11 +97,15 @@ RenderResult render(const World& world, const Integrator& integrator, const Rend
     ProgressReporter reporter(progress, options.window.area() * static_cast<std::uint64_t>(options.spp), start);
 
     while (result.spp_done < options.spp) {
-        if (options.time_limit_seconds > 0.0 && seconds_since(start) >= options.time_limit_seconds) {
-            result.halt_reason = HaltReason::TimeLimit;
-            break;
+        std::uint32_t count = pass_size(result.spp_done, options.spp);
+        if (options.time_limit_seconds > 0.0) {
+            const double seconds = seconds_since(start);
+            if (seconds >= options.time_limit_seconds) {
+                result.halt_reason = HaltReason::TimeLimit;
+                break;
+            }
+            count = fit_pass(count, result.spp_done, seconds, options.time_limit_seconds);
         }
-        const std::uint32_t count = pass_size(result.spp_done, options.spp);
         threads.parallel_for(tiles.size(), [&](std::size_t index, int slot) {
             if (stop.load(std::memory_order_relaxed)) return;
             Worker& worker = workers[static_cast<std::size_t>(slot)];

@@ -24,4 +24,10 @@ std::uint32_t pass_size(std::uint32_t done, std::uint32_t total) {
     return std::min(std::clamp(done, 1u, kLargest), total - done);
 }
 
+std::uint32_t fit_pass(std::uint32_t wanted, std::uint32_t done, double seconds, double seconds_limit) {
+    if (done == 0) return wanted;
+    const double samples_left = (seconds_limit - seconds) * static_cast<double>(done) / std::max(seconds, 1e-9);
+    return samples_left >= wanted ? wanted : static_cast<std::uint32_t>(std::max(1.0, samples_left));
+}
+
 }  // namespace etendue

@@ -20,4 +20,8 @@ inline constexpr int kTileSize = 32;
 /// cut short agrees with the beginning of a longer one.
 [[nodiscard]] std::uint32_t pass_size(std::uint32_t done, std::uint32_t total);
 
+/// As many of the `wanted` samples as fit before `seconds_limit`, at the pace of the first `done` ones, which took
+/// `seconds`; at least 1.
+[[nodiscard]] std::uint32_t fit_pass(std::uint32_t wanted, std::uint32_t done, double seconds, double seconds_limit);
+
 }  // namespace etendue

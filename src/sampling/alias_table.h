@@ -1,7 +1,7 @@
 // Choosing one of n with given probabilities in constant time.
 #pragma once
 
-#include "sampling/warp.h"
+#include "core/vec.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -22,10 +22,10 @@ class AliasTable {
     struct Choice {
         std::uint32_t index;
         float probability;
-        float u_remapped;  ///< in [0, 1), uniform and independent of the choice: what is left of `u`
     };
-    /// `u` in [0, 1). The table must not be empty.
-    [[nodiscard]] Choice sample(float u) const;
+    /// `u` in [0, 1)²: the first number picks a bin, the second decides between its two entries. One number for both
+    /// would have no digits left for the decision in a large table. The table must not be empty.
+    [[nodiscard]] Choice sample(Vec2f u) const;
     [[nodiscard]] float probability(std::size_t index) const { return bins_[index].probability; }
     [[nodiscard]] std::size_t size() const { return bins_.size(); }
     [[nodiscard]] bool empty() const { return bins_.empty(); }
@@ -39,14 +39,12 @@ class AliasTable {
     std::vector<Bin> bins_;
 };
 
-inline AliasTable::Choice AliasTable::sample(float u) const {
-    const float scaled = u * static_cast<float>(bins_.size());
+inline AliasTable::Choice AliasTable::sample(Vec2f u) const {
+    const float scaled = u.x * static_cast<float>(bins_.size());
     const auto bin = std::min(static_cast<std::uint32_t>(scaled), static_cast<std::uint32_t>(bins_.size() - 1));
-    const float within = std::min(scaled - static_cast<float>(bin), kOneMinusEpsilon);
     const Bin& b = bins_[bin];
-    if (within < b.threshold) return {bin, b.probability, std::min(within / b.threshold, kOneMinusEpsilon)};
-    const float rest = (within - b.threshold) / (1.0f - b.threshold);
-    return {b.alias, bins_[b.alias].probability, std::min(rest, kOneMinusEpsilon)};
+    const std::uint32_t index = u.y < b.threshold ? bin : b.alias;
+    return {index, bins_[index].probability};
 }
 
 }  // namespace etendue

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -45,7 +46,14 @@ struct RenderSettings {
     std::string camera;       ///< name of the camera; empty for the first
     FilmSettings film;
     ColorSettings color;
-    SourceLocation location;
+    SourceLocation location;                     ///< of render.json
+    std::map<std::string, std::string> options;  ///< JSON pointers of what the command line set, and with which option
+
+    /// Where the setting with this JSON pointer comes from: an option, or render.json.
+    [[nodiscard]] SourceLocation at(const std::string& pointer) const {
+        const auto option = options.find(pointer);
+        return option != options.end() ? SourceLocation{option->second, {}} : SourceLocation{location.file, pointer};
+    }
 };
 
 }  // namespace etendue

@@ -11,17 +11,20 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kMaxSide = 65536;
 constexpr int kMaxSpp = 1 << 24;
+constexpr double kMaxExposure = 64.0;  // stops
 
-void validate_film(const FilmSettings& film, const SourceLocation& where, ProblemList& problems) {
-    check_range(film.width, 1, kMaxSide, "width", where, problems);
-    check_range(film.height, 1, kMaxSide, "height", where, problems);
-    check_range(static_cast<double>(film.filter_radius), 0.0, 8.0, "filter radius", where, problems);
+void validate_film(const RenderSettings& settings, ProblemList& problems) {
+    const FilmSettings& film = settings.film;
+    check_range(film.width, 1, kMaxSide, "width", settings.at("/resolution"), problems);
+    check_range(film.height, 1, kMaxSide, "height", settings.at("/resolution"), problems);
+    check_range(static_cast<double>(film.filter_radius), 0.0, 8.0, "filter radius", settings.at("/film/filter_radius"),
+                problems);
     if (!film.crop) return;
     const auto [x0, y0, x1, y1] = *film.crop;
     if (x0 < 0 || y0 < 0 || x1 > film.width || y1 > film.height || x0 >= x1 || y0 >= y1) {
-        problems.error(
-            where, fmt::format("the crop window [{}, {}, {}, {}] is empty or not inside the image of {} x {}", x0, y0,
-                               x1, y1, film.width, film.height));
+        problems.error(settings.at("/crop"),
+                       fmt::format("the crop window [{}, {}, {}, {}] is empty or not inside the image of {} x {}", x0,
+                                   y0, x1, y1, film.width, film.height));
     }
 }
 
@@ -31,10 +34,8 @@ void validate_camera_name(const SceneDesc& scene, ProblemList& problems) {
     if (std::ranges::find(scene.cameras, name, &CameraDesc::name) != scene.cameras.end()) return;
     std::vector<std::string_view> names;
     for (const CameraDesc& camera : scene.cameras) names.push_back(camera.name);
-    const std::string near = nearest_name(name, names);
-    problems.error(scene.settings.location, fmt::format("there is no camera '{}'{}", name,
-                                                        near.empty() ? "; there are " + std::to_string(names.size())
-                                                                     : "; did you mean '" + near + "'?"));
+    problems.error(scene.settings.at("/camera"),
+                   fmt::format("there is no camera '{}'; {}", name, name_hint(name, names)));
 }
 
 }  // namespace
@@ -86,22 +87,24 @@ void validate_lights(const SceneDesc& scene, ProblemList& problems) {
 
 void validate_settings(const SceneDesc& scene, ProblemList& problems) {
     const RenderSettings& settings = scene.settings;
-    const SourceLocation& where = settings.location;
     const IntegratorSettings& integrator = settings.integrator;
     constexpr int kMaxInt = std::numeric_limits<int>::max();
-    if (integrator.type.empty()) problems.error(where, "the integrator has no name");
-    check_range(integrator.max_depth, 1, kMaxInt, "max_depth", where, problems);
-    check_range(integrator.min_depth, 1, kMaxInt, "min_depth", where, problems);
-    check_range(integrator.roulette_depth, 1, kMaxInt, "roulette_depth", where, problems);
+    const auto check = [&](double value, double low, double high, const char* what, const char* pointer) {
+        check_range(value, low, high, what, settings.at(pointer), problems);
+    };
+    if (integrator.type.empty()) problems.error(settings.at("/integrator/type"), "the integrator has no name");
+    check(integrator.max_depth, 1, kMaxInt, "max_depth", "/integrator/max_depth");
+    check(integrator.min_depth, 1, kMaxInt, "min_depth", "/integrator/min_depth");
+    check(integrator.roulette_depth, 1, kMaxInt, "roulette_depth", "/integrator/roulette_depth");
     if (integrator.min_depth > integrator.max_depth) {
-        problems.error(where, fmt::format("min_depth {} is above max_depth {}: no path would be kept",
-                                          integrator.min_depth, integrator.max_depth));
+        problems.error(settings.at("/integrator/max_depth"),
+                       fmt::format("min_depth {} is above max_depth {}: no path would be kept", integrator.min_depth,
+                                   integrator.max_depth));
     }
-    check_range(settings.spp, 1, kMaxSpp, "spp", where, problems);
-    check_range(settings.time_limit, 0.0, kInfinity, "time", where, problems);
-    check_range(static_cast<double>(settings.color.exposure), -std::numeric_limits<float>::max(), kInfinity, "exposure",
-                where, problems);
-    validate_film(settings.film, where, problems);
+    check(settings.spp, 1, kMaxSpp, "spp", "/spp");
+    check(settings.time_limit, 0.0, kInfinity, "time", "/time");
+    check(static_cast<double>(settings.color.exposure), -kMaxExposure, kMaxExposure, "exposure", "/color/exposure");
+    validate_film(settings, problems);
     validate_camera_name(scene, problems);
 }
 

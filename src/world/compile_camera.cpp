@@ -15,11 +15,8 @@ const CameraDesc& find_camera(const SceneDesc& scene) {
         if (camera.name == scene.settings.camera) return camera;
         names.push_back(camera.name);
     }
-    const std::string nearest = nearest_name(scene.settings.camera, names);
-    throw SceneError({scene.file.string(), ""},
-                     "no camera is named '" + scene.settings.camera + "'" +
-                         (nearest.empty() ? "; the first is '" + std::string(names.front()) + "'"
-                                          : "; did you mean '" + nearest + "'?"));
+    throw SceneError(scene.settings.at("/camera"),
+                     "there is no camera '" + scene.settings.camera + "'; " + name_hint(scene.settings.camera, names));
 }
 
 }  // namespace

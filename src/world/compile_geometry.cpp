@@ -49,18 +49,24 @@ void bake(Geometry& geometry, const Mat4f& to_world) {
         for (auto& triangle : geometry.triangles) std::swap(triangle[1], triangle[2]);
 }
 
-void extend_bounds(WorldData& data, const Instance& instance) {
+Bounds bounds_of(const Geometry& geometry) {
+    Bounds bounds;
+    for (const Vec3f& p : geometry.positions) bounds.extend(p);
+    return bounds;
+}
+
+/// `local_bounds` are those of every geometry, in the space it is stored in.
+void extend_bounds(const Instance& instance, const std::vector<Bounds>& local_bounds, Bounds& world) {
     for (std::uint32_t g = 0; g < instance.geometry_count; ++g) {
-        Bounds local;
-        for (const Vec3f& p : data.geometries[instance.first_geometry + g].positions) local.extend(p);
+        const Bounds& local = local_bounds[instance.first_geometry + g];
         if (instance.baked || local.empty()) {
-            data.bounds.extend(local);
+            world.extend(local);
             continue;
         }
         for (int corner = 0; corner < 8; ++corner)
-            data.bounds.extend(transform_point(instance.to_world, {(corner & 1) != 0 ? local.max.x : local.min.x,
-                                                                   (corner & 2) != 0 ? local.max.y : local.min.y,
-                                                                   (corner & 4) != 0 ? local.max.z : local.min.z}));
+            world.extend(transform_point(instance.to_world, {(corner & 1) != 0 ? local.max.x : local.min.x,
+                                                             (corner & 2) != 0 ? local.max.y : local.min.y,
+                                                             (corner & 4) != 0 ? local.max.z : local.min.z}));
     }
 }
 
@@ -101,7 +107,10 @@ void compile_geometry(SceneDesc& scene, const ThreadPool& threads, WorldData& da
         for (std::uint32_t g = 0; g < instance.geometry_count; ++g)
             bake(data.geometries[instance.first_geometry + g], scene.instances[i].to_world);
     });
-    for (const Instance& instance : data.instances) extend_bounds(data, instance);
+    std::vector<Bounds> local_bounds(data.geometries.size());
+    threads.parallel_for(data.geometries.size(),
+                         [&](std::size_t g, int) { local_bounds[g] = bounds_of(data.geometries[g]); });
+    for (const Instance& instance : data.instances) extend_bounds(instance, local_bounds, data.bounds);
 }
 
 }  // namespace etendue

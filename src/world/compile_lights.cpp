@@ -1,3 +1,4 @@
+#include "core/position_error.h"
 #include "image/read.h"
 #include "world/compile_parts.h"
 
@@ -16,7 +17,7 @@ constexpr std::size_t kMaxLightTriangles = std::size_t{1} << 24;
 Light compile_punctual(const LightDesc& desc, const ColorMatrix& from_rec709) {
     const Vec3f position = transform_point(desc.to_world, Vec3f(0.0f));
     const Vec3f axis = normalize(transform_vector(desc.to_world, {0.0f, 0.0f, -1.0f}));
-    const Rgb intensity = from_rec709(desc.color) * desc.intensity;
+    const Rgb intensity = clamp_negative(from_rec709(desc.color)) * desc.intensity;
     switch (desc.type) {
         case LightType::Point:
             return PointLight{position, intensity};
@@ -32,7 +33,7 @@ Light compile_punctual(const LightDesc& desc, const ColorMatrix& from_rec709) {
 
 Light compile_environment(const EnvironmentDesc& desc, const ColorMatrix& from_rec709) {
     const Rgb tint = desc.color * desc.scale;
-    if (desc.image.empty()) return ConstantEnvironment{from_rec709(tint)};
+    if (desc.image.empty()) return ConstantEnvironment{clamp_negative(from_rec709(tint))};
     ImageF file;
     try {
         file = read_image_float(desc.image);
@@ -45,7 +46,7 @@ Light compile_environment(const EnvironmentDesc& desc, const ColorMatrix& from_r
         for (int x = 0; x < file.width; ++x) {
             const auto from = file.pixel(x, y);
             const Rgb rec709 = file.channels >= 3 ? Rgb(from[0], from[1], from[2]) : Rgb(from[0]);
-            const Rgb value = from_rec709(rec709 * tint);
+            const Rgb value = clamp_negative(from_rec709(rec709 * tint));
             const auto to = image.pixel(x, y);
             to[0] = value.r;
             to[1] = value.g;
@@ -67,11 +68,17 @@ std::vector<LightTriangle> world_triangles(const Geometry& geometry, const Insta
     return triangles;
 }
 
+Vec3f mesh_position_error(const Geometry& geometry, const Instance& instance) {
+    Vec3f extent(0.0f);
+    for (const Vec3f& p : geometry.positions) extent = max_components(extent, abs_components(p));
+    return instance.baked ? position_error(extent) : position_error(extent, instance.to_world);
+}
+
 Rgb mean_emission(const WorldData& data, const Material& material) {
     Rgb mean = material.emission;
     if (material.emission_texture.valid()) {
         const Texture& texture = data.textures[static_cast<std::size_t>(material.emission_texture.texture)];
-        mean = data.from_rec709(mean * texture.mean().rgb);
+        mean = clamp_negative(data.from_rec709(mean * texture.mean().rgb));
     }
     return mean;
 }
@@ -93,7 +100,8 @@ void compile_mesh_lights(WorldData& data, ProblemList& problems) {
             triangle_count += geometry.triangles.size();
             const bool uniform = !material.emission_texture.valid() && material.alpha_test == AlphaTest::Opaque;
             MeshLight light(world_triangles(geometry, instance), material.emission, mean_emission(data, material),
-                            material.emits_both_sides, instance.mirrors, uniform);
+                            material.emits_both_sides, instance.mirrors, uniform,
+                            mesh_position_error(geometry, instance));
             if (!(light.area() > 0.0f)) continue;
             data.light_of_slot[instance.first_light_slot + g] = static_cast<std::uint32_t>(data.lights.size());
             data.lights.emplace_back(std::move(light));

@@ -79,7 +79,7 @@ Material compile_material(const MaterialDesc& desc, const ColorMatrix& from_rec7
     material.emits_both_sides = desc.double_sided;
     if (material.emits) {
         material.emission_texture = textures.slot(desc.emissive_texture, TextureUse::Color);
-        material.emission = material.emission_texture.valid() ? emission : from_rec709(emission);
+        material.emission = material.emission_texture.valid() ? emission : clamp_negative(from_rec709(emission));
     }
     return material;
 }

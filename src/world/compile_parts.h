@@ -8,6 +8,8 @@
 #include "world/world.h"
 
 #include <cstdint>
+#include <map>
+#include <utility>
 #include <vector>
 
 namespace etendue {
@@ -26,12 +28,10 @@ class TextureCompiler {
     [[nodiscard]] std::vector<Texture> decode(const ThreadPool& threads) const;
 
   private:
-    struct Request {
-        std::size_t texture;
-        TextureUse use;
-    };
+    using Request = std::pair<std::size_t, TextureUse>;  ///< texture of the scene, and its use
     const SceneDesc& scene_;
     std::vector<Request> requests_;
+    std::map<Request, std::size_t> index_of_;
 };
 
 [[nodiscard]] std::vector<Material> compile_materials(const SceneDesc& scene, const ColorMatrix& from_rec709,

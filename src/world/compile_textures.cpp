@@ -61,11 +61,10 @@ Texture decode_texture(const SceneDesc& scene, const TextureDesc& desc, TextureU
 TextureSlot TextureCompiler::slot(const TextureRef& ref, TextureUse use) {
     TextureSlot slot;
     if (!ref.valid()) return slot;
-    const auto texture = static_cast<std::size_t>(ref.texture.index);
-    std::size_t index = 0;
-    while (index < requests_.size() && (requests_[index].texture != texture || requests_[index].use != use)) ++index;
-    if (index == requests_.size()) requests_.push_back({texture, use});
-    slot.texture = static_cast<std::int32_t>(index);
+    const Request request{static_cast<std::size_t>(ref.texture.index), use};
+    const auto [entry, is_new] = index_of_.try_emplace(request, requests_.size());
+    if (is_new) requests_.push_back(request);
+    slot.texture = static_cast<std::int32_t>(entry->second);
     slot.texcoord = ref.texcoord;
     // KHR_texture_transform: translation * rotation * scale, with its own sense of rotation.
     const TextureTransform& t = ref.transform;
@@ -79,7 +78,7 @@ TextureSlot TextureCompiler::slot(const TextureRef& ref, TextureUse use) {
 std::vector<Texture> TextureCompiler::decode(const ThreadPool& threads) const {
     std::vector<std::optional<Texture>> decoded(requests_.size());
     threads.parallel_for(requests_.size(), [&](std::size_t i, int) {
-        decoded[i] = decode_texture(scene_, scene_.textures[requests_[i].texture], requests_[i].use);
+        decoded[i] = decode_texture(scene_, scene_.textures[requests_[i].first], requests_[i].second);
     });
     std::vector<Texture> textures;
     textures.reserve(decoded.size());

@@ -104,6 +104,7 @@ EmbreeScene::EmbreeScene(std::span<const Geometry> geometries, std::span<const I
         rtcSetDeviceMemoryMonitorFunction(device_, count_memory, &memory);
         top_ = rtcNewScene(device_);
         rtcSetSceneBuildQuality(top_, RTC_BUILD_QUALITY_MEDIUM);
+        rtcSetSceneFlags(top_, RTC_SCENE_FLAG_ROBUST);
         std::unordered_map<std::uint32_t, RTCScene> scene_of_mesh;
         for (std::size_t i = 0; i < instances.size(); ++i) {
             const Instance& instance = instances[i];
@@ -161,6 +162,7 @@ void EmbreeScene::add_triangles(RTCScene scene, const Geometry& geometry, bool h
 RTCScene EmbreeScene::build_shared_scene(const Instance& instance, std::span<const Geometry> geometries,
                                          const std::vector<bool>& has_alpha) {
     RTCScene scene = rtcNewScene(device_);
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
     shared_.push_back(scene);
     for (std::uint32_t g = 0; g < instance.geometry_count; ++g) {
         const std::uint32_t geometry = instance.first_geometry + g;

@@ -67,8 +67,7 @@ Bsdf evaluate_gltf_model(const WorldData& data, const GltfModel& model, const Su
 
 Rgb evaluate_emission(const WorldData& data, const Material& material, const SurfacePoint& point) {
     if (!material.emission_texture.valid()) return material.emission;
-    const Rgb emission = data.from_rec709(material.emission * lookup(data, material.emission_texture, point.uv).rgb);
-    return {std::max(0.0f, emission.r), std::max(0.0f, emission.g), std::max(0.0f, emission.b)};
+    return clamp_negative(data.from_rec709(material.emission * lookup(data, material.emission_texture, point.uv).rgb));
 }
 
 Frame apply_normal_map(const WorldData& data, const Material& material, const SurfacePoint& point,

@@ -1,5 +1,6 @@
 #include "world/surface_point.h"
 
+#include "core/position_error.h"
 #include "world/interpolation.h"
 #include "world/material_evaluation.h"
 #include "world/world.h"
@@ -10,15 +11,20 @@ namespace etendue {
 
 namespace {
 
-/// Tangent along increasing u from the triangle's own texture coordinates, mesh space; zero if they are degenerate.
-Vec3f tangent_from_uv(const Geometry& geometry, const std::vector<Vec2f>& uv,
-                      const std::array<std::uint32_t, 3>& triangle, float& bitangent_sign) {
+/// Tangent along increasing u of the texture as it lies on the triangle, its transform included, mesh space; zero if
+/// the coordinates are degenerate.
+Vec3f tangent_from_uv(const Geometry& geometry, const TextureSlot& slot, const std::array<std::uint32_t, 3>& triangle,
+                      float& bitangent_sign) {
     bitangent_sign = 1.0f;
+    const std::vector<Vec2f>& uv = slot.texcoord == 1 ? geometry.uv1 : geometry.uv0;
     if (uv.empty()) return Vec3f(0.0f);
+    const auto transformed = [&](const Vec2f& d) {
+        return Vec2f(slot.row0.x * d.x + slot.row0.y * d.y, slot.row1.x * d.x + slot.row1.y * d.y);
+    };
     const Vec3f e1 = geometry.positions[triangle[1]] - geometry.positions[triangle[0]];
     const Vec3f e2 = geometry.positions[triangle[2]] - geometry.positions[triangle[0]];
-    const Vec2f d1 = uv[triangle[1]] - uv[triangle[0]];
-    const Vec2f d2 = uv[triangle[2]] - uv[triangle[0]];
+    const Vec2f d1 = transformed(uv[triangle[1]] - uv[triangle[0]]);
+    const Vec2f d2 = transformed(uv[triangle[2]] - uv[triangle[0]]);
     const float determinant = d1.x * d2.y - d1.y * d2.x;
     if (std::abs(determinant) < 1e-20f) return Vec3f(0.0f);
     // v grows downwards in glTF's images while tangent space has +Y up, hence the sign.
@@ -45,7 +51,9 @@ SurfacePoint make_surface_point(const WorldData& data, std::uint32_t instance_in
     const Vec3f e1 = geometry.positions[triangle[1]] - p0;
     const Vec3f e2 = geometry.positions[triangle[2]] - p0;
     point.position = p0 + e1 * barycentric.x + e2 * barycentric.y;
-    Vec3f geometric = cross(e1, e2);
+    Vec3f geometric = triangle_normal(e1, e2);
+    const Vec3f extent =
+        max_components(abs_components(p0), max_components(abs_components(p0 + e1), abs_components(p0 + e2)));
     Vec3f shading = geometry.normals.empty() ? geometric : interpolate(geometry.normals, triangle, barycentric);
 
     point.uv[0] = interpolate_uv(geometry.uv0, triangle, barycentric);
@@ -60,8 +68,7 @@ SurfacePoint make_surface_point(const WorldData& data, std::uint32_t instance_in
         tangent = {t.x, t.y, t.z};
         bitangent_sign = geometry.tangents[triangle[0]].w;
     } else if (normal_mapped) {
-        tangent = tangent_from_uv(geometry, material.normal_texture.texcoord == 1 ? geometry.uv1 : geometry.uv0,
-                                  triangle, bitangent_sign);
+        tangent = tangent_from_uv(geometry, material.normal_texture, triangle, bitangent_sign);
     }
 
     if (!instance.baked) {
@@ -71,7 +78,9 @@ SurfacePoint make_surface_point(const WorldData& data, std::uint32_t instance_in
         tangent = transform_vector(instance.to_world, tangent);
         if (instance.mirrors) bitangent_sign = -bitangent_sign;
     }
-    point.geometric_normal = normalize(geometric);
+    point.geometric_normal = instance.baked ? geometric : normalize(geometric);
+    point.clearance = clearance(point.geometric_normal,
+                                instance.baked ? position_error(extent) : position_error(extent, instance.to_world));
     // Interpolated normals can cancel out or point to the back; the triangle's own then stands in.
     const float shading_length = length(shading);
     const bool usable = shading_length > 0.0f && dot(shading, point.geometric_normal) > 0.0f;

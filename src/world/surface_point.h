@@ -14,6 +14,7 @@ struct WorldData;
 struct SurfacePoint {
     Vec3f position{0.0f};          ///< world space, metres
     Vec3f geometric_normal{0.0f};  ///< unit, on the front side (counter-clockwise)
+    float clearance = 0.0f;        ///< metres along the normal that a ray must start off the surface (position_error.h)
     Frame shading;                 ///< interpolated and normal-mapped; its normal is on the front side too
     Vec2f uv[2]{{0.0f, 0.0f}, {0.0f, 0.0f}};
     Vec4f color{1.0f, 1.0f, 1.0f, 1.0f};  ///< vertex colour, linear Rec.709

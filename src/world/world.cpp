@@ -1,5 +1,6 @@
 #include "world/world.h"
 
+#include "bsdf/ggx.h"
 #include "world/embree_scene.h"
 #include "world/material_evaluation.h"
 
@@ -19,6 +20,19 @@ float radius_of(const Bounds& bounds) {
     return radius > 0.0f ? radius : 1.0f;
 }
 
+bool is_delta_light(const Light& light) {
+    return std::holds_alternative<PointLight>(light) || std::holds_alternative<SpotLight>(light) ||
+           std::holds_alternative<DirectionalLight>(light);
+}
+
+/// True if the material mirrors or refracts without roughness; textured roughness is taken not to reach zero.
+bool is_specular(const Material& material) {
+    if (material.unlit) return false;
+    if (const Bsdf* constant = std::get_if<Bsdf>(&material.model)) return !has_non_delta(*constant);
+    const GltfModel& model = std::get<GltfModel>(material.model);
+    return model.roughness * model.roughness < kSmoothAlpha;
+}
+
 template <typename T>
 std::size_t vector_bytes(const std::vector<T>& v) {
     return v.capacity() * sizeof(T);
@@ -36,6 +50,9 @@ World::World(WorldData data)
     data_->bvh->set_opacity(opacity_callback, data_.get());
     has_transparency_ = std::any_of(data_->materials.begin(), data_->materials.end(),
                                     [](const Material& m) { return m.alpha_test != AlphaTest::Opaque; });
+    has_delta_lights_ = std::any_of(data_->lights.begin(), data_->lights.end(), is_delta_light);
+    has_specular_surfaces_ = std::any_of(data_->geometries.begin(), data_->geometries.end(),
+                                         [&](const Geometry& g) { return is_specular(data_->materials[g.material]); });
 }
 
 World::~World() = default;
@@ -47,9 +64,8 @@ void World::intersect(std::span<const Ray> rays, std::span<Hit> hits, Coherence 
     data_->bvh->intersect(rays, hits, coherence, form);
 }
 
-void World::occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, Coherence coherence,
-                     QueryForm form) const {
-    if (observer_) observer_->on_occluded(rays, coherence);
+void World::occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, QueryForm form) const {
+    if (observer_) observer_->on_occluded(rays);
     data_->bvh->occluded(rays, occluded, form);
 }
 
@@ -74,10 +90,10 @@ Rgb World::unlit_color(const SurfacePoint& point) const {
     return evaluate_base_color(*data_, std::get<GltfModel>(point.material->model), point);
 }
 
-ChosenLight World::sample_light(const Vec3f& point, float u_light, Vec2f u) const {
-    const AliasTable::Choice choice = selector_.sample(u_light);
+ChosenLight World::sample_light(const Vec3f& point, const LightNumbers& u) const {
+    const AliasTable::Choice choice = selector_.sample(u.light);
     const Light& light = data_->lights[choice.index];
-    ChosenLight chosen{etendue::sample_light(light, point, u), choice.probability};
+    ChosenLight chosen{etendue::sample_light(light, point, u.triangle, u.direction), choice.probability};
     LightSample& sample = chosen.sample;
     sample.pdf_solid_angle *= choice.probability;
     const MeshLight* mesh = std::get_if<MeshLight>(&light);

@@ -36,7 +36,7 @@ struct Hit {
 
 /// What is known about the rays of a batch; decides how they are traced, not what they hit.
 enum class Coherence {
-    Coherent,    ///< neighbours have similar origins or directions: camera rays, rays towards one light
+    Coherent,    ///< neighbours have similar origins and directions: camera rays
     Incoherent,  ///< anything else
 };
 
@@ -49,7 +49,7 @@ class RayObserver {
   public:
     virtual ~RayObserver() = default;
     virtual void on_intersect(std::span<const Ray> rays, Coherence coherence) = 0;
-    virtual void on_occluded(std::span<const Ray> rays, Coherence coherence) = 0;
+    virtual void on_occluded(std::span<const Ray> rays) = 0;
 };
 
 /// Counts and sizes for reports.
@@ -97,6 +97,13 @@ struct ChosenLight {
     float probability = 0;  ///< of choosing this light
 };
 
+/// What a light sample is made from, each in [0, 1)².
+struct LightNumbers {
+    Vec2f light;      ///< which light
+    Vec2f triangle;   ///< of a mesh light, which triangle
+    Vec2f direction;  ///< where on it, or from where
+};
+
 class World {
   public:
     explicit World(WorldData data);
@@ -108,8 +115,7 @@ class World {
     void intersect(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence,
                    QueryForm form = QueryForm::Best) const;
     /// 1 where something lies within (0, t_max], else 0; `occluded` is as long as `rays`.
-    void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, Coherence coherence,
-                  QueryForm form = QueryForm::Best) const;
+    void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, QueryForm form = QueryForm::Best) const;
     /// `observer` must outlive its use; null to stop observing. Not while another thread renders.
     void set_observer(RayObserver* observer) { observer_ = observer; }
 
@@ -125,8 +131,12 @@ class World {
     /// False if every surface stops all light, so that rays need no alpha keys.
     [[nodiscard]] bool has_transparency() const { return has_transparency_; }
     [[nodiscard]] bool has_lights() const { return !selector_.empty(); }
-    /// Light arriving at `point` from a light chosen by power; `u_light` in [0, 1), `u` in [0, 1)².
-    [[nodiscard]] ChosenLight sample_light(const Vec3f& point, float u_light, Vec2f u) const;
+    /// True if some light has no extent, in space or in direction, so that no ray meets it by chance.
+    [[nodiscard]] bool has_delta_lights() const { return has_delta_lights_; }
+    /// True if some surface mirrors or refracts without any roughness.
+    [[nodiscard]] bool has_specular_surfaces() const { return has_specular_surfaces_; }
+    /// Light arriving at `point` from a light chosen by power.
+    [[nodiscard]] ChosenLight sample_light(const Vec3f& point, const LightNumbers& u) const;
     /// Density, choice included, with which `sample_light` would have picked the direction that hit the emitter `point`
     /// at `distance`. 0 if it is no sampled light.
     [[nodiscard]] float emitter_pdf_solid_angle(const SurfacePoint& point, const Vec3f& direction,
@@ -149,6 +159,8 @@ class World {
     std::unique_ptr<WorldData> data_;
     LightSelector selector_;
     bool has_transparency_ = false;
+    bool has_delta_lights_ = false;
+    bool has_specular_surfaces_ = false;
     RayObserver* observer_ = nullptr;
 };
 

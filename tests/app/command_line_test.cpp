@@ -126,8 +126,14 @@ TEST_F(CommandLine, InvalidScenesAndSettingsEndWithThree) {
     const ProgramResult camera = run({"render", box, "--camera", "mian"});
     EXPECT_EQ(camera.exit_code, 3);
     EXPECT_NE(camera.err.find("'main'"), std::string::npos) << camera.err;
-    EXPECT_EQ(run({"render", box, "--crop", "0,0,100,100"}).exit_code, 3);
-    EXPECT_EQ(run({"render", box, "--view", "Sepia"}).exit_code, 3);
+    EXPECT_NE(camera.err.find("--camera"), std::string::npos) << "where it was said: " << camera.err;
+    const ProgramResult crop = run({"render", box, "--crop", "0,0,100,100"});
+    EXPECT_EQ(crop.exit_code, 3);
+    EXPECT_NE(crop.err.find("--crop: the crop window"), std::string::npos) << crop.err;
+    const ProgramResult view = run({"render", box, "--view", "Sepia"});
+    EXPECT_EQ(view.exit_code, 3);
+    EXPECT_NE(view.err.find("--view"), std::string::npos) << view.err;
+    EXPECT_NE(view.err.find("Un-tone-mapped"), std::string::npos) << "what there is: " << view.err;
     EXPECT_EQ(run({"render", box, "--working-space", "no-such-space"}).exit_code, 3);
     EXPECT_EQ(run({"render", folder_.path().string() + "/nowhere"}).exit_code, 3);
     EXPECT_EQ(run({"inspect", folder_.path().string() + "/nowhere"}).exit_code, 3);
@@ -138,10 +144,57 @@ TEST_F(CommandLine, InvalidScenesAndSettingsEndWithThree) {
     EXPECT_TRUE(list(work_).empty());
 }
 
-TEST_F(CommandLine, WhatCannotBeWrittenEndsWithOne) {
-    const ProgramResult result = run({"render", scene("box"), "-o", "no/such/folder/image.exr"});
-    EXPECT_EQ(result.exit_code, 1);
-    EXPECT_NE(result.err.find("no/such/folder"), std::string::npos) << result.err;
+TEST_F(CommandLine, SettingsAreBlamedWhereTheyStand) {
+    const auto error_of = [&](const std::string& name, const std::string& settings) {
+        const ProgramResult rendered = run({"render", scene(name, settings)});
+        EXPECT_EQ(rendered.exit_code, 3);
+        EXPECT_EQ(run({"inspect", scene(name, settings)}).exit_code, 3) << "found without rendering";
+        return rendered.err;
+    };
+    EXPECT_NE(error_of("a", R"("integrator": {"type": "pth"},)").find("render.json#/integrator/type: no integrator"),
+              std::string::npos);
+    EXPECT_NE(error_of("b", R"("crop": [0, 0, 100, 100],)").find("render.json#/crop: the crop window"),
+              std::string::npos);
+    EXPECT_NE(error_of("c", R"("color": {"view": "nope"},)").find("render.json#/color/view: there is no view"),
+              std::string::npos);
+    EXPECT_NE(error_of("d", R"("color": {"display": "nope"},)").find("render.json#/color/display: there is no display"),
+              std::string::npos);
+}
+
+TEST_F(CommandLine, UnknownCommandsAreNamed) {
+    const ProgramResult result = run({"rendr", "x"});
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_NE(result.err.find("'rendr'; did you mean 'render'?"), std::string::npos) << result.err;
+}
+
+TEST_F(CommandLine, LightThatCannotBeFoundIsSaid) {
+    const std::string box = scene("box");
+    EXPECT_EQ(run({"render", box, "--integrator", "naive"}).err.find("by chance"), std::string::npos);
+    std::string text = read_file(box + "/scene.gltf");
+    text.replace(text.find("\"nodes\": [0, 1]"), 15, "\"nodes\": [0, 1, 2]");
+    text.replace(text.find(", \"camera\": 0}]"), 15,
+                 R"(, "camera": 0}, {"extensions": {"KHR_lights_punctual": {"light": 0}}}],
+  "extensionsUsed": ["KHR_lights_punctual"], "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point"}]}})");
+    write_file(box + "/scene.gltf", text);
+    const ProgramResult naive = run({"render", box, "--integrator", "naive"});
+    EXPECT_NE(naive.err.find("never met by chance"), std::string::npos) << naive.err;
+    EXPECT_EQ(run({"render", box}).err.find("cannot be found"), std::string::npos);
+    write_file(box + "/scene.gltf", text.replace(text.find("\"POSITION\": 0}"), 14, "\"POSITION\": 0}, \"material\": 0")
+                                        .replace(text.find("\"cameras\":"), 0, R"("materials": [{"pbrMetallicRoughness":
+  {"roughnessFactor": 0}}],
+  )"));
+    const ProgramResult path = run({"render", box});
+    EXPECT_NE(path.err.find("caustics"), std::string::npos) << path.err;
+}
+
+/// Outputs that cannot be written are found before anything is rendered.
+TEST_F(CommandLine, WhatCannotBeWrittenEndsWithOneAtOnce) {
+    fs::create_directories(folder_ / "directory.exr");
+    for (const std::string& output : {std::string("no/such/folder/image.exr"), (folder_ / "directory.exr").string()}) {
+        const ProgramResult result = run({"render", scene("box"), "--spp", "1000000", "-o", output});
+        EXPECT_EQ(result.exit_code, 1);
+        EXPECT_NE(result.err.find(output), std::string::npos) << result.err;
+    }
     EXPECT_TRUE(list(work_).empty());
 }
 
@@ -174,7 +227,7 @@ TEST_F(CommandLine, TheTimeLimitEndsTheRenderInOrder) {
 std::vector<std::string> batch_results(const ProgramResult& result) {
     std::vector<std::string> lines;
     for (const json& row : json::parse(result.out))
-        lines.push_back(fs::path(row["scene"].get<std::string>()).filename().string() + ": " +
+        lines.push_back(fs::path(row["image"].get<std::string>()).stem().string() + ": " +
                         row["result"].get<std::string>());
     return lines;
 }
@@ -217,6 +270,17 @@ TEST_F(CommandLine, BatchGoesOnAfterABrokenScene) {
               (Names{"a.exr", "a.json", "a.png", "nested", "nested/c.exr", "nested/c.json", "nested/c.png"}));
     EXPECT_EQ(batch_results(run({"batch", scenes(), "-o", "out", "--json", "--quiet"})),
               (Names{"a: up to date", "b: failed", "c: up to date"}));
+}
+
+TEST_F(CommandLine, BatchFindsScenesInsideScenesAndEachOnce) {
+    const std::string outer = scene("outer");
+    (void)scene("outer/inner");
+    const ProgramResult result =
+        run_etendue({"batch", ".", outer, "-o", (work_ / "out").string(), "--quiet", "--json"}, fs::path(outer));
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(batch_results(result), (Names{"outer: rendered", "inner: rendered"}));
+    EXPECT_EQ(list(work_ / "out"),
+              (Names{"inner.exr", "inner.json", "inner.png", "outer.exr", "outer.json", "outer.png"}));
 }
 
 TEST_F(CommandLine, BatchOfNothingIsAnError) {

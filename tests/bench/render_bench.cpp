@@ -40,7 +40,7 @@ struct Batch {
 class Recorder final : public RayObserver {
   public:
     void on_intersect(std::span<const Ray> rays, Coherence coherence) override { add(rays, coherence, false); }
-    void on_occluded(std::span<const Ray> rays, Coherence coherence) override { add(rays, coherence, true); }
+    void on_occluded(std::span<const Ray> rays) override { add(rays, Coherence::Incoherent, true); }
     [[nodiscard]] const std::vector<Batch>& batches() const { return batches_; }
 
   private:
@@ -73,7 +73,7 @@ double replay(const World& world, const std::vector<Batch>& batches, QueryForm f
         occluded.resize(std::max(occluded.size(), batch.rays.size()));
         total += seconds([&] {
             if (batch.shadow)
-                world.occluded(batch.rays, std::span(occluded).first(batch.rays.size()), batch.coherence, form);
+                world.occluded(batch.rays, std::span(occluded).first(batch.rays.size()), form);
             else
                 world.intersect(batch.rays, std::span(hits).first(batch.rays.size()), batch.coherence, form);
         });

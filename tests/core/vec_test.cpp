@@ -52,6 +52,15 @@ TEST(Vec, FindsWhatIsNotFinite) {
     EXPECT_FALSE(is_finite(Vec3f(0.0f, 0.0f, std::nanf(""))));
 }
 
+// Squares of such areas are beyond single precision.
+TEST(TriangleNormal, HoldsForTinyLargeAndThinTriangles) {
+    for (const float size : {1e-15f, 1e-3f, 1.0f, 1e15f})
+        for (const float thin : {1.0f, 1e-9f}) {
+            const Vec3f n = triangle_normal({size, 0, 0}, {0, 0.6f * size * thin, 0.8f * size * thin});
+            EXPECT_LT(length(n - Vec3f(0.0f, -0.8f, 0.6f)), 1e-6f) << size << " " << thin;
+        }
+}
+
 }  // namespace
 
 }  // namespace etendue

@@ -19,7 +19,7 @@ TileBuffer filled(const PixelRect& rect, std::uint32_t seed, int samples) {
     for (std::size_t i = 0; i < rect.area(); ++i)
         for (int s = 0; s < samples; ++s) {
             const Vec2f rg = random.next_2d();
-            tile.pixel(i).add({rg.x, rg.y * 1e4f, random.next()}, random.next());
+            tile.pixel(i).add({rg.x, rg.y * 1e4f, random.next()}, random.next(), 1.0f);
         }
     return tile;
 }
@@ -28,11 +28,25 @@ TEST(Film, ResolvesToMeans) {
     Film film(2, 1, {0, 0, 2, 1});
     TileBuffer tile;
     tile.reset({0, 0, 2, 1});
-    tile.pixel(0).add({1.0f, 2.0f, 3.0f}, 1.0f);
-    tile.pixel(0).add({3.0f, 4.0f, -1.0f}, 0.0f);
+    tile.pixel(0).add({1.0f, 2.0f, 3.0f}, 1.0f, 1.0f);
+    tile.pixel(0).add({3.0f, 4.0f, -1.0f}, 0.0f, 1.0f);
     film.add(tile);
     EXPECT_EQ(film.resolve(), (std::vector<float>{2.0f, 3.0f, 1.0f, 0.5f, 0.0f, 0.0f, 0.0f, 0.0f}));
     EXPECT_EQ(film.sample_count(), 2u);
+}
+
+// Negative filter weights: what is even stays even, whatever weights came up, and few samples do not blow up.
+TEST(Film, DividesByTheFilterWeights) {
+    Film film(2, 1, {0, 0, 2, 1});
+    TileBuffer tile;
+    tile.reset({0, 0, 2, 1});
+    for (const float weight : {1.2f, 1.2f, -1.2f, 1.2f}) tile.pixel(0).add(Rgb(5.0f), 1.0f, weight);
+    for (const float weight : {1.2f, -1.2f}) tile.pixel(1).add(Rgb(5.0f), 1.0f, weight);
+    film.add(tile);
+    const std::vector<float> image = film.resolve();
+    EXPECT_FLOAT_EQ(image[0], 5.0f);
+    EXPECT_FLOAT_EQ(image[3], 1.0f);
+    EXPECT_FLOAT_EQ(image[4], 0.0f);
 }
 
 TEST(Film, WindowsPlaceTilesByTheFullImagesCoordinates) {
@@ -43,7 +57,7 @@ TEST(Film, WindowsPlaceTilesByTheFullImagesCoordinates) {
     EXPECT_EQ(film.window(), window);
     TileBuffer tile;
     tile.reset({12, 21, 14, 23});
-    for (std::size_t i = 0; i < 4; ++i) tile.pixel(i).add(Rgb(static_cast<float>(i + 1)), 1.0f);
+    for (std::size_t i = 0; i < 4; ++i) tile.pixel(i).add(Rgb(static_cast<float>(i + 1)), 1.0f, 1.0f);
     film.add(tile);
     const std::vector<float> image = film.resolve();
     ASSERT_EQ(image.size(), 4u * 3u * 4u);
@@ -81,7 +95,7 @@ TEST(Film, ManySmallSamplesAreNotLost) {
     TileBuffer tile;
     for (int pass = 0; pass < 2; ++pass) {
         tile.reset({0, 0, 1, 1});
-        for (int i = 0; i < (1 << 24) + 5; ++i) tile.pixel(0).add(Rgb(1.0f), 1.0f);
+        for (int i = 0; i < (1 << 24) + 5; ++i) tile.pixel(0).add(Rgb(1.0f), 1.0f, 1.0f);
         film.add(tile);
     }
     EXPECT_EQ(film.resolve(), (std::vector<float>{1.0f, 1.0f, 1.0f, 1.0f}));

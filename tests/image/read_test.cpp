@@ -34,7 +34,7 @@ std::vector<T> ramp(std::size_t count, double scale) {
 TEST(ReadImage, Png8ReadsBackExactlyAtEveryChannelCount) {
     const TemporaryFolder folder;
     for (const int channels : {1, 2, 3, 4}) {
-        const auto values = ramp<std::uint8_t>(std::size_t(5 * 3 * channels), 4.0);
+        const auto values = ramp<std::uint8_t>(std::size_t{15} * static_cast<std::size_t>(channels), 4.0);
         const auto path = write_reference(folder / "a.png", {5, 3, channels, OIIO::TypeDesc::UINT8}, values);
         const Image8 image = read_image_8bit(path);
         EXPECT_EQ(image.width, 5);

@@ -40,6 +40,8 @@ struct ClosedFormCase {
 [[nodiscard]] std::vector<ClosedFormCase> environment_cases();
 /// Closed spheres, empty or with lossless bodies in them.
 [[nodiscard]] std::vector<ClosedFormCase> furnace_cases();
+/// Direct light where rounding is large.
+[[nodiscard]] std::vector<ClosedFormCase> far_from_origin_cases();
 /// Partly transparent cards, lights and films.
 [[nodiscard]] std::vector<ClosedFormCase> transparency_cases();
 

@@ -30,7 +30,8 @@ void PrintTo(const Comparison& comparison, std::ostream* out) {
 
 std::vector<ClosedFormCase> all_cases() {
     std::vector<ClosedFormCase> cases;
-    for (auto&& list : {direct_light_cases(), environment_cases(), furnace_cases(), transparency_cases()})
+    for (auto&& list :
+         {direct_light_cases(), environment_cases(), furnace_cases(), far_from_origin_cases(), transparency_cases()})
         cases.insert(cases.end(), list.begin(), list.end());
     return cases;
 }
@@ -69,6 +70,7 @@ TEST_P(ClosedForm, RadianceIsTheKnownOne) {
         render_pixels(desc, *integrator, GetParam().sequence, scene.spp, GetParam().seed, "Linear Rec.709 (sRGB)");
 
     std::vector<double> estimates;
+    estimates.reserve(pixels.size());
     for (const Rgb& pixel : pixels) estimates.push_back(static_cast<double>(pixel.g));
     const double tolerance = scene.tolerance * scene.radiance;
     const TTestResult result = t_test(estimates, scene.radiance, tolerance);

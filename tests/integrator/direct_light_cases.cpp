@@ -1,6 +1,6 @@
-// Form factors from J. R. Howell, "A Catalog of Radiation Heat Transfer Configuration Factors", sections B.
 #include "integrator/closed_form.h"
 #include "integrator/closed_form_scene.h"
+#include "integrator/form_factors.h"
 
 #include <cmath>
 #include <numbers>
@@ -22,13 +22,7 @@ SceneDesc floor_seen_at(float x) {
     return scene;
 }
 
-/// From a plane element to a parallel disk of radius r at height h whose axis is a away (B-13).
-double disk_form_factor(double r, double h, double a) {
-    const double sum = a * a + h * h + r * r;
-    return 0.5 * (1.0 - (a * a + h * h - r * r) / std::sqrt(sum * sum - 4.0 * a * a * r * r));
-}
-
-/// From a plane element to a parallel rectangle of sides a and b at height h, one corner right above it (B-3).
+/// From a plane element to a parallel rectangle of sides a and b at height h, one corner right above it (Howell, B-3).
 double corner_form_factor(double a, double b, double h) {
     const double x = a / h;
     const double y = b / h;

@@ -18,7 +18,7 @@ namespace etendue::test {
     Random random(seed);
     std::vector<double> samples(count);
     for (double& value : samples) {
-        const LightSample s = sample_light(light, point, random.next_2d());
+        const LightSample s = sample_light(light, point, random.next_2d(), random.next_2d());
         const auto received = static_cast<double>(average(s.radiance) * std::max(0.0f, dot(s.wi, normal)));
         if (is_black(s.radiance))
             value = 0.0;

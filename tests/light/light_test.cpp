@@ -16,7 +16,8 @@ std::vector<Light> mixed_lights() {
     lights.emplace_back(DirectionalLight{{0, -1, 0}, Rgb(0.5f)});
     lights.emplace_back(PointLight{{0, 0, 0}, Rgb(0.0f)});
     lights.emplace_back(ConstantEnvironment{Rgb(0.1f)});
-    lights.emplace_back(MeshLight({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}, Rgb(3.0f), Rgb(3.0f), true, false, true));
+    lights.emplace_back(
+        MeshLight({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}, Rgb(3.0f), Rgb(3.0f), true, false, true, Vec3f(0.0f)));
     return lights;
 }
 
@@ -30,7 +31,9 @@ TEST(LightSelector, ChoosesByPower) {
     std::vector<double> expected;
     double sum = 0.0;
     for (std::size_t i = 0; i < lights.size(); ++i) {
-        const double share = static_cast<double>(light_power(lights[i], radius)) / total;
+        const auto power = static_cast<double>(light_power(lights[i], radius));
+        // One light of the list is dark.
+        const double share = power > 0.0 ? 0.9 * power / total + 0.1 / static_cast<double>(lights.size() - 1) : 0.0;
         EXPECT_NEAR(selector.probability(i), share, 1e-6);
         sum += static_cast<double>(selector.probability(i));
         expected.push_back(share * kSamples);
@@ -39,13 +42,19 @@ TEST(LightSelector, ChoosesByPower) {
     std::vector<double> observed(lights.size());
     Random random(8);
     for (int i = 0; i < kSamples; ++i) {
-        const AliasTable::Choice choice = selector.sample(random.next());
+        const AliasTable::Choice choice = selector.sample(random.next_2d());
         EXPECT_EQ(choice.probability, selector.probability(choice.index));
         ++observed[choice.index];
     }
     const Chi2Result result = chi2_counts(observed, expected);
     EXPECT_GT(result.p_value, kFamilyLevel) << result.str();
     EXPECT_EQ(observed[2], 0.0) << "a light without power was chosen";
+}
+
+// The light of a lamp that is never chosen beside the sun would be missing, or come as fireflies.
+TEST(LightSelector, NoLightIsStarved) {
+    const std::vector<Light> lights = {PointLight{{0, 0, 0}, Rgb(1e-6f)}, DirectionalLight{{0, -1, 0}, Rgb(1e5f)}};
+    EXPECT_NEAR(LightSelector(lights, 1000.0f).probability(0), 0.05f, 1e-4f);
 }
 
 TEST(LightSelector, WithoutPowerAllAreEquallyLikely) {

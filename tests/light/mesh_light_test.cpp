@@ -38,7 +38,7 @@ double density(const MeshLight& light, const Vec3f& from, const Vec3f& direction
 }
 
 MeshLight make_light(std::vector<LightTriangle> triangles, bool two_sided = false, bool mirrored = false) {
-    return {std::move(triangles), {2.0f, 4.0f, 6.0f}, {2.0f, 4.0f, 6.0f}, two_sided, mirrored, true};
+    return {std::move(triangles), {2.0f, 4.0f, 6.0f}, {2.0f, 4.0f, 6.0f}, two_sided, mirrored, true, Vec3f(0.0f)};
 }
 
 std::vector<LightTriangle> quad_triangles(const Vec3f& center, const Vec3f& x, const Vec3f& y) {
@@ -63,12 +63,12 @@ TEST(MeshLight, DirectionsHaveTheStatedDensity) {
     // Triangles of unequal size, one without area, all facing the origin's side.
     std::vector<LightTriangle> triangles = quad_triangles({0, 3, 0}, {1.5f, 0, 0}, {0, 0, 0.5f});
     triangles.push_back({{0, 3, 2}, {1, 0, 0}, {2, 0, 0}});
-    triangles.push_back({{-1, 2.5f, 1}, {0.3f, 0, 0}, {0, 0.1f, 0.3f}});
+    triangles.push_back({{-1, 2.5f, 1}, {0.9f, 0, 0}, {0, 0.3f, 0.9f}});
     const MeshLight light = make_light(triangles, true);
     const Vec3f points[] = {{0, 0, 0}, {2, 1, -1}, {0.2f, 2.7f, 0.1f}};
     for (const Vec3f& point : points) {
         const auto sampler = [&](Random& random) -> std::optional<Vec3f> {
-            const LightSample s = light.sample(point, random.next_2d());
+            const LightSample s = light.sample(point, random.next_2d(), random.next_2d());
             if (!(s.pdf_solid_angle > 0.0f)) return std::nullopt;
             return s.wi;
         };
@@ -84,7 +84,7 @@ TEST(MeshLight, SamplesStateTheDensityOfTheirHit) {
     Random random(3);
     for (int i = 0; i < 1000; ++i) {
         const Vec3f from(random.next() - 0.5f, random.next(), random.next());
-        const LightSample s = light.sample(from, random.next_2d());
+        const LightSample s = light.sample(from, random.next_2d(), random.next_2d());
         const LightTriangle& t = light.triangles()[s.triangle];
         const Vec3f on_light = t.p0 + t.edge1 * s.barycentric.x + t.edge2 * s.barycentric.y;
         EXPECT_LT(length(from + s.wi * s.distance - on_light), 1e-5f);
@@ -107,7 +107,7 @@ TEST(MeshLight, TrianglesGetSamplesByArea) {
     for (double& e : expected) e *= kSamples / total;
     std::vector<double> observed(expected.size());
     Random random(1);
-    for (int i = 0; i < kSamples; ++i) ++observed[light.sample({0, 0, 1}, random.next_2d()).triangle];
+    for (int i = 0; i < kSamples; ++i) ++observed[light.sample({0, 0, 1}, random.next_2d(), random.next_2d()).triangle];
     const Chi2Result result = chi2_counts(observed, expected);
     EXPECT_GT(result.p_value, kFamilyLevel) << result.str();
     EXPECT_EQ(observed[2], 0.0);
@@ -118,10 +118,11 @@ TEST(MeshLight, OneSidedLightShinesToItsFrontOnly) {
     for (const bool mirrored : {false, true})
         for (const float z : {2.0f, -2.0f}) {
             const bool front = (z > 0.0f) != mirrored;
-            const LightSample one = make_light(triangles, false, mirrored).sample({0, 0, z}, {0.2f, 0.7f});
+            const LightSample one =
+                make_light(triangles, false, mirrored).sample({0, 0, z}, {0.5f, 0.5f}, {0.2f, 0.7f});
             EXPECT_EQ(one.pdf_solid_angle > 0.0f, front);
             EXPECT_EQ(is_black(one.radiance), !front);
-            const LightSample two = make_light(triangles, true, mirrored).sample({0, 0, z}, {0.2f, 0.7f});
+            const LightSample two = make_light(triangles, true, mirrored).sample({0, 0, z}, {0.5f, 0.5f}, {0.2f, 0.7f});
             EXPECT_GT(two.pdf_solid_angle, 0.0f);
             EXPECT_EQ(two.radiance, Rgb(2.0f, 4.0f, 6.0f));
         }

@@ -34,7 +34,8 @@ TEST(PointLight, AtTheLightItselfThereIsNoDirection) {
 }
 
 TEST(PointLight, PowerIsIntensityOverTheSphere) {
-    EXPECT_NEAR(PointLight({0, 0, 0}, {1, 2, 3}).power(10.0f), 2.0f * 4.0f * kPi, 1e-4f);
+    const PointLight light{{0, 0, 0}, {1, 2, 3}};
+    EXPECT_NEAR(light.power(10.0f), 2.0f * 4.0f * kPi, 1e-4f);
 }
 
 // KHR_lights_punctual: saturate((cos - cos(outer)) / (cos(inner) - cos(outer)))².

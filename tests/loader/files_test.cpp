@@ -1,7 +1,7 @@
 #include "loader/files.h"
 
 #include "core/error.h"
-#include "loader/gltf_builder.h"
+#include "loader/gltf/gltf_builder.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>

@@ -1,7 +1,7 @@
 // Systematic damage to a file that uses everything: whatever comes of it, it comes as problems. With the sanitizers
 // this also shows that nothing is read outside of what is there.
 
-#include "loader/gltf_builder.h"
+#include "loader/gltf/gltf_builder.h"
 
 #include <random>
 

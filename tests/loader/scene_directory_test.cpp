@@ -1,4 +1,4 @@
-#include "loader/gltf_builder.h"
+#include "loader/gltf/gltf_builder.h"
 
 #include <gtest/gtest.h>
 
@@ -119,7 +119,7 @@ TEST(LoadScene, FilesBehindLinksOutsideAreNotFoundInADirectory) {
     EXPECT_NE(failure(dir.path() / "scene.glb").find("link leads out"), std::string::npos);
 }
 
-TEST(FindSceneDirectories, FindsThemSortedAndStopsThere) {
+TEST(FindSceneDirectories, FindsThemSortedAtEveryDepth) {
     const TempDir dir;
     dir.write("b/scene.glb", triangle_glb());
     dir.write("b/inner/scene.glb", triangle_glb());
@@ -131,8 +131,9 @@ TEST(FindSceneDirectories, FindsThemSortedAndStopsThere) {
     dir.write("none/readme.txt", "");
     const auto& root = dir.path();
     EXPECT_EQ(find_scene_directories(root),
-              (std::vector<std::filesystem::path>{root / "a", root / "b", root / "c/d/e", root / "two/deeper"}));
-    EXPECT_EQ(find_scene_directories(root / "b"), (std::vector<std::filesystem::path>{root / "b"}));
+              (std::vector<std::filesystem::path>{root / "a", root / "b", root / "b/inner", root / "c/d/e",
+                                                  root / "two/deeper"}));
+    EXPECT_EQ(find_scene_directories(root / "b"), (std::vector<std::filesystem::path>{root / "b", root / "b/inner"}));
 }
 
 TEST(FindSceneDirectories, DoesNotFollowLinks) {

@@ -1,6 +1,6 @@
 // Real files, where the folder with them is present: models must load, broken files must give the stated problem.
 
-#include "loader/gltf_builder.h"
+#include "loader/gltf/gltf_builder.h"
 
 #include <set>
 

@@ -59,6 +59,13 @@ TEST(PassSize, GrowsToSixteenAndStopsAtTheTotal) {
     EXPECT_EQ(sequence(7), (std::vector<std::uint32_t>{1, 1, 2, 3}));
 }
 
+TEST(FitPass, TakesWhatFitsIntoTheTimeLeft) {
+    EXPECT_EQ(fit_pass(1, 0, 0.0, 1.0), 1u) << "nothing is known about the pace yet";
+    EXPECT_EQ(fit_pass(16, 16, 1.0, 10.0), 16u);
+    EXPECT_EQ(fit_pass(16, 16, 1.0, 1.5), 8u);
+    EXPECT_EQ(fit_pass(16, 16, 1.0, 1.001), 1u) << "a pass that is begun has a sample";
+}
+
 }  // namespace
 
 }  // namespace etendue::test

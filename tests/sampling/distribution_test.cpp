@@ -102,7 +102,8 @@ std::vector<Image> images() {
     sun.weights[5 * 24 + 7] = 100.0f;
     Image zeros{"empty rows and columns", std::vector<float>(16 * 8, 0.0f), 16, 8};
     for (int y = 2; y < 5; ++y)
-        for (int x = 3; x < 14; x += 2) zeros.weights[static_cast<std::size_t>(y * 16 + x)] = static_cast<float>(x + y);
+        for (int x = 3; x < 14; x += 2)
+            zeros.weights[static_cast<std::size_t>(y) * 16 + static_cast<std::size_t>(x)] = static_cast<float>(x + y);
     return {{"one cell", {3.0f}, 1, 1},
             {"one row", {1.0f, 0.0f, 2.0f}, 3, 1},
             {"one column", {1.0f, 0.0f, 2.0f}, 1, 3},
@@ -147,7 +148,8 @@ TEST(Distribution2D, SamplesFollowTheImage) {
         for (std::size_t i = 0; i < expected.size(); ++i) {
             expected[i] = static_cast<double>(image.weights[i]) / total * kSamples;
             const auto x = static_cast<float>(i % static_cast<std::size_t>(image.width));
-            const auto y = static_cast<float>(i / static_cast<std::size_t>(image.width));
+            const std::size_t row = i / static_cast<std::size_t>(image.width);
+            const auto y = static_cast<float>(row);
             mass += static_cast<double>(distribution.pdf(
                 {(x + 0.5f) / static_cast<float>(image.width), (y + 0.5f) / static_cast<float>(image.height)}));
         }

@@ -33,7 +33,8 @@ TEST(CompileLights, PunctualLightsTakePlaceAndAxisFromTheirNode) {
             light.to_world = to_world;
             scene.lights.push_back(light);
             const World world = compile(std::move(scene));
-            const ChosenLight chosen = world.sample_light(position + axis * 2.0f, 0.5f, {0.5f, 0.5f});
+            const ChosenLight chosen =
+                world.sample_light(position + axis * 2.0f, {{0.5f, 0.5f}, {0.5f, 0.5f}, {0.5f, 0.5f}});
             EXPECT_EQ(chosen.probability, 1.0f);
             EXPECT_TRUE(chosen.sample.is_delta);
             EXPECT_GT(dot(chosen.sample.wi, -axis), 0.99999f);
@@ -53,7 +54,8 @@ TEST(CompileLights, SpotsKeepTheirFullIntensityHoweverNarrow) {
             light.inner_cone_angle = inner * outer;
             scene.lights.push_back(light);
             const World world = compile(std::move(scene));
-            EXPECT_NEAR(world.sample_light({0, 0, -1}, 0.5f, {0.5f, 0.5f}).sample.radiance.g, 3.0f, 1e-3f)
+            EXPECT_NEAR(world.sample_light({0, 0, -1}, {{0.5f, 0.5f}, {0.5f, 0.5f}, {0.5f, 0.5f}}).sample.radiance.g,
+                        3.0f, 1e-3f)
                 << "outer " << outer << ", inner share " << inner;
         }
 }

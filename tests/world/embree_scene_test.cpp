@@ -184,7 +184,7 @@ TEST(EmbreeScene, OccludedAgreesWithTheSearchUpToTMax) {
     for (const QueryForm form : kForms)
         for (const Coherence coherence : kCoherences) {
             std::vector<std::uint8_t> results(rays.size());
-            world.occluded(rays, results, coherence, form);
+            world.occluded(rays, results, form);
             std::vector<Hit> hits(rays.size());
             world.intersect(rays, hits, coherence, form);
             std::size_t compared = 0;
@@ -198,6 +198,31 @@ TEST(EmbreeScene, OccludedAgreesWithTheSearchUpToTMax) {
             }
             EXPECT_GT(compared, rays.size() * 9 / 10);
         }
+}
+
+// Seen from inside, no ray leaves a closed sphere, not even one that is aimed at the edges of its triangles.
+TEST(EmbreeScene, ClosedSurfacesHaveNoGaps) {
+    SceneDesc scene = empty_scene();
+    PrimitiveDesc shell = sphere({0.3f, 0.2f, -0.1f}, 1.0f, 48);
+    // On a grid, so that the vertices on both sides of the sphere's seam are the same.
+    for (Vec3f& p : shell.positions)
+        for (int axis = 0; axis < 3; ++axis) p[axis] = std::round(p[axis] * 0x1p16f) * 0x1p-16f;
+    add_object(scene, shell, add_material(scene, diffuse(Rgb(0.5f))));
+    const World world = compile(std::move(scene));
+    Random random(6);
+    std::vector<Ray> rays(std::size_t{1} << 20);
+    for (Ray& ray : rays) {
+        const auto triangle = static_cast<std::size_t>(random.next() * static_cast<float>(shell.triangles.size()));
+        const Vec3f a = shell.positions[shell.triangles[triangle][0]];
+        const Vec3f b = shell.positions[shell.triangles[triangle][1]];
+        ray.origin = random_direction(random) * 0.3f;
+        ray.direction = normalize(a + (b - a) * random.next() - ray.origin);
+    }
+    std::vector<Hit> hits(rays.size());
+    for (const QueryForm form : kForms) {
+        world.intersect(rays, hits, Coherence::Incoherent, form);
+        EXPECT_EQ(std::ranges::count_if(hits, [](const Hit& hit) { return !hit.valid(); }), 0);
+    }
 }
 
 TEST(EmbreeScene, AnEmptyWorldIsMissed) {
@@ -246,7 +271,7 @@ double stopped_share(const World& world, const std::vector<Ray>& rays) {
         std::vector<Hit> hits(rays.size());
         std::vector<std::uint8_t> results(rays.size());
         world.intersect(rays, hits, Coherence::Coherent, form);
-        world.occluded(rays, results, Coherence::Coherent, form);
+        world.occluded(rays, results, form);
         for (std::size_t i = 0; i < rays.size(); ++i) {
             EXPECT_EQ(hits[i].valid(), first[i].valid()) << "ray " << i;
             EXPECT_EQ(results[i] != 0, first[i].valid()) << "ray " << i;

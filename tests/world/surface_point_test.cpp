@@ -89,6 +89,7 @@ class NormalMap : public testing::Test {
         SceneDesc scene = empty_scene();
         MaterialDesc material = diffuse(Rgb(0.5f));
         material.normal_texture.texture = add_texture(scene, png_, 1, {{texel[0], texel[1], texel[2], 255}});
+        material.normal_texture.transform = transform_;
         material.normal_scale = scale;
         const Vec3f target = transform_point(to_world, {0.1f, 0.2f, 0.0f});
         const Vec3f front = normalize(transform_normal(to_world.inverse(), {0, 0, 1}));
@@ -102,6 +103,7 @@ class NormalMap : public testing::Test {
     }
     void TearDown() override { std::filesystem::remove(png_); }
 
+    TextureTransform transform_;
     std::filesystem::path png_ = temporary_file("etendue-world-normal-map.png");
 };
 
@@ -154,6 +156,19 @@ TEST_F(NormalMap, RedTiltsAlongUAndGreenUpTheImage) {
                 EXPECT_NEAR(dot(green, along_u), 0.0f, 0.01f);
                 EXPECT_NEAR(dot(green, up), 0.8f, 0.01f);
             }
+}
+
+// The relief belongs to the image: turned with the texture coordinates, it still rises where the image says.
+TEST_F(NormalMap, TangentsFollowTheTexturesTransform) {
+    const PrimitiveDesc plain = quad(Vec3f(0.0f), {1, 0, 0}, {0, 1, 0});
+    const auto normal = [&](const TextureTransform& transform) {
+        transform_ = transform;
+        return mapped_normal({230, 128, 204}, plain, Mat4f(), Placement::Baked);
+    };
+    EXPECT_NEAR(normal({.scale = {-1.0f, 1.0f}}).x, -0.8f, 0.01f);
+    EXPECT_NEAR(normal({.scale = {1.0f, -1.0f}}).x, 0.8f, 0.01f);
+    // uv' = R uv with u' = v: the image's u runs along v, which is down.
+    EXPECT_NEAR(normal({.rotation = 0.5f * kPi}).y, -0.8f, 0.01f);
 }
 
 TEST_F(NormalMap, TheScaleFlattens) {

@@ -147,7 +147,7 @@ Hit intersect(const World& world, const Ray& ray) {
 
 bool occluded(const World& world, const Ray& ray) {
     std::uint8_t result = 0;
-    world.occluded({&ray, 1}, {&result, 1}, Coherence::Incoherent);
+    world.occluded({&ray, 1}, {&result, 1});
     return result != 0;
 }
 

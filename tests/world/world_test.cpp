@@ -55,13 +55,14 @@ TEST(World, LightSamplesAndHitsAgree) {
         int dark = 0;
         for (int i = 0; i < 3000; ++i) {
             const Vec3f from = random_direction(random) * 1.2f;
-            const ChosenLight chosen = world.sample_light(from, random.next(), random.next_2d());
+            const ChosenLight chosen = world.sample_light(from, {random.next_2d(), random.next_2d(), random.next_2d()});
             const LightSample& sample = chosen.sample;
             // What lies in between is another matter; start close to the sampled point.
             const float back = 0.02f * sample.distance;
             const Ray ray{.origin = from + sample.wi * (sample.distance - back), .direction = sample.wi};
             const Hit hit = intersect(world, ray);
             if (!hit.valid() || std::abs(hit.t - back) > 1e-3f) continue;  // grazing an edge
+            if (hit.triangle != sample.triangle) continue;                 // a neighbour, at the silhouette
             const SurfacePoint point = world.surface_point(hit);
             const float cosine = abs_dot(point.geometric_normal, sample.wi);
             if (cosine < 0.02f) continue;
@@ -96,7 +97,8 @@ TEST(World, OneSidedEmittersAreDarkBehind) {
             const Hit hit = intersect(world, Ray{.origin = from, .direction = {0, 0, -side}});
             const bool lit = two_sided || side > 0.0f;
             EXPECT_EQ(world.emission(world.surface_point(hit), {0, 0, side}), lit ? Rgb(5.0f) : Rgb(0.0f));
-            EXPECT_EQ(is_black(world.sample_light(from, 0.5f, {0.3f, 0.6f}).sample.radiance), !lit);
+            EXPECT_EQ(is_black(world.sample_light(from, {{0.5f, 0.5f}, {0.5f, 0.5f}, {0.3f, 0.6f}}).sample.radiance),
+                      !lit);
         }
     }
 }
@@ -129,7 +131,8 @@ TEST(World, BothStrategiesSeeTexturedAndTranslucentEmittersAlike) {
     Sum by_light;
     Sum by_chance;
     for (int i = 0; i < kSamples; ++i) {
-        const LightSample light = world.sample_light(Vec3f(0.0f), random.next(), random.next_2d()).sample;
+        const LightSample light =
+            world.sample_light(Vec3f(0.0f), {random.next_2d(), random.next_2d(), random.next_2d()}).sample;
         by_light.add(is_black(light.radiance)
                          ? 0.0
                          : static_cast<double>(light.radiance.g * -light.wi.z / light.pdf_solid_angle));
@@ -149,7 +152,7 @@ TEST(World, BothStrategiesSeeTexturedAndTranslucentEmittersAlike) {
 
 TEST(World, LightsAreChosenByPower) {
     SceneDesc scene = empty_scene();
-    // Both have a square metre; one is three times as bright, so it gets three quarters of the samples.
+    // Both have a square metre; one is three times as bright. Power decides nine times in ten, an equal choice once.
     add_object(scene, quad({-2, 0, -3}, {0.5f, 0, 0}, {0, 0.5f, 0}), add_material(scene, emissive(Rgb(1.0f))));
     add_object(scene, quad({2, 0, -3}, {0.5f, 0, 0}, {0, 0.5f, 0}), add_material(scene, emissive(Rgb(3.0f))));
     const World world = compile(std::move(scene));
@@ -157,12 +160,13 @@ TEST(World, LightsAreChosenByPower) {
     int bright = 0;
     constexpr int kSamples = 10'000;
     for (int i = 0; i < kSamples; ++i) {
-        const ChosenLight chosen = world.sample_light(Vec3f(0.0f), random.next(), random.next_2d());
+        const ChosenLight chosen =
+            world.sample_light(Vec3f(0.0f), {random.next_2d(), random.next_2d(), random.next_2d()});
         const bool is_bright = chosen.sample.wi.x > 0.0f;
-        EXPECT_NEAR(chosen.probability, is_bright ? 0.75f : 0.25f, 1e-6f);
+        EXPECT_NEAR(chosen.probability, is_bright ? 0.725f : 0.275f, 1e-6f);
         bright += is_bright ? 1 : 0;
     }
-    EXPECT_NEAR(bright, 0.75 * kSamples, 4.5 * std::sqrt(0.1875 * kSamples));
+    EXPECT_NEAR(bright, 0.725 * kSamples, 4.5 * std::sqrt(0.2 * kSamples));
 }
 
 TEST(World, MovingAWorldKeepsItWorking) {

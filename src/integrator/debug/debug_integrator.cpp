@@ -17,7 +17,7 @@ struct DebugScratch final : IntegratorScratch {
 };
 
 /// Samples per hit of the albedo estimate; its noise averages out over the pixel's samples.
-constexpr int kAlbedoSamples = 16;
+constexpr int kAlbedoSamples = 4;
 
 }  // namespace
 
@@ -38,13 +38,13 @@ void DebugIntegrator::render_tile(const World& world, const TileJob& job, Integr
         counters.camera_rays += count;
         for (std::size_t i = 0; i < count; ++i) {
             const bool hit = hits[i].valid();
-            accumulate(job, s.samples[i], hit ? value(world, rays[i], hits[i]) : Rgb(), hit ? 1.0f : 0.0f, tile,
-                       counters);
+            accumulate(job, s.samples[i], hit ? value(world, rays[i], hits[i], s.samples[i].key) : Rgb(),
+                       hit ? 1.0f : 0.0f, tile, counters);
         }
     }
 }
 
-Rgb DebugIntegrator::value(const World& world, const Ray& ray, const Hit& hit) const {
+Rgb DebugIntegrator::value(const World& world, const Ray& ray, const Hit& hit, SampleKey key) const {
     const SurfacePoint point = world.surface_point(hit);
     if (quantity_ == DebugQuantity::Normals) {
         const Vec3f n = point.shading.normal;
@@ -53,7 +53,8 @@ Rgb DebugIntegrator::value(const World& world, const Ray& ray, const Hit& hit) c
     if (point.material->unlit) return world.unlit_color(point);
     Bsdf storage;
     const Scattering scattering(world.bsdf(point, storage), point.shading, point.geometric_normal, -ray.direction);
-    return estimate_albedo(scattering.bsdf(), scattering.wo_local(), kAlbedoSamples);
+    return estimate_albedo(scattering.bsdf(), scattering.wo_local(), kAlbedoSamples,
+                           sample_bits(key, kFirstFreeDimension));
 }
 
 }  // namespace etendue

@@ -15,11 +15,12 @@ class DebugIntegrator final : public Integrator {
     explicit DebugIntegrator(DebugQuantity quantity) : quantity_(quantity) {}
 
     [[nodiscard]] std::unique_ptr<IntegratorScratch> make_scratch() const override;
+    [[nodiscard]] std::vector<std::string> unreachable_light(const World&) const override { return {}; }
     void render_tile(const World& world, const TileJob& job, IntegratorScratch& scratch, TileBuffer& tile,
                      RenderCounters& counters) const override;
 
   private:
-    [[nodiscard]] Rgb value(const World& world, const Ray& ray, const Hit& hit) const;
+    [[nodiscard]] Rgb value(const World& world, const Ray& ray, const Hit& hit, SampleKey key) const;
 
     DebugQuantity quantity_;
 };

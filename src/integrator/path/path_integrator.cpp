@@ -6,6 +6,19 @@
 
 namespace etendue {
 
+std::vector<std::string> PathIntegrator::unreachable_light(const World& world) const {
+    if (!world.has_delta_lights()) return {};
+    if (!options_.sample_lights)
+        return {
+            "point, spot and directional lights are never met by chance: what they give is missing; "
+            "'path' finds it"};
+    if (world.has_specular_surfaces())
+        return {
+            "what point, spot and directional lights send through smooth glass or by way of mirrors (their "
+            "caustics) cannot be found by eye paths and is missing"};
+    return {};
+}
+
 std::unique_ptr<IntegratorScratch> PathIntegrator::make_scratch() const {
     return std::make_unique<PathWave>();
 }

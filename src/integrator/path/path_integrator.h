@@ -19,6 +19,7 @@ class PathIntegrator final : public Integrator {
     explicit PathIntegrator(const PathOptions& options) : options_(options) {}
 
     [[nodiscard]] std::unique_ptr<IntegratorScratch> make_scratch() const override;
+    [[nodiscard]] std::vector<std::string> unreachable_light(const World& world) const override;
     void render_tile(const World& world, const TileJob& job, IntegratorScratch& scratch, TileBuffer& tile,
                      RenderCounters& counters) const override;
 

@@ -4,6 +4,8 @@
 #include "world/scattering.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace etendue {
 
@@ -11,10 +13,11 @@ namespace {
 
 /// Pairs of dimensions of one bounce.
 enum BounceDimension : std::uint32_t {
+    kLightChoice,
+    kLightTriangle,
     kLightDirection,
     kBsdfDirection,
     kChoices,
-    kRoulette,
     kAlpha,
     kBounceDimensions
 };
@@ -23,8 +26,27 @@ std::uint32_t bounce_dimension(int depth, std::uint32_t which) {
     return kFirstFreeDimension + static_cast<std::uint32_t>(depth) * kBounceDimensions + which;
 }
 
-/// Shortens a shadow ray so that it does not meet the light that it goes to.
-constexpr float kShadowRayEnd = 0.9999f;
+/// Most of the paths of `depth` edges that Russian roulette lets live. Lossless ones live on as long as paths usually
+/// get; between perfect mirrors they would do so until the longest path allowed.
+float most_survival(int depth) {
+    constexpr int kLongPath = 64;
+    return depth < kLongPath ? 1.0f : 0.95f;
+}
+
+/// From the surface to where the light was sampled, both ends clear of the surfaces there.
+Ray shadow_ray(const SurfacePoint& point, const LightSample& light) {
+    // What rounding may add to the length; the end is clear of the light by more than its own rounding.
+    constexpr float kBeforeEnd = 1.0f - 8.0f * std::numeric_limits<float>::epsilon();
+    Ray ray;
+    ray.origin = offset_origin(point.position, point.geometric_normal, point.clearance, light.wi);
+    ray.direction = light.wi;
+    if (std::isinf(light.distance)) return ray;
+    const Vec3f to_end = light.end - ray.origin;
+    const float distance = length(to_end);
+    if (distance > 0.0f) ray.direction = to_end * (1.0f / distance);
+    ray.t_max = distance * kBeforeEnd;
+    return ray;
+}
 
 }  // namespace
 
@@ -40,7 +62,7 @@ PathWave::PathWave()
       samples_(kCapacity),
       radiance_(kCapacity),
       alpha_(kCapacity) {
-    for (Numbers* numbers : {&light_direction_, &bsdf_direction_, &choices_, &roulette_}) {
+    for (Numbers* numbers : {&light_choice_, &light_triangle_, &light_direction_, &bsdf_direction_, &choices_}) {
         numbers->x.resize(kCapacity);
         numbers->y.resize(kCapacity);
     }
@@ -78,10 +100,13 @@ void PathWave::draw(const Context& context, std::uint32_t which, Numbers& number
 
 void PathWave::draw_numbers(const Context& context) {
     if (context.depth >= context.options.lengths.max_depth) return;
-    if (context.options.sample_lights) draw(context, kLightDirection, light_direction_);
+    if (context.options.sample_lights) {
+        draw(context, kLightChoice, light_choice_);
+        draw(context, kLightTriangle, light_triangle_);
+        draw(context, kLightDirection, light_direction_);
+    }
     draw(context, kBsdfDirection, bsdf_direction_);
     draw(context, kChoices, choices_);
-    if (context.depth >= context.options.lengths.roulette_depth) draw(context, kRoulette, roulette_);
 }
 
 void PathWave::shade(const Context& context) {
@@ -125,7 +150,7 @@ bool PathWave::shade_path(const Context& context, std::size_t i, PathState& next
         context.depth + 1 >= context.options.lengths.min_depth)
         queue_direct_light(context, i, point, scattering);
 
-    const BsdfSample sample = scattering.sample(choices_.y[i], bsdf_direction_.pair(i), TransportMode::Radiance);
+    const BsdfSample sample = scattering.sample(choices_.x[i], bsdf_direction_.pair(i), TransportMode::Radiance);
     if (is_black(sample.weight)) return false;
 
     next = state;
@@ -135,11 +160,11 @@ bool PathWave::shade_path(const Context& context, std::size_t i, PathState& next
     next.only_delta = state.only_delta && sample.is_delta;
     if (sample.is_transmission) next.eta_scale *= sample.eta * sample.eta;
     if (context.depth >= context.options.lengths.roulette_depth) {
-        const float survival = std::min(1.0f, max_component(next.throughput) * next.eta_scale);
-        if (roulette_.x[i] >= survival) return false;
+        const float survival = std::min(most_survival(context.depth), max_component(next.throughput) * next.eta_scale);
+        if (choices_.y[i] >= survival) return false;
         next.throughput *= 1.0f / survival;
     }
-    next_ray.origin = offset_origin(point.position, point.geometric_normal, sample.wi);
+    next_ray.origin = offset_origin(point.position, point.geometric_normal, point.clearance, sample.wi);
     next_ray.direction = sample.wi;
     next_ray.alpha_key = alpha_key(context, i);
     return true;
@@ -178,7 +203,8 @@ std::uint32_t PathWave::alpha_key(const Context& context, std::size_t i) const {
 void PathWave::queue_direct_light(const Context& context, std::size_t i, const SurfacePoint& point,
                                   const Scattering& scattering) {
     const PathState& state = states_[i];
-    const ChosenLight chosen = context.world.sample_light(point.position, choices_.x[i], light_direction_.pair(i));
+    const ChosenLight chosen = context.world.sample_light(
+        point.position, {light_choice_.pair(i), light_triangle_.pair(i), light_direction_.pair(i)});
     const LightSample& light = chosen.sample;
     if (is_black(light.radiance)) return;
     const BsdfValue value = scattering.evaluate(light.wi, TransportMode::Radiance);
@@ -189,9 +215,7 @@ void PathWave::queue_direct_light(const Context& context, std::size_t i, const S
                             ? 1.0f / chosen.probability
                             : power_heuristic(light.pdf_solid_angle, value.pdf_solid_angle) / light.pdf_solid_angle;
     Ray& ray = shadow_rays_[pending_count_];
-    ray.origin = offset_origin(point.position, point.geometric_normal, light.wi);
-    ray.direction = light.wi;
-    ray.t_max = light.distance * kShadowRayEnd;
+    ray = shadow_ray(point, light);
     ray.alpha_key = ~alpha_key(context, i);  // another key than the bounce ray's
     pending_[pending_count_] = {state.throughput * value.f_cos * light.radiance * scale, state.slot};
     ++pending_count_;
@@ -199,8 +223,7 @@ void PathWave::queue_direct_light(const Context& context, std::size_t i, const S
 
 void PathWave::add_unoccluded(const World& world, RenderCounters& counters) {
     if (pending_count_ == 0) return;
-    world.occluded(std::span(shadow_rays_).first(pending_count_), std::span(occluded_).first(pending_count_),
-                   Coherence::Incoherent);
+    world.occluded(std::span(shadow_rays_).first(pending_count_), std::span(occluded_).first(pending_count_));
     counters.shadow_rays += pending_count_;
     for (std::size_t i = 0; i < pending_count_; ++i)
         if (occluded_[i] == 0) radiance_[pending_[i].slot] += pending_[i].contribution;

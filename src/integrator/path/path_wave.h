@@ -83,10 +83,11 @@ class PathWave final : public IntegratorScratch {
     std::vector<Hit> hits_;
     std::vector<std::uint32_t> pixel_seeds_;
     std::vector<std::uint32_t> sample_indices_;
+    Numbers light_choice_;
+    Numbers light_triangle_;
     Numbers light_direction_;
     Numbers bsdf_direction_;
-    Numbers choices_;   ///< x: which light, y: which lobe
-    Numbers roulette_;  ///< x: whether the path ends
+    Numbers choices_;  ///< x: which lobe, y: whether the path ends
     std::size_t pending_count_ = 0;
     std::vector<Ray> shadow_rays_;
     std::vector<PendingLight> pending_;

@@ -68,6 +68,11 @@ void check_version(const Json& document, const GltfDocument& result, ProblemList
     if (version.substr(0, 2) != "2.") {
         problems.error(result.at("/asset/version"), fmt::format("glTF {} is not supported, only 2.0", shown(version)));
     }
+    const std::string least = document["asset"].value("minVersion", "2.0");
+    if (least != "2.0") {
+        problems.error(result.at("/asset/minVersion"),
+                       fmt::format("the file needs glTF {}; 2.0 is what is supported", shown(least)));
+    }
 }
 
 /// tinygltf refuses such accessors with a message that does not say where.

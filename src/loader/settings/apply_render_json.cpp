@@ -31,7 +31,7 @@ bool check_name(const std::vector<Item>& items, std::string_view kind, const std
                 const SourceLocation& where, ProblemList& problems) {
     const std::vector<std::string_view> names = names_of(items);
     if (std::ranges::binary_search(names, std::string_view(name))) return true;
-    problems.error(where, fmt::format("the scene has no {} '{}'{}", kind, shown(name), suggestion(name, names)));
+    problems.error(where, fmt::format("the scene has no {} '{}'; {}", kind, shown(name), name_hint(name, names)));
     return false;
 }
 

@@ -32,14 +32,6 @@ std::string NumberRange::str() const {
     return "a number that fits single precision";
 }
 
-std::string suggestion(std::string_view name, std::span<const std::string_view> known) {
-    const std::string near = nearest_name(name, known);
-    if (!near.empty()) return "; did you mean '" + near + "'?";
-    constexpr std::size_t kShortList = 24;
-    if (known.empty() || known.size() > kShortList) return {};
-    return fmt::format("; known are {}", fmt::join(known, ", "));
-}
-
 JsonObject::JsonObject(const Json& value, SourceLocation where, ProblemList& problems)
     : object_(value.is_object() ? &value : &empty_object()), where_(std::move(where)), problems_(problems) {
     if (!value.is_object()) problems_.error(where_, fmt::format("must be an object, but is {}", json_kind(value)));
@@ -165,14 +157,14 @@ bool JsonObject::vector(std::string_view key, Vec3f& out) {
 
 void JsonObject::report_unknown_name(const SourceLocation& where, std::string_view name,
                                      std::span<const std::string_view> known) {
-    problems_.error(where, fmt::format("unknown name '{}'{}", shown(name), suggestion(name, known)));
+    problems_.error(where, fmt::format("unknown name '{}'; {}", shown(name), name_hint(name, known)));
 }
 
 void JsonObject::finish() {
     const std::vector<std::string_view> known(known_.begin(), known_.end());
     for (const auto& [key, value] : object_->items()) {
         if (std::ranges::find(known, std::string_view(key)) != known.end()) continue;
-        problems_.error(at(key), fmt::format("unknown key '{}'{}", shown(key), suggestion(key, known)));
+        problems_.error(at(key), fmt::format("unknown key '{}'; {}", shown(key), name_hint(key, known)));
     }
 }
 

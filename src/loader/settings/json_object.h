@@ -123,7 +123,4 @@ class JsonObject {
     std::vector<std::string> known_;
 };
 
-/// `; did you mean 'x'?` if a name of `known` is near enough to `name`, else `; known are a, b, c` for short lists.
-[[nodiscard]] std::string suggestion(std::string_view name, std::span<const std::string_view> known);
-
 }  // namespace etendue

@@ -1,9 +1,11 @@
-#include "loader/json_schema.h"
+#include "loader/settings/json_schema.h"
 
 #include <cmath>
 #include <functional>
 #include <map>
 #include <stdexcept>
+
+#include <fmt/format.h>
 
 namespace etendue {
 namespace {
@@ -99,7 +101,7 @@ class Validator {
     void properties(const Json&, const Json& argument, const Json& value, const std::string& pointer) {
         if (!value.is_object()) return;
         for (const auto& [key, schema] : argument.items()) {
-            if (value.contains(key)) check(schema, value[key], pointer + "/" + key);
+            if (value.contains(key)) check(schema, value[key], fmt::format("{}/{}", pointer, key));
         }
     }
 
@@ -108,7 +110,7 @@ class Validator {
         if (!value.is_object()) return;
         for (const auto& [key, member] : value.items()) {
             if (schema.contains("properties") && schema["properties"].contains(key)) continue;
-            check(argument, member, pointer + "/" + key);
+            check(argument, member, fmt::format("{}/{}", pointer, key));
         }
     }
 

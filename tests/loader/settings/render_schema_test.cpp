@@ -1,7 +1,7 @@
 // scenes/render.schema.json and the parser must accept and refuse the same documents.
 
-#include "loader/gltf_builder.h"
-#include "loader/json_schema.h"
+#include "loader/gltf/gltf_builder.h"
+#include "loader/settings/json_schema.h"
 #include "loader/settings/render_json.h"
 
 #include <fstream>

@@ -1,4 +1,4 @@
-#include "loader/gltf_builder.h"
+#include "loader/gltf/gltf_builder.h"
 
 #include <limits>
 

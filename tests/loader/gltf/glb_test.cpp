@@ -1,6 +1,6 @@
 #include "loader/gltf/glb.h"
 
-#include "loader/gltf_builder.h"
+#include "loader/gltf/gltf_builder.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include "loader/settings/render_json.h"
 
-#include "loader/gltf_builder.h"
+#include "loader/gltf/gltf_builder.h"
 
 #include <gtest/gtest.h>
 
@@ -88,7 +88,7 @@ TEST(RenderJson, UnknownKeysSuggestTheNearest) {
     EXPECT_TRUE(has_problem(parsed.problems, Severity::Error, "did you mean 'spp'", "/sppp"));
     EXPECT_TRUE(has_problem(parsed.problems, Severity::Error, "did you mean 'max_depth'", "/integrator/maxdepth"));
     EXPECT_TRUE(has_problem(parsed.problems, Severity::Error, "did you mean 'view'", "/color/veiw"));
-    EXPECT_TRUE(has_problem(parsed.problems, Severity::Error, "known are filter, filter_radius", "/film/zzz"));
+    EXPECT_TRUE(has_problem(parsed.problems, Severity::Error, "there are 'filter', 'filter_radius'", "/film/zzz"));
     EXPECT_EQ(parsed.problems.error_count(), 4u);
     EXPECT_NE(parsed.problems.all()[0].where.file.find("render.json"), std::string::npos);
 }

@@ -1,6 +1,6 @@
 // Accessors, through the loader: every legal way to store numbers, and every way to point outside.
 
-#include "loader/gltf_builder.h"
+#include "loader/gltf/gltf_builder.h"
 
 #include <functional>
 #include <limits>

@@ -1,6 +1,6 @@
 // The document as a whole: types, references, extensions, buffers.
 
-#include "loader/gltf_builder.h"
+#include "loader/gltf/gltf_builder.h"
 
 #include <gtest/gtest.h>
 
@@ -42,6 +42,7 @@ TEST_P(BadDocumentTest, IsAnErrorWithItsPlace) {
 const BadDocument kBadDocuments[] = {
     {"NoAsset", R"({"asset": null})", "'asset' is missing", ""},
     {"NoVersion", R"({"asset": {"version": null}})", "'version' is missing", "/asset"},
+    {"NewerNeeded", R"({"asset": {"version": "2.1", "minVersion": "2.1"}})", "needs glTF 2.1", "/asset/minVersion"},
     {"OldVersion", R"({"asset": {"version": "1.0"}})", "glTF 1.0 is not supported", "/asset/version"},
     {"NodesObject", R"({"nodes": {}})", "must be an array, but is an object", "/nodes"},
     {"NodeNumber", R"({"nodes": [3]})", "must be an object, but is a number", "/nodes/0"},
