@@ -60,6 +60,7 @@ int main(int argc, char** argv) {
     if (argc > 1 && argv[1][0] != '-') {
         const std::vector<CLI::App*> commands = app.get_subcommands({});
         std::vector<std::string> names;
+        names.reserve(commands.size());
         for (const CLI::App* command : commands) names.push_back(command->get_name());
         if (std::ranges::find(names, argv[1]) == names.end()) {
             const std::vector<std::string_view> known(names.begin(), names.end());
