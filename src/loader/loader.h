@@ -42,8 +42,7 @@ struct LoadedScene {
 [[nodiscard]] LoadedScene inspect_scene(const std::filesystem::path& path);
 
 /// Every scene directory at or below `root`, sorted by path: a directory that holds a render.json or exactly one glTF
-/// file. Does not look inside a scene directory for more, nor follow links out of `root`. Throws SceneError if `root`
-/// is no directory.
+/// file, also inside another one. Does not follow links. Throws SceneError if `root` is no directory.
 [[nodiscard]] std::vector<std::filesystem::path> find_scene_directories(const std::filesystem::path& root);
 
 }  // namespace etendue
