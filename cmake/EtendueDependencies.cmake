@@ -34,6 +34,24 @@ etendue_find_pkgconfig(OpenImageIO OpenImageIO>=2.4 libopenimageio-dev)
 etendue_find_pkgconfig(OpenColorIO OpenColorIO>=2.1 libopencolorio-dev)
 etendue_find_pkgconfig(Imath Imath>=3.1 libimath-dev)
 etendue_find(TinyGLTF libtinygltf-dev)
+# Debian's Draco carries a tinygltf of its own, of another version, whose functions would take the place of the real one's.
+# So what is linked is a copy of the archive without its glTF reader.
+find_library(ETENDUE_DRACO libdraco.a)
+find_path(ETENDUE_DRACO_INCLUDE draco/compression/decode.h)
+if(NOT ETENDUE_DRACO OR NOT ETENDUE_DRACO_INCLUDE)
+  message(FATAL_ERROR "Draco was not found. Install the Debian package 'libdraco-dev'.")
+endif()
+set(etendue_draco_codec "${CMAKE_BINARY_DIR}/libdraco_codec.a")
+if("${ETENDUE_DRACO}" IS_NEWER_THAN "${etendue_draco_codec}")
+  file(COPY_FILE "${ETENDUE_DRACO}" "${etendue_draco_codec}")
+  execute_process(
+    COMMAND "${CMAKE_AR}" d "${etendue_draco_codec}" gltf_decoder.cc.o gltf_encoder.cc.o gltf_utils.cc.o
+            tiny_gltf_utils.cc.o
+    COMMAND_ERROR_IS_FATAL ANY)
+endif()
+add_library(etendue_draco STATIC IMPORTED GLOBAL)
+set_target_properties(etendue_draco PROPERTIES IMPORTED_LOCATION "${etendue_draco_codec}")
+etendue_find(meshoptimizer libmeshoptimizer-dev)
 etendue_find(nlohmann_json nlohmann-json3-dev)
 etendue_find(fmt libfmt-dev)
 etendue_find(spdlog libspdlog-dev)

@@ -50,6 +50,7 @@ nlohmann::json summarize(const SceneDesc& s) {
             {"images", s.images.size()},
             {"lights", names(s.lights)},
             {"cameras", names(s.cameras)},
+            {"variants", s.variants},
             {"environment", s.environment.enabled},
             {"extensions_used", s.extensions_used},
             {"extensions_ignored", s.extensions_ignored}};
@@ -71,6 +72,7 @@ Inspection inspect(const std::string& path) {
         }
     if (result.problems.has_errors()) return result;
     // Images are decoded and everything is built, because much of what can be wrong shows only then.
+    apply_variant(scene);
     add_missing_camera_and_light(scene, result.problems);
     try {
         (void)create_integrator(scene.settings);

@@ -138,6 +138,7 @@ void report_dropped(const RenderCounters& counters, const SceneRenderRequest& re
         settings.film.height, first.x, first.y, first.x + 1, first.y + 1, first.sample + 1, settings.seed,
         quoted(working_space));
     if (!settings.camera.empty()) command += " --camera " + quoted(settings.camera);
+    if (!settings.variant.empty()) command += " --variant " + quoted(settings.variant);
     if (request.overrides.environment) command += " --environment " + quoted(*request.overrides.environment);
     log_warning(
         "warning: {} samples were not finite and were dropped; the first is sample {} of pixel ({}, {}). To see it "
@@ -213,6 +214,7 @@ PreparedScene prepare_scene(const std::filesystem::path& path, const SettingsOve
     add_missing_camera_and_light(prepared.scene, prepared.problems);
     const ProblemList remaining = validate(prepared.scene);
     if (remaining.has_errors()) throw SceneError(remaining);
+    apply_variant(prepared.scene);
     prepared.load = timer.elapsed();
     return prepared;
 }

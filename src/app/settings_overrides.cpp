@@ -73,6 +73,7 @@ void SettingsOverrides::add_options(CLI::App& command) {
         "--crop", [this](const std::string& text) { crop = parse_crop(text); },
         "Render only pixels x0,y0,x1,y1 (half-open, y down)");
     command.add_option("--camera", camera, "Name of the camera (default: the first)");
+    command.add_option("--variant", variant, "Name of the file's set of materials (KHR_materials_variants)");
     command.add_option("--seed", seed, "Seed of everything random");
     command.add_option("--time", time_seconds, "Start no new pass after this many seconds")
         ->check(CLI::Range(1e-3, 1e9));
@@ -105,6 +106,7 @@ void SettingsOverrides::apply(SceneDesc& scene) const {
     set(spp, settings.spp, "/spp", "--spp");
     set(crop, settings.film.crop, "/crop", "--crop");
     set(camera, settings.camera, "/camera", "--camera");
+    set(variant, settings.variant, "/variant", "--variant");
     set(seed, settings.seed, "/seed", "--seed");
     set(time_seconds, settings.time_limit, "/time", "--time");
     set(exposure, settings.color.exposure, "/color/exposure", "--exposure");

@@ -29,6 +29,7 @@ struct SettingsOverrides {
     std::optional<std::array<int, 2>> size;
     std::optional<std::array<int, 4>> crop;
     std::optional<std::string> camera;
+    std::optional<std::string> variant;
     std::optional<std::uint32_t> seed;
     std::optional<double> time_seconds;
     std::optional<int> max_depth;

@@ -12,6 +12,7 @@ using namespace std::string_view_literals;
 // Deflate cannot expand by more than 1032 (258 bytes from 2 bits), which bounds PNG and, with the run lengths of their
 // other codecs, Radiance and TIFF. JPEG needs a bit per 8x8 block of the densest component: 512 pixels a byte of up to
 // four channels. OpenEXR's wavelet and DCT codecs pack up to 256 constant lines into a chunk of about a hundred bytes.
+// WebP's prefix codes need no bits at all where all pixels are equal; a picture of 2048 x 2048 of them still passes.
 constexpr std::array kFormats{
     EncodedFormat{"png", "\x89PNG\r\n\x1a\n"sv, 1100},
     EncodedFormat{"jpeg", "\xff\xd8\xff"sv, 2100},
@@ -20,17 +21,21 @@ constexpr std::array kFormats{
     EncodedFormat{"hdr", "#?RGBE"sv, 1100},
     EncodedFormat{"tiff", "II*\0"sv, 1100},
     EncodedFormat{"tiff", "MM\0*"sv, 1100},
+    EncodedFormat{"webp", "RIFF"sv, 200'000, "WEBP"sv},
 };
 
 }  // namespace
 
 std::optional<EncodedFormat> detect_format(std::span<const std::byte> head) {
     for (const EncodedFormat& format : kFormats) {
-        const auto matches = [](char expected, std::byte found) { return static_cast<std::byte>(expected) == found; };
-        if (head.size() >= format.magic.size() &&
-            std::equal(format.magic.begin(), format.magic.end(), head.begin(), matches)) {
-            return format;
-        }
+        const auto has = [head](std::string_view magic, std::size_t at) {
+            const auto matches = [](char expected, std::byte found) {
+                return static_cast<std::byte>(expected) == found;
+            };
+            return head.size() >= at + magic.size() &&
+                   std::equal(magic.begin(), magic.end(), head.begin() + static_cast<std::ptrdiff_t>(at), matches);
+        };
+        if (has(format.magic, 0) && (format.magic_at_8.empty() || has(format.magic_at_8, 8))) return format;
     }
     return std::nullopt;
 }

@@ -15,6 +15,8 @@ struct EncodedFormat {
     std::string_view magic;  ///< the bytes that every such file starts with
     /// Most bytes of decoded pixels that one encoded byte can stand for; a header that claims more is a lie.
     std::int64_t max_expansion;
+    std::string_view magic_at_8 =
+        {};  ///< and the bytes from the ninth on, in formats that are one of many in a container
 };
 
 /// How many bytes `detect_format` wants to see.

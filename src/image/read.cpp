@@ -85,7 +85,7 @@ OpenImage open_image(const ImageSource& source) {
     const Encoded encoded = std::visit([](const auto& place) { return look_at(place); }, source);
     if (encoded.size == 0) throw IoError("the file is empty");
     const auto format = detect_format(std::span(encoded.head).first(encoded.head_size));
-    if (!format) throw IoError("not an image of a known format (PNG, JPEG, OpenEXR, Radiance HDR, TIFF)");
+    if (!format) throw IoError("not an image of a known format (PNG, JPEG, WebP, OpenEXR, Radiance HDR, TIFF)");
 
     OpenImage image;
     image.format = *format;

@@ -13,6 +13,12 @@
 
 namespace etendue {
 
+/// The material of a primitive in one of the scene's variants.
+struct VariantMaterial {
+    std::uint32_t variant = 0;  ///< index into SceneDesc::variants
+    Handle<MaterialDesc> material;
+};
+
 /// Triangles with one material. Attribute arrays are empty or as long as `positions`. Strips and fans are already
 /// unrolled into `triangles`, whose indices are all below positions.size().
 struct PrimitiveDesc {
@@ -24,6 +30,7 @@ struct PrimitiveDesc {
     std::vector<Vec4f> colors;  ///< linear Rec.709 rgb and alpha, multiplied with the base colour
     std::vector<std::array<std::uint32_t, 3>> triangles;
     Handle<MaterialDesc> material;
+    std::vector<VariantMaterial> variants;  ///< where it has another material than `material`
     SourceLocation location;
 };
 

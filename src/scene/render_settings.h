@@ -44,6 +44,7 @@ struct RenderSettings {
     std::uint32_t seed = 0;
     double time_limit = 0.0;  ///< seconds; 0 for none. Rendering stops after the pass that exceeds it.
     std::string camera;       ///< name of the camera; empty for the first
+    std::string variant;      ///< KHR_materials_variants: name of the set of materials; empty for the file's default
     FilmSettings film;
     ColorSettings color;
     SourceLocation location;                     ///< of render.json

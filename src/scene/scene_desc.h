@@ -26,6 +26,7 @@ struct SceneDesc {
     std::vector<TextureDesc> textures;
     std::vector<MaterialDesc> materials;  ///< a primitive without one gets an index into here too
     std::vector<MeshDesc> meshes;
+    std::vector<std::string> variants;  ///< names of the sets of materials that the file offers
     std::vector<InstanceDesc> instances;
     std::vector<CameraDesc> cameras;
     std::vector<LightDesc> lights;
@@ -41,6 +42,10 @@ struct SceneDesc {
 /// outside the ranges that the structs state, names that do not exist. An empty list of errors means that `World`
 /// can be compiled from it.
 [[nodiscard]] ProblemList validate(const SceneDesc& scene);
+
+/// Gives every primitive the material that it has in the variant that the settings name, if they name one. The scene
+/// must have passed `validate`.
+void apply_variant(SceneDesc& scene);
 
 /// Human-readable text with everything but the bulk arrays, for `inspect` and for tests to compare.
 [[nodiscard]] std::string dump(const SceneDesc& scene);

@@ -62,6 +62,8 @@ void validate_primitive(const PrimitiveDesc& p, const SceneDesc& scene, ProblemL
                                                bad - p.triangles.begin(), (*bad)[0], (*bad)[1], (*bad)[2], n));
     }
     check_handle(p.material, scene.materials, "material", p.location, problems);
+    for (const VariantMaterial& v : p.variants)
+        check_handle(v.material, scene.materials, "material of a variant", p.location, problems);
 }
 
 }  // namespace

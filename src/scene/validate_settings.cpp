@@ -38,6 +38,14 @@ void validate_camera_name(const SceneDesc& scene, ProblemList& problems) {
                    fmt::format("there is no camera '{}'; {}", name, name_hint(name, names)));
 }
 
+void validate_variant(const SceneDesc& scene, ProblemList& problems) {
+    const std::string& name = scene.settings.variant;
+    if (name.empty() || std::ranges::find(scene.variants, name) != scene.variants.end()) return;
+    const std::vector<std::string_view> names(scene.variants.begin(), scene.variants.end());
+    problems.error(scene.settings.at("/variant"),
+                   fmt::format("there is no material variant '{}'; {}", name, name_hint(name, names)));
+}
+
 }  // namespace
 
 void validate_cameras(const SceneDesc& scene, ProblemList& problems) {
@@ -106,6 +114,7 @@ void validate_settings(const SceneDesc& scene, ProblemList& problems) {
     check(static_cast<double>(settings.color.exposure), -kMaxExposure, kMaxExposure, "exposure", "/color/exposure");
     validate_film(settings, problems);
     validate_camera_name(scene, problems);
+    validate_variant(scene, problems);
 }
 
 }  // namespace etendue

@@ -27,12 +27,6 @@ struct Expectation {
     const char* pointer;
 };
 
-/// Models that need what is not supported.
-const Expectation kRefusedModels[] = {
-    {"bunny.glb", Severity::Error, "EXT_meshopt_compression", "/extensionsRequired/0"},
-    {"heart_draco.glb", Severity::Error, "KHR_draco_mesh_compression", "/extensionsRequired/0"},
-};
-
 /// What is wrong with each broken file, and what becomes of it.
 const Expectation kBroken[] = {
     {"BoxBadNormals-glTF-Binary/BoxBadNormals.glb", Severity::Warning, "normals that are zero", "/NORMAL"},
@@ -75,10 +69,6 @@ TEST(SharedAssets, ModelsLoad) {
     for (const std::filesystem::path& file : gltf_files(folder)) {
         SCOPED_TRACE(file);
         const LoadedScene loaded = inspect_scene(file);
-        if (const Expectation* refused = find_expectation(kRefusedModels, file.lexically_relative(folder).string())) {
-            check(*refused, loaded);
-            continue;
-        }
         EXPECT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
         EXPECT_FALSE(loaded.scene.instances.empty());
         EXPECT_FALSE(compute_bounds(loaded.scene).empty());

@@ -1,5 +1,6 @@
 #include "loader/gltf/gltf_accessor.h"
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 #include <type_traits>
@@ -26,8 +27,71 @@ std::size_t component_size(int component_type) {
     }
 }
 
-int component_count(int type) {
-    switch (type) {
+/// A number as it is, or as a fraction of its type's largest (3.11 of the specification: -128 counts as -127).
+template <typename In, typename Out, bool Normalized>
+Out convert(const unsigned char* bytes) {
+    In value;
+    std::memcpy(&value, bytes, sizeof(value));
+    if constexpr (Normalized) {
+        return std::max(Out{-1}, static_cast<Out>(value) / static_cast<Out>(std::numeric_limits<In>::max()));
+    } else {
+        return static_cast<Out>(value);
+    }
+}
+
+/// Copies `components` numbers of type `In` from `bytes`.
+template <typename In, typename Out, bool Normalized>
+void convert_element(const unsigned char* bytes, std::size_t components, Out* out) {
+    for (std::size_t c = 0; c < components; ++c) out[c] = convert<In, Out, Normalized>(bytes + c * sizeof(In));
+}
+
+template <typename Out, bool Normalized>
+auto integer_converter(int component_type) -> void (*)(const unsigned char*, std::size_t, Out*) {
+    switch (component_type) {
+        case TINYGLTF_COMPONENT_TYPE_BYTE:
+            return convert_element<std::int8_t, Out, Normalized>;
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+            return convert_element<std::uint8_t, Out, Normalized>;
+        case TINYGLTF_COMPONENT_TYPE_SHORT:
+            return convert_element<std::int16_t, Out, Normalized>;
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+            return convert_element<std::uint16_t, Out, Normalized>;
+        default:
+            return convert_element<std::uint32_t, Out, Normalized>;
+    }
+}
+
+template <typename Out>
+auto element_converter(int component_type, bool normalized) -> void (*)(const unsigned char*, std::size_t, Out*) {
+    if (component_type == TINYGLTF_COMPONENT_TYPE_FLOAT) return convert_element<float, Out, false>;
+    if constexpr (std::is_floating_point_v<Out>) {
+        if (normalized) return integer_converter<Out, true>(component_type);
+    }
+    return integer_converter<Out, false>(component_type);
+}
+
+/// The set that an accessor's integers belong to; none for floats and 32 bits.
+unsigned integer_types(const tinygltf::Accessor& a) {
+    switch (a.componentType) {
+        case TINYGLTF_COMPONENT_TYPE_BYTE:
+        case TINYGLTF_COMPONENT_TYPE_SHORT:
+            return a.normalized ? kSignedFractions : kSigned;
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+            return a.normalized ? kUnsignedFractions : kUnsigned;
+        default:
+            return kNoIntegers;
+    }
+}
+
+std::size_t as_index(int index) {
+    return static_cast<std::size_t>(index);
+}
+
+}  // namespace
+
+int component_count(const tinygltf::Accessor& accessor) {
+    switch (accessor.type) {
         case TINYGLTF_TYPE_SCALAR:
             return 1;
         case TINYGLTF_TYPE_VEC2:
@@ -37,46 +101,9 @@ int component_count(int type) {
         case TINYGLTF_TYPE_VEC4:
             return 4;
         default:
-            return 0;  // matrices are not vertex data
+            return 0;
     }
 }
-
-template <typename In, typename Out>
-Out convert(const unsigned char* bytes) {
-    In value;
-    std::memcpy(&value, bytes, sizeof(value));
-    if constexpr (std::is_integral_v<In> && std::is_floating_point_v<Out>) {
-        return static_cast<Out>(value) / static_cast<Out>(std::numeric_limits<In>::max());
-    } else {
-        return static_cast<Out>(value);
-    }
-}
-
-/// Copies `components` numbers of type `In` from `bytes`; integers become fractions if `Out` is a float.
-template <typename In, typename Out>
-void convert_element(const unsigned char* bytes, std::size_t components, Out* out) {
-    for (std::size_t c = 0; c < components; ++c) out[c] = convert<In, Out>(bytes + c * sizeof(In));
-}
-
-template <typename Out>
-auto element_converter(int component_type) -> void (*)(const unsigned char*, std::size_t, Out*) {
-    switch (component_type) {
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-            return convert_element<std::uint8_t, Out>;
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-            return convert_element<std::uint16_t, Out>;
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-            return convert_element<std::uint32_t, Out>;
-        default:
-            return convert_element<float, Out>;
-    }
-}
-
-std::size_t as_index(int index) {
-    return static_cast<std::size_t>(index);
-}
-
-}  // namespace
 
 DecodeBudget::DecodeBudget(const GltfDocument& document) : left_(std::uint64_t{1} << 30) {
     // Bytes grow at most fourfold on their way to floats; the rest is room for primitives that share their vertices.
@@ -89,6 +116,13 @@ bool DecodeBudget::take(std::uint64_t bytes) {
     left_ -= bytes;
     return true;
 }
+
+AccessorReader::AccessorReader(const GltfDocument& document, ProblemList& problems)
+    : document_(document),
+      problems_(problems),
+      budget_(document),
+      is_quantized_(std::ranges::find(document.extensions_used, "KHR_mesh_quantization") !=
+                    document.extensions_used.end()) {}
 
 std::optional<std::span<const unsigned char>> AccessorReader::view(int buffer_view, const SourceLocation& where) {
     const tinygltf::Model& model = document_.model;
@@ -165,14 +199,14 @@ bool AccessorReader::allocate(std::uint64_t count, std::uint64_t bytes, const So
 
 template <typename Out>
 std::optional<std::vector<Out>> AccessorReader::read(const tinygltf::Accessor& accessor, const SourceLocation& where) {
-    const std::size_t components = as_index(component_count(accessor.type));
+    const std::size_t components = as_index(component_count(accessor));
     const std::size_t element_size = components * component_size(accessor.componentType);
     const std::optional<Elements> source = elements(accessor, element_size, where);
     if (!source || !allocate(source->count, components * sizeof(Out), where)) return std::nullopt;
 
     std::vector<Out> values(source->count * components);
     if (source->first != nullptr) {
-        const auto convert_one = element_converter<Out>(accessor.componentType);
+        const auto convert_one = element_converter<Out>(accessor.componentType, accessor.normalized);
         for (std::size_t i = 0; i < source->count; ++i) {
             convert_one(source->first + i * source->stride, components, values.data() + i * components);
         }
@@ -185,7 +219,7 @@ template <typename Out>
 bool AccessorReader::read_sparse(const tinygltf::Accessor& accessor, std::vector<Out>& values,
                                  const SourceLocation& where) {
     const auto& sparse = accessor.sparse;
-    const std::size_t components = as_index(component_count(accessor.type));
+    const std::size_t components = as_index(component_count(accessor));
     const std::size_t count = as_index(sparse.count);
     const std::optional<Elements> targets =
         elements(sparse.indices.bufferView, static_cast<std::size_t>(sparse.indices.byteOffset), count,
@@ -195,8 +229,8 @@ bool AccessorReader::read_sparse(const tinygltf::Accessor& accessor, std::vector
                  components * component_size(accessor.componentType), where);
     if (!targets || !sources) return false;
 
-    const auto read_target = element_converter<std::uint32_t>(sparse.indices.componentType);
-    const auto convert_one = element_converter<Out>(accessor.componentType);
+    const auto read_target = element_converter<std::uint32_t>(sparse.indices.componentType, false);
+    const auto convert_one = element_converter<Out>(accessor.componentType, accessor.normalized);
     for (std::size_t i = 0; i < count; ++i) {
         std::uint32_t target = 0;
         read_target(targets->first + i * targets->stride, 1, &target);
@@ -210,6 +244,29 @@ bool AccessorReader::read_sparse(const tinygltf::Accessor& accessor, std::vector
     return true;
 }
 
+bool AccessorReader::check_format(const tinygltf::Accessor& a, const AttributeFormat& format,
+                                  const SourceLocation& where) {
+    const int components = component_count(a);
+    if (components < format.min_components || components > format.max_components) {
+        problems_.error(
+            where,
+            fmt::format(
+                "the accessor has {} components, but this attribute takes {}{}", components, format.min_components,
+                format.max_components > format.min_components ? fmt::format(" to {}", format.max_components) : ""));
+        return false;
+    }
+    const unsigned types = integer_types(a);
+    if (a.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT || (types & format.integers) != 0) return true;
+    const bool needs_extension = (types & format.quantized) != 0;
+    if (needs_extension && is_quantized_) return true;
+    problems_.error(where,
+                    fmt::format("the accessor stores this attribute as component type {}{}, which {}", a.componentType,
+                                a.normalized ? " (normalised)" : "",
+                                needs_extension ? "needs KHR_mesh_quantization among the extensions that the file uses"
+                                                : "it may not have"));
+    return false;
+}
+
 std::optional<AttributeData> AccessorReader::attribute(int accessor, const AttributeFormat& format,
                                                        const SourceLocation& where) {
     if (accessor < 0 || as_index(accessor) >= document_.model.accessors.size()) {
@@ -217,26 +274,10 @@ std::optional<AttributeData> AccessorReader::attribute(int accessor, const Attri
         return std::nullopt;
     }
     const tinygltf::Accessor& a = document_.model.accessors[as_index(accessor)];
-    const int components = component_count(a.type);
-    if (components < format.min_components || components > format.max_components) {
-        problems_.error(where, fmt::format("accessor {} has {} components, but this attribute takes {}{}", accessor,
-                                           components, format.min_components,
-                                           format.max_components > format.min_components
-                                               ? fmt::format(" to {}", format.max_components)
-                                               : ""));
-        return std::nullopt;
-    }
-    const bool is_unsigned_fraction = a.normalized && (a.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
-                                                       a.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT);
-    if (a.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT && !(format.normalized_integers && is_unsigned_fraction)) {
-        problems_.error(where, fmt::format("accessor {} stores this attribute as component type {}{}, which needs the "
-                                           "unsupported extension KHR_mesh_quantization",
-                                           accessor, a.componentType, a.normalized ? " (normalised)" : ""));
-        return std::nullopt;
-    }
+    if (!check_format(a, format, where)) return std::nullopt;
     std::optional<std::vector<float>> values = read<float>(a, where);
     if (!values) return std::nullopt;
-    return AttributeData{std::move(*values), components};
+    return AttributeData{std::move(*values), component_count(a)};
 }
 
 std::optional<std::vector<std::uint32_t>> AccessorReader::indices(int accessor, const SourceLocation& where) {

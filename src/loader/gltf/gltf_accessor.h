@@ -24,12 +24,26 @@ class DecodeBudget {
     std::uint64_t left_;
 };
 
-/// What a vertex attribute may be stored as (glTF 2.0 specification, 3.7.2.1, without KHR_mesh_quantization).
+/// Sets of integer types, of 8 and 16 bits each, that an attribute may be stored as besides floats.
+enum IntegerTypes : unsigned {
+    kNoIntegers = 0,
+    kUnsignedFractions = 1,  ///< normalised to [0, 1]
+    kSignedFractions = 2,    ///< normalised to [-1, 1]
+    kUnsigned = 4,           ///< as they are
+    kSigned = 8,
+    kAnyIntegers = 15
+};
+
+/// What a vertex attribute may be stored as (glTF 2.0 specification, 3.7.2.1).
 struct AttributeFormat {
     int min_components;
     int max_components;
-    bool normalized_integers;  ///< unsigned bytes and shorts are allowed besides floats
+    IntegerTypes integers = kNoIntegers;
+    IntegerTypes quantized = kNoIntegers;  ///< besides, where the file uses KHR_mesh_quantization
 };
+
+/// Components per element of an accessor; 0 for matrices, which are not vertex data.
+[[nodiscard]] int component_count(const tinygltf::Accessor& accessor);
 
 /// An attribute as floats, `components` of them per vertex.
 struct AttributeData {
@@ -39,16 +53,23 @@ struct AttributeData {
 
 class AccessorReader {
   public:
-    AccessorReader(const GltfDocument& document, ProblemList& problems)
-        : document_(document), problems_(problems), budget_(document) {}
+    AccessorReader(const GltfDocument& document, ProblemList& problems);
 
-    /// All values of a vertex attribute, sparse ones included, normalised integers scaled to [0, 1]. Nothing, and an
+    /// All values of a vertex attribute, sparse ones included, normalised integers scaled to fractions. Nothing, and an
     /// error at `where`, if the accessor is not of that format or reaches outside its buffer view.
     [[nodiscard]] std::optional<AttributeData> attribute(int accessor, const AttributeFormat& format,
                                                          const SourceLocation& where);
 
     /// All values of an index accessor; the same on errors.
     [[nodiscard]] std::optional<std::vector<std::uint32_t>> indices(int accessor, const SourceLocation& where);
+
+    /// True if the attribute's accessor has the `format`; otherwise an error at `where`.
+    [[nodiscard]] bool check_format(const tinygltf::Accessor& accessor, const AttributeFormat& format,
+                                    const SourceLocation& where);
+
+    /// Takes memory for `count` elements of `bytes` each from what may still be decoded; false and an error at `where`
+    /// if that is too much.
+    [[nodiscard]] bool allocate(std::uint64_t count, std::uint64_t bytes, const SourceLocation& where);
 
     /// The bytes of a buffer view, at most as many as may still be decoded; the same on errors.
     [[nodiscard]] std::optional<std::span<const unsigned char>> copyable_view(int buffer_view,
@@ -67,7 +88,6 @@ class AccessorReader {
                                                    std::size_t element_size, const SourceLocation& where);
     [[nodiscard]] std::optional<Elements> elements(const tinygltf::Accessor& accessor, std::size_t element_size,
                                                    const SourceLocation& where);
-    [[nodiscard]] bool allocate(std::uint64_t count, std::uint64_t bytes, const SourceLocation& where);
     template <typename Out>
     [[nodiscard]] std::optional<std::vector<Out>> read(const tinygltf::Accessor& accessor, const SourceLocation& where);
     template <typename Out>
@@ -77,6 +97,7 @@ class AccessorReader {
     const GltfDocument& document_;
     ProblemList& problems_;
     DecodeBudget budget_;
+    bool is_quantized_;  ///< the file uses KHR_mesh_quantization
 };
 
 }  // namespace etendue

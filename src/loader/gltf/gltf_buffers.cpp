@@ -1,6 +1,7 @@
 #include "loader/gltf/gltf_buffers.h"
 
 #include "loader/files.h"
+#include "loader/gltf/gltf_meshopt.h"
 #include "loader/json_text.h"
 
 #include <algorithm>
@@ -69,6 +70,10 @@ class BufferLoader {
 
 }  // namespace
 
+std::string buffer_name(std::size_t index) {
+    return fmt::format("buffer-{}", index);
+}
+
 bool is_data_uri(std::string_view uri) {
     return uri.substr(0, 5) == "data:";
 }
@@ -97,8 +102,14 @@ GltfBuffers load_gltf_buffers(nlohmann::json& document, std::optional<std::span<
     nlohmann::json& buffers = document["buffers"];
     for (std::size_t i = 0; i < buffers.size(); ++i) {
         try {
-            const std::string name = fmt::format("buffer-{}", i);
-            result.emplace(name, loader.load(buffers[i], i == 0));
+            const std::string name = buffer_name(i);
+            if (is_meshopt_fallback(buffers[i])) {
+                // A byte, as no buffer is empty; whatever still refers to it is outside.
+                buffers[i]["byteLength"] = 1;
+                result.emplace(name, std::vector<unsigned char>(1));
+            } else {
+                result.emplace(name, loader.load(buffers[i], i == 0));
+            }
             buffers[i]["uri"] = name;
         } catch (const IoError& error) {
             problems.error({file.file, child_pointer("/buffers", i)}, error.what());

@@ -3,6 +3,8 @@
 #include "loader/files.h"
 #include "loader/gltf/glb.h"
 #include "loader/gltf/gltf_buffers.h"
+#include "loader/gltf/gltf_draco.h"
+#include "loader/gltf/gltf_meshopt.h"
 #include "loader/gltf/gltf_shape.h"
 #include "loader/json_text.h"
 
@@ -21,9 +23,10 @@ namespace {
 using Json = nlohmann::json;
 
 /// To support another extension: its line here, its properties in gltf_shape_table.cpp, and whoever reads them.
-constexpr std::array<std::string_view, 6> kSupportedExtensions{"KHR_lights_punctual", "KHR_materials_emissive_strength",
-                                                               "KHR_materials_ior",   "KHR_materials_transmission",
-                                                               "KHR_materials_unlit", "KHR_texture_transform"};
+constexpr std::array<std::string_view, 12> kSupportedExtensions{
+    "EXT_mesh_gpu_instancing", "EXT_meshopt_compression",         "EXT_texture_webp",      "KHR_draco_mesh_compression",
+    "KHR_lights_punctual",     "KHR_materials_emissive_strength", "KHR_materials_ior",     "KHR_materials_transmission",
+    "KHR_materials_unlit",     "KHR_materials_variants",          "KHR_mesh_quantization", "KHR_texture_transform"};
 
 bool is_supported(std::string_view extension) {
     return std::ranges::find(kSupportedExtensions, extension) != kSupportedExtensions.end();
@@ -75,15 +78,21 @@ void check_version(const Json& document, const GltfDocument& result, ProblemList
     }
 }
 
-/// tinygltf refuses such accessors with a message that does not say where.
-void check_index_accessors(const Json& document, const GltfDocument& result, ProblemList& problems) {
+/// tinygltf refuses such accessors with a message that does not say where. Compressed primitives have their indices
+/// elsewhere; tinygltf need not see that they name an accessor.
+void check_index_accessors(Json& document, const GltfDocument& result, ProblemList& problems) {
     if (!document.contains("meshes")) return;
-    const Json& meshes = document["meshes"];
+    Json& meshes = document["meshes"];
     for (std::size_t m = 0; m < meshes.size(); ++m) {
-        const Json& primitives = meshes[m]["primitives"];
+        Json& primitives = meshes[m]["primitives"];
         for (std::size_t p = 0; p < primitives.size(); ++p) {
-            if (!primitives[p].contains("indices")) continue;
-            const auto accessor = primitives[p]["indices"].get<std::size_t>();
+            Json& primitive = primitives[p];
+            if (!primitive.contains("indices")) continue;
+            if (primitive.contains("extensions") && primitive["extensions"].contains(kDracoExtension)) {
+                primitive.erase("indices");
+                continue;
+            }
+            const auto accessor = primitive["indices"].get<std::size_t>();
             if (document["accessors"][accessor].contains("bufferView")) continue;
             problems.error(
                 result.at(fmt::format("/meshes/{}/primitives/{}/indices", m, p)),
@@ -228,6 +237,7 @@ GltfDocument read_gltf_document(const std::filesystem::path& file, ProblemList& 
     take_images(document, result, found);
     drop_unused_parts(document, result);
     GltfBuffers buffers = load_gltf_buffers(document, bin, result.directory, result.at(""), result.inputs, found);
+    expand_meshopt_views(document, buffers, result.at(""), found);
     throw_if_errors(found);
 
     bytes = {};

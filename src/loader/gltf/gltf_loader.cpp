@@ -44,7 +44,7 @@ void GltfLoader::load(const std::filesystem::path& file, SceneDesc& scene, Probl
     TextureReader textures(document, accessors, scene, problems);
     read_materials(document, textures, scene, problems);
     read_meshes(document, accessors, scene, problems);
-    read_nodes(document, scene, problems);
+    read_nodes(document, accessors, scene, problems);
 }
 
 }  // namespace etendue

@@ -1,5 +1,7 @@
 #include "loader/gltf/gltf_mesh.h"
 
+#include "loader/gltf/gltf_draco.h"
+#include "loader/gltf/gltf_value.h"
 #include "loader/gltf/repair_log.h"
 #include "loader/gltf/vertex_data.h"
 
@@ -14,10 +16,11 @@ namespace etendue {
 
 namespace {
 
-constexpr AttributeFormat kVec3{3, 3, false};
-constexpr AttributeFormat kVec4{4, 4, false};
-constexpr AttributeFormat kTexcoord{2, 2, true};
-constexpr AttributeFormat kColor{3, 4, true};
+constexpr AttributeFormat kPosition{3, 3, kNoIntegers, kAnyIntegers};
+constexpr AttributeFormat kNormal{3, 3, kNoIntegers, kSignedFractions};
+constexpr AttributeFormat kTangent{4, 4, kNoIntegers, kSignedFractions};
+constexpr AttributeFormat kTexcoord{2, 2, kUnsignedFractions, kAnyIntegers};
+constexpr AttributeFormat kColor{3, 4, kUnsignedFractions};
 
 bool is_finite_uv(const Vec2f& uv) {
     return std::isfinite(uv.x) && std::isfinite(uv.y);
@@ -33,6 +36,12 @@ class PrimitiveReader {
         source_ = &source;
         where_ = where;
         if (!is_renderable()) return std::nullopt;
+        draco_.reset();
+        if (source.extensions.contains(kDracoExtension)) {
+            draco_ = decode_draco(document_, source, accessors_, at(fmt::format("extensions/{}", kDracoExtension)),
+                                  problems_);
+            if (!draco_) return std::nullopt;
+        }
 
         PrimitiveDesc result;
         result.location = where;
@@ -67,7 +76,10 @@ class PrimitiveReader {
         const auto found = source_->attributes.find(name);
         if (found == source_->attributes.end()) return std::nullopt;
         const SourceLocation where = at("attributes/" + name);
-        std::optional<AttributeData> data = accessors_.attribute(found->second, format, where);
+        std::optional<AttributeData> data =
+            draco_ && draco_->attributes.contains(name)
+                ? decompressed(name, document_.model.accessors[static_cast<std::size_t>(found->second)], format, where)
+                : accessors_.attribute(found->second, format, where);
         if (!data) {
             failed_ = true;
             return std::nullopt;
@@ -81,11 +93,17 @@ class PrimitiveReader {
         return data;
     }
 
+    std::optional<AttributeData> decompressed(const std::string& name, const tinygltf::Accessor& accessor,
+                                              const AttributeFormat& format, const SourceLocation& where) {
+        if (!accessors_.check_format(accessor, format, where)) return std::nullopt;
+        return std::move(draco_->attributes[name]);
+    }
+
     /// Positions and triangles, checked, without degenerate triangles and unused vertices.
     bool read_triangles(PrimitiveDesc& result) {
         failed_ = false;
         vertex_count_ = 0;
-        const std::optional<AttributeData> data = attribute("POSITION", kVec3);
+        const std::optional<AttributeData> data = attribute("POSITION", kPosition);
         if (!data) return false;
         vertex_count_ = data->values.size() / 3;
         std::vector<Vec3f> positions(vertex_count_);
@@ -95,7 +113,7 @@ class PrimitiveReader {
 
         const std::optional<std::vector<std::uint32_t>> indices = read_indices();
         if (!indices || !check_positions(*indices, positions)) return false;
-        const auto mode = static_cast<TriangleMode>(source_->mode);
+        const auto mode = draco_ ? TriangleMode::List : static_cast<TriangleMode>(source_->mode);
         const bool is_list = mode == TriangleMode::List;
         if (is_list ? indices->size() % 3 != 0 : indices->size() < 3) repairs_.add(Repair::LeftoverIndices, 1, where_);
 
@@ -113,6 +131,7 @@ class PrimitiveReader {
     }
 
     std::optional<std::vector<std::uint32_t>> read_indices() {
+        if (draco_) return std::move(draco_->indices);
         if (source_->indices >= 0) return accessors_.indices(source_->indices, at("indices"));
         std::vector<std::uint32_t> indices(vertex_count_);
         std::iota(indices.begin(), indices.end(), 0u);
@@ -158,8 +177,8 @@ class PrimitiveReader {
         const auto make_vec2 = [](const float* v) { return Vec2f(v[0], v[1]); };
         const auto make_vec3 = [](const float* v) { return Vec3f(v[0], v[1], v[2]); };
         const auto make_vec4 = [](const float* v) { return Vec4f(v[0], v[1], v[2], v[3]); };
-        result.normals = gather<Vec3f>(attribute("NORMAL", kVec3), make_vec3);
-        result.tangents = gather<Vec4f>(attribute("TANGENT", kVec4), make_vec4);
+        result.normals = gather<Vec3f>(attribute("NORMAL", kNormal), make_vec3);
+        result.tangents = gather<Vec4f>(attribute("TANGENT", kTangent), make_vec4);
         result.uv0 = gather<Vec2f>(attribute("TEXCOORD_0", kTexcoord), make_vec2);
         result.uv1 = gather<Vec2f>(attribute("TEXCOORD_1", kTexcoord), make_vec2);
         const std::optional<AttributeData> colors = attribute("COLOR_0", kColor);
@@ -237,11 +256,26 @@ class PrimitiveReader {
 
     // The primitive being read.
     const tinygltf::Primitive* source_ = nullptr;
+    std::optional<DracoMesh> draco_;  ///< if it is compressed
     SourceLocation where_;
     std::size_t vertex_count_ = 0;     ///< of its accessors; 0 until the positions are read
     std::vector<std::uint32_t> kept_;  ///< vertices that some triangle uses
     bool failed_ = false;
 };
+
+/// KHR_materials_variants: the materials that the primitive has in other variants of the file.
+std::vector<VariantMaterial> read_variants(const tinygltf::Primitive& source) {
+    std::vector<VariantMaterial> result;
+    const tinygltf::Value* extension = find_extension(source.extensions, "KHR_materials_variants");
+    if (extension == nullptr) return result;
+    for_each_element(*extension, "mappings", [&](const tinygltf::Value& mapping) {
+        const Handle<MaterialDesc> material{integer_or(mapping, "material", 0)};
+        for_each_element(mapping, "variants", [&](const tinygltf::Value& variant) {
+            result.push_back({static_cast<std::uint32_t>(variant.GetNumberAsInt()), material});
+        });
+    });
+    return result;
+}
 
 /// Counts primitives that their material's textures would sample without coordinates.
 void check_texcoords(const PrimitiveDesc& p, const MaterialDesc& material, RepairLog& repairs) {
@@ -264,6 +298,11 @@ Handle<MaterialDesc> default_material(SceneDesc& scene, Handle<MaterialDesc>& ca
 }  // namespace
 
 void read_meshes(const GltfDocument& document, AccessorReader& accessors, SceneDesc& scene, ProblemList& problems) {
+    if (const tinygltf::Value* variants = find_extension(document.model.extensions, "KHR_materials_variants")) {
+        for_each_element(*variants, "variants", [&](const tinygltf::Value& variant) {
+            scene.variants.push_back(variant.Get("name").Get<std::string>());
+        });
+    }
     RepairLog repairs;
     PrimitiveReader reader(document, accessors, repairs, problems);
     Handle<MaterialDesc> default_handle;
@@ -279,6 +318,7 @@ void read_meshes(const GltfDocument& document, AccessorReader& accessors, SceneD
             const int material = source.primitives[i].material;
             primitive->material =
                 material >= 0 ? Handle<MaterialDesc>{material} : default_material(scene, default_handle, document.file);
+            primitive->variants = read_variants(source.primitives[i]);
             check_texcoords(*primitive, scene.materials[static_cast<std::size_t>(primitive->material.index)], repairs);
             mesh.primitives.push_back(std::move(*primitive));
         }

@@ -1,5 +1,7 @@
 #include "loader/gltf/gltf_nodes.h"
 
+#include "loader/gltf/gltf_instancing.h"
+#include "loader/gltf/gltf_transform.h"
 #include "loader/gltf/gltf_value.h"
 #include "scene/transform.h"
 
@@ -14,8 +16,6 @@
 namespace etendue {
 
 namespace {
-
-using Mat4d = Imath::M44d;
 
 /// Most nodes of a file, and so most instances, cameras and lights.
 constexpr std::size_t kMaxNodes = std::size_t{1} << 24;
@@ -86,29 +86,6 @@ std::vector<int> find_roots(const GltfDocument& document, const std::vector<int>
     return roots;
 }
 
-/// Rotation matrix of the quaternion x, y, z, w, which is normalised first. Nothing if it is zero.
-std::optional<Mat4d> rotation_matrix(const std::vector<double>& q) {
-    const double norm = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    if (!(norm > 1e-12) || !std::isfinite(norm)) return std::nullopt;
-    const double x = q[0] / norm;
-    const double y = q[1] / norm;
-    const double z = q[2] / norm;
-    const double w = q[3] / norm;
-    return Mat4d(1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w), 0,  //
-                 2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w), 0,  //
-                 2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y), 0,  //
-                 0, 0, 0, 1);
-}
-
-/// A glTF matrix, whose 16 numbers in memory are those of Imath's row-vector convention. Nothing if it is not affine.
-std::optional<Mat4d> affine_matrix(const std::vector<double>& m) {
-    constexpr double kTolerance = 1e-5;
-    const bool affine = std::abs(m[3]) <= kTolerance && std::abs(m[7]) <= kTolerance && std::abs(m[11]) <= kTolerance &&
-                        std::abs(m[15] - 1.0) <= kTolerance;
-    if (!affine) return std::nullopt;
-    return Mat4d(m[0], m[1], m[2], 0, m[4], m[5], m[6], 0, m[8], m[9], m[10], 0, m[12], m[13], m[14], 1);
-}
-
 Mat4d local_transform(const tinygltf::Node& node, const SourceLocation& where, ProblemList& problems) {
     if (node.matrix.size() == 16) {
         const std::optional<Mat4d> matrix = affine_matrix(node.matrix);
@@ -118,7 +95,8 @@ Mat4d local_transform(const tinygltf::Node& node, const SourceLocation& where, P
     Mat4d result;
     if (node.scale.size() == 3) result.setScale(Imath::V3d(node.scale[0], node.scale[1], node.scale[2]));
     if (node.rotation.size() == 4) {
-        const std::optional<Mat4d> rotation = rotation_matrix(node.rotation);
+        const std::optional<Mat4d> rotation =
+            rotation_matrix({node.rotation[0], node.rotation[1], node.rotation[2], node.rotation[3]});
         if (!rotation) problems.warning(where, "the rotation is a zero quaternion and is ignored");
         result *= rotation.value_or(Mat4d());
     }
@@ -128,22 +106,19 @@ Mat4d local_transform(const tinygltf::Node& node, const SourceLocation& where, P
     return result;
 }
 
-Mat4f to_float(const Mat4d& m) {
-    Mat4f result;
-    for (int row = 0; row < 4; ++row) {
-        for (int column = 0; column < 4; ++column) result[row][column] = static_cast<float>(m[row][column]);
-    }
-    return result;
-}
-
 /// Turns one node after the other into what it places.
 class Placer {
   public:
-    Placer(const GltfDocument& document, SceneDesc& scene, ProblemList& problems)
-        : document_(document), scene_(scene), problems_(problems) {}
+    Placer(const GltfDocument& document, AccessorReader& accessors, SceneDesc& scene, ProblemList& problems)
+        : document_(document), accessors_(accessors), scene_(scene), problems_(problems) {}
 
-    void place(const tinygltf::Node& node, const Mat4f& to_world, const SourceLocation& where) {
-        if (node.mesh >= 0) place_mesh(node, to_world, where);
+    void place(const tinygltf::Node& node, const Mat4d& node_to_world, const SourceLocation& where) {
+        const tinygltf::Value* instancing = find_extension(node.extensions, "EXT_mesh_gpu_instancing");
+        if (node.mesh >= 0 && instancing != nullptr)
+            place_instances(node, *instancing, node_to_world, where);
+        else if (node.mesh >= 0)
+            place_mesh(node, to_float(node_to_world), where);
+        const Mat4f to_world = to_float(node_to_world);
         const tinygltf::Value* light = find_extension(node.extensions, "KHR_lights_punctual");
         const int light_index = light != nullptr ? integer_or(*light, "light", -1) : -1;
         if (node.camera < 0 && light_index < 0) return;
@@ -158,6 +133,19 @@ class Placer {
     }
 
   private:
+    void place_instances(const tinygltf::Node& node, const tinygltf::Value& extension, const Mat4d& node_to_world,
+                         const SourceLocation& where) {
+        const SourceLocation at = document_.at(where.pointer + "/extensions/EXT_mesh_gpu_instancing");
+        const std::optional<std::vector<Mat4d>> transforms =
+            read_instance_transforms(extension, accessors_, at, problems_);
+        if (!transforms) return;
+        if (transforms->size() > kMaxNodes - std::min(kMaxNodes, scene_.instances.size())) {
+            problems_.error(at, fmt::format("more than {} instances in all", kMaxNodes));
+            return;
+        }
+        for (const Mat4d& to_node : *transforms) place_mesh(node, to_float(to_node * node_to_world), where);
+    }
+
     void place_mesh(const tinygltf::Node& node, const Mat4f& to_world, const SourceLocation& where) {
         const MeshDesc& mesh = scene_.meshes[static_cast<std::size_t>(node.mesh)];
         if (mesh.primitives.empty()) return;  // reported with the mesh
@@ -218,6 +206,7 @@ class Placer {
     }
 
     const GltfDocument& document_;
+    AccessorReader& accessors_;
     SceneDesc& scene_;
     ProblemList& problems_;
     std::set<std::string> camera_names_;
@@ -225,7 +214,8 @@ class Placer {
 };
 
 /// Depth first over the forest, with a stack of its own: hierarchies may be as deep as the file likes.
-void place_nodes(const GltfDocument& document, const std::vector<int>& roots, SceneDesc& scene, ProblemList& problems) {
+void place_nodes(const GltfDocument& document, const std::vector<int>& roots, AccessorReader& accessors,
+                 SceneDesc& scene, ProblemList& problems) {
     struct Visit {
         int node;
         Mat4d parent_to_world;
@@ -233,14 +223,14 @@ void place_nodes(const GltfDocument& document, const std::vector<int>& roots, Sc
     std::vector<Visit> stack;
     for (auto root = roots.rbegin(); root != roots.rend(); ++root) stack.push_back({*root, Mat4d()});
 
-    Placer placer(document, scene, problems);
+    Placer placer(document, accessors, scene, problems);
     while (!stack.empty()) {
         const Visit visit = stack.back();
         stack.pop_back();
         const tinygltf::Node& node = document.model.nodes[static_cast<std::size_t>(visit.node)];
         const SourceLocation where = document.at(fmt::format("/nodes/{}", visit.node));
         const Mat4d to_world = local_transform(node, where, problems) * visit.parent_to_world;
-        placer.place(node, to_float(to_world), where);
+        placer.place(node, to_world, where);
         for (auto child = node.children.rbegin(); child != node.children.rend(); ++child) {
             stack.push_back({*child, to_world});
         }
@@ -249,7 +239,7 @@ void place_nodes(const GltfDocument& document, const std::vector<int>& roots, Sc
 
 }  // namespace
 
-void read_nodes(const GltfDocument& document, SceneDesc& scene, ProblemList& problems) {
+void read_nodes(const GltfDocument& document, AccessorReader& accessors, SceneDesc& scene, ProblemList& problems) {
     if (document.model.nodes.size() > kMaxNodes) {
         problems.error(document.at("/nodes"), fmt::format("more than {} nodes", kMaxNodes));
         return;
@@ -261,7 +251,7 @@ void read_nodes(const GltfDocument& document, SceneDesc& scene, ProblemList& pro
     for (const Problem& problem : structure.all()) problems.add(problem);
     if (structure.has_errors()) return;
 
-    place_nodes(document, roots, scene, problems);
+    place_nodes(document, roots, accessors, scene, problems);
     if (scene.instances.empty()) problems.warning(document.at(""), "the scene shows no triangles");
 }
 

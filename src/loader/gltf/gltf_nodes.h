@@ -1,6 +1,7 @@
 // The node hierarchy to instances, cameras and lights in world space.
 #pragma once
 
+#include "loader/gltf/gltf_accessor.h"
 #include "loader/gltf/gltf_document.h"
 #include "scene/scene_desc.h"
 
@@ -9,6 +10,6 @@ namespace etendue {
 /// Appends what the nodes of the document's scene place: `scene`, else the first one, else all root nodes. The meshes
 /// must have been read. Errors if the nodes are no forest (a cycle, or a node with two parents) or a transform is not
 /// affine; nodes with a singular transform are left out with a warning.
-void read_nodes(const GltfDocument& document, SceneDesc& scene, ProblemList& problems);
+void read_nodes(const GltfDocument& document, AccessorReader& accessors, SceneDesc& scene, ProblemList& problems);
 
 }  // namespace etendue

@@ -54,13 +54,28 @@ constexpr Shape kNumber = number();
 
 // ---- buffers, views, accessors ----
 
+constexpr ShapeField kMeshoptBufferFields[] = {{"fallback", boolean()}};
+constexpr ShapeField kBufferExtensionFields[] = {{"EXT_meshopt_compression", object(kMeshoptBufferFields)}};
 constexpr ShapeField kBufferFields[] = {
     {"name", text()},
     {"uri", text()},
     {"byteLength", integer(1, kMaxOffset), true},
+    {"extensions", object(kBufferExtensionFields)},
 };
 constexpr Shape kBuffer = object(kBufferFields);
 
+constexpr std::string_view kMeshoptModes[] = {"ATTRIBUTES", "TRIANGLES", "INDICES"};
+constexpr std::string_view kMeshoptFilters[] = {"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL"};
+constexpr ShapeField kMeshoptViewFields[] = {
+    {"buffer", index_of("/buffers"), true},
+    {"byteOffset", integer(0, kMaxOffset)},
+    {"byteLength", integer(1, kMaxOffset), true},
+    {"byteStride", integer(2, 256), true},
+    {"count", integer(1, kMaxVertices), true},
+    {"mode", text(kMeshoptModes), true},
+    {"filter", text(kMeshoptFilters)},
+};
+constexpr ShapeField kBufferViewExtensionFields[] = {{"EXT_meshopt_compression", object(kMeshoptViewFields)}};
 constexpr ShapeField kBufferViewFields[] = {
     {"name", text()},
     {"buffer", index_of("/buffers"), true},
@@ -68,6 +83,7 @@ constexpr ShapeField kBufferViewFields[] = {
     {"byteLength", integer(1, kMaxOffset), true},
     {"byteStride", integer(4, 252)},
     {"target", integer(0, kMaxInt)},
+    {"extensions", object(kBufferViewExtensionFields)},
 };
 constexpr Shape kBufferView = object(kBufferViewFields);
 
@@ -122,11 +138,13 @@ constexpr ShapeField kSamplerFields[] = {
 };
 constexpr Shape kSampler = object(kSamplerFields);
 
+constexpr ShapeField kWebpFields[] = {{"source", index_of("/images"), true}};
+constexpr ShapeField kTextureExtensionFields[] = {{"EXT_texture_webp", object(kWebpFields)}};
 constexpr ShapeField kTextureFields[] = {
     {"name", text()},
     {"sampler", index_of("/samplers")},
     {"source", index_of("/images")},
-    {"extensions", object()},
+    {"extensions", object(kTextureExtensionFields)},
 };
 constexpr Shape kTexture = object(kTextureFields);
 
@@ -183,9 +201,26 @@ constexpr Shape kMaterial = object(kMaterialFields);
 
 constexpr Shape kAccessorIndex = index_of("/accessors");
 constexpr Shape kAttributes = map(kAccessorIndex);
+constexpr Shape kDracoId = integer(0, kMaxInt);
+constexpr ShapeField kDracoFields[] = {
+    {"bufferView", index_of("/bufferViews"), true},
+    {"attributes", map(kDracoId), true},
+};
+constexpr Shape kVariantIndex = index_of("/extensions/KHR_materials_variants/variants");
+constexpr ShapeField kVariantMappingFields[] = {
+    {"material", index_of("/materials"), true},
+    {"variants", array(kVariantIndex), true},
+};
+constexpr Shape kVariantMapping = object(kVariantMappingFields);
+constexpr ShapeField kPrimitiveVariantsFields[] = {{"mappings", array(kVariantMapping), true}};
+constexpr ShapeField kPrimitiveExtensionFields[] = {
+    {"KHR_draco_mesh_compression", object(kDracoFields)},
+    {"KHR_materials_variants", object(kPrimitiveVariantsFields)},
+};
 constexpr ShapeField kPrimitiveFields[] = {
-    {"attributes", kAttributes, true}, {"indices", index_of("/accessors")}, {"material", index_of("/materials")},
-    {"mode", integer(0, 6)},           {"targets", array(kAttributes)},
+    {"attributes", kAttributes, true},    {"indices", index_of("/accessors")},
+    {"material", index_of("/materials")}, {"mode", integer(0, 6)},
+    {"targets", array(kAttributes)},      {"extensions", object(kPrimitiveExtensionFields)},
 };
 constexpr Shape kPrimitive = object(kPrimitiveFields);
 constexpr ShapeField kMeshFields[] = {
@@ -197,7 +232,11 @@ constexpr Shape kMesh = object(kMeshFields);
 
 constexpr Shape kNodeIndex = index_of("/nodes");
 constexpr ShapeField kNodeLightFields[] = {{"light", index_of("/extensions/KHR_lights_punctual/lights"), true}};
-constexpr ShapeField kNodeExtensionFields[] = {{"KHR_lights_punctual", object(kNodeLightFields)}};
+constexpr ShapeField kInstancingFields[] = {{"attributes", kAttributes, true}};
+constexpr ShapeField kNodeExtensionFields[] = {
+    {"EXT_mesh_gpu_instancing", object(kInstancingFields)},
+    {"KHR_lights_punctual", object(kNodeLightFields)},
+};
 constexpr ShapeField kNodeFields[] = {
     {"name", text()},
     {"children", array(kNodeIndex)},
@@ -253,7 +292,13 @@ constexpr ShapeField kLightFields[] = {
 };
 constexpr Shape kLight = object(kLightFields);
 constexpr ShapeField kLightsFields[] = {{"lights", array(kLight), true}};
-constexpr ShapeField kDocumentExtensionFields[] = {{"KHR_lights_punctual", object(kLightsFields)}};
+constexpr ShapeField kVariantFields[] = {{"name", text(), true}};
+constexpr Shape kVariant = object(kVariantFields);
+constexpr ShapeField kVariantsFields[] = {{"variants", array(kVariant), true}};
+constexpr ShapeField kDocumentExtensionFields[] = {
+    {"KHR_lights_punctual", object(kLightsFields)},
+    {"KHR_materials_variants", object(kVariantsFields)},
+};
 
 // ---- the document ----
 

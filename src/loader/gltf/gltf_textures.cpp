@@ -2,6 +2,7 @@
 
 #include "image/read.h"
 #include "loader/files.h"
+#include "loader/gltf/gltf_value.h"
 #include "loader/json_text.h"
 
 #include <algorithm>
@@ -45,7 +46,10 @@ Handle<TextureDesc> TextureReader::texture(int index) {
 Handle<TextureDesc> TextureReader::read_texture(std::size_t index) {
     const tinygltf::Texture& source = document_.model.textures[index];
     const SourceLocation where = document_.at(fmt::format("/textures/{}", index));
-    if (source.source < 0) {
+    int image_index = source.source;
+    if (const tinygltf::Value* webp = find_extension(source.extensions, "EXT_texture_webp"))
+        image_index = integer_or(*webp, "source", image_index);
+    if (image_index < 0) {
         std::string extensions;
         for (const auto& [name, value] : source.extensions)
             extensions += (extensions.empty() ? "" : ", ") + shown(name);
@@ -55,7 +59,7 @@ Handle<TextureDesc> TextureReader::read_texture(std::size_t index) {
                             : "the texture's only image comes from an extension that is not supported: " + extensions);
         return {};
     }
-    const Handle<ImageDesc> pixels = image(static_cast<std::size_t>(source.source));
+    const Handle<ImageDesc> pixels = image(static_cast<std::size_t>(image_index));
     if (!pixels) return {};
 
     TextureDesc texture;
@@ -95,8 +99,8 @@ std::optional<ImageDesc> TextureReader::read_image(std::size_t index) {
         if (!take_pixels(source, image)) return std::nullopt;
         const ImageInfo info = image.path.empty() ? read_image_info(std::span<const std::byte>(image.encoded))
                                                   : read_image_info(image.path);
-        if (info.format != "png" && info.format != "jpeg") {
-            throw IoError("glTF images are PNG or JPEG, but this is " + info.format);
+        if (info.format != "png" && info.format != "jpeg" && info.format != "webp") {
+            throw IoError("glTF images are PNG, JPEG or (EXT_texture_webp) WebP, but this is " + info.format);
         }
         image.width = info.width;
         image.height = info.height;

@@ -33,4 +33,12 @@ namespace etendue {
     return object.Has(key) && object.Get(key).IsInt() ? object.Get(key).GetNumberAsInt() : fallback;
 }
 
+/// Calls `visit` with every element of the array `key` of `object`.
+template <typename Visit>
+void for_each_element(const tinygltf::Value& object, const std::string& key, const Visit& visit) {
+    if (!object.Has(key) || !object.Get(key).IsArray()) return;
+    const tinygltf::Value& array = object.Get(key);
+    for (int i = 0; static_cast<std::size_t>(i) < array.ArrayLen(); ++i) visit(array.Get(i));
+}
+
 }  // namespace etendue

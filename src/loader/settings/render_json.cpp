@@ -250,6 +250,7 @@ void read_document(const Json& value, ProblemList& problems, RenderJson& out) {
     JsonObject object(value, out.location, problems);
     RenderSettings& settings = out.settings;
     object.text("scene", out.scene);
+    object.text("variant", settings.variant);
     object.choice("sampler", kSamplers, settings.sampler);
     object.integer("spp", 1, kMaxSpp, settings.spp);
     object.integer("seed", 0, kMaxSeed, settings.seed);

@@ -221,5 +221,43 @@ TEST(Accessor, SharingTheSameBytesWithoutEndIsAnError) {
     EXPECT_TRUE(has_problem(loaded.problems, Severity::Error, "refers to the same bytes so often"));
 }
 
+/// A triangle whose positions, normals and texture coordinates are quantised.
+GltfBuilder quantized_triangle() {
+    GltfBuilder builder;
+    const std::vector<std::int16_t> positions{0, 0, 0, 0, 1000, 0, 0, 0, 0, -1000, 0, 0};
+    const std::vector<std::int8_t> normals{0, 0, 127, 0, 0, 0, 127, 0, 0, 0, -128, 0};
+    const std::vector<std::uint16_t> uvs{0, 0, 4096, 0, 0, 65535};
+    const int position = builder.accessor_of_view(builder.view(positions, 8), "VEC3", 5122, 3);
+    const int normal = builder.accessor_of_view(builder.view(normals, 4), "VEC3", 5120, 3, true);
+    const int uv = builder.accessor_of_view(builder.view(uvs, 4), "VEC2", 5123, 3);
+    builder.add_mesh({{"POSITION", position}, {"NORMAL", normal}, {"TEXCOORD_0", uv}});
+    builder.json["extensionsUsed"] = {"KHR_mesh_quantization"};
+    return builder;
+}
+
+TEST(Quantization, IntegersAreTakenAsTheyAreOrAsFractions) {
+    const LoadedScene loaded = quantized_triangle().load();
+    ASSERT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
+    const PrimitiveDesc& p = loaded.scene.meshes.at(0).primitives.at(0);
+    EXPECT_EQ(p.positions[1], Vec3f(1000, 0, 0));
+    EXPECT_EQ(p.positions[2], Vec3f(0, -1000, 0));
+    EXPECT_EQ(p.normals[0], Vec3f(0, 0, 1));
+    EXPECT_EQ(p.normals[2], Vec3f(0, 0, -1)) << "-128 counts as -127";
+    EXPECT_EQ(p.uv0[1], Vec2f(4096, 0));
+    EXPECT_EQ(p.uv0[2], Vec2f(0, 65535));
+}
+
+TEST(Quantization, NeedsTheExtension) {
+    GltfBuilder builder = quantized_triangle();
+    builder.json.erase("extensionsUsed");
+    EXPECT_TRUE(has_problem(builder.load().problems, Severity::Error, "KHR_mesh_quantization", "/POSITION"));
+}
+
+TEST(Quantization, DoesNotAllowEverything) {
+    GltfBuilder builder = quantized_triangle();
+    builder.json["accessors"][1]["normalized"] = false;
+    EXPECT_TRUE(has_problem(builder.load().problems, Severity::Error, "may not have", "/NORMAL"));
+}
+
 }  // namespace
 }  // namespace etendue

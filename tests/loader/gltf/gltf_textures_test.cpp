@@ -98,7 +98,7 @@ TEST(Textures, BadFilesAreErrors) {
     expect_error({{"uri", "a.png"}}, "not an image at all", "a.png");
     expect_error({{"uri", "a.png"}}, png_bytes().substr(0, 20), "a.png");
     expect_error({{"uri", "a.png"}}, "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n" + std::string(4, '\1'),
-                 "PNG or JPEG");
+                 "PNG, JPEG or");
     expect_error({{"uri", "data:image/png;base64,AAAA"}}, png_bytes(), "");
 
     std::string absurd = png_bytes();
@@ -133,9 +133,20 @@ TEST(Textures, OnlyFromAnUnsupportedExtensionIsAnError) {
 
 TEST(Textures, FallbackBesideAnUnsupportedExtensionIsUsed) {
     GltfBuilder builder = textured({{"uri", "a.png"}});
-    builder.json["extensionsUsed"] = {"EXT_texture_webp"};
-    builder.json["textures"][0]["extensions"] = {{"EXT_texture_webp", {{"source", 0}}}};
+    builder.json["extensionsUsed"] = {"KHR_texture_basisu"};
+    builder.json["textures"][0]["extensions"] = {{"KHR_texture_basisu", {{"source", 0}}}};
     EXPECT_EQ(only_image(load_with_file(builder, "a.png", png_bytes())).width, 1);
+}
+
+TEST(Textures, WebpComesBeforeItsFallback) {
+    GltfBuilder builder = textured({{"uri", "missing.png"}});
+    builder.json["images"].push_back(
+        {{"uri", "data:image/webp;base64,UklGRiYAAABXRUJQVlA4IBoAAAAwAQCdASoBAAEAAAAAJaQAA3AA/v/fbtQAAA=="}});
+    builder.json["extensionsUsed"] = {"EXT_texture_webp"};
+    builder.json["textures"][0]["extensions"] = {{"EXT_texture_webp", {{"source", 1}}}};
+    EXPECT_EQ(only_image(builder.load()).width, 1);
+    builder.json["textures"][0].erase("source");
+    EXPECT_EQ(only_image(builder.load()).width, 1);
 }
 
 TEST(Textures, UnusedImagesAreNotOpened) {

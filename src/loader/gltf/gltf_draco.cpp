@@ -1,0 +1,108 @@
+#include "loader/gltf/gltf_draco.h"
+
+#include "loader/gltf/gltf_value.h"
+
+#include <exception>
+#include <memory>
+
+#include <draco/compression/decode.h>
+#include <draco/core/decoder_buffer.h>
+#include <draco/mesh/mesh.h>
+#include <fmt/format.h>
+
+namespace etendue {
+
+namespace {
+
+/// The mesh, or an error text.
+std::unique_ptr<draco::Mesh> decode(std::span<const unsigned char> bytes, std::string& error) {
+    draco::DecoderBuffer buffer;
+    buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    try {
+        draco::Decoder decoder;
+        auto mesh = decoder.DecodeMeshFromBuffer(&buffer);
+        if (mesh.ok()) return std::move(mesh).value();
+        error = mesh.status().error_msg_string();
+    } catch (const std::exception& exception) {
+        error = exception.what();  // out of memory, among others
+    }
+    return nullptr;
+}
+
+/// Largest value of an accessor's integers, by which normalised ones are divided.
+float largest_integer(int component_type) {
+    switch (component_type) {
+        case TINYGLTF_COMPONENT_TYPE_BYTE:
+            return 127.0f;
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+            return 255.0f;
+        case TINYGLTF_COMPONENT_TYPE_SHORT:
+            return 32767.0f;
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+            return 65535.0f;
+        default:
+            return 1.0f;
+    }
+}
+
+/// One value for each point of the mesh. Empty if a value cannot be converted.
+std::vector<float> point_values(const draco::Mesh& mesh, const draco::PointAttribute& attribute, int components,
+                                const tinygltf::Accessor& accessor) {
+    std::vector<float> values(static_cast<std::size_t>(mesh.num_points()) * static_cast<std::size_t>(components));
+    for (draco::PointIndex point(0); point < mesh.num_points(); ++point) {
+        float* out = values.data() + point.value() * static_cast<std::size_t>(components);
+        const draco::AttributeValueIndex index = attribute.mapped_index(point);
+        if (!attribute.ConvertValue<float>(index, static_cast<std::int8_t>(components), out)) return {};
+    }
+    // Draco knows the type; whether integers are fractions is the accessor's to say.
+    if (accessor.normalized && !attribute.normalized())
+        for (float& value : values) value = std::max(-1.0f, value / largest_integer(accessor.componentType));
+    return values;
+}
+
+}  // namespace
+
+std::optional<DracoMesh> decode_draco(const GltfDocument& document, const tinygltf::Primitive& primitive,
+                                      AccessorReader& accessors, const SourceLocation& where, ProblemList& problems) {
+    const auto fail = [&](const std::string& message) {
+        problems.error(where, message);
+        return std::nullopt;
+    };
+    const tinygltf::Value& extension = *find_extension(primitive.extensions, kDracoExtension);
+    const auto bytes = accessors.copyable_view(integer_or(extension, "bufferView", -1), where);
+    if (!bytes) return std::nullopt;
+    std::string error;
+    const std::unique_ptr<draco::Mesh> mesh = decode(*bytes, error);
+    if (!mesh) return fail("the Draco data cannot be decoded: " + error);
+
+    DracoMesh result;
+    if (!accessors.allocate(mesh->num_faces(), 3 * sizeof(std::uint32_t), where)) return std::nullopt;
+    result.indices.reserve(std::size_t{3} * mesh->num_faces());
+    for (draco::FaceIndex face(0); face < mesh->num_faces(); ++face)
+        for (const draco::PointIndex& point : mesh->face(face)) result.indices.push_back(point.value());
+
+    const tinygltf::Value& names = extension.Get("attributes");
+    for (const std::string& name : names.Keys()) {
+        const auto named = primitive.attributes.find(name);
+        if (named == primitive.attributes.end()) continue;
+        const tinygltf::Accessor& accessor = document.model.accessors[static_cast<std::size_t>(named->second)];
+        const int id = names.Get(name).GetNumberAsInt();
+        const draco::PointAttribute* attribute = mesh->GetAttributeByUniqueId(static_cast<std::uint32_t>(id));
+        const int components = component_count(accessor);
+        if (attribute == nullptr) return fail(fmt::format("the Draco data has no attribute {} for {}", id, name));
+        if (components == 0 || attribute->num_components() != components)
+            return fail(fmt::format("{} has {} components in the Draco data, but {} in its accessor", name,
+                                    attribute->num_components(), components));
+        if (accessor.count != mesh->num_points())
+            return fail(fmt::format("the Draco data has {} vertices, but the accessor of {} has {}", mesh->num_points(),
+                                    name, accessor.count));
+        if (!accessors.allocate(mesh->num_points(), static_cast<std::uint64_t>(components) * sizeof(float), where))
+            return std::nullopt;
+        std::vector<float> values = point_values(*mesh, *attribute, components, accessor);
+        if (values.empty()) return fail("the Draco data cannot be converted to numbers");
+        result.attributes[name] = {std::move(values), components};
+    }
+    return result;
+}
+
+}  // namespace etendue

@@ -1,0 +1,138 @@
+#include "loader/gltf/gltf_meshopt.h"
+
+#include "loader/json_text.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <meshoptimizer.h>
+#include <nlohmann/json.hpp>
+
+namespace etendue {
+
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr const char* kExtension = "EXT_meshopt_compression";
+
+/// Most bytes that all views of a file may become.
+constexpr std::uint64_t kMaxDecoded = std::uint64_t{1} << 33;
+
+struct CompressedView {
+    std::span<const unsigned char> bytes;
+    std::string mode;
+    std::string filter;
+    std::uint64_t count;
+    std::uint64_t stride;
+
+    [[nodiscard]] std::uint64_t decoded_size() const { return count * stride; }
+};
+
+/// What is wrong with the numbers; an empty text if nothing is. The codecs demand what is checked here.
+std::string find_fault(const CompressedView& view) {
+    if (view.mode == "ATTRIBUTES") {
+        if (view.stride % 4 != 0 || view.stride == 0 || view.stride > 256)
+            return fmt::format("attributes have a stride that is a multiple of 4 up to 256, not {}", view.stride);
+    } else if (view.stride != 2 && view.stride != 4) {
+        return fmt::format("indices have a stride of 2 or 4, not {}", view.stride);
+    }
+    if (view.mode == "TRIANGLES" && view.count % 3 != 0)
+        return fmt::format("{} indices make no whole triangles", view.count);
+    if (view.filter != "NONE" && view.mode != "ATTRIBUTES") return "only attributes have filters";
+    if (view.filter == "OCTAHEDRAL" && view.stride != 4 && view.stride != 8)
+        return fmt::format("the octahedral filter needs a stride of 4 or 8, not {}", view.stride);
+    if (view.filter == "QUATERNION" && view.stride != 8)
+        return fmt::format("the quaternion filter needs a stride of 8, not {}", view.stride);
+    // The densest codes are two bits for 16 bytes of a vertex and a byte for a triangle, so a file that claims more
+    // lies, and must not get the memory first.
+    constexpr std::uint64_t kDensest = 64;
+    if (view.decoded_size() > kDensest * (view.bytes.size() + 64))
+        return fmt::format("{} elements of {} bytes cannot come out of {} bytes", view.count, view.stride,
+                           view.bytes.size());
+    return {};
+}
+
+void apply_filter(const CompressedView& view, std::vector<unsigned char>& decoded) {
+    if (view.filter == "OCTAHEDRAL") meshopt_decodeFilterOct(decoded.data(), view.count, view.stride);
+    if (view.filter == "QUATERNION") meshopt_decodeFilterQuat(decoded.data(), view.count, view.stride);
+    if (view.filter == "EXPONENTIAL") meshopt_decodeFilterExp(decoded.data(), view.count, view.stride);
+}
+
+/// Nothing if the codec refuses the bytes.
+std::optional<std::vector<unsigned char>> decode(const CompressedView& view) {
+    std::vector<unsigned char> decoded(view.decoded_size());
+    const auto* bytes = view.bytes.data();
+    const std::size_t size = view.bytes.size();
+    const int failure =
+        view.mode == "ATTRIBUTES"  ? meshopt_decodeVertexBuffer(decoded.data(), view.count, view.stride, bytes, size)
+        : view.mode == "TRIANGLES" ? meshopt_decodeIndexBuffer(decoded.data(), view.count, view.stride, bytes, size)
+                                   : meshopt_decodeIndexSequence(decoded.data(), view.count, view.stride, bytes, size);
+    if (failure != 0) return std::nullopt;
+    apply_filter(view, decoded);
+    return decoded;
+}
+
+/// The compressed bytes and how to read them. Throws IoError.
+CompressedView find_view(const Json& extension, const GltfBuffers& buffers) {
+    const std::string buffer = buffer_name(extension["buffer"].get<std::size_t>());
+    const auto found = buffers.find(buffer);
+    if (found == buffers.end()) throw IoError("its buffer could not be loaded");
+    const std::vector<unsigned char>& data = found->second;
+    const auto offset = extension.value("byteOffset", std::uint64_t{0});
+    const auto length = extension["byteLength"].get<std::uint64_t>();
+    if (offset > data.size() || length > data.size() - offset) {
+        throw IoError(fmt::format("it covers {} bytes from {}, but the buffer has {}", length, offset, data.size()));
+    }
+    return {std::span(data).subspan(offset, length), extension["mode"].get<std::string>(),
+            extension.value("filter", "NONE"), extension["count"].get<std::uint64_t>(),
+            extension["byteStride"].get<std::uint64_t>()};
+}
+
+}  // namespace
+
+bool is_meshopt_fallback(const Json& buffer) {
+    return buffer.contains("extensions") && buffer["extensions"].contains(kExtension) &&
+           buffer["extensions"][kExtension].value("fallback", false) && !buffer.contains("uri");
+}
+
+void expand_meshopt_views(Json& document, GltfBuffers& buffers, const SourceLocation& file, ProblemList& problems) {
+    if (!document.contains("bufferViews")) return;
+    Json& views = document["bufferViews"];
+    std::uint64_t total = 0;
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        Json& view = views[i];
+        if (!view.contains("extensions") || !view["extensions"].contains(kExtension)) continue;
+        const SourceLocation where{file.file,
+                                   child_pointer(child_pointer("/bufferViews", i), "extensions") + "/" + kExtension};
+        try {
+            const CompressedView compressed = find_view(view["extensions"][kExtension], buffers);
+            const std::string fault = find_fault(compressed);
+            if (!fault.empty()) throw IoError(fault);
+            total += compressed.decoded_size();
+            if (total > kMaxDecoded) throw IoError("all compressed views together would take too much memory");
+            std::optional<std::vector<unsigned char>> decoded = decode(compressed);
+            if (!decoded) throw IoError("the compressed bytes are damaged");
+
+            const std::size_t index = document["buffers"].size();
+            document["buffers"].push_back({{"uri", buffer_name(index)}, {"byteLength", decoded->size()}});
+            view["buffer"] = index;
+            view["byteOffset"] = 0;
+            view["byteLength"] = decoded->size();
+            if (compressed.mode == "ATTRIBUTES")
+                view["byteStride"] = compressed.stride;
+            else
+                view.erase("byteStride");
+            view.erase("extensions");
+            buffers.emplace(buffer_name(index), std::move(*decoded));
+        } catch (const IoError& error) {
+            problems.error(where, error.what());
+        }
+    }
+}
+
+}  // namespace etendue

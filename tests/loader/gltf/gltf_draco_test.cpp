@@ -1,0 +1,115 @@
+#include "loader/gltf/gltf_builder.h"
+
+#include <array>
+#include <functional>
+
+#include <draco/compression/encode.h>
+#include <draco/mesh/triangle_soup_mesh_builder.h>
+#include <gtest/gtest.h>
+
+namespace etendue {
+namespace {
+
+constexpr const char* kExtension = "KHR_draco_mesh_compression";
+
+/// Two triangles with positions (attribute 0) and colours as normalised bytes (attribute 1), compressed without loss.
+std::vector<char> encoded_square() {
+    using Corner = std::array<float, 3>;
+    const std::array<Corner, 6> corners{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0.5f}}};
+    draco::TriangleSoupMeshBuilder builder;
+    builder.Start(2);
+    const int positions = builder.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32);
+    const int colors = builder.AddAttribute(draco::GeometryAttribute::COLOR, 4, draco::DT_UINT8);
+    for (std::size_t face = 0; face < 2; ++face) {
+        const Corner* c = corners.data() + 3 * face;
+        builder.SetAttributeValuesForFace(positions, draco::FaceIndex(static_cast<std::uint32_t>(face)), c[0].data(),
+                                          c[1].data(), c[2].data());
+        const std::array<std::uint8_t, 4> rgba{255, 51, 0, 255};
+        builder.SetAttributeValuesForFace(colors, draco::FaceIndex(static_cast<std::uint32_t>(face)), rgba.data(),
+                                          rgba.data(), rgba.data());
+    }
+    const std::unique_ptr<draco::Mesh> mesh = builder.Finalize();
+    draco::Encoder encoder;
+    draco::EncoderBuffer buffer;
+    EXPECT_TRUE(encoder.EncodeMeshToBuffer(*mesh, &buffer).ok());
+    return {buffer.data(), buffer.data() + buffer.size()};
+}
+
+/// Accessors without buffer views, as exporters write them.
+int empty_accessor(GltfBuilder& builder, const char* type, int component_type, std::size_t count, bool normalized) {
+    builder.json["accessors"].push_back(
+        {{"type", type}, {"componentType", component_type}, {"count", count}, {"normalized", normalized}});
+    return static_cast<int>(builder.json["accessors"].size()) - 1;
+}
+
+GltfBuilder compressed_mesh(const std::vector<char>& encoded = encoded_square()) {
+    GltfBuilder builder;
+    const int view = builder.view(encoded);
+    const int positions = empty_accessor(builder, "VEC3", 5126, 4, false);
+    const int colors = empty_accessor(builder, "VEC4", 5121, 4, true);
+    nlohmann::json& primitive = builder.add_mesh({{"POSITION", positions}, {"COLOR_0", colors}});
+    primitive["indices"] = empty_accessor(builder, "SCALAR", 5125, 6, false);
+    primitive["extensions"][kExtension] = {{"bufferView", view}, {"attributes", {{"POSITION", 0}, {"COLOR_0", 1}}}};
+    builder.json["extensionsUsed"] = {kExtension};
+    builder.json["extensionsRequired"] = {kExtension};
+    return builder;
+}
+
+nlohmann::json& extension(GltfBuilder& builder) {
+    return builder.json["meshes"][0]["primitives"][0]["extensions"][kExtension];
+}
+
+TEST(Draco, GeometryComesOutAsItWentIn) {
+    const LoadedScene loaded = compressed_mesh().load();
+    ASSERT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
+    const PrimitiveDesc& p = loaded.scene.meshes.at(0).primitives.at(0);
+    ASSERT_EQ(p.positions.size(), 4u);
+    ASSERT_EQ(p.triangles.size(), 2u);
+    for (const auto& t : p.triangles)
+        EXPECT_NEAR(cross(p.positions[t[1]] - p.positions[t[0]], p.positions[t[2]] - p.positions[t[0]]).z, 1.0f, 1e-6f);
+    ASSERT_EQ(p.colors.size(), 4u);
+    EXPECT_EQ(p.colors[0], Vec4f(1.0f, 0.2f, 0.0f, 1.0f));
+}
+
+struct BadPrimitive {
+    const char* name;
+    const char* message;
+    std::function<void(GltfBuilder&)> spoil;
+};
+
+const BadPrimitive kBadPrimitives[] = {
+    {"UnknownAttribute", "no attribute 7", [](GltfBuilder& b) { extension(b)["attributes"]["POSITION"] = 7; }},
+    {"WrongCount", "4 vertices", [](GltfBuilder& b) { b.json["accessors"][0]["count"] = 5; }},
+    {"WrongComponents", "3 components", [](GltfBuilder& b) { extension(b)["attributes"]["COLOR_0"] = 0; }},
+    {"NoView", "refers to number 9", [](GltfBuilder& b) { extension(b)["bufferView"] = 9; }},
+    {"Cut", "cannot be decoded", [](GltfBuilder& b) { b.json["bufferViews"][0]["byteLength"] = 20; }},
+    {"Garbage", "cannot be decoded", [](GltfBuilder& b) { b.bin[0] = 'X'; }},
+    {"TypeNotAllowed", "may not have", [](GltfBuilder& b) { b.json["accessors"][1]["normalized"] = false; }},
+};
+
+class BadDraco : public testing::TestWithParam<BadPrimitive> {};
+
+TEST_P(BadDraco, IsAnError) {
+    GltfBuilder builder = compressed_mesh();
+    GetParam().spoil(builder);
+    const LoadedScene loaded = builder.load();
+    EXPECT_TRUE(has_problem(loaded.problems, Severity::Error, GetParam().message)) << listing(loaded.problems);
+}
+
+INSTANTIATE_TEST_SUITE_P(Draco, BadDraco, testing::ValuesIn(kBadPrimitives),
+                         [](const auto& i) { return i.param.name; });
+
+// Whatever a byte is changed to, the file loads or is refused.
+TEST(Draco, DamagedBytesAreNoDanger) {
+    const std::vector<char> good = encoded_square();
+    for (std::size_t i = 0; i < good.size(); ++i) {
+        for (const int value : {0x00, 0x7f, 0xff}) {
+            std::vector<char> bad = good;
+            bad[i] = static_cast<char>(value);
+            static_cast<void>(compressed_mesh(bad).load());
+        }
+    }
+}
+
+}  // namespace
+}  // namespace etendue

@@ -1,0 +1,58 @@
+#include "loader/gltf/gltf_builder.h"
+
+#include <cmath>
+#include <functional>
+
+#include <gtest/gtest.h>
+
+namespace etendue {
+namespace {
+
+/// A triangle whose node, moved by (0, 0, 10), places it with these attributes.
+GltfBuilder instanced(const std::function<nlohmann::json(GltfBuilder&)>& attributes) {
+    GltfBuilder builder;
+    builder.add_triangle();
+    builder.json["nodes"][0]["translation"] = {0, 0, 10};
+    builder.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"] = {{"attributes", attributes(builder)}};
+    builder.json["extensionsUsed"] = {"EXT_mesh_gpu_instancing"};
+    return builder;
+}
+
+TEST(GpuInstancing, PlacesTheMeshByScaleRotationAndTranslation) {
+    const float s = std::sqrt(0.5f);
+    const LoadedScene loaded = instanced([s](GltfBuilder& b) {
+                                   return nlohmann::json{{"TRANSLATION", b.floats({5, 0, 0, 0, 7, 0}, 3)},
+                                                         {"ROTATION", b.floats({0, 0, s, s, 0, 0, 0, 1}, 4)},
+                                                         {"SCALE", b.floats({2, 2, 2, 1, 1, 1}, 3)}};
+                               }).load();
+    ASSERT_EQ(loaded.scene.instances.size(), 2u) << listing(loaded.problems);
+    EXPECT_LT(length(transform_point(loaded.scene.instances[0].to_world, {1, 0, 0}) - Vec3f(5, 2, 10)), 1e-5f);
+    EXPECT_LT(length(transform_point(loaded.scene.instances[1].to_world, {1, 0, 0}) - Vec3f(1, 7, 10)), 1e-5f);
+}
+
+TEST(GpuInstancing, RotationsMayBeNormalisedIntegers) {
+    const LoadedScene loaded = instanced([](GltfBuilder& b) {
+                                   const std::vector<std::int16_t> half_turn{0, 0, 32767, 0};
+                                   return nlohmann::json{{"ROTATION", b.accessor(half_turn, "VEC4", 5122, 1, true)}};
+                               }).load();
+    ASSERT_EQ(loaded.scene.instances.size(), 1u) << listing(loaded.problems);
+    EXPECT_LT(length(transform_point(loaded.scene.instances[0].to_world, {1, 0, 0}) - Vec3f(-1, 0, 10)), 1e-4f);
+}
+
+TEST(GpuInstancing, AttributesOfDifferentLengthAreAnError) {
+    const LoadedScene loaded =
+        instanced([](GltfBuilder& b) {
+            return nlohmann::json{{"TRANSLATION", b.floats({5, 0, 0, 0, 7, 0}, 3)}, {"SCALE", b.floats({1, 1, 1}, 3)}};
+        }).load();
+    EXPECT_TRUE(has_problem(loaded.problems, Severity::Error, "1 values for 2 instances", "/attributes/SCALE"));
+}
+
+TEST(GpuInstancing, WrongTypesAreAnError) {
+    const LoadedScene loaded = instanced([](GltfBuilder& b) {
+                                   return nlohmann::json{{"TRANSLATION", b.floats({5, 0}, 2)}};
+                               }).load();
+    EXPECT_TRUE(has_problem(loaded.problems, Severity::Error, "2 components", "/attributes/TRANSLATION"));
+}
+
+}  // namespace
+}  // namespace etendue

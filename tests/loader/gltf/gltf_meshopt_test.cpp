@@ -1,0 +1,136 @@
+#include "loader/gltf/gltf_builder.h"
+
+#include <functional>
+
+#include <gtest/gtest.h>
+#include <meshoptimizer.h>
+
+namespace etendue {
+namespace {
+
+using Bytes = std::vector<unsigned char>;
+
+const std::vector<float> kPositions{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0.5f};
+const std::vector<std::uint32_t> kIndices{0, 1, 2, 2, 1, 3};
+
+Bytes encode_vertices(const void* vertices, std::size_t count, std::size_t stride) {
+    Bytes bytes(meshopt_encodeVertexBufferBound(count, stride));
+    bytes.resize(meshopt_encodeVertexBuffer(bytes.data(), bytes.size(), vertices, count, stride));
+    return bytes;
+}
+
+Bytes encode_triangles(const std::vector<std::uint32_t>& indices) {
+    Bytes bytes(meshopt_encodeIndexBufferBound(indices.size(), 4));
+    bytes.resize(meshopt_encodeIndexBuffer(bytes.data(), bytes.size(), indices.data(), indices.size()));
+    return bytes;
+}
+
+/// A view that lies in a buffer without bytes and whose content is `compressed`.
+int compressed_view(GltfBuilder& builder, const Bytes& compressed, std::size_t count, std::size_t stride,
+                    const char* mode, const char* filter = nullptr) {
+    const int source = builder.view(compressed);
+    const nlohmann::json from = builder.json["bufferViews"][static_cast<std::size_t>(source)];
+    nlohmann::json extension = {{"buffer", 0},
+                                {"byteOffset", from["byteOffset"]},
+                                {"byteLength", from["byteLength"]},
+                                {"byteStride", stride},
+                                {"count", count},
+                                {"mode", mode}};
+    if (filter != nullptr) extension["filter"] = filter;
+    builder.json["bufferViews"].push_back(
+        {{"buffer", 1}, {"byteLength", count * stride}, {"extensions", {{"EXT_meshopt_compression", extension}}}});
+    return static_cast<int>(builder.json["bufferViews"].size()) - 1;
+}
+
+/// Two triangles whose positions and indices are compressed.
+GltfBuilder compressed_mesh() {
+    GltfBuilder builder;
+    const int positions = compressed_view(builder, encode_vertices(kPositions.data(), 4, 12), 4, 12, "ATTRIBUTES");
+    const int indices = compressed_view(builder, encode_triangles(kIndices), 6, 4, "TRIANGLES");
+    builder.add_mesh({{"POSITION", builder.accessor_of_view(positions, "VEC3", 5126, 4)}})["indices"] =
+        builder.accessor_of_view(indices, "SCALAR", 5125, 6);
+    builder.json["extensionsUsed"] = {"EXT_meshopt_compression"};
+    builder.json["extensionsRequired"] = {"EXT_meshopt_compression"};
+    builder.json["buffers"] = {
+        {{"byteLength", builder.bin.size()}, {"uri", "scene.bin"}},
+        {{"byteLength", 1 << 20}, {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}}};
+    return builder;
+}
+
+nlohmann::json& extension(GltfBuilder& builder, std::size_t compressed) {
+    return builder.json["bufferViews"][2 * compressed + 1]["extensions"]["EXT_meshopt_compression"];
+}
+
+TEST(Meshopt, PositionsAndIndicesComeOutAsTheyWentIn) {
+    const LoadedScene loaded = compressed_mesh().load();
+    ASSERT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
+    const PrimitiveDesc& p = loaded.scene.meshes.at(0).primitives.at(0);
+    ASSERT_EQ(p.positions.size(), 4u);
+    EXPECT_EQ(p.positions[3], Vec3f(1, 1, 0.5f));
+    ASSERT_EQ(p.triangles.size(), 2u);
+    // The codec may turn a triangle around its corners, not over.
+    EXPECT_NEAR(cross(p.positions[p.triangles[0][1]] - p.positions[p.triangles[0][0]],
+                      p.positions[p.triangles[0][2]] - p.positions[p.triangles[0][0]])
+                    .z,
+                1.0f, 1e-6f);
+}
+
+TEST(Meshopt, FiltersAreApplied) {
+    GltfBuilder builder = compressed_mesh();
+    // Octahedral normals of eight bits: x, y, one, padding. (0, 0) is +z, (127, 0) is +x.
+    const std::vector<std::int8_t> octahedral{0, 0, 127, 0, 127, 0, 127, 0, 0, 127, 127, 0, 0, 0, 127, 0};
+    const int normals =
+        compressed_view(builder, encode_vertices(octahedral.data(), 4, 4), 4, 4, "ATTRIBUTES", "OCTAHEDRAL");
+    builder.json["buffers"][0]["byteLength"] = builder.bin.size();
+    builder.json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] =
+        builder.accessor_of_view(normals, "VEC3", 5120, 4, true);
+    builder.json["extensionsUsed"].push_back("KHR_mesh_quantization");
+    const LoadedScene loaded = builder.load();
+    ASSERT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
+    const PrimitiveDesc& p = loaded.scene.meshes.at(0).primitives.at(0);
+    EXPECT_LT(length(p.normals[0] - Vec3f(0, 0, 1)), 0.02f) << p.normals[0];
+    EXPECT_LT(length(p.normals[1] - Vec3f(1, 0, 0)), 0.02f) << p.normals[1];
+    EXPECT_LT(length(p.normals[2] - Vec3f(0, 1, 0)), 0.02f) << p.normals[2];
+}
+
+struct BadView {
+    const char* name;
+    const char* message;
+    std::function<void(GltfBuilder&)> spoil;
+};
+
+const BadView kBadViews[] = {
+    {"OutsideItsBuffer", "the buffer has", [](GltfBuilder& b) { extension(b, 0)["byteLength"] = 100000; }},
+    {"OffsetHuge", "the buffer has", [](GltfBuilder& b) { extension(b, 0)["byteOffset"] = 9007199254740992; }},
+    {"TooManyForItsBytes", "cannot come out of", [](GltfBuilder& b) { extension(b, 0)["count"] = 4294967290; }},
+    {"MoreThanItHolds", "damaged", [](GltfBuilder& b) { extension(b, 0)["count"] = 300; }},
+    {"Cut", "damaged", [](GltfBuilder& b) { extension(b, 1)["byteLength"] = 3; }},
+    {"NotTriangles", "no whole triangles", [](GltfBuilder& b) { extension(b, 1)["count"] = 5; }},
+    {"OddStride", "multiple of 4", [](GltfBuilder& b) { extension(b, 0)["byteStride"] = 10; }},
+    {"IndexStride", "stride of 2 or 4", [](GltfBuilder& b) { extension(b, 1)["byteStride"] = 12; }},
+    {"FilterOnIndices", "only attributes", [](GltfBuilder& b) { extension(b, 1)["filter"] = "EXPONENTIAL"; }},
+    {"FilterStride", "octahedral filter", [](GltfBuilder& b) { extension(b, 0)["filter"] = "OCTAHEDRAL"; }},
+    {"UnknownMode", "must be one of", [](GltfBuilder& b) { extension(b, 0)["mode"] = "POINTS"; }},
+    {"Garbage", "damaged", [](GltfBuilder& b) { b.bin[0] ^= 0xff; }},
+};
+
+class BadMeshopt : public testing::TestWithParam<BadView> {};
+
+TEST_P(BadMeshopt, IsAnError) {
+    GltfBuilder builder = compressed_mesh();
+    GetParam().spoil(builder);
+    const LoadedScene loaded = builder.load();
+    EXPECT_TRUE(has_problem(loaded.problems, Severity::Error, GetParam().message)) << listing(loaded.problems);
+}
+
+INSTANTIATE_TEST_SUITE_P(Meshopt, BadMeshopt, testing::ValuesIn(kBadViews),
+                         [](const auto& i) { return i.param.name; });
+
+TEST(Meshopt, PlainViewsOfTheFallbackBufferAreOutside) {
+    GltfBuilder builder = compressed_mesh();
+    builder.json["bufferViews"][1].erase("extensions");
+    EXPECT_TRUE(has_problem(builder.load().problems, Severity::Error, "but buffer 1 has 1"));
+}
+
+}  // namespace
+}  // namespace etendue
