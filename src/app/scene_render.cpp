@@ -138,6 +138,8 @@ void report_dropped(const RenderCounters& counters, const SceneRenderRequest& re
         settings.film.height, first.x, first.y, first.x + 1, first.y + 1, first.sample + 1, settings.seed,
         quoted(working_space));
     if (!settings.camera.empty()) command += " --camera " + quoted(settings.camera);
+    if (settings.time_code) command += fmt::format(" --time-code {}", *settings.time_code);
+    if (!settings.animation.empty()) command += " --animation " + quoted(settings.animation);
     if (!settings.variant.empty()) command += " --variant " + quoted(settings.variant);
     if (request.overrides.environment) command += " --environment " + quoted(*request.overrides.environment);
     log_warning(
@@ -206,7 +208,7 @@ OutputPaths OutputPaths::beside(const std::filesystem::path& exr) {
 
 PreparedScene prepare_scene(const std::filesystem::path& path, const SettingsOverrides& overrides) {
     const PhaseTimer timer;
-    LoadedScene loaded = load_scene(path);
+    LoadedScene loaded = load_scene(path, overrides.moment);
     PreparedScene prepared{std::move(loaded.scene), std::move(loaded.problems), {}};
     overrides.apply(prepared.scene);
     const std::filesystem::path colors = ColorConfig::environment_path();

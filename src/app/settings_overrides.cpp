@@ -73,6 +73,9 @@ void SettingsOverrides::add_options(CLI::App& command) {
         "--crop", [this](const std::string& text) { crop = parse_crop(text); },
         "Render only pixels x0,y0,x1,y1 (half-open, y down)");
     command.add_option("--camera", camera, "Name of the camera (default: the first)");
+    command.add_option("--time-code", moment.time_code, "Moment of the animation to show, seconds (default: at rest)");
+    command.add_option("--animation", moment.animation, "Name of the animation to show (default: the first)")
+        ->needs(command.get_option("--time-code"));
     command.add_option("--variant", variant, "Name of the file's set of materials (KHR_materials_variants)");
     command.add_option("--seed", seed, "Seed of everything random");
     command.add_option("--time", time_seconds, "Start no new pass after this many seconds")

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/error.h"
+#include "loader/loader.h"
 #include "output/exr_driver.h"
 #include "scene/scene_desc.h"
 
@@ -30,6 +31,7 @@ struct SettingsOverrides {
     std::optional<std::array<int, 4>> crop;
     std::optional<std::string> camera;
     std::optional<std::string> variant;
+    LoadOptions moment;
     std::optional<std::uint32_t> seed;
     std::optional<double> time_seconds;
     std::optional<int> max_depth;

@@ -6,9 +6,17 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
+#include <string>
 
 namespace etendue {
+
+/// Which moment of a scene is loaded.
+struct LoadOptions {
+    std::optional<double> time_code{};  ///< seconds of the animation; none for the scene at rest
+    std::string animation{};            ///< name; empty for the first
+};
 
 /// Reads one scene file format.
 ///
@@ -23,7 +31,8 @@ class SceneLoader {
 
     /// Fills `scene` from `file`. Every problem goes to `problems`; when nothing useful can follow, throws SceneError
     /// with those that are not in `problems` yet.
-    virtual void load(const std::filesystem::path& file, SceneDesc& scene, ProblemList& problems) const = 0;
+    virtual void load(const std::filesystem::path& file, const LoadOptions& options, SceneDesc& scene,
+                      ProblemList& problems) const = 0;
 };
 
 /// All loaders, in the order in which they are asked.
@@ -35,11 +44,11 @@ struct LoadedScene {
 };
 
 /// Loads the scene directory or file `path`: its scene file, then render.json beside it if there is one, then
-/// validates. Throws SceneError with all problems if any is an error.
-[[nodiscard]] LoadedScene load_scene(const std::filesystem::path& path);
+/// validates. What `options` leave open is as render.json says. Throws SceneError with all problems if any is an error.
+[[nodiscard]] LoadedScene load_scene(const std::filesystem::path& path, const LoadOptions& options = {});
 
 /// The same, but every problem is returned and none is thrown, for `inspect`.
-[[nodiscard]] LoadedScene inspect_scene(const std::filesystem::path& path);
+[[nodiscard]] LoadedScene inspect_scene(const std::filesystem::path& path, const LoadOptions& options = {});
 
 /// Every scene directory at or below `root`, sorted by path: a directory that holds a render.json or exactly one glTF
 /// file, also inside another one. Does not follow links. Throws SceneError if `root` is no directory.

@@ -102,7 +102,7 @@ std::string scene_name(const fs::path& path, bool is_directory) {
     return (full.has_filename() ? full.filename() : full.parent_path().filename()).string();
 }
 
-void load_into(const fs::path& path, SceneDesc& scene, ProblemList& problems) {
+void load_into(const fs::path& path, LoadOptions options, SceneDesc& scene, ProblemList& problems) {
     std::error_code code;
     const bool is_directory = fs::is_directory(path, code);
     if (!fs::exists(path, code)) throw SceneError({path.string(), {}}, "there is no such file or directory");
@@ -122,11 +122,15 @@ void load_into(const fs::path& path, SceneDesc& scene, ProblemList& problems) {
     if (loader == nullptr) {
         throw SceneError({scene.file.string(), {}}, "the file's format is not known; glTF files are .gltf or .glb");
     }
-    loader->load(scene.file, scene, problems);
+    if (settings && !options.time_code) options.time_code = settings->settings.time_code;
+    if (settings && options.animation.empty()) options.animation = settings->settings.animation;
+    loader->load(scene.file, options, scene, problems);
     if (settings) {
         scene.inputs.push_back(settings->location.file);
         apply_render_json(*settings, scene, problems);
     }
+    scene.settings.time_code = options.time_code;
+    scene.settings.animation = options.animation;
 }
 
 void append(const ProblemList& from, ProblemList& to) {
@@ -135,10 +139,10 @@ void append(const ProblemList& from, ProblemList& to) {
 
 }  // namespace
 
-LoadedScene inspect_scene(const fs::path& path) {
+LoadedScene inspect_scene(const fs::path& path, const LoadOptions& options) {
     LoadedScene result;
     try {
-        load_into(path, result.scene, result.problems);
+        load_into(path, options, result.scene, result.problems);
         append(validate(result.scene), result.problems);
     } catch (const SceneError& error) {
         append(error.problems(), result.problems);
@@ -148,8 +152,8 @@ LoadedScene inspect_scene(const fs::path& path) {
     return result;
 }
 
-LoadedScene load_scene(const fs::path& path) {
-    LoadedScene result = inspect_scene(path);
+LoadedScene load_scene(const fs::path& path, const LoadOptions& options) {
+    LoadedScene result = inspect_scene(path, options);
     if (result.problems.has_errors()) throw SceneError(result.problems);
     return result;
 }

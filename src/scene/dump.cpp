@@ -184,6 +184,7 @@ void dump_settings(const RenderSettings& s, Out out) {
                    s.film.filter_radius);
     if (s.film.crop) fmt::format_to(out, "crop: {}\n", fmt::join(*s.film.crop, " "));
     fmt::format_to(out, "camera used: \"{}\"\n", s.camera);
+    if (s.time_code) fmt::format_to(out, "time code {} of animation \"{}\"\n", *s.time_code, s.animation);
     if (!s.variant.empty()) fmt::format_to(out, "variant used: \"{}\"\n", s.variant);
     fmt::format_to(out, "colour: working space \"{}\", display \"{}\", view \"{}\", exposure {:g}\n",
                    s.color.working_space, s.color.display, s.color.view, s.color.exposure);

@@ -45,6 +45,8 @@ struct RenderSettings {
     double time_limit = 0.0;  ///< seconds; 0 for none. Rendering stops after the pass that exceeds it.
     std::string camera;       ///< name of the camera; empty for the first
     std::string variant;      ///< KHR_materials_variants: name of the set of materials; empty for the file's default
+    std::optional<double> time_code;  ///< seconds of the animation that is shown; none for the scene at rest
+    std::string animation;            ///< its name; empty for the file's first
     FilmSettings film;
     ColorSettings color;
     SourceLocation location;                     ///< of render.json

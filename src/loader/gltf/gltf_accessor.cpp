@@ -100,6 +100,8 @@ int component_count(const tinygltf::Accessor& accessor) {
             return 3;
         case TINYGLTF_TYPE_VEC4:
             return 4;
+        case TINYGLTF_TYPE_MAT4:
+            return 16;
         default:
             return 0;
     }

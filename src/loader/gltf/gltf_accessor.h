@@ -42,7 +42,7 @@ struct AttributeFormat {
     IntegerTypes quantized = kNoIntegers;  ///< besides, where the file uses KHR_mesh_quantization
 };
 
-/// Components per element of an accessor; 0 for matrices, which are not vertex data.
+/// Components per element of an accessor; 0 for matrices other than 4 × 4, which nothing uses.
 [[nodiscard]] int component_count(const tinygltf::Accessor& accessor);
 
 /// An attribute as floats, `components` of them per vertex.

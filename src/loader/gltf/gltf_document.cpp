@@ -123,10 +123,40 @@ void take_images(Json& document, GltfDocument& result, ProblemList& problems) {
     document.erase("images");
 }
 
-/// What the document holds besides a still scene; tinygltf need not read it.
-void drop_unused_parts(Json& document, GltfDocument& result) {
-    result.has_animations = document.erase("animations") > 0;
-    result.has_skins = document.erase("skins") > 0;
+GltfAnimation read_animation(const Json& json, std::string pointer) {
+    GltfAnimation animation{json.value("name", ""), std::move(pointer), {}, {}};
+    for (const Json& sampler : json["samplers"]) {
+        const std::string interpolation = sampler.value("interpolation", "LINEAR");
+        animation.samplers.push_back({sampler["input"].get<int>(), sampler["output"].get<int>(),
+                                      interpolation == "STEP"          ? Interpolation::Step
+                                      : interpolation == "CUBICSPLINE" ? Interpolation::CubicSpline
+                                                                       : Interpolation::Linear});
+    }
+    for (const Json& channel : json["channels"]) {
+        const Json& target = channel["target"];
+        animation.channels.push_back({channel["sampler"].get<std::size_t>(), target.value("node", -1),
+                                      shown(target["path"].get<std::string>())});
+    }
+    return animation;
+}
+
+/// Takes animations and skins out of the document: they are simple, and tinygltf asks more of them than glTF does.
+void take_animations_and_skins(Json& document, GltfDocument& result) {
+    if (document.contains("animations")) {
+        const Json& animations = document["animations"];
+        for (std::size_t i = 0; i < animations.size(); ++i)
+            result.animations.push_back(read_animation(animations[i], child_pointer("/animations", i)));
+    }
+    if (document.contains("skins")) {
+        for (const Json& json : document["skins"]) {
+            GltfSkin& skin = result.skins.emplace_back();
+            skin.joints = json["joints"].get<std::vector<int>>();
+            if (json.contains("inverseBindMatrices"))
+                skin.inverse_bind_matrices = json["inverseBindMatrices"].get<int>();
+        }
+    }
+    document.erase("animations");
+    document.erase("skins");
     document.erase("extras");
 }
 
@@ -235,7 +265,7 @@ GltfDocument read_gltf_document(const std::filesystem::path& file, ProblemList& 
     check_version(document, result, found);
     check_index_accessors(document, result, found);
     take_images(document, result, found);
-    drop_unused_parts(document, result);
+    take_animations_and_skins(document, result);
     GltfBuffers buffers = load_gltf_buffers(document, bin, result.directory, result.at(""), result.inputs, found);
     expand_meshopt_views(document, buffers, result.at(""), found);
     throw_if_errors(found);

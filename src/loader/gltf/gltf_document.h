@@ -21,13 +21,38 @@ struct GltfImage {
     std::vector<unsigned char> encoded;  ///< decoded data URI
 };
 
+enum class Interpolation { Linear, Step, CubicSpline };
+
+/// An animation as it stands in the file; accessors are checked, samplers of channels are not.
+struct GltfAnimation {
+    struct Sampler {
+        int input = -1;   ///< accessor of the keys' times
+        int output = -1;  ///< accessor of their values
+        Interpolation interpolation = Interpolation::Linear;
+    };
+    struct Channel {
+        std::size_t sampler = 0;
+        int node = -1;  ///< none: the target is an extension's
+        std::string path;
+    };
+    std::string name;
+    std::string pointer;
+    std::vector<Sampler> samplers;
+    std::vector<Channel> channels;
+};
+
+struct GltfSkin {
+    std::optional<int> inverse_bind_matrices;  ///< accessor; none for identities
+    std::vector<int> joints;                   ///< nodes
+};
+
 struct GltfDocument {
     tinygltf::Model model;  ///< without images, animations and skins
     std::vector<GltfImage> images;
+    std::vector<GltfAnimation> animations;
+    std::vector<GltfSkin> skins;
     std::filesystem::path directory;
-    std::string file;  ///< for messages
-    bool has_animations = false;
-    bool has_skins = false;
+    std::string file;                             ///< for messages
     std::vector<std::string> extensions_used;     ///< and supported
     std::vector<std::string> extensions_ignored;  ///< used, not supported, not required
     std::vector<std::filesystem::path> inputs;    ///< the file and the buffers it names

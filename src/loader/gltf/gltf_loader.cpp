@@ -1,6 +1,7 @@
 #include "loader/gltf/gltf_loader.h"
 
 #include "loader/gltf/gltf_accessor.h"
+#include "loader/gltf/gltf_animation.h"
 #include "loader/gltf/gltf_document.h"
 #include "loader/gltf/gltf_material.h"
 #include "loader/gltf/gltf_mesh.h"
@@ -28,23 +29,26 @@ bool GltfLoader::can_load(const std::filesystem::path& file) const {
     return stream && std::string_view(magic.data(), magic.size()) == "glTF";
 }
 
-void GltfLoader::load(const std::filesystem::path& file, SceneDesc& scene, ProblemList& problems) const {
+void GltfLoader::load(const std::filesystem::path& file, const LoadOptions& options, SceneDesc& scene,
+                      ProblemList& problems) const {
     const GltfDocument document = read_gltf_document(file, problems);
     scene.extensions_used = document.extensions_used;
     scene.extensions_ignored = document.extensions_ignored;
     scene.inputs.insert(scene.inputs.end(), document.inputs.begin(), document.inputs.end());
-    if (document.has_animations) {
-        problems.warning(document.at("/animations"), "animations are not supported: the scene is shown at rest");
-    }
-    if (document.has_skins) {
-        problems.warning(document.at("/skins"), "skins are not supported: meshes are shown where their nodes are");
-    }
-
     AccessorReader accessors(document, problems);
     TextureReader textures(document, accessors, scene, problems);
     read_materials(document, textures, scene, problems);
-    read_meshes(document, accessors, scene, problems);
-    read_nodes(document, accessors, scene, problems);
+    const std::vector<MeshDeformation> deformations = read_meshes(document, accessors, scene, problems);
+    NodePoses poses;
+    if (options.time_code) {
+        if (const GltfAnimation* animation = find_animation(document, options.animation, problems))
+            poses = sample_animation(document, *animation, *options.time_code, accessors, problems);
+    } else if (!document.animations.empty()) {
+        problems.note(document.at("/animations"),
+                      "the scene is shown at rest; --time-code SECONDS shows a moment of "
+                      "its animation");
+    }
+    read_nodes(document, accessors, deformations, poses, scene, problems);
 }
 
 }  // namespace etendue

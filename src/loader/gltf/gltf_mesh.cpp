@@ -32,7 +32,9 @@ class PrimitiveReader {
     PrimitiveReader(const GltfDocument& document, AccessorReader& accessors, RepairLog& repairs, ProblemList& problems)
         : document_(document), accessors_(accessors), repairs_(repairs), problems_(problems) {}
 
-    std::optional<PrimitiveDesc> read(const tinygltf::Primitive& source, const SourceLocation& where) {
+    /// What deforms it goes to `deformation`.
+    std::optional<PrimitiveDesc> read(const tinygltf::Primitive& source, const SourceLocation& where,
+                                      PrimitiveDeformation& deformation) {
         source_ = &source;
         where_ = where;
         if (!is_renderable()) return std::nullopt;
@@ -46,6 +48,8 @@ class PrimitiveReader {
         PrimitiveDesc result;
         result.location = where;
         if (!read_triangles(result) || !read_attributes(result)) return std::nullopt;
+        deformation.has_normals = !result.normals.empty();
+        if (!read_targets(deformation) || !read_influences(deformation)) return std::nullopt;
         repair_normals(result);
         repair_tangents(result);
         repair_texcoords(result);
@@ -55,7 +59,6 @@ class PrimitiveReader {
 
   private:
     bool is_renderable() {
-        if (!source_->targets.empty()) repairs_.add(Repair::MorphTargets, 1, where_);
         if (source_->mode < TINYGLTF_MODE_TRIANGLES || source_->mode > TINYGLTF_MODE_TRIANGLE_FAN) {
             repairs_.add(Repair::NotTriangles, 1, where_);
             return false;
@@ -188,38 +191,86 @@ class PrimitiveReader {
         return !failed_;
     }
 
+    /// The displacements of the vertices that are kept; empty if the target has none.
+    bool read_displacements(const std::map<std::string, int>& target, const std::string& name,
+                            const SourceLocation& where, std::vector<Vec3f>& out) {
+        const auto found = target.find(name);
+        if (found == target.end()) return true;
+        const std::optional<AttributeData> data =
+            accessors_.attribute(found->second, {3, 3, kNoIntegers, kAnyIntegers}, where);
+        if (!data) return false;
+        if (data->values.size() != 3 * vertex_count_) {
+            problems_.error(where,
+                            fmt::format("{} displacements for {} vertices", data->values.size() / 3, vertex_count_));
+            return false;
+        }
+        out = gather<Vec3f>(data, [](const float* v) { return Vec3f(v[0], v[1], v[2]); });
+        if (std::ranges::all_of(out, [](const Vec3f& d) { return is_finite(d); })) return true;
+        problems_.error(where, "a displacement is not finite");
+        return false;
+    }
+
+    bool read_targets(PrimitiveDeformation& deformation) {
+        for (std::size_t i = 0; i < source_->targets.size(); ++i) {
+            const std::map<std::string, int>& target = source_->targets[i];
+            MorphTarget& out = deformation.targets.emplace_back();
+            const auto where = [&](const char* name) { return at(fmt::format("targets/{}/{}", i, name)); };
+            if (!read_displacements(target, "POSITION", where("POSITION"), out.positions) ||
+                !read_displacements(target, "NORMAL", where("NORMAL"), out.normals) ||
+                !read_displacements(target, "TANGENT", where("TANGENT"), out.tangents))
+                return false;
+        }
+        return true;
+    }
+
+    /// JOINTS_n and WEIGHTS_n, as many sets as there are.
+    bool read_influences(PrimitiveDeformation& deformation) {
+        if (document_.skins.empty()) return true;
+        constexpr std::size_t kSet = 4;
+        std::vector<std::optional<AttributeData>> joints;
+        std::vector<std::optional<AttributeData>> weights;
+        for (std::size_t set = 0; source_->attributes.contains(fmt::format("JOINTS_{}", set)); ++set) {
+            joints.push_back(attribute(fmt::format("JOINTS_{}", set), {4, 4, kUnsigned}));
+            weights.push_back(attribute(fmt::format("WEIGHTS_{}", set), {4, 4, kUnsignedFractions}));
+            if (failed_ || !joints.back() || !weights.back()) {
+                if (!failed_) problems_.error(at("attributes"), fmt::format("JOINTS_{} has no WEIGHTS_{}", set, set));
+                return false;
+            }
+        }
+        deformation.influences = kSet * joints.size();
+        deformation.joints.reserve(kept_.size() * deformation.influences);
+        deformation.weights.reserve(kept_.size() * deformation.influences);
+        for (const std::uint32_t vertex : kept_) {
+            for (std::size_t i = 0; i < deformation.influences; ++i) {
+                const std::size_t value = std::size_t{vertex} * kSet + i % kSet;
+                const float joint = joints[i / kSet]->values[value];
+                const float weight = weights[i / kSet]->values[value];
+                if (!(weight >= 0.0f) || !std::isfinite(weight) || !(joint >= 0.0f) || !(joint <= 65535.0f)) {
+                    problems_.error(at("attributes"),
+                                    fmt::format("a joint or weight of vertex {} is not valid", vertex));
+                    return false;
+                }
+                deformation.joints.push_back(static_cast<std::uint32_t>(joint));
+                deformation.weights.push_back(weight);
+            }
+        }
+        return true;
+    }
+
     void repair_normals(PrimitiveDesc& p) {
         if (p.normals.empty()) {
             p.normals = area_weighted_normals(p.triangles, p.positions);
             p.tangents.clear();  // the specification: tangents without normals are ignored
             return;
         }
-        std::vector<Vec3f> generated;
-        std::size_t bad = 0;
-        for (std::size_t i = 0; i < p.normals.size(); ++i) {
-            const float squared = length_squared(p.normals[i]);
-            if (std::isnormal(squared)) {
-                p.normals[i] *= 1.0f / std::sqrt(squared);
-                continue;
-            }
-            if (generated.empty()) generated = area_weighted_normals(p.triangles, p.positions);
-            p.normals[i] = generated[i];
-            ++bad;
-        }
+        const std::size_t bad = normalize_normals(p.normals, p.triangles, p.positions);
         repairs_.add(Repair::BadNormals, bad, at("attributes/NORMAL"));
     }
 
     void repair_tangents(PrimitiveDesc& p) {
-        for (Vec4f& t : p.tangents) {
-            const float squared = t.x * t.x + t.y * t.y + t.z * t.z;
-            if (!std::isnormal(squared)) {
-                repairs_.add(Repair::BadTangents, 1, at("attributes/TANGENT"));
-                p.tangents.clear();
-                return;
-            }
-            const float scale = 1.0f / std::sqrt(squared);
-            t = {t.x * scale, t.y * scale, t.z * scale, t.w < 0.0f ? -1.0f : 1.0f};
-        }
+        if (normalize_tangents(p.tangents)) return;
+        repairs_.add(Repair::BadTangents, 1, at("attributes/TANGENT"));
+        p.tangents.clear();
     }
 
     void repair_texcoords(PrimitiveDesc& p) {
@@ -297,7 +348,9 @@ Handle<MaterialDesc> default_material(SceneDesc& scene, Handle<MaterialDesc>& ca
 
 }  // namespace
 
-void read_meshes(const GltfDocument& document, AccessorReader& accessors, SceneDesc& scene, ProblemList& problems) {
+std::vector<MeshDeformation> read_meshes(const GltfDocument& document, AccessorReader& accessors, SceneDesc& scene,
+                                         ProblemList& problems) {
+    std::vector<MeshDeformation> deformations(document.model.meshes.size());
     if (const tinygltf::Value* variants = find_extension(document.model.extensions, "KHR_materials_variants")) {
         for_each_element(*variants, "variants", [&](const tinygltf::Value& variant) {
             scene.variants.push_back(variant.Get("name").Get<std::string>());
@@ -310,11 +363,14 @@ void read_meshes(const GltfDocument& document, AccessorReader& accessors, SceneD
         const tinygltf::Mesh& source = document.model.meshes[m];
         MeshDesc mesh;
         mesh.name = source.name;
+        deformations[m].default_weights = source.weights;
         mesh.location = document.at(fmt::format("/meshes/{}", m));
         for (std::size_t i = 0; i < source.primitives.size(); ++i) {
             const SourceLocation where = document.at(fmt::format("/meshes/{}/primitives/{}", m, i));
-            std::optional<PrimitiveDesc> primitive = reader.read(source.primitives[i], where);
+            PrimitiveDeformation deformation;
+            std::optional<PrimitiveDesc> primitive = reader.read(source.primitives[i], where, deformation);
             if (!primitive) continue;
+            deformations[m].primitives.push_back(std::move(deformation));
             const int material = source.primitives[i].material;
             primitive->material =
                 material >= 0 ? Handle<MaterialDesc>{material} : default_material(scene, default_handle, document.file);
@@ -325,6 +381,7 @@ void read_meshes(const GltfDocument& document, AccessorReader& accessors, SceneD
         scene.meshes.push_back(std::move(mesh));
     }
     repairs.report(problems);
+    return deformations;
 }
 
 }  // namespace etendue

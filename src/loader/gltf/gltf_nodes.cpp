@@ -1,6 +1,7 @@
 #include "loader/gltf/gltf_nodes.h"
 
 #include "loader/gltf/gltf_instancing.h"
+#include "loader/gltf/gltf_mesh_deformer.h"
 #include "loader/gltf/gltf_transform.h"
 #include "loader/gltf/gltf_value.h"
 #include "scene/transform.h"
@@ -86,38 +87,60 @@ std::vector<int> find_roots(const GltfDocument& document, const std::vector<int>
     return roots;
 }
 
-Mat4d local_transform(const tinygltf::Node& node, const SourceLocation& where, ProblemList& problems) {
+Mat4d local_transform(const tinygltf::Node& node, const NodePose& pose, const SourceLocation& where,
+                      ProblemList& problems) {
     if (node.matrix.size() == 16) {
         const std::optional<Mat4d> matrix = affine_matrix(node.matrix);
         if (!matrix) problems.error(where, "the matrix is not affine: its fourth row must be 0, 0, 0, 1");
+        if (pose.translation || pose.rotation || pose.scale)
+            problems.warning(where, "the node has a matrix and cannot be animated: its animation is ignored");
         return matrix.value_or(Mat4d());
     }
+    // What is animated, or else what the node has.
+    const auto numbers = [](const auto& animated, const std::vector<double>& own) {
+        return animated ? std::vector<double>(animated->begin(), animated->end()) : own;
+    };
+    const std::vector<double> scale = numbers(pose.scale, node.scale);
+    const std::vector<double> rotation = numbers(pose.rotation, node.rotation);
+    const std::vector<double> translation = numbers(pose.translation, node.translation);
     Mat4d result;
-    if (node.scale.size() == 3) result.setScale(Imath::V3d(node.scale[0], node.scale[1], node.scale[2]));
-    if (node.rotation.size() == 4) {
-        const std::optional<Mat4d> rotation =
-            rotation_matrix({node.rotation[0], node.rotation[1], node.rotation[2], node.rotation[3]});
-        if (!rotation) problems.warning(where, "the rotation is a zero quaternion and is ignored");
-        result *= rotation.value_or(Mat4d());
+    if (scale.size() == 3) result.setScale(Imath::V3d(scale[0], scale[1], scale[2]));
+    if (rotation.size() == 4) {
+        const std::optional<Mat4d> matrix = rotation_matrix({rotation[0], rotation[1], rotation[2], rotation[3]});
+        if (!matrix) problems.warning(where, "the rotation is a zero quaternion and is ignored");
+        result *= matrix.value_or(Mat4d());
     }
-    if (node.translation.size() == 3) {
-        for (int i = 0; i < 3; ++i) result[3][i] = node.translation[static_cast<std::size_t>(i)];
+    if (translation.size() == 3) {
+        for (int i = 0; i < 3; ++i) result[3][i] = translation[static_cast<std::size_t>(i)];
     }
     return result;
+}
+
+const NodePose& pose_of(const NodePoses& poses, int node) {
+    static const NodePose kAtRest;
+    const auto found = poses.find(node);
+    return found == poses.end() ? kAtRest : found->second;
 }
 
 /// Turns one node after the other into what it places.
 class Placer {
   public:
-    Placer(const GltfDocument& document, AccessorReader& accessors, SceneDesc& scene, ProblemList& problems)
-        : document_(document), accessors_(accessors), scene_(scene), problems_(problems) {}
+    Placer(const GltfDocument& document, AccessorReader& accessors, MeshDeformer& deformer, SceneDesc& scene,
+           ProblemList& problems)
+        : document_(document), accessors_(accessors), deformer_(deformer), scene_(scene), problems_(problems) {}
 
-    void place(const tinygltf::Node& node, const Mat4d& node_to_world, const SourceLocation& where) {
-        const tinygltf::Value* instancing = find_extension(node.extensions, "EXT_mesh_gpu_instancing");
-        if (node.mesh >= 0 && instancing != nullptr)
-            place_instances(node, *instancing, node_to_world, where);
-        else if (node.mesh >= 0)
-            place_mesh(node, to_float(node_to_world), where);
+    void place(const tinygltf::Node& node, const NodePose& pose, const Mat4d& node_to_world,
+               const SourceLocation& where) {
+        if (node.mesh >= 0) {
+            const MeshDeformer::Result mesh = deformer_.deform(node, pose, where);
+            const tinygltf::Value* instancing = find_extension(node.extensions, "EXT_mesh_gpu_instancing");
+            if (mesh.is_in_world_space)
+                place_mesh(node, mesh.mesh, Mat4f(), where);
+            else if (instancing != nullptr)
+                place_instances(node, mesh.mesh, *instancing, node_to_world, where);
+            else
+                place_mesh(node, mesh.mesh, to_float(node_to_world), where);
+        }
         const Mat4f to_world = to_float(node_to_world);
         const tinygltf::Value* light = find_extension(node.extensions, "KHR_lights_punctual");
         const int light_index = light != nullptr ? integer_or(*light, "light", -1) : -1;
@@ -133,8 +156,8 @@ class Placer {
     }
 
   private:
-    void place_instances(const tinygltf::Node& node, const tinygltf::Value& extension, const Mat4d& node_to_world,
-                         const SourceLocation& where) {
+    void place_instances(const tinygltf::Node& node, Handle<MeshDesc> mesh, const tinygltf::Value& extension,
+                         const Mat4d& node_to_world, const SourceLocation& where) {
         const SourceLocation at = document_.at(where.pointer + "/extensions/EXT_mesh_gpu_instancing");
         const std::optional<std::vector<Mat4d>> transforms =
             read_instance_transforms(extension, accessors_, at, problems_);
@@ -143,11 +166,12 @@ class Placer {
             problems_.error(at, fmt::format("more than {} instances in all", kMaxNodes));
             return;
         }
-        for (const Mat4d& to_node : *transforms) place_mesh(node, to_float(to_node * node_to_world), where);
+        for (const Mat4d& to_node : *transforms) place_mesh(node, mesh, to_float(to_node * node_to_world), where);
     }
 
-    void place_mesh(const tinygltf::Node& node, const Mat4f& to_world, const SourceLocation& where) {
-        const MeshDesc& mesh = scene_.meshes[static_cast<std::size_t>(node.mesh)];
+    void place_mesh(const tinygltf::Node& node, Handle<MeshDesc> handle, const Mat4f& to_world,
+                    const SourceLocation& where) {
+        const MeshDesc& mesh = scene_.meshes[static_cast<std::size_t>(handle.index)];
         if (mesh.primitives.empty()) return;  // reported with the mesh
         if (!is_invertible(to_world)) {
             problems_.warning(where, "the node's transform is singular: its mesh is left out");
@@ -155,7 +179,7 @@ class Placer {
         }
         InstanceDesc& instance = scene_.instances.emplace_back();
         instance.name = node.name.empty() ? mesh.name : node.name;
-        instance.mesh.index = node.mesh;
+        instance.mesh = handle;
         instance.to_world = to_world;
         instance.location = where;
     }
@@ -207,39 +231,42 @@ class Placer {
 
     const GltfDocument& document_;
     AccessorReader& accessors_;
+    MeshDeformer& deformer_;
     SceneDesc& scene_;
     ProblemList& problems_;
     std::set<std::string> camera_names_;
     std::map<std::string, int> last_number_;  ///< by name, so that finding a free one does not start over
 };
 
-/// Depth first over the forest, with a stack of its own: hierarchies may be as deep as the file likes.
-void place_nodes(const GltfDocument& document, const std::vector<int>& roots, AccessorReader& accessors,
-                 SceneDesc& scene, ProblemList& problems) {
-    struct Visit {
-        int node;
-        Mat4d parent_to_world;
-    };
-    std::vector<Visit> stack;
-    for (auto root = roots.rbegin(); root != roots.rend(); ++root) stack.push_back({*root, Mat4d()});
+/// A node of the scene, where it is.
+struct PlacedNode {
+    int node;
+    Mat4d to_world;
+};
 
-    Placer placer(document, accessors, scene, problems);
+/// Depth first over the forest, with a stack of its own: hierarchies may be as deep as the file likes.
+std::vector<PlacedNode> walk(const GltfDocument& document, const std::vector<int>& roots, const NodePoses& poses,
+                             ProblemList& problems) {
+    std::vector<PlacedNode> placed;
+    std::vector<PlacedNode> stack;  // with the transforms of their parents
+    for (auto root = roots.rbegin(); root != roots.rend(); ++root) stack.push_back({*root, Mat4d()});
     while (!stack.empty()) {
-        const Visit visit = stack.back();
+        PlacedNode visit = stack.back();
         stack.pop_back();
         const tinygltf::Node& node = document.model.nodes[static_cast<std::size_t>(visit.node)];
         const SourceLocation where = document.at(fmt::format("/nodes/{}", visit.node));
-        const Mat4d to_world = local_transform(node, where, problems) * visit.parent_to_world;
-        placer.place(node, to_world, where);
-        for (auto child = node.children.rbegin(); child != node.children.rend(); ++child) {
-            stack.push_back({*child, to_world});
-        }
+        visit.to_world = local_transform(node, pose_of(poses, visit.node), where, problems) * visit.to_world;
+        for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
+            stack.push_back({*child, visit.to_world});
+        placed.push_back(visit);
     }
+    return placed;
 }
 
 }  // namespace
 
-void read_nodes(const GltfDocument& document, AccessorReader& accessors, SceneDesc& scene, ProblemList& problems) {
+void read_nodes(const GltfDocument& document, AccessorReader& accessors, std::span<const MeshDeformation> deformations,
+                const NodePoses& poses, SceneDesc& scene, ProblemList& problems) {
     if (document.model.nodes.size() > kMaxNodes) {
         problems.error(document.at("/nodes"), fmt::format("more than {} nodes", kMaxNodes));
         return;
@@ -251,7 +278,14 @@ void read_nodes(const GltfDocument& document, AccessorReader& accessors, SceneDe
     for (const Problem& problem : structure.all()) problems.add(problem);
     if (structure.has_errors()) return;
 
-    place_nodes(document, roots, accessors, scene, problems);
+    const std::vector<PlacedNode> nodes = walk(document, roots, poses, problems);
+    std::vector<std::optional<Mat4d>> to_world(document.model.nodes.size());
+    for (const PlacedNode& node : nodes) to_world[static_cast<std::size_t>(node.node)] = node.to_world;
+    MeshDeformer deformer(document, accessors, deformations, to_world, scene, problems);
+    Placer placer(document, accessors, deformer, scene, problems);
+    for (const PlacedNode& node : nodes)
+        placer.place(document.model.nodes[static_cast<std::size_t>(node.node)], pose_of(poses, node.node),
+                     node.to_world, document.at(fmt::format("/nodes/{}", node.node)));
     if (scene.instances.empty()) problems.warning(document.at(""), "the scene shows no triangles");
 }
 

@@ -2,14 +2,21 @@
 #pragma once
 
 #include "loader/gltf/gltf_accessor.h"
+#include "loader/gltf/gltf_animation.h"
+#include "loader/gltf/gltf_deformation.h"
 #include "loader/gltf/gltf_document.h"
 #include "scene/scene_desc.h"
+
+#include <span>
 
 namespace etendue {
 
 /// Appends what the nodes of the document's scene place: `scene`, else the first one, else all root nodes. The meshes
 /// must have been read. Errors if the nodes are no forest (a cycle, or a node with two parents) or a transform is not
 /// affine; nodes with a singular transform are left out with a warning.
-void read_nodes(const GltfDocument& document, AccessorReader& accessors, SceneDesc& scene, ProblemList& problems);
+/// `deformations` are those of the meshes, `poses` what an animation says of the nodes; skinned and morphed meshes are
+/// appended to the scene's as they are then.
+void read_nodes(const GltfDocument& document, AccessorReader& accessors, std::span<const MeshDeformation> deformations,
+                const NodePoses& poses, SceneDesc& scene, ProblemList& problems);
 
 }  // namespace etendue

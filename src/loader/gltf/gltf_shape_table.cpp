@@ -300,13 +300,42 @@ constexpr ShapeField kDocumentExtensionFields[] = {
     {"KHR_materials_variants", object(kVariantsFields)},
 };
 
+// ---- animations and skins ----
+
+constexpr std::string_view kInterpolations[] = {"LINEAR", "STEP", "CUBICSPLINE"};
+constexpr ShapeField kAnimationSamplerFields[] = {
+    {"input", index_of("/accessors"), true},
+    {"output", index_of("/accessors"), true},
+    {"interpolation", text(kInterpolations)},
+};
+constexpr Shape kAnimationSampler = object(kAnimationSamplerFields);
+constexpr ShapeField kTargetFields[] = {
+    {"node", index_of("/nodes")},
+    {"path", text(), true},
+};
+constexpr ShapeField kChannelFields[] = {
+    {"sampler", integer(0, kMaxInt), true},
+    {"target", object(kTargetFields), true},
+};
+constexpr Shape kChannel = object(kChannelFields);
+constexpr ShapeField kAnimationFields[] = {
+    {"name", text()},
+    {"samplers", array(kAnimationSampler), true},
+    {"channels", array(kChannel), true},
+};
+constexpr Shape kAnimation = object(kAnimationFields);
+constexpr ShapeField kSkinFields[] = {
+    {"inverseBindMatrices", index_of("/accessors")},
+    {"joints", array(kNodeIndex), true},
+};
+constexpr Shape kSkin = object(kSkinFields);
+
 // ---- the document ----
 
 constexpr ShapeField kAssetFields[] = {
     {"version", text(), true},
     {"minVersion", text()},
 };
-constexpr Shape kObject = object();
 constexpr ShapeField kDocumentFields[] = {
     {"asset", object(kAssetFields), true},
     {"extensionsUsed", array(kText)},
@@ -322,8 +351,8 @@ constexpr ShapeField kDocumentFields[] = {
     {"cameras", array(kCamera)},
     {"nodes", array(kNode)},
     {"scenes", array(kScene)},
-    {"skins", array(kObject)},
-    {"animations", array(kObject)},
+    {"skins", array(kSkin)},
+    {"animations", array(kAnimation)},
     {"scene", index_of("/scenes")},
     {"extensions", object(kDocumentExtensionFields)},
 };

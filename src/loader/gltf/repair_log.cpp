@@ -19,7 +19,6 @@ constexpr std::array<std::string_view, static_cast<std::size_t>(Repair::Count)> 
     "texture coordinates that are not finite are set to 0",
     "vertex colours that are negative or not finite are set to 0 or 1",
     "texture coordinates that a material needs are missing from its primitive; (0, 0) is used",
-    "morph targets are not supported and are ignored",
 };
 
 }  // namespace

@@ -19,7 +19,6 @@ enum class Repair {
     BadTexcoords,         ///< texture coordinates
     BadColors,            ///< vertex colours
     MissingTexcoords,     ///< primitives
-    MorphTargets,         ///< primitives
     Count
 };
 

@@ -95,4 +95,31 @@ std::vector<Vec3f> area_weighted_normals(std::span<const Triangle> triangles, st
     return normals;
 }
 
+std::size_t normalize_normals(std::vector<Vec3f>& normals, std::span<const Triangle> triangles,
+                              std::span<const Vec3f> positions) {
+    std::vector<Vec3f> generated;
+    std::size_t bad = 0;
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+        const float squared = length_squared(normals[i]);
+        if (std::isnormal(squared)) {
+            normals[i] *= 1.0f / std::sqrt(squared);
+            continue;
+        }
+        if (generated.empty()) generated = area_weighted_normals(triangles, positions);
+        normals[i] = generated[i];
+        ++bad;
+    }
+    return bad;
+}
+
+bool normalize_tangents(std::vector<Vec4f>& tangents) {
+    for (Vec4f& t : tangents) {
+        const float squared = t.x * t.x + t.y * t.y + t.z * t.z;
+        if (!std::isnormal(squared)) return false;
+        const float scale = 1.0f / std::sqrt(squared);
+        t = {t.x * scale, t.y * scale, t.z * scale, t.w < 0.0f ? -1.0f : 1.0f};
+    }
+    return true;
+}
+
 }  // namespace etendue

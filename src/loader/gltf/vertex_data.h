@@ -30,4 +30,12 @@ std::size_t remove_degenerate_triangles(std::vector<Triangle>& triangles, std::s
 [[nodiscard]] std::vector<Vec3f> area_weighted_normals(std::span<const Triangle> triangles,
                                                        std::span<const Vec3f> positions);
 
+/// Makes `normals` unit length; those that are zero or not finite become `area_weighted_normals`. Returns how many
+/// were.
+std::size_t normalize_normals(std::vector<Vec3f>& normals, std::span<const Triangle> triangles,
+                              std::span<const Vec3f> positions);
+
+/// Makes the vectors of `tangents` unit length and their signs 1 or -1. False if one is zero or not finite.
+[[nodiscard]] bool normalize_tangents(std::vector<Vec4f>& tangents);
+
 }  // namespace etendue

@@ -251,6 +251,8 @@ void read_document(const Json& value, ProblemList& problems, RenderJson& out) {
     RenderSettings& settings = out.settings;
     object.text("scene", out.scene);
     object.text("variant", settings.variant);
+    if (double seconds = 0.0; object.number("time_code", kAnyNumber, seconds)) settings.time_code = seconds;
+    object.text("animation", settings.animation);
     object.choice("sampler", kSamplers, settings.sampler);
     object.integer("spp", 1, kMaxSpp, settings.spp);
     object.integer("seed", 0, kMaxSeed, settings.seed);

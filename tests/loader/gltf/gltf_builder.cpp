@@ -100,10 +100,10 @@ void GltfBuilder::write(const TempDir& directory) const {
     directory.write("scene.bin", std::string(bin.begin(), bin.end()));
 }
 
-LoadedScene GltfBuilder::load() const {
+LoadedScene GltfBuilder::load(const LoadOptions& options) const {
     const TempDir directory;
     write(directory);
-    return inspect_scene(directory.path() / "scene.gltf");
+    return inspect_scene(directory.path() / "scene.gltf", options);
 }
 
 const std::string& png_bytes() {

@@ -67,7 +67,7 @@ class GltfBuilder {
     void write(const TempDir& directory) const;
 
     /// Writes to a new directory and loads from it.
-    [[nodiscard]] LoadedScene load() const;
+    [[nodiscard]] LoadedScene load(const LoadOptions& options = {}) const;
 
   private:
     int view_bytes(const void* data, std::size_t size, int stride);

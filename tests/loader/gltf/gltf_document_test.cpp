@@ -188,16 +188,5 @@ TEST(GltfDocument, BuffersFromDataUris) {
     EXPECT_EQ(loaded.scene.meshes.at(0).primitives.at(0).positions.at(2), Vec3f(0, 1, 0));
 }
 
-TEST(GltfDocument, AnimationsAndSkinsAreWarnings) {
-    GltfBuilder builder = triangle();
-    builder.json["animations"] = {{{"channels", "nonsense"}}};
-    builder.json["skins"] = {{{"joints", {0}}}};
-    builder.json["nodes"][0]["skin"] = 0;
-    const LoadedScene loaded = builder.load();
-    EXPECT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
-    EXPECT_TRUE(has_problem(loaded.problems, Severity::Warning, "animations", "/animations"));
-    EXPECT_TRUE(has_problem(loaded.problems, Severity::Warning, "skins", "/skins"));
-}
-
 }  // namespace
 }  // namespace etendue

@@ -185,12 +185,5 @@ TEST(Mesh, PrimitivesWithoutMaterialShareOne) {
     EXPECT_EQ(loaded.scene.meshes[2].primitives[0].material.index, 1);
 }
 
-TEST(Mesh, MorphTargetsAreIgnoredWithAWarning) {
-    GltfBuilder builder;
-    nlohmann::json& primitive = builder.add_triangle();
-    primitive["targets"] = {{{"POSITION", 0}}};
-    EXPECT_TRUE(has_problem(builder.load().problems, Severity::Warning, "morph targets"));
-}
-
 }  // namespace
 }  // namespace etendue

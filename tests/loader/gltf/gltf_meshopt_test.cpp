@@ -123,8 +123,7 @@ TEST_P(BadMeshopt, IsAnError) {
     EXPECT_TRUE(has_problem(loaded.problems, Severity::Error, GetParam().message)) << listing(loaded.problems);
 }
 
-INSTANTIATE_TEST_SUITE_P(Meshopt, BadMeshopt, testing::ValuesIn(kBadViews),
-                         [](const auto& i) { return i.param.name; });
+INSTANTIATE_TEST_SUITE_P(Meshopt, BadMeshopt, testing::ValuesIn(kBadViews), [](const auto& i) { return i.param.name; });
 
 TEST(Meshopt, PlainViewsOfTheFallbackBufferAreOutside) {
     GltfBuilder builder = compressed_mesh();

@@ -59,7 +59,7 @@ TEST(SchemaValidator, RefusesKeywordsItDoesNotKnow) {
 const char* const kGood[] = {
     R"({})",
     R"({"scene": "a.glb"})",
-    R"({"variant": "winter"})",
+    R"({"variant": "winter", "time_code": -0.5, "animation": "walk"})",
     R"({"integrator": {}})",
     R"({"integrator": {"type": "direct", "max_depth": 1, "min_depth": 1, "roulette_depth": 2147483647}})",
     R"({"sampler": "sobol"})",

@@ -1,0 +1,160 @@
+#include "loader/gltf/gltf_animation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include <fmt/format.h>
+
+namespace etendue {
+
+namespace {
+
+/// The keys of one sampler.
+struct Keys {
+    std::vector<float> times;   ///< seconds, strictly increasing
+    std::vector<float> values;  ///< `width` numbers a key; three times as many for cubic splines
+    std::size_t width = 0;
+    Interpolation interpolation = Interpolation::Linear;
+
+    [[nodiscard]] bool is_cubic() const { return interpolation == Interpolation::CubicSpline; }
+    /// Part 0 is a cubic key's in-tangent, 1 the value, 2 the out-tangent.
+    [[nodiscard]] double number(std::size_t key, std::size_t part, std::size_t component) const {
+        const std::size_t row = is_cubic() ? 3 * key + part : key;
+        return static_cast<double>(values[row * width + component]);
+    }
+};
+
+/// Spherical interpolation along the shorter way (appendix C.4).
+std::vector<double> slerp(std::vector<double> a, const std::vector<double>& b, double t) {
+    double cosine = 0.0;
+    for (std::size_t i = 0; i < 4; ++i) cosine += a[i] * b[i];
+    const double sign = cosine < 0.0 ? -1.0 : 1.0;
+    const double angle = std::acos(std::min(1.0, std::abs(cosine)));
+    // Where the two are nearly the same, sines vanish and straight lines do.
+    const bool straight = angle < 1e-4;
+    const double from = straight ? 1.0 - t : std::sin((1.0 - t) * angle) / std::sin(angle);
+    const double to = straight ? t : std::sin(t * angle) / std::sin(angle);
+    for (std::size_t i = 0; i < 4; ++i) a[i] = from * a[i] + to * sign * b[i];
+    return a;
+}
+
+std::vector<double> evaluate(const Keys& keys, double seconds, bool is_rotation) {
+    const auto value_of = [&](std::size_t key) {
+        std::vector<double> value(keys.width);
+        for (std::size_t c = 0; c < keys.width; ++c) value[c] = keys.number(key, 1, c);
+        return value;
+    };
+    const auto next = std::ranges::upper_bound(keys.times, seconds, {}, [](float t) { return static_cast<double>(t); });
+    if (next == keys.times.begin()) return value_of(0);
+    const auto k = static_cast<std::size_t>(next - keys.times.begin()) - 1;
+    if (next == keys.times.end() || keys.interpolation == Interpolation::Step) return value_of(k);
+
+    const double duration = static_cast<double>(keys.times[k + 1]) - static_cast<double>(keys.times[k]);
+    const double t = (seconds - static_cast<double>(keys.times[k])) / duration;
+    std::vector<double> value = value_of(k);
+    const std::vector<double> after = value_of(k + 1);
+    if (!keys.is_cubic()) {
+        if (is_rotation) return slerp(std::move(value), after, t);
+        for (std::size_t c = 0; c < keys.width; ++c) value[c] += (after[c] - value[c]) * t;
+        return value;
+    }
+    // Hermite's basis, tangents per second (appendix C.5).
+    const double t2 = t * t;
+    const double t3 = t2 * t;
+    for (std::size_t c = 0; c < keys.width; ++c)
+        value[c] = (2 * t3 - 3 * t2 + 1) * value[c] + duration * (t3 - 2 * t2 + t) * keys.number(k, 2, c) +
+                   (3 * t2 - 2 * t3) * after[c] + duration * (t3 - t2) * keys.number(k + 1, 0, c);
+    return value;
+}
+
+/// Reads samplers and puts their values into poses.
+class PoseSampler {
+  public:
+    PoseSampler(const GltfAnimation& animation, double seconds, AccessorReader& accessors, ProblemList& problems)
+        : animation_(animation), seconds_(seconds), accessors_(accessors), problems_(problems) {}
+
+    void apply(const GltfAnimation::Channel& channel, const SourceLocation& where, NodePoses& poses) {
+        if (channel.node < 0) return;
+        const bool is_rotation = channel.path == "rotation";
+        const bool is_weights = channel.path == "weights";
+        if (!is_rotation && !is_weights && channel.path != "translation" && channel.path != "scale") {
+            problems_.warning(where, fmt::format("'{}' cannot be animated; the channel is ignored", channel.path));
+            return;
+        }
+        const std::optional<Keys> keys = read(channel, is_rotation ? 4 : is_weights ? 1 : 3, where);
+        if (!keys) return;
+        const std::vector<double> value = evaluate(*keys, seconds_, is_rotation);
+        NodePose& pose = poses[channel.node];
+        if (is_rotation)
+            pose.rotation = {value[0], value[1], value[2], value[3]};
+        else if (is_weights)
+            pose.weights = value;
+        else
+            (channel.path == "scale" ? pose.scale : pose.translation) = {value[0], value[1], value[2]};
+    }
+
+  private:
+    std::optional<Keys> read(const GltfAnimation::Channel& channel, int components, const SourceLocation& where) {
+        const auto fail = [&](const std::string& message) {
+            problems_.error(where, message);
+            return std::nullopt;
+        };
+        if (channel.sampler >= animation_.samplers.size())
+            return fail(fmt::format("sampler {} does not exist", channel.sampler));
+        const GltfAnimation::Sampler& sampler = animation_.samplers[channel.sampler];
+        std::optional<AttributeData> times = accessors_.attribute(sampler.input, {1, 1}, where);
+        const auto fractions = static_cast<IntegerTypes>(kSignedFractions | kUnsignedFractions);
+        const IntegerTypes integers = components == 3 ? kNoIntegers : fractions;
+        std::optional<AttributeData> values =
+            accessors_.attribute(sampler.output, {components, components, integers}, where);
+        if (!times || !values) return std::nullopt;
+
+        Keys keys{std::move(times->values), std::move(values->values), 0, sampler.interpolation};
+        const auto is_bad = [](float v) { return !std::isfinite(v); };
+        if (std::ranges::any_of(keys.times, is_bad) || std::ranges::any_of(keys.values, is_bad))
+            return fail("a key is not finite");
+        if (std::ranges::adjacent_find(keys.times, std::ranges::greater_equal()) != keys.times.end())
+            return fail("the times of the keys do not increase");
+        const std::size_t rows = keys.times.size() * (keys.is_cubic() ? 3 : 1);
+        keys.width = keys.values.size() / rows;
+        if (keys.width == 0 || keys.width * rows != keys.values.size() ||
+            (components > 1 && keys.width != static_cast<std::size_t>(components)))
+            return fail(fmt::format("{} numbers do not make {} keys", keys.values.size(), keys.times.size()));
+        return keys;
+    }
+
+    const GltfAnimation& animation_;
+    double seconds_;
+    AccessorReader& accessors_;
+    ProblemList& problems_;
+};
+
+}  // namespace
+
+const GltfAnimation* find_animation(const GltfDocument& document, const std::string& name, ProblemList& problems) {
+    if (document.animations.empty()) {
+        problems.warning(document.at(""), "a time code was given, but the file has no animation");
+        return nullptr;
+    }
+    if (name.empty()) return &document.animations.front();
+    const auto found = std::ranges::find(document.animations, name, &GltfAnimation::name);
+    if (found != document.animations.end()) return &*found;
+    std::vector<std::string_view> names;
+    names.reserve(document.animations.size());
+    for (const GltfAnimation& animation : document.animations) names.push_back(animation.name);
+    problems.error(document.at("/animations"),
+                   fmt::format("there is no animation '{}'; {}", name, name_hint(name, names)));
+    return nullptr;
+}
+
+NodePoses sample_animation(const GltfDocument& document, const GltfAnimation& animation, double seconds,
+                           AccessorReader& accessors, ProblemList& problems) {
+    NodePoses poses;
+    PoseSampler sampler(animation, seconds, accessors, problems);
+    for (std::size_t c = 0; c < animation.channels.size(); ++c)
+        sampler.apply(animation.channels[c], document.at(fmt::format("{}/channels/{}", animation.pointer, c)), poses);
+    return poses;
+}
+
+}  // namespace etendue

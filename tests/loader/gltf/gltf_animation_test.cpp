@@ -1,0 +1,209 @@
+#include "loader/gltf/gltf_builder.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace etendue {
+namespace {
+
+/// A triangle whose node is animated along `path` with keys at 1 s and 3 s.
+GltfBuilder animated(const std::string& path, const std::vector<float>& values, int components,
+                     const char* interpolation) {
+    GltfBuilder builder;
+    builder.add_triangle();
+    const int input = builder.floats({1.0f, 3.0f}, 1);
+    const int output = builder.floats(values, components);
+    builder.json["animations"] = {
+        {{"name", "move"},
+         {"samplers", {{{"input", input}, {"output", output}, {"interpolation", interpolation}}}},
+         {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", path}}}}}}}};
+    return builder;
+}
+
+/// Where the point goes at `seconds`.
+Vec3f moved(const GltfBuilder& builder, double seconds, const Vec3f& point) {
+    const LoadedScene loaded = builder.load({.time_code = seconds, .animation = "move"});
+    EXPECT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
+    return transform_point(loaded.scene.instances.at(0).to_world, point);
+}
+
+TEST(Animation, TranslationsAreInterpolatedAndHeldAtTheEnds) {
+    const GltfBuilder builder = animated("translation", {0, 0, 0, 4, 8, 0}, 3, "LINEAR");
+    EXPECT_EQ(moved(builder, -1.0, Vec3f(0.0f)), Vec3f(0, 0, 0));
+    EXPECT_EQ(moved(builder, 1.5, Vec3f(0.0f)), Vec3f(1, 2, 0));
+    EXPECT_EQ(moved(builder, 3.0, Vec3f(0.0f)), Vec3f(4, 8, 0));
+    EXPECT_EQ(moved(builder, 99.0, Vec3f(0.0f)), Vec3f(4, 8, 0));
+}
+
+TEST(Animation, StepsWaitForTheNextKey) {
+    const GltfBuilder builder = animated("scale", {1, 1, 1, 2, 2, 2}, 3, "STEP");
+    EXPECT_EQ(moved(builder, 2.999, Vec3f(1.0f)), Vec3f(1.0f));
+    EXPECT_EQ(moved(builder, 3.0, Vec3f(1.0f)), Vec3f(2.0f));
+}
+
+// A quarter turn about z, given as its antipode: the shorter way, at an even pace.
+TEST(Animation, RotationsGoTheShorterWayAtAnEvenPace) {
+    const float s = std::sqrt(0.5f);
+    const GltfBuilder builder = animated("rotation", {0, 0, 0, 1, 0, 0, -s, -s}, 4, "LINEAR");
+    for (const double share : {0.25, 0.5, 0.75}) {
+        const double angle = share * 1.5707963;
+        const Vec3f expected(static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)), 0.0f);
+        EXPECT_LT(length(moved(builder, 1.0 + 2.0 * share, {1, 0, 0}) - expected), 1e-5f) << share;
+    }
+}
+
+// Tangents of 1 m/s along y at the first key and of nothing at the second: x = 0 to 4 smoothly.
+TEST(Animation, CubicSplinesUseTheirTangentsPerSecond) {
+    const GltfBuilder builder =
+        animated("translation", {9, 9, 9, 0, 0, 0, 0, 1, 0, 0, 0, 0, 4, 0, 0, 9, 9, 9}, 3, "CUBICSPLINE");
+    // At the middle Hermite's basis is 1/2, 1/8, 1/2, -1/8; the first tangent counts for the two seconds between.
+    EXPECT_LT(length(moved(builder, 2.0, Vec3f(0.0f)) - Vec3f(2.0f, 0.25f, 0.0f)), 1e-6f);
+    EXPECT_EQ(moved(builder, 1.0, Vec3f(0.0f)), Vec3f(0.0f));
+}
+
+TEST(Animation, AtRestWithoutATimeCode) {
+    const LoadedScene loaded = animated("translation", {5, 0, 0, 4, 8, 0}, 3, "LINEAR").load();
+    EXPECT_EQ(transform_point(loaded.scene.instances.at(0).to_world, Vec3f(0.0f)), Vec3f(0.0f));
+    EXPECT_TRUE(has_problem(loaded.problems, Severity::Note, "--time-code", "/animations"));
+}
+
+TEST(Animation, UnknownNamesAreErrorsAndNoAnimationIsNone) {
+    const GltfBuilder builder = animated("translation", {0, 0, 0, 4, 8, 0}, 3, "LINEAR");
+    EXPECT_TRUE(has_problem(builder.load({.time_code = 1.0, .animation = "mvoe"}).problems, Severity::Error,
+                            "did you mean 'move'?", "/animations"));
+    GltfBuilder still;
+    still.add_triangle();
+    EXPECT_TRUE(has_problem(still.load({.time_code = 1.0}).problems, Severity::Warning, "has no animation"));
+}
+
+TEST(Animation, WhatCannotBeReadIsAnError) {
+    const auto error_of = [](const auto& spoil) {
+        GltfBuilder builder = animated("translation", {0, 0, 0, 4, 8, 0}, 3, "LINEAR");
+        spoil(builder.json["animations"][0], builder);
+        return listing(builder.load({.time_code = 1.0}).problems);
+    };
+    using Json = nlohmann::json;
+    EXPECT_NE(error_of([](Json& a, GltfBuilder&) { a["channels"][0]["sampler"] = 3; }).find("sampler 3 does not exist"),
+              std::string::npos);
+    EXPECT_NE(error_of([](Json& a, GltfBuilder& b) {
+                  a["samplers"][0]["input"] = b.floats({3.0f, 1.0f}, 1);
+              }).find("do not increase"),
+              std::string::npos);
+    EXPECT_NE(error_of([](Json& a, GltfBuilder& b) {
+                  a["samplers"][0]["output"] = b.floats({1, 2, 3}, 3);
+              }).find("do not make 2 keys"),
+              std::string::npos);
+    EXPECT_NE(error_of([](Json& a, GltfBuilder& b) {
+                  a["samplers"][0]["output"] = b.floats({1, 2, NAN, 4, 5, 6}, 3);
+              }).find("not finite"),
+              std::string::npos);
+    EXPECT_NE(
+        error_of([](Json& a, GltfBuilder&) { a["channels"][0]["target"]["node"] = 7; }).find("refers to number 7"),
+        std::string::npos);
+}
+
+/// A triangle with a target that lifts its third vertex by 2 along z.
+GltfBuilder morphing() {
+    GltfBuilder builder;
+    builder.add_triangle()["targets"] = {{{"POSITION", builder.floats({0, 0, 0, 0, 0, 0, 0, 0, 2}, 3)}}};
+    return builder;
+}
+
+Vec3f third_vertex(const LoadedScene& loaded) {
+    EXPECT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
+    const Handle<MeshDesc> mesh = loaded.scene.instances.at(0).mesh;
+    return loaded.scene.meshes.at(static_cast<std::size_t>(mesh.index)).primitives.at(0).positions.at(2);
+}
+
+TEST(Morph, WeightsOfTheNodeComeBeforeTheMeshs) {
+    GltfBuilder builder = morphing();
+    EXPECT_EQ(third_vertex(builder.load()), Vec3f(0, 1, 0));
+    builder.json["meshes"][0]["weights"] = {0.5};
+    EXPECT_EQ(third_vertex(builder.load()), Vec3f(0, 1, 1));
+    builder.json["nodes"][0]["weights"] = {1.0};
+    EXPECT_EQ(third_vertex(builder.load()), Vec3f(0, 1, 2));
+}
+
+TEST(Morph, AnimatedWeightsComeFirst) {
+    GltfBuilder builder = morphing();
+    builder.json["nodes"][0]["weights"] = {1.0};
+    builder.json["animations"] = {
+        {{"samplers", {{{"input", builder.floats({0, 1}, 1)}, {"output", builder.floats({0, 4}, 1)}}}},
+         {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}}}}}};
+    EXPECT_EQ(third_vertex(builder.load({.time_code = 0.25})), Vec3f(0, 1, 2));
+}
+
+TEST(Morph, NormalsFollow) {
+    GltfBuilder builder = morphing();
+    builder.json["meshes"][0]["weights"] = {0.5};
+    const LoadedScene loaded = builder.load();
+    const auto mesh = static_cast<std::size_t>(loaded.scene.instances.at(0).mesh.index);
+    const float s = std::sqrt(0.5f);
+    EXPECT_LT(length(loaded.scene.meshes[mesh].primitives[0].normals[0] - Vec3f(0, -s, s)), 1e-6f);
+}
+
+/// A triangle whose third vertex hangs on a second joint.
+GltfBuilder skinned() {
+    GltfBuilder builder;
+    nlohmann::json& primitive = builder.add_triangle();
+    const std::vector<std::uint8_t> joints{0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0};
+    primitive["attributes"]["JOINTS_0"] = builder.accessor(joints, "VEC4", 5121, 3);
+    primitive["attributes"]["WEIGHTS_0"] = builder.floats({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, 4);
+    builder.json["nodes"][0]["skin"] = 0;
+    builder.json["nodes"][0]["translation"] = {100, 0, 0};
+    builder.json["nodes"].push_back({{"translation", {0, 0, 1}}, {"children", {2}}});
+    builder.json["nodes"].push_back({{"translation", {0, 5, 0}}});
+    builder.json["scenes"][0]["nodes"] = {0, 1};
+    // The second joint was at (0, 1, 0) when the mesh was bound to it.
+    const std::vector<float> inverse{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0,  0, 1,
+                                     1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -1, 0, 1};
+    builder.json["skins"] = {{{"joints", {1, 2}}, {"inverseBindMatrices", builder.accessor(inverse, "MAT4", 5126, 2)}}};
+    return builder;
+}
+
+TEST(Skin, MovesVerticesWithTheirJointsAndNotWithTheNode) {
+    const LoadedScene loaded = skinned().load();
+    ASSERT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
+    const InstanceDesc& instance = loaded.scene.instances.at(0);
+    const PrimitiveDesc& p = loaded.scene.meshes.at(static_cast<std::size_t>(instance.mesh.index)).primitives.at(0);
+    EXPECT_EQ(transform_point(instance.to_world, p.positions[0]), Vec3f(0, 0, 1));
+    EXPECT_EQ(transform_point(instance.to_world, p.positions[2]), Vec3f(0, 5, 1));
+}
+
+TEST(Skin, WeightsNeedNotAddUpToOne) {
+    GltfBuilder builder = skinned();
+    builder.json["meshes"][0]["primitives"][0]["attributes"]["WEIGHTS_0"] =
+        builder.floats({0.5f, 0, 0, 0, 2, 0, 0, 0, 0.5f, 0.5f, 0, 0}, 4);
+    const LoadedScene loaded = builder.load();
+    const auto mesh = static_cast<std::size_t>(loaded.scene.instances.at(0).mesh.index);
+    EXPECT_EQ(loaded.scene.meshes[mesh].primitives[0].positions[1], Vec3f(1, 0, 1));
+    EXPECT_EQ(loaded.scene.meshes[mesh].primitives[0].positions[2], Vec3f(0, 3, 1)) << "between the two joints";
+}
+
+TEST(Skin, WhatCannotBeReadIsAnError) {
+    const auto error_of = [](const auto& spoil) {
+        GltfBuilder builder = skinned();
+        spoil(builder);
+        return listing(builder.load().problems);
+    };
+    EXPECT_NE(error_of([](GltfBuilder& b) {
+                  b.json["skins"][0]["joints"] = {1};
+              }).find("refers to joint 1, but the skin has 1"),
+              std::string::npos);
+    EXPECT_NE(error_of([](GltfBuilder& b) { b.json["scenes"][0]["nodes"] = {0}; }).find("is not in the scene"),
+              std::string::npos);
+    EXPECT_NE(error_of([](GltfBuilder& b) { b.json["accessors"][3]["count"] = 1; }).find("1 inverse bind matrices"),
+              std::string::npos);
+    EXPECT_NE(error_of([](GltfBuilder& b) {
+                  b.json["meshes"][0]["primitives"][0]["attributes"].erase("WEIGHTS_0");
+              }).find("has no WEIGHTS_0"),
+              std::string::npos);
+    EXPECT_NE(error_of([](GltfBuilder& b) {
+                  b.json["skins"][0]["joints"] = {1, 9};
+              }).find("refers to number 9"),
+              std::string::npos);
+}
+
+}  // namespace
+}  // namespace etendue
