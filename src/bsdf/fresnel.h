@@ -51,9 +51,14 @@ namespace etendue {
     return x2 * x2 * x;
 }
 
-/// Schlick's approximation with reflectance `f0` at normal incidence.
-[[nodiscard]] inline Rgb fresnel_schlick(const Rgb& f0, float cos_i) {
-    return lerp(f0, Rgb(1.0f), pow5(std::clamp(1.0f - cos_i, 0.0f, 1.0f)));
+/// Schlick's approximation with reflectance `f0` at normal and `f90` at grazing incidence.
+[[nodiscard]] inline Rgb fresnel_schlick(const Rgb& f0, float cos_i, float f90 = 1.0f) {
+    return lerp(f0, Rgb(f90), pow5(std::clamp(1.0f - cos_i, 0.0f, 1.0f)));
+}
+
+/// Its mean over the hemisphere, weighted by the cosine.
+[[nodiscard]] inline Rgb fresnel_schlick_average(const Rgb& f0, float f90 = 1.0f) {
+    return lerp(f0, Rgb(f90), 1.0f / 21.0f);
 }
 
 /// Schlick's curve bent to pass through a measured reflectance near 82 degrees, where metals dip (Kutz, Hasan,

@@ -14,33 +14,38 @@ namespace {
 struct Layers {
     GgxReflection reflection;
     bool smooth;
-    Rgb f0;  ///< of the mixed specular layer
+    Rgb f0;     ///< of the mixed specular layer
+    float f90;  ///< of it
     Rgb multiple_fresnel;
     float coupling;          ///< (1 - E_d(o)) of the dielectric's specular layer
     float coupling_average;  ///< 1 - E_d averaged
     Rgb diffuse;             ///< albedo under the layer
     Rgb transmitted;
-    float f0_dielectric;
-    float dielectric_multiple;  ///< the multiple-scattering factor for f0_dielectric
+    float f0_dielectric;  ///< of the most reflective channel, which decides what goes through
+    float f90_dielectric;
+    float dielectric_multiple;  ///< the multiple-scattering factor of that channel
     float p_specular, p_diffuse, p_transmitted;
 
     Layers(const MetallicRoughness& m, float cos_o)
         : reflection(std::max(m.alpha, kSmoothAlpha), cos_o),
           smooth(m.alpha < kSmoothAlpha),
-          f0(lerp(Rgb(m.f0), m.base, m.metallic)),
-          f0_dielectric(m.f0),
-          dielectric_multiple(reflection.multiple_fresnel(schlick_average(Rgb(m.f0))).r) {
+          f0(lerp(m.f0, m.base, m.metallic)),
+          f90(m.f90 + (1.0f - m.f90) * m.metallic),
+          f0_dielectric(max_component(m.f0)),
+          f90_dielectric(m.f90) {
+        const Rgb dielectric = reflection.multiple_fresnel(fresnel_schlick_average(m.f0, m.f90));
+        dielectric_multiple = max_component(dielectric);
         // Schlick's term is linear in f0 and may be mixed before it is evaluated; the series of multiple scattering is
         // not.
-        const Rgb metal_multiple = reflection.multiple_fresnel(schlick_average(m.base));
-        multiple_fresnel = lerp(Rgb(dielectric_multiple), metal_multiple, m.metallic);
-        coupling = smooth ? 1.0f - fresnel_schlick(Rgb(m.f0), cos_o).r : 1.0f - layer_albedo(reflection.albedo_o);
+        const Rgb metal_multiple = reflection.multiple_fresnel(fresnel_schlick_average(m.base));
+        multiple_fresnel = lerp(dielectric, metal_multiple, m.metallic);
+        coupling = smooth ? 1.0f - layer_fresnel(cos_o) : 1.0f - layer_albedo(reflection.albedo_o);
         coupling_average = 1.0f - layer_albedo(reflection.albedo_average);
         const float under = 1.0f - m.metallic;
         diffuse = m.base * (under * (1.0f - m.transmission));
         transmitted = m.base * (under * m.transmission);
 
-        const Rgb specular_albedo = f0 * reflection.albedo_o.single + (Rgb(1.0f) - f0) * reflection.albedo_o.schlick +
+        const Rgb specular_albedo = f0 * reflection.albedo_o.single + (Rgb(f90) - f0) * reflection.albedo_o.schlick +
                                     multiple_fresnel * (1.0f - reflection.albedo_o.single);
         const float specular = max_component(specular_albedo);
         const float diffuse_weight = max_component(diffuse) * coupling;
@@ -51,15 +56,19 @@ struct Layers {
         p_transmitted = total > 0.0f ? transmitted_weight / total : 0.0f;
     }
 
-    [[nodiscard]] static Rgb schlick_average(const Rgb& f) { return lerp(f, Rgb(1.0f), 1.0f / 21.0f); }
+    /// Of the dielectric's layer at one facet.
+    [[nodiscard]] float layer_fresnel(float cosine) const {
+        return fresnel_schlick(Rgb(f0_dielectric), cosine, f90_dielectric).r;
+    }
 
     /// Albedo of the dielectric's specular layer, multiple scattering included.
     [[nodiscard]] float layer_albedo(const GgxAlbedo& a) const {
-        return f0_dielectric * a.single + (1.0f - f0_dielectric) * a.schlick + dielectric_multiple * (1.0f - a.single);
+        return f0_dielectric * a.single + (f90_dielectric - f0_dielectric) * a.schlick +
+               dielectric_multiple * (1.0f - a.single);
     }
 
     [[nodiscard]] float coupling_i(const GgxAlbedo& albedo_i, float cos_i) const {
-        return smooth ? 1.0f - fresnel_schlick(Rgb(f0_dielectric), cos_i).r : 1.0f - layer_albedo(albedo_i);
+        return smooth ? 1.0f - layer_fresnel(cos_i) : 1.0f - layer_albedo(albedo_i);
     }
 };
 
@@ -67,14 +76,15 @@ BsdfValue evaluate_above(const Layers& layers, const Vec3f& wo, const Vec3f& wi)
     const GgxReflection::Value specular = layers.reflection.evaluate(wo, wi);
     const float cosine_pdf = cosine_hemisphere_pdf_solid_angle(wi);
     // A smooth layer over a diffuse base: its average is Schlick's own.
-    const float average =
-        layers.smooth ? 1.0f - Layers::schlick_average(Rgb(layers.f0_dielectric)).r : layers.coupling_average;
+    const float average = layers.smooth
+                              ? 1.0f - fresnel_schlick_average(Rgb(layers.f0_dielectric), layers.f90_dielectric).r
+                              : layers.coupling_average;
     const float coupling =
         average > 0.0f ? layers.coupling * layers.coupling_i(specular.albedo_i, wi.z) / average : 0.0f;
     BsdfValue value{layers.diffuse * (coupling * cosine_pdf), layers.p_diffuse * cosine_pdf};
     if (layers.smooth) return value;
-    value.f_cos +=
-        fresnel_schlick(layers.f0, specular.cos_half) * specular.single + layers.multiple_fresnel * specular.multiple;
+    value.f_cos += fresnel_schlick(layers.f0, specular.cos_half, layers.f90) * specular.single +
+                   layers.multiple_fresnel * specular.multiple;
     value.pdf_solid_angle += layers.p_specular * specular.pdf_solid_angle;
     return value;
 }
@@ -84,7 +94,7 @@ BsdfValue evaluate_below(const Layers& layers, const Vec3f& wo, const Vec3f& wi)
     const Vec3f mirrored{wi.x, wi.y, -wi.z};
     const GgxReflection::Value lobe = layers.reflection.evaluate(wo, mirrored);
     // What the facets do not reflect; with the reflected part it adds up to all of GGX's lobe.
-    const float single = (1.0f - fresnel_schlick(Rgb(layers.f0_dielectric), lobe.cos_half).r) * lobe.single;
+    const float single = (1.0f - layers.layer_fresnel(lobe.cos_half)) * lobe.single;
     const float multiple = (1.0f - layers.dielectric_multiple) * lobe.multiple;
     return {layers.transmitted * (single + multiple), layers.p_transmitted * lobe.pdf_solid_angle};
 }
@@ -95,8 +105,9 @@ BsdfSample sample_smooth(const Layers& layers, const Vec3f& wo, bool transmit) {
                 .weight = layers.transmitted * (layers.coupling / layers.p_transmitted),
                 .is_delta = true,
                 .is_transmission = true};
-    return {
-        .wi = mirror_direction(wo), .weight = fresnel_schlick(layers.f0, wo.z) / layers.p_specular, .is_delta = true};
+    return {.wi = mirror_direction(wo),
+            .weight = fresnel_schlick(layers.f0, wo.z, layers.f90) / layers.p_specular,
+            .is_delta = true};
 }
 
 }  // namespace

@@ -1,8 +1,13 @@
-// glTF 2.0 metallic-roughness with KHR_materials_ior and thin-walled KHR_materials_transmission.
+// glTF 2.0 metallic-roughness with KHR_materials_ior, KHR_materials_specular and thin-walled
+// KHR_materials_transmission.
 //
 // material   = mix(dielectric, metal, metallic)                                  (glTF 2.0 specification, appendix B)
 // metal      = GGX with Schlick's Fresnel term, f0 = base colour
-// dielectric = GGX with f0 = ((ior - 1) / (ior + 1))² over mix(diffuse, transmission, transmission factor)
+// dielectric = GGX with f0 = min(1, ((ior - 1) / (ior + 1))² specular colour) specular factor, f90 = specular factor,
+//              over mix(diffuse, transmission, transmission factor)
+//
+// What lies under a coloured layer receives what its most reflective channel lets through, so that it keeps its colour
+// (KHR_materials_specular); a coloured layer therefore absorbs a little.
 //
 // Three things go beyond the appendix, whose formulas lose or invent energy: the specular layer has its
 // multiple-scattering lobe; what lies under it receives what it lets through, (1 - E(o)) (1 - E(i)) / (1 - E_avg),
@@ -22,7 +27,8 @@ struct MetallicRoughness {
     Rgb base{1.0f};             ///< [0, 1]
     float metallic = 1.0f;      ///< [0, 1]
     float alpha = 1.0f;         ///< roughness², [0, 1]
-    float f0 = 0.04f;           ///< of the dielectric, [0, 1]
+    Rgb f0{0.04f};              ///< of the dielectric, [0, f90]
+    float f90 = 1.0f;           ///< of the dielectric, [0, 1]
     float transmission = 0.0f;  ///< [0, 1]
 
     [[nodiscard]] BsdfValue evaluate(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const;

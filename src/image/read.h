@@ -27,8 +27,8 @@ struct ImageInfo {
 inline constexpr std::int64_t kMaxImagePixels = std::int64_t{1} << 28;
 inline constexpr int kMaxImageSide = 65536;
 
-/// Where encoded pixels come from: a file, or bytes in memory. PNG, JPEG, WebP, OpenEXR, Radiance HDR and TIFF are known, by
-/// their first bytes; of a multi-part file the first part is read, of an EXR layer set R, G, B and A.
+/// Where encoded pixels come from: a file, or bytes in memory. PNG, JPEG, WebP, OpenEXR, Radiance HDR and TIFF are
+/// known, by their first bytes; of a multi-part file the first part is read, of an EXR layer set R, G, B and A.
 using ImageSource = std::variant<std::filesystem::path, std::span<const std::byte>>;
 
 /// Reads the header only. Throws IoError if it cannot be read, is no known image or claims an absurd size; the message

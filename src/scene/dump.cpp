@@ -131,6 +131,8 @@ void dump_material(std::size_t index, const MaterialDesc& m, Out out) {
     fmt::format_to(out, "  normal scale {:g}, {}\n", m.normal_scale, text(m.normal_texture));
     fmt::format_to(out, "  emissive {} strength {:g}, {}\n", text(m.emissive), m.emissive_strength,
                    text(m.emissive_texture));
+    fmt::format_to(out, "  specular {:g}, {} color {:g} {:g} {:g}, {}\n", m.specular, text(m.specular_texture),
+                   m.specular_color.r, m.specular_color.g, m.specular_color.b, text(m.specular_color_texture));
     fmt::format_to(out, "  ior {:g} transmission {:g}, {}\n", m.ior, m.transmission, text(m.transmission_texture));
 }
 

@@ -57,9 +57,13 @@ struct MaterialDesc {
     bool double_sided = false;
     bool unlit = false;  ///< KHR_materials_unlit: base colour is shown as it is and does not light anything
 
-    float ior = 1.5f;                 ///< KHR_materials_ior: 0 (full reflection) or >= 1
-    float transmission = 0.0f;        ///< KHR_materials_transmission, [0, 1], through a thin wall
-    TextureRef transmission_texture;  ///< data: R
+    float ior = 1.5f;                   ///< KHR_materials_ior: 0 (full reflection) or >= 1
+    float specular = 1.0f;              ///< KHR_materials_specular: strength of the dielectric's reflection, [0, 1]
+    TextureRef specular_texture;        ///< data: A
+    Rgb specular_color{1.0f};           ///< KHR_materials_specular: linear Rec.709, >= 0; its tint at normal incidence
+    TextureRef specular_color_texture;  ///< sRGB
+    float transmission = 0.0f;          ///< KHR_materials_transmission, [0, 1], through a thin wall
+    TextureRef transmission_texture;    ///< data: R
 
     /// Set by render.json; replaces everything above but normal, emission, alpha and double_sided.
     std::variant<std::monostate, ConductorDesc, DielectricDesc, DiffuseDesc> override_model;

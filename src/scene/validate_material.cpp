@@ -57,12 +57,17 @@ void validate_material(const MaterialDesc& m, const SceneDesc& scene, ProblemLis
     in_range(m.emissive_strength, 0.0, kInfinity, "emissive strength");
     in_range(m.alpha_cutoff, 0.0, kInfinity, "alpha cutoff");
     in_range(m.transmission, 0.0, 1.0, "transmission");
+    in_range(m.specular, 0.0, 1.0, "specular");
+    check_range(m.specular_color, 0.0, std::numeric_limits<double>::infinity(), "specular colour", m.location,
+                problems);
     if (m.ior != 0.0f) in_range(m.ior, 1.0, kInfinity, "ior (other than 0)");
 
     validate_texture_ref(m.base_color_texture, "base colour", scene, m.location, problems);
     validate_texture_ref(m.metallic_roughness_texture, "metallic-roughness", scene, m.location, problems);
     validate_texture_ref(m.normal_texture, "the normal map", scene, m.location, problems);
     validate_texture_ref(m.emissive_texture, "emission", scene, m.location, problems);
+    validate_texture_ref(m.specular_texture, "specular", scene, m.location, problems);
+    validate_texture_ref(m.specular_color_texture, "specular colour", scene, m.location, problems);
     validate_texture_ref(m.transmission_texture, "transmission", scene, m.location, problems);
     std::visit([&](const auto& model) { validate_override(model, m.location, problems); }, m.override_model);
 }

@@ -45,6 +45,10 @@ GltfModel compile_gltf(const MaterialDesc& desc, TextureCompiler& textures) {
     model.roughness = desc.roughness;
     model.metallic_roughness_texture = textures.slot(desc.metallic_roughness_texture, TextureUse::Data);
     model.f0 = f0_from_ior(desc.ior);
+    model.specular = desc.specular;
+    model.specular_texture = textures.slot(desc.specular_texture, TextureUse::Data);
+    model.specular_color = desc.specular_color;
+    model.specular_color_texture = textures.slot(desc.specular_color_texture, TextureUse::Color);
     model.transmission = desc.transmission;
     model.transmission_texture = textures.slot(desc.transmission_texture, TextureUse::Data);
     return model;

@@ -29,7 +29,11 @@ struct GltfModel {
     float metallic = 1.0f;
     float roughness = 1.0f;
     TextureSlot metallic_roughness_texture;
-    float f0 = 0.04f;
+    float f0 = 0.04f;       ///< from the index of refraction
+    float specular = 1.0f;  ///< KHR_materials_specular
+    TextureSlot specular_texture;
+    Rgb specular_color{1.0f};  ///< linear Rec.709
+    TextureSlot specular_color_texture;
     float transmission = 0.0f;
     TextureSlot transmission_texture;
 };

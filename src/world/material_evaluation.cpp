@@ -45,6 +45,21 @@ Rgb evaluate_base_color(const WorldData& data, const GltfModel& model, const Sur
     return clamp_unit(data.from_rec709(color));
 }
 
+namespace {
+
+/// KHR_materials_specular: tints the reflectance at normal incidence, then scales all of it.
+void evaluate_specular(const WorldData& data, const GltfModel& model, const SurfacePoint& point,
+                       MetallicRoughness& lobe) {
+    lobe.f90 = model.specular;
+    if (model.specular_texture.valid()) lobe.f90 *= lookup(data, model.specular_texture, point.uv).alpha;
+    Rgb tint = model.specular_color;
+    if (model.specular_color_texture.valid()) tint *= lookup(data, model.specular_color_texture, point.uv).rgb;
+    const bool is_tinted = !(tint == Rgb(1.0f));
+    lobe.f0 = (is_tinted ? clamp_unit(data.from_rec709(tint) * model.f0) : Rgb(model.f0)) * lobe.f90;
+}
+
+}  // namespace
+
 Bsdf evaluate_gltf_model(const WorldData& data, const GltfModel& model, const SurfacePoint& point) {
     MetallicRoughness lobe;
     lobe.base = evaluate_base_color(data, model, point);
@@ -58,7 +73,7 @@ Bsdf evaluate_gltf_model(const WorldData& data, const GltfModel& model, const Su
     lobe.metallic = std::clamp(lobe.metallic, 0.0f, 1.0f);
     roughness = std::clamp(roughness, 0.0f, 1.0f);
     lobe.alpha = roughness * roughness;
-    lobe.f0 = model.f0;
+    evaluate_specular(data, model, point, lobe);
     lobe.transmission = model.transmission;
     if (model.transmission_texture.valid())
         lobe.transmission *= lookup(data, model.transmission_texture, point.uv).rgb.r;

@@ -24,11 +24,19 @@ void add_metallic_roughness(std::vector<BsdfSetting>& settings) {
                          MetallicRoughness{.base = {0.9f, 0.5f, 0.1f},
                                            .metallic = metallic,
                                            .alpha = alpha,
-                                           .f0 = f0,
+                                           .f0 = Rgb(f0),
                                            .transmission = transmission}});
                 }
-    settings.push_back({"all white, f0 1", MetallicRoughness{.base = Rgb(1.0f), .metallic = 0.0f, .f0 = 1.0f}});
-    settings.push_back({"all black", MetallicRoughness{.base = Rgb(0.0f), .metallic = 0.0f, .f0 = 0.0f}});
+    settings.push_back({"all white, f0 1", MetallicRoughness{.base = Rgb(1.0f), .metallic = 0.0f, .f0 = Rgb(1.0f)}});
+    for (const float alpha : {0.0f, 0.04f, 0.5f})
+        settings.push_back(
+            {fmt::format("coloured specular, alpha {}", alpha), MetallicRoughness{.base = {0.8f, 0.5f, 0.2f},
+                                                                                  .metallic = 0.1f,
+                                                                                  .alpha = alpha,
+                                                                                  .f0 = {0.02f, 0.1f, 0.3f},
+                                                                                  .f90 = 0.6f,
+                                                                                  .transmission = 0.3f}});
+    settings.push_back({"all black", MetallicRoughness{.base = Rgb(0.0f), .metallic = 0.0f, .f0 = Rgb(0.0f)}});
 }
 
 void add_conductors(std::vector<BsdfSetting>& settings) {

@@ -54,7 +54,7 @@ TEST(MetallicRoughness, AMetalIsARoughConductorWithSchlicksFresnel) {
 }
 
 TEST(MetallicRoughness, WithoutReflectanceAtNormalIncidenceItIsNearlyLambertian) {
-    const MetallicRoughness lobe{.base = {0.5f, 0.5f, 0.5f}, .metallic = 0.0f, .alpha = 1.0f, .f0 = 0.0f};
+    const MetallicRoughness lobe{.base = {0.5f, 0.5f, 0.5f}, .metallic = 0.0f, .alpha = 1.0f, .f0 = Rgb(0.0f)};
     const Rgb f = value(lobe, {0.0f, 0.0f, 1.0f}, direction_at(0.9f));
     EXPECT_NEAR(f.g, 0.5f * kInvPi, 0.1f * 0.5f * kInvPi);
 }

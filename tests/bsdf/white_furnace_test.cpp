@@ -82,10 +82,25 @@ TEST(WhiteFurnace, WhiteMetallicRoughness) {
     for (const float metallic : {0.0f, 0.5f, 1.0f})
         for (const float f0 : {0.0f, 0.04f, 0.3f}) {
             const auto make = [=](float alpha) {
-                return MetallicRoughness{.base = Rgb(1.0f), .metallic = metallic, .alpha = alpha, .f0 = f0};
+                return MetallicRoughness{.base = Rgb(1.0f), .metallic = metallic, .alpha = alpha, .f0 = Rgb(f0)};
             };
             expect_white("metallic " + std::to_string(metallic) + " f0 " + std::to_string(f0), make, 1.0f);
             if (metallic == 1.0f) break;
+        }
+}
+
+TEST(WhiteFurnace, WeakReflectionOverWhite) {
+    for (const float f90 : {0.0f, 0.5f})
+        for (const float transmission : {0.0f, 1.0f}) {
+            const auto make = [=](float alpha) {
+                return MetallicRoughness{.base = Rgb(1.0f),
+                                         .metallic = 0.0f,
+                                         .alpha = alpha,
+                                         .f0 = Rgb(0.04f * f90),
+                                         .f90 = f90,
+                                         .transmission = transmission};
+            };
+            expect_white("f90 " + std::to_string(f90) + " transmission " + std::to_string(transmission), make, 1.0f);
         }
 }
 
@@ -94,7 +109,7 @@ TEST(WhiteFurnace, WhiteThinSheet) {
         for (const float f0 : {0.0f, 0.04f, 0.3f}) {
             const auto make = [=](float alpha) {
                 return MetallicRoughness{
-                    .base = Rgb(1.0f), .metallic = 0.0f, .alpha = alpha, .f0 = f0, .transmission = transmission};
+                    .base = Rgb(1.0f), .metallic = 0.0f, .alpha = alpha, .f0 = Rgb(f0), .transmission = transmission};
             };
             expect_white("transmission " + std::to_string(transmission) + " f0 " + std::to_string(f0), make, 1.0f);
         }

@@ -80,13 +80,28 @@ TEST_F(MaterialEvaluation, TransmissionIsRedAndTheIndexGivesF0) {
     material.transmission_texture.texture = texture(1, {{128, 255, 255, 255}});
     const MetallicRoughness lobe = lobe_at(world_with(material), 0.1f, 0.1f);
     EXPECT_NEAR(lobe.transmission, 0.8f * 128.0f / 255.0f, 1e-5f);
-    EXPECT_NEAR(lobe.f0, std::pow(0.33f / 2.33f, 2.0f), 1e-6f);
+    EXPECT_NEAR(lobe.f0.g, std::pow(0.33f / 2.33f, 2.0f), 1e-6f);
+}
+
+// KHR_materials_specular: f0 = min(0.04 colour, 1) factor, f90 = factor; the factor's texture is in alpha.
+TEST_F(MaterialEvaluation, SpecularTintsAndWeakensTheReflection) {
+    MaterialDesc material;
+    material.metallic = 0.0f;
+    material.specular = 0.8f;
+    material.specular_texture.texture = texture(1, {{255, 0, 0, 128}});
+    material.specular_color = {0.5f, 1.0f, 100.0f};
+    const MetallicRoughness lobe = lobe_at(world_with(material), 0.1f, 0.1f);
+    const float factor = 0.8f * 128.0f / 255.0f;
+    EXPECT_NEAR(lobe.f90, factor, 1e-5f);
+    EXPECT_NEAR(lobe.f0.r, 0.02f * factor, 1e-5f);
+    EXPECT_NEAR(lobe.f0.g, 0.04f * factor, 1e-5f);
+    EXPECT_NEAR(lobe.f0.b, factor, 1e-5f);
 }
 
 TEST_F(MaterialEvaluation, AnIndexOfZeroReflectsEverything) {
     MaterialDesc material;
     material.ior = 0.0f;
-    EXPECT_EQ(lobe_at(world_with(material), 0.1f, 0.1f).f0, 1.0f);
+    EXPECT_EQ(lobe_at(world_with(material), 0.1f, 0.1f).f0, Rgb(1.0f));
 }
 
 TEST_F(MaterialEvaluation, TheSecondCoordinatesAreUsedWhereAskedFor) {

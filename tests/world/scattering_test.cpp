@@ -20,8 +20,9 @@ struct NamedLobe {
 
 std::vector<NamedLobe> lobes() {
     return {{"diffuse", Diffuse{Rgb(0.7f)}},
-            {"plastic", MetallicRoughness{Rgb(0.5f, 0.6f, 0.7f), 0.0f, 0.3f, 0.04f, 0.0f}},
-            {"thin transmission", MetallicRoughness{Rgb(0.9f), 0.2f, 0.4f, 0.04f, 0.8f}},
+            {"plastic", MetallicRoughness{.base = {0.5f, 0.6f, 0.7f}, .metallic = 0.0f, .alpha = 0.3f}},
+            {"thin transmission",
+             MetallicRoughness{.base = Rgb(0.9f), .metallic = 0.2f, .alpha = 0.4f, .transmission = 0.8f}},
             {"rough conductor", RoughConductor{{}, 0.4f}},
             {"rough dielectric", RoughDielectric::make(1.5f, 0.4f)}};
 }

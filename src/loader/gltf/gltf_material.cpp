@@ -133,6 +133,8 @@ class MaterialReader {
             result.transmission = factor(number_or(*transmission, "transmissionFactor", 0.0), kMember);
             result.transmission_texture = texture(*transmission, "transmissionTexture", kMember);
         }
+        if (const Value* specular = find_extension(extensions, "KHR_materials_specular"))
+            read_specular(*specular, result);
         if (const Value* ior = find_extension(extensions, "KHR_materials_ior")) {
             result.ior = static_cast<float>(number_or(*ior, "ior", 1.5));
             if (result.ior != 0.0f && result.ior < 1.0f) {
@@ -141,6 +143,18 @@ class MaterialReader {
                 result.ior = 1.0f;
             }
         }
+    }
+
+    void read_specular(const Value& specular, MaterialDesc& result) {
+        constexpr std::string_view kMember = "extensions/KHR_materials_specular";
+        result.specular = factor(number_or(specular, "specularFactor", 1.0), kMember);
+        result.specular_texture = texture(specular, "specularTexture", kMember);
+        // Above 1 is allowed: the product with the reflectance is what is clamped.
+        const auto channel = [&](int i) {
+            return static_cast<float>(std::max(0.0, element_or(specular, "specularColorFactor", i, 1.0)));
+        };
+        result.specular_color = {channel(0), channel(1), channel(2)};
+        result.specular_color_texture = texture(specular, "specularColorTexture", kMember);
     }
 
     TextureReader& textures_;

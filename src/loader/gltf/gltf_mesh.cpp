@@ -331,7 +331,8 @@ std::vector<VariantMaterial> read_variants(const tinygltf::Primitive& source) {
 /// Counts primitives that their material's textures would sample without coordinates.
 void check_texcoords(const PrimitiveDesc& p, const MaterialDesc& material, RepairLog& repairs) {
     for (const TextureRef& ref : {material.base_color_texture, material.metallic_roughness_texture,
-                                  material.normal_texture, material.emissive_texture, material.transmission_texture}) {
+                                  material.normal_texture, material.emissive_texture, material.transmission_texture,
+                                  material.specular_texture, material.specular_color_texture}) {
         if (!ref.valid() || !(ref.texcoord == 0 ? p.uv0 : p.uv1).empty()) continue;
         repairs.add(Repair::MissingTexcoords, 1, p.location);
         return;

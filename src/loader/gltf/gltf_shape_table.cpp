@@ -175,11 +175,18 @@ constexpr ShapeField kTransmissionFields[] = {
     {"transmissionFactor", number()},
     {"transmissionTexture", kTextureInfo},
 };
+constexpr ShapeField kSpecularFields[] = {
+    {"specularFactor", number()},
+    {"specularTexture", kTextureInfo},
+    {"specularColorFactor", array(kNumber, 3)},
+    {"specularColorTexture", kTextureInfo},
+};
 constexpr ShapeField kIorFields[] = {{"ior", number(0.0)}};
 constexpr ShapeField kMaterialExtensionFields[] = {
     {"KHR_materials_emissive_strength", object(kEmissiveStrengthFields)},
     {"KHR_materials_transmission", object(kTransmissionFields)},
     {"KHR_materials_ior", object(kIorFields)},
+    {"KHR_materials_specular", object(kSpecularFields)},
     {"KHR_materials_unlit", object()},
 };
 constexpr std::string_view kAlphaModes[] = {"OPAQUE", "MASK", "BLEND"};

@@ -62,6 +62,9 @@ TEST(Material, EverythingIsRead) {
         "alphaMode": "MASK", "alphaCutoff": 0.25, "doubleSided": true,
         "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 30},
                        "KHR_materials_transmission": {"transmissionFactor": 0.5, "transmissionTexture": {"index": 2}},
+                       "KHR_materials_specular": {"specularFactor": 0.25, "specularTexture": {"index": 0},
+                                                  "specularColorFactor": [0.5, 1, 2],
+                                                  "specularColorTexture": {"index": 1}},
                        "KHR_materials_ior": {"ior": 1.33}, "KHR_materials_unlit": {}}})");
     const MaterialDesc& m = material_of(loaded);
     EXPECT_EQ(m.name, "all");
@@ -77,6 +80,10 @@ TEST(Material, EverythingIsRead) {
     EXPECT_EQ(texture_name(loaded, m.emissive_texture), "t1");
     EXPECT_EQ(m.emissive, Rgb(0.7f, 0.8f, 0.9f));
     EXPECT_EQ(m.emissive_strength, 30.0f);
+    EXPECT_EQ(m.specular, 0.25f);
+    EXPECT_EQ(texture_name(loaded, m.specular_texture), "t0");
+    EXPECT_EQ(m.specular_color, Rgb(0.5f, 1, 2)) << "above 1 is allowed";
+    EXPECT_EQ(texture_name(loaded, m.specular_color_texture), "t1");
     EXPECT_EQ(m.alpha_mode, AlphaMode::Mask);
     EXPECT_EQ(m.alpha_cutoff, 0.25f);
     EXPECT_TRUE(m.double_sided);
