@@ -87,11 +87,11 @@ class PoseSampler {
         const std::vector<double> value = evaluate(*keys, seconds_, is_rotation);
         NodePose& pose = poses[channel.node];
         if (is_rotation)
-            pose.rotation = {value[0], value[1], value[2], value[3]};
+            pose.rotation = std::array{value[0], value[1], value[2], value[3]};
         else if (is_weights)
             pose.weights = value;
         else
-            (channel.path == "scale" ? pose.scale : pose.translation) = {value[0], value[1], value[2]};
+            (channel.path == "scale" ? pose.scale : pose.translation) = std::array{value[0], value[1], value[2]};
     }
 
   private:
