@@ -1,13 +1,12 @@
-// What the look-ups of one bounce cost, apart from rays: random numbers, light choice, lobes, textures.
+// What the look-ups of one bounce cost, apart from rays: lobes, and the choice of a light or a triangle.
 //
 // Google Benchmark's own options apply; for example --benchmark_filter=Lobe
 #include "bsdf/bsdf.h"
 #include "sampling/alias_table.h"
-#include "sampling/sampler.h"
-#include "texture/texture.h"
 
-#include <array>
+#include <cmath>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include <benchmark/benchmark.h>
