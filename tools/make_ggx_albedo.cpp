@@ -8,9 +8,9 @@
 #include "bsdf/ggx.h"
 #include "bsdf/ggx_albedo_layout.h"
 #include "sampling/sobol.h"
+#include "table_writer.h"
 
 #include <array>
-#include <cstdio>
 #include <fstream>
 #include <iostream>
 #include <memory>
@@ -35,7 +35,7 @@ struct Tables {
 /// One surface seen from one direction.
 class View {
   public:
-    View(float alpha_of_row, float cos_theta) : ggx_{alpha_of_row} {
+    View(float alpha_of_row, float cos_theta) : ggx_(Ggx::isotropic(alpha_of_row)) {
         // Edge-on light is the limit from just above.
         const float mu = std::max(cos_theta, 1e-5f);
         wo_ = {std::sqrt(1.0f - mu * mu), 0.0f, mu};
@@ -156,29 +156,6 @@ void fill_averages(Tables& tables) {
                 tables.dielectric_average[side][e][i] =
                     average(row_alpha, [&](float, Place c) { return interpolate(tables.dielectric[side][e], a, c); });
     }
-}
-
-void write(std::ostream& out, float value) {
-    char text[32];
-    std::snprintf(text, sizeof(text), "%.8ff", static_cast<double>(value));
-    out << text;
-}
-
-template <typename T, std::size_t N>
-void write(std::ostream& out, const std::array<T, N>& values) {
-    out << "{{";
-    for (std::size_t i = 0; i < N; ++i) {
-        if (i > 0) out << (i % 8 == 0 ? ",\n" : ",");
-        write(out, values[i]);
-    }
-    out << "}}";
-}
-
-template <typename T>
-void write_table(std::ostream& out, const char* type, const char* name, const T& values) {
-    out << "const " << type << " " << name << " = ";
-    write(out, values);
-    out << ";\n";
 }
 
 }  // namespace

@@ -4,10 +4,13 @@
 // place in the variant, one overload in world/compile_materials.cpp, and its row in the table of tests/bsdf.
 #pragma once
 
+#include "bsdf/dielectric_body.h"
 #include "bsdf/diffuse.h"
+#include "bsdf/layered_surface.h"
 #include "bsdf/metallic_roughness.h"
 #include "bsdf/rough_conductor.h"
 #include "bsdf/rough_dielectric.h"
+#include "bsdf/rough_diffuse.h"
 #include "bsdf/smooth_conductor.h"
 #include "bsdf/smooth_dielectric.h"
 
@@ -15,8 +18,8 @@
 
 namespace etendue {
 
-using Bsdf =
-    std::variant<Diffuse, MetallicRoughness, RoughConductor, RoughDielectric, SmoothConductor, SmoothDielectric>;
+using Bsdf = std::variant<Diffuse, DielectricBody, LayeredSurface, MetallicRoughness, RoughConductor, RoughDielectric,
+                          RoughDiffuse, SmoothConductor, SmoothDielectric>;
 
 /// f |cos theta_i| and the density of `sample_bsdf`, for local unit directions; zero across the delta parts, and where
 /// a lobe does not scatter.
@@ -38,7 +41,9 @@ using Bsdf =
 /// True if the lobe distinguishes the two sides of its surface (z > 0 is the outside of a body); false if it wants wo
 /// on the side z > 0.
 [[nodiscard]] inline bool is_two_sided_interface(const Bsdf& bsdf) {
-    return std::holds_alternative<SmoothDielectric>(bsdf) || std::holds_alternative<RoughDielectric>(bsdf);
+    if (const auto* layered = std::get_if<LayeredSurface>(&bsdf)) return layered->is_two_sided();
+    return std::holds_alternative<SmoothDielectric>(bsdf) || std::holds_alternative<RoughDielectric>(bsdf) ||
+           std::holds_alternative<DielectricBody>(bsdf);
 }
 
 /// Share of the light from `wo` that is scattered, by the lobe's own samples: an unbiased estimate from `count` of

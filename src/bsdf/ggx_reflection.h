@@ -7,9 +7,11 @@
 #include "bsdf/bsdf_sample.h"
 #include "bsdf/ggx.h"
 #include "bsdf/ggx_albedo.h"
+#include "bsdf/ggx_anisotropic_albedo.h"
 #include "bsdf/ggx_multiple.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace etendue {
 
@@ -19,11 +21,20 @@ struct GgxReflection {
     GgxAlbedo albedo_o;  ///< directional albedos at wo
     GgxAlbedo albedo_average;
 
-    GgxReflection(float alpha, float cos_o)
-        : ggx{alpha},
-          multiple_directions(alpha),
-          albedo_o(ggx_albedo(cos_o, alpha)),
-          albedo_average(ggx_albedo_average(alpha)) {}
+    /// Requires wo.z > 0.
+    GgxReflection(const Ggx& distribution, const Vec3f& wo)
+        : ggx(distribution),
+          multiple_directions(distribution.is_isotropic() ? distribution.alpha_x
+                                                          : std::sqrt(distribution.alpha_x * distribution.alpha_y)),
+          albedo_o(albedo(wo)),
+          albedo_average(distribution.is_isotropic()
+                             ? ggx_albedo_average(distribution.alpha_x)
+                             : ggx_anisotropic_albedo_average(distribution.alpha_x, distribution.alpha_y)) {}
+
+    /// Directional albedo at `w`, w.z > 0.
+    [[nodiscard]] GgxAlbedo albedo(const Vec3f& w) const {
+        return ggx.is_isotropic() ? ggx_albedo(w.z, ggx.alpha_x) : ggx_anisotropic_albedo(w, ggx.alpha_x, ggx.alpha_y);
+    }
 
     /// Share of the samples that go to the multiple-scattering lobe.
     [[nodiscard]] float multiple_probability() const { return std::clamp(1.0f - albedo_o.single, 0.0f, 1.0f); }
@@ -42,7 +53,7 @@ struct GgxReflection {
         value.cos_half = std::min(1.0f, dot(wi, h));
         const float d = ggx.d(h);
         value.single = d * ggx.g2(wo, wi) / (4.0f * wo.z);
-        value.albedo_i = ggx_albedo(wi.z, ggx.alpha);
+        value.albedo_i = albedo(wi);
         const float missing_average = 1.0f - albedo_average.single;
         if (missing_average > 0.0f)
             value.multiple =

@@ -1,10 +1,10 @@
-// glTF 2.0 metallic-roughness with KHR_materials_ior, KHR_materials_specular and thin-walled
-// KHR_materials_transmission.
+// glTF 2.0 metallic-roughness with KHR_materials_ior, _specular, _iridescence, _anisotropy, _diffuse_transmission and
+// thin-walled _transmission.
 //
 // material   = mix(dielectric, metal, metallic)                                  (glTF 2.0 specification, appendix B)
 // metal      = GGX with Schlick's Fresnel term, f0 = base colour
 // dielectric = GGX with f0 = min(1, ((ior - 1) / (ior + 1))² specular colour) specular factor, f90 = specular factor,
-//              over mix(diffuse, transmission, transmission factor)
+//              over mix(mix(diffuse, diffuse transmission), transmission)
 //
 // What lies under a coloured layer receives what its most reflective channel lets through, so that it keeps its colour
 // (KHR_materials_specular); a coloured layer therefore absorbs a little.
@@ -13,23 +13,42 @@
 // multiple-scattering lobe; what lies under it receives what it lets through, (1 - E(o)) (1 - E(i)) / (1 - E_avg),
 // which is reciprocal and makes a white dielectric reflect exactly 1 (Ashikhmin and Shirley's coupling in Kelemen's
 // form, 2001); the transmitted lobe is GGX's reflection, mirrored to the other side, with 1 - F in place of F in the
-// single and in the multiple scattering: reciprocal, and with the reflected part exactly 1 for a white sheet.
+// single and in the multiple scattering: reciprocal, and with the reflected part exactly 1 for a white sheet. Under a
+// thin film E is an estimate (facet_fresnel.h): the brightest channel of a white surface reflects between 0.98
+// and 1.01.
 //
 // Thin-walled: light leaves opposite to where a mirror would send it, without refraction, tinted once by the base
-// colour. With alpha below kSmoothAlpha the specular and transmitted parts are deltas. Reflects for wo.z > 0 only.
+// colour. With both alphas below kSmoothAlpha the specular and transmitted parts are deltas. Scatters for wo.z > 0
+// only.
 #pragma once
 
 #include "bsdf/bsdf_sample.h"
+#include "bsdf/thin_film.h"
 
 namespace etendue {
 
 struct MetallicRoughness {
-    Rgb base{1.0f};             ///< [0, 1]
-    float metallic = 1.0f;      ///< [0, 1]
-    float alpha = 1.0f;         ///< roughness², [0, 1]
+    Rgb base{1.0f};         ///< [0, 1]
+    float metallic = 1.0f;  ///< [0, 1]
+    float alpha_x = 1.0f;   ///< roughness² along x, [0, 1]
+    float alpha_y = 1.0f;
     Rgb f0{0.04f};              ///< of the dielectric, [0, f90]
     float f90 = 1.0f;           ///< of the dielectric, [0, 1]
     float transmission = 0.0f;  ///< [0, 1]
+    float diffuse_transmission = 0.0f;
+    Rgb diffuse_transmission_color{1.0f};
+    ThinFilm film{};
+
+    /// The value in two parts: what scatters like a diffuse surface, and what does so around a direction.
+    struct Value {
+        Rgb diffuse;
+        Rgb specular;
+        float pdf_solid_angle = 0.0f;
+    };
+    [[nodiscard]] Value evaluate_parts(const Vec3f& wo, const Vec3f& wi) const;
+
+    /// Share of light with cosine `cos_theta` that the dielectric's specular layer lets through to what lies under it.
+    [[nodiscard]] float passed_by_specular(float cos_theta) const;
 
     [[nodiscard]] BsdfValue evaluate(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const;
     [[nodiscard]] BsdfSample sample(const Vec3f& wo, float u_lobe, Vec2f u, TransportMode mode) const;

@@ -17,12 +17,12 @@ BsdfValue evaluate_with(const RoughConductor& lobe, const GgxReflection& reflect
 
 BsdfValue RoughConductor::evaluate(const Vec3f& wo, const Vec3f& wi, TransportMode) const {
     if (wo.z <= 0.0f || wi.z <= 0.0f) return {};
-    return evaluate_with(*this, GgxReflection(alpha, wo.z), wo, wi);
+    return evaluate_with(*this, GgxReflection(Ggx::isotropic(alpha), wo), wo, wi);
 }
 
 BsdfSample RoughConductor::sample(const Vec3f& wo, float u_lobe, Vec2f u, TransportMode) const {
     if (wo.z <= 0.0f) return {};
-    const GgxReflection reflection(alpha, wo.z);
+    const GgxReflection reflection(Ggx::isotropic(alpha), wo);
     const Vec3f wi = reflection.sample(wo, u_lobe, u);
     if (wi.z <= 0.0f) return {};
     const BsdfValue value = evaluate_with(*this, reflection, wo, wi);

@@ -12,59 +12,97 @@ namespace etendue {
 
 namespace {
 
+/// The alpha that isotropic tables are asked for: what a direction sees of two.
+float seen_alpha(const Ggx& ggx, const Vec3f& w) {
+    if (ggx.is_isotropic()) return ggx.alpha_x;
+    const float sin2 = w.x * w.x + w.y * w.y;
+    if (!(sin2 > 0.0f)) return std::sqrt(ggx.alpha_x * ggx.alpha_y);
+    const float x = ggx.alpha_x * w.x;
+    const float y = ggx.alpha_y * w.y;
+    return std::sqrt((x * x + y * y) / sin2);
+}
+
+float mean_alpha(const Ggx& ggx) {
+    return ggx.is_isotropic() ? ggx.alpha_x : std::sqrt(ggx.alpha_x * ggx.alpha_y);
+}
+
+/// 1 - E averaged over the hemisphere: over the azimuths of the alphas that they see.
+float missing_average_of(const Ggx& ggx, float eta) {
+    if (ggx.is_isotropic()) return 1.0f - ggx_dielectric_albedo_average(ggx.alpha_x, eta);
+    constexpr int kAzimuths = 16;
+    float sum = 0.0f;
+    for (int i = 0; i < kAzimuths; ++i) {
+        const float phi = 0.5f * kPi * (static_cast<float>(i) + 0.5f) / kAzimuths;
+        sum += ggx_dielectric_albedo_average(seen_alpha(ggx, {std::cos(phi), std::sin(phi), 0.0f}), eta);
+    }
+    return 1.0f - sum / kAzimuths;
+}
+
 /// The interface seen from wo's side, mirrored so that wo.z > 0.
 struct Side {
+    const RoughDielectric& lobe;
     Ggx ggx;
     GgxMultiple multiple_directions;
+    bool outside;
     float eta;                   ///< index on the other side over the index on wo's
     float missing;               ///< 1 - E(wo)
     float multiple_transmitted;  ///< share of the missing energy that is transmitted
 
-    Side(const RoughDielectric& lobe, float wo_z)
-        : ggx{lobe.alpha},
-          multiple_directions(lobe.alpha),
-          eta(wo_z > 0.0f ? lobe.ior : 1.0f / lobe.ior),
-          missing(std::clamp(1.0f - ggx_dielectric_albedo(std::abs(wo_z), lobe.alpha, eta), 0.0f, 1.0f)),
-          multiple_transmitted(wo_z > 0.0f ? lobe.multiple_transmitted_outside : lobe.multiple_transmitted_inside) {}
+    /// `wo` as it is, before it is mirrored.
+    Side(const RoughDielectric& interface, const Vec3f& wo)
+        : lobe(interface),
+          ggx{interface.alpha_x, interface.alpha_y},
+          multiple_directions(mean_alpha(ggx)),
+          outside(wo.z > 0.0f),
+          eta(outside ? interface.ior : 1.0f / interface.ior),
+          missing(std::clamp(1.0f - ggx_dielectric_albedo(std::abs(wo.z), seen_alpha(ggx, wo), eta), 0.0f, 1.0f)),
+          multiple_transmitted(outside ? interface.multiple_transmitted_outside
+                                       : interface.multiple_transmitted_inside) {}
+
+    [[nodiscard]] float missing_average(bool on_the_outside) const {
+        return on_the_outside ? lobe.missing_average_outside : lobe.missing_average_inside;
+    }
+    [[nodiscard]] InterfaceFresnel::Split split(float cos_o) const { return lobe.fresnel(cos_o, eta, outside); }
 };
 
 /// (1 - E(w)) / (1 - E_avg) |cos| / pi on the side whose other side has the relative index `eta`: integrates to 1.
-float multiple_shape(const Side& side, float eta, float cos_theta) {
-    const float average = 1.0f - ggx_dielectric_albedo_average(side.ggx.alpha, eta);
-    if (!(average > 0.0f)) return 0.0f;
-    return (1.0f - ggx_dielectric_albedo(cos_theta, side.ggx.alpha, eta)) / average * cos_theta * kInvPi;
+float multiple_shape(const Side& side, float eta, float missing_average, const Vec3f& w) {
+    if (!(missing_average > 0.0f)) return 0.0f;
+    const float cos_theta = std::abs(w.z);
+    const float missing = 1.0f - ggx_dielectric_albedo(cos_theta, seen_alpha(side.ggx, w), eta);
+    return missing / missing_average * cos_theta * kInvPi;
 }
 
 /// Both in particle (importance) mode; wo.z > 0, wi.z > 0.
 BsdfValue evaluate_reflection(const Side& side, const Vec3f& wo, const Vec3f& wi) {
     const Vec3f h = normalize(wo + wi);
-    const float f = fresnel_dielectric(dot(wo, h), side.eta);
+    const InterfaceFresnel::Split split = side.split(std::min(1.0f, dot(wo, h)));
     const float d = side.ggx.d(h);
     const float reflected = 1.0f - side.multiple_transmitted;
-    const float single = f * d * side.ggx.g2(wo, wi) / (4.0f * wo.z);
-    const float multiple = reflected * side.missing * multiple_shape(side, side.eta, wi.z);
-    const float pdf = (1.0f - side.missing) * f * d * side.ggx.g1(wo) / (4.0f * wo.z) +
+    const float multiple =
+        reflected * side.missing * multiple_shape(side, side.eta, side.missing_average(side.outside), wi);
+    const float pdf = (1.0f - side.missing) * split.reflection_share * d * side.ggx.g1(wo) / (4.0f * wo.z) +
                       side.missing * reflected * side.multiple_directions.pdf_solid_angle(wi.z);
-    return {Rgb(single + multiple), pdf};
+    return {split.reflected * (d * side.ggx.g2(wo, wi) / (4.0f * wo.z)) + Rgb(multiple), pdf};
 }
 
 /// wo.z > 0, wi.z < 0.
 BsdfValue evaluate_transmission(const Side& side, const Vec3f& wo, const Vec3f& wi) {
-    const float cos_i = -wi.z;
-    const float multiple = side.multiple_transmitted * side.missing * multiple_shape(side, 1.0f / side.eta, cos_i);
-    BsdfValue value{Rgb(multiple),
-                    side.missing * side.multiple_transmitted * side.multiple_directions.pdf_solid_angle(cos_i)};
+    const float multiple = side.multiple_transmitted * side.missing *
+                           multiple_shape(side, 1.0f / side.eta, side.missing_average(!side.outside), wi);
+    BsdfValue value{side.lobe.tint * multiple,
+                    side.missing * side.multiple_transmitted * side.multiple_directions.pdf_solid_angle(-wi.z)};
     Vec3f h = wo + wi * side.eta;
     h = normalize(h.z < 0.0f ? -h : h);
     const float o_h = dot(wo, h);
     const float i_h = dot(wi, h);
     if (o_h <= 0.0f || i_h >= 0.0f) return value;
-    const float f = fresnel_dielectric(o_h, side.eta);
+    const InterfaceFresnel::Split split = side.split(std::min(1.0f, o_h));
     const float root = i_h + o_h / side.eta;
     const float dh_dwi = -i_h / (root * root);
-    const float common = (1.0f - f) * side.ggx.d(h) * o_h * dh_dwi / wo.z;
-    value.f_cos += Rgb(common * side.ggx.g2(wo, wi));
-    value.pdf_solid_angle += (1.0f - side.missing) * common * side.ggx.g1(wo);
+    const float common = side.ggx.d(h) * o_h * dh_dwi / wo.z;
+    value.f_cos += side.lobe.tint * (split.transmitted * common * side.ggx.g2(wo, wi));
+    value.pdf_solid_angle += (1.0f - side.missing) * (1.0f - split.reflection_share) * common * side.ggx.g1(wo);
     return value;
 }
 
@@ -82,20 +120,24 @@ Vec3f flip(const Vec3f& w) {
 
 }  // namespace
 
-RoughDielectric RoughDielectric::make(float ior, float alpha) {
-    const float missing_outside = 1.0f - ggx_dielectric_albedo_average(alpha, ior);
-    const float missing_inside = 1.0f - ggx_dielectric_albedo_average(alpha, 1.0f / ior);
+RoughDielectric RoughDielectric::make(float ior, float alpha_x, float alpha_y) {
+    const Ggx ggx{alpha_x, alpha_y};
+    const float missing_outside = missing_average_of(ggx, ior);
+    const float missing_inside = missing_average_of(ggx, 1.0f / ior);
     const float larger = std::max({missing_outside, missing_inside, 1e-6f});
+    const float passed = 1.0f - fresnel_dielectric_average(ior);
     return {.ior = ior,
-            .alpha = alpha,
-            .multiple_transmitted_outside = (1.0f - fresnel_dielectric_average(ior)) * missing_inside / larger,
-            .multiple_transmitted_inside =
-                (1.0f - fresnel_dielectric_average(ior)) / (ior * ior) * missing_outside / larger};
+            .alpha_x = alpha_x,
+            .alpha_y = alpha_y,
+            .multiple_transmitted_outside = passed * missing_inside / larger,
+            .multiple_transmitted_inside = passed / (ior * ior) * missing_outside / larger,
+            .missing_average_outside = missing_outside,
+            .missing_average_inside = missing_inside};
 }
 
 BsdfValue RoughDielectric::evaluate(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const {
     if (wo.z == 0.0f || wi.z == 0.0f) return {};
-    const Side side(*this, wo.z);
+    const Side side(*this, wo);
     return wo.z > 0.0f ? evaluate_side(side, wo, wi, mode) : evaluate_side(side, flip(wo), flip(wi), mode);
 }
 
@@ -103,7 +145,7 @@ BsdfSample RoughDielectric::sample(const Vec3f& wo_signed, float u_lobe, Vec2f u
     if (wo_signed.z == 0.0f) return {};
     const bool inside = wo_signed.z < 0.0f;
     const Vec3f wo = inside ? flip(wo_signed) : wo_signed;
-    const Side side(*this, wo_signed.z);
+    const Side side(*this, wo_signed);
 
     Vec3f wi;
     if (u_lobe < side.missing) {
@@ -112,8 +154,8 @@ BsdfSample RoughDielectric::sample(const Vec3f& wo_signed, float u_lobe, Vec2f u
     } else {
         const float u_fresnel = (u_lobe - side.missing) / (1.0f - side.missing);
         const Vec3f h = side.ggx.sample_visible_normal(wo, u);
-        const float o_h = dot(wo, h);
-        if (u_fresnel < fresnel_dielectric(o_h, side.eta)) {
+        const float o_h = std::min(1.0f, dot(wo, h));
+        if (u_fresnel < side.split(o_h).reflection_share) {
             wi = h * (2.0f * o_h) - wo;
             if (wi.z <= 0.0f) return {};
         } else if (!refract(wo, h, side.eta, wi) || wi.z >= 0.0f) {

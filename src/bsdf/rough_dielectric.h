@@ -9,23 +9,32 @@
 // R_A + T_A = 1 returns exactly what was lost. Reciprocity, f(o -> i) / n_i² = f(i -> o) / n_o² (Veach 1997, equation
 // 5.14), holds when T_A / (e_avg_B n_B²) = T_B / (e_avg_A n_A²); the factor that is left free makes the larger of the
 // two shares that of a smooth interface in diffuse light. In a white furnace the sum is 1 within 0.5% for indices from
-// 1.01 on; at 1.002, where the critical angle is too sharp for the tables, within 1.1%. Example: frosted glass,
-// ior 1.5, alpha = 0.2.
+// 1.01 on; at 1.002, where the critical angle is too sharp for the tables, within 1.1%. With different alphas along x
+// and y, E is that of an isotropic surface with the alpha that a direction sees: then up to 13% of the
+// light are lost.
+// Example: frosted glass, ior 1.5, alpha = 0.2.
 #pragma once
 
 #include "bsdf/bsdf_sample.h"
+#include "bsdf/interface_fresnel.h"
 
 namespace etendue {
 
 struct RoughDielectric {
-    float ior = 1.5f;    ///< index inside (z < 0) over index outside, (1, kMaxTabulatedEta]
-    float alpha = 0.1f;  ///< [kSmoothAlpha, 1]
+    float ior = 1.5f;      ///< index inside (z < 0) over index outside, [1 / kMaxTabulatedEta, kMaxTabulatedEta]
+    float alpha_x = 0.1f;  ///< [kSmoothAlpha, 1]
+    float alpha_y = 0.1f;
     /// Share T of the multiply scattered light that is transmitted, for wo outside and inside.
     float multiple_transmitted_outside = 0.0f;
     float multiple_transmitted_inside = 0.0f;
+    float missing_average_outside = 1.0f;  ///< 1 - E averaged over a cosine-weighted hemisphere
+    float missing_average_inside = 1.0f;
+    Rgb tint{1.0f};  ///< of transmitted light, [0, 1]
+    InterfaceFresnel fresnel{};
 
-    /// Prepares the shares above; costs some microseconds, so once per material rather than per hit.
-    [[nodiscard]] static RoughDielectric make(float ior, float alpha);
+    /// Prepares the shares above.
+    [[nodiscard]] static RoughDielectric make(float ior, float alpha_x, float alpha_y);
+    [[nodiscard]] static RoughDielectric make(float ior, float alpha) { return make(ior, alpha, alpha); }
 
     [[nodiscard]] BsdfValue evaluate(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const;
     [[nodiscard]] BsdfSample sample(const Vec3f& wo, float u_lobe, Vec2f u, TransportMode mode) const;

@@ -5,11 +5,14 @@
 #pragma once
 
 #include "bsdf/bsdf_sample.h"
+#include "bsdf/interface_fresnel.h"
 
 namespace etendue {
 
 struct SmoothDielectric {
-    float ior = 1.5f;  ///< index inside (z < 0) over index outside, > 1
+    float ior = 1.5f;  ///< index inside (z < 0) over index outside, > 0
+    Rgb tint{1.0f};    ///< of transmitted light, [0, 1]
+    InterfaceFresnel fresnel{};
 
     [[nodiscard]] BsdfValue evaluate(const Vec3f&, const Vec3f&, TransportMode) const { return {}; }
     [[nodiscard]] BsdfSample sample(const Vec3f& wo, float u_lobe, Vec2f u, TransportMode mode) const;

@@ -102,6 +102,35 @@ void dump_textures(const SceneDesc& scene, Out out) {
     }
 }
 
+std::string text(const VolumeDesc& v) {
+    return fmt::format("attenuation {} at {:g} m, dispersion {:g}, multiscatter {} anisotropy {:g}, priority {}",
+                       text(v.attenuation_color), v.attenuation_distance, v.dispersion, text(v.multiscatter_color),
+                       v.scatter_anisotropy, v.priority);
+}
+
+/// The layers that extensions add, those that are there.
+void dump_layers(const MaterialDesc& m, Out out) {
+    if (m.diffuse_transmission.factor > 0.0f)
+        fmt::format_to(out, "  diffuse transmission {:g}, {} colour {}, {}\n", m.diffuse_transmission.factor,
+                       text(m.diffuse_transmission.texture), text(m.diffuse_transmission.color),
+                       text(m.diffuse_transmission.color_texture));
+    if (m.volume.closed) fmt::format_to(out, "  volume {}\n", text(m.volume));
+    if (m.anisotropy.strength > 0.0f)
+        fmt::format_to(out, "  anisotropy {:g} rotation {:g}, {}\n", m.anisotropy.strength, m.anisotropy.rotation,
+                       text(m.anisotropy.texture));
+    if (m.iridescence.factor > 0.0f)
+        fmt::format_to(out, "  iridescence {:g}, {} ior {:g} thickness {:g} to {:g} nm, {}\n", m.iridescence.factor,
+                       text(m.iridescence.texture), m.iridescence.ior, m.iridescence.thickness_minimum_nm,
+                       m.iridescence.thickness_maximum_nm, text(m.iridescence.thickness_texture));
+    if (!is_black(m.sheen.color))
+        fmt::format_to(out, "  sheen {}, {} roughness {:g}, {}\n", text(m.sheen.color), text(m.sheen.color_texture),
+                       m.sheen.roughness, text(m.sheen.roughness_texture));
+    if (m.clearcoat.factor > 0.0f)
+        fmt::format_to(out, "  clearcoat {:g}, {} roughness {:g}, {} normal scale {:g}, {}\n", m.clearcoat.factor,
+                       text(m.clearcoat.texture), m.clearcoat.roughness, text(m.clearcoat.roughness_texture),
+                       m.clearcoat.normal_scale, text(m.clearcoat.normal_texture));
+}
+
 std::string text_of_override(const MaterialDesc& material) {
     const auto describe = [](const auto& model) -> std::string {
         using Model = std::decay_t<decltype(model)>;
@@ -109,9 +138,14 @@ std::string text_of_override(const MaterialDesc& material) {
             return fmt::format("conductor {} roughness {:g}", model.metal.empty() ? "lossless" : model.metal,
                                model.roughness);
         } else if constexpr (std::is_same_v<Model, DielectricDesc>) {
-            return fmt::format("dielectric ior {:g} roughness {:g}", model.ior, model.roughness);
+            return fmt::format("dielectric ior {:g} roughness {:g}, {}", model.ior, model.roughness,
+                               text(model.volume));
         } else if constexpr (std::is_same_v<Model, DiffuseDesc>) {
-            return fmt::format("diffuse {}", text(model.albedo));
+            return fmt::format("diffuse {} roughness {:g}", text(model.albedo), model.roughness);
+        } else if constexpr (std::is_same_v<Model, SubsurfaceDesc>) {
+            return fmt::format("subsurface {} radius {} anisotropy {:g} ior {:g} roughness {:g} priority {}",
+                               text(model.albedo), text(model.radius), model.anisotropy, model.ior, model.roughness,
+                               model.priority);
         } else {
             return {};
         }
@@ -134,6 +168,7 @@ void dump_material(std::size_t index, const MaterialDesc& m, Out out) {
     fmt::format_to(out, "  specular {:g}, {} color {:g} {:g} {:g}, {}\n", m.specular, text(m.specular_texture),
                    m.specular_color.r, m.specular_color.g, m.specular_color.b, text(m.specular_color_texture));
     fmt::format_to(out, "  ior {:g} transmission {:g}, {}\n", m.ior, m.transmission, text(m.transmission_texture));
+    dump_layers(m, out);
 }
 
 void dump_geometry(const SceneDesc& scene, Out out) {

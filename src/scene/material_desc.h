@@ -7,6 +7,7 @@
 #include "scene/texture_desc.h"
 
 #include <array>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -24,16 +25,86 @@ struct ConductorDesc {
     float roughness = 0.0f;  ///< perceptual roughness in [0, 1], alpha = roughness²; 0 is a perfect mirror (delta)
 };
 
-/// A closed dielectric body whose surface reflects and refracts.
-struct DielectricDesc {
-    float ior = 1.5f;        ///< inside over outside, in (1, 3]
-    float roughness = 0.0f;  ///< perceptual roughness in [0, 1], alpha = roughness²; 0 is perfectly smooth (delta)
+/// What fills a closed body: KHR_materials_volume, _dispersion and _volume_scatter.
+struct VolumeDesc {
+    bool closed = false;          ///< false: the surface is a thin wall around nothing
+    Rgb attenuation_color{1.0f};  ///< linear Rec.709, [0, 1]: what is left of white after `attenuation_distance`
+    float attenuation_distance = std::numeric_limits<float>::infinity();  ///< metres, > 0
+    float dispersion = 0.0f;                                              ///< 20 over the Abbe number, >= 0
+    Rgb multiscatter_color{0.0f};     ///< linear Rec.709, [0, 1]: the body's colour by many scatterings; black is none
+    float scatter_anisotropy = 0.0f;  ///< Henyey and Greenstein's g, (-1, 1)
+    /// Where bodies overlap, the one with the higher priority fills the space; among equals, the smaller one.
+    int priority = 0;
 };
 
-/// A Lambertian reflector with a constant albedo.
-struct DiffuseDesc {
-    Rgb albedo{0.5f};  ///< linear Rec.709, each channel in [0, 1]
+/// A closed dielectric body whose surface reflects and refracts.
+struct DielectricDesc {
+    float ior = 1.5f;        ///< against vacuum, in (1, 3]
+    float roughness = 0.0f;  ///< perceptual roughness in [0, 1], alpha = roughness²; 0 is perfectly smooth (delta)
+    VolumeDesc volume{.closed = true};
 };
+
+/// A matte reflector with a constant albedo.
+struct DiffuseDesc {
+    Rgb albedo{0.5f};        ///< linear Rec.709, each channel in [0, 1]
+    float roughness = 0.0f;  ///< of the facets, [0, 1]; 0 is Lambert's surface
+};
+
+/// A closed translucent body in which light walks at random: skin, wax, milk, marble.
+struct SubsurfaceDesc {
+    Rgb albedo{0.8f};                    ///< what the body reflects when it is large, linear Rec.709, [0, 1]
+    Rgb radius{0.01f, 0.005f, 0.0025f};  ///< mean free path per channel of the working space, metres, > 0
+    float anisotropy = 0.0f;             ///< Henyey and Greenstein's g, (-1, 1)
+    float ior = 1.4f;                    ///< of the reflecting surface, [1, 3]
+    float roughness = 0.5f;              ///< of the reflecting surface, [0, 1]
+    int priority = 0;                    ///< as of VolumeDesc
+};
+
+/// KHR_materials_clearcoat.
+struct ClearcoatDesc {
+    float factor = 0.0f;           ///< [0, 1]
+    TextureRef texture;            ///< data: R
+    float roughness = 0.0f;        ///< [0, 1]
+    TextureRef roughness_texture;  ///< data: G
+    TextureRef normal_texture;     ///< data: tangent-space normal
+    float normal_scale = 1.0f;
+};
+
+/// KHR_materials_sheen.
+struct SheenDesc {
+    Rgb color{0.0f};               ///< linear Rec.709, [0, 1]; black is no sheen
+    TextureRef color_texture;      ///< sRGB
+    float roughness = 0.0f;        ///< [0, 1]
+    TextureRef roughness_texture;  ///< data: A
+};
+
+/// KHR_materials_iridescence.
+struct IridescenceDesc {
+    float factor = 0.0f;                  ///< [0, 1]
+    TextureRef texture;                   ///< data: R
+    float ior = 1.3f;                     ///< of the film, >= 1
+    float thickness_minimum_nm = 100.0f;  ///< nanometres, where the texture is 0
+    float thickness_maximum_nm = 400.0f;  ///< nanometres, where it is 1 or there is none
+    TextureRef thickness_texture;         ///< data: G
+};
+
+/// KHR_materials_anisotropy.
+struct AnisotropyDesc {
+    float strength = 0.0f;  ///< [0, 1]
+    float rotation = 0.0f;  ///< radians, counter-clockwise from the tangent
+    TextureRef texture;     ///< data: direction in RG, strength in B
+};
+
+/// KHR_materials_diffuse_transmission.
+struct DiffuseTransmissionDesc {
+    float factor = 0.0f;       ///< [0, 1]
+    TextureRef texture;        ///< data: A
+    Rgb color{1.0f};           ///< linear Rec.709, [0, 1]
+    TextureRef color_texture;  ///< sRGB
+};
+
+/// What render.json can put in the place of glTF's model.
+using MaterialModelDesc = std::variant<std::monostate, ConductorDesc, DielectricDesc, DiffuseDesc, SubsurfaceDesc>;
 
 struct MaterialDesc {
     std::string name;
@@ -62,11 +133,17 @@ struct MaterialDesc {
     TextureRef specular_texture;        ///< data: A
     Rgb specular_color{1.0f};           ///< KHR_materials_specular: linear Rec.709, >= 0; its tint at normal incidence
     TextureRef specular_color_texture;  ///< sRGB
-    float transmission = 0.0f;          ///< KHR_materials_transmission, [0, 1], through a thin wall
+    float transmission = 0.0f;          ///< KHR_materials_transmission, [0, 1]
     TextureRef transmission_texture;    ///< data: R
+    DiffuseTransmissionDesc diffuse_transmission;
+    VolumeDesc volume;
+    AnisotropyDesc anisotropy;
+    IridescenceDesc iridescence;
+    SheenDesc sheen;
+    ClearcoatDesc clearcoat;
 
     /// Set by render.json; replaces everything above but normal, emission, alpha and double_sided.
-    std::variant<std::monostate, ConductorDesc, DielectricDesc, DiffuseDesc> override_model;
+    MaterialModelDesc override_model;
 
     SourceLocation location;
 };

@@ -8,6 +8,8 @@ namespace etendue {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Beyond, light that is scattered is not told apart from light that is not.
+constexpr double kMostAnisotropic = 0.999;
 
 void validate_texture_ref(const TextureRef& ref, std::string_view slot, const SceneDesc& scene,
                           const SourceLocation& where, ProblemList& problems) {
@@ -31,18 +33,78 @@ void validate_override(const ConductorDesc& model, const SourceLocation& where, 
     problems.error(where, fmt::format("unknown metal '{}'; known are {}", model.metal, fmt::join(kMetalNames, ", ")));
 }
 
+void validate_volume(const VolumeDesc& volume, const SourceLocation& where, ProblemList& problems) {
+    check_range(volume.attenuation_color, 0.0, 1.0, "attenuation colour", where, problems);
+    // Infinity is what means that nothing is absorbed.
+    if (!(volume.attenuation_distance > 0.0f))
+        problems.error(where,
+                       fmt::format("attenuation distance is {}, but must be above 0", volume.attenuation_distance));
+    check_range(static_cast<double>(volume.dispersion), 0.0, kInfinity, "dispersion", where, problems);
+    check_range(volume.multiscatter_color, 0.0, 1.0, "multiscatter colour", where, problems);
+    check_range(static_cast<double>(volume.scatter_anisotropy), -kMostAnisotropic, kMostAnisotropic,
+                "scatter anisotropy", where, problems);
+}
+
 void validate_override(const DielectricDesc& model, const SourceLocation& where, ProblemList& problems) {
     check_range(static_cast<double>(model.roughness), 0.0, 1.0, "roughness", where, problems);
     if (!(model.ior > 1.0f && model.ior <= 3.0f)) {
         problems.error(where, fmt::format("ior is {}, but must be in (1, 3]", model.ior));
     }
+    validate_volume(model.volume, where, problems);
 }
 
 void validate_override(const DiffuseDesc& model, const SourceLocation& where, ProblemList& problems) {
     check_range(model.albedo, 0.0, 1.0, "albedo", where, problems);
+    check_range(static_cast<double>(model.roughness), 0.0, 1.0, "roughness", where, problems);
+}
+
+void validate_override(const SubsurfaceDesc& model, const SourceLocation& where, ProblemList& problems) {
+    check_range(model.albedo, 0.0, 1.0, "albedo", where, problems);
+    check_range(model.radius, 0.0, kInfinity, "radius", where, problems);
+    if (!(min_component(model.radius) > 0.0f)) problems.error(where, "radius must be above 0 in every channel");
+    check_range(static_cast<double>(model.anisotropy), -kMostAnisotropic, kMostAnisotropic, "anisotropy", where,
+                problems);
+    check_range(static_cast<double>(model.ior), 1.0, 3.0, "ior", where, problems);
+    check_range(static_cast<double>(model.roughness), 0.0, 1.0, "roughness", where, problems);
 }
 
 void validate_override(std::monostate, const SourceLocation&, ProblemList&) {}
+
+/// The layers that extensions add.
+void validate_layers(const MaterialDesc& m, const SceneDesc& scene, ProblemList& problems) {
+    const auto in_unit = [&](float value, std::string_view what) {
+        check_range(static_cast<double>(value), 0.0, 1.0, what, m.location, problems);
+    };
+    const auto finite = [&](float value, double least, std::string_view what) {
+        check_range(static_cast<double>(value), least, std::numeric_limits<float>::max(), what, m.location, problems);
+    };
+    const auto texture = [&](const TextureRef& ref, std::string_view slot) {
+        validate_texture_ref(ref, slot, scene, m.location, problems);
+    };
+    in_unit(m.clearcoat.factor, "clearcoat");
+    in_unit(m.clearcoat.roughness, "clearcoat roughness");
+    finite(m.clearcoat.normal_scale, -std::numeric_limits<float>::max(), "clearcoat normal scale");
+    texture(m.clearcoat.texture, "clearcoat");
+    texture(m.clearcoat.roughness_texture, "clearcoat roughness");
+    texture(m.clearcoat.normal_texture, "the clearcoat's normal map");
+    check_range(m.sheen.color, 0.0, 1.0, "sheen colour", m.location, problems);
+    in_unit(m.sheen.roughness, "sheen roughness");
+    texture(m.sheen.color_texture, "sheen colour");
+    texture(m.sheen.roughness_texture, "sheen roughness");
+    in_unit(m.iridescence.factor, "iridescence");
+    finite(m.iridescence.ior, 1.0, "iridescence ior");
+    finite(m.iridescence.thickness_minimum_nm, 0.0, "iridescence thickness minimum");
+    finite(m.iridescence.thickness_maximum_nm, 0.0, "iridescence thickness maximum");
+    texture(m.iridescence.texture, "iridescence");
+    texture(m.iridescence.thickness_texture, "iridescence thickness");
+    in_unit(m.anisotropy.strength, "anisotropy");
+    finite(m.anisotropy.rotation, -std::numeric_limits<float>::max(), "anisotropy rotation");
+    texture(m.anisotropy.texture, "anisotropy");
+    in_unit(m.diffuse_transmission.factor, "diffuse transmission");
+    check_range(m.diffuse_transmission.color, 0.0, 1.0, "diffuse transmission colour", m.location, problems);
+    texture(m.diffuse_transmission.texture, "diffuse transmission");
+    texture(m.diffuse_transmission.color_texture, "diffuse transmission colour");
+}
 
 void validate_material(const MaterialDesc& m, const SceneDesc& scene, ProblemList& problems) {
     const auto in_range = [&](float value, double low, double high, std::string_view what) {
@@ -61,6 +123,9 @@ void validate_material(const MaterialDesc& m, const SceneDesc& scene, ProblemLis
     check_range(m.specular_color, 0.0, std::numeric_limits<double>::infinity(), "specular colour", m.location,
                 problems);
     if (m.ior != 0.0f) in_range(m.ior, 1.0, kInfinity, "ior (other than 0)");
+
+    validate_layers(m, scene, problems);
+    validate_volume(m.volume, m.location, problems);
 
     validate_texture_ref(m.base_color_texture, "base colour", scene, m.location, problems);
     validate_texture_ref(m.metallic_roughness_texture, "metallic-roughness", scene, m.location, problems);

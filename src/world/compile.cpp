@@ -1,5 +1,6 @@
 #include "world/compile.h"
 
+#include "bsdf/color_matching.h"
 #include "world/compile_parts.h"
 #include "world/embree_scene.h"
 
@@ -8,16 +9,37 @@
 
 namespace etendue {
 
+namespace {
+
+XyzToWorking xyz_to_working(const ColorMatrix& from_rec709) {
+    XyzToWorking rows;
+    for (std::size_t r = 0; r < 3; ++r) {
+        const auto element = [&](std::size_t c) {
+            double sum = 0.0;
+            for (std::size_t k = 0; k < 3; ++k)
+                sum += static_cast<double>(from_rec709.m[3 * r + k]) * kXyzToRec709[k][c];
+            return static_cast<float>(sum);
+        };
+        rows[r] = {element(0), element(1), element(2)};
+    }
+    return rows;
+}
+
+}  // namespace
+
 World compile_world(SceneDesc scene, const ColorConfig& colors, const std::string& working_space,
                     const ThreadPool& threads, ProblemList& problems) {
     WorldData data;
     data.from_rec709 = colors.matrix(kGltfColorSpace, working_space);
+    data.xyz_to_working = xyz_to_working(data.from_rec709);
+    data.response = SpectralResponse(data.xyz_to_working);
     data.camera = compile_camera(scene);
 
     TextureCompiler textures(scene);
-    data.materials = compile_materials(scene, data.from_rec709, textures);
+    compile_materials(scene, textures, data);
     data.textures = textures.decode(threads);
     compile_geometry(scene, threads, data);
+    compile_bodies(data);
     compile_lights(scene, data, problems);
 
     std::vector<bool> has_alpha;

@@ -98,7 +98,8 @@ void compile_mesh_lights(WorldData& data, ProblemList& problems) {
                 continue;
             }
             triangle_count += geometry.triangles.size();
-            const bool uniform = !material.emission_texture.valid() && material.alpha_test == AlphaTest::Opaque;
+            const bool uniform =
+                !material.emission_texture.valid() && material.alpha_test == AlphaTest::Opaque && !material.has_coat;
             MeshLight light(world_triangles(geometry, instance), material.emission, mean_emission(data, material),
                             material.emits_both_sides, instance.mirrors, uniform,
                             mesh_position_error(geometry, instance));

@@ -30,11 +30,58 @@ Bsdf compile_dielectric(const DielectricDesc& desc) {
     return RoughDielectric::make(desc.ior, desc.roughness * desc.roughness);
 }
 
+Bsdf compile_diffuse(const DiffuseDesc& desc, const ColorMatrix& from_rec709) {
+    const Rgb albedo = from_rec709(desc.albedo);
+    if (desc.roughness > 0.0f) return RoughDiffuse{albedo, desc.roughness};
+    return Diffuse{albedo};
+}
+
 /// Reflectance at normal incidence; KHR_materials_ior gives 0 the meaning of an infinite index.
 float f0_from_ior(float ior) {
     if (ior == 0.0f) return 1.0f;
     const float root = (ior - 1.0f) / (ior + 1.0f);
     return root * root;
+}
+
+std::optional<GltfLayers> compile_layers(const MaterialDesc& desc, TextureCompiler& textures) {
+    const bool any = desc.diffuse_transmission.factor > 0.0f || desc.anisotropy.strength > 0.0f ||
+                     desc.iridescence.factor > 0.0f || !is_black(desc.sheen.color) || desc.clearcoat.factor > 0.0f;
+    if (!any) return std::nullopt;
+    GltfLayers layers;
+    layers.diffuse_transmission = desc.diffuse_transmission.factor;
+    layers.diffuse_transmission_texture = textures.slot(desc.diffuse_transmission.texture, TextureUse::Data);
+    layers.diffuse_transmission_color = desc.diffuse_transmission.color;
+    layers.diffuse_transmission_color_texture =
+        textures.slot(desc.diffuse_transmission.color_texture, TextureUse::Color);
+    layers.anisotropy = desc.anisotropy.strength;
+    layers.anisotropy_texture = textures.slot(desc.anisotropy.texture, TextureUse::Data);
+    layers.iridescence = desc.iridescence.factor;
+    layers.iridescence_texture = textures.slot(desc.iridescence.texture, TextureUse::Data);
+    layers.film_ior = desc.iridescence.ior;
+    layers.film_thickness_minimum_nm = desc.iridescence.thickness_minimum_nm;
+    layers.film_thickness_maximum_nm = desc.iridescence.thickness_maximum_nm;
+    layers.film_thickness_texture = textures.slot(desc.iridescence.thickness_texture, TextureUse::Data);
+    layers.sheen_color = desc.sheen.color;
+    layers.sheen_color_texture = textures.slot(desc.sheen.color_texture, TextureUse::Color);
+    layers.sheen_roughness = desc.sheen.roughness;
+    layers.sheen_roughness_texture = textures.slot(desc.sheen.roughness_texture, TextureUse::Data);
+    layers.clearcoat = desc.clearcoat.factor;
+    layers.clearcoat_texture = textures.slot(desc.clearcoat.texture, TextureUse::Data);
+    layers.clearcoat_roughness = desc.clearcoat.roughness;
+    layers.clearcoat_roughness_texture = textures.slot(desc.clearcoat.roughness_texture, TextureUse::Data);
+    return layers;
+}
+
+/// A surface that reflects like a dielectric and lets everything else in and out at random angles.
+GltfModel compile_subsurface(const SubsurfaceDesc& desc) {
+    GltfModel model;
+    model.metallic = 0.0f;
+    model.roughness = desc.roughness;
+    model.f0 = f0_from_ior(desc.ior);
+    model.specular = desc.ior > 1.0f ? 1.0f : 0.0f;
+    model.layers.emplace();
+    model.layers->diffuse_transmission = 1.0f;
+    return model;
 }
 
 GltfModel compile_gltf(const MaterialDesc& desc, TextureCompiler& textures) {
@@ -51,6 +98,10 @@ GltfModel compile_gltf(const MaterialDesc& desc, TextureCompiler& textures) {
     model.specular_color_texture = textures.slot(desc.specular_color_texture, TextureUse::Color);
     model.transmission = desc.transmission;
     model.transmission_texture = textures.slot(desc.transmission_texture, TextureUse::Data);
+    // An infinite index reflects everything.
+    model.refracts = desc.volume.closed && desc.ior > 0.0f;
+    model.ior = desc.ior;
+    model.layers = compile_layers(desc, textures);
     return model;
 }
 
@@ -69,7 +120,9 @@ Material compile_material(const MaterialDesc& desc, const ColorMatrix& from_rec7
     else if (const auto* dielectric = std::get_if<DielectricDesc>(&desc.override_model))
         material.model = compile_dielectric(*dielectric);
     else if (const auto* diffuse = std::get_if<DiffuseDesc>(&desc.override_model))
-        material.model = Bsdf(Diffuse{from_rec709(diffuse->albedo)});
+        material.model = compile_diffuse(*diffuse, from_rec709);
+    else if (const auto* subsurface = std::get_if<SubsurfaceDesc>(&desc.override_model))
+        material.model = compile_subsurface(*subsurface);
     else
         material.model = compile_gltf(desc, textures);
 
@@ -77,6 +130,17 @@ Material compile_material(const MaterialDesc& desc, const ColorMatrix& from_rec7
     compile_alpha(desc, textures, material);
     material.normal_texture = textures.slot(desc.normal_texture, TextureUse::Data);
     material.normal_scale = desc.normal_scale;
+
+    if (std::holds_alternative<std::monostate>(desc.override_model)) {
+        material.has_coat = desc.clearcoat.factor > 0.0f;
+        if (material.has_coat) {
+            material.coat_normal_texture = textures.slot(desc.clearcoat.normal_texture, TextureUse::Data);
+            material.coat_normal_scale = desc.clearcoat.normal_scale;
+        }
+        material.is_anisotropic = desc.anisotropy.strength > 0.0f;
+        material.anisotropy_texture = textures.slot(desc.anisotropy.texture, TextureUse::Data);
+        material.anisotropy_rotation = desc.anisotropy.rotation;
+    }
 
     const Rgb emission = desc.emissive * desc.emissive_strength;
     material.emits = max_component(emission) > 0.0f && !material.unlit;
@@ -90,12 +154,15 @@ Material compile_material(const MaterialDesc& desc, const ColorMatrix& from_rec7
 
 }  // namespace
 
-std::vector<Material> compile_materials(const SceneDesc& scene, const ColorMatrix& from_rec709,
-                                        TextureCompiler& textures) {
-    std::vector<Material> materials;
-    materials.reserve(scene.materials.size());
-    for (const MaterialDesc& desc : scene.materials) materials.push_back(compile_material(desc, from_rec709, textures));
-    return materials;
+void compile_materials(const SceneDesc& scene, TextureCompiler& textures, WorldData& data) {
+    data.materials.reserve(scene.materials.size());
+    for (const MaterialDesc& desc : scene.materials) {
+        data.materials.push_back(compile_material(desc, data.from_rec709, textures));
+        const std::optional<Filling> filling = compile_filling(desc, data.from_rec709);
+        if (!filling) continue;
+        data.materials.back().filling = static_cast<std::uint32_t>(data.fillings.size());
+        data.fillings.push_back(*filling);
+    }
 }
 
 }  // namespace etendue

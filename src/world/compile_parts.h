@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -34,11 +35,17 @@ class TextureCompiler {
     std::map<Request, std::size_t> index_of_;
 };
 
-[[nodiscard]] std::vector<Material> compile_materials(const SceneDesc& scene, const ColorMatrix& from_rec709,
-                                                      TextureCompiler& textures);
+/// Materials and what fills their bodies. Needs the working space in `data`.
+void compile_materials(const SceneDesc& scene, TextureCompiler& textures, WorldData& data);
+
+/// What fills the closed surfaces of a material, if it has such.
+[[nodiscard]] std::optional<Filling> compile_filling(const MaterialDesc& desc, const ColorMatrix& from_rec709);
 
 /// Moves the meshes of `scene` into `data`: bakes those that are placed once, keeps shared ones for instancing.
 void compile_geometry(SceneDesc& scene, const ThreadPool& threads, WorldData& data);
+
+/// Numbers the bodies by precedence. Needs materials and geometry in `data`.
+void compile_bodies(WorldData& data);
 
 /// Punctual lights, emissive meshes and the environment. Needs materials, textures and geometry in `data`.
 void compile_lights(const SceneDesc& scene, WorldData& data, ProblemList& problems);

@@ -22,6 +22,34 @@ struct TextureSlot {
     [[nodiscard]] bool valid() const { return texture >= 0; }
 };
 
+/// Of glTF's material, what its extensions add. Factors and textures as in scene/material_desc.h.
+struct GltfLayers {
+    float diffuse_transmission = 0.0f;
+    TextureSlot diffuse_transmission_texture;
+    Rgb diffuse_transmission_color{1.0f};  ///< linear Rec.709
+    TextureSlot diffuse_transmission_color_texture;
+
+    float anisotropy = 0.0f;
+    TextureSlot anisotropy_texture;
+
+    float iridescence = 0.0f;
+    TextureSlot iridescence_texture;
+    float film_ior = 1.3f;
+    float film_thickness_minimum_nm = 100.0f;
+    float film_thickness_maximum_nm = 400.0f;
+    TextureSlot film_thickness_texture;
+
+    Rgb sheen_color;  ///< linear Rec.709
+    TextureSlot sheen_color_texture;
+    float sheen_roughness = 0.0f;
+    TextureSlot sheen_roughness_texture;
+
+    float clearcoat = 0.0f;
+    TextureSlot clearcoat_texture;
+    float clearcoat_roughness = 0.0f;
+    TextureSlot clearcoat_roughness_texture;
+};
+
 /// Factors of glTF's metallic-roughness model whose textures are looked up at each hit.
 struct GltfModel {
     Rgb base_color{1.0f};  ///< linear Rec.709, as are the textures; the product is converted
@@ -36,6 +64,9 @@ struct GltfModel {
     TextureSlot specular_color_texture;
     float transmission = 0.0f;
     TextureSlot transmission_texture;
+    bool refracts = false;  ///< the surface of a closed body rather than a thin sheet
+    float ior = 1.5f;       ///< against vacuum
+    std::optional<GltfLayers> layers;
 };
 
 enum class AlphaTest { Opaque, Mask, Blend };
@@ -57,6 +88,21 @@ struct Material {
     bool unlit = false;  ///< shows its base colour to the eye and scatters nothing
     TextureSlot normal_texture;
     float normal_scale = 1.0f;
+
+    bool has_coat = false;
+    TextureSlot coat_normal_texture;
+    float coat_normal_scale = 1.0f;
+
+    bool is_anisotropic = false;
+    TextureSlot anisotropy_texture;    ///< its direction
+    float anisotropy_rotation = 0.0f;  ///< radians, from the tangent to the bitangent
+
+    std::uint32_t filling = 0xffffffffu;  ///< index into the World's fillings if the surface is a body's, else kNone
+
+    /// True if the surface's tangents mean something.
+    [[nodiscard]] bool needs_tangents() const {
+        return normal_texture.valid() || coat_normal_texture.valid() || is_anisotropic;
+    }
 };
 
 }  // namespace etendue

@@ -1,7 +1,6 @@
-// Materials at a point: textures looked up, numbers handed to the lobes.
+// What a material is at a point, apart from how it scatters (gltf_surface.h): opacity, colour, emission, relief.
 #pragma once
 
-#include "bsdf/bsdf.h"
 #include "core/rgb.h"
 #include "world/surface_point.h"
 #include "world/world.h"
@@ -17,13 +16,16 @@ namespace etendue {
 /// Base colour in the working space: factor, texture and vertex colour.
 [[nodiscard]] Rgb evaluate_base_color(const WorldData& data, const GltfModel& model, const SurfacePoint& point);
 
-[[nodiscard]] Bsdf evaluate_gltf_model(const WorldData& data, const GltfModel& model, const SurfacePoint& point);
-
 /// Emitted radiance without regard to sides, working space.
 [[nodiscard]] Rgb evaluate_emission(const WorldData& data, const Material& material, const SurfacePoint& point);
 
-/// The frame around the normal that the material's normal map asks for.
-[[nodiscard]] Frame apply_normal_map(const WorldData& data, const Material& material, const SurfacePoint& point,
-                                     float bitangent_sign);
+/// The frame around the normal that a normal map asks for, from one with the surface's tangent and normal.
+/// `bitangent_sign` is -1 where the texture lies mirrored on the surface.
+[[nodiscard]] Frame apply_normal_map(const WorldData& data, const TextureSlot& map, float scale,
+                                     const SurfacePoint& point, const Frame& frame, float bitangent_sign);
+
+/// The frame turned so that its tangent lies along the direction in which an anisotropic surface is rougher.
+[[nodiscard]] Frame apply_anisotropy(const WorldData& data, const Material& material, const SurfacePoint& point,
+                                     const Frame& frame, float bitangent_sign);
 
 }  // namespace etendue

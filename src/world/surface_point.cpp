@@ -32,6 +32,28 @@ Vec3f tangent_from_uv(const Geometry& geometry, const TextureSlot& slot, const s
     return (e1 * d2.y - e2 * d1.y) * (1.0f / determinant);
 }
 
+/// Whose texture coordinates decide on the tangents where the mesh has none.
+const TextureSlot& tangent_slot(const Material& material) {
+    return material.normal_texture.valid()        ? material.normal_texture
+           : material.coat_normal_texture.valid() ? material.coat_normal_texture
+                                                  : material.anisotropy_texture;
+}
+
+/// What the material's maps make of the interpolated frame. The base's relief does not show in a coat over it.
+void apply_relief(const WorldData& data, const Material& material, float bitangent_sign, SurfacePoint& point) {
+    const Frame interpolated = point.shading;
+    if (material.normal_texture.valid())
+        point.shading =
+            apply_normal_map(data, material.normal_texture, material.normal_scale, point, interpolated, bitangent_sign);
+    if (material.is_anisotropic) point.shading = apply_anisotropy(data, material, point, point.shading, bitangent_sign);
+    if (!material.has_coat) return;
+    point.coat_normal = interpolated.normal;
+    if (material.coat_normal_texture.valid())
+        point.coat_normal = apply_normal_map(data, material.coat_normal_texture, material.coat_normal_scale, point,
+                                             interpolated, bitangent_sign)
+                                .normal;
+}
+
 }  // namespace
 
 SurfacePoint make_surface_point(const WorldData& data, std::uint32_t instance_index, std::uint32_t geometry_index,
@@ -60,15 +82,14 @@ SurfacePoint make_surface_point(const WorldData& data, std::uint32_t instance_in
     point.uv[1] = interpolate_uv(geometry.uv1, triangle, barycentric);
     if (!geometry.colors.empty()) point.color = interpolate(geometry.colors, triangle, barycentric);
 
-    const bool normal_mapped = material.normal_texture.valid();
     Vec3f tangent(0.0f);
     float bitangent_sign = 1.0f;
     if (!geometry.tangents.empty()) {
         const Vec4f t = interpolate(geometry.tangents, triangle, barycentric);
         tangent = {t.x, t.y, t.z};
         bitangent_sign = geometry.tangents[triangle[0]].w;
-    } else if (normal_mapped) {
-        tangent = tangent_from_uv(geometry, material.normal_texture, triangle, bitangent_sign);
+    } else if (material.needs_tangents()) {
+        tangent = tangent_from_uv(geometry, tangent_slot(material), triangle, bitangent_sign);
     }
 
     if (!instance.baked) {
@@ -87,7 +108,7 @@ SurfacePoint make_surface_point(const WorldData& data, std::uint32_t instance_in
     const Vec3f normal = usable ? shading * (1.0f / shading_length) : point.geometric_normal;
     point.shading =
         length_squared(tangent) > 0.0f ? Frame::from_normal_and_tangent(normal, tangent) : Frame::from_normal(normal);
-    if (normal_mapped) point.shading = apply_normal_map(data, material, point, bitangent_sign);
+    if (material.needs_tangents() || material.has_coat) apply_relief(data, material, bitangent_sign, point);
     return point;
 }
 

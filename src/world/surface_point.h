@@ -16,6 +16,7 @@ struct SurfacePoint {
     Vec3f geometric_normal{0.0f};  ///< unit, on the front side (counter-clockwise)
     float clearance = 0.0f;        ///< metres along the normal that a ray must start off the surface (position_error.h)
     Frame shading;                 ///< interpolated and normal-mapped; its normal is on the front side too
+    Vec3f coat_normal{0.0f};       ///< unit, of the clear coat if the material has one
     Vec2f uv[2]{{0.0f, 0.0f}, {0.0f, 0.0f}};
     Vec4f color{1.0f, 1.0f, 1.0f, 1.0f};  ///< vertex colour, linear Rec.709
     const Material* material = nullptr;

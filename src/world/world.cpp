@@ -1,10 +1,15 @@
 #include "world/world.h"
 
 #include "bsdf/ggx.h"
+#include "core/position_error.h"
 #include "world/embree_scene.h"
+#include "world/gltf_surface.h"
 #include "world/material_evaluation.h"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
 #include <utility>
 
 namespace etendue {
@@ -20,6 +25,17 @@ float radius_of(const Bounds& bounds) {
     return radius > 0.0f ? radius : 1.0f;
 }
 
+/// Some point of a light, nothing for those that are infinitely far away.
+std::optional<Vec3f> light_position(const Light& light) {
+    if (const auto* point = std::get_if<PointLight>(&light)) return point->position;
+    if (const auto* spot = std::get_if<SpotLight>(&light)) return spot->position;
+    if (const auto* mesh = std::get_if<MeshLight>(&light)) {
+        const LightTriangle& first = mesh->triangles().front();
+        return first.p0 + (first.edge1 + first.edge2) * (1.0f / 3.0f);
+    }
+    return std::nullopt;
+}
+
 bool is_delta_light(const Light& light) {
     return std::holds_alternative<PointLight>(light) || std::holds_alternative<SpotLight>(light) ||
            std::holds_alternative<DirectionalLight>(light);
@@ -30,7 +46,18 @@ bool is_specular(const Material& material) {
     if (material.unlit) return false;
     if (const Bsdf* constant = std::get_if<Bsdf>(&material.model)) return !has_non_delta(*constant);
     const GltfModel& model = std::get<GltfModel>(material.model);
-    return model.roughness * model.roughness < kSmoothAlpha;
+    return model.roughness * model.roughness < kSmoothAlpha ||
+           (model.layers && model.layers->clearcoat > 0.0f &&
+            model.layers->clearcoat_roughness * model.layers->clearcoat_roughness < kSmoothAlpha);
+}
+
+/// The interface of a dielectric between other indices than it was made for.
+Bsdf with_relative_ior(const Bsdf& bsdf, float relative_ior) {
+    constexpr float kSameIor = 1e-4f;
+    const bool is_same = std::abs(relative_ior - 1.0f) < kSameIor;
+    if (const auto* rough = std::get_if<RoughDielectric>(&bsdf); rough != nullptr && !is_same)
+        return RoughDielectric::make(relative_ior, rough->alpha_x, rough->alpha_y);
+    return SmoothDielectric{.ior = is_same ? 1.0f : relative_ior};
 }
 
 template <typename T>
@@ -51,6 +78,10 @@ World::World(WorldData data)
     has_transparency_ = std::any_of(data_->materials.begin(), data_->materials.end(),
                                     [](const Material& m) { return m.alpha_test != AlphaTest::Opaque; });
     has_delta_lights_ = std::any_of(data_->lights.begin(), data_->lights.end(), is_delta_light);
+    has_scattering_bodies_ = std::any_of(data_->fillings.begin(), data_->fillings.end(),
+                                         [](const Filling& f) { return f.medium.scatters(); });
+    if (has_bodies()) camera_interior_ = interior_at(generate_ray(data_->camera, {0.5f, 0.5f}, {0.5f, 0.5f}).origin);
+    has_lights_in_media_ = has_scattering_bodies_ && any_light_in_media();
     has_specular_surfaces_ = std::any_of(data_->geometries.begin(), data_->geometries.end(),
                                          [&](const Geometry& g) { return is_specular(data_->materials[g.material]); });
 }
@@ -73,21 +104,100 @@ SurfacePoint World::surface_point(const Hit& hit) const {
     return make_surface_point(*data_, hit.instance, hit.geometry, hit.triangle, {hit.u, hit.v});
 }
 
-const Bsdf& World::bsdf(const SurfacePoint& point, Bsdf& storage) const {
-    if (const Bsdf* constant = std::get_if<Bsdf>(&point.material->model)) return *constant;
-    storage = evaluate_gltf_model(*data_, std::get<GltfModel>(point.material->model), point);
+const Bsdf& World::bsdf(const SurfacePoint& point, const Vec3f& wo, float relative_ior, Bsdf& storage) const {
+    const Material& material = *point.material;
+    if (const auto* model = std::get_if<GltfModel>(&material.model)) {
+        storage = evaluate_gltf_surface(*data_, *model, point, relative_ior, dot(wo, point.geometric_normal) < 0.0f);
+        return storage;
+    }
+    const Bsdf& constant = std::get<Bsdf>(material.model);
+    // Compiled for vacuum around it.
+    if (relative_ior == 0.0f || relative_ior == data_->fillings[material.filling].ior) return constant;
+    storage = with_relative_ior(constant, relative_ior);
     return storage;
 }
 
 Rgb World::emission(const SurfacePoint& point, const Vec3f& wo) const {
     const Material& material = *point.material;
     if (!material.emits) return {};
-    if (!material.emits_both_sides && dot(wo, point.geometric_normal) <= 0.0f) return {};
-    return evaluate_emission(*data_, material, point);
+    const bool from_back = dot(wo, point.geometric_normal) <= 0.0f;
+    if (!material.emits_both_sides && from_back) return {};
+    Rgb emitted = evaluate_emission(*data_, material, point);
+    if (material.has_coat) {
+        const GltfModel& model = std::get<GltfModel>(material.model);
+        emitted *= evaluate_clear_coat(*data_, *model.layers, point, false).passed(abs_dot(wo, point.coat_normal));
+    }
+    return emitted;
 }
 
 Rgb World::unlit_color(const SurfacePoint& point) const {
     return evaluate_base_color(*data_, std::get<GltfModel>(point.material->model), point);
+}
+
+bool World::any_light_in_media() const {
+    return std::any_of(data_->lights.begin(), data_->lights.end(), [&](const Light& light) {
+        const std::optional<Vec3f> position = light_position(light);
+        if (!position) return false;
+        const HomogeneousMedium* around = medium(interior_at(*position));
+        return around != nullptr && around->scatters();
+    });
+}
+
+float Crossing::relative_ior(float nm) const {
+    return dispersed_ior(inside_ior, inside_dispersion, nm) / dispersed_ior(outside_ior, outside_dispersion, nm);
+}
+
+Crossing World::crossing(const SurfacePoint& point, const Interior& current) const {
+    const Instance& instance = data_->instances[point.instance];
+    const std::uint32_t body =
+        data_->body_of_slot[instance.first_light_slot + point.geometry - instance.first_geometry];
+    Crossing crossing{.outside = current, .inside = current};
+    crossing.outside.leave(body);
+    crossing.inside = crossing.outside;
+    crossing.inside.enter(body);
+    crossing.is_hidden = crossing.inside.filling() != body;
+    const Filling& inside = data_->fillings[data_->filling_of_body[body]];
+    crossing.inside_ior = inside.ior;
+    crossing.inside_dispersion = inside.dispersion;
+    if (const std::uint32_t around = crossing.outside.filling(); around != kNone) {
+        const Filling& outside = data_->fillings[data_->filling_of_body[around]];
+        crossing.outside_ior = outside.ior;
+        crossing.outside_dispersion = outside.dispersion;
+    }
+    return crossing;
+}
+
+const HomogeneousMedium* World::medium(const Interior& interior) const {
+    const std::uint32_t body = interior.filling();
+    if (body == kNone) return nullptr;
+    const HomogeneousMedium& medium = data_->fillings[data_->filling_of_body[body]].medium;
+    return medium.is_empty() ? nullptr : &medium;
+}
+
+Interior World::interior_at(const Vec3f& point) const {
+    // A body that the ray leaves more often than it enters is one that it began in.
+    constexpr int kMostBoundaries = 4096;
+    std::map<std::uint32_t, int> left;
+    Ray ray;
+    ray.origin = point;
+    ray.direction = {0.0f, 1.0f, 0.0f};
+    for (int i = 0; i < kMostBoundaries; ++i) {
+        Hit hit;
+        data_->bvh->intersect({&ray, 1}, {&hit, 1}, Coherence::Incoherent, QueryForm::Single);
+        if (!hit.valid()) break;
+        const SurfacePoint surface = surface_point(hit);
+        if (is_boundary(surface)) {
+            const Instance& instance = data_->instances[surface.instance];
+            const std::uint32_t body =
+                data_->body_of_slot[instance.first_light_slot + surface.geometry - instance.first_geometry];
+            left[body] += dot(ray.direction, surface.geometric_normal) > 0.0f ? 1 : -1;
+        }
+        ray.origin = offset_origin(surface.position, surface.geometric_normal, surface.clearance, ray.direction);
+    }
+    Interior interior;
+    for (const auto& [body, count] : left)
+        if (count > 0) interior.enter(body);
+    return interior;
 }
 
 ChosenLight World::sample_light(const Vec3f& point, const LightNumbers& u) const {

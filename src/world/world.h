@@ -3,11 +3,13 @@
 #pragma once
 
 #include "bsdf/bsdf.h"
+#include "bsdf/spectral_response.h"
 #include "camera/camera.h"
 #include "core/bounds.h"
 #include "core/ray.h"
 #include "light/light.h"
 #include "texture/texture.h"
+#include "world/body.h"
 #include "world/geometry.h"
 #include "world/material.h"
 #include "world/surface_point.h"
@@ -82,6 +84,11 @@ struct WorldData {
     bool environment_visible = true;           ///< to camera rays
     Camera camera;
     ColorMatrix from_rec709;  ///< linear Rec.709 to the working space
+    XyzToWorking xyz_to_working{};
+    SpectralResponse response;
+    std::vector<Filling> fillings;               ///< of materials
+    std::vector<std::uint32_t> filling_of_body;  ///< bodies by precedence, the first first
+    std::vector<std::uint32_t> body_of_slot;     ///< body of (instance, geometry), or kNone; empty without bodies
     Bounds bounds;
     std::unique_ptr<EmbreeScene> bvh;
 
@@ -121,12 +128,32 @@ class World {
 
     /// The surface at `hit` (valid).
     [[nodiscard]] SurfacePoint surface_point(const Hit& hit) const;
-    /// How the surface scatters there; `storage` holds lobes that had to be evaluated from textures.
-    [[nodiscard]] const Bsdf& bsdf(const SurfacePoint& point, Bsdf& storage) const;
+    /// How the surface scatters light that is seen along `wo`; `storage` holds lobes that had to be evaluated there.
+    /// `relative_ior` is that of a body's inside over its outside, 0 for the material's own against vacuum.
+    [[nodiscard]] const Bsdf& bsdf(const SurfacePoint& point, const Vec3f& wo, float relative_ior, Bsdf& storage) const;
     /// Radiance emitted towards `wo`, W/(m² sr).
     [[nodiscard]] Rgb emission(const SurfacePoint& point, const Vec3f& wo) const;
     /// Colour of an unlit surface.
     [[nodiscard]] Rgb unlit_color(const SurfacePoint& point) const;
+
+    /// False if there is nothing that light can be in.
+    [[nodiscard]] bool has_bodies() const { return !data_->filling_of_body.empty(); }
+    /// True if light scatters in some of them.
+    [[nodiscard]] bool has_scattering_bodies() const { return has_scattering_bodies_; }
+    /// True if some light, at least a part of it, lies in a medium that scatters.
+    [[nodiscard]] bool has_lights_in_media() const { return has_lights_in_media_; }
+    /// True if the surface is that of a body.
+    [[nodiscard]] bool is_boundary(const SurfacePoint& point) const { return point.material->filling != kNone; }
+    /// A ray from within `current` at a boundary.
+    [[nodiscard]] Crossing crossing(const SurfacePoint& point, const Interior& current) const;
+    /// What fills the space, null in vacuum.
+    [[nodiscard]] const HomogeneousMedium* medium(const Interior& interior) const;
+    /// The bodies that `point` is in, found by a ray through all that lies above it.
+    [[nodiscard]] Interior interior_at(const Vec3f& point) const;
+    /// Those that the camera is in.
+    [[nodiscard]] const Interior& camera_interior() const { return camera_interior_; }
+    /// How the working space sees single wavelengths.
+    [[nodiscard]] const SpectralResponse& spectral_response() const { return data_->response; }
 
     /// False if every surface stops all light, so that rays need no alpha keys.
     [[nodiscard]] bool has_transparency() const { return has_transparency_; }
@@ -155,12 +182,17 @@ class World {
     [[nodiscard]] WorldStatistics statistics() const;
 
   private:
+    [[nodiscard]] bool any_light_in_media() const;
+
     // On the heap, so that Embree's callbacks keep their pointer to it when a World is moved.
     std::unique_ptr<WorldData> data_;
     LightSelector selector_;
     bool has_transparency_ = false;
     bool has_delta_lights_ = false;
     bool has_specular_surfaces_ = false;
+    bool has_scattering_bodies_ = false;
+    bool has_lights_in_media_ = false;
+    Interior camera_interior_;
     RayObserver* observer_ = nullptr;
 };
 

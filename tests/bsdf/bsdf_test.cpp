@@ -146,8 +146,12 @@ TEST(Bsdf, ScattersNoMoreThanArrives) {
 
 /// Index on the side of `w` of an interface; 1 for other lobes.
 float index_at(const Bsdf& bsdf, const Vec3f& w) {
-    const auto* rough = std::get_if<RoughDielectric>(&bsdf);
-    return rough != nullptr && w.z < 0.0f ? rough->ior : 1.0f;
+    if (w.z > 0.0f) return 1.0f;
+    if (const auto* rough = std::get_if<RoughDielectric>(&bsdf)) return rough->ior;
+    const auto* body = std::get_if<DielectricBody>(&bsdf);
+    if (const auto* layered = std::get_if<LayeredSurface>(&bsdf)) body = std::get_if<DielectricBody>(&layered->base);
+    if (body == nullptr) return 1.0f;
+    return std::visit([](const auto& lobe) { return lobe.ior; }, body->interface);
 }
 
 struct Pair {
@@ -243,9 +247,9 @@ TEST(Bsdf, KnowsWhichLobesAreDeltasAndWhichHaveTwoSides) {
     EXPECT_FALSE(has_non_delta(SmoothConductor{}));
     EXPECT_FALSE(has_non_delta(SmoothDielectric{}));
     EXPECT_TRUE(has_non_delta(RoughConductor{}));
-    EXPECT_TRUE(has_non_delta(MetallicRoughness{.metallic = 0.0f, .alpha = 0.0f}))
+    EXPECT_TRUE(has_non_delta(MetallicRoughness{.metallic = 0.0f, .alpha_x = 0.0f, .alpha_y = 0.0f}))
         << "a smooth coat over a diffuse base";
-    EXPECT_FALSE(has_non_delta(MetallicRoughness{.metallic = 1.0f, .alpha = 0.0f}));
+    EXPECT_FALSE(has_non_delta(MetallicRoughness{.metallic = 1.0f, .alpha_x = 0.0f, .alpha_y = 0.0f}));
     EXPECT_TRUE(is_two_sided_interface(RoughDielectric{}));
     EXPECT_TRUE(is_two_sided_interface(SmoothDielectric{}));
     EXPECT_FALSE(is_two_sided_interface(MetallicRoughness{}));

@@ -43,7 +43,7 @@ double integrate_normals(float alpha, const Function& f) {
 
 TEST(Ggx, ProjectedAreaOfTheNormalsIsOne) {
     for (const float alpha : kAlphas) {
-        const Ggx ggx{alpha};
+        const Ggx ggx = Ggx::isotropic(alpha);
         EXPECT_NEAR(integrate_normals(alpha, [&](const Vec3f& h) { return static_cast<double>(ggx.d(h) * h.z); }), 1.0,
                     2e-3)
             << alpha;
@@ -54,7 +54,7 @@ TEST(Ggx, ProjectedAreaOfTheNormalsIsOne) {
 TEST(Ggx, SmithMaskingConservesTheProjectedArea) {
     for (const float alpha : kAlphas)
         for (const float cos_theta : kCosines) {
-            const Ggx ggx{alpha};
+            const Ggx ggx = Ggx::isotropic(alpha);
             const Vec3f wo = direction_at(cos_theta);
             const double visible = integrate_normals(alpha, [&](const Vec3f& h) {
                 return static_cast<double>(ggx.g1(wo) * std::max(0.0f, dot(wo, h)) * ggx.d(h));
@@ -69,7 +69,7 @@ TEST(Ggx, VisibleNormalsFollowTheirDensity) {
     for (const float alpha : kAlphas)
         for (const float cos_theta : kCosines) {
             SCOPED_TRACE(testing::Message() << "alpha " << alpha << ", cos " << cos_theta);
-            const Ggx ggx{alpha};
+            const Ggx ggx = Ggx::isotropic(alpha);
             const Vec3f wo = direction_at(cos_theta);
             const auto sampler = [&](Random& random) -> std::optional<Vec3f> {
                 return ggx.sample_visible_normal(wo, random.next_2d());
@@ -87,7 +87,7 @@ TEST(Ggx, VisibleNormalsFollowTheirDensity) {
 TEST(Ggx, PassesTheWeakWhiteFurnace) {
     for (const float alpha : {0.1f, 0.6f, 1.0f})
         for (const float cos_theta : kCosines) {
-            const Ggx ggx{alpha};
+            const Ggx ggx = Ggx::isotropic(alpha);
             const Vec3f wo = direction_at(cos_theta);
             const auto guide = [&](Random& random) -> std::optional<Vec3f> {
                 const Vec3f h = ggx.sample_visible_normal(wo, random.next_2d());
@@ -102,7 +102,7 @@ TEST(Ggx, PassesTheWeakWhiteFurnace) {
 }
 
 TEST(Ggx, MaskingAndShadowingAreCorrelated) {
-    const Ggx ggx{0.5f};
+    const Ggx ggx = Ggx::isotropic(0.5f);
     const Vec3f a = direction_at(0.3f);
     const Vec3f b = normalize({-0.2f, 0.5f, 0.4f});
     EXPECT_FLOAT_EQ(ggx.g2(a, b), ggx.g2(b, a));

@@ -26,9 +26,9 @@ TEST(MetallicRoughness, IsAMixOfDielectricAndMetal) {
     Random random(1);
     for (const float alpha : {0.1f, 0.5f, 1.0f}) {
         const Rgb base{0.9f, 0.5f, 0.1f};
-        const MetallicRoughness dielectric{.base = base, .metallic = 0.0f, .alpha = alpha};
-        const MetallicRoughness metal{.base = base, .metallic = 1.0f, .alpha = alpha};
-        const MetallicRoughness mixed{.base = base, .metallic = 0.3f, .alpha = alpha};
+        const MetallicRoughness dielectric{.base = base, .metallic = 0.0f, .alpha_x = alpha, .alpha_y = alpha};
+        const MetallicRoughness metal{.base = base, .metallic = 1.0f, .alpha_x = alpha, .alpha_y = alpha};
+        const MetallicRoughness mixed{.base = base, .metallic = 0.3f, .alpha_x = alpha, .alpha_y = alpha};
         for (int i = 0; i < 200; ++i) {
             const Vec3f wo = direction_at(0.05f + 0.95f * random.next());
             const Vec3f wi = normalize({random.next() - 0.5f, random.next() - 0.5f, 0.01f + random.next()});
@@ -42,7 +42,7 @@ TEST(MetallicRoughness, IsAMixOfDielectricAndMetal) {
 
 TEST(MetallicRoughness, AMetalIsARoughConductorWithSchlicksFresnel) {
     const Rgb base{0.9f, 0.5f, 0.1f};
-    const MetallicRoughness metal{.base = base, .metallic = 1.0f, .alpha = 0.3f};
+    const MetallicRoughness metal{.base = base, .metallic = 1.0f, .alpha_x = 0.3f, .alpha_y = 0.3f};
     const RoughConductor conductor{.fresnel = {.f0 = base, .dip = Rgb(0.0f)}, .alpha = 0.3f};
     const Vec3f wo = direction_at(0.4f);
     const Vec3f wi = normalize({-0.5f, 0.2f, 0.5f});
@@ -54,7 +54,8 @@ TEST(MetallicRoughness, AMetalIsARoughConductorWithSchlicksFresnel) {
 }
 
 TEST(MetallicRoughness, WithoutReflectanceAtNormalIncidenceItIsNearlyLambertian) {
-    const MetallicRoughness lobe{.base = {0.5f, 0.5f, 0.5f}, .metallic = 0.0f, .alpha = 1.0f, .f0 = Rgb(0.0f)};
+    const MetallicRoughness lobe{
+        .base = {0.5f, 0.5f, 0.5f}, .metallic = 0.0f, .alpha_x = 1.0f, .alpha_y = 1.0f, .f0 = Rgb(0.0f)};
     const Rgb f = value(lobe, {0.0f, 0.0f, 1.0f}, direction_at(0.9f));
     EXPECT_NEAR(f.g, 0.5f * kInvPi, 0.1f * 0.5f * kInvPi);
 }
@@ -62,7 +63,8 @@ TEST(MetallicRoughness, WithoutReflectanceAtNormalIncidenceItIsNearlyLambertian)
 // A thin sheet: seen in a mirror, transmission is the reflection of the same surface, so swapping the directions (and
 // with them the sides) changes nothing.
 TEST(MetallicRoughness, ThinTransmissionIsReciprocal) {
-    const MetallicRoughness lobe{.base = {0.9f, 0.5f, 0.1f}, .metallic = 0.2f, .alpha = 0.3f, .transmission = 0.7f};
+    const MetallicRoughness lobe{
+        .base = {0.9f, 0.5f, 0.1f}, .metallic = 0.2f, .alpha_x = 0.3f, .alpha_y = 0.3f, .transmission = 0.7f};
     Random random(2);
     for (int i = 0; i < 200; ++i) {
         const Vec3f wo = direction_at(0.05f + 0.95f * random.next());
@@ -76,7 +78,8 @@ TEST(MetallicRoughness, ThinTransmissionIsReciprocal) {
 
 TEST(MetallicRoughness, SmoothTransmissionGoesStraightOnTintedOnce) {
     const Rgb base{0.9f, 0.5f, 0.1f};
-    const MetallicRoughness lobe{.base = base, .metallic = 0.0f, .alpha = 0.0f, .transmission = 1.0f};
+    const MetallicRoughness lobe{
+        .base = base, .metallic = 0.0f, .alpha_x = 0.0f, .alpha_y = 0.0f, .transmission = 1.0f};
     const Vec3f wo = direction_at(0.6f);
     constexpr int kSamples = 20'000;
     Random random(3);

@@ -15,7 +15,10 @@ Material compile_one(const MaterialDesc& desc, const std::string& working_space 
     SceneDesc scene = empty_scene();
     add_material(scene, desc);
     TextureCompiler textures(scene);
-    return compile_materials(scene, ColorConfig::built_in().matrix(kGltfColorSpace, working_space), textures).front();
+    WorldData data;
+    data.from_rec709 = ColorConfig::built_in().matrix(kGltfColorSpace, working_space);
+    compile_materials(scene, textures, data);
+    return std::move(data.materials.front());
 }
 
 template <typename Lobe>
@@ -34,7 +37,7 @@ TEST(CompileMaterials, OverridesBecomeTheLobesTheyName) {
     EXPECT_EQ(lobe_of<SmoothDielectric>(with_override(DielectricDesc{1.33f, 0.0f})).ior, 1.33f);
     const auto frosted = lobe_of<RoughDielectric>(with_override(DielectricDesc{1.5f, 0.5f}));
     EXPECT_EQ(frosted.ior, 1.5f);
-    EXPECT_FLOAT_EQ(frosted.alpha, 0.25f);
+    EXPECT_FLOAT_EQ(frosted.alpha_x, 0.25f);
     EXPECT_FLOAT_EQ(lobe_of<RoughConductor>(with_override(ConductorDesc{"Au", 0.4f})).alpha, 0.16f);
     (void)lobe_of<SmoothConductor>(with_override(ConductorDesc{"", 0.0f}));
 }

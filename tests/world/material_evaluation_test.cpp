@@ -39,7 +39,7 @@ class MaterialEvaluation : public testing::Test {
         const Hit hit = intersect(world, Ray{.origin = {x, y, 0}, .direction = {0, 0, -1}});
         EXPECT_TRUE(hit.valid());
         Bsdf storage;
-        return std::get<MetallicRoughness>(world.bsdf(world.surface_point(hit), storage));
+        return std::get<MetallicRoughness>(world.bsdf(world.surface_point(hit), {0.0f, 0.0f, 1.0f}, 0.0f, storage));
     }
     void TearDown() override {
         for (const std::filesystem::path& file : files_) std::filesystem::remove(file);
@@ -68,7 +68,7 @@ TEST_F(MaterialEvaluation, RoughnessIsGreenAndMetallicBlueAndNeitherIsColour) {
     material.metallic_roughness_texture.texture = texture(1, {{255, 128, 64, 255}});
     const MetallicRoughness lobe = lobe_at(world_with(material), 0.1f, 0.1f);
     const float roughness = 0.9f * 128.0f / 255.0f;
-    EXPECT_NEAR(lobe.alpha, roughness * roughness, 1e-5f);
+    EXPECT_NEAR(lobe.alpha_x, roughness * roughness, 1e-5f);
     EXPECT_NEAR(lobe.metallic, 0.5f * 64.0f / 255.0f, 1e-5f);
 }
 

@@ -19,12 +19,14 @@ struct NamedLobe {
 };
 
 std::vector<NamedLobe> lobes() {
-    return {{"diffuse", Diffuse{Rgb(0.7f)}},
-            {"plastic", MetallicRoughness{.base = {0.5f, 0.6f, 0.7f}, .metallic = 0.0f, .alpha = 0.3f}},
-            {"thin transmission",
-             MetallicRoughness{.base = Rgb(0.9f), .metallic = 0.2f, .alpha = 0.4f, .transmission = 0.8f}},
-            {"rough conductor", RoughConductor{{}, 0.4f}},
-            {"rough dielectric", RoughDielectric::make(1.5f, 0.4f)}};
+    return {
+        {"diffuse", Diffuse{Rgb(0.7f)}},
+        {"plastic", MetallicRoughness{.base = {0.5f, 0.6f, 0.7f}, .metallic = 0.0f, .alpha_x = 0.3f, .alpha_y = 0.3f}},
+        {"thin transmission",
+         MetallicRoughness{
+             .base = Rgb(0.9f), .metallic = 0.2f, .alpha_x = 0.4f, .alpha_y = 0.4f, .transmission = 0.8f}},
+        {"rough conductor", RoughConductor{{}, 0.4f}},
+        {"rough dielectric", RoughDielectric::make(1.5f, 0.4f)}};
 }
 
 /// A surface whose shading normal leans away from its geometric one.

@@ -52,7 +52,8 @@ Rgb DebugIntegrator::value(const World& world, const Ray& ray, const Hit& hit, S
     }
     if (point.material->unlit) return world.unlit_color(point);
     Bsdf storage;
-    const Scattering scattering(world.bsdf(point, storage), point.shading, point.geometric_normal, -ray.direction);
+    const Scattering scattering(world.bsdf(point, -ray.direction, 0.0f, storage), point.shading, point.geometric_normal,
+                                -ray.direction);
     return estimate_albedo(scattering.bsdf(), scattering.wo_local(), kAlbedoSamples,
                            sample_bits(key, kFirstFreeDimension));
 }

@@ -22,8 +22,16 @@ enum BounceDimension : std::uint32_t {
     kBounceDimensions
 };
 
+/// Those that only scenes with bodies need, apart from the others, so that they do not change what these are.
+enum BodyDimension : std::uint32_t { kMedium, kWavelength, kBodyDimensions };
+
 std::uint32_t bounce_dimension(int depth, std::uint32_t which) {
     return kFirstFreeDimension + static_cast<std::uint32_t>(depth) * kBounceDimensions + which;
+}
+
+std::uint32_t body_dimension(int depth, std::uint32_t which) {
+    constexpr std::uint32_t kFirst = 1u << 30;
+    return kFirst + static_cast<std::uint32_t>(depth) * kBodyDimensions + which;
 }
 
 /// Most of the paths of `depth` edges that Russian roulette lets live. Lossless ones live on as long as paths usually
@@ -33,12 +41,12 @@ float most_survival(int depth) {
     return depth < kLongPath ? 1.0f : 0.95f;
 }
 
-/// From the surface to where the light was sampled, both ends clear of the surfaces there.
-Ray shadow_ray(const SurfacePoint& point, const LightSample& light) {
+/// From a point to where the light was sampled; the end is clear of the surface there.
+Ray shadow_ray(const Vec3f& origin, const LightSample& light) {
     // What rounding may add to the length; the end is clear of the light by more than its own rounding.
     constexpr float kBeforeEnd = 1.0f - 8.0f * std::numeric_limits<float>::epsilon();
     Ray ray;
-    ray.origin = offset_origin(point.position, point.geometric_normal, point.clearance, light.wi);
+    ray.origin = origin;
     ray.direction = light.wi;
     if (std::isinf(light.distance)) return ray;
     const Vec3f to_end = light.end - ray.origin;
@@ -46,6 +54,25 @@ Ray shadow_ray(const SurfacePoint& point, const LightSample& light) {
     if (distance > 0.0f) ray.direction = to_end * (1.0f / distance);
     ray.t_max = distance * kBeforeEnd;
     return ray;
+}
+
+/// Weight of a light sample that the scattering at hand would have found with `pdf_solid_angle`.
+float light_sample_scale(const ChosenLight& chosen, float pdf_solid_angle) {
+    const LightSample& light = chosen.sample;
+    // A delta light can be found in no other way; its density is the choice's probability alone.
+    return light.is_delta ? 1.0f / chosen.probability
+                          : power_heuristic(light.pdf_solid_angle, pdf_solid_angle) / light.pdf_solid_angle;
+}
+
+/// Share of light that arrives from `distance` metres away.
+Rgb transmittance(const World& world, const Interior& interior, float distance) {
+    const HomogeneousMedium* medium = world.medium(interior);
+    return medium != nullptr ? medium->transmittance(distance) : Rgb(1.0f);
+}
+
+/// Where a direction leads from a boundary.
+const Interior& beyond(const Crossing& crossing, const SurfacePoint& point, const Vec3f& direction) {
+    return dot(direction, point.geometric_normal) > 0.0f ? crossing.outside : crossing.inside;
 }
 
 }  // namespace
@@ -62,7 +89,8 @@ PathWave::PathWave()
       samples_(kCapacity),
       radiance_(kCapacity),
       alpha_(kCapacity) {
-    for (Numbers* numbers : {&light_choice_, &light_triangle_, &light_direction_, &bsdf_direction_, &choices_}) {
+    for (Numbers* numbers :
+         {&light_choice_, &light_triangle_, &light_direction_, &bsdf_direction_, &choices_, &medium_}) {
         numbers->x.resize(kCapacity);
         numbers->y.resize(kCapacity);
     }
@@ -71,6 +99,7 @@ PathWave::PathWave()
 void PathWave::trace(const World& world, const TileJob& job, const PathOptions& options, std::size_t first,
                      std::size_t count, TileBuffer& tile, RenderCounters& counters) {
     generate_camera_rays(world, job, first, std::span(samples_).first(count), std::span(rays_).first(count));
+    if (world.has_bodies()) interiors_.assign(kCapacity, world.camera_interior());
     for (std::size_t i = 0; i < count; ++i) {
         states_[i] = PathState{};
         states_[i].slot = static_cast<std::uint32_t>(i);
@@ -92,32 +121,33 @@ void PathWave::trace(const World& world, const TileJob& job, const PathOptions& 
     for (std::size_t i = 0; i < count; ++i) accumulate(job, samples_[i], radiance_[i], alpha_[i], tile, counters);
 }
 
-void PathWave::draw(const Context& context, std::uint32_t which, Numbers& numbers) {
+void PathWave::draw(const Context& context, std::uint32_t dimension, Numbers& numbers) {
     sample_2d(context.job.sequence, std::span(pixel_seeds_).first(active_), std::span(sample_indices_).first(active_),
-              bounce_dimension(context.depth, which), std::span(numbers.x).first(active_),
-              std::span(numbers.y).first(active_));
+              dimension, std::span(numbers.x).first(active_), std::span(numbers.y).first(active_));
 }
 
 void PathWave::draw_numbers(const Context& context) {
-    if (context.depth >= context.options.lengths.max_depth) return;
+    const bool has_bodies = context.world.has_bodies();
+    if (context.depth >= context.options.lengths.max_depth && !has_bodies) return;
+    if (has_bodies) draw(context, body_dimension(context.depth, kMedium), medium_);
     if (context.options.sample_lights) {
-        draw(context, kLightChoice, light_choice_);
-        draw(context, kLightTriangle, light_triangle_);
-        draw(context, kLightDirection, light_direction_);
+        draw(context, bounce_dimension(context.depth, kLightChoice), light_choice_);
+        draw(context, bounce_dimension(context.depth, kLightTriangle), light_triangle_);
+        draw(context, bounce_dimension(context.depth, kLightDirection), light_direction_);
     }
-    draw(context, kBsdfDirection, bsdf_direction_);
-    draw(context, kChoices, choices_);
+    draw(context, bounce_dimension(context.depth, kBsdfDirection), bsdf_direction_);
+    draw(context, bounce_dimension(context.depth, kChoices), choices_);
 }
 
 void PathWave::shade(const Context& context) {
     pending_count_ = 0;
     std::size_t kept = 0;
     for (std::size_t i = 0; i < active_; ++i) {
-        PathState next;
-        Ray next_ray;
-        if (!shade_path(context, i, next, next_ray)) continue;
-        states_[kept] = next;
-        rays_[kept] = next_ray;
+        PathStep next;
+        if (!shade_path(context, i, next)) continue;
+        states_[kept] = next.state;
+        rays_[kept] = next.ray;
+        if (context.world.has_bodies()) interiors_[kept] = next.interior;
         pixel_seeds_[kept] = pixel_seeds_[i];
         sample_indices_[kept] = sample_indices_[i];
         ++kept;
@@ -125,48 +155,128 @@ void PathWave::shade(const Context& context) {
     active_ = kept;
 }
 
-bool PathWave::shade_path(const Context& context, std::size_t i, PathState& next, Ray& next_ray) {
-    const PathState& state = states_[i];
-    const Ray& ray = rays_[i];
+bool PathWave::shade_path(const Context& context, std::size_t i, PathStep& next) {
+    const World& world = context.world;
     const Hit& hit = hits_[i];
     if (!hit.valid()) {
-        add_environment(context, state, ray);
+        // What leaves the scene was in no body, whatever holes in meshes made of its interior.
+        add_environment(context, states_[i], rays_[i]);
         return false;
     }
-    const SurfacePoint point = context.world.surface_point(hit);
-    if (point.material->emits) add_emission(context, state, ray, hit, point);
+    std::optional<Crossing> crossing;
+    if (world.has_bodies() && scatter_in_medium(context, i, next)) return survives(context, i, next.state);
+    const PathState& state = states_[i];
+    const SurfacePoint point = world.surface_point(hit);
+    if (world.has_bodies() && world.is_boundary(point)) {
+        crossing = world.crossing(point, interiors_[i]);
+        if (crossing->is_hidden) {
+            pass_hidden(context, i, point, *crossing, next);
+            return survives(context, i, next.state);
+        }
+    }
+    if (point.material->emits) add_emission(context, state, rays_[i], hit, point);
     if (point.material->unlit) {
         // Only what the eye sees directly or in mirrors shows an unlit surface; it lights nothing.
-        if (state.only_delta && context.depth >= context.options.lengths.min_depth)
-            radiance_[state.slot] += state.throughput * context.world.unlit_color(point);
+        if (state.only_delta && state.edges >= context.options.lengths.min_depth)
+            radiance_[state.slot] += state.throughput * world.unlit_color(point);
         return false;
     }
-    if (context.depth >= context.options.lengths.max_depth) return false;
+    if (state.edges >= context.options.lengths.max_depth) return false;
+    return scatter_at_surface(context, i, point, crossing, next) && survives(context, i, next.state);
+}
 
+bool PathWave::scatter_at_surface(const Context& context, std::size_t i, const SurfacePoint& point,
+                                  const std::optional<Crossing>& crossing, PathStep& next) {
+    const World& world = context.world;
+    const PathState& state = states_[i];
+    const Vec3f wo = -rays_[i].direction;
+    // Where the index depends on the wavelength, a path of all of them takes one to go on with.
+    Wavelength wavelength{state.wavelength_nm, Rgb(1.0f)};
+    const bool chooses_wavelength = crossing && crossing->disperses() && state.wavelength_nm == 0.0f;
+    if (chooses_wavelength)
+        wavelength =
+            world.spectral_response().sample(sample_2d(context.job.sequence, {pixel_seeds_[i], sample_indices_[i]},
+                                                       body_dimension(context.depth, kWavelength))
+                                                 .x);
     Bsdf storage;
-    const Scattering scattering(context.world.bsdf(point, storage), point.shading, point.geometric_normal,
-                                -ray.direction);
-    if (context.options.sample_lights && scattering.has_non_delta() && context.world.has_lights() &&
-        context.depth + 1 >= context.options.lengths.min_depth)
-        queue_direct_light(context, i, point, scattering);
+    const Bsdf& bsdf = world.bsdf(point, wo, crossing ? crossing->relative_ior(wavelength.nm) : 0.0f, storage);
+    const Scattering scattering(bsdf, point.shading, point.geometric_normal, wo);
+    if (context.options.sample_lights && scattering.has_non_delta() && world.has_lights() &&
+        state.edges + 1 >= context.options.lengths.min_depth)
+        queue_direct_light(context, i, point, scattering, crossing, wavelength.weight);
 
     const BsdfSample sample = scattering.sample(choices_.x[i], bsdf_direction_.pair(i), TransportMode::Radiance);
     if (is_black(sample.weight)) return false;
 
-    next = state;
-    next.throughput *= sample.weight;
-    next.pdf_solid_angle = sample.pdf_solid_angle;
-    next.after_delta = sample.is_delta;
-    next.only_delta = state.only_delta && sample.is_delta;
-    if (sample.is_transmission) next.eta_scale *= sample.eta * sample.eta;
-    if (context.depth >= context.options.lengths.roulette_depth) {
-        const float survival = std::min(most_survival(context.depth), max_component(next.throughput) * next.eta_scale);
-        if (choices_.y[i] >= survival) return false;
-        next.throughput *= 1.0f / survival;
+    next.state = state;
+    next.state.throughput *= sample.weight;
+    const auto* mirror = chooses_wavelength && sample.is_delta && !sample.is_transmission
+                             ? std::get_if<SmoothDielectric>(&bsdf)
+                             : nullptr;
+    if (mirror != nullptr) {
+        // All wavelengths go where a mirror sends them, each with its own share: the path need not choose.
+        next.state.throughput *= world.spectral_response().mean_over_chance([&](float nm) {
+            const float cos_o = scattering.wo_local().z;
+            const float ior = crossing->relative_ior(nm);
+            return mirror->fresnel(std::min(1.0f, std::abs(cos_o)), cos_o > 0.0f ? ior : 1.0f / ior, cos_o > 0.0f)
+                .reflection_share;
+        });
+    } else {
+        next.state.throughput *= wavelength.weight;
+        next.state.wavelength_nm = wavelength.nm;
     }
-    next_ray.origin = offset_origin(point.position, point.geometric_normal, point.clearance, sample.wi);
-    next_ray.direction = sample.wi;
-    next_ray.alpha_key = alpha_key(context, i);
+    next.state.pdf_solid_angle = sample.pdf_solid_angle;
+    next.state.after_delta = sample.is_delta;
+    next.state.only_delta = state.only_delta && sample.is_delta;
+    if (sample.is_transmission) next.state.eta_scale *= sample.eta * sample.eta;
+    ++next.state.edges;
+    next.ray.origin = offset_origin(point.position, point.geometric_normal, point.clearance, sample.wi);
+    next.ray.direction = sample.wi;
+    next.ray.alpha_key = alpha_key(context, i);
+    if (world.has_bodies()) next.interior = crossing ? beyond(*crossing, point, sample.wi) : interiors_[i];
+    return true;
+}
+
+bool PathWave::scatter_in_medium(const Context& context, std::size_t i, PathStep& next) {
+    const HomogeneousMedium* medium = context.world.medium(interiors_[i]);
+    if (medium == nullptr) return false;
+    PathState& state = states_[i];
+    const Ray& ray = rays_[i];
+    const MediumSample sample = medium->sample(state.throughput, hits_[i].t, medium_.pair(i));
+    state.throughput *= sample.weight;
+    if (!sample.scatters) return false;
+
+    const Vec3f position = ray.origin + ray.direction * sample.distance;
+    const bool samples_lights = context.options.sample_lights && context.world.has_lights_in_media();
+    if (samples_lights && state.edges + 1 >= context.options.lengths.min_depth)
+        queue_direct_light_in_medium(context, i, position, *medium);
+    next.state = state;
+    next.ray.origin = position;
+    next.ray.direction = medium->phase.sample(-ray.direction, bsdf_direction_.pair(i));
+    next.ray.alpha_key = alpha_key(context, i);
+    next.interior = interiors_[i];
+    next.state.pdf_solid_angle = medium->phase.pdf_solid_angle(-ray.direction, next.ray.direction);
+    next.state.after_delta = !samples_lights;
+    next.state.only_delta = false;
+    return true;
+}
+
+void PathWave::pass_hidden(const Context& context, std::size_t i, const SurfacePoint& point, const Crossing& crossing,
+                           PathStep& next) {
+    next.state = states_[i];
+    // No light sample passes a boundary, so what the path meets next could not have been sampled.
+    next.state.after_delta = true;
+    next.ray.direction = rays_[i].direction;
+    next.ray.origin = offset_origin(point.position, point.geometric_normal, point.clearance, next.ray.direction);
+    next.ray.alpha_key = alpha_key(context, i);
+    next.interior = beyond(crossing, point, next.ray.direction);
+}
+
+bool PathWave::survives(const Context& context, std::size_t i, PathState& state) const {
+    if (context.depth < context.options.lengths.roulette_depth) return true;
+    const float survival = std::min(most_survival(context.depth), max_component(state.throughput) * state.eta_scale);
+    if (choices_.y[i] >= survival) return false;
+    state.throughput *= 1.0f / survival;
     return true;
 }
 
@@ -176,7 +286,7 @@ void PathWave::add_environment(const Context& context, const PathState& state, c
         alpha_[state.slot] = 0.0f;
         return;
     }
-    if (!world.has_environment() || context.depth < context.options.lengths.min_depth) return;
+    if (!world.has_environment() || state.edges < context.options.lengths.min_depth) return;
     float weight = 1.0f;
     if (context.options.sample_lights && !state.after_delta)
         weight = power_heuristic(state.pdf_solid_angle, world.environment_pdf_solid_angle(ray.direction));
@@ -185,7 +295,7 @@ void PathWave::add_environment(const Context& context, const PathState& state, c
 
 void PathWave::add_emission(const Context& context, const PathState& state, const Ray& ray, const Hit& hit,
                             const SurfacePoint& point) {
-    if (context.depth < context.options.lengths.min_depth) return;
+    if (state.edges < context.options.lengths.min_depth) return;
     const Rgb emitted = context.world.emission(point, -ray.direction);
     if (is_black(emitted)) return;
     float weight = 1.0f;
@@ -200,24 +310,46 @@ std::uint32_t PathWave::alpha_key(const Context& context, std::size_t i) const {
     return sample_bits({pixel_seeds_[i], sample_indices_[i]}, bounce_dimension(context.depth, kAlpha));
 }
 
+ChosenLight PathWave::sample_light(const Context& context, std::size_t i, const Vec3f& position) const {
+    return context.world.sample_light(position,
+                                      {light_choice_.pair(i), light_triangle_.pair(i), light_direction_.pair(i)});
+}
+
 void PathWave::queue_direct_light(const Context& context, std::size_t i, const SurfacePoint& point,
-                                  const Scattering& scattering) {
-    const PathState& state = states_[i];
-    const ChosenLight chosen = context.world.sample_light(
-        point.position, {light_choice_.pair(i), light_triangle_.pair(i), light_direction_.pair(i)});
+                                  const Scattering& scattering, const std::optional<Crossing>& crossing,
+                                  const Rgb& wavelength_weight) {
+    const ChosenLight chosen = sample_light(context, i, point.position);
     const LightSample& light = chosen.sample;
     if (is_black(light.radiance)) return;
     const BsdfValue value = scattering.evaluate(light.wi, TransportMode::Radiance);
     if (is_black(value.f_cos)) return;
+    Rgb contribution =
+        states_[i].throughput * value.f_cos * light.radiance * light_sample_scale(chosen, value.pdf_solid_angle);
+    if (context.world.has_bodies())
+        contribution *=
+            wavelength_weight *
+            transmittance(context.world, crossing ? beyond(*crossing, point, light.wi) : interiors_[i], light.distance);
+    queue(context, i,
+          shadow_ray(offset_origin(point.position, point.geometric_normal, point.clearance, light.wi), light),
+          contribution);
+}
 
-    // A delta light can be found in no other way; its density is the choice's probability alone.
-    const float scale = light.is_delta
-                            ? 1.0f / chosen.probability
-                            : power_heuristic(light.pdf_solid_angle, value.pdf_solid_angle) / light.pdf_solid_angle;
-    Ray& ray = shadow_rays_[pending_count_];
-    ray = shadow_ray(point, light);
+void PathWave::queue_direct_light_in_medium(const Context& context, std::size_t i, const Vec3f& position,
+                                            const HomogeneousMedium& medium) {
+    const ChosenLight chosen = sample_light(context, i, position);
+    const LightSample& light = chosen.sample;
+    if (is_black(light.radiance)) return;
+    const float phase = medium.phase.pdf_solid_angle(-rays_[i].direction, light.wi);
+    queue(context, i, shadow_ray(position, light),
+          states_[i].throughput * light.radiance * medium.transmittance(light.distance) *
+              (phase * light_sample_scale(chosen, phase)));
+}
+
+void PathWave::queue(const Context& context, std::size_t i, Ray ray, const Rgb& contribution) {
+    if (is_black(contribution)) return;
     ray.alpha_key = ~alpha_key(context, i);  // another key than the bounce ray's
-    pending_[pending_count_] = {state.throughput * value.f_cos * light.radiance * scale, state.slot};
+    shadow_rays_[pending_count_] = ray;
+    pending_[pending_count_] = {contribution, states_[i].slot};
     ++pending_count_;
 }
 

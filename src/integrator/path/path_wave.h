@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -22,9 +23,18 @@ struct PathState {
     /// must not see.
     float eta_scale = 1.0f;
     float pdf_solid_angle = 0.0f;  ///< of the ray's direction; not meaningful after a delta
+    float wavelength_nm = 0.0f;    ///< nanometres once a dispersive body has refracted it, 0 for all wavelengths
     std::uint32_t slot = 0;        ///< which camera sample
+    int edges = 1;                 ///< of the path when its ray has hit; media and hidden boundaries add none
     bool after_delta = true;  ///< the last scattering was a delta, or there was none: lights cannot be sampled for it
     bool only_delta = true;   ///< every scattering was: the eye sees this directly or in mirrors
+};
+
+/// A path after its next step.
+struct PathStep {
+    PathState state;
+    Ray ray;
+    Interior interior;  ///< only if the World has bodies
 };
 
 /// What a shadow ray brings if it arrives.
@@ -33,7 +43,7 @@ struct PendingLight {
     std::uint32_t slot = 0;
 };
 
-/// Structure-of-arrays state of a wave. About 200 bytes a path.
+/// Structure-of-arrays state of a wave. About 200 bytes a path, 250 among bodies.
 class PathWave final : public IntegratorScratch {
   public:
     /// Paths in a wave: enough to fill ray packets after many have ended, and about 400 KiB, a fifth of an L2 cache of
@@ -51,19 +61,33 @@ class PathWave final : public IntegratorScratch {
         const World& world;
         const TileJob& job;
         const PathOptions& options;
-        int depth;  ///< edges of the paths when their current rays have hit
+        int depth;  ///< rays that each path has traced; its edges, if the World has no bodies
     };
 
     /// Random numbers of all active paths for this bounce, many at a time.
     void draw_numbers(const Context& context);
     void shade(const Context& context);
     /// Advances path `i`; returns false if it ends.
-    bool shade_path(const Context& context, std::size_t i, PathState& next, Ray& next_ray);
+    bool shade_path(const Context& context, std::size_t i, PathStep& next);
+    /// Takes path `i` through the medium that its ray is in; true if it scatters there.
+    bool scatter_in_medium(const Context& context, std::size_t i, PathStep& next);
+    /// Takes path `i` through a boundary that another body hides.
+    void pass_hidden(const Context& context, std::size_t i, const SurfacePoint& point, const Crossing& crossing,
+                     PathStep& next);
+    bool scatter_at_surface(const Context& context, std::size_t i, const SurfacePoint& point,
+                            const std::optional<Crossing>& crossing, PathStep& next);
+    /// Russian roulette; divides the throughput of those that survive by their chance.
+    bool survives(const Context& context, std::size_t i, PathState& state) const;
     void add_environment(const Context& context, const PathState& state, const Ray& ray);
     void add_emission(const Context& context, const PathState& state, const Ray& ray, const Hit& hit,
                       const SurfacePoint& point);
     void queue_direct_light(const Context& context, std::size_t i, const SurfacePoint& point,
-                            const Scattering& scattering);
+                            const Scattering& scattering, const std::optional<Crossing>& crossing,
+                            const Rgb& wavelength_weight);
+    void queue_direct_light_in_medium(const Context& context, std::size_t i, const Vec3f& position,
+                                      const HomogeneousMedium& medium);
+    [[nodiscard]] ChosenLight sample_light(const Context& context, std::size_t i, const Vec3f& position) const;
+    void queue(const Context& context, std::size_t i, Ray ray, const Rgb& contribution);
     [[nodiscard]] std::uint32_t alpha_key(const Context& context, std::size_t i) const;
     void add_unoccluded(const World& world, RenderCounters& counters);
 
@@ -74,13 +98,14 @@ class PathWave final : public IntegratorScratch {
 
         [[nodiscard]] Vec2f pair(std::size_t i) const { return {x[i], y[i]}; }
     };
-    void draw(const Context& context, std::uint32_t which, Numbers& numbers);
+    void draw(const Context& context, std::uint32_t dimension, Numbers& numbers);
 
     // By active path; paths that end are squeezed out after every bounce.
     std::size_t active_ = 0;
     std::vector<PathState> states_;
     std::vector<Ray> rays_;
     std::vector<Hit> hits_;
+    std::vector<Interior> interiors_;  ///< only if the World has bodies
     std::vector<std::uint32_t> pixel_seeds_;
     std::vector<std::uint32_t> sample_indices_;
     Numbers light_choice_;
@@ -88,6 +113,7 @@ class PathWave final : public IntegratorScratch {
     Numbers light_direction_;
     Numbers bsdf_direction_;
     Numbers choices_;  ///< x: which lobe, y: whether the path ends
+    Numbers medium_;   ///< x: how far, y: by which channel
     std::size_t pending_count_ = 0;
     std::vector<Ray> shadow_rays_;
     std::vector<PendingLight> pending_;

@@ -23,12 +23,27 @@ namespace {
 using Json = nlohmann::json;
 
 /// To support another extension: its line here, its properties in gltf_shape_table.cpp, and whoever reads them.
-constexpr std::array<std::string_view, 13> kSupportedExtensions{
-    "EXT_mesh_gpu_instancing",    "EXT_meshopt_compression", "EXT_texture_webp",
-    "KHR_draco_mesh_compression", "KHR_lights_punctual",     "KHR_materials_emissive_strength",
-    "KHR_materials_ior",          "KHR_materials_specular",  "KHR_materials_transmission",
-    "KHR_materials_unlit",        "KHR_materials_variants",  "KHR_mesh_quantization",
-    "KHR_texture_transform"};
+constexpr std::array<std::string_view, 21> kSupportedExtensions{"EXT_mesh_gpu_instancing",
+                                                                "EXT_meshopt_compression",
+                                                                "EXT_texture_webp",
+                                                                "KHR_draco_mesh_compression",
+                                                                "KHR_lights_punctual",
+                                                                "KHR_materials_anisotropy",
+                                                                "KHR_materials_clearcoat",
+                                                                "KHR_materials_diffuse_transmission",
+                                                                "KHR_materials_dispersion",
+                                                                "KHR_materials_emissive_strength",
+                                                                "KHR_materials_ior",
+                                                                "KHR_materials_iridescence",
+                                                                "KHR_materials_sheen",
+                                                                "KHR_materials_specular",
+                                                                "KHR_materials_transmission",
+                                                                "KHR_materials_unlit",
+                                                                "KHR_materials_variants",
+                                                                "KHR_materials_volume",
+                                                                "KHR_materials_volume_scatter",
+                                                                "KHR_mesh_quantization",
+                                                                "KHR_texture_transform"};
 
 bool is_supported(std::string_view extension) {
     return std::ranges::find(kSupportedExtensions, extension) != kSupportedExtensions.end();

@@ -3,6 +3,7 @@
 #include "loader/gltf/gltf_value.h"
 
 #include <algorithm>
+#include <string>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -125,41 +126,141 @@ class MaterialReader {
 
     void read_extensions(const ExtensionMap& extensions, MaterialDesc& result) {
         result.unlit = find_extension(extensions, "KHR_materials_unlit") != nullptr;
-        if (const Value* strength = find_extension(extensions, "KHR_materials_emissive_strength")) {
-            result.emissive_strength *= static_cast<float>(number_or(*strength, "emissiveStrength", 1.0));
-        }
-        if (const Value* transmission = find_extension(extensions, "KHR_materials_transmission")) {
-            constexpr std::string_view kMember = "extensions/KHR_materials_transmission";
-            result.transmission = factor(number_or(*transmission, "transmissionFactor", 0.0), kMember);
-            result.transmission_texture = texture(*transmission, "transmissionTexture", kMember);
-        }
-        if (const Value* specular = find_extension(extensions, "KHR_materials_specular"))
-            read_specular(*specular, result);
-        if (const Value* ior = find_extension(extensions, "KHR_materials_ior")) {
-            result.ior = static_cast<float>(number_or(*ior, "ior", 1.5));
-            if (result.ior != 0.0f && result.ior < 1.0f) {
-                problems_.warning(at("extensions/KHR_materials_ior/ior"),
-                                  fmt::format("{} is neither 0 nor at least 1; 1 is used", result.ior));
-                result.ior = 1.0f;
-            }
-        }
+        const auto read = [&](const std::string& name, void (MaterialReader::*reader)(const Value&, MaterialDesc&)) {
+            const Value* extension = find_extension(extensions, name);
+            if (extension == nullptr) return;
+            extension_ = "extensions/" + name;
+            (this->*reader)(*extension, result);
+        };
+        read("KHR_materials_emissive_strength", &MaterialReader::read_emissive_strength);
+        read("KHR_materials_ior", &MaterialReader::read_ior);
+        read("KHR_materials_specular", &MaterialReader::read_specular);
+        read("KHR_materials_transmission", &MaterialReader::read_transmission);
+        read("KHR_materials_diffuse_transmission", &MaterialReader::read_diffuse_transmission);
+        read("KHR_materials_volume", &MaterialReader::read_volume);
+        read("KHR_materials_dispersion", &MaterialReader::read_dispersion);
+        read("KHR_materials_volume_scatter", &MaterialReader::read_volume_scatter);
+        read("KHR_materials_anisotropy", &MaterialReader::read_anisotropy);
+        read("KHR_materials_iridescence", &MaterialReader::read_iridescence);
+        read("KHR_materials_sheen", &MaterialReader::read_sheen);
+        read("KHR_materials_clearcoat", &MaterialReader::read_clearcoat);
+    }
+
+    /// A factor in [0, 1] of the extension that is being read.
+    float unit(const Value& extension, const std::string& key, double fallback) {
+        return factor(number_or(extension, key, fallback), extension_ + "/" + key);
+    }
+    Rgb unit_color(const Value& extension, const std::string& key, double fallback) {
+        const auto channel = [&](int i) {
+            return factor(element_or(extension, key, i, fallback), extension_ + "/" + key);
+        };
+        return {channel(0), channel(1), channel(2)};
+    }
+    TextureRef extension_texture(const Value& extension, const std::string& key) {
+        return texture(extension, key, extension_ + "/" + key);
+    }
+    static float plain(const Value& extension, const std::string& key, double fallback) {
+        return static_cast<float>(number_or(extension, key, fallback));
+    }
+
+    void read_emissive_strength(const Value& strength, MaterialDesc& result) {
+        result.emissive_strength *= plain(strength, "emissiveStrength", 1.0);
+    }
+
+    void read_ior(const Value& ior, MaterialDesc& result) {
+        result.ior = plain(ior, "ior", 1.5);
+        if (result.ior == 0.0f || result.ior >= 1.0f) return;
+        problems_.warning(at(extension_ + "/ior"),
+                          fmt::format("{} is neither 0 nor at least 1; 1 is used", result.ior));
+        result.ior = 1.0f;
     }
 
     void read_specular(const Value& specular, MaterialDesc& result) {
-        constexpr std::string_view kMember = "extensions/KHR_materials_specular";
-        result.specular = factor(number_or(specular, "specularFactor", 1.0), kMember);
-        result.specular_texture = texture(specular, "specularTexture", kMember);
+        result.specular = unit(specular, "specularFactor", 1.0);
+        result.specular_texture = extension_texture(specular, "specularTexture");
         // Above 1 is allowed: the product with the reflectance is what is clamped.
         const auto channel = [&](int i) {
             return static_cast<float>(std::max(0.0, element_or(specular, "specularColorFactor", i, 1.0)));
         };
         result.specular_color = {channel(0), channel(1), channel(2)};
-        result.specular_color_texture = texture(specular, "specularColorTexture", kMember);
+        result.specular_color_texture = extension_texture(specular, "specularColorTexture");
+    }
+
+    void read_transmission(const Value& transmission, MaterialDesc& result) {
+        result.transmission = unit(transmission, "transmissionFactor", 0.0);
+        result.transmission_texture = extension_texture(transmission, "transmissionTexture");
+    }
+
+    void read_diffuse_transmission(const Value& extension, MaterialDesc& result) {
+        DiffuseTransmissionDesc& desc = result.diffuse_transmission;
+        desc.factor = unit(extension, "diffuseTransmissionFactor", 0.0);
+        desc.texture = extension_texture(extension, "diffuseTransmissionTexture");
+        desc.color = unit_color(extension, "diffuseTransmissionColorFactor", 1.0);
+        desc.color_texture = extension_texture(extension, "diffuseTransmissionColorTexture");
+    }
+
+    void read_volume(const Value& volume, MaterialDesc& result) {
+        // The thickness is for renderers that do not trace rays; only that there is one says that the mesh is closed.
+        result.volume.closed = number_or(volume, "thicknessFactor", 0.0) > 0.0;
+        result.volume.attenuation_color = unit_color(volume, "attenuationColor", 1.0);
+        if (!volume.Has("attenuationDistance")) return;
+        const float distance = plain(volume, "attenuationDistance", 0.0);
+        if (distance > 0.0f) {
+            result.volume.attenuation_distance = distance;
+        } else {
+            problems_.warning(at(extension_ + "/attenuationDistance"),
+                              "must be above 0 and is ignored: nothing is attenuated");
+        }
+    }
+
+    void read_dispersion(const Value& dispersion, MaterialDesc& result) {
+        result.volume.dispersion = plain(dispersion, "dispersion", 0.0);
+    }
+
+    void read_volume_scatter(const Value& scatter, MaterialDesc& result) {
+        result.volume.multiscatter_color = unit_color(scatter, "multiscatterColor", 0.0);
+        constexpr float kMost = 0.999f;
+        result.volume.scatter_anisotropy = std::clamp(plain(scatter, "scatterAnisotropy", 0.0), -kMost, kMost);
+    }
+
+    void read_anisotropy(const Value& anisotropy, MaterialDesc& result) {
+        result.anisotropy.strength = unit(anisotropy, "anisotropyStrength", 0.0);
+        result.anisotropy.rotation = plain(anisotropy, "anisotropyRotation", 0.0);
+        result.anisotropy.texture = extension_texture(anisotropy, "anisotropyTexture");
+    }
+
+    void read_iridescence(const Value& iridescence, MaterialDesc& result) {
+        IridescenceDesc& desc = result.iridescence;
+        desc.factor = unit(iridescence, "iridescenceFactor", 0.0);
+        desc.texture = extension_texture(iridescence, "iridescenceTexture");
+        desc.ior = plain(iridescence, "iridescenceIor", 1.3);
+        desc.thickness_minimum_nm = plain(iridescence, "iridescenceThicknessMinimum", 100.0);
+        desc.thickness_maximum_nm = plain(iridescence, "iridescenceThicknessMaximum", 400.0);
+        desc.thickness_texture = extension_texture(iridescence, "iridescenceThicknessTexture");
+    }
+
+    void read_sheen(const Value& sheen, MaterialDesc& result) {
+        result.sheen.color = unit_color(sheen, "sheenColorFactor", 0.0);
+        result.sheen.color_texture = extension_texture(sheen, "sheenColorTexture");
+        result.sheen.roughness = unit(sheen, "sheenRoughnessFactor", 0.0);
+        result.sheen.roughness_texture = extension_texture(sheen, "sheenRoughnessTexture");
+    }
+
+    void read_clearcoat(const Value& clearcoat, MaterialDesc& result) {
+        ClearcoatDesc& desc = result.clearcoat;
+        desc.factor = unit(clearcoat, "clearcoatFactor", 0.0);
+        desc.texture = extension_texture(clearcoat, "clearcoatTexture");
+        desc.roughness = unit(clearcoat, "clearcoatRoughnessFactor", 0.0);
+        desc.roughness_texture = extension_texture(clearcoat, "clearcoatRoughnessTexture");
+        desc.normal_texture = extension_texture(clearcoat, "clearcoatNormalTexture");
+        if (clearcoat.Has("clearcoatNormalTexture"))
+            desc.normal_scale = plain(clearcoat.Get("clearcoatNormalTexture"), "scale", 1.0);
     }
 
     TextureReader& textures_;
     ProblemList& problems_;
     SourceLocation where_;
+    std::string extension_;  ///< the one being read, as a pointer below the material
 };
 
 }  // namespace

@@ -182,7 +182,58 @@ constexpr ShapeField kSpecularFields[] = {
     {"specularColorTexture", kTextureInfo},
 };
 constexpr ShapeField kIorFields[] = {{"ior", number(0.0)}};
+constexpr ShapeField kVolumeFields[] = {
+    {"thicknessFactor", number(0.0)},
+    {"thicknessTexture", kTextureInfo},
+    {"attenuationDistance", number(0.0)},
+    {"attenuationColor", array(kNumber, 3)},
+};
+constexpr ShapeField kDispersionFields[] = {{"dispersion", number(0.0)}};
+constexpr ShapeField kVolumeScatterFields[] = {
+    {"multiscatterColor", array(kNumber, 3)},
+    {"scatterAnisotropy", number(-1.0, 1.0)},
+};
+constexpr ShapeField kDiffuseTransmissionFields[] = {
+    {"diffuseTransmissionFactor", number()},
+    {"diffuseTransmissionTexture", kTextureInfo},
+    {"diffuseTransmissionColorFactor", array(kNumber, 3)},
+    {"diffuseTransmissionColorTexture", kTextureInfo},
+};
+constexpr ShapeField kAnisotropyFields[] = {
+    {"anisotropyStrength", number()},
+    {"anisotropyRotation", number()},
+    {"anisotropyTexture", kTextureInfo},
+};
+constexpr ShapeField kIridescenceFields[] = {
+    {"iridescenceFactor", number()},
+    {"iridescenceTexture", kTextureInfo},
+    {"iridescenceIor", number(1.0)},
+    {"iridescenceThicknessMinimum", number(0.0)},
+    {"iridescenceThicknessMaximum", number(0.0)},
+    {"iridescenceThicknessTexture", kTextureInfo},
+};
+constexpr ShapeField kSheenFields[] = {
+    {"sheenColorFactor", array(kNumber, 3)},
+    {"sheenColorTexture", kTextureInfo},
+    {"sheenRoughnessFactor", number()},
+    {"sheenRoughnessTexture", kTextureInfo},
+};
+constexpr ShapeField kClearcoatFields[] = {
+    {"clearcoatFactor", number()},
+    {"clearcoatTexture", kTextureInfo},
+    {"clearcoatRoughnessFactor", number()},
+    {"clearcoatRoughnessTexture", kTextureInfo},
+    {"clearcoatNormalTexture", kTextureInfo},
+};
 constexpr ShapeField kMaterialExtensionFields[] = {
+    {"KHR_materials_anisotropy", object(kAnisotropyFields)},
+    {"KHR_materials_clearcoat", object(kClearcoatFields)},
+    {"KHR_materials_diffuse_transmission", object(kDiffuseTransmissionFields)},
+    {"KHR_materials_dispersion", object(kDispersionFields)},
+    {"KHR_materials_iridescence", object(kIridescenceFields)},
+    {"KHR_materials_sheen", object(kSheenFields)},
+    {"KHR_materials_volume", object(kVolumeFields)},
+    {"KHR_materials_volume_scatter", object(kVolumeScatterFields)},
     {"KHR_materials_emissive_strength", object(kEmissiveStrengthFields)},
     {"KHR_materials_transmission", object(kTransmissionFields)},
     {"KHR_materials_ior", object(kIorFields)},

@@ -35,12 +35,26 @@ bool check_name(const std::vector<Item>& items, std::string_view kind, const std
     return false;
 }
 
+/// Only bodies have one.
+void apply_priority(int priority, const SourceLocation& where, MaterialDesc& material, ProblemList& problems) {
+    if (auto* dielectric = std::get_if<DielectricDesc>(&material.override_model))
+        dielectric->volume.priority = priority;
+    else if (auto* subsurface = std::get_if<SubsurfaceDesc>(&material.override_model))
+        subsurface->priority = priority;
+    else if (std::holds_alternative<std::monostate>(material.override_model) && material.volume.closed)
+        material.volume.priority = priority;
+    else
+        problems.warning(where, fmt::format("the priority of '{}' is ignored: its surfaces enclose no volume",
+                                            shown(material.name)));
+}
+
 void apply_materials(const RenderJson& json, SceneDesc& scene, ProblemList& problems) {
     for (const auto& [name, change] : json.materials) {
         if (!check_name(scene.materials, "material", name, change.location, problems)) continue;
         for (MaterialDesc& material : scene.materials) {
             if (material.name != name) continue;
             material.override_model = change.model;
+            if (change.priority) apply_priority(*change.priority, change.location, material, problems);
             if (!change.emission) continue;
             // Colours above 1 go into the strength, which has no upper bound.
             const float brightest = std::max(1.0f, max_component(change.emission->color));

@@ -19,6 +19,9 @@ constexpr std::int64_t kMaxSeed = std::numeric_limits<std::uint32_t>::max();
 constexpr NumberRange kFieldOfView{.min = 0.0, .max = 3.141592, .open_min = true};
 constexpr NumberRange kFilterRadius{.min = 0.0, .max = 8.0, .open_min = true};
 constexpr NumberRange kIor{.min = 1.0, .max = 3.0, .open_min = true};
+constexpr NumberRange kSurfaceIor{.min = 1.0, .max = 3.0};
+constexpr NumberRange kAnisotropy{.min = -0.999, .max = 0.999};
+constexpr std::int64_t kMaxPriority = 1'000'000;
 
 constexpr std::array<std::pair<std::string_view, SamplerType>, 2> kSamplers{{
     {"sobol", SamplerType::Sobol},
@@ -143,6 +146,11 @@ DielectricDesc read_dielectric(const Json& value, const SourceLocation& where, P
     JsonObject object(value, where, problems);
     object.number("ior", kIor, result.ior);
     object.number("roughness", kUnit, result.roughness);
+    object.color("attenuation_color", kUnit, result.volume.attenuation_color);
+    object.number("attenuation_distance", kPositive, result.volume.attenuation_distance);
+    object.number("dispersion", kNotNegative, result.volume.dispersion);
+    object.color("multiscatter_color", kUnit, result.volume.multiscatter_color);
+    object.number("scatter_anisotropy", kAnisotropy, result.volume.scatter_anisotropy);
     object.finish();
     return result;
 }
@@ -151,6 +159,19 @@ DiffuseDesc read_diffuse(const Json& value, const SourceLocation& where, Problem
     DiffuseDesc result;
     JsonObject object(value, where, problems);
     object.color("albedo", kUnit, result.albedo);
+    object.number("roughness", kUnit, result.roughness);
+    object.finish();
+    return result;
+}
+
+SubsurfaceDesc read_subsurface(const Json& value, const SourceLocation& where, ProblemList& problems) {
+    SubsurfaceDesc result;
+    JsonObject object(value, where, problems);
+    object.color("albedo", kUnit, result.albedo);
+    object.color("radius", kPositive, result.radius);
+    object.number("anisotropy", kAnisotropy, result.anisotropy);
+    object.number("ior", kSurfaceIor, result.ior);
+    object.number("roughness", kUnit, result.roughness);
     object.finish();
     return result;
 }
@@ -169,24 +190,24 @@ MaterialOverride read_material(const Json& value, const SourceLocation& where, P
     result.location = where;
     JsonObject object(value, where, problems);
     int models = 0;
-    if (const Json* member = object.member("conductor")) {
-        result.model = read_conductor(*member, object.at("conductor"), problems);
+    const auto model = [&](std::string_view name, auto read) {
+        const Json* member = object.member(name);
+        if (member == nullptr) return;
+        result.model = read(*member, object.at(name), problems);
         ++models;
-    }
-    if (const Json* member = object.member("dielectric")) {
-        result.model = read_dielectric(*member, object.at("dielectric"), problems);
-        ++models;
-    }
-    if (const Json* member = object.member("diffuse")) {
-        result.model = read_diffuse(*member, object.at("diffuse"), problems);
-        ++models;
-    }
+    };
+    model("conductor", read_conductor);
+    model("dielectric", read_dielectric);
+    model("diffuse", read_diffuse);
+    model("subsurface", read_subsurface);
     if (const Json* member = object.member("emission")) {
         result.emission = read_emission(*member, object.at("emission"), problems);
     }
-    if (models > 1) problems.error(where, "only one of conductor, dielectric and diffuse may be given");
-    if (value.is_object() && models == 0 && !result.emission) {
-        problems.error(where, "one of conductor, dielectric, diffuse and emission must be given");
+    int priority = 0;
+    if (object.integer("priority", -kMaxPriority, kMaxPriority, priority)) result.priority = priority;
+    if (models > 1) problems.error(where, "only one of conductor, dielectric, diffuse and subsurface may be given");
+    if (value.is_object() && models == 0 && !result.emission && !result.priority) {
+        problems.error(where, "one of conductor, dielectric, diffuse, subsurface, emission and priority must be given");
     }
     object.finish();
     return result;

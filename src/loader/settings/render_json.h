@@ -7,7 +7,6 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <variant>
 
 namespace etendue {
 
@@ -17,7 +16,8 @@ struct EmissionOverride {
 };
 
 struct MaterialOverride {
-    std::variant<std::monostate, ConductorDesc, DielectricDesc, DiffuseDesc> model;
+    MaterialModelDesc model;
+    std::optional<int> priority;
     std::optional<EmissionOverride> emission;
     SourceLocation location;
 };

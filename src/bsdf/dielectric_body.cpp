@@ -1,0 +1,63 @@
+#include "bsdf/dielectric_body.h"
+
+#include "sampling/warp.h"
+
+#include <algorithm>
+
+namespace etendue {
+
+namespace {
+
+/// One-sided lobes want wo above the surface; they do not change when both directions are mirrored.
+Vec3f facing(const Vec3f& w, const Vec3f& wo) {
+    return wo.z < 0.0f ? Vec3f(w.x, w.y, -w.z) : w;
+}
+
+}  // namespace
+
+bool DielectricBody::has_non_delta() const {
+    return std::holds_alternative<RoughDielectric>(interface) || (interface_share < 1.0f && opaque.has_non_delta());
+}
+
+MetallicRoughness::Value DielectricBody::evaluate_parts(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const {
+    MetallicRoughness::Value value;
+    if (interface_share < 1.0f) {
+        const float share = 1.0f - interface_share;
+        value = opaque.evaluate_parts(facing(wo, wo), facing(wi, wo));
+        value.diffuse *= share;
+        value.specular *= share;
+        value.pdf_solid_angle *= share;
+    }
+    const BsdfValue through = std::visit([&](const auto& lobe) { return lobe.evaluate(wo, wi, mode); }, interface);
+    value.specular += through.f_cos * interface_share;
+    value.pdf_solid_angle += through.pdf_solid_angle * interface_share;
+    return value;
+}
+
+BsdfValue DielectricBody::evaluate(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const {
+    const MetallicRoughness::Value value = evaluate_parts(wo, wi, mode);
+    return {value.diffuse + value.specular, value.pdf_solid_angle};
+}
+
+BsdfSample DielectricBody::sample(const Vec3f& wo, float u_lobe, Vec2f u, TransportMode mode) const {
+    const bool choose_interface = u_lobe < interface_share;
+    const float first = choose_interface ? 0.0f : interface_share;
+    const float share = choose_interface ? interface_share : 1.0f - interface_share;
+    const float u_rest = std::clamp((u_lobe - first) / share, 0.0f, kOneMinusEpsilon);
+    BsdfSample sample;
+    if (choose_interface) {
+        sample = std::visit([&](const auto& lobe) { return lobe.sample(wo, u_rest, u, mode); }, interface);
+    } else {
+        sample = opaque.sample(facing(wo, wo), u_rest, u, mode);
+        sample.wi = facing(sample.wi, wo);
+    }
+    // The share is both part of the value and the chance of the choice, and cancels from a delta's weight.
+    if (is_black(sample.weight) || sample.is_delta) return sample;
+    const BsdfValue value = evaluate(wo, sample.wi, mode);
+    if (!(value.pdf_solid_angle > 0.0f)) return {};
+    sample.weight = value.f_cos / value.pdf_solid_angle;
+    sample.pdf_solid_angle = value.pdf_solid_angle;
+    return sample;
+}
+
+}  // namespace etendue

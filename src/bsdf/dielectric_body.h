@@ -1,0 +1,25 @@
+// The surface of a closed body of glTF's material whose transmission is less than one, or that is partly metal: a share
+// of it is the interface of a dielectric, the rest is opaque and scatters on both of its sides.
+#pragma once
+
+#include "bsdf/bsdf_sample.h"
+#include "bsdf/metallic_roughness.h"
+#include "bsdf/rough_dielectric.h"
+#include "bsdf/smooth_dielectric.h"
+
+#include <variant>
+
+namespace etendue {
+
+struct DielectricBody {
+    std::variant<SmoothDielectric, RoughDielectric> interface;
+    MetallicRoughness opaque{};
+    float interface_share = 1.0f;  ///< (0, 1]
+
+    [[nodiscard]] MetallicRoughness::Value evaluate_parts(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const;
+    [[nodiscard]] BsdfValue evaluate(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const;
+    [[nodiscard]] BsdfSample sample(const Vec3f& wo, float u_lobe, Vec2f u, TransportMode mode) const;
+    [[nodiscard]] bool has_non_delta() const;
+};
+
+}  // namespace etendue

@@ -1,0 +1,130 @@
+#include "bsdf/layered_surface.h"
+
+#include "bsdf/cosine_average.h"
+#include "sampling/warp.h"
+
+#include <algorithm>
+
+namespace etendue {
+
+namespace {
+
+/// Everything that depends on the parameters and wo but not on wi.
+struct Layers {
+    float passed_o;
+    float p_coat, p_sheen;  ///< the rest goes to the base
+
+    Layers(const LayeredSurface& surface, const Vec3f& wo) : passed_o(passed(surface, wo)) {
+        const bool above = wo.z > 0.0f;
+        const float coat = above ? 1.0f - surface.coat.passed(dot(wo, surface.coat.normal)) : 0.0f;
+        const float sheen = above ? 1.0f - surface.sheen.passed(wo.z) : 0.0f;
+        const float total = coat + sheen + passed_o;
+        p_coat = coat / total;
+        p_sheen = sheen / total;
+    }
+
+    /// Share of light along `w` that passes the layers. There are none inside a body.
+    [[nodiscard]] static float passed(const LayeredSurface& surface, const Vec3f& w) {
+        if (surface.is_two_sided() && w.z < 0.0f) return 1.0f;
+        // A thin sheet has its layers on both sides.
+        const Vec3f upper{w.x, w.y, std::abs(w.z)};
+        return surface.coat.passed(dot(upper, surface.coat.normal)) * surface.sheen.passed(upper.z);
+    }
+};
+
+MetallicRoughness::Value evaluate_base(const LayeredSurface& surface, const Vec3f& wo, const Vec3f& wi,
+                                       TransportMode mode) {
+    if (const auto* body = std::get_if<DielectricBody>(&surface.base)) return body->evaluate_parts(wo, wi, mode);
+    return std::get<MetallicRoughness>(surface.base).evaluate_parts(wo, wi);
+}
+
+BsdfValue evaluate_layers(const LayeredSurface& surface, const Layers& layers, const Vec3f& wo, const Vec3f& wi,
+                          TransportMode mode) {
+    const MetallicRoughness::Value base = evaluate_base(surface, wo, wi, mode);
+    const float passed_i = Layers::passed(surface, wi);
+    const float p_base = 1.0f - layers.p_coat - layers.p_sheen;
+    BsdfValue value{base.diffuse * (layers.passed_o * passed_i / surface.passed_average) +
+                        base.specular * std::min(layers.passed_o, passed_i),
+                    base.pdf_solid_angle * p_base};
+    if (wo.z <= 0.0f || wi.z <= 0.0f) return value;
+    if (surface.sheen.exists()) {
+        const BsdfValue sheen = surface.sheen.evaluate(wo, wi);
+        value.f_cos += sheen.f_cos * std::min(surface.coat.passed(dot(wo, surface.coat.normal)),
+                                              surface.coat.passed(dot(wi, surface.coat.normal)));
+        value.pdf_solid_angle += sheen.pdf_solid_angle * layers.p_sheen;
+    }
+    if (surface.coat.exists()) {
+        const BsdfValue coat = surface.coat.evaluate(wo, wi, mode);
+        value.f_cos += coat.f_cos;
+        value.pdf_solid_angle += coat.pdf_solid_angle * layers.p_coat;
+    }
+    return value;
+}
+
+/// The mirror direction of a smooth coat.
+BsdfSample sample_smooth_coat(const LayeredSurface& surface, const Layers& layers, const Vec3f& wo, const Vec3f& wi,
+                              TransportMode mode) {
+    if (wi.z <= 0.0f) return {};
+    float weight = surface.coat.smooth_reflectance(wo) / layers.p_coat;
+    // Both cosines to the coat's normal are equal; those to the surface's are in its adjoint factor.
+    if (mode == TransportMode::Importance) weight *= wi.z / wo.z;
+    return {.wi = wi, .weight = Rgb(weight), .is_delta = true};
+}
+
+BsdfSample sample_base(const LayeredSurface& surface, const Vec3f& wo, float u_lobe, Vec2f u, TransportMode mode) {
+    return std::visit([&](const auto& base) { return base.sample(wo, u_lobe, u, mode); }, surface.base);
+}
+
+}  // namespace
+
+LayeredSurface LayeredSurface::make(const std::variant<MetallicRoughness, DielectricBody>& base, const Sheen& sheen,
+                                    const ClearCoat& coat) {
+    const auto* plain = std::get_if<MetallicRoughness>(&base);
+    const MetallicRoughness& opaque = plain != nullptr ? *plain : std::get<DielectricBody>(base).opaque;
+    // Light that the base's own specular layer lets through to its diffuse part and out again.
+    const auto through_base = [&](float mu) { return opaque.passed_by_specular(mu); };
+    const float through_all =
+        cosine_average([&](float mu) { return through_base(mu) * coat.passed(mu) * sheen.passed(mu); });
+    const float total = cosine_average(through_base);
+    return {.base = base, .sheen = sheen, .coat = coat, .passed_average = total > 0.0f ? through_all / total : 1.0f};
+}
+
+bool LayeredSurface::has_non_delta() const {
+    return sheen.exists() || (coat.exists() && !coat.is_smooth()) ||
+           std::visit([](const auto& lobe) { return lobe.has_non_delta(); }, base);
+}
+
+BsdfValue LayeredSurface::evaluate(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const {
+    if (wo.z == 0.0f || wi.z == 0.0f || (wo.z < 0.0f && !is_two_sided())) return {};
+    return evaluate_layers(*this, Layers(*this, wo), wo, wi, mode);
+}
+
+BsdfSample LayeredSurface::sample(const Vec3f& wo, float u_lobe, Vec2f u, TransportMode mode) const {
+    if (wo.z == 0.0f || (wo.z < 0.0f && !is_two_sided())) return {};
+    const Layers layers(*this, wo);
+    const float end_layers = layers.p_coat + layers.p_sheen;
+    BsdfSample sample;
+    if (u_lobe < layers.p_coat) {
+        sample.wi = coat.sample(wo, u_lobe / layers.p_coat, u);
+        if (coat.is_smooth()) return sample_smooth_coat(*this, layers, wo, sample.wi, mode);
+        if (sample.wi.z <= 0.0f) return {};
+    } else if (u_lobe < end_layers) {
+        sample.wi = Sheen::sample(u);
+    } else {
+        const float u_rest = std::clamp((u_lobe - end_layers) / (1.0f - end_layers), 0.0f, kOneMinusEpsilon);
+        sample = sample_base(*this, wo, u_rest, u, mode);
+        if (is_black(sample.weight)) return {};
+        if (sample.is_delta) {
+            sample.weight *= std::min(layers.passed_o, Layers::passed(*this, sample.wi)) / (1.0f - end_layers);
+            return sample;
+        }
+    }
+    if (sample.wi.z == 0.0f) return {};
+    const BsdfValue value = evaluate_layers(*this, layers, wo, sample.wi, mode);
+    if (!(value.pdf_solid_angle > 0.0f)) return {};
+    sample.weight = value.f_cos / value.pdf_solid_angle;
+    sample.pdf_solid_angle = value.pdf_solid_angle;
+    return sample;
+}
+
+}  // namespace etendue

@@ -1,0 +1,21 @@
+// A rough matte surface that keeps its energy: EON.
+//
+// Portsmouth, Kutz and Hill, "EON: A Practical Energy-Preserving Rough Diffuse BRDF" (JCGT 14(1), 2025): Fujii's
+// variant of Oren and Nayar's model (equation 3) and a lobe of light that scattered several times (equation 20), which
+// makes a white surface reflect exactly 1. Sampled by the cosine. Reflects for wo.z > 0. Example: clay, roughness 0.8.
+#pragma once
+
+#include "bsdf/bsdf_sample.h"
+
+namespace etendue {
+
+struct RoughDiffuse {
+    Rgb albedo{0.5f};        ///< of the facets, [0, 1]
+    float roughness = 0.0f;  ///< [0, 1]; 0 is Lambert's surface
+
+    [[nodiscard]] BsdfValue evaluate(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const;
+    [[nodiscard]] BsdfSample sample(const Vec3f& wo, float u_lobe, Vec2f u, TransportMode mode) const;
+    [[nodiscard]] bool has_non_delta() const { return true; }
+};
+
+}  // namespace etendue

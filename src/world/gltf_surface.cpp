@@ -1,0 +1,166 @@
+#include "world/gltf_surface.h"
+
+#include "bsdf/ggx.h"
+#include "world/lookup.h"
+#include "world/material_evaluation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace etendue {
+
+namespace {
+
+float red(const Texel& t) {
+    return t.rgb.r;
+}
+float green(const Texel& t) {
+    return t.rgb.g;
+}
+float blue(const Texel& t) {
+    return t.rgb.b;
+}
+float alpha(const Texel& t) {
+    return t.alpha;
+}
+
+float unit(float v) {
+    return std::clamp(v, 0.0f, 1.0f);
+}
+
+float squared(float v) {
+    return v * v;
+}
+
+/// KHR_materials_specular: tints the reflectance at normal incidence, then scales all of it.
+struct Specular {
+    float weight;
+    Rgb tint;  ///< linear Rec.709
+
+    Specular(const WorldData& data, const GltfModel& model, const SurfacePoint& point)
+        : weight(scaled(data, model.specular, model.specular_texture, point, alpha)),
+          tint(scaled(data, model.specular_color, model.specular_color_texture, point)) {}
+
+    [[nodiscard]] bool is_tinted() const { return !(tint == Rgb(1.0f)); }
+    [[nodiscard]] Rgb f0(const WorldData& data, float f0) const {
+        return (is_tinted() ? clamp_unit(data.from_rec709(tint * f0)) : Rgb(f0)) * weight;
+    }
+    [[nodiscard]] Rgb scale(const WorldData& data) const {
+        return (is_tinted() ? clamp_negative(data.from_rec709(tint)) : Rgb(1.0f)) * weight;
+    }
+};
+
+ThinFilm evaluate_film(const WorldData& data, const GltfLayers& layers, const SurfacePoint& point) {
+    if (!(layers.iridescence > 0.0f)) return {};
+    float thickness = layers.film_thickness_maximum_nm;
+    if (layers.film_thickness_texture.valid()) {
+        const float t = lookup(data, layers.film_thickness_texture, point.uv).rgb.g;
+        thickness = layers.film_thickness_minimum_nm +
+                    (layers.film_thickness_maximum_nm - layers.film_thickness_minimum_nm) * t;
+    }
+    if (!(thickness > 0.0f)) return {};
+    return {.strength = unit(scaled(data, layers.iridescence, layers.iridescence_texture, point, red)),
+            .ior = layers.film_ior,
+            .thickness_nm = thickness,
+            .xyz_to_working = &data.xyz_to_working};
+}
+
+/// What the extensions add to the base.
+void evaluate_base_layers(const WorldData& data, const GltfLayers& layers, const SurfacePoint& point,
+                          MetallicRoughness& lobe) {
+    lobe.film = evaluate_film(data, layers, point);
+    lobe.diffuse_transmission =
+        unit(scaled(data, layers.diffuse_transmission, layers.diffuse_transmission_texture, point, alpha));
+    if (lobe.diffuse_transmission > 0.0f)
+        lobe.diffuse_transmission_color = clamp_unit(data.from_rec709(
+            scaled(data, layers.diffuse_transmission_color, layers.diffuse_transmission_color_texture, point)));
+    // The frame's x axis lies along the direction in which the surface is rougher.
+    const float strength = unit(scaled(data, layers.anisotropy, layers.anisotropy_texture, point, blue));
+    lobe.alpha_x += (1.0f - lobe.alpha_x) * squared(strength);
+}
+
+std::variant<SmoothDielectric, RoughDielectric> make_interface(const MetallicRoughness& lobe, float relative_ior,
+                                                               const InterfaceFresnel& fresnel) {
+    // Where the indices are the same there is nothing that could refract, however rough it is.
+    constexpr float kSameIor = 1e-4f;
+    const bool same = std::abs(relative_ior - 1.0f) < kSameIor;
+    if (same) return SmoothDielectric{.ior = 1.0f, .tint = lobe.base, .fresnel = fresnel};
+    if (std::max(lobe.alpha_x, lobe.alpha_y) < kSmoothAlpha)
+        return SmoothDielectric{.ior = relative_ior, .tint = lobe.base, .fresnel = fresnel};
+    RoughDielectric rough =
+        RoughDielectric::make(relative_ior, std::max(lobe.alpha_x, kSmoothAlpha), std::max(lobe.alpha_y, kSmoothAlpha));
+    rough.tint = lobe.base;
+    rough.fresnel = fresnel;
+    return rough;
+}
+
+/// The surface of a closed body; `lobe` as it would be on a thin sheet.
+DielectricBody make_body(const MetallicRoughness& lobe, float relative_ior, const InterfaceFresnel& fresnel) {
+    DielectricBody body{.interface = make_interface(lobe, relative_ior, fresnel),
+                        .opaque = lobe,
+                        .interface_share = (1.0f - lobe.metallic) * lobe.transmission};
+    body.opaque.transmission = 0.0f;
+    if (body.interface_share < 1.0f) body.opaque.metallic = lobe.metallic / (1.0f - body.interface_share);
+    return body;
+}
+
+Sheen evaluate_sheen(const WorldData& data, const GltfLayers& layers, const SurfacePoint& point) {
+    if (is_black(layers.sheen_color)) return {};
+    return {.color = clamp_unit(data.from_rec709(scaled(data, layers.sheen_color, layers.sheen_color_texture, point))),
+            .alpha = squared(unit(scaled(data, layers.sheen_roughness, layers.sheen_roughness_texture, point, alpha)))};
+}
+
+Bsdf from_body(const DielectricBody& body) {
+    if (body.interface_share < 1.0f) return body;
+    return std::visit([](const auto& lobe) { return Bsdf(lobe); }, body.interface);
+}
+
+}  // namespace
+
+ClearCoat evaluate_clear_coat(const WorldData& data, const GltfLayers& layers, const SurfacePoint& point,
+                              bool from_back) {
+    if (!(layers.clearcoat > 0.0f)) return {};
+    ClearCoat coat;
+    coat.strength = unit(scaled(data, layers.clearcoat, layers.clearcoat_texture, point, red));
+    coat.alpha =
+        squared(unit(scaled(data, layers.clearcoat_roughness, layers.clearcoat_roughness_texture, point, green)));
+    coat.normal = point.shading.to_local(point.coat_normal);
+    // Seen from behind, the frame is turned about its bitangent, and the coat's normal is the opposite one.
+    if (from_back) coat.normal.y = -coat.normal.y;
+    return coat;
+}
+
+Bsdf evaluate_gltf_surface(const WorldData& data, const GltfModel& model, const SurfacePoint& point, float relative_ior,
+                           bool from_back) {
+    MetallicRoughness lobe;
+    lobe.base = evaluate_base_color(data, model, point);
+    float roughness = model.roughness;
+    lobe.metallic = model.metallic;
+    if (model.metallic_roughness_texture.valid()) {
+        const Rgb texel = lookup(data, model.metallic_roughness_texture, point.uv).rgb;
+        roughness *= texel.g;
+        lobe.metallic *= texel.b;
+    }
+    lobe.metallic = unit(lobe.metallic);
+    lobe.alpha_x = lobe.alpha_y = squared(unit(roughness));
+    const Specular specular(data, model, point);
+    lobe.f90 = specular.weight;
+    lobe.f0 = specular.f0(data, model.f0);
+    lobe.transmission = scaled(data, model.transmission, model.transmission_texture, point, red);
+    if (model.layers) evaluate_base_layers(data, *model.layers, point, lobe);
+
+    const bool refracts = model.refracts && (1.0f - lobe.metallic) * lobe.transmission > 0.0f;
+    DielectricBody body;
+    if (refracts)
+        body = make_body(lobe, relative_ior > 0.0f ? relative_ior : model.ior, {specular.scale(data), lobe.film});
+    if (model.layers) {
+        const Sheen sheen = evaluate_sheen(data, *model.layers, point);
+        const ClearCoat coat = evaluate_clear_coat(data, *model.layers, point, from_back && !refracts);
+        if (sheen.exists() || coat.exists())
+            return refracts ? LayeredSurface::make(body, sheen, coat) : LayeredSurface::make(lobe, sheen, coat);
+    }
+    if (refracts) return from_body(body);
+    return lobe;
+}
+
+}  // namespace etendue

@@ -1,0 +1,19 @@
+// glTF's material at a point: textures looked up, and the lobe that its parameters ask for.
+#pragma once
+
+#include "bsdf/bsdf.h"
+#include "world/surface_point.h"
+#include "world/world.h"
+
+namespace etendue {
+
+/// `relative_ior` is the index inside over outside, 0 for the material's own against vacuum. `from_back`: seen from the
+/// surface's back.
+[[nodiscard]] Bsdf evaluate_gltf_surface(const WorldData& data, const GltfModel& model, const SurfacePoint& point,
+                                         float relative_ior, bool from_back);
+
+/// The clear coat alone.
+[[nodiscard]] ClearCoat evaluate_clear_coat(const WorldData& data, const GltfLayers& layers, const SurfacePoint& point,
+                                            bool from_back);
+
+}  // namespace etendue

@@ -1,0 +1,32 @@
+// Which bodies a point is in.
+//
+// Bodies are numbered by precedence: where several overlap, the one with the smallest number fills the space (Schmidt
+// and Budge, "Simple Nested Dielectrics in Ray Traced Images", JGT 7(2), 2002). The rule asks only for the set, so it
+// says the same whichever way a path came.
+#pragma once
+
+#include "world/geometry.h"
+
+#include <array>
+#include <cstdint>
+
+namespace etendue {
+
+class Interior {
+  public:
+    /// Bodies within bodies that are kept; those beyond are as if they were not there.
+    static constexpr std::uint32_t kCapacity = 7;
+
+    void enter(std::uint32_t body);
+    /// One that it is not in is ignored, as meshes with holes make it happen.
+    void leave(std::uint32_t body);
+    [[nodiscard]] bool is_empty() const { return count_ == 0; }
+    /// The body that fills the space, kNone in the open.
+    [[nodiscard]] std::uint32_t filling() const;
+
+  private:
+    std::array<std::uint32_t, kCapacity> bodies_{};
+    std::uint32_t count_ = 0;
+};
+
+}  // namespace etendue

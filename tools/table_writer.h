@@ -1,0 +1,35 @@
+// Writes nested arrays of floats as C++ initialisers: for the programs that compute tables while the project is built.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdio>
+#include <ostream>
+
+namespace etendue {
+
+inline void write_value(std::ostream& out, float value) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.8ff", static_cast<double>(value));
+    out << text.data();
+}
+
+template <typename T, std::size_t N>
+void write_value(std::ostream& out, const std::array<T, N>& values) {
+    out << "{{";
+    for (std::size_t i = 0; i < N; ++i) {
+        if (i > 0) out << (i % 8 == 0 ? ",\n" : ",");
+        write_value(out, values[i]);
+    }
+    out << "}}";
+}
+
+/// `const TYPE NAME = {{...}};`
+template <typename T>
+void write_table(std::ostream& out, const char* type, const char* name, const T& values) {
+    out << "const " << type << " " << name << " = ";
+    write_value(out, values);
+    out << ";\n";
+}
+
+}  // namespace etendue
