@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/error.h"
+#include "scene/light_desc.h"
 
 #include <array>
 #include <cstdint>
@@ -47,6 +48,7 @@ struct RenderSettings {
     std::string variant;      ///< KHR_materials_variants: name of the set of materials; empty for the file's default
     std::optional<double> time_code;  ///< seconds of the animation that is shown; none for the scene at rest
     std::string animation;            ///< its name; empty for the file's first
+    LightUnits light_units = LightUnits::Photometric;
     FilmSettings film;
     ColorSettings color;
     SourceLocation location;                     ///< of render.json
