@@ -51,6 +51,8 @@ nlohmann::json summarize(const SceneDesc& s) {
             {"lights", names(s.lights)},
             {"cameras", names(s.cameras)},
             {"variants", s.variants},
+            {"light_units", light_units_name(s.settings.light_units)},
+            {"ies_profiles", names(s.ies_profiles)},
             {"environment", s.environment.enabled},
             {"extensions_used", s.extensions_used},
             {"extensions_ignored", s.extensions_ignored}};

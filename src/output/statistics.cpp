@@ -31,6 +31,7 @@ std::string to_json(const RenderStatistics& s) {
     json["software"] = software_name();
     json["scene"] = s.scene;
     json["settings_hash"] = s.settings_hash;
+    json["light_units"] = s.light_units;
     json["size"] = {s.width, s.height};
     json["full_size"] = {s.full_width, s.full_height};
     json["complete"] = s.complete;

@@ -27,6 +27,7 @@ struct PhaseTime {
 struct RenderStatistics {
     std::string scene;
     std::string settings_hash;  ///< equal for equal settings and inputs
+    std::string light_units;    ///< of lamps: "photometric" (the image is in cd/m²) or "radiometric" (W/(m² sr))
     int width = 0;              ///< pixels rendered: the crop window's, or the image's
     int height = 0;
     int full_width = 0;  ///< pixels of the whole image
