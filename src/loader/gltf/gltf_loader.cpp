@@ -3,6 +3,7 @@
 #include "loader/gltf/gltf_accessor.h"
 #include "loader/gltf/gltf_animation.h"
 #include "loader/gltf/gltf_document.h"
+#include "loader/gltf/gltf_environment.h"
 #include "loader/gltf/gltf_material.h"
 #include "loader/gltf/gltf_mesh.h"
 #include "loader/gltf/gltf_nodes.h"
@@ -38,6 +39,7 @@ void GltfLoader::load(const std::filesystem::path& file, const LoadOptions& opti
     AccessorReader accessors(document, problems);
     TextureReader textures(document, accessors, scene, problems);
     read_materials(document, textures, scene, problems);
+    read_environment(document, textures, scene, problems);
     const std::vector<MeshDeformation> deformations = read_meshes(document, accessors, scene, problems);
     NodePoses poses;
     if (options.time_code) {

@@ -1,6 +1,7 @@
 #include "loader/gltf/gltf_nodes.h"
 
 #include "loader/gltf/gltf_instancing.h"
+#include "loader/gltf/gltf_lights.h"
 #include "loader/gltf/gltf_mesh_deformer.h"
 #include "loader/gltf/gltf_transform.h"
 #include "loader/gltf/gltf_value.h"
@@ -127,11 +128,17 @@ class Placer {
   public:
     Placer(const GltfDocument& document, AccessorReader& accessors, MeshDeformer& deformer, SceneDesc& scene,
            ProblemList& problems)
-        : document_(document), accessors_(accessors), deformer_(deformer), scene_(scene), problems_(problems) {}
+        : document_(document),
+          accessors_(accessors),
+          deformer_(deformer),
+          scene_(scene),
+          problems_(problems),
+          lights_(document, accessors, scene, problems) {}
 
+    /// Of a node that is not `visible` only the camera is placed.
     void place(const tinygltf::Node& node, const NodePose& pose, const Mat4d& node_to_world,
-               const SourceLocation& where) {
-        if (node.mesh >= 0) {
+               const SourceLocation& where, bool visible) {
+        if (visible && node.mesh >= 0) {
             const MeshDeformer::Result mesh = deformer_.deform(node, pose, where);
             const tinygltf::Value* instancing = find_extension(node.extensions, "EXT_mesh_gpu_instancing");
             if (mesh.is_in_world_space)
@@ -142,9 +149,8 @@ class Placer {
                 place_mesh(node, mesh.mesh, to_float(node_to_world), where);
         }
         const Mat4f to_world = to_float(node_to_world);
-        const tinygltf::Value* light = find_extension(node.extensions, "KHR_lights_punctual");
-        const int light_index = light != nullptr ? integer_or(*light, "light", -1) : -1;
-        if (node.camera < 0 && light_index < 0) return;
+        const bool shines = visible && LightReader::has_light(node);
+        if (node.camera < 0 && !shines) return;
 
         const std::optional<Mat4f> rigid = rigid_part(to_world);
         if (!rigid) {
@@ -152,7 +158,7 @@ class Placer {
             return;
         }
         if (node.camera >= 0) place_camera(node, *rigid);
-        if (light_index >= 0) place_light(node, static_cast<std::size_t>(light_index), *rigid);
+        if (shines) lights_.place(node, *rigid, where);
     }
 
   private:
@@ -211,29 +217,12 @@ class Placer {
         return name;
     }
 
-    void place_light(const tinygltf::Node& node, std::size_t index, const Mat4f& to_world) {
-        const tinygltf::Light& source = document_.model.lights[index];
-        LightDesc& light = scene_.lights.emplace_back();
-        light.name = source.name.empty() ? node.name : source.name;
-        light.type = source.type == "spot"          ? LightType::Spot
-                     : source.type == "directional" ? LightType::Directional
-                                                    : LightType::Point;
-        if (source.color.size() == 3) {
-            light.color = {static_cast<float>(source.color[0]), static_cast<float>(source.color[1]),
-                           static_cast<float>(source.color[2])};
-        }
-        light.intensity = static_cast<float>(source.intensity);
-        light.inner_cone_angle = static_cast<float>(source.spot.innerConeAngle);
-        light.outer_cone_angle = static_cast<float>(source.spot.outerConeAngle);
-        light.to_world = to_world;
-        light.location = document_.at(fmt::format("/extensions/KHR_lights_punctual/lights/{}", index));
-    }
-
     const GltfDocument& document_;
     AccessorReader& accessors_;
     MeshDeformer& deformer_;
     SceneDesc& scene_;
     ProblemList& problems_;
+    LightReader lights_;
     std::set<std::string> camera_names_;
     std::map<std::string, int> last_number_;  ///< by name, so that finding a free one does not start over
 };
@@ -242,13 +231,19 @@ class Placer {
 struct PlacedNode {
     int node;
     Mat4d to_world;
+    bool visible = true;  ///< KHR_node_visibility: it and all nodes above it are
 };
+
+bool is_visible(const tinygltf::Node& node) {
+    const tinygltf::Value* extension = find_extension(node.extensions, "KHR_node_visibility");
+    return extension == nullptr || !extension->Has("visible") || extension->Get("visible").Get<bool>();
+}
 
 /// Depth first over the forest, with a stack of its own: hierarchies may be as deep as the file likes.
 std::vector<PlacedNode> walk(const GltfDocument& document, const std::vector<int>& roots, const NodePoses& poses,
                              ProblemList& problems) {
     std::vector<PlacedNode> placed;
-    std::vector<PlacedNode> stack;  // with the transforms of their parents
+    std::vector<PlacedNode> stack;  // with the transforms and the visibility of their parents
     for (auto root = roots.rbegin(); root != roots.rend(); ++root) stack.push_back({*root, Mat4d()});
     while (!stack.empty()) {
         PlacedNode visit = stack.back();
@@ -256,8 +251,9 @@ std::vector<PlacedNode> walk(const GltfDocument& document, const std::vector<int
         const tinygltf::Node& node = document.model.nodes[static_cast<std::size_t>(visit.node)];
         const SourceLocation where = document.at(fmt::format("/nodes/{}", visit.node));
         visit.to_world = local_transform(node, pose_of(poses, visit.node), where, problems) * visit.to_world;
+        visit.visible = visit.visible && is_visible(node);
         for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
-            stack.push_back({*child, visit.to_world});
+            stack.push_back({*child, visit.to_world, visit.visible});
         placed.push_back(visit);
     }
     return placed;
@@ -285,7 +281,7 @@ void read_nodes(const GltfDocument& document, AccessorReader& accessors, std::sp
     Placer placer(document, accessors, deformer, scene, problems);
     for (const PlacedNode& node : nodes)
         placer.place(document.model.nodes[static_cast<std::size_t>(node.node)], pose_of(poses, node.node),
-                     node.to_world, document.at(fmt::format("/nodes/{}", node.node)));
+                     node.to_world, document.at(fmt::format("/nodes/{}", node.node)), node.visible);
     if (scene.instances.empty()) problems.warning(document.at(""), "the scene shows no triangles");
 }
 
