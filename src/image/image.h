@@ -1,29 +1,32 @@
 // Decoded images in memory. Rows run from the top down; channels are interleaved.
 #pragma once
 
+#include "core/float16.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <variant>
 #include <vector>
 
 namespace etendue {
 
-/// Pixels as 32-bit floats.
-struct ImageF {
+template <typename T>
+struct Image {
     int width = 0;
     int height = 0;
     int channels = 0;
-    std::vector<float> pixels;  ///< width * height * channels
+    std::vector<T> pixels;  ///< width * height * channels
 
-    ImageF() = default;
-    ImageF(int w, int h, int c)
+    Image() = default;
+    Image(int w, int h, int c)
         : width(w),
           height(h),
           channels(c),
           pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * static_cast<std::size_t>(c)) {}
 
-    [[nodiscard]] std::span<float> pixel(int x, int y) { return {pixels.data() + offset(x, y), std::size_t(channels)}; }
-    [[nodiscard]] std::span<const float> pixel(int x, int y) const {
+    [[nodiscard]] std::span<T> pixel(int x, int y) { return {pixels.data() + offset(x, y), std::size_t(channels)}; }
+    [[nodiscard]] std::span<const T> pixel(int x, int y) const {
         return {pixels.data() + offset(x, y), std::size_t(channels)};
     }
 
@@ -34,12 +37,13 @@ struct ImageF {
     }
 };
 
-/// Pixels as they stood in the file, for textures that keep the file's depth.
-struct Image8 {
-    int width = 0;
-    int height = 0;
-    int channels = 0;
-    std::vector<std::uint8_t> pixels;  ///< width * height * channels, as encoded (not linearised)
-};
+using ImageF = Image<float>;
+using ImageH = Image<Float16>;
+/// Integers as they stood in the file: as encoded, not linearised.
+using Image8 = Image<std::uint8_t>;
+using Image16 = Image<std::uint16_t>;
+
+/// An image in its file's own depth.
+using NativeImage = std::variant<Image8, Image16, ImageH, ImageF>;
 
 }  // namespace etendue

@@ -9,16 +9,31 @@
 #include <span>
 #include <string>
 #include <variant>
+#include <vector>
 
 namespace etendue {
+
+/// How many bits a channel takes once it is decoded without loss.
+enum class TexelDepth { UInt8, UInt16, Half, Float };
+
+/// Bytes of one channel of one pixel.
+[[nodiscard]] std::size_t bytes_of(TexelDepth depth);
+
+/// Size in pixels of an image or of one of its mip levels.
+struct ImageLevel {
+    int width = 0;
+    int height = 0;
+};
 
 /// What an image's header says; nothing is decoded.
 struct ImageInfo {
     int width = 0;
     int height = 0;
-    int channels = 0;
+    int channels = 0;          ///< in the file
+    int decoded_channels = 0;  ///< that decoding gives, 1 to 4
     int bits_per_channel = 0;
     bool is_float = false;
+    TexelDepth depth = TexelDepth::UInt8;
     std::string format;  ///< "png", "jpeg", "openexr", …
 };
 
@@ -42,6 +57,10 @@ using ImageSource = std::variant<std::filesystem::path, std::span<const std::byt
 
 /// Decodes to 8 bits a channel, 1 to 4 channels; deeper files are rounded. Throws IoError as `read_image_info` does.
 [[nodiscard]] Image8 read_image_8bit(const ImageSource& source);
+
+/// Decodes in the file's own depth: the image, then those of the file's mip levels that each halve the one before
+/// (rounded down). Channels as `read_image_float`. Throws IoError as `read_image_info` does.
+[[nodiscard]] std::vector<NativeImage> read_image_levels(const ImageSource& source);
 
 /// Version of the image library.
 [[nodiscard]] std::string image_library_version();

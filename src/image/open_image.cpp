@@ -1,0 +1,160 @@
+#include "image/open_image.h"
+
+#include "core/error.h"
+#include "image/library_setup.h"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+
+#include <fmt/format.h>
+
+namespace etendue {
+
+namespace {
+
+struct Encoded {
+    std::array<std::byte, kMagicBytes> head{};
+    std::size_t head_size = 0;
+    std::int64_t size = 0;
+};
+
+Encoded look_at(const std::filesystem::path& path) {
+    std::error_code error;
+    const auto status = std::filesystem::status(path, error);
+    if (status.type() == std::filesystem::file_type::not_found) throw IoError("the file does not exist");
+    if (error) throw IoError(error.message());
+    // Reading a pipe or a device could block for ever.
+    if (!std::filesystem::is_regular_file(status)) throw IoError("not a regular file");
+
+    Encoded encoded;
+    encoded.size = static_cast<std::int64_t>(std::filesystem::file_size(path, error));
+    std::ifstream stream(path, std::ios::binary);
+    if (error || !stream) throw IoError("the file cannot be opened");
+    stream.read(reinterpret_cast<char*>(encoded.head.data()), static_cast<std::streamsize>(encoded.head.size()));
+    encoded.head_size = static_cast<std::size_t>(stream.gcount());
+    return encoded;
+}
+
+Encoded look_at(std::span<const std::byte> bytes) {
+    Encoded encoded;
+    encoded.size = static_cast<std::int64_t>(bytes.size());
+    encoded.head_size = std::min(bytes.size(), encoded.head.size());
+    std::copy_n(bytes.begin(), encoded.head_size, encoded.head.begin());
+    return encoded;
+}
+
+void refuse_absurd(const OIIO::ImageSpec& spec, const EncodedFormat& format, std::int64_t encoded_size) {
+    if (spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0) throw IoError("the image has no pixels");
+    if (spec.deep || spec.depth > 1) throw IoError("deep and volume images are not supported");
+    const std::int64_t pixels = std::int64_t{spec.width} * spec.height;
+    if (spec.width > kMaxImageSide || spec.height > kMaxImageSide || pixels > kMaxImagePixels) {
+        throw IoError(fmt::format("{} x {} pixels are more than are allowed ({} in all, {} on a side)", spec.width,
+                                  spec.height, kMaxImagePixels, kMaxImageSide));
+    }
+    const auto bytes_per_pixel = static_cast<std::int64_t>(spec.pixel_bytes(true));
+    if (pixels * bytes_per_pixel / format.max_expansion > encoded_size) {
+        throw IoError(fmt::format("the header claims {} x {} pixels, which {} bytes cannot hold", spec.width,
+                                  spec.height, encoded_size));
+    }
+}
+
+std::vector<int> select_channels(const OIIO::ImageSpec& spec) {
+    std::vector<int> selected;
+    for (const char* name : {"R", "G", "B"}) {
+        if (const int index = spec.channelindex(name); index >= 0) selected.push_back(index);
+    }
+    if (selected.size() == 3) {
+        if (const int alpha = spec.channelindex("A"); alpha >= 0) selected.push_back(alpha);
+        return selected;
+    }
+    selected.clear();
+    for (int i = 0; i < std::min(spec.nchannels, 4); ++i) selected.push_back(i);
+    return selected;
+}
+
+TexelDepth depth_of(const OIIO::ImageSpec& spec) {
+    switch (spec.format.basetype) {
+        case OIIO::TypeDesc::UINT8:
+            return TexelDepth::UInt8;
+        case OIIO::TypeDesc::UINT16:
+            return TexelDepth::UInt16;
+        case OIIO::TypeDesc::HALF:
+            return TexelDepth::Half;
+        default:
+            return TexelDepth::Float;
+    }
+}
+
+}  // namespace
+
+void throw_library_error(const OIIO::ImageInput& input, std::string_view what) {
+    std::string reason = input.geterror();
+    if (reason.empty()) reason = OIIO::geterror();
+    throw IoError(reason.empty() ? std::string(what) : fmt::format("{}: {}", what, reason));
+}
+
+OpenImage open_image(const ImageSource& source) {
+    configure_image_library();
+    const Encoded encoded = std::visit([](const auto& place) { return look_at(place); }, source);
+    if (encoded.size == 0) throw IoError("the file is empty");
+    const auto format = detect_format(std::span(encoded.head).first(encoded.head_size));
+    if (!format) throw IoError("not an image of a known format (PNG, JPEG, WebP, OpenEXR, Radiance HDR, TIFF)");
+
+    OpenImage image;
+    image.format = *format;
+    image.input = OIIO::ImageInput::create(std::string(format->name));
+    if (!image.input) throw IoError(OIIO::geterror());
+    image.input->threads(1);
+
+    std::string name = "memory." + std::string(format->name);
+    if (const auto* bytes = std::get_if<std::span<const std::byte>>(&source)) {
+        image.memory = std::make_unique<OIIO::Filesystem::IOMemReader>(bytes->data(), bytes->size());
+        if (!image.input->set_ioproxy(image.memory.get())) throw_library_error(*image.input, "cannot read from memory");
+    } else {
+        name = std::get<std::filesystem::path>(source).string();
+    }
+    OIIO::ImageSpec request;
+    request.attribute("oiio:UnassociatedAlpha", 1);
+    if (!image.input->open(name, image.spec, request)) throw_library_error(*image.input, "the header is broken");
+    refuse_absurd(image.spec, *format, encoded.size);
+    image.channels = select_channels(image.spec);
+    return image;
+}
+
+ImageInfo describe(const OpenImage& image) {
+    ImageInfo info;
+    info.width = image.spec.width;
+    info.height = image.spec.height;
+    info.channels = image.spec.nchannels;
+    info.decoded_channels = static_cast<int>(image.channels.size());
+    info.is_float = image.spec.format.is_floating_point();
+    info.bits_per_channel = image.spec.get_int_attribute("oiio:BitsPerSample", 8 * int(image.spec.format.basesize()));
+    info.depth = depth_of(image.spec);
+    info.format = image.format.name;
+    return info;
+}
+
+std::vector<ImageLevel> levels_of(OpenImage& image) {
+    std::vector<ImageLevel> levels{{image.spec.width, image.spec.height}};
+    for (int i = 1; levels.back().width > 1 || levels.back().height > 1; ++i) {
+        const OIIO::ImageSpec level = image.input->spec_dimensions(0, i);
+        const ImageLevel half{std::max(1, levels.back().width / 2), std::max(1, levels.back().height / 2)};
+        const bool is_half = level.width == half.width && level.height == half.height;
+        if (!is_half || level.nchannels != image.spec.nchannels) break;
+        levels.push_back(half);
+    }
+    return levels;
+}
+
+ChannelRange channel_range(const OpenImage& image) {
+    const auto [first, last] = std::minmax_element(image.channels.begin(), image.channels.end());
+    return {*first, *last + 1};
+}
+
+bool channels_in_order(const OpenImage& image) {
+    return std::is_sorted(image.channels.begin(), image.channels.end()) &&
+           channel_range(image).size() == image.channels.size();
+}
+
+}  // namespace etendue

@@ -1,0 +1,65 @@
+// An image whose header has been read and found acceptable. For this room only.
+#pragma once
+
+#include "image/encoded_format.h"
+#include "image/read.h"
+
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+namespace etendue {
+
+struct OpenImage {
+    std::unique_ptr<OIIO::Filesystem::IOMemReader> memory;  // outlives `input`, which reads through it
+    std::unique_ptr<OIIO::ImageInput> input;
+    OIIO::ImageSpec spec;
+    EncodedFormat format;
+    /// Those to read, in order: R, G, B and A by name where the file has them (EXR stores channels alphabetically, and
+    /// other layers may stand between), else the first four.
+    std::vector<int> channels;
+};
+
+/// Bytes in `source` must outlive the result. Throws IoError as `read_image_info` does.
+[[nodiscard]] OpenImage open_image(const ImageSource& source);
+
+/// What the header of `image` says.
+[[nodiscard]] ImageInfo describe(const OpenImage& image);
+
+/// Of the image and, where the file has them, of its mip levels, as far as each is half the one before (rounded down,
+/// at least 1).
+[[nodiscard]] std::vector<ImageLevel> levels_of(OpenImage& image);
+
+/// Moves the selected channels of `count` pixels together: `stored` holds all channels from the first selected to the
+/// last.
+template <typename T>
+void pick_channels(const OpenImage& image, const T* stored, std::size_t count, T* picked);
+
+/// The channels [first, last) of the file that hold all selected ones.
+struct ChannelRange {
+    int first;
+    int last;
+
+    [[nodiscard]] std::size_t size() const { return static_cast<std::size_t>(last - first); }
+};
+[[nodiscard]] ChannelRange channel_range(const OpenImage& image);
+/// True if that range is the selected channels in their order, so that nothing has to be picked.
+[[nodiscard]] bool channels_in_order(const OpenImage& image);
+
+/// Throws IoError with the library's reason.
+[[noreturn]] void throw_library_error(const OIIO::ImageInput& input, std::string_view what);
+
+template <typename T>
+void pick_channels(const OpenImage& image, const T* stored, std::size_t count, T* picked) {
+    const ChannelRange range = channel_range(image);
+    const std::size_t channels = image.channels.size();
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t c = 0; c < channels; ++c)
+            picked[i * channels + c] =
+                stored[i * range.size() + static_cast<std::size_t>(image.channels[c] - range.first)];
+}
+
+}  // namespace etendue
