@@ -1,5 +1,6 @@
 #include "app/settings_overrides.h"
 
+#include "core/byte_size.h"
 #include "integrator/integrator.h"
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 namespace etendue {
 
@@ -52,6 +54,12 @@ std::array<int, 4> parse_crop(const std::string& text) {
     return c;
 }
 
+std::uint64_t parse_texture_memory(const std::string& text) {
+    const auto bytes = parse_byte_size(text);
+    if (!bytes) throw CLI::ValidationError("--texture-memory", fmt::format("'{}' is not {}", text, kByteSizeForm));
+    return *bytes;
+}
+
 std::vector<std::string> integrator_names() {
     std::vector<std::string> names;
     for (const IntegratorEntry& entry : integrator_registry()) names.emplace_back(entry.name);
@@ -93,6 +101,10 @@ void SettingsOverrides::add_options(CLI::App& command) {
         ->check(CLI::IsMember(kLightUnits));
     command.add_option("--environment", environment, "Environment image (EXR or HDR), in place of the scene's")
         ->check(CLI::ExistingFile);
+    command.add_option_function<std::string>(
+        "--texture-memory", [this](const std::string& text) { texture_memory = parse_texture_memory(text); },
+        "Memory for decoded textures, such as 8G or 512M; scenes with more read them piece by piece as they are "
+        "needed (default: half of the machine's)");
     command.add_option("--exposure", exposure, "Exposure of the preview image, stops")->check(CLI::Range(-64.0, 64.0));
     command.add_option("--view", view, "OpenColorIO view of the preview image");
     command.add_option("--working-space", working_space, "Scene-linear space to render in and to write");
@@ -121,6 +133,7 @@ void SettingsOverrides::apply(SceneDesc& scene) const {
     set(seed, settings.seed, "/seed", "--seed");
     set(light_units, settings.light_units, "/light_units", "--light-units");
     set(time_seconds, settings.time_limit, "/time", "--time");
+    set(texture_memory, settings.texture_memory, "/texture_memory", "--texture-memory");
     set(exposure, settings.color.exposure, "/color/exposure", "--exposure");
     set(view, settings.color.view, "/color/view", "--view");
     set(working_space, settings.color.working_space, "/color/working_space", "--working-space");

@@ -37,6 +37,7 @@ struct SettingsOverrides {
     std::optional<int> max_depth;
     std::optional<LightUnits> light_units;
     std::optional<std::string> environment;
+    std::optional<std::uint64_t> texture_memory;  ///< bytes
     std::optional<float> exposure;
     std::optional<std::string> view;
     std::optional<std::string> working_space;

@@ -62,6 +62,22 @@ const char* text(TextureWrap wrap) {
     return "?";
 }
 
+const char* text(TextureFilter filter) {
+    return filter == TextureFilter::Nearest ? "nearest" : "linear";
+}
+
+const char* text(TextureMipFilter filter) {
+    switch (filter) {
+        case TextureMipFilter::None:
+            return "none";
+        case TextureMipFilter::Nearest:
+            return "nearest";
+        case TextureMipFilter::Linear:
+            return "linear";
+    }
+    return "?";
+}
+
 const char* text(LightType type) {
     switch (type) {
         case LightType::Point:
@@ -97,8 +113,9 @@ void dump_textures(const SceneDesc& scene, Out out) {
     }
     for (std::size_t i = 0; i < scene.textures.size(); ++i) {
         const TextureDesc& t = scene.textures[i];
-        fmt::format_to(out, "texture {} \"{}\": image {}, wrap {} {}, {}\n", i, t.name, t.image.index, text(t.wrap_u),
-                       text(t.wrap_v), t.filter == TextureFilter::Nearest ? "nearest" : "linear");
+        fmt::format_to(out, "texture {} \"{}\": image {}, wrap {} {}, {}, minified {} mip {}\n", i, t.name,
+                       t.image.index, text(t.wrap_u), text(t.wrap_v), text(t.filter), text(t.min_filter),
+                       text(t.mip_filter));
     }
 }
 
@@ -234,6 +251,7 @@ void dump_settings(const RenderSettings& s, Out out) {
     fmt::format_to(out, "light units: {}\n", light_units_name(s.light_units));
     if (s.time_code) fmt::format_to(out, "time code {} of animation \"{}\"\n", *s.time_code, s.animation);
     if (!s.variant.empty()) fmt::format_to(out, "variant used: \"{}\"\n", s.variant);
+    if (s.texture_memory) fmt::format_to(out, "texture memory: {} bytes\n", *s.texture_memory);
     fmt::format_to(out, "colour: working space \"{}\", display \"{}\", view \"{}\", exposure {:g}\n",
                    s.color.working_space, s.color.display, s.color.view, s.color.exposure);
 }

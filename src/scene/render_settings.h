@@ -49,6 +49,7 @@ struct RenderSettings {
     std::optional<double> time_code;  ///< seconds of the animation that is shown; none for the scene at rest
     std::string animation;            ///< its name; empty for the file's first
     LightUnits light_units = LightUnits::Photometric;
+    std::optional<std::uint64_t> texture_memory;  ///< bytes for decoded textures; none for half of the machine's memory
     FilmSettings film;
     ColorSettings color;
     SourceLocation location;                     ///< of render.json

@@ -16,7 +16,7 @@ namespace etendue {
 struct ImageDesc {
     std::string name;
     std::filesystem::path path;      ///< resolved and inside the scene directory; empty if `encoded` is used
-    std::vector<std::byte> encoded;  ///< PNG or JPEG bytes as they stood in the file
+    std::vector<std::byte> encoded;  ///< bytes of an image file as they stood in the scene's
     std::string mime_type;           ///< "image/png", "image/jpeg", or empty if the file did not say
     int width = 0;                   ///< pixels, from the image's header
     int height = 0;                  ///< pixels, from the image's header
@@ -25,6 +25,8 @@ struct ImageDesc {
 
 enum class TextureWrap { Repeat, MirroredRepeat, ClampToEdge };
 enum class TextureFilter { Nearest, Linear };
+/// Between the levels of a mip chain; None reads the image itself however small it is shown.
+enum class TextureMipFilter { None, Nearest, Linear };
 
 /// An image with the sampler it is read through.
 struct TextureDesc {
@@ -32,7 +34,9 @@ struct TextureDesc {
     Handle<ImageDesc> image;
     TextureWrap wrap_u = TextureWrap::Repeat;
     TextureWrap wrap_v = TextureWrap::Repeat;
-    TextureFilter filter = TextureFilter::Linear;  ///< the sampler's magnification filter
+    TextureFilter filter = TextureFilter::Linear;      ///< the sampler's magnification filter
+    TextureFilter min_filter = TextureFilter::Linear;  ///< the same where it is minified, within a level
+    TextureMipFilter mip_filter = TextureMipFilter::Linear;
     SourceLocation location;
 };
 

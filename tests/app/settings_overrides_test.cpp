@@ -69,6 +69,14 @@ TEST(SettingsOverrides, DraftKeepsTheCropInsideTheHalvedImage) {
     }
 }
 
+TEST(SettingsOverrides, TextureMemoryHasAUnit) {
+    SceneDesc scene = scene_of(64, 64, 1);
+    parse({"--texture-memory", "512M"}).apply(scene);
+    EXPECT_EQ(scene.settings.texture_memory, std::uint64_t{512} << 20);
+    for (const char* bad : {"512", "M", "-1G", "1.5G", "1 G", "99999999G"})
+        EXPECT_THROW(parse({"--texture-memory", bad}), CLI::ValidationError) << bad;
+}
+
 TEST(SettingsOverrides, WhatIsStatedWinsOverQuality) {
     SceneDesc scene = scene_of(640, 360, 100);
     parse({"--size", "100x50", "--quality", "draft", "--spp", "7", "--crop", "1,2,30,40"}).apply(scene);

@@ -32,5 +32,16 @@ TEST(Dump, DiffersWhenTheSceneDoes) {
     EXPECT_NE(dump(scene), before);
 }
 
+TEST(Dump, NamesWhatDecidesHowTexturesAreRead) {
+    SceneDesc scene = small_scene();
+    EXPECT_EQ(dump(scene).find("texture memory"), std::string::npos);
+    scene.settings.texture_memory = 4096;
+    scene.textures[0].min_filter = TextureFilter::Nearest;
+    scene.textures[0].mip_filter = TextureMipFilter::None;
+    const std::string text = dump(scene);
+    EXPECT_NE(text.find("texture memory: 4096 bytes"), std::string::npos) << text;
+    EXPECT_NE(text.find("minified nearest mip none"), std::string::npos) << text;
+}
+
 }  // namespace
 }  // namespace etendue

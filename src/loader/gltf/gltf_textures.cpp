@@ -24,6 +24,31 @@ TextureWrap wrap_of(int code) {
     }
 }
 
+/// What a sampler's minification filter says; trilinear if it says nothing.
+void read_min_filter(int code, TextureDesc& texture) {
+    switch (code) {
+        case TINYGLTF_TEXTURE_FILTER_NEAREST:
+        case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST:
+        case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR:
+            texture.min_filter = TextureFilter::Nearest;
+            break;
+        default:
+            texture.min_filter = TextureFilter::Linear;
+    }
+    switch (code) {
+        case TINYGLTF_TEXTURE_FILTER_NEAREST:
+        case TINYGLTF_TEXTURE_FILTER_LINEAR:
+            texture.mip_filter = TextureMipFilter::None;
+            break;
+        case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST:
+        case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_NEAREST:
+            texture.mip_filter = TextureMipFilter::Nearest;
+            break;
+        default:
+            texture.mip_filter = TextureMipFilter::Linear;
+    }
+}
+
 std::vector<std::byte> to_bytes(std::span<const unsigned char> source) {
     const auto bytes = std::as_bytes(source);
     return {bytes.begin(), bytes.end()};
@@ -72,6 +97,7 @@ Handle<TextureDesc> TextureReader::read_texture(std::size_t index) {
         texture.wrap_v = wrap_of(sampler.wrapT);
         const bool nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
         texture.filter = nearest ? TextureFilter::Nearest : TextureFilter::Linear;
+        read_min_filter(sampler.minFilter, texture);
     }
     scene_.textures.push_back(std::move(texture));
     return {static_cast<std::int32_t>(scene_.textures.size()) - 1};
@@ -100,7 +126,10 @@ std::optional<ImageDesc> TextureReader::read_image(std::size_t index) {
         const ImageInfo info = image.path.empty() ? read_image_info(std::span<const std::byte>(image.encoded))
                                                   : read_image_info(image.path);
         if (info.format != "png" && info.format != "jpeg" && info.format != "webp") {
-            throw IoError("glTF images are PNG, JPEG or (EXT_texture_webp) WebP, but this is " + info.format);
+            problems_.warning(image.location,
+                              fmt::format("glTF images are PNG, JPEG or (EXT_texture_webp) WebP; this one is {}, which "
+                                          "is read, but not by every program",
+                                          info.format));
         }
         image.width = info.width;
         image.height = info.height;

@@ -1,5 +1,6 @@
 #include "loader/settings/render_json.h"
 
+#include "core/byte_size.h"
 #include "loader/files.h"
 #include "loader/json_text.h"
 #include "loader/settings/json_object.h"
@@ -250,6 +251,14 @@ void read_film_size(JsonObject& object, FilmSettings& film) {
     if (object.integers("crop", 0, kMaxSide, crop)) film.crop = crop;
 }
 
+void read_texture_memory(JsonObject& object, RenderSettings& settings) {
+    std::string text;
+    if (!object.text("texture_memory", text)) return;
+    settings.texture_memory = parse_byte_size(text);
+    if (!settings.texture_memory)
+        object.problems().error(object.at("texture_memory"), fmt::format("'{}' is not {}", text, kByteSizeForm));
+}
+
 void read_overrides(JsonObject& object, RenderJson& out) {
     ProblemList& problems = object.problems();
     if (const Json* member = object.member("materials")) {
@@ -280,6 +289,7 @@ void read_document(const Json& value, ProblemList& problems, RenderJson& out) {
     object.integer("spp", 1, kMaxSpp, settings.spp);
     object.integer("seed", 0, kMaxSeed, settings.seed);
     object.number("time", kNotNegative, settings.time_limit);
+    read_texture_memory(object, settings);
     read_film_size(object, settings.film);
     read_camera_member(object, out);
     if (float radius = 0.0f; object.number("lens_radius", kNotNegative, radius)) out.lens_radius = radius;

@@ -1,6 +1,7 @@
 #include "loader/gltf/gltf_builder.h"
 
 #include <functional>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -78,12 +79,34 @@ TEST(Textures, SamplersAreRead) {
     EXPECT_EQ(plain.scene.textures.at(0).filter, TextureFilter::Linear);
 }
 
-TEST(Textures, MinificationFilterIsIrrelevant) {
-    GltfBuilder builder = textured({{"uri", "a.png"}});
-    builder.json["samplers"] = {{{"minFilter", 9728}}};
-    builder.json["textures"][0]["sampler"] = 0;
-    const LoadedScene loaded = load_with_file(builder, "a.png", png_bytes());
-    EXPECT_EQ(loaded.scene.textures.at(0).filter, TextureFilter::Linear);
+TEST(Textures, MinificationFiltersSayHowToReadWithinLevelsAndBetweenThem) {
+    using Within = TextureFilter;
+    using Between = TextureMipFilter;
+    const std::tuple<int, Within, Between> codes[] = {
+        {9728, Within::Nearest, Between::None},    {9729, Within::Linear, Between::None},
+        {9984, Within::Nearest, Between::Nearest}, {9985, Within::Linear, Between::Nearest},
+        {9986, Within::Nearest, Between::Linear},  {9987, Within::Linear, Between::Linear}};
+    for (const auto& [code, within, between] : codes) {
+        GltfBuilder builder = textured({{"uri", "a.png"}});
+        builder.json["samplers"] = {{{"minFilter", code}}};
+        builder.json["textures"][0]["sampler"] = 0;
+        const LoadedScene loaded = load_with_file(builder, "a.png", png_bytes());
+        const TextureDesc& texture = loaded.scene.textures.at(0);
+        EXPECT_EQ(texture.min_filter, within) << code;
+        EXPECT_EQ(texture.mip_filter, between) << code;
+        EXPECT_EQ(texture.filter, TextureFilter::Linear);
+    }
+    const LoadedScene plain = load_with_file(textured({{"uri", "a.png"}}), "a.png", png_bytes());
+    EXPECT_EQ(plain.scene.textures.at(0).min_filter, Within::Linear);
+    EXPECT_EQ(plain.scene.textures.at(0).mip_filter, Between::Linear);
+}
+
+TEST(Textures, FormatsThatGltfDoesNotNameAreReadWithAWarning) {
+    const std::string hdr = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n" + std::string(4, '\1');
+    const LoadedScene loaded = load_with_file(textured({{"uri", "a.png"}}), "a.png", hdr);
+    EXPECT_EQ(only_image(loaded).width, 1);
+    EXPECT_TRUE(has_problem(loaded.problems, Severity::Warning, "this one is hdr", "/images/0"))
+        << listing(loaded.problems);
 }
 
 TEST(Textures, BadFilesAreErrors) {
@@ -97,8 +120,6 @@ TEST(Textures, BadFilesAreErrors) {
     expect_error({{"uri", "a.png"}}, "", "a.png");
     expect_error({{"uri", "a.png"}}, "not an image at all", "a.png");
     expect_error({{"uri", "a.png"}}, png_bytes().substr(0, 20), "a.png");
-    expect_error({{"uri", "a.png"}}, "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n" + std::string(4, '\1'),
-                 "PNG, JPEG or");
     expect_error({{"uri", "data:image/png;base64,AAAA"}}, png_bytes(), "");
 
     std::string absurd = png_bytes();

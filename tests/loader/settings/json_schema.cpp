@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <regex>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -49,6 +50,7 @@ class Validator {
             {"minItems", &Validator::min_items},
             {"maxItems", &Validator::max_items},
             {"minLength", &Validator::min_length},
+            {"pattern", &Validator::pattern},
             {"minimum", &Validator::minimum},
             {"maximum", &Validator::maximum},
             {"exclusiveMinimum", &Validator::exclusive_minimum},
@@ -137,6 +139,11 @@ class Validator {
     void min_length(const Json&, const Json& argument, const Json& value, const std::string& pointer) {
         if (value.is_string() && value.get<std::string>().size() < argument.get<std::size_t>())
             fail(pointer, "is short");
+    }
+
+    void pattern(const Json&, const Json& argument, const Json& value, const std::string& pointer) {
+        if (value.is_string() && !std::regex_search(value.get<std::string>(), std::regex(argument.get<std::string>())))
+            fail(pointer, "does not match the pattern");
     }
 
     void compare(const Json& value, const std::string& pointer, const std::function<bool(double)>& good) {
