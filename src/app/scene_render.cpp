@@ -119,6 +119,20 @@ void fill_render_statistics(const RenderResult& result, RenderStatistics& s) {
     s.first_dropped = c.first_dropped;
 }
 
+/// After rendering, when the cache has held what it will. Look-ups that failed are an error to tell, not one to lose
+/// the image for.
+void fill_texture_statistics(const World& world, RenderStatistics& s) {
+    const WorldStatistics from = world.statistics();
+    s.textures = from.textures;
+    s.texture_bytes = from.texture_bytes;
+    s.textures_cached = from.textures_cached;
+    s.texture_cache_budget = from.texture_cache_budget;
+    s.failed_texture_lookups = from.failed_texture_lookups;
+    if (from.failed_texture_lookups > 0)
+        log_error("error: {} texture look-ups met broken pixels and read black: {}", from.failed_texture_lookups,
+                  from.first_texture_failure);
+}
+
 /// For a shell.
 std::string quoted(const std::string& text) {
     std::string result = "'";
@@ -283,6 +297,7 @@ SceneRenderResult render_scene(PreparedScene prepared, const SceneRenderRequest&
                                          [&](const RenderProgress& progress) { display.update(progress); });
     fill_render_statistics(rendered, statistics);
     report_dropped(rendered.counters, request, settings, working_space);
+    fill_texture_statistics(world, statistics);
 
     result.output = paths.exr;
     result.interrupted = rendered.halt_reason == HaltReason::Interrupted;

@@ -2,6 +2,9 @@
 
 #include "sampling/warp.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace etendue {
 
 namespace {
@@ -83,12 +86,31 @@ Ray OrthographicCamera::generate_ray(Vec2f film, Vec2f) const {
     return ray;
 }
 
+// A pixel's solid angle is its area on the image plane times cos³; the plane's area is the reciprocal of that density.
+RayCone PinholeCamera::pixel_cone(const Vec3f& direction, float pixel_area) const {
+    const float cos_theta = std::max(0.0f, dot(direction, pose.forward));
+    const float plane_area = 4.0f * half_width * half_height * pixel_area;
+    return {0.0f, cos_theta * std::sqrt(plane_area * cos_theta)};
+}
+
+RayCone ThinLensCamera::pixel_cone(const Vec3f& direction, float pixel_area) const {
+    return pinhole.pixel_cone(direction, pixel_area);
+}
+
+RayCone OrthographicCamera::pixel_cone(const Vec3f&, float pixel_area) const {
+    return {std::sqrt(4.0f * half_width * half_height * pixel_area), 0.0f};
+}
+
 Ray generate_ray(const Camera& camera, Vec2f film, Vec2f lens) {
     return std::visit([&](const auto& c) { return c.generate_ray(film, lens); }, camera);
 }
 
 float camera_pdf_solid_angle(const Camera& camera, const Vec3f& direction) {
     return std::visit([&](const auto& c) { return c.pdf_solid_angle(direction); }, camera);
+}
+
+RayCone pixel_cone(const Camera& camera, const Vec3f& direction, float pixel_area) {
+    return std::visit([&](const auto& c) { return c.pixel_cone(direction, pixel_area); }, camera);
 }
 
 Mat4f world_to_camera(const Camera& camera) {

@@ -1,12 +1,13 @@
 // Cameras: from a point on the film and one on the lens to a ray.
 //
-// To add another: a struct with `generate_ray` and `pdf_solid_angle`, its place in the variant, one case in
-// world/compile_camera.cpp, and its row in tests/camera.
+// To add another: a struct with `generate_ray`, `pdf_solid_angle` and `pixel_cone`, its place in the variant, one case
+// in world/compile_camera.cpp, and its row in tests/camera.
 //
 // Film coordinates run over [0, 1)², x to the right and y down from the top left corner of the full image.
 #pragma once
 
 #include "core/ray.h"
+#include "core/ray_cone.h"
 #include "core/vec.h"
 
 #include <variant>
@@ -37,6 +38,7 @@ struct PinholeCamera {
     [[nodiscard]] Ray generate_ray(Vec2f film, Vec2f lens) const;
     /// Density per solid angle of the ray directions for uniform film points: 1 / (A cos³); 0 outside the image.
     [[nodiscard]] float pdf_solid_angle(const Vec3f& direction) const;
+    [[nodiscard]] RayCone pixel_cone(const Vec3f& direction, float pixel_area) const;
 };
 
 /// Perspective through a disk: what lies at the focus distance is sharp.
@@ -48,6 +50,8 @@ struct ThinLensCamera {
     [[nodiscard]] Ray generate_ray(Vec2f film, Vec2f lens) const;
     /// Density per solid angle of the directions through the centre of the lens.
     [[nodiscard]] float pdf_solid_angle(const Vec3f& direction) const;
+    /// The pinhole's: what the lens blurs, its samples blur.
+    [[nodiscard]] RayCone pixel_cone(const Vec3f& direction, float pixel_area) const;
 };
 
 /// Parallel rays.
@@ -59,6 +63,7 @@ struct OrthographicCamera {
     [[nodiscard]] Ray generate_ray(Vec2f film, Vec2f lens) const;
     /// All rays have one direction: a delta, so 0.
     [[nodiscard]] float pdf_solid_angle(const Vec3f&) const { return 0.0f; }
+    [[nodiscard]] RayCone pixel_cone(const Vec3f& direction, float pixel_area) const;
 };
 
 using Camera = std::variant<PinholeCamera, ThinLensCamera, OrthographicCamera>;
@@ -66,6 +71,10 @@ using Camera = std::variant<PinholeCamera, ThinLensCamera, OrthographicCamera>;
 /// The ray through film point `film`, for a lens point made from `lens` in [0, 1)². Its direction is unit length.
 [[nodiscard]] Ray generate_ray(const Camera& camera, Vec2f film, Vec2f lens);
 [[nodiscard]] float camera_pdf_solid_angle(const Camera& camera, const Vec3f& direction);
+
+/// The cone around a camera ray along `direction` that is as large as a pixel, which takes the share `pixel_area` of
+/// the film. Not divided by the samples per pixel: what a pixel shows does not depend on their number.
+[[nodiscard]] RayCone pixel_cone(const Camera& camera, const Vec3f& direction, float pixel_area);
 
 /// World to camera space (looking along -Z), and world to screen: x and y in [-1, 1] over the image, for image
 /// metadata.

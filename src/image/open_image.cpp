@@ -52,6 +52,11 @@ void refuse_absurd(const OIIO::ImageSpec& spec, const EncodedFormat& format, std
         throw IoError(fmt::format("{} x {} pixels are more than are allowed ({} in all, {} on a side)", spec.width,
                                   spec.height, kMaxImagePixels, kMaxImageSide));
     }
+    constexpr int kMaxTileBeyondImage = 4096;
+    if (spec.tile_width > std::max(spec.width, kMaxTileBeyondImage) ||
+        spec.tile_height > std::max(spec.height, kMaxTileBeyondImage))
+        throw IoError(
+            fmt::format("its tiles of {} x {} pixels are larger than the image", spec.tile_width, spec.tile_height));
     const auto bytes_per_pixel = static_cast<std::int64_t>(spec.pixel_bytes(true));
     if (pixels * bytes_per_pixel / format.max_expansion > encoded_size) {
         throw IoError(fmt::format("the header claims {} x {} pixels, which {} bytes cannot hold", spec.width,

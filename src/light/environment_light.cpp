@@ -77,7 +77,8 @@ float ConstantEnvironment::power(float scene_radius) const {
 
 ImageEnvironment::ImageEnvironment(ImageF image, float rotation)
     : distribution_(make_distribution(sanitize(image))),
-      texture_(std::move(image), {.wrap_u = Wrap::Repeat, .wrap_v = Wrap::Clamp}),
+      // Never filtered, so that hits and light samples see one function.
+      texture_(Texture::without_levels(std::move(image), {.wrap_u = Wrap::Repeat, .wrap_v = Wrap::Clamp})),
       sin_rotation_(std::sin(rotation)),
       cos_rotation_(std::cos(rotation)),
       // A row between the polar angles a and b covers 2 pi (cos a - cos b) = 4 pi sin((a + b) / 2) sin(pi / (2

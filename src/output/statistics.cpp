@@ -51,6 +51,11 @@ std::string to_json(const RenderStatistics& s) {
     json["triangles"] = s.triangles;
     json["instances"] = s.instances;
     json["lights"] = s.lights;
+    json["textures"] = {{"count", s.textures},
+                        {"held", s.textures_cached ? "cached" : "resident"},
+                        {"bytes", s.texture_bytes},
+                        {"cache_budget_bytes", s.texture_cache_budget},
+                        {"failed_lookups", s.failed_texture_lookups}};
     json["dropped_samples"] = {{"count", s.dropped_samples}, {"first", to_object(s.first_dropped)}};
     json["threads"] = s.threads;
     json["isa"] = s.isa;

@@ -51,6 +51,12 @@ struct RenderStatistics {
     std::uint64_t instances = 0;
     std::uint64_t lights = 0;
 
+    std::uint64_t textures = 0;
+    std::uint64_t texture_bytes = 0;           ///< decoded and held at the end
+    bool textures_cached = false;              ///< they are read piece by piece, as they do not fit
+    std::uint64_t texture_cache_budget = 0;    ///< bytes
+    std::uint64_t failed_texture_lookups = 0;  ///< that met broken pixels in a file
+
     std::uint64_t dropped_samples = 0;
     std::vector<DroppedSample> first_dropped;  ///< the first few of them
 

@@ -22,7 +22,7 @@ FacePoint to_face(const Vec3f& d) {
 }
 
 Texture to_texture(ImageF& image) {
-    return {std::move(image), {.wrap_u = Wrap::Clamp, .wrap_v = Wrap::Clamp}};
+    return Texture::without_levels(std::move(image), {.wrap_u = Wrap::Clamp, .wrap_v = Wrap::Clamp});
 }
 
 }  // namespace

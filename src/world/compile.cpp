@@ -1,6 +1,7 @@
 #include "world/compile.h"
 
 #include "bsdf/color_matching.h"
+#include "core/byte_size.h"
 #include "world/compile_parts.h"
 #include "world/embree_scene.h"
 
@@ -37,7 +38,7 @@ World compile_world(SceneDesc scene, const ColorConfig& colors, const std::strin
 
     TextureCompiler textures(scene);
     compile_materials(scene, textures, data);
-    data.textures = textures.decode(threads);
+    textures.finish(scene.settings.texture_memory.value_or(physical_memory() / 2), threads, data);
     compile_geometry(scene, threads, data);
     compile_bodies(data);
     compile_lights(scene, threads, data, problems);

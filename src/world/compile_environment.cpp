@@ -50,7 +50,8 @@ ImageF decode_face(const ImageDesc& desc) {
     try {
         const ImageInfo info = read_image_info(source);
         const bool is_rgbd = info.format == "png" && info.channels == 4;
-        const Texture texels(read_image_8bit(source), {.encoding = Encoding::Srgb, .nearest = true});
+        const Texture texels =
+            Texture::without_levels(read_image_8bit(source), {.encoding = Encoding::Srgb, .nearest = true});
         ImageF face(texels.width(), texels.height(), 3);
         for (int y = 0; y < face.height; ++y)
             for (int x = 0; x < face.width; ++x) {

@@ -4,12 +4,14 @@
 #include "color/color_config.h"
 #include "core/error.h"
 #include "core/parallel.h"
+#include "image/read.h"
 #include "scene/scene_desc.h"
 #include "world/world.h"
 
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -18,18 +20,23 @@ namespace etendue {
 /// How a texture is used, which decides how it is decoded.
 enum class TextureUse { Color, Data };
 
-/// Hands out indices of textures and decodes each once per use, in parallel.
+/// Hands out indices of textures and loads each once per use.
 class TextureCompiler {
   public:
     TextureCompiler(const SceneDesc& scene) : scene_(scene) {}
 
     /// The slot for `ref`; invalid if `ref` is.
     [[nodiscard]] TextureSlot slot(const TextureRef& ref, TextureUse use);
-    /// Decodes everything asked for. Throws SceneError if an image cannot be decoded.
-    [[nodiscard]] std::vector<Texture> decode(const ThreadPool& threads) const;
+    /// Makes the textures asked for: in memory if all of them fit into `budget` bytes, which is known from the images'
+    /// headers, else through a cache of that size. Throws SceneError if an image cannot be read.
+    void finish(std::uint64_t budget, const ThreadPool& threads, WorldData& data) const;
 
   private:
     using Request = std::pair<std::size_t, TextureUse>;  ///< texture of the scene, and its use
+    [[nodiscard]] const ImageDesc& image_of(const Request& request) const;
+    void load_resident(std::span<const ImageInfo> infos, const ThreadPool& threads, WorldData& data) const;
+    void open_cached(std::span<const ImageInfo> infos, std::uint64_t budget, WorldData& data) const;
+
     const SceneDesc& scene_;
     std::vector<Request> requests_;
     std::map<Request, std::size_t> index_of_;

@@ -1,9 +1,11 @@
 #include "image/read.h"
 #include "world/compile_parts.h"
 
-#include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
+#include <span>
+#include <string>
 
 namespace etendue {
 
@@ -21,39 +23,49 @@ Wrap to_wrap(TextureWrap wrap) {
     return Wrap::Repeat;
 }
 
-float linear_from_srgb(float v) {
-    return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
+MipFilter to_mip_filter(TextureMipFilter filter) {
+    switch (filter) {
+        case TextureMipFilter::None:
+            return MipFilter::None;
+        case TextureMipFilter::Nearest:
+            return MipFilter::Nearest;
+        case TextureMipFilter::Linear:
+            return MipFilter::Linear;
+    }
+    return MipFilter::Linear;
 }
 
-/// Deep integer files under the sRGB curve are linearised once; 8-bit ones keep their bytes and are decoded when read.
-void linearize(ImageF& image) {
-    const int color_channels = image.channels == 2 ? 1 : std::min(image.channels, 3);
-    for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < image.width; ++x)
-            for (int c = 0; c < color_channels; ++c) {
-                float& value = image.pixel(x, y)[static_cast<std::size_t>(c)];
-                value = linear_from_srgb(value);
-            }
+/// Floats are linear whatever they are used for.
+Encoding encoding_of(TextureUse use, const ImageInfo& info) {
+    return use == TextureUse::Color && !info.is_float ? Encoding::Srgb : Encoding::Linear;
 }
 
-Texture decode_texture(const SceneDesc& scene, const TextureDesc& desc, TextureUse use) {
-    const ImageDesc& image = scene.images[static_cast<std::size_t>(desc.image.index)];
-    const ImageSource source =
-        image.path.empty() ? ImageSource(std::span<const std::byte>(image.encoded)) : ImageSource(image.path);
-    TextureOptions options{.wrap_u = to_wrap(desc.wrap_u),
-                           .wrap_v = to_wrap(desc.wrap_v),
-                           .encoding = use == TextureUse::Color ? Encoding::Srgb : Encoding::Linear,
-                           .nearest = desc.filter == TextureFilter::Nearest};
+TextureOptions options_of(const TextureDesc& desc, Encoding encoding) {
+    return {.wrap_u = to_wrap(desc.wrap_u),
+            .wrap_v = to_wrap(desc.wrap_v),
+            .encoding = encoding,
+            .nearest = desc.filter == TextureFilter::Nearest,
+            .nearest_minified = desc.min_filter == TextureFilter::Nearest,
+            .mip_filter = to_mip_filter(desc.mip_filter)};
+}
+
+ImageSource source_of(const ImageDesc& image) {
+    return image.path.empty() ? ImageSource(std::span<const std::byte>(image.encoded)) : ImageSource(image.path);
+}
+
+/// Runs `step`; what it cannot read is blamed on `image`.
+template <typename Step>
+auto read_or_blame(const ImageDesc& image, const Step& step) {
     try {
-        const ImageInfo info = read_image_info(source);
-        if (info.bits_per_channel <= 8 && !info.is_float) return {read_image_8bit(source), options};
-        ImageF pixels = read_image_float(source);
-        if (use == TextureUse::Color && !info.is_float) linearize(pixels);
-        options.encoding = Encoding::Linear;
-        return {std::move(pixels), options};
+        return step();
     } catch (const IoError& error) {
         throw SceneError(image.location, std::string("the image cannot be decoded: ") + error.what());
     }
+}
+
+std::uint64_t resident_bytes(const ImageInfo& info) {
+    return mip_texel_count(info.width, info.height) * static_cast<std::uint64_t>(info.decoded_channels) *
+           bytes_of(info.depth);
 }
 
 }  // namespace
@@ -75,15 +87,57 @@ TextureSlot TextureCompiler::slot(const TextureRef& ref, TextureUse use) {
     return slot;
 }
 
-std::vector<Texture> TextureCompiler::decode(const ThreadPool& threads) const {
-    std::vector<std::optional<Texture>> decoded(requests_.size());
+const ImageDesc& TextureCompiler::image_of(const Request& request) const {
+    const TextureDesc& desc = scene_.textures[request.first];
+    return scene_.images[static_cast<std::size_t>(desc.image.index)];
+}
+
+void TextureCompiler::finish(std::uint64_t budget, const ThreadPool& threads, WorldData& data) const {
+    std::vector<ImageInfo> infos(requests_.size());
     threads.parallel_for(requests_.size(), [&](std::size_t i, int) {
-        decoded[i] = decode_texture(scene_, scene_.textures[requests_[i].first], requests_[i].second);
+        const ImageDesc& image = image_of(requests_[i]);
+        infos[i] = read_or_blame(image, [&] { return read_image_info(source_of(image)); });
     });
-    std::vector<Texture> textures;
-    textures.reserve(decoded.size());
-    for (std::optional<Texture>& texture : decoded) textures.push_back(std::move(*texture));
-    return textures;
+    std::uint64_t needed = 0;
+    for (const ImageInfo& info : infos) needed += resident_bytes(info);
+    data.textures.reserve(requests_.size());
+    if (needed <= budget)
+        load_resident(infos, threads, data);
+    else
+        open_cached(infos, budget, data);
+}
+
+void TextureCompiler::load_resident(std::span<const ImageInfo> infos, const ThreadPool& threads,
+                                    WorldData& data) const {
+    std::vector<std::optional<Texture>> loaded(requests_.size());
+    threads.parallel_for(requests_.size(), [&](std::size_t i, int) {
+        const ImageDesc& image = image_of(requests_[i]);
+        const Encoding encoding = encoding_of(requests_[i].second, infos[i]);
+        loaded[i] = read_or_blame(image, [&] {
+            return Texture(MipChain(read_image_levels(source_of(image)), encoding),
+                           options_of(scene_.textures[requests_[i].first], encoding));
+        });
+    });
+    for (std::optional<Texture>& texture : loaded) data.textures.push_back(std::move(*texture));
+}
+
+void TextureCompiler::open_cached(std::span<const ImageInfo> infos, std::uint64_t budget, WorldData& data) const {
+    data.texture_cache = std::make_unique<TextureCache>(budget);
+    // Embedded images are copied: the scene does not outlive compilation. Once, however many textures show them.
+    std::map<const ImageDesc*, std::shared_ptr<const std::vector<std::byte>>> embedded;
+    for (std::size_t i = 0; i < requests_.size(); ++i) {
+        const ImageDesc& image = image_of(requests_[i]);
+        TextureCache::Source source = image.path;
+        if (image.path.empty()) {
+            auto& bytes = embedded[&image];
+            if (!bytes) bytes = std::make_shared<const std::vector<std::byte>>(image.encoded);
+            source = bytes;
+        }
+        const Encoding encoding = encoding_of(requests_[i].second, infos[i]);
+        const CachedImage cached =
+            read_or_blame(image, [&] { return data.texture_cache->add(std::move(source), encoding); });
+        data.textures.emplace_back(cached, options_of(scene_.textures[requests_[i].first], encoding));
+    }
 }
 
 }  // namespace etendue

@@ -54,7 +54,7 @@ ThinFilm evaluate_film(const WorldData& data, const GltfLayers& layers, const Su
     if (!(layers.iridescence > 0.0f)) return {};
     float thickness = layers.film_thickness_maximum_nm;
     if (layers.film_thickness_texture.valid()) {
-        const float t = lookup(data, layers.film_thickness_texture, point.uv).rgb.g;
+        const float t = lookup(data, layers.film_thickness_texture, point).rgb.g;
         thickness = layers.film_thickness_minimum_nm +
                     (layers.film_thickness_maximum_nm - layers.film_thickness_minimum_nm) * t;
     }
@@ -137,7 +137,7 @@ Bsdf evaluate_gltf_surface(const WorldData& data, const GltfModel& model, const 
     float roughness = model.roughness;
     lobe.metallic = model.metallic;
     if (model.metallic_roughness_texture.valid()) {
-        const Rgb texel = lookup(data, model.metallic_roughness_texture, point.uv).rgb;
+        const Rgb texel = lookup(data, model.metallic_roughness_texture, point).rgb;
         roughness *= texel.g;
         lobe.metallic *= texel.b;
     }

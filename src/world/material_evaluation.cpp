@@ -19,7 +19,7 @@ float evaluate_opacity(const WorldData& data, std::uint32_t geometry_index, std:
     if (material.alpha_texture.valid()) {
         const Vec2f uv[2] = {interpolate_uv(geometry.uv0, triangle, barycentric),
                              interpolate_uv(geometry.uv1, triangle, barycentric)};
-        alpha *= lookup(data, material.alpha_texture, uv).alpha;
+        alpha *= lookup_point(data, material.alpha_texture, uv).alpha;
     }
     if (material.alpha_test == AlphaTest::Mask) return alpha >= material.alpha_cutoff ? 1.0f : 0.0f;
     return std::clamp(alpha, 0.0f, 1.0f);
@@ -27,18 +27,19 @@ float evaluate_opacity(const WorldData& data, std::uint32_t geometry_index, std:
 
 Rgb evaluate_base_color(const WorldData& data, const GltfModel& model, const SurfacePoint& point) {
     Rgb color = model.base_color * Rgb(point.color.x, point.color.y, point.color.z);
-    if (model.base_color_texture.valid()) color *= lookup(data, model.base_color_texture, point.uv).rgb;
+    if (model.base_color_texture.valid()) color *= lookup(data, model.base_color_texture, point).rgb;
     return clamp_unit(data.from_rec709(color));
 }
 
 Rgb evaluate_emission(const WorldData& data, const Material& material, const SurfacePoint& point) {
     if (!material.emission_texture.valid()) return material.emission;
-    return clamp_negative(data.from_rec709(material.emission * lookup(data, material.emission_texture, point.uv).rgb));
+    return clamp_negative(
+        data.from_rec709(material.emission * lookup_point(data, material.emission_texture, point.uv).rgb));
 }
 
 Frame apply_normal_map(const WorldData& data, const TextureSlot& map, float scale, const SurfacePoint& point,
                        const Frame& frame, float bitangent_sign) {
-    const Rgb texel = lookup(data, map, point.uv).rgb;
+    const Rgb texel = lookup(data, map, point).rgb;
     const Vec3f mapped{(2.0f * texel.r - 1.0f) * scale, (2.0f * texel.g - 1.0f) * scale, 2.0f * texel.b - 1.0f};
     const Vec3f normal =
         frame.tangent * mapped.x + frame.bitangent * (mapped.y * bitangent_sign) + frame.normal * mapped.z;
@@ -51,7 +52,7 @@ Frame apply_anisotropy(const WorldData& data, const Material& material, const Su
                        float bitangent_sign) {
     Vec2f direction(1.0f, 0.0f);
     if (material.anisotropy_texture.valid()) {
-        const Rgb texel = lookup(data, material.anisotropy_texture, point.uv).rgb;
+        const Rgb texel = lookup(data, material.anisotropy_texture, point).rgb;
         direction = {2.0f * texel.r - 1.0f, 2.0f * texel.g - 1.0f};
     }
     const float c = std::cos(material.anisotropy_rotation);

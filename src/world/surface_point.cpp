@@ -1,6 +1,7 @@
 #include "world/surface_point.h"
 
 #include "core/position_error.h"
+#include "world/cone_section.h"
 #include "world/interpolation.h"
 #include "world/material_evaluation.h"
 #include "world/world.h"
@@ -57,7 +58,7 @@ void apply_relief(const WorldData& data, const Material& material, float bitange
 }  // namespace
 
 SurfacePoint make_surface_point(const WorldData& data, std::uint32_t instance_index, std::uint32_t geometry_index,
-                                std::uint32_t triangle_index, Vec2f barycentric) {
+                                std::uint32_t triangle_index, Vec2f barycentric, const ConeSection& section) {
     const Instance& instance = data.instances[instance_index];
     const Geometry& geometry = data.geometries[geometry_index];
     const auto& triangle = geometry.triangles[triangle_index];
@@ -102,6 +103,7 @@ SurfacePoint make_surface_point(const WorldData& data, std::uint32_t instance_in
     point.geometric_normal = instance.baked ? geometric : normalize(geometric);
     point.clearance = clearance(point.geometric_normal,
                                 instance.baked ? position_error(extent) : position_error(extent, instance.to_world));
+    if (section.width > 0.0f) add_footprints(instance, geometry, section, point);
     // Interpolated normals can cancel out or point to the back; the triangle's own then stands in.
     const float shading_length = length(shading);
     const bool usable = shading_length > 0.0f && dot(shading, point.geometric_normal) > 0.0f;

@@ -3,11 +3,13 @@
 
 #include "core/frame.h"
 #include "core/vec.h"
+#include "texture/footprint.h"
 
 #include <cstdint>
 
 namespace etendue {
 
+struct ConeSection;
 struct Material;
 struct WorldData;
 
@@ -18,6 +20,7 @@ struct SurfacePoint {
     Frame shading;                 ///< interpolated and normal-mapped; its normal is on the front side too
     Vec3f coat_normal{0.0f};       ///< unit, of the clear coat if the material has one
     Vec2f uv[2]{{0.0f, 0.0f}, {0.0f, 0.0f}};
+    TextureFootprint footprint[2];        ///< what a look-up at each `uv` stands for
     Vec4f color{1.0f, 1.0f, 1.0f, 1.0f};  ///< vertex colour, linear Rec.709
     const Material* material = nullptr;
     std::uint32_t instance = 0;
@@ -25,8 +28,9 @@ struct SurfacePoint {
     std::uint32_t triangle = 0;
 };
 
-/// The surface at `barycentric` (weights of the second and third vertex) of a triangle of an instance.
+/// The surface at `barycentric` (weights of the second and third vertex) of a triangle of an instance, seen by a
+/// ray with this `section`.
 [[nodiscard]] SurfacePoint make_surface_point(const WorldData& data, std::uint32_t instance, std::uint32_t geometry,
-                                              std::uint32_t triangle, Vec2f barycentric);
+                                              std::uint32_t triangle, Vec2f barycentric, const ConeSection& section);
 
 }  // namespace etendue

@@ -2,6 +2,7 @@
 
 #include "bsdf/ggx.h"
 #include "core/position_error.h"
+#include "world/cone_section.h"
 #include "world/embree_scene.h"
 #include "world/gltf_surface.h"
 #include "world/material_evaluation.h"
@@ -101,7 +102,16 @@ void World::occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded
 }
 
 SurfacePoint World::surface_point(const Hit& hit) const {
-    return make_surface_point(*data_, hit.instance, hit.geometry, hit.triangle, {hit.u, hit.v});
+    return make_surface_point(*data_, hit.instance, hit.geometry, hit.triangle, {hit.u, hit.v}, ConeSection{});
+}
+
+SurfacePoint World::surface_point(const Hit& hit, const Ray& ray, const RayCone& cone) const {
+    return make_surface_point(*data_, hit.instance, hit.geometry, hit.triangle, {hit.u, hit.v},
+                              ConeSection{ray.direction, std::abs(cone.width_at(hit.t))});
+}
+
+float World::mean_curvature(const SurfacePoint& point) const {
+    return etendue::mean_curvature(*data_, point);
 }
 
 const Bsdf& World::bsdf(const SurfacePoint& point, const Vec3f& wo, float relative_ior, Bsdf& storage) const {
@@ -209,8 +219,8 @@ ChosenLight World::sample_light(const Vec3f& point, const LightNumbers& u) const
     const MeshLight* mesh = std::get_if<MeshLight>(&light);
     if (mesh && !mesh->is_uniform() && !is_black(sample.radiance)) {
         const Emitter& emitter = data_->emitter_of_light[choice.index];
-        const SurfacePoint on_light =
-            make_surface_point(*data_, emitter.instance, emitter.geometry, sample.triangle, sample.barycentric);
+        const SurfacePoint on_light = make_surface_point(*data_, emitter.instance, emitter.geometry, sample.triangle,
+                                                         sample.barycentric, ConeSection{});
         sample.radiance = emission(on_light, -sample.wi) *
                           evaluate_opacity(*data_, emitter.geometry, sample.triangle, sample.barycentric);
     }
@@ -252,7 +262,15 @@ WorldStatistics World::statistics() const {
     for (const Instance& instance : data_->instances)
         for (std::uint32_t g = 0; g < instance.geometry_count; ++g)
             s.instanced_triangles += data_->geometries[instance.first_geometry + g].triangles.size();
+    s.textures = data_->textures.size();
     for (const Texture& texture : data_->textures) s.texture_bytes += texture.bytes();
+    if (data_->texture_cache) {
+        s.texture_bytes = static_cast<std::size_t>(data_->texture_cache->bytes());
+        s.textures_cached = true;
+        s.texture_cache_budget = data_->texture_cache->budget();
+        s.failed_texture_lookups = data_->texture_cache->failed_lookups();
+        s.first_texture_failure = data_->texture_cache->first_failure();
+    }
     s.instances = data_->instances.size();
     s.lights = data_->lights.size();
     s.bvh_bytes = data_->bvh->bytes();

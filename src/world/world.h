@@ -7,6 +7,7 @@
 #include "camera/camera.h"
 #include "core/bounds.h"
 #include "core/ray.h"
+#include "core/ray_cone.h"
 #include "light/light.h"
 #include "texture/texture.h"
 #include "world/body.h"
@@ -62,7 +63,12 @@ struct WorldStatistics {
     std::size_t lights = 0;
     std::size_t bvh_bytes = 0;
     std::size_t geometry_bytes = 0;
-    std::size_t texture_bytes = 0;
+    std::size_t textures = 0;
+    std::size_t texture_bytes = 0;             ///< held in memory: all of them, or tiles in the cache
+    bool textures_cached = false;              ///< some did not fit, so that all come through a cache
+    std::uint64_t texture_cache_budget = 0;    ///< bytes
+    std::uint64_t failed_texture_lookups = 0;  ///< that met broken pixels in a file, up to now
+    std::string first_texture_failure;
 };
 
 /// Which surface a mesh light belongs to.
@@ -76,6 +82,7 @@ struct WorldData {
     std::vector<Geometry> geometries;
     std::vector<Instance> instances;
     std::vector<Material> materials;
+    std::unique_ptr<TextureCache> texture_cache;  ///< null if all textures are resident
     std::vector<Texture> textures;
     std::vector<Light> lights;
     std::vector<Emitter> emitter_of_light;     ///< of each light; kNone for those without a surface
@@ -126,8 +133,14 @@ class World {
     /// `observer` must outlive its use; null to stop observing. Not while another thread renders.
     void set_observer(RayObserver* observer) { observer_ = observer; }
 
-    /// The surface at `hit` (valid).
+    /// The surface at `hit` (valid), whose textures are read at a point.
     [[nodiscard]] SurfacePoint surface_point(const Hit& hit) const;
+    /// The surface at `hit`, whose textures are filtered for `ray`, which hit it, with `cone` around it.
+    [[nodiscard]] SurfacePoint surface_point(const Hit& hit, const Ray& ray, const RayCone& cone) const;
+    /// Of the surface around `point`, 1/m, positive where its front is convex; for `RayCone`s that are mirrored there.
+    [[nodiscard]] float mean_curvature(const SurfacePoint& point) const;
+    /// False if nothing is textured, so that rays need no cones.
+    [[nodiscard]] bool has_textures() const { return !data_->textures.empty(); }
     /// How the surface scatters light that is seen along `wo`; `storage` holds lobes that had to be evaluated there.
     /// `relative_ior` is that of a body's inside over its outside, 0 for the material's own against vacuum.
     [[nodiscard]] const Bsdf& bsdf(const SurfacePoint& point, const Vec3f& wo, float relative_ior, Bsdf& storage) const;

@@ -1,15 +1,19 @@
-// What the look-ups of one bounce cost, apart from rays: lobes, and the choice of a light or a triangle.
+// What the look-ups of one bounce cost, apart from rays: lobes, textures, and the choice of a light or a triangle.
 //
 // Google Benchmark's own options apply; for example --benchmark_filter=Lobe
 #include "bsdf/bsdf.h"
+#include "image/write.h"
 #include "sampling/alias_table.h"
+#include "texture/texture.h"
 
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include <benchmark/benchmark.h>
+#include <unistd.h>
 
 namespace {
 
@@ -83,6 +87,54 @@ void choose_light(benchmark::State& state) {
     for (auto _ : state) benchmark::DoNotOptimize(table.sample(list[i++ % kInputs].u));
 }
 
+/// A picture of 2048 × 2048 texels in colour, as a file while this lives.
+class TextureFile {
+  public:
+    TextureFile() {
+        ImageF image(2048, 2048, 3);
+        std::uint32_t state = 1;
+        for (float& value : image.pixels) {
+            state = state * 1664525u + 1013904223u;
+            value = static_cast<float>(state >> 24) / 255.0f;
+        }
+        write_image(path_, image, {.depth = PixelDepth::UInt8});
+    }
+    ~TextureFile() {
+        std::error_code ignored;
+        std::filesystem::remove(path_, ignored);
+    }
+    TextureFile(const TextureFile&) = delete;
+    TextureFile& operator=(const TextureFile&) = delete;
+
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_ =
+        std::filesystem::temp_directory_path() / ("etendue-bench-" + std::to_string(getpid()) + ".png");
+};
+
+/// Looks up a walk of points that are a few texels apart, as neighbouring paths are, with footprints of `long_axis` by
+/// `short_axis` texels.
+void look_up(benchmark::State& state, const Texture& texture, float long_axis, float short_axis) {
+    const float texel = 1.0f / 2048.0f;
+    std::vector<Vec2f> points;
+    for (const Input& input : inputs()) points.push_back(input.u * (200.0f * texel));
+    const TextureFootprint footprint{{{long_axis * texel * 0.8f, long_axis * texel * 0.6f},
+                                      {-short_axis * texel * 0.6f, short_axis * texel * 0.8f}}};
+    std::size_t i = 0;
+    for (auto _ : state) benchmark::DoNotOptimize(texture.lookup(points[i++ % kInputs], footprint));
+}
+
+void register_texture(const std::string& name, const Texture& texture) {
+    const auto add = [&](const char* kind, float long_axis, float short_axis) {
+        benchmark::RegisterBenchmark(("Texture/" + name + "/" + kind).c_str(), look_up, texture, long_axis, short_axis);
+    };
+    add("magnified", 0.5f, 0.5f);
+    add("circle", 3.0f, 3.0f);
+    add("ellipse_2", 6.0f, 3.0f);
+    add("ellipse_8", 24.0f, 3.0f);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -93,5 +145,10 @@ int main(int argc, char** argv) {
         benchmark::RegisterBenchmark((std::string("Lobe/evaluate/") + named.name).c_str(), evaluate_lobe, named.lobe);
     }
     benchmark::RegisterBenchmark("AliasTable", choose_light)->Range(16, 1 << 20);
+    const TextureFile file;
+    const TextureOptions options{.encoding = Encoding::Srgb};
+    TextureCache cache(std::uint64_t{1} << 30);
+    register_texture("resident", Texture(MipChain(read_image_levels(file.path()), Encoding::Srgb), options));
+    register_texture("cached", Texture(cache.add(file.path(), Encoding::Srgb), options));
     benchmark::RunSpecifiedBenchmarks();
 }

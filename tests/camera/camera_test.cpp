@@ -147,6 +147,29 @@ TEST(Orthographic, RaysAreParallelAndFillTheRectangle) {
     EXPECT_EQ(camera.pdf_solid_angle(camera.pose.forward), 0.0f);
 }
 
+// Between the rays through the corners of a small pixel: the area that they span at a distance of one metre, and for
+// parallel rays where they start.
+TEST(PixelCone, IsAsLargeAsThePixel) {
+    constexpr float kSide = 1e-3f;
+    Random random(5);
+    for (const Camera& camera : cameras()) {
+        const bool parallel = std::holds_alternative<OrthographicCamera>(camera);
+        for (int i = 0; i < 100; ++i) {
+            const Vec2f film = random.next_2d();
+            const auto at = [&](float x, float y) {
+                const Ray ray = generate_ray(camera, film + Vec2f(x, y), {0.5f, 0.5f});
+                return parallel ? ray.origin : ray.direction;
+            };
+            const Vec3f right = at(kSide, 0.0f) - at(0.0f, 0.0f);
+            const Vec3f down = at(0.0f, kSide) - at(0.0f, 0.0f);
+            const float side = std::sqrt(length(cross(right, down)));
+            const RayCone cone = pixel_cone(camera, generate_ray(camera, film, {0.5f, 0.5f}).direction, kSide * kSide);
+            EXPECT_NEAR(parallel ? cone.width : cone.spread, side, 5e-3f * side);
+            EXPECT_EQ(parallel ? cone.spread : cone.width, 0.0f);
+        }
+    }
+}
+
 // x and y in [-1, 1] over the image, y up.
 TEST(WorldToScreen, TakesPointsOfARayToTheirFilmPoint) {
     Random random(4);

@@ -53,6 +53,16 @@ TEST(ImageReader, TilesReachBeyondTheImageWithoutHarm) {
             EXPECT_EQ(tile[static_cast<std::size_t>((y - 16) * 16 + x - 32)], static_cast<float>(y * 40 + x + 1));
 }
 
+// Whoever reads one tile would have to take memory for all of it.
+TEST(ImageReader, RefusesTilesThatAreFarLargerThanTheImage) {
+    const TemporaryFolder folder;
+    OIIO::ImageSpec spec(16, 16, 1, OIIO::TypeDesc::UINT8);
+    spec.tile_width = 16;
+    spec.tile_height = 8192;
+    const auto file = write_reference(folder / "a.tif", spec, std::vector<std::uint8_t>(256));
+    EXPECT_THROW(ImageReader{file}, IoError);
+}
+
 TEST(ImageReader, ChannelsArePickedByName) {
     const TemporaryFolder folder;
     OIIO::ImageSpec spec(2, 2, 5, OIIO::TypeDesc::FLOAT);

@@ -31,6 +31,11 @@ RenderStatistics make_statistics() {
     s.triangles = 36;
     s.instances = 1;
     s.lights = 2;
+    s.textures = 4;
+    s.texture_bytes = 5678;
+    s.textures_cached = true;
+    s.texture_cache_budget = 9000;
+    s.failed_texture_lookups = 6;
     s.dropped_samples = 3;
     s.first_dropped = {{1, 2, 3}, {4, 5, 6}};
     s.threads = 2;
@@ -49,6 +54,7 @@ TEST(StatisticsJson, HasEveryField) {
         "seconds": {"load": {"wall": 0.25, "cpu": 0.5}, "build": {"wall": 1.0, "cpu": 1.5},
                     "render": {"wall": 2.0, "cpu": 3.75}, "write": {"wall": 0.125, "cpu": 0.0625}},
         "peak_memory_bytes": 5000000000, "bvh_bytes": 1234, "triangles": 36, "instances": 1, "lights": 2,
+        "textures": {"count": 4, "held": "cached", "bytes": 5678, "cache_budget_bytes": 9000, "failed_lookups": 6},
         "dropped_samples": {"count": 3, "first": [{"x": 1, "y": 2, "sample": 3}, {"x": 4, "y": 5, "sample": 6}]},
         "threads": 2, "isa": "avx2", "libraries": {"embree": "3.13.5", "oiio": "2.4.7"}})");
     for (const auto& [key, value] : expected.items()) {
@@ -63,6 +69,7 @@ TEST(StatisticsJson, EmptyStatisticsHaveNoRatesAndNoHoles) {
     const auto json = nlohmann::json::parse(to_json({}));
     EXPECT_EQ(json.at("rays_per_second"), 0.0);
     EXPECT_EQ(json.at("samples_per_second"), 0.0);
+    EXPECT_EQ(json.at("textures").at("held"), "resident");
     EXPECT_TRUE(json.at("dropped_samples").at("first").is_array());
     EXPECT_TRUE(json.at("libraries").is_object());
 }

@@ -1,5 +1,8 @@
 #include "texture/texture.h"
 
+#include "texture/test_images.h"
+
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -10,25 +13,11 @@ namespace etendue::test {
 
 namespace {
 
-double srgb_to_linear(int value) {
-    const double v = value / 255.0;
-    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-}
-
-Image8 bytes(int width, int height, int channels, std::vector<std::uint8_t> pixels) {
-    Image8 image;
-    image.width = width;
-    image.height = height;
-    image.channels = channels;
-    image.pixels = std::move(pixels);
-    return image;
-}
-
 /// One row of floats 0, 1, 2, …
 Texture ramp(int width, Wrap wrap, bool nearest) {
     ImageF image(width, 1, 1);
     for (int x = 0; x < width; ++x) image.pixel(x, 0)[0] = static_cast<float>(x);
-    return {std::move(image), {.wrap_u = wrap, .wrap_v = wrap, .nearest = nearest}};
+    return make_texture(std::move(image), {.wrap_u = wrap, .wrap_v = wrap, .nearest = nearest});
 }
 
 float at(const Texture& texture, float u, float v = 0.5f) {
@@ -42,11 +31,11 @@ TEST(Texture, EveryByteIsDecodedByTheSrgbCurveAndAlphaNever) {
         for (const int channels : {1, 2, 3, 4}) {
             const Image8 image =
                 bytes(1, 1, channels, std::vector<std::uint8_t>(static_cast<std::size_t>(channels), byte));
-            const Texel color = Texture(image, {.encoding = Encoding::Srgb}).lookup({0.5f, 0.5f});
+            const Texel color = make_texture(image, {.encoding = Encoding::Srgb}).lookup({0.5f, 0.5f});
             EXPECT_NEAR(color.rgb.r, srgb_to_linear(value), 1e-6);
             EXPECT_NEAR(color.rgb.g, srgb_to_linear(value), 1e-6);
             EXPECT_NEAR(color.rgb.b, srgb_to_linear(value), 1e-6);
-            const Texel data = Texture(image, {.encoding = Encoding::Linear}).lookup({0.5f, 0.5f});
+            const Texel data = make_texture(image, {.encoding = Encoding::Linear}).lookup({0.5f, 0.5f});
             EXPECT_NEAR(data.rgb.r, linear, 1e-6);
             EXPECT_NEAR(data.rgb.b, linear, 1e-6);
             const bool has_alpha = channels == 2 || channels == 4;
@@ -60,7 +49,7 @@ TEST(Texture, ChannelsBecomeGreyAlphaAndColour) {
     const auto lookup = [](int channels) {
         ImageF image(1, 1, channels);
         for (int c = 0; c < channels; ++c) image.pixels[static_cast<std::size_t>(c)] = 0.1f * static_cast<float>(c + 1);
-        return Texture(image, {}).lookup({0.5f, 0.5f});
+        return make_texture(image, {}).lookup({0.5f, 0.5f});
     };
     EXPECT_EQ(lookup(1).rgb, Rgb(0.1f));
     EXPECT_EQ(lookup(1).alpha, 1.0f);
@@ -74,7 +63,7 @@ TEST(Texture, ChannelsBecomeGreyAlphaAndColour) {
 TEST(Texture, TheOriginIsTheFirstTexelOfTheTopRow) {
     const Image8 image = bytes(2, 2, 1, {0, 51, 102, 255});
     for (const bool nearest : {false, true}) {
-        const Texture texture(image, {.nearest = nearest});
+        const Texture texture = make_texture(image, {.nearest = nearest});
         EXPECT_NEAR(at(texture, 0.25f, 0.25f), 0.0f, 1e-6f);
         EXPECT_NEAR(at(texture, 0.75f, 0.25f), 0.2f, 1e-6f);
         EXPECT_NEAR(at(texture, 0.25f, 0.75f), 0.4f, 1e-6f);
@@ -86,7 +75,7 @@ TEST(Texture, BilinearPassesThroughCentresAndIsLinearBetween) {
     const Texture texture = ramp(4, Wrap::Clamp, false);
     for (int x = 0; x < 4; ++x) EXPECT_NEAR(at(texture, (static_cast<float>(x) + 0.5f) / 4.0f), x, 1e-6f);
     EXPECT_NEAR(at(texture, 1.75f / 4.0f), 1.25f, 1e-6f);
-    const Texture square(bytes(2, 2, 1, {0, 0, 0, 255}), {.wrap_u = Wrap::Clamp, .wrap_v = Wrap::Clamp});
+    const Texture square = make_texture(bytes(2, 2, 1, {0, 0, 0, 255}), {.wrap_u = Wrap::Clamp, .wrap_v = Wrap::Clamp});
     EXPECT_NEAR(at(square, 0.5f, 0.5f), 0.25f, 1e-6f);
 }
 
@@ -131,8 +120,8 @@ TEST(Texture, ClampHoldsTheEdge) {
 }
 
 TEST(Texture, WrapsApplyPerAxis) {
-    const Texture texture(bytes(2, 2, 1, {0, 255, 0, 255}),
-                          {.wrap_u = Wrap::Repeat, .wrap_v = Wrap::Clamp, .nearest = true});
+    const Texture texture = make_texture(bytes(2, 2, 1, {0, 255, 0, 255}),
+                                         {.wrap_u = Wrap::Repeat, .wrap_v = Wrap::Clamp, .nearest = true});
     EXPECT_EQ(at(texture, 1.25f, 7.0f), 0.0f);
     EXPECT_EQ(at(texture, 1.75f, -7.0f), 1.0f);
 }
@@ -155,7 +144,8 @@ TEST(Texture, AnyCoordinateReadsATexel) {
 }
 
 TEST(Texture, TheMeanIsOfLinearValues) {
-    const Texture texture(bytes(2, 1, 4, {0, 255, 100, 0, 255, 255, 200, 51}), {.encoding = Encoding::Srgb});
+    const Texture texture =
+        make_texture(bytes(2, 1, 4, {0, 255, 100, 0, 255, 255, 200, 51}), {.encoding = Encoding::Srgb});
     const Texel mean = texture.mean();
     EXPECT_NEAR(mean.rgb.r, 0.5, 1e-6);
     EXPECT_NEAR(mean.rgb.g, 1.0, 1e-6);
@@ -163,9 +153,96 @@ TEST(Texture, TheMeanIsOfLinearValues) {
     EXPECT_NEAR(mean.alpha, 0.1, 1e-6);
 }
 
-TEST(Texture, KeepsTheFilesDepth) {
-    EXPECT_EQ(Texture(bytes(4, 2, 3, std::vector<std::uint8_t>(24)), {}).bytes(), 24u);
-    EXPECT_EQ(Texture(ImageF(4, 2, 3), {}).bytes(), 96u);
+TEST(Texture, KeepsTheFilesDepthForAllLevels) {
+    // 4 × 2, 2 × 1 and 1 × 1 texels.
+    EXPECT_EQ(make_texture(Image8(4, 2, 3), {}).bytes(), 33u);
+    EXPECT_EQ(make_texture(Image16(4, 2, 3), {}).bytes(), 66u);
+    EXPECT_EQ(make_texture(ImageH(4, 2, 3), {}).bytes(), 66u);
+    EXPECT_EQ(make_texture(ImageF(4, 2, 3), {}).bytes(), 132u);
+}
+
+/// A footprint of `width` × `height` in texture coordinates.
+TextureFootprint box(float width, float height) {
+    return {{{width, 0.0f}, {0.0f, height}}};
+}
+
+TEST(TextureFilter, FootprintsBelowATexelReadThePoint) {
+    const Texture texture = ramp(8, Wrap::Repeat, false);
+    for (const float u : {0.1f, 0.43f, 0.9f})
+        EXPECT_EQ(texture.lookup({u, 0.5f}, box(0.12f, 0.9f)).rgb.r, texture.lookup({u, 0.5f}).rgb.r);
+}
+
+TEST(TextureFilter, AFootprintOverTheWholeImageReadsItsMean) {
+    const Texture texture = ramp(8, Wrap::Repeat, false);
+    for (const float size : {1.0f, 3.0f, 1e6f, 1e30f, std::numeric_limits<float>::infinity()})
+        EXPECT_NEAR(texture.lookup({0.3f, 0.5f}, box(size, size)).rgb.r, 3.5f, 1e-5f) << size;
+}
+
+TEST(TextureFilter, FootprintsThatAreNoNumbersReadTheMean) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_NEAR(ramp(8, Wrap::Repeat, false).lookup({0.3f, 0.5f}, box(nan, nan)).rgb.r, 3.5f, 1e-5f);
+}
+
+/// Rows of 0, 1, 2, … as many as columns, so that footprints of one size in both directions are circles.
+Texture square_ramp(int size, TextureOptions options) {
+    ImageF image(size, size, 1);
+    for (int y = 0; y < size; ++y)
+        for (int x = 0; x < size; ++x) image.pixel(x, y)[0] = static_cast<float>(x);
+    return make_texture(std::move(image), options);
+}
+
+TEST(TextureFilter, BetweenTwoLevelsTheFilterMovesContinuously) {
+    const Texture texture = square_ramp(16, {.wrap_u = Wrap::Clamp});
+    float before = texture.lookup({0.1f, 0.5f}, box(1.0f / 16.0f, 1.0f / 16.0f)).rgb.r;
+    for (float size = 1.0f / 16.0f; size < 1.2f; size *= 1.01f) {
+        const float value = texture.lookup({0.1f, 0.5f}, box(size, size)).rgb.r;
+        EXPECT_NEAR(value, before, 0.15f) << size;
+        before = value;
+    }
+    EXPECT_NEAR(before, 7.5f, 1e-4f);
+}
+
+// Stripes along u: a footprint that is long along v and narrow along u must keep them, an isotropic one must not.
+TEST(TextureFilter, LongFootprintsStaySharpAcross) {
+    Image8 image(64, 64, 1);
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 64; ++x) image.pixel(x, y)[0] = x % 8 < 4 ? 255 : 0;
+    const Texture texture = make_texture(image, {});
+    const float texel = 1.0f / 64.0f;
+    EXPECT_NEAR(texture.lookup({2.0f * texel, 0.5f}, box(texel, 8.0f * texel)).rgb.r, 1.0f, 1e-5f);
+    EXPECT_NEAR(texture.lookup({2.0f * texel, 0.5f}, box(8.0f * texel, 8.0f * texel)).rgb.r, 0.5f, 1e-2f);
+    // Along u the taps take the mean of the stripes.
+    EXPECT_NEAR(texture.lookup({2.0f * texel, 0.5f}, box(8.0f * texel, texel)).rgb.r, 0.5f, 1e-5f);
+}
+
+TEST(TextureFilter, WrapsHoldInEveryLevel) {
+    const auto edge_of = [](Wrap wrap) {
+        return square_ramp(8, {.wrap_u = wrap}).lookup({0.0f, 0.5f}, box(0.25f, 0.25f)).rgb.r;
+    };
+    // Level 1 has the values 0.5, 2.5, 4.5, 6.5.
+    EXPECT_NEAR(edge_of(Wrap::Clamp), 0.5f, 1e-5f);
+    EXPECT_NEAR(edge_of(Wrap::Mirror), 0.5f, 1e-5f);
+    EXPECT_NEAR(edge_of(Wrap::Repeat), 3.5f, 1e-5f);
+}
+
+TEST(TextureFilter, MinificationFiltersDoWhatTheySay) {
+    const auto at_size = [](const TextureOptions& options, float size) {
+        return square_ramp(8, options).lookup({0.4f, 0.5f}, box(size, size)).rgb.r;
+    };
+    // u = 0.4 is 3.2 texels of the image and 1.6 of level 1 (0.5, 2.5, 4.5, 6.5) and 0.8 of level 2 (1.5, 5.5).
+    const float image = 2.7f;
+    const float level1 = 2.7f;
+    const float level2 = 1.5f + 4.0f * 0.3f;
+    const float between = 0.25f * std::exp2(0.25f);
+    EXPECT_EQ(at_size({.nearest_minified = true, .mip_filter = MipFilter::None}, 1.0f), 3.0f);
+    EXPECT_NEAR(at_size({.mip_filter = MipFilter::None}, 1.0f), image, 1e-5f);
+    EXPECT_EQ(at_size({.nearest_minified = true, .mip_filter = MipFilter::Nearest}, between), 2.5f);
+    EXPECT_NEAR(at_size({.mip_filter = MipFilter::Nearest}, between), level1, 1e-5f);
+    EXPECT_NEAR(at_size({.nearest_minified = true}, between), 0.75f * 2.5f + 0.25f * 1.5f, 1e-5f);
+    EXPECT_NEAR(at_size({}, between), 0.75f * level1 + 0.25f * level2, 1e-5f);
+    // Magnified, only the magnification filter counts.
+    EXPECT_EQ(at_size({.nearest = true, .mip_filter = MipFilter::None}, 0.01f), 3.0f);
+    EXPECT_NEAR(at_size({.nearest_minified = true}, 0.01f), image, 1e-5f);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "integrator/debug/debug_integrator.h"
 
 #include "integrator/camera_wave.h"
+#include "integrator/scattered_cone.h"
 #include "world/scattering.h"
 
 #include <algorithm>
@@ -38,14 +39,15 @@ void DebugIntegrator::render_tile(const World& world, const TileJob& job, Integr
         counters.camera_rays += count;
         for (std::size_t i = 0; i < count; ++i) {
             const bool hit = hits[i].valid();
-            accumulate(job, s.samples[i], hit ? value(world, rays[i], hits[i], s.samples[i].key) : Rgb(),
-                       hit ? 1.0f : 0.0f, tile, counters);
+            const Rgb shown = hit ? value(world, job, rays[i], hits[i], s.samples[i].key) : Rgb();
+            accumulate(job, s.samples[i], shown, hit ? 1.0f : 0.0f, tile, counters);
         }
     }
 }
 
-Rgb DebugIntegrator::value(const World& world, const Ray& ray, const Hit& hit, SampleKey key) const {
-    const SurfacePoint point = world.surface_point(hit);
+Rgb DebugIntegrator::value(const World& world, const TileJob& job, const Ray& ray, const Hit& hit,
+                           SampleKey key) const {
+    const SurfacePoint point = world.surface_point(hit, ray, camera_cone(world, job, ray));
     if (quantity_ == DebugQuantity::Normals) {
         const Vec3f n = point.shading.normal;
         return {0.5f * n.x + 0.5f, 0.5f * n.y + 0.5f, 0.5f * n.z + 0.5f};

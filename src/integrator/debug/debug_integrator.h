@@ -20,7 +20,8 @@ class DebugIntegrator final : public Integrator {
                      RenderCounters& counters) const override;
 
   private:
-    [[nodiscard]] Rgb value(const World& world, const Ray& ray, const Hit& hit, SampleKey key) const;
+    [[nodiscard]] Rgb value(const World& world, const TileJob& job, const Ray& ray, const Hit& hit,
+                            SampleKey key) const;
 
     DebugQuantity quantity_;
 };

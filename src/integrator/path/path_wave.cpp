@@ -1,5 +1,6 @@
 #include "integrator/path/path_wave.h"
 
+#include "integrator/scattered_cone.h"
 #include "sampling/mis.h"
 #include "world/scattering.h"
 
@@ -103,6 +104,7 @@ void PathWave::trace(const World& world, const TileJob& job, const PathOptions& 
     for (std::size_t i = 0; i < count; ++i) {
         states_[i] = PathState{};
         states_[i].slot = static_cast<std::uint32_t>(i);
+        if (world.has_textures()) states_[i].cone = camera_cone(world, job, rays_[i]);
         pixel_seeds_[i] = samples_[i].key.pixel_seed;
         sample_indices_[i] = samples_[i].key.index;
         radiance_[i] = Rgb();
@@ -166,7 +168,7 @@ bool PathWave::shade_path(const Context& context, std::size_t i, PathStep& next)
     std::optional<Crossing> crossing;
     if (world.has_bodies() && scatter_in_medium(context, i, next)) return survives(context, i, next.state);
     const PathState& state = states_[i];
-    const SurfacePoint point = world.surface_point(hit);
+    const SurfacePoint point = world.surface_point(hit, rays_[i], state.cone);
     if (world.has_bodies() && world.is_boundary(point)) {
         crossing = world.crossing(point, interiors_[i]);
         if (crossing->is_hidden) {
@@ -229,6 +231,8 @@ bool PathWave::scatter_at_surface(const Context& context, std::size_t i, const S
     next.state.after_delta = sample.is_delta;
     next.state.only_delta = state.only_delta && sample.is_delta;
     if (sample.is_transmission) next.state.eta_scale *= sample.eta * sample.eta;
+    if (world.has_textures())
+        next.state.cone = scattered_cone(world, point, rays_[i].direction, state.cone.at(hits_[i].t), sample);
     ++next.state.edges;
     next.ray.origin = offset_origin(point.position, point.geometric_normal, point.clearance, sample.wi);
     next.ray.direction = sample.wi;
@@ -258,6 +262,7 @@ bool PathWave::scatter_in_medium(const Context& context, std::size_t i, PathStep
     next.state.pdf_solid_angle = medium->phase.pdf_solid_angle(-ray.direction, next.ray.direction);
     next.state.after_delta = !samples_lights;
     next.state.only_delta = false;
+    next.state.cone = scatter_cone(state.cone.at(sample.distance), lobe_spread(next.state.pdf_solid_angle));
     return true;
 }
 
@@ -266,6 +271,7 @@ void PathWave::pass_hidden(const Context& context, std::size_t i, const SurfaceP
     next.state = states_[i];
     // No light sample passes a boundary, so what the path meets next could not have been sampled.
     next.state.after_delta = true;
+    next.state.cone = next.state.cone.at(hits_[i].t);
     next.ray.direction = rays_[i].direction;
     next.ray.origin = offset_origin(point.position, point.geometric_normal, point.clearance, next.ray.direction);
     next.ray.alpha_key = alpha_key(context, i);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/ray.h"
+#include "core/ray_cone.h"
 #include "core/rgb.h"
 #include "integrator/camera_wave.h"
 #include "integrator/path/path_integrator.h"
@@ -24,6 +25,7 @@ struct PathState {
     float eta_scale = 1.0f;
     float pdf_solid_angle = 0.0f;  ///< of the ray's direction; not meaningful after a delta
     float wavelength_nm = 0.0f;    ///< nanometres once a dispersive body has refracted it, 0 for all wavelengths
+    RayCone cone;                  ///< around the ray; followed only where there are textures to filter
     std::uint32_t slot = 0;        ///< which camera sample
     int edges = 1;                 ///< of the path when its ray has hit; media and hidden boundaries add none
     bool after_delta = true;  ///< the last scattering was a delta, or there was none: lights cannot be sampled for it

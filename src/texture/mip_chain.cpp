@@ -1,0 +1,238 @@
+#include "texture/mip_chain.h"
+
+#include "texture/srgb.h"
+#include "texture/wrap.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+namespace etendue {
+
+namespace {
+
+/// Stored value to linear.
+template <typename T>
+float decode(T value, bool curved) {
+    if constexpr (std::is_same_v<T, std::uint8_t>)
+        return curved ? linear_from_srgb8(value) : static_cast<float>(value) * (1.0f / 255.0f);
+    else if constexpr (std::is_same_v<T, std::uint16_t>)
+        return curved ? linear_from_srgb16(value) : static_cast<float>(value) * (1.0f / 65535.0f);
+    else
+        return curved ? linear_from_srgb(static_cast<float>(value)) : static_cast<float>(value);
+}
+
+/// Linear to stored value.
+template <typename T>
+T encode(float value, bool curved) {
+    if constexpr (std::is_integral_v<T>) {
+        if constexpr (std::is_same_v<T, std::uint8_t>)
+            if (curved) return srgb8_from_linear(value);
+        const float encoded = std::clamp(curved ? srgb_from_linear(value) : value, 0.0f, 1.0f);
+        return static_cast<T>(encoded * static_cast<float>(std::numeric_limits<T>::max()) + 0.5f);
+    } else {
+        return static_cast<T>(curved ? srgb_from_linear(value) : value);
+    }
+}
+
+/// The texels of a row of `size` that one texel of the row of half the size covers, and how much of each.
+struct Coverage {
+    int first = 0;
+    int count = 0;
+    std::array<float, 4> weight{};  ///< their sum is 1
+};
+
+Coverage coverage(int texel, int size, int half_size) {
+    // In exact integers: texel i covers [i size, (i + 1) size) / half_size.
+    const std::int64_t begin = std::int64_t{texel} * size;
+    const std::int64_t end = begin + size;
+    Coverage result;
+    result.first = static_cast<int>(begin / half_size);
+    for (std::int64_t i = result.first; i * half_size < end; ++i) {
+        const std::int64_t covered = std::min(end, (i + 1) * half_size) - std::max(begin, i * half_size);
+        result.weight[static_cast<std::size_t>(result.count++)] =
+            static_cast<float>(covered) / static_cast<float>(size);
+    }
+    return result;
+}
+
+std::vector<Coverage> coverages(int size, int half_size) {
+    std::vector<Coverage> result;
+    result.reserve(static_cast<std::size_t>(half_size));
+    for (int i = 0; i < half_size; ++i) result.push_back(coverage(i, size, half_size));
+    return result;
+}
+
+/// Half the image in linear light. `fetch(x, y, c)` is linear.
+template <typename Fetch>
+ImageF halve(int width, int height, int channels, const Fetch& fetch) {
+    ImageF half(std::max(1, width / 2), std::max(1, height / 2), channels);
+    const std::vector<Coverage> columns = coverages(width, half.width);
+    for (int y = 0; y < half.height; ++y) {
+        const Coverage rows = coverage(y, height, half.height);
+        for (int x = 0; x < half.width; ++x) {
+            const Coverage& column = columns[static_cast<std::size_t>(x)];
+            const auto pixel = half.pixel(x, y);
+            for (int j = 0; j < rows.count; ++j)
+                for (int i = 0; i < column.count; ++i) {
+                    const float weight =
+                        rows.weight[static_cast<std::size_t>(j)] * column.weight[static_cast<std::size_t>(i)];
+                    for (int c = 0; c < channels; ++c)
+                        pixel[static_cast<std::size_t>(c)] += weight * fetch(column.first + i, rows.first + j, c);
+                }
+        }
+    }
+    return half;
+}
+
+/// The texel that begins at `values`.
+template <typename T>
+Texel read_texel(const T* values, int channels, bool curved) {
+    std::array<float, 4> c{};
+    for (int i = 0; i < channels; ++i)
+        c[static_cast<std::size_t>(i)] = decode(values[i], curved && !is_alpha(i, channels));
+    return make_texel(channels, c.data());
+}
+
+/// `a` where both are equal, without rounding.
+Texel mix(const Texel& a, const Texel& b, float t) {
+    return {lerp(a.rgb, b.rgb, t), a.alpha + (b.alpha - a.alpha) * t};
+}
+
+}  // namespace
+
+int mip_level_count(int width, int height) {
+    int count = 1;
+    for (int size = std::max(width, height); size > 1; size /= 2) ++count;
+    return count;
+}
+
+std::uint64_t mip_texel_count(int width, int height) {
+    std::uint64_t count = 0;
+    for (int i = mip_level_count(width, height); i > 0; --i) {
+        count += static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+        width = std::max(1, width / 2);
+        height = std::max(1, height / 2);
+    }
+    return count;
+}
+
+MipChain::MipChain(std::vector<NativeImage> levels, Encoding encoding, MipLevels wanted) : encoding_(encoding) {
+    std::visit(
+        [&]<typename T>(const Image<T>& image) {
+            channels_ = image.channels;
+            std::vector<T> values = take_levels<T>(levels);
+            if (wanted == MipLevels::All) add_levels(values);
+            values_ = std::move(values);
+        },
+        levels.front());
+}
+
+template <typename T>
+std::vector<T> MipChain::take_levels(std::vector<NativeImage>& images) {
+    std::vector<T> values;
+    for (NativeImage& native : images) {
+        auto& level = std::get<Image<T>>(native);
+        levels_.push_back({level.width, level.height, values.size()});
+        if (values.empty())
+            values = std::move(level.pixels);
+        else
+            values.insert(values.end(), level.pixels.begin(), level.pixels.end());
+    }
+    return values;
+}
+
+template <typename T>
+void MipChain::add_levels(std::vector<T>& values) {
+    values.reserve(static_cast<std::size_t>(mip_texel_count(width(), height())) * static_cast<std::size_t>(channels_));
+    const auto curved = [&](int c) { return encoding_ == Encoding::Srgb && !is_alpha(c, channels_); };
+    const Level last = levels_.back();
+    const auto stored = [&](int x, int y, int c) {
+        const std::size_t texel =
+            static_cast<std::size_t>(y) * static_cast<std::size_t>(last.width) + static_cast<std::size_t>(x);
+        const std::size_t first = last.first + texel * static_cast<std::size_t>(channels_);
+        return decode(values[first + static_cast<std::size_t>(c)], curved(c));
+    };
+    ImageF current;  // not rounded, so that errors do not add up from level to level
+    const auto averaged = [&](int x, int y, int c) { return current.pixel(x, y)[static_cast<std::size_t>(c)]; };
+    const int level_count = mip_level_count(width(), height());
+    while (static_cast<int>(levels_.size()) < level_count) {
+        current = current.pixels.empty() ? halve(last.width, last.height, channels_, stored)
+                                         : halve(current.width, current.height, channels_, averaged);
+        levels_.push_back({current.width, current.height, values.size()});
+        for (std::size_t i = 0; i < current.pixels.size(); ++i)
+            values.push_back(
+                encode<T>(current.pixels[i], curved(static_cast<int>(i % static_cast<std::size_t>(channels_)))));
+    }
+}
+
+Texel MipChain::sample(Vec2f uv, float level, bool nearest, const TextureOptions& options) const {
+    const float within = std::min(level, static_cast<float>(levels_.size() - 1));
+    const float lower = std::floor(within);
+    const float fraction = within - lower;
+    const auto first = static_cast<std::size_t>(lower);
+    const Texel fine = sample_level(uv, first, nearest, options);
+    if (fraction == 0.0f) return fine;
+    return mix(fine, sample_level(uv, first + 1, nearest, options), fraction);
+}
+
+Texel MipChain::sample_level(Vec2f uv, std::size_t level, bool nearest, const TextureOptions& options) const {
+    const Level& size = levels_[level];
+    const float x = reduce_coordinate(uv.x, options.wrap_u) * static_cast<float>(size.width);
+    const float y = reduce_coordinate(uv.y, options.wrap_v) * static_cast<float>(size.height);
+    const auto column = [&](int i) { return static_cast<std::size_t>(wrap_index(i, size.width, options.wrap_u)); };
+    const auto row = [&](int i) {
+        return static_cast<std::size_t>(wrap_index(i, size.height, options.wrap_v)) *
+               static_cast<std::size_t>(size.width);
+    };
+    const auto channels = static_cast<std::size_t>(channels_);
+    const bool curved = encoding_ == Encoding::Srgb;
+    return std::visit(
+        [&](const auto& values) {
+            const auto* const texels = values.data() + size.first;
+            const auto texel = [&](std::size_t index) {
+                return read_texel(texels + index * channels, channels_, curved);
+            };
+            if (nearest) return texel(row(static_cast<int>(std::floor(y))) + column(static_cast<int>(std::floor(x))));
+            // Texel centres lie at half-integers.
+            const float left = std::floor(x - 0.5f);
+            const float top = std::floor(y - 0.5f);
+            const float fx = x - 0.5f - left;
+            const float fy = y - 0.5f - top;
+            const std::size_t column0 = column(static_cast<int>(left));
+            const std::size_t column1 = column(static_cast<int>(left) + 1);
+            const std::size_t row0 = row(static_cast<int>(top));
+            const std::size_t row1 = row(static_cast<int>(top) + 1);
+            return mix(mix(texel(row0 + column0), texel(row0 + column1), fx),
+                       mix(texel(row1 + column0), texel(row1 + column1), fx), fy);
+        },
+        values_);
+}
+
+Texel MipChain::mean() const {
+    return std::visit(
+        [&](const auto& values) {
+            const bool curved = encoding_ == Encoding::Srgb;
+            const std::size_t texel_count = static_cast<std::size_t>(width()) * static_cast<std::size_t>(height());
+            std::array<double, 4> sum{};
+            for (std::size_t i = 0; i < texel_count; ++i)
+                for (int c = 0; c < channels_; ++c) {
+                    const auto channel = static_cast<std::size_t>(c);
+                    const auto value = values[i * static_cast<std::size_t>(channels_) + channel];
+                    sum[channel] += static_cast<double>(decode(value, curved && !is_alpha(c, channels_)));
+                }
+            std::array<float, 4> mean{};
+            for (std::size_t c = 0; c < mean.size(); ++c)
+                mean[c] = static_cast<float>(sum[c] / static_cast<double>(texel_count));
+            return make_texel(channels_, mean.data());
+        },
+        values_);
+}
+
+std::size_t MipChain::bytes() const {
+    return std::visit([](const auto& values) { return values.size() * sizeof(values[0]); }, values_);
+}
+
+}  // namespace etendue

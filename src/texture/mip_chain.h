@@ -1,0 +1,62 @@
+// A texture in memory: its image and ever smaller versions of it, in the file's own depth.
+#pragma once
+
+#include "core/vec.h"
+#include "image/image.h"
+#include "texture/texture_options.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <variant>
+#include <vector>
+
+namespace etendue {
+
+/// Levels of a full chain from `width` × `height` down to 1 × 1, each half the one before (rounded down).
+[[nodiscard]] int mip_level_count(int width, int height);
+/// Texels of all its levels together: about 4/3 of the image's.
+[[nodiscard]] std::uint64_t mip_texel_count(int width, int height);
+
+/// Which levels a chain has.
+enum class MipLevels { All, AsGiven };
+
+class MipChain {
+  public:
+    /// `levels` are the image and, if they are known, some of its mip levels, all of one depth; not empty. The others
+    /// are averaged from them over the texels' areas, in linear light, and rounded to the image's depth, if all are
+    /// wanted.
+    MipChain(std::vector<NativeImage> levels, Encoding encoding, MipLevels wanted = MipLevels::All);
+
+    /// Value at `uv`, whose wraps are as `options` say, between the two levels next to `level` >= 0: bilinear in both,
+    /// or the nearest texel of both.
+    [[nodiscard]] Texel sample(Vec2f uv, float level, bool nearest, const TextureOptions& options) const;
+
+    /// Mean of rgb and of alpha over all texels of the image, linear.
+    [[nodiscard]] Texel mean() const;
+
+    [[nodiscard]] int width() const { return levels_.front().width; }
+    [[nodiscard]] int height() const { return levels_.front().height; }
+    [[nodiscard]] std::size_t bytes() const;
+
+  private:
+    struct Level {
+        int width;
+        int height;
+        std::size_t first;  ///< value
+    };
+    using Values =
+        std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>, std::vector<Float16>, std::vector<float>>;
+    template <typename T>
+    std::vector<T> take_levels(std::vector<NativeImage>& images);
+    template <typename T>
+    void add_levels(std::vector<T>& values);
+    [[nodiscard]] Texel sample_level(Vec2f uv, std::size_t level, bool nearest, const TextureOptions& options) const;
+
+    int channels_ = 0;
+    Encoding encoding_ = Encoding::Linear;
+    std::vector<Level> levels_;
+    Values values_;
+};
+
+}  // namespace etendue

@@ -1,0 +1,53 @@
+// An image as OpenImageIO's cache sees it. For this room only.
+#pragma once
+
+#include "image/image_reader.h"
+#include "texture/texture_cache.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <OpenImageIO/imageio.h>
+
+namespace etendue {
+
+/// What a SourceInput reads.
+struct CacheEntry {
+    TextureCache::Source source;
+    Encoding encoding = Encoding::Linear;
+};
+
+/// Reads a CacheEntry, which must outlive it, in linear light: integers under a curve become 16-bit floats, everything
+/// else keeps its depth. The file's own mip levels are shown if they reach 1 × 1.
+class SourceInput final : public OIIO::ImageInput {
+  public:
+    /// Name of the attribute that passes the pointer to the entry through the cache to `open`.
+    static constexpr const char* kEntryAttribute = "etendue:entry";
+
+    /// For OpenImageIO, which owns the result.
+    [[nodiscard]] static OIIO::ImageInput* create() { return new SourceInput; }
+
+    [[nodiscard]] const char* format_name() const override { return "etendue"; }
+    bool open(const std::string& name, OIIO::ImageSpec& spec) override;
+    bool open(const std::string& name, OIIO::ImageSpec& spec, const OIIO::ImageSpec& config) override;
+    bool close() override;
+    [[nodiscard]] int current_miplevel() const override { return level_; }
+    bool seek_subimage(int subimage, int level) override;
+    bool read_native_scanline(int subimage, int level, int y, int z, void* data) override;
+    bool read_native_scanlines(int subimage, int level, int y_begin, int y_end, int z, void* data) override;
+    bool read_native_tile(int subimage, int level, int x, int y, int z, void* data) override;
+
+  private:
+    template <typename Read>
+    bool convert(std::size_t pixel_count, void* data, const Read& read);
+
+    const CacheEntry* entry_ = nullptr;
+    std::optional<ImageReader> reader_;
+    int level_ = 0;
+    int level_count_ = 0;
+    std::vector<float> values_;
+};
+
+}  // namespace etendue

@@ -1,0 +1,24 @@
+// Where the cone around a ray meets a surface: what is seen of its textures, and how the cone is bent there.
+#pragma once
+
+#include "core/vec.h"
+#include "world/geometry.h"
+#include "world/surface_point.h"
+
+namespace etendue {
+
+/// Where a ray's cone meets a surface. Without width it is a point, and textures are read unfiltered.
+struct ConeSection {
+    Vec3f direction{0.0f};  ///< unit, of the ray
+    float width = 0.0f;     ///< diameter across the ray, metres, >= 0
+};
+
+/// Fills in the footprints of `point`, whose position, triangle and normals are known, for a section with a width.
+void add_footprints(const Instance& instance, const Geometry& geometry, const ConeSection& section,
+                    SurfacePoint& point);
+
+/// Mean curvature of the surface around `point`'s triangle, 1/m: how fast the normals of its vertices turn away from
+/// each other, positive where the front is convex. 0 without normals.
+[[nodiscard]] float mean_curvature(const WorldData& data, const SurfacePoint& point);
+
+}  // namespace etendue

@@ -1,0 +1,227 @@
+// Footprints, curvature and the choice between the two ways to hold textures.
+#include "world/test_scene.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace etendue::test {
+
+namespace {
+
+/// One quad of 2 × 2 metres around the origin that faces +Z, placed twice, so that it is an instance; the second far
+/// away.
+World placed_quad(const Mat4f& to_world) {
+    SceneDesc scene = empty_scene();
+    PrimitiveDesc primitive = quad(Vec3f(0.0f), {1, 0, 0}, {0, 1, 0});
+    primitive.uv0 = {{0.1f, 0.9f}, {1.3f, 0.7f}, {1.2f, -0.4f}, {0.0f, -0.2f}};
+    primitive.uv1 = {{0, 5}, {5, 5}, {5, 0}, {0, 0}};
+    primitive.material = add_material(scene, diffuse(Rgb(0.5f)));
+    const auto mesh = add_mesh(scene, {std::move(primitive)});
+    place(scene, mesh, to_world);
+    place(scene, mesh, translation({1000, 0, 0}));
+    return compile(std::move(scene));
+}
+
+/// How far out `offset` lies on the ellipse with these conjugate diameters: 1 is on it.
+float ellipse_radius(const TextureFootprint& footprint, Vec2f offset) {
+    const Vec2f a = footprint.diameter[0] * 0.5f;
+    const Vec2f b = footprint.diameter[1] * 0.5f;
+    const float determinant = a.x * b.y - a.y * b.x;
+    return std::hypot(offset.x * b.y - offset.y * b.x, a.x * offset.y - a.y * offset.x) / std::abs(determinant);
+}
+
+// The rays on the surface of a cylinder around a ray meet the plane on the ellipse that the footprint says, in both
+// sets of coordinates and under any transform.
+TEST(TextureFootprintOfAPoint, IsWhereTheConeMeetsTheTriangle) {
+    Random random(21);
+    for (int i = 0; i < 200; ++i) {
+        const Mat4f to_world = random_transform(random, i % 2 == 1);
+        const World world = placed_quad(to_world);
+        const Vec3f target =
+            transform_point(to_world, {0.5f * random.next() - 0.6f, 0.4f * random.next() + 0.3f, 0.0f});
+        Ray ray;
+        ray.direction = random_direction(random);
+        ray.origin = target - ray.direction * 3.0f;
+        const Hit hit = intersect(world, ray);
+        if (!hit.valid()) continue;
+        const float width = 1e-3f;
+        const SurfacePoint point = world.surface_point(hit, ray, {width - 0.5f * hit.t, 0.5f});
+        if (std::abs(dot(ray.direction, point.geometric_normal)) < 0.05f) continue;
+        const Frame around = Frame::from_normal(ray.direction);
+        for (const float phase : {0.0f, 1.0f, 2.0f, 3.0f}) {
+            Ray shifted = ray;
+            shifted.origin += (around.tangent * std::cos(phase) + around.bitangent * std::sin(phase)) * (0.5f * width);
+            const Hit beside = intersect(world, shifted);
+            if (!beside.valid() || beside.triangle != hit.triangle) continue;
+            const SurfacePoint there = world.surface_point(beside);
+            for (std::size_t set = 0; set < 2; ++set)
+                EXPECT_NEAR(ellipse_radius(point.footprint[set], there.uv[set] - point.uv[set]), 1.0f, 0.03f);
+        }
+    }
+}
+
+TEST(TextureFootprintOfAPoint, IsNothingWithoutWidth) {
+    const World world = placed_quad(Mat4f());
+    const Ray ray{.origin = {0.2f, 0.3f, 1.0f}, .direction = {0, 0, -1}};
+    const Hit hit = intersect(world, ray);
+    EXPECT_TRUE(world.surface_point(hit).footprint[0].is_point());
+    EXPECT_TRUE(world.surface_point(hit, ray, {0.0f, 0.0f}).footprint[0].is_point());
+    EXPECT_FALSE(world.surface_point(hit, ray, {0.0f, 0.01f}).footprint[0].is_point());
+    // Behind a crossing the width is negative, and as wide.
+    EXPECT_NEAR(world.surface_point(hit, ray, {0.01f, -0.03f}).footprint[1].diameter[0].x,
+                world.surface_point(hit, ray, {0.02f, 0.0f}).footprint[1].diameter[0].x, 1e-6f);
+}
+
+TEST(TextureFootprintOfAPoint, StaysFiniteAtGrazingAngles) {
+    const World world = placed_quad(Mat4f());
+    for (const float height : {1e-2f, 1e-4f, 1e-6f}) {
+        const Ray ray{.origin = {-0.9f, 0.05f, height}, .direction = normalize(Vec3f(1.0f, 0.0f, -height))};
+        const Hit hit = intersect(world, ray);
+        ASSERT_TRUE(hit.valid());
+        const TextureFootprint footprint = world.surface_point(hit, ray, {1e-3f, 0.0f}).footprint[1];
+        for (const Vec2f& diameter : footprint.diameter) {
+            EXPECT_TRUE(std::isfinite(diameter.x) && std::isfinite(diameter.y));
+            EXPECT_LT(std::hypot(diameter.x, diameter.y), 3.0f);
+        }
+    }
+}
+
+TEST(MeanCurvature, OfASphereIsOneOverItsRadius) {
+    for (const float radius : {0.5f, 3.0f}) {
+        SceneDesc scene = empty_scene();
+        add_object(scene, sphere({0, 0, -10}, radius, 64), add_material(scene, diffuse(Rgb(0.5f))));
+        add_object(scene, quad({0, 0, -20}, {9, 0, 0}, {0, 9, 0}), add_material(scene, diffuse(Rgb(0.5f))));
+        const World world = compile(std::move(scene));
+        const SurfacePoint ball = world.surface_point(intersect(world, {.direction = {0, 0, -1}}));
+        EXPECT_NEAR(world.mean_curvature(ball), 1.0f / radius, 0.02f / radius);
+        const SurfacePoint wall = world.surface_point(intersect(world, {.origin = {5, 5, 0}, .direction = {0, 0, -1}}));
+        EXPECT_EQ(world.mean_curvature(wall), 0.0f);
+    }
+}
+
+class TextureFiltering : public testing::Test {
+  protected:
+    /// A quad [-1, 1]² at z = -1 with `material`, whose texture is a checkerboard of single texels, 64 × 64.
+    SceneDesc checkered(const MaterialDesc& material) {
+        SceneDesc scene = empty_scene();
+        std::vector<std::array<int, 4>> texels;
+        for (int i = 0; i < 64 * 64; ++i) {
+            const int value = (i % 64 + i / 64) % 2 == 0 ? 255 : 0;
+            texels.push_back({value, value, value, value});
+        }
+        add_texture(scene, png_, 64, texels);
+        add_object(scene, quad({0, 0, -1}, {1, 0, 0}, {0, 1, 0}), add_material(scene, material));
+        return scene;
+    }
+    static SurfacePoint point_of(const World& world, float x, float width) {
+        const Ray ray{.origin = {x, 0.01f, 0}, .direction = {0, 0, -1}};
+        return world.surface_point(intersect(world, ray), ray, {width, 0.0f});
+    }
+    static float base_of(const World& world, float x, float width) {
+        const SurfacePoint point = point_of(world, x, width);
+        Bsdf storage;
+        return std::get<MetallicRoughness>(world.bsdf(point, {0, 0, 1}, 0.0f, storage)).base.g;
+    }
+    void TearDown() override { std::filesystem::remove(png_); }
+
+    std::filesystem::path png_ = temporary_file("etendue-world-filtering.png");
+    static constexpr float kTexel = 2.0f / 64.0f;  ///< metres
+    /// x at the centres of a white and of a black texel.
+    static constexpr float kWhite = 1.5f * kTexel;
+    static constexpr float kBlack = 0.5f * kTexel;
+};
+
+MaterialDesc textured_material() {
+    MaterialDesc material;
+    material.base_color_texture.texture = {0};
+    return material;
+}
+
+TEST_F(TextureFiltering, ColoursAreAveragedOverTheFootprint) {
+    const World world = compile(checkered(textured_material()));
+    EXPECT_NE(base_of(world, kWhite, 0.0f), base_of(world, kBlack, 0.0f));
+    EXPECT_EQ(base_of(world, kWhite, 0.9f * kTexel), base_of(world, kWhite, 0.0f));
+    EXPECT_NEAR(base_of(world, kWhite, 2.0f * kTexel), 0.5f, 5e-3f);
+    EXPECT_NEAR(base_of(world, kBlack, 2.0f * kTexel), 0.5f, 5e-3f);
+}
+
+TEST_F(TextureFiltering, TextureTransformsScaleTheFootprint) {
+    MaterialDesc material = textured_material();
+    material.base_color_texture.transform.scale = {16.0f, 16.0f};
+    const World world = compile(checkered(material));
+    EXPECT_NEAR(base_of(world, kWhite, kTexel / 8.0f), 0.5f, 5e-3f);
+    EXPECT_NEAR(base_of(world, kWhite + 0.01f * kTexel, kTexel / 8.0f), 0.5f, 5e-3f);
+}
+
+TEST_F(TextureFiltering, SamplersThatForbidMipLevelsAreObeyed) {
+    SceneDesc scene = checkered(textured_material());
+    scene.textures[0].mip_filter = TextureMipFilter::None;
+    const World world = compile(std::move(scene));
+    EXPECT_EQ(base_of(world, kWhite, 64.0f * kTexel), base_of(world, kWhite, 0.0f));
+}
+
+// Light samples and hits must see one function, and rays must pass or stop whoever sends them.
+TEST_F(TextureFiltering, EmissionAndOpacityAreNotFiltered) {
+    MaterialDesc material = emissive(Rgb(2.0f));
+    material.emissive_texture.texture = {0};
+    material.alpha_mode = AlphaMode::Mask;
+    material.base_color_texture.texture = {0};
+    const World world = compile(checkered(material));
+    for (const float x : {kWhite, kBlack}) {
+        const Ray ray{.origin = {x, 0.01f, 0}, .direction = {0, 0, -1}};
+        const Hit hit = intersect(world, ray);
+        if (!hit.valid()) continue;
+        const Vec3f eye(0, 0, 1);
+        EXPECT_EQ(world.emission(world.surface_point(hit, ray, {0.5f, 0.0f}), eye),
+                  world.emission(world.surface_point(hit), eye));
+    }
+    EXPECT_NE(intersect(world, {.origin = {kWhite, 0.01f, 0}, .direction = {0, 0, -1}}).valid(),
+              intersect(world, {.origin = {kBlack, 0.01f, 0}, .direction = {0, 0, -1}}).valid());
+}
+
+TEST_F(TextureFiltering, TexturesAreResidentIfTheyFitAndCachedIfNot) {
+    // RGBA with all mip levels.
+    constexpr std::uint64_t kBytes = 4 * (64 * 64 + 32 * 32 + 16 * 16 + 8 * 8 + 4 * 4 + 2 * 2 + 1);
+    SceneDesc scene = checkered(textured_material());
+    scene.settings.texture_memory = kBytes;
+    const World resident = compile(scene);
+    EXPECT_EQ(resident.statistics().textures, 1u);
+    EXPECT_EQ(resident.statistics().texture_bytes, kBytes);
+    EXPECT_FALSE(resident.statistics().textures_cached);
+    scene.settings.texture_memory = kBytes - 1;
+    const World cached = compile(scene);
+    EXPECT_TRUE(cached.statistics().textures_cached);
+    EXPECT_EQ(cached.statistics().texture_cache_budget, kBytes - 1);
+    for (const float width : {0.0f, 1.4f, 2.0f, 9.0f})
+        for (const float x : {kWhite, kBlack, 0.3f, -0.7f})
+            EXPECT_NEAR(base_of(cached, x, width * kTexel), base_of(resident, x, width * kTexel), 3.0f / 255.0f);
+    EXPECT_GT(cached.statistics().texture_bytes, 0u);
+    EXPECT_EQ(cached.statistics().failed_texture_lookups, 0u);
+}
+
+TEST_F(TextureFiltering, ABrokenImageIsAnErrorInBothWays) {
+    SceneDesc scene = checkered(textured_material());
+    scene.images[0].location = {"scene.gltf", "/images/0"};
+    std::filesystem::resize_file(png_, 20);
+    for (const std::uint64_t budget : {std::uint64_t{0}, std::uint64_t{1} << 30}) {
+        scene.settings.texture_memory = budget;
+        try {
+            static_cast<void>(compile(scene));
+            ADD_FAILURE() << "no error with a budget of " << budget;
+        } catch (const SceneError& error) {
+            EXPECT_NE(std::string(error.what()).find("scene.gltf#/images/0"), std::string::npos) << error.what();
+        }
+    }
+}
+
+}  // namespace
+
+}  // namespace etendue::test
