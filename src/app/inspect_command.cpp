@@ -52,6 +52,7 @@ nlohmann::json summarize(const SceneDesc& s) {
             {"cameras", names(s.cameras)},
             {"variants", s.variants},
             {"environment", s.environment.enabled},
+            {"animations", s.animations},
             {"extensions_used", s.extensions_used},
             {"extensions_ignored", s.extensions_ignored}};
 }

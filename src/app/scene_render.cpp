@@ -139,6 +139,7 @@ void report_dropped(const RenderCounters& counters, const SceneRenderRequest& re
         quoted(working_space));
     if (!settings.camera.empty()) command += " --camera " + quoted(settings.camera);
     if (settings.time_code) command += fmt::format(" --time-code {}", *settings.time_code);
+    if (settings.frame) command += fmt::format(" --frames {} --fps {}", *settings.frame, settings.fps);
     if (!settings.animation.empty()) command += " --animation " + quoted(settings.animation);
     if (!settings.variant.empty()) command += " --variant " + quoted(settings.variant);
     if (request.overrides.environment) command += " --environment " + quoted(*request.overrides.environment);
@@ -249,6 +250,8 @@ SceneRenderResult render_scene(PreparedScene prepared, const SceneRenderRequest&
     SceneRenderResult result;
     RenderStatistics& statistics = result.statistics;
     statistics.scene = scene.name;
+    statistics.frame = scene.settings.frame;
+    statistics.time_code = scene.settings.shown_time();
     statistics.settings_hash = hash;
     statistics.width = options.window.width();
     statistics.height = options.window.height();

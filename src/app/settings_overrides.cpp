@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 namespace etendue {
 
@@ -50,6 +51,23 @@ std::array<int, 4> parse_crop(const std::string& text) {
     return c;
 }
 
+/// "3", "1:48" or "1:48:2".
+FrameRange parse_frames(const std::string& text) {
+    FrameRange f;
+    char rest = 0;
+    const int ends = std::sscanf(text.c_str(), "%d:%d%c", &f.first, &f.last, &rest);
+    const bool is_one = std::sscanf(text.c_str(), "%d%c", &f.first, &rest) == 1;
+    const bool has_step = std::sscanf(text.c_str(), "%d:%d:%d%c", &f.first, &f.last, &f.step, &rest) == 3;
+    if (is_one) f.last = f.first;
+    constexpr int kMost = FrameRange::kMaxFrame;
+    if (!(is_one || ends == 2 || has_step) || f.first < -kMost || f.last > kMost || f.last < f.first || f.step < 1)
+        throw CLI::ValidationError(
+            "--frames", fmt::format("'{}' is not FRAME, FIRST:LAST or FIRST:LAST:STEP with {} <= FIRST <= LAST <= {} "
+                                    "and STEP >= 1",
+                                    text, -kMost, kMost));
+    return f;
+}
+
 std::vector<std::string> integrator_names() {
     std::vector<std::string> names;
     for (const IntegratorEntry& entry : integrator_registry()) names.emplace_back(entry.name);
@@ -74,8 +92,12 @@ void SettingsOverrides::add_options(CLI::App& command) {
         "Render only pixels x0,y0,x1,y1 (half-open, y down)");
     command.add_option("--camera", camera, "Name of the camera (default: the first)");
     command.add_option("--time-code", moment.time_code, "Moment of the animation to show, seconds (default: at rest)");
-    command.add_option("--animation", moment.animation, "Name of the animation to show (default: the first)")
-        ->needs(command.get_option("--time-code"));
+    command.add_option("--animation", moment.animation, "Name of the animation to show (default: the first)");
+    command.add_option_function<std::string>(
+        "--frames", [this](const std::string& text) { frames = parse_frames(text); },
+        "Render a sequence, FIRST:LAST or FIRST:LAST:STEP, or one frame of it; frame f is at time code + f / fps");
+    command.add_option("--fps", moment.fps, "Frames per second of a sequence (default: 24)")
+        ->check(CLI::Range(1e-3, 1e6));
     command.add_option("--variant", variant, "Name of the file's set of materials (KHR_materials_variants)");
     command.add_option("--seed", seed, "Seed of everything random");
     command.add_option("--time", time_seconds, "Start no new pass after this many seconds")

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,8 +27,10 @@ struct PhaseTime {
 
 struct RenderStatistics {
     std::string scene;
-    std::string settings_hash;  ///< equal for equal settings and inputs
-    int width = 0;              ///< pixels rendered: the crop window's, or the image's
+    std::optional<int> frame;         ///< of a sequence
+    std::optional<double> time_code;  ///< seconds of the animation that is shown
+    std::string settings_hash;        ///< equal for equal settings and inputs
+    int width = 0;                    ///< pixels rendered: the crop window's, or the image's
     int height = 0;
     int full_width = 0;  ///< pixels of the whole image
     int full_height = 0;

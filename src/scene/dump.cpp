@@ -221,7 +221,8 @@ void dump_settings(const RenderSettings& s, Out out) {
                    s.film.filter_radius);
     if (s.film.crop) fmt::format_to(out, "crop: {}\n", fmt::join(*s.film.crop, " "));
     fmt::format_to(out, "camera used: \"{}\"\n", s.camera);
-    if (s.time_code) fmt::format_to(out, "time code {} of animation \"{}\"\n", *s.time_code, s.animation);
+    // Not the sequence that a frame belongs to: it is the same image in a longer one.
+    if (s.shown_time()) fmt::format_to(out, "time code {} of animation \"{}\"\n", *s.shown_time(), s.animation);
     if (!s.variant.empty()) fmt::format_to(out, "variant used: \"{}\"\n", s.variant);
     fmt::format_to(out, "colour: working space \"{}\", display \"{}\", view \"{}\", exposure {:g}\n",
                    s.color.working_space, s.color.display, s.color.view, s.color.exposure);
@@ -238,6 +239,7 @@ std::string dump(const SceneDesc& scene) {
     dump_textures(scene, out);
     for (std::size_t i = 0; i < scene.materials.size(); ++i) dump_material(i, scene.materials[i], out);
     dump_geometry(scene, out);
+    for (const std::string& animation : scene.animations) fmt::format_to(out, "animation \"{}\"\n", animation);
     for (const std::string& variant : scene.variants) fmt::format_to(out, "variant \"{}\"\n", variant);
     dump_cameras_and_lights(scene, out);
     dump_settings(scene.settings, out);

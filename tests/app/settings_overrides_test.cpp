@@ -103,28 +103,34 @@ TEST(SettingsOverrides, EachOptionReachesItsSetting) {
     EXPECT_EQ(scene.inputs.back(), folder / "sky.exr");
 }
 
+TEST(SettingsOverrides, FramesAreOneARangeOrEveryNth) {
+    const auto frames = [](const std::string& text) {
+        const FrameRange range = parse({"--frames", text}).frames.value();
+        std::vector<int> numbers;
+        for (std::size_t i = 0; i < range.count(); ++i) numbers.push_back(range.frame(i));
+        return numbers;
+    };
+    EXPECT_EQ(frames("7"), (std::vector{7}));
+    EXPECT_EQ(frames("-1:2"), (std::vector{-1, 0, 1, 2}));
+    EXPECT_EQ(frames("1:8:3"), (std::vector{1, 4, 7}));
+    EXPECT_FALSE(parse({}).frames);
+}
+
 TEST(SettingsOverrides, NonsenseIsAUsageError) {
-    const std::vector<std::vector<std::string>> bad = {{"--size", "100"},
-                                                       {"--size", "100x"},
-                                                       {"--size", "0x10"},
-                                                       {"--size", "10x99999"},
-                                                       {"--size", "10x10x"},
-                                                       {"--crop", "1,2,3"},
-                                                       {"--crop", "5,0,5,9"},
-                                                       {"--crop", "-1,0,5,9"},
-                                                       {"--crop", "0,9,5,0"},
-                                                       {"--spp", "0"},
-                                                       {"--spp", "16777217"},
-                                                       {"--spp", "many"},
-                                                       {"--seed", "-1"},
-                                                       {"--time", "0"},
-                                                       {"--time", "-3"},
-                                                       {"--max-depth", "0"},
-                                                       {"--quality", "best"},
-                                                       {"--integrator", "bdpt"},
-                                                       {"--environment", "/no/such/file.exr"},
-                                                       {"--half", "--float"},
-                                                       {"--colour", "red"}};
+    const std::vector<std::vector<std::string>> bad = {{"--size", "100"},        {"--size", "100x"},
+                                                       {"--size", "0x10"},       {"--size", "10x99999"},
+                                                       {"--size", "10x10x"},     {"--crop", "1,2,3"},
+                                                       {"--crop", "5,0,5,9"},    {"--crop", "-1,0,5,9"},
+                                                       {"--crop", "0,9,5,0"},    {"--frames", "3:1"},
+                                                       {"--frames", "1:3:0"},    {"--frames", "1:2:3:4"},
+                                                       {"--frames", "1:"},       {"--frames", "0:1000000"},
+                                                       {"--frames", "a"},        {"--fps", "0"},
+                                                       {"--spp", "0"},           {"--spp", "16777217"},
+                                                       {"--spp", "many"},        {"--seed", "-1"},
+                                                       {"--time", "0"},          {"--time", "-3"},
+                                                       {"--max-depth", "0"},     {"--quality", "best"},
+                                                       {"--integrator", "bdpt"}, {"--environment", "/no/such/file.exr"},
+                                                       {"--half", "--float"},    {"--colour", "red"}};
     for (const auto& arguments : bad)
         EXPECT_THROW((void)parse(arguments), CLI::ParseError) << arguments[0] << " " << arguments.back();
 }

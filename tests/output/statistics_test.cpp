@@ -10,6 +10,8 @@ namespace {
 RenderStatistics make_statistics() {
     RenderStatistics s;
     s.scene = "cornell-box";
+    s.frame = 7;
+    s.time_code = 0.25;
     s.settings_hash = "0123abcd";
     s.width = 64;
     s.height = 32;
@@ -41,7 +43,8 @@ RenderStatistics make_statistics() {
 TEST(StatisticsJson, HasEveryField) {
     const auto json = nlohmann::json::parse(to_json(make_statistics()));
     const auto expected = nlohmann::json::parse(R"({
-        "scene": "cornell-box", "settings_hash": "0123abcd", "size": [64, 32], "full_size": [128, 96],
+        "scene": "cornell-box", "frame": 7, "time_code": 0.25, "settings_hash": "0123abcd",
+        "size": [64, 32], "full_size": [128, 96],
         "complete": false, "halt_reason": "time limit", "spp": {"requested": 16, "done": 8},
         "samples": 80, "samples_per_second": 40.0,
         "rays": {"camera": 100, "bounce": 250, "shadow": 50, "total": 400}, "rays_per_second": 200.0,

@@ -132,9 +132,16 @@ class PoseSampler {
 
 }  // namespace
 
-const GltfAnimation* find_animation(const GltfDocument& document, const std::string& name, ProblemList& problems) {
+const GltfAnimation* find_animation(const GltfDocument& document, const RenderSettings& settings,
+                                    ProblemList& problems) {
+    const std::string& name = settings.animation;
     if (document.animations.empty()) {
-        problems.warning(document.at(""), "a time code was given, but the file has no animation");
+        if (settings.frame)
+            problems.error(document.at(""),
+                           "the file has no animation, so all frames would be the same; render one "
+                           "image, without --frames and \"frames\"");
+        else
+            problems.warning(document.at(""), "a time code was given, but the file has no animation");
         return nullptr;
     }
     if (name.empty()) return &document.animations.front();

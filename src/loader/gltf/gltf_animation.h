@@ -2,6 +2,7 @@
 #pragma once
 
 #include "loader/gltf/gltf_accessor.h"
+#include "scene/render_settings.h"
 
 #include <array>
 #include <map>
@@ -22,9 +23,9 @@ struct NodePose {
 /// Poses by node index.
 using NodePoses = std::map<int, NodePose>;
 
-/// The animation of that name, or the first for an empty one. Null if there is none of that name (an error) or none at
-/// all (a warning).
-[[nodiscard]] const GltfAnimation* find_animation(const GltfDocument& document, const std::string& name,
+/// The animation that `settings` name, or the first. Null if there is none of that name (an error) or none at all (an
+/// error if a frame of a sequence is asked for, which would be like all the others, else a warning).
+[[nodiscard]] const GltfAnimation* find_animation(const GltfDocument& document, const RenderSettings& settings,
                                                   ProblemList& problems);
 
 /// The poses at `seconds`: before the first key as at the first, after the last as at the last, between by the

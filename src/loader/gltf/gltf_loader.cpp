@@ -29,7 +29,7 @@ bool GltfLoader::can_load(const std::filesystem::path& file) const {
     return stream && std::string_view(magic.data(), magic.size()) == "glTF";
 }
 
-void GltfLoader::load(const std::filesystem::path& file, const LoadOptions& options, SceneDesc& scene,
+void GltfLoader::load(const std::filesystem::path& file, const RenderSettings& settings, SceneDesc& scene,
                       ProblemList& problems) const {
     const GltfDocument document = read_gltf_document(file, problems);
     scene.extensions_used = document.extensions_used;
@@ -39,10 +39,11 @@ void GltfLoader::load(const std::filesystem::path& file, const LoadOptions& opti
     TextureReader textures(document, accessors, scene, problems);
     read_materials(document, textures, scene, problems);
     const std::vector<MeshDeformation> deformations = read_meshes(document, accessors, scene, problems);
+    for (const GltfAnimation& animation : document.animations) scene.animations.push_back(animation.name);
     NodePoses poses;
-    if (options.time_code) {
-        if (const GltfAnimation* animation = find_animation(document, options.animation, problems))
-            poses = sample_animation(document, *animation, *options.time_code, accessors, problems);
+    if (const std::optional<double> seconds = settings.shown_time()) {
+        if (const GltfAnimation* animation = find_animation(document, settings, problems))
+            poses = sample_animation(document, *animation, *seconds, accessors, problems);
     } else if (!document.animations.empty()) {
         problems.note(document.at("/animations"),
                       "the scene is shown at rest; --time-code SECONDS shows a moment of "
