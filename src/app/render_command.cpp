@@ -102,7 +102,7 @@ void add_render_command(CLI::App& app, Action& action) {
         "  etendue render scenes/cornell-box --quality draft --integrator naive --seed 7\n"
         "  etendue render model.glb --environment studio.hdr --size 800x600 --spp 256 --exposure 0.5\n"
         "  etendue render fox.glb --time-code 0.35 --animation Run\n"
-        "  etendue render fox.glb --frames 0:23 --fps 30 -o run/fox.####.exr\n"
+        "  etendue render fox.glb --frames 0:23 --fps 30 -o run/fox.####.exr --shutter 0:0.0167\n"
         "  etendue render scenes/veach-mis --crop 100,100,200,200 --time 60 --json --quiet");
     command->callback([arguments, &action] {
         action = [arguments] {

@@ -140,6 +140,8 @@ void report_dropped(const RenderCounters& counters, const SceneRenderRequest& re
     if (!settings.camera.empty()) command += " --camera " + quoted(settings.camera);
     if (settings.time_code) command += fmt::format(" --time-code {}", *settings.time_code);
     if (settings.frame) command += fmt::format(" --frames {} --fps {}", *settings.frame, settings.fps);
+    if (settings.shutter.is_open())
+        command += fmt::format(" --shutter {}:{}", settings.shutter.open, settings.shutter.close);
     if (!settings.animation.empty()) command += " --animation " + quoted(settings.animation);
     if (!settings.variant.empty()) command += " --variant " + quoted(settings.variant);
     if (request.overrides.environment) command += " --environment " + quoted(*request.overrides.environment);

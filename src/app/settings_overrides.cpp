@@ -3,6 +3,8 @@
 #include "integrator/integrator.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <map>
 #include <vector>
@@ -68,6 +70,16 @@ FrameRange parse_frames(const std::string& text) {
     return f;
 }
 
+/// "0:0.02".
+Shutter parse_shutter(const std::string& text) {
+    Shutter shutter;
+    char rest = 0;
+    if (std::sscanf(text.c_str(), "%lf:%lf%c", &shutter.open, &shutter.close, &rest) != 2 ||
+        !std::isfinite(shutter.open) || !std::isfinite(shutter.close) || shutter.close < shutter.open)
+        throw CLI::ValidationError("--shutter", "'" + text + "' is not OPEN:CLOSE in seconds with OPEN <= CLOSE");
+    return shutter;
+}
+
 std::vector<std::string> integrator_names() {
     std::vector<std::string> names;
     for (const IntegratorEntry& entry : integrator_registry()) names.emplace_back(entry.name);
@@ -98,6 +110,9 @@ void SettingsOverrides::add_options(CLI::App& command) {
         "Render a sequence, FIRST:LAST or FIRST:LAST:STEP, or one frame of it; frame f is at time code + f / fps");
     command.add_option("--fps", moment.fps, "Frames per second of a sequence (default: 24)")
         ->check(CLI::Range(1e-3, 1e6));
+    command.add_option_function<std::string>(
+        "--shutter", [this](const std::string& text) { moment.shutter = parse_shutter(text); },
+        "Blur what moves from OPEN to CLOSE, seconds from the moment shown: OPEN:CLOSE (default: no motion blur)");
     command.add_option("--variant", variant, "Name of the file's set of materials (KHR_materials_variants)");
     command.add_option("--seed", seed, "Seed of everything random");
     command.add_option("--time", time_seconds, "Start no new pass after this many seconds")

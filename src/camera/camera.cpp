@@ -21,6 +21,16 @@ const CameraPose& pose_of(const OrthographicCamera& c) {
     return c.pose;
 }
 
+void set_pose(PinholeCamera& c, const CameraPose& pose) {
+    c.pose = pose;
+}
+void set_pose(ThinLensCamera& c, const CameraPose& pose) {
+    c.pinhole.pose = pose;
+}
+void set_pose(OrthographicCamera& c, const CameraPose& pose) {
+    c.pose = pose;
+}
+
 Mat4f projection(const PinholeCamera& c) {
     return {1.0f / c.half_width, 0, 0, 0, 0, 1.0f / c.half_height, 0, 0, 0, 0, -1, -1, 0, 0, 0, 0};
 }
@@ -81,6 +91,12 @@ Ray OrthographicCamera::generate_ray(Vec2f film, Vec2f) const {
     ray.origin = pose.position + pose.right * p.x + pose.up * p.y;
     ray.direction = pose.forward;
     return ray;
+}
+
+Camera with_pose(const Camera& camera, const CameraPose& pose) {
+    Camera result = camera;
+    std::visit([&](auto& c) { set_pose(c, pose); }, result);
+    return result;
 }
 
 Ray generate_ray(const Camera& camera, Vec2f film, Vec2f lens) {

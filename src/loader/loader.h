@@ -18,6 +18,7 @@ struct LoadOptions {
     std::string animation{};            ///< name; empty for the first
     std::optional<int> frame{};         ///< of a sequence: shown at time_code (0 if none) + frame / fps
     std::optional<double> fps{};        ///< frames per second, > 0
+    std::optional<Shutter> shutter{};
 };
 
 /// Reads one scene file format.

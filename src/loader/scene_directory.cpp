@@ -107,6 +107,7 @@ RenderSettings apply_options(RenderSettings settings, const LoadOptions& options
     if (!options.animation.empty()) settings.animation = options.animation;
     settings.frame = options.frame;
     settings.fps = options.fps.value_or(settings.fps);
+    settings.shutter = options.shutter.value_or(settings.shutter);
     return settings;
 }
 

@@ -131,6 +131,10 @@ void dump_layers(const MaterialDesc& m, Out out) {
                        m.clearcoat.normal_scale, text(m.clearcoat.normal_texture));
 }
 
+std::string text_of_motion(std::size_t steps) {
+    return steps == 0 ? std::string() : fmt::format(", {} steps of motion", steps);
+}
+
 std::string text_of_override(const MaterialDesc& material) {
     const auto describe = [](const auto& model) -> std::string {
         using Model = std::decay_t<decltype(model)>;
@@ -175,16 +179,16 @@ void dump_geometry(const SceneDesc& scene, Out out) {
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
         fmt::format_to(out, "mesh {} \"{}\"\n", i, scene.meshes[i].name);
         for (const PrimitiveDesc& p : scene.meshes[i].primitives) {
-            fmt::format_to(out, "  {} triangles, {} vertices, material {}{}{}{}{}\n", p.triangles.size(),
+            fmt::format_to(out, "  {} triangles, {} vertices, material {}{}{}{}{}{}\n", p.triangles.size(),
                            p.positions.size(), p.material.index, p.tangents.empty() ? "" : ", tangents",
                            p.uv0.empty() ? "" : ", uv0", p.uv1.empty() ? "" : ", uv1",
-                           p.colors.empty() ? "" : ", colours");
+                           p.colors.empty() ? "" : ", colours", text_of_motion(p.motion.size()));
         }
     }
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
         const InstanceDesc& instance = scene.instances[i];
-        fmt::format_to(out, "instance {} \"{}\": mesh {}, {}\n", i, instance.name, instance.mesh.index,
-                       text(instance.to_world));
+        fmt::format_to(out, "instance {} \"{}\": mesh {}, {}{}\n", i, instance.name, instance.mesh.index,
+                       text(instance.to_world), text_of_motion(instance.motion.size()));
     }
 }
 
@@ -192,9 +196,10 @@ void dump_cameras_and_lights(const SceneDesc& scene, Out out) {
     for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
         const CameraDesc& c = scene.cameras[i];
         const bool perspective = c.type == CameraType::Perspective;
-        fmt::format_to(out, "camera {} \"{}\": {} {:g}, aspect {:g}, lens radius {:g}, focus {:g}, {}\n", i, c.name,
+        fmt::format_to(out, "camera {} \"{}\": {} {:g}, aspect {:g}, lens radius {:g}, focus {:g}, {}{}\n", i, c.name,
                        perspective ? "perspective yfov" : "orthographic ymag", perspective ? c.yfov : c.ymag,
-                       c.aspect_ratio, c.lens_radius, c.focus_distance, text(c.to_world));
+                       c.aspect_ratio, c.lens_radius, c.focus_distance, text(c.to_world),
+                       text_of_motion(c.motion.size()));
     }
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         const LightDesc& light = scene.lights[i];
@@ -223,6 +228,8 @@ void dump_settings(const RenderSettings& s, Out out) {
     fmt::format_to(out, "camera used: \"{}\"\n", s.camera);
     // Not the sequence that a frame belongs to: it is the same image in a longer one.
     if (s.shown_time()) fmt::format_to(out, "time code {} of animation \"{}\"\n", *s.shown_time(), s.animation);
+    if (s.shutter.is_open() || s.shutter.middle() != 0.0)
+        fmt::format_to(out, "shutter {} to {}\n", s.shutter.open, s.shutter.close);
     if (!s.variant.empty()) fmt::format_to(out, "variant used: \"{}\"\n", s.variant);
     fmt::format_to(out, "colour: working space \"{}\", display \"{}\", view \"{}\", exposure {:g}\n",
                    s.color.working_space, s.color.display, s.color.view, s.color.exposure);

@@ -50,6 +50,15 @@ struct FrameRange {
     [[nodiscard]] int frame(std::size_t index) const { return first + static_cast<int>(index) * step; }
 };
 
+/// When light reaches the film, seconds from the moment that is shown.
+struct Shutter {
+    double open = 0.0;
+    double close = 0.0;  ///< >= open; equal for a moment without motion blur
+
+    [[nodiscard]] bool is_open() const { return close > open; }
+    [[nodiscard]] double middle() const { return 0.5 * (open + close); }
+};
+
 struct RenderSettings {
     IntegratorSettings integrator;
     SamplerType sampler = SamplerType::Sobol;
@@ -61,8 +70,9 @@ struct RenderSettings {
     std::optional<double> time_code;   ///< seconds of the animation; of a sequence, where frame 0 is
     std::optional<FrameRange> frames;  ///< a sequence; none for one image
     double fps = 24.0;                 ///< frames per second, > 0
-    std::optional<int> frame;          ///< which frame of the sequence this is
-    std::string animation;             ///< its name; empty for the file's first
+    Shutter shutter;
+    std::optional<int> frame;  ///< which frame of the sequence this is
+    std::string animation;     ///< its name; empty for the file's first
     FilmSettings film;
     ColorSettings color;
     SourceLocation location;                     ///< of render.json

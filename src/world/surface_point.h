@@ -25,8 +25,9 @@ struct SurfacePoint {
     std::uint32_t triangle = 0;
 };
 
-/// The surface at `barycentric` (weights of the second and third vertex) of a triangle of an instance.
+/// The surface at `barycentric` (weights of the second and third vertex) of a triangle of an instance, at `time` of the
+/// shutter, [0, 1].
 [[nodiscard]] SurfacePoint make_surface_point(const WorldData& data, std::uint32_t instance, std::uint32_t geometry,
-                                              std::uint32_t triangle, Vec2f barycentric);
+                                              std::uint32_t triangle, Vec2f barycentric, float time);
 
 }  // namespace etendue

@@ -5,6 +5,7 @@
 #include "world/embree_scene.h"
 #include "world/gltf_surface.h"
 #include "world/material_evaluation.h"
+#include "world/motion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -75,6 +76,7 @@ WorldData& WorldData::operator=(WorldData&&) noexcept = default;
 World::World(WorldData data)
     : data_(std::make_unique<WorldData>(std::move(data))), selector_(data_->lights, radius_of(data_->bounds)) {
     data_->bvh->set_opacity(opacity_callback, data_.get());
+    has_motion_ = data_->bvh->has_motion() || !data_->camera_motion.empty();
     has_transparency_ = std::any_of(data_->materials.begin(), data_->materials.end(),
                                     [](const Material& m) { return m.alpha_test != AlphaTest::Opaque; });
     has_delta_lights_ = std::any_of(data_->lights.begin(), data_->lights.end(), is_delta_light);
@@ -101,7 +103,7 @@ void World::occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded
 }
 
 SurfacePoint World::surface_point(const Hit& hit) const {
-    return make_surface_point(*data_, hit.instance, hit.geometry, hit.triangle, {hit.u, hit.v});
+    return make_surface_point(*data_, hit.instance, hit.geometry, hit.triangle, {hit.u, hit.v}, hit.time);
 }
 
 const Bsdf& World::bsdf(const SurfacePoint& point, const Vec3f& wo, float relative_ior, Bsdf& storage) const {
@@ -206,11 +208,13 @@ ChosenLight World::sample_light(const Vec3f& point, const LightNumbers& u) const
     ChosenLight chosen{etendue::sample_light(light, point, u.triangle, u.direction), choice.probability};
     LightSample& sample = chosen.sample;
     sample.pdf_solid_angle *= choice.probability;
+    // Surfaces that move are no lights, so that any time will do.
+    constexpr float kAnyTime = 0.0f;
     const MeshLight* mesh = std::get_if<MeshLight>(&light);
     if (mesh && !mesh->is_uniform() && !is_black(sample.radiance)) {
         const Emitter& emitter = data_->emitter_of_light[choice.index];
-        const SurfacePoint on_light =
-            make_surface_point(*data_, emitter.instance, emitter.geometry, sample.triangle, sample.barycentric);
+        const SurfacePoint on_light = make_surface_point(*data_, emitter.instance, emitter.geometry, sample.triangle,
+                                                         sample.barycentric, kAnyTime);
         sample.radiance = emission(on_light, -sample.wi) *
                           evaluate_opacity(*data_, emitter.geometry, sample.triangle, sample.barycentric);
     }
@@ -237,6 +241,18 @@ float World::environment_pdf_solid_angle(const Vec3f& direction) const {
            selector_.probability(data_->environment);
 }
 
+Ray World::generate_ray(Vec2f film, Vec2f lens, float time) const {
+    Ray ray;
+    if (data_->camera_motion.empty()) {
+        ray = etendue::generate_ray(data_->camera, film, lens);
+    } else {
+        const Mat4f to_world = transform_at(data_->camera_motion, time);
+        ray = etendue::generate_ray(with_pose(data_->camera, CameraPose::from_matrix(to_world)), film, lens);
+    }
+    ray.time = time;
+    return ray;
+}
+
 float World::bounding_radius() const {
     return radius_of(data_->bounds);
 }
@@ -248,6 +264,8 @@ WorldStatistics World::statistics() const {
         s.geometry_bytes += vector_bytes(g.positions) + vector_bytes(g.normals) + vector_bytes(g.tangents) +
                             vector_bytes(g.uv0) + vector_bytes(g.uv1) + vector_bytes(g.colors) +
                             vector_bytes(g.triangles);
+        for (const VertexStep& step : g.motion)
+            s.geometry_bytes += vector_bytes(step.positions) + vector_bytes(step.normals);
     }
     for (const Instance& instance : data_->instances)
         for (std::uint32_t g = 0; g < instance.geometry_count; ++g)

@@ -28,9 +28,40 @@ using NodePoses = std::map<int, NodePose>;
 [[nodiscard]] const GltfAnimation* find_animation(const GltfDocument& document, const RenderSettings& settings,
                                                   ProblemList& problems);
 
-/// The poses at `seconds`: before the first key as at the first, after the last as at the last, between by the
-/// sampler's interpolation (glTF 2.0 specification, appendix C). Channels that cannot be read are errors.
-[[nodiscard]] NodePoses sample_animation(const GltfDocument& document, const GltfAnimation& animation, double seconds,
-                                         AccessorReader& accessors, ProblemList& problems);
+/// The keys of one sampler.
+struct AnimationKeys {
+    std::vector<float> times;   ///< seconds, strictly increasing
+    std::vector<float> values;  ///< `width` numbers a key; three times as many for cubic splines
+    std::size_t width = 0;
+    Interpolation interpolation = Interpolation::Linear;
+
+    [[nodiscard]] bool is_cubic() const { return interpolation == Interpolation::CubicSpline; }
+    /// Part 0 is a cubic key's in-tangent, 1 the value, 2 the out-tangent.
+    [[nodiscard]] double number(std::size_t key, std::size_t part, std::size_t component) const {
+        const std::size_t row = is_cubic() ? 3 * key + part : key;
+        return static_cast<double>(values[row * width + component]);
+    }
+};
+
+/// An animation, read once and posed at any moment.
+class AnimationSampler {
+  public:
+    /// Channels that cannot be read are errors, those whose target is not known warnings.
+    AnimationSampler(const GltfDocument& document, const GltfAnimation& animation, AccessorReader& accessors,
+                     ProblemList& problems);
+
+    /// The poses at `seconds`: before the first key as at the first, after the last as at the last, between by the
+    /// sampler's interpolation (glTF 2.0 specification, appendix C).
+    [[nodiscard]] NodePoses poses(double seconds) const;
+
+  private:
+    enum class Target { Translation, Rotation, Scale, Weights };
+    struct Channel {
+        int node;
+        Target target;
+        AnimationKeys keys;
+    };
+    std::vector<Channel> channels_;
+};
 
 }  // namespace etendue

@@ -40,16 +40,16 @@ void GltfLoader::load(const std::filesystem::path& file, const RenderSettings& s
     read_materials(document, textures, scene, problems);
     const std::vector<MeshDeformation> deformations = read_meshes(document, accessors, scene, problems);
     for (const GltfAnimation& animation : document.animations) scene.animations.push_back(animation.name);
-    NodePoses poses;
-    if (const std::optional<double> seconds = settings.shown_time()) {
+    std::optional<AnimationSampler> sampler;
+    if (settings.shown_time()) {
         if (const GltfAnimation* animation = find_animation(document, settings, problems))
-            poses = sample_animation(document, *animation, *seconds, accessors, problems);
+            sampler.emplace(document, *animation, accessors, problems);
     } else if (!document.animations.empty()) {
         problems.note(document.at("/animations"),
                       "the scene is shown at rest; --time-code SECONDS shows a moment of "
                       "its animation");
     }
-    read_nodes(document, accessors, deformations, poses, scene, problems);
+    read_nodes(document, accessors, deformations, sampler ? &*sampler : nullptr, settings, scene, problems);
 }
 
 }  // namespace etendue

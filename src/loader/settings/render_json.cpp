@@ -300,6 +300,10 @@ void read_document(const Json& value, ProblemList& problems, RenderJson& out) {
     if (double seconds = 0.0; object.number("time_code", kAnyNumber, seconds)) settings.time_code = seconds;
     object.text("animation", settings.animation);
     read_frames(object, settings);
+    std::array<float, 2> shutter{};
+    if (object.numbers("shutter", kAnyNumber, shutter)) {
+        settings.shutter = {static_cast<double>(shutter[0]), static_cast<double>(shutter[1])};
+    }
     object.choice("sampler", kSamplers, settings.sampler);
     object.integer("spp", 1, kMaxSpp, settings.spp);
     object.integer("seed", 0, kMaxSeed, settings.seed);
