@@ -1,4 +1,5 @@
 #include "world/compile_parts.h"
+#include "world/tangent_space.h"
 
 #include <cmath>
 #include <span>
@@ -23,6 +24,37 @@ Geometry take_geometry(PrimitiveDesc& primitive) {
     for (VertexStep& step : geometry.motion) step.positions.reserve(step.positions.size() + 1);
     geometry.material = static_cast<std::uint32_t>(primitive.material.index);
     return geometry;
+}
+
+/// Copies of the elements of `values` that `source` names.
+template <typename T>
+void gather(std::vector<T>& values, const std::vector<std::uint32_t>& source) {
+    if (values.empty()) return;
+    std::vector<T> gathered;
+    gathered.reserve(source.size() + 1);  // one more, as for positions
+    for (const std::uint32_t i : source) gathered.push_back(values[i]);
+    values = std::move(gathered);
+}
+
+/// Tangents along the image of `slot` as it lies on the mesh, its transform included.
+void add_tangents(Geometry& geometry, const TextureSlot& slot) {
+    std::vector<Vec2f> uv = slot.texcoord == 1 ? geometry.uv1 : geometry.uv0;
+    if (uv.empty() || geometry.normals.empty()) return;
+    for (Vec2f& c : uv)
+        c = {slot.row0.x * c.x + slot.row0.y * c.y + slot.row0.z, slot.row1.x * c.x + slot.row1.y * c.y + slot.row1.z};
+    TangentVertices vertices = generate_tangents(geometry.positions, geometry.normals, uv, geometry.triangles);
+    geometry.tangents = std::move(vertices.tangents);
+    geometry.triangles = std::move(vertices.triangles);
+    if (vertices.source.size() == geometry.positions.size()) return;
+    gather(geometry.positions, vertices.source);
+    gather(geometry.normals, vertices.source);
+    gather(geometry.uv0, vertices.source);
+    gather(geometry.uv1, vertices.source);
+    gather(geometry.colors, vertices.source);
+    for (VertexStep& step : geometry.motion) {
+        gather(step.positions, vertices.source);
+        gather(step.normals, vertices.source);
+    }
 }
 
 bool mirrors(const Mat4f& m) {
@@ -93,6 +125,12 @@ void compile_geometry(SceneDesc& scene, const ThreadPool& threads, WorldData& da
         if (uses[m] == 0) continue;
         for (PrimitiveDesc& primitive : scene.meshes[m].primitives) data.geometries.push_back(take_geometry(primitive));
     }
+
+    threads.parallel_for(data.geometries.size(), [&](std::size_t g, int) {
+        Geometry& geometry = data.geometries[g];
+        const TextureSlot* texture = data.materials[geometry.material].tangent_texture();
+        if (texture != nullptr && geometry.tangents.empty()) add_tangents(geometry, *texture);
+    });
 
     std::uint32_t light_slots = 0;
     for (const InstanceDesc& desc : scene.instances) {

@@ -42,7 +42,7 @@ void compile_materials(const SceneDesc& scene, TextureCompiler& textures, WorldD
 [[nodiscard]] std::optional<Filling> compile_filling(const MaterialDesc& desc, const ColorMatrix& from_rec709);
 
 /// Moves the meshes of `scene` into `data`: bakes those that are placed once and stay
-/// there, keeps the others for instancing.
+/// there, keeps the others for instancing. Needs the materials in `data`, which say what needs tangents.
 void compile_geometry(SceneDesc& scene, const ThreadPool& threads, WorldData& data);
 
 /// Numbers the bodies by precedence. Needs materials and geometry in `data`.

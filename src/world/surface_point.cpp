@@ -37,32 +37,6 @@ MovedTriangle move_triangle(const Geometry& geometry, const std::array<std::uint
     return moved;
 }
 
-/// Tangent along increasing u of the texture as it lies on the triangle, its transform included, mesh space; zero if
-/// the coordinates are degenerate.
-Vec3f tangent_from_uv(const Geometry& geometry, const Vec3f& e1, const Vec3f& e2, const TextureSlot& slot,
-                      const std::array<std::uint32_t, 3>& triangle, float& bitangent_sign) {
-    bitangent_sign = 1.0f;
-    const std::vector<Vec2f>& uv = slot.texcoord == 1 ? geometry.uv1 : geometry.uv0;
-    if (uv.empty()) return Vec3f(0.0f);
-    const auto transformed = [&](const Vec2f& d) {
-        return Vec2f(slot.row0.x * d.x + slot.row0.y * d.y, slot.row1.x * d.x + slot.row1.y * d.y);
-    };
-    const Vec2f d1 = transformed(uv[triangle[1]] - uv[triangle[0]]);
-    const Vec2f d2 = transformed(uv[triangle[2]] - uv[triangle[0]]);
-    const float determinant = d1.x * d2.y - d1.y * d2.x;
-    if (std::abs(determinant) < 1e-20f) return Vec3f(0.0f);
-    // v grows downwards in glTF's images while tangent space has +Y up, hence the sign.
-    bitangent_sign = determinant < 0.0f ? 1.0f : -1.0f;
-    return (e1 * d2.y - e2 * d1.y) * (1.0f / determinant);
-}
-
-/// Whose texture coordinates decide on the tangents where the mesh has none.
-const TextureSlot& tangent_slot(const Material& material) {
-    return material.normal_texture.valid()        ? material.normal_texture
-           : material.coat_normal_texture.valid() ? material.coat_normal_texture
-                                                  : material.anisotropy_texture;
-}
-
 /// What the material's maps make of the interpolated frame. The base's relief does not show in a coat over it.
 void apply_relief(const WorldData& data, const Material& material, float bitangent_sign, SurfacePoint& point) {
     const Frame interpolated = point.shading;
@@ -117,8 +91,6 @@ SurfacePoint make_point(const WorldData& data, std::uint32_t instance_index, std
         const Vec4f t = interpolate(geometry.tangents, triangle, barycentric);
         tangent = {t.x, t.y, t.z};
         bitangent_sign = geometry.tangents[triangle[0]].w;
-    } else if (material.needs_tangents()) {
-        tangent = tangent_from_uv(geometry, e1, e2, tangent_slot(material), triangle, bitangent_sign);
     }
 
     const bool moves = Moves && instance.motion != kNone;
