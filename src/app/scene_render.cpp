@@ -273,6 +273,7 @@ SceneRenderResult render_scene(PreparedScene prepared, const SceneRenderRequest&
     const WorldStatistics world_statistics = world.statistics();
     statistics.build = build_timer.elapsed();
     statistics.bvh_bytes = world_statistics.bvh_bytes;
+    statistics.bvh_build_seconds = world_statistics.bvh_build_seconds;
     statistics.triangles = world_statistics.triangles;
     statistics.instances = world_statistics.instances;
     statistics.lights = world_statistics.lights;

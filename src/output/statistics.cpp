@@ -49,6 +49,8 @@ std::string to_json(const RenderStatistics& s) {
                        {"write", to_object(s.write)}};
     json["peak_memory_bytes"] = s.peak_memory_bytes;
     json["bvh_bytes"] = s.bvh_bytes;
+    json["bvh_build_seconds"] = s.bvh_build_seconds;
+    json["bvh_triangles_per_second"] = per_second(s.triangles, s.bvh_build_seconds);
     json["triangles"] = s.triangles;
     json["instances"] = s.instances;
     json["lights"] = s.lights;

@@ -49,6 +49,7 @@ struct RenderStatistics {
 
     std::uint64_t peak_memory_bytes = 0;  ///< of the process
     std::uint64_t bvh_bytes = 0;
+    double bvh_build_seconds = 0.0;
     std::uint64_t triangles = 0;  ///< stored ones; a mesh counts once however often it is placed
     std::uint64_t instances = 0;
     std::uint64_t lights = 0;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <stdexcept>
 #include <string>
@@ -100,6 +101,7 @@ EmbreeScene::EmbreeScene(std::span<const Geometry> geometries, std::span<const I
     has_motion_ =
         !motions.empty() || std::ranges::any_of(geometries, [](const Geometry& g) { return !g.motion.empty(); });
     std::atomic<std::size_t> memory{0};
+    const auto start = std::chrono::steady_clock::now();
     threads.execute([&] {
         // Embree's own threads would come on top of the pool's; with start_threads=0 it uses the arena it is called
         // from.
@@ -131,6 +133,7 @@ EmbreeScene::EmbreeScene(std::span<const Geometry> geometries, std::span<const I
     });
     rtcSetDeviceMemoryMonitorFunction(device_, nullptr, nullptr);
     bytes_ = memory.load();
+    build_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const RTCError error = rtcGetDeviceError(device_);
     if (error != RTC_ERROR_NONE)
         throw IoError("Embree could not build the scene (error " + std::to_string(static_cast<int>(error)) +

@@ -39,6 +39,8 @@ class EmbreeScene {
     void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, QueryForm form) const;
 
     [[nodiscard]] std::size_t bytes() const { return bytes_; }
+    /// Seconds that all BVHs took to build.
+    [[nodiscard]] double build_seconds() const { return build_seconds_; }
     /// True if anything moves while the shutter is open.
     [[nodiscard]] bool has_motion() const { return has_motion_; }
 
@@ -76,6 +78,7 @@ class EmbreeScene {
     OpacityFunction opacity_ = nullptr;
     const void* world_ = nullptr;
     std::size_t bytes_ = 0;
+    double build_seconds_ = 0.0;
     bool has_motion_ = false;
 };
 

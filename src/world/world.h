@@ -62,6 +62,7 @@ struct WorldStatistics {
     std::size_t instances = 0;
     std::size_t lights = 0;
     std::size_t bvh_bytes = 0;
+    double bvh_build_seconds = 0.0;
     std::size_t geometry_bytes = 0;
     std::size_t texture_bytes = 0;
 };

@@ -29,6 +29,7 @@ RenderStatistics make_statistics() {
     s.write = {0.125, 0.0625};
     s.peak_memory_bytes = 5'000'000'000;
     s.bvh_bytes = 1234;
+    s.bvh_build_seconds = 0.5;
     s.triangles = 36;
     s.instances = 1;
     s.lights = 2;
@@ -50,7 +51,8 @@ TEST(StatisticsJson, HasEveryField) {
         "rays": {"camera": 100, "bounce": 250, "shadow": 50, "total": 400}, "rays_per_second": 200.0,
         "seconds": {"load": {"wall": 0.25, "cpu": 0.5}, "build": {"wall": 1.0, "cpu": 1.5},
                     "render": {"wall": 2.0, "cpu": 3.75}, "write": {"wall": 0.125, "cpu": 0.0625}},
-        "peak_memory_bytes": 5000000000, "bvh_bytes": 1234, "triangles": 36, "instances": 1, "lights": 2,
+        "peak_memory_bytes": 5000000000, "bvh_bytes": 1234, "bvh_build_seconds": 0.5,
+        "bvh_triangles_per_second": 72.0, "triangles": 36, "instances": 1, "lights": 2,
         "dropped_samples": {"count": 3, "first": [{"x": 1, "y": 2, "sample": 3}, {"x": 4, "y": 5, "sample": 6}]},
         "threads": 2, "isa": "avx2", "libraries": {"embree": "3.13.5", "oiio": "2.4.7"}})");
     for (const auto& [key, value] : expected.items()) {
