@@ -85,6 +85,14 @@ std::optional<AnimationKeys> read_keys(const GltfAnimation& animation, const Glt
     return keys;
 }
 
+/// Numbers in each value of a channel, as the accessor has them: what is pointed to decides whether that is right.
+int output_components(const GltfDocument& document, const GltfAnimation& animation,
+                      const GltfAnimation::Channel& channel) {
+    if (channel.sampler >= animation.samplers.size()) return 1;
+    const auto accessor = static_cast<std::size_t>(animation.samplers[channel.sampler].output);
+    return std::clamp(component_count(document.model.accessors[accessor]), 1, 4);
+}
+
 }  // namespace
 
 const GltfAnimation* find_animation(const GltfDocument& document, const RenderSettings& settings,
@@ -118,8 +126,14 @@ AnimationSampler::AnimationSampler(const GltfDocument& document, const GltfAnima
                                                         {"weights", Target::Weights}};
     for (std::size_t c = 0; c < animation.channels.size(); ++c) {
         const GltfAnimation::Channel& channel = animation.channels[c];
-        if (channel.node < 0) continue;
         const SourceLocation where = document.at(fmt::format("{}/channels/{}", animation.pointer, c));
+        if (!channel.pointer.empty()) {
+            const int components = output_components(document, animation, channel);
+            std::optional<AnimationKeys> keys = read_keys(animation, channel, components, accessors, where, problems);
+            if (keys) pointer_channels_.push_back({channel.pointer, where, std::move(*keys)});
+            continue;
+        }
+        if (channel.node < 0) continue;
         const auto target = kTargets.find(channel.path);
         if (target == kTargets.end()) {
             problems.warning(where, fmt::format("'{}' cannot be animated; the channel is ignored", channel.path));
@@ -129,6 +143,13 @@ AnimationSampler::AnimationSampler(const GltfDocument& document, const GltfAnima
         std::optional<AnimationKeys> keys = read_keys(animation, channel, components, accessors, where, problems);
         if (keys) channels_.push_back({channel.node, target->second, std::move(*keys)});
     }
+}
+
+std::vector<PointerValue> AnimationSampler::pointer_values(double seconds) const {
+    std::vector<PointerValue> values;
+    for (const PointerChannel& channel : pointer_channels_)
+        values.push_back({channel.pointer, evaluate(channel.keys, seconds, false), channel.where});
+    return values;
 }
 
 NodePoses AnimationSampler::poses(double seconds) const {

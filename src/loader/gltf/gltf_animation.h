@@ -43,6 +43,13 @@ struct AnimationKeys {
     }
 };
 
+/// What an animation says of something that is no node, at one moment.
+struct PointerValue {
+    std::string pointer;  ///< JSON pointer to it
+    std::vector<double> numbers;
+    SourceLocation where;  ///< the channel
+};
+
 /// An animation, read once and posed at any moment.
 class AnimationSampler {
   public:
@@ -53,6 +60,8 @@ class AnimationSampler {
     /// The poses at `seconds`: before the first key as at the first, after the last as at the last, between by the
     /// sampler's interpolation (glTF 2.0 specification, appendix C).
     [[nodiscard]] NodePoses poses(double seconds) const;
+    /// The same for what else is animated (KHR_animation_pointer).
+    [[nodiscard]] std::vector<PointerValue> pointer_values(double seconds) const;
 
   private:
     enum class Target { Translation, Rotation, Scale, Weights };
@@ -61,7 +70,13 @@ class AnimationSampler {
         Target target;
         AnimationKeys keys;
     };
+    struct PointerChannel {
+        std::string pointer;
+        SourceLocation where;
+        AnimationKeys keys;
+    };
     std::vector<Channel> channels_;
+    std::vector<PointerChannel> pointer_channels_;
 };
 
 }  // namespace etendue

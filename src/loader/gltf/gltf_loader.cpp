@@ -2,6 +2,7 @@
 
 #include "loader/gltf/gltf_accessor.h"
 #include "loader/gltf/gltf_animation.h"
+#include "loader/gltf/gltf_animation_pointer.h"
 #include "loader/gltf/gltf_document.h"
 #include "loader/gltf/gltf_material.h"
 #include "loader/gltf/gltf_mesh.h"
@@ -31,14 +32,11 @@ bool GltfLoader::can_load(const std::filesystem::path& file) const {
 
 void GltfLoader::load(const std::filesystem::path& file, const RenderSettings& settings, SceneDesc& scene,
                       ProblemList& problems) const {
-    const GltfDocument document = read_gltf_document(file, problems);
+    GltfDocument document = read_gltf_document(file, problems);
     scene.extensions_used = document.extensions_used;
     scene.extensions_ignored = document.extensions_ignored;
     scene.inputs.insert(scene.inputs.end(), document.inputs.begin(), document.inputs.end());
     AccessorReader accessors(document, problems);
-    TextureReader textures(document, accessors, scene, problems);
-    read_materials(document, textures, scene, problems);
-    const std::vector<MeshDeformation> deformations = read_meshes(document, accessors, scene, problems);
     for (const GltfAnimation& animation : document.animations) scene.animations.push_back(animation.name);
     std::optional<AnimationSampler> sampler;
     if (settings.shown_time()) {
@@ -49,6 +47,11 @@ void GltfLoader::load(const std::filesystem::path& file, const RenderSettings& s
                       "the scene is shown at rest; --time-code SECONDS shows a moment of "
                       "its animation");
     }
+    if (sampler)
+        apply_pointers(sampler->pointer_values(*settings.shown_time() + settings.shutter.middle()), document, problems);
+    TextureReader textures(document, accessors, scene, problems);
+    read_materials(document, textures, scene, problems);
+    const std::vector<MeshDeformation> deformations = read_meshes(document, accessors, scene, problems);
     read_nodes(document, accessors, deformations, sampler ? &*sampler : nullptr, settings, scene, problems);
 }
 
