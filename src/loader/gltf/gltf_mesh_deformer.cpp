@@ -39,7 +39,7 @@ MeshDeformer::Result MeshDeformer::deform(int node_index, const SourceLocation& 
     const tinygltf::Node& node = document_.model.nodes[static_cast<std::size_t>(node_index)];
     const auto index = static_cast<std::size_t>(node.mesh);
     const MeshDeformation& deformation = deformations_[index];
-    const std::vector<double>& weights = weights_of(node_index, nodes_.pose(node_index));
+    const std::vector<double>& weights = weights_of(node_index, nodes_.pose(node_index).weights);
     const bool weights_change = nodes_.weights_change(node_index);
     const bool is_morphed =
         (weights_change || std::ranges::any_of(weights, [](double w) { return w != 0.0; })) &&
@@ -79,9 +79,9 @@ MeshDeformer::Result MeshDeformer::deform(int node_index, const SourceLocation& 
     return {{static_cast<std::int32_t>(scene_.meshes.size()) - 1}, is_skinned};
 }
 
-const std::vector<double>& MeshDeformer::weights_of(int node_index, const NodePose& pose) const {
+const std::vector<double>& MeshDeformer::weights_of(int node_index, const std::vector<double>& animated) const {
     const tinygltf::Node& node = document_.model.nodes[static_cast<std::size_t>(node_index)];
-    if (!pose.weights.empty()) return pose.weights;
+    if (!animated.empty()) return animated;
     return !node.weights.empty() ? node.weights : deformations_[static_cast<std::size_t>(node.mesh)].default_weights;
 }
 
@@ -106,7 +106,7 @@ std::vector<VertexStep> MeshDeformer::move(const PrimitiveDesc& primitive, const
         PrimitiveDesc vertices;
         vertices.positions = primitive.positions;
         vertices.normals = primitive.normals;
-        morph(vertices, deformation, weights_of(node, nodes_.pose_at(node, moment)));
+        morph(vertices, deformation, weights_of(node, nodes_.weights_at(node, moment)));
         for (std::size_t j = 0; j < joints.size(); ++j)
             joints[j] = binding->inverse_bind[j] * nodes_.to_world_at(binding->joints[j], moment);
         if (binding) skin(vertices, deformation, joints);

@@ -42,7 +42,7 @@ class MeshDeformer {
 
     /// Nothing, with an error, if the skin cannot be had.
     [[nodiscard]] std::optional<Binding> bind(const GltfSkin& skin, const SourceLocation& where);
-    [[nodiscard]] const std::vector<double>& weights_of(int node, const NodePose& pose) const;
+    [[nodiscard]] const std::vector<double>& weights_of(int node, const std::vector<double>& animated) const;
     /// The vertices of `primitive` through the time that the shutter is open; empty if that is more than may be
     /// decoded.
     [[nodiscard]] std::vector<VertexStep> move(const PrimitiveDesc& primitive, const PrimitiveDeformation& deformation,

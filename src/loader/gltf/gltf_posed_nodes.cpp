@@ -73,6 +73,12 @@ std::size_t stride_for_box(std::span<const Mat4d> steps, const Bounds& bounds) {
     return coarsest_stride(steps.size() - 1, kMotionTolerance * static_cast<double>(length(swept.size())), distance);
 }
 
+std::size_t bytes_of(const NodePoses& poses) {
+    std::size_t bytes = poses.size() * sizeof(NodePoses::value_type);
+    for (const auto& [node, pose] : poses) bytes += pose.weights.size() * sizeof(double);
+    return bytes;
+}
+
 /// A box as large as what a node without a mesh may carry.
 Bounds unit_box() {
     Bounds bounds;
@@ -167,7 +173,11 @@ void PosedNodes::pose_steps(std::span<const PlacedNode> starts, const AnimationS
             const double t = static_cast<double>(s) / static_cast<double>(segments);
             step_poses_.push_back(animation.poses(open + (close - open) * t));
             at_step = walk(starts, step_poses_.back(), said);
-            if (!accessors.allocate(at_step.size(), sizeof(Mat4d), document_.at("/animations"))) {
+            // Of the poses themselves only weights are asked for later.
+            std::erase_if(step_poses_.back(), [](const auto& pose) { return pose.second.weights.empty(); });
+            const SourceLocation where = document_.at("/animations");
+            if (!accessors.allocate(at_step.size(), sizeof(Mat4d), where) ||
+                !accessors.allocate(bytes_of(step_poses_.back()), 1, where)) {
                 step_poses_.clear();
                 std::ranges::fill(motion_of_, -1);
                 return;

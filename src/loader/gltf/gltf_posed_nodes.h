@@ -52,8 +52,9 @@ class PosedNodes {
         const std::span<const Mat4d> steps = motion(node);
         return steps.empty() ? *to_world(node) : steps[step];
     }
-    [[nodiscard]] const NodePose& pose_at(int node, std::size_t step) const {
-        return step_poses_.empty() ? pose(node) : pose_of(step_poses_[step], node);
+    /// What the animation says of the node's weights of morph targets at one of these times; empty if nothing.
+    [[nodiscard]] const std::vector<double>& weights_at(int node, std::size_t step) const {
+        return (step_poses_.empty() ? pose(node) : pose_of(step_poses_[step], node)).weights;
     }
     /// True if the node's weights of morph targets change while the shutter is open.
     [[nodiscard]] bool weights_change(int node) const;
@@ -72,7 +73,7 @@ class PosedNodes {
     std::vector<PlacedNode> placed_;
     std::vector<std::optional<Mat4d>> to_world_;  ///< by node
     NodePoses poses_;
-    std::vector<NodePoses> step_poses_;
+    std::vector<NodePoses> step_poses_;       ///< of nodes with weights
     std::vector<std::vector<Mat4d>> motion_;  ///< of the nodes that move
     std::vector<int> motion_of_;              ///< by node: index into motion_, -1 for those that do not
 };

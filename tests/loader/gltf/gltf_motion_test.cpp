@@ -122,6 +122,17 @@ TEST(GltfMotion, MorphTargetsMoveVertices) {
     EXPECT_TRUE(first_primitive(builder.load(shutter(3.0, 0.0, 1.0))).motion.empty()) << "after the last key";
 }
 
+/// A few lines of JSON can stand for any number of zeros: poses of all of them must not be kept for every step.
+TEST(GltfMotion, PosesAreBounded) {
+    GltfBuilder builder;
+    builder.add_triangle()["targets"] = {{{"POSITION", builder.floats({0, 0, 0, 0, 0, 0, 0, 0, 2}, 3)}}};
+    const auto zeros = builder.json["accessors"].size();
+    builder.json["accessors"].push_back({{"componentType", 5126}, {"count", 10'000'000}, {"type", "SCALAR"}});
+    builder.json["animations"] = {{{"samplers", {{{"input", builder.floats({0}, 1)}, {"output", zeros}}}},
+                                   {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}}}}}};
+    EXPECT_TRUE(builder.load(shutter(0.0, 0.0, 1.0)).problems.has_errors());
+}
+
 TEST(GltfMotion, SkinsMoveVerticesWithTheirJoints) {
     GltfBuilder builder;
     nlohmann::json& primitive = builder.add_triangle();
