@@ -21,6 +21,9 @@ float opacity_callback(const void* data, std::uint32_t geometry, std::uint32_t t
     return evaluate_opacity(*static_cast<const WorldData*>(data), geometry, triangle, barycentric);
 }
 
+/// Of the time that the shutter is open.
+constexpr float kMiddle = 0.5f;
+
 float radius_of(const Bounds& bounds) {
     const float radius = 0.5f * length(bounds.size());
     return radius > 0.0f ? radius : 1.0f;
@@ -82,7 +85,7 @@ World::World(WorldData data)
     has_delta_lights_ = std::any_of(data_->lights.begin(), data_->lights.end(), is_delta_light);
     has_scattering_bodies_ = std::any_of(data_->fillings.begin(), data_->fillings.end(),
                                          [](const Filling& f) { return f.medium.scatters(); });
-    if (has_bodies()) camera_interior_ = interior_at(generate_ray(data_->camera, {0.5f, 0.5f}, {0.5f, 0.5f}).origin);
+    if (has_bodies()) camera_interior_ = interior_at(generate_ray({0.5f, 0.5f}, {0.5f, 0.5f}, kMiddle).origin);
     has_lights_in_media_ = has_scattering_bodies_ && any_light_in_media();
     has_specular_surfaces_ = std::any_of(data_->geometries.begin(), data_->geometries.end(),
                                          [&](const Geometry& g) { return is_specular(data_->materials[g.material]); });
@@ -183,6 +186,7 @@ Interior World::interior_at(const Vec3f& point) const {
     Ray ray;
     ray.origin = point;
     ray.direction = {0.0f, 1.0f, 0.0f};
+    ray.time = kMiddle;
     for (int i = 0; i < kMostBoundaries; ++i) {
         Hit hit;
         data_->bvh->intersect({&ray, 1}, {&hit, 1}, Coherence::Incoherent, QueryForm::Single);

@@ -152,7 +152,7 @@ class World {
     [[nodiscard]] Crossing crossing(const SurfacePoint& point, const Interior& current) const;
     /// What fills the space, null in vacuum.
     [[nodiscard]] const HomogeneousMedium* medium(const Interior& interior) const;
-    /// The bodies that `point` is in, found by a ray through all that lies above it.
+    /// The bodies that `point` is in in the middle of the shutter, found by a ray through all that lies above it.
     [[nodiscard]] Interior interior_at(const Vec3f& point) const;
     /// Those that the camera is in.
     [[nodiscard]] const Interior& camera_interior() const { return camera_interior_; }
