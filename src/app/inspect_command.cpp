@@ -52,6 +52,8 @@ nlohmann::json summarize(const SceneDesc& s) {
             {"lights", names(s.lights)},
             {"cameras", names(s.cameras)},
             {"variants", s.variants},
+            {"light_units", light_units_name(s.settings.light_units)},
+            {"ies_profiles", names(s.ies_profiles)},
             {"environment", s.environment.enabled},
             {"animations", s.animations},
             {"extensions_used", s.extensions_used},

@@ -144,6 +144,8 @@ void report_dropped(const RenderCounters& counters, const SceneRenderRequest& re
         command += fmt::format(" --shutter {}:{}", settings.shutter.open, settings.shutter.close);
     if (!settings.animation.empty()) command += " --animation " + quoted(settings.animation);
     if (!settings.variant.empty()) command += " --variant " + quoted(settings.variant);
+    if (request.overrides.light_units)
+        command += fmt::format(" --light-units {}", light_units_name(settings.light_units));
     if (request.overrides.environment) command += " --environment " + quoted(*request.overrides.environment);
     log_warning(
         "warning: {} samples were not finite and were dropped; the first is sample {} of pixel ({}, {}). To see it "
@@ -255,6 +257,7 @@ SceneRenderResult render_scene(PreparedScene prepared, const SceneRenderRequest&
     statistics.frame = scene.settings.frame;
     statistics.time_code = scene.settings.shown_time();
     statistics.settings_hash = hash;
+    statistics.light_units = light_units_name(scene.settings.light_units);
     statistics.width = options.window.width();
     statistics.height = options.window.height();
     statistics.full_width = options.full_width;

@@ -19,6 +19,8 @@ namespace {
 const std::map<std::string, Quality> kQualities{
     {"draft", Quality::Draft}, {"preview", Quality::Preview}, {"final", Quality::Final}};
 
+const std::map<std::string, LightUnits> kLightUnits(kLightUnitNames.begin(), kLightUnitNames.end());
+
 void apply_quality(Quality quality, RenderSettings& settings) {
     if (quality == Quality::Final) return;
     settings.spp = std::max(1, settings.spp / (quality == Quality::Draft ? 16 : 4));
@@ -120,6 +122,12 @@ void SettingsOverrides::add_options(CLI::App& command) {
     command
         .add_option("--max-depth", max_depth, "Most edges of a path from camera to light; 1 is emission seen directly")
         ->check(CLI::Range(1, 1 << 20));
+    command
+        .add_option_function<std::string>(
+            "--light-units", [this](const std::string& text) { light_units = kLightUnits.at(text); },
+            "photometric: candela, lux and emission one to one, the image is in cd/m2 (default); radiometric: emission "
+            "is in watts, candela and lux are divided by 683.002 lm/W")
+        ->check(CLI::IsMember(kLightUnits));
     command.add_option("--environment", environment, "Environment image (EXR or HDR), in place of the scene's")
         ->check(CLI::ExistingFile);
     command.add_option("--exposure", exposure, "Exposure of the preview image, stops")->check(CLI::Range(-64.0, 64.0));
@@ -148,6 +156,7 @@ void SettingsOverrides::apply(SceneDesc& scene) const {
     set(camera, settings.camera, "/camera", "--camera");
     set(variant, settings.variant, "/variant", "--variant");
     set(seed, settings.seed, "/seed", "--seed");
+    set(light_units, settings.light_units, "/light_units", "--light-units");
     set(time_seconds, settings.time_limit, "/time", "--time");
     set(exposure, settings.color.exposure, "/color/exposure", "--exposure");
     set(view, settings.color.view, "/color/view", "--view");

@@ -52,6 +52,13 @@ Distribution2D make_distribution(const ImageF& image) {
 
 }  // namespace
 
+Vec3f latitude_longitude_direction(Vec2f position) {
+    const float phi = (position.x - 0.5f) * 2.0f * kPi;
+    const float theta = position.y * kPi;
+    const float sin_theta = std::sin(theta);
+    return {sin_theta * std::sin(phi), std::cos(theta), -sin_theta * std::cos(phi)};
+}
+
 LightSample ConstantEnvironment::sample(const Vec3f&, Vec2f u) const {
     LightSample sample;
     sample.wi = square_to_sphere(u);
@@ -88,12 +95,8 @@ Vec2f ImageEnvironment::to_image(const Vec3f& direction) const {
 }
 
 Vec3f ImageEnvironment::from_image(Vec2f position) const {
-    const float phi = (position.x - 0.5f) * 2.0f * kPi;
-    const float theta = position.y * kPi;
-    const float sin_theta = std::sin(theta);
-    const float x = sin_theta * std::sin(phi);
-    const float z = -sin_theta * std::cos(phi);
-    return {x * cos_rotation_ + z * sin_rotation_, std::cos(theta), -x * sin_rotation_ + z * cos_rotation_};
+    const Vec3f d = latitude_longitude_direction(position);
+    return {d.x * cos_rotation_ + d.z * sin_rotation_, d.y, -d.x * sin_rotation_ + d.z * cos_rotation_};
 }
 
 Rgb ImageEnvironment::radiance(const Vec3f& direction) const {

@@ -12,6 +12,9 @@
 
 namespace etendue {
 
+/// The direction, before any rotation, at `position` in [0, 1]² of an image, v down from its top row.
+[[nodiscard]] Vec3f latitude_longitude_direction(Vec2f position);
+
 /// The same radiance from everywhere.
 struct ConstantEnvironment {
     Rgb value{1.0f};

@@ -1,11 +1,12 @@
 // All lights, and the choice between them.
 //
 // To add another: a struct with `sample(point, u)` and `power(scene_radius)`, its place in the variant, one case in
-// world/compile_lights.cpp, and its row in tests/light.
+// world/compile_lights.cpp, one in is_delta_light() of world/world.cpp if it is a delta, and its row in tests/light.
 #pragma once
 
 #include "light/environment_light.h"
 #include "light/mesh_light.h"
+#include "light/profile_light.h"
 #include "light/punctual_light.h"
 #include "sampling/alias_table.h"
 
@@ -16,7 +17,8 @@
 
 namespace etendue {
 
-using Light = std::variant<PointLight, SpotLight, DirectionalLight, MeshLight, ConstantEnvironment, ImageEnvironment>;
+using Light = std::variant<PointLight, SpotLight, ProfileLight, DirectionalLight, MeshLight, ConstantEnvironment,
+                           ImageEnvironment>;
 
 /// Light at `point` from a direction chosen with `u`; of a mesh, `u_triangle` chooses the triangle. Both in [0, 1)².
 [[nodiscard]] LightSample sample_light(const Light& light, const Vec3f& point, Vec2f u_triangle, Vec2f u);

@@ -33,6 +33,7 @@ std::string to_json(const RenderStatistics& s) {
     json["frame"] = s.frame ? Json(*s.frame) : Json();
     json["time_code"] = s.time_code ? Json(*s.time_code) : Json();
     json["settings_hash"] = s.settings_hash;
+    json["light_units"] = s.light_units;
     json["size"] = {s.width, s.height};
     json["full_size"] = {s.full_width, s.full_height};
     json["complete"] = s.complete;

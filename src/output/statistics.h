@@ -30,7 +30,8 @@ struct RenderStatistics {
     std::optional<int> frame;         ///< of a sequence
     std::optional<double> time_code;  ///< seconds of the animation that is shown
     std::string settings_hash;        ///< equal for equal settings and inputs
-    int width = 0;                    ///< pixels rendered: the crop window's, or the image's
+    std::string light_units;  ///< of lamps: "photometric" (the image is in cd/m²) or "radiometric" (W/(m² sr))
+    int width = 0;            ///< pixels rendered: the crop window's, or the image's
     int height = 0;
     int full_width = 0;  ///< pixels of the whole image
     int full_height = 0;

@@ -201,6 +201,11 @@ void dump_cameras_and_lights(const SceneDesc& scene, Out out) {
                        c.aspect_ratio, c.lens_radius, c.focus_distance, text(c.to_world),
                        text_of_motion(c.motion.size()));
     }
+    for (std::size_t i = 0; i < scene.ies_profiles.size(); ++i) {
+        const IesProfileDesc& p = scene.ies_profiles[i];
+        fmt::format_to(out, "IES profile {} \"{}\": {} x {} directions, peak {:g} cd\n", i, p.name, p.vertical.size(),
+                       p.horizontal.size(), peak_candela(p));
+    }
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         const LightDesc& light = scene.lights[i];
         fmt::format_to(out, "light {} \"{}\": {} colour {} intensity {:g}", i, light.name, text(light.type),
@@ -208,10 +213,15 @@ void dump_cameras_and_lights(const SceneDesc& scene, Out out) {
         if (light.type == LightType::Spot) {
             fmt::format_to(out, " cone {:g} to {:g}", light.inner_cone_angle, light.outer_cone_angle);
         }
+        if (light.profile) fmt::format_to(out, " times IES profile {}", light.profile.index);
         fmt::format_to(out, ", {}\n", text(light.to_world));
     }
     const EnvironmentDesc& e = scene.environment;
     if (!e.enabled) return;
+    if (e.cube)
+        fmt::format_to(out, "environment cube map: images {} {} {} {} {} {}, intensity {:g}, {}\n",
+                       e.cube->faces[0].index, e.cube->faces[1].index, e.cube->faces[2].index, e.cube->faces[3].index,
+                       e.cube->faces[4].index, e.cube->faces[5].index, e.cube->intensity, text(e.cube->to_world));
     fmt::format_to(out, "environment: image \"{}\", colour {} scale {:g} rotation {:g}{}\n",
                    e.image.filename().string(), text(e.color), e.scale, e.rotation,
                    e.visible_to_camera ? "" : ", hidden from the camera");
@@ -226,6 +236,7 @@ void dump_settings(const RenderSettings& s, Out out) {
                    s.film.filter_radius);
     if (s.film.crop) fmt::format_to(out, "crop: {}\n", fmt::join(*s.film.crop, " "));
     fmt::format_to(out, "camera used: \"{}\"\n", s.camera);
+    fmt::format_to(out, "light units: {}\n", light_units_name(s.light_units));
     // Not the sequence that a frame belongs to: it is the same image in a longer one.
     if (s.shown_time()) fmt::format_to(out, "time code {} of animation \"{}\"\n", *s.shown_time(), s.animation);
     if (s.shutter.is_open() || s.shutter.middle() != 0.0)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/error.h"
+#include "scene/light_desc.h"
 
 #include <array>
 #include <cstddef>
@@ -73,6 +74,7 @@ struct RenderSettings {
     Shutter shutter;
     std::optional<int> frame;  ///< which frame of the sequence this is
     std::string animation;     ///< its name; empty for the file's first
+    LightUnits light_units = LightUnits::Photometric;
     FilmSettings film;
     ColorSettings color;
     SourceLocation location;                     ///< of render.json

@@ -30,6 +30,7 @@ struct SceneDesc {
     std::vector<std::string> variants;    ///< names of the sets of materials that the file offers
     std::vector<InstanceDesc> instances;
     std::vector<CameraDesc> cameras;
+    std::vector<IesProfileDesc> ies_profiles;
     std::vector<LightDesc> lights;
     EnvironmentDesc environment;
     RenderSettings settings;

@@ -46,6 +46,24 @@ void validate_variant(const SceneDesc& scene, ProblemList& problems) {
                    fmt::format("there is no material variant '{}'; {}", name, name_hint(name, names)));
 }
 
+bool is_ascending(const std::vector<float>& values) {
+    return std::ranges::adjacent_find(values, [](float a, float b) { return !(a < b); }) == values.end();
+}
+
+void validate_profile(const IesProfileDesc& profile, ProblemList& problems) {
+    const auto& [name, vertical, horizontal, candela, where] = profile;
+    constexpr float kTolerance = 1e-5f;
+    const bool angles = vertical.size() >= 2 && horizontal.size() >= 2 && is_ascending(vertical) &&
+                        is_ascending(horizontal) && vertical.front() >= 0.0f && vertical.back() <= kPi + kTolerance &&
+                        horizontal.front() == 0.0f && std::abs(horizontal.back() - 2.0f * kPi) <= kTolerance;
+    if (!angles) problems.error(where, "the angles of the IES profile do not ascend through [0, pi] and [0, 2 pi]");
+    if (candela.size() != vertical.size() * horizontal.size())
+        problems.error(where, fmt::format("the IES profile has {} values for {} x {} directions", candela.size(),
+                                          vertical.size(), horizontal.size()));
+    if (!std::ranges::all_of(candela, [](float c) { return c >= 0.0f && std::isfinite(c); }))
+        problems.error(where, "the IES profile has an intensity that is negative or not finite");
+}
+
 }  // namespace
 
 void validate_cameras(const SceneDesc& scene, ProblemList& problems) {
@@ -70,12 +88,18 @@ void validate_cameras(const SceneDesc& scene, ProblemList& problems) {
 }
 
 void validate_lights(const SceneDesc& scene, ProblemList& problems) {
+    for (const IesProfileDesc& profile : scene.ies_profiles) validate_profile(profile, problems);
     for (const LightDesc& light : scene.lights) {
         const SourceLocation& where = light.location;
         check_range(light.color, 0.0, kInfinity, "light colour", where, problems);
         check_range(static_cast<double>(light.intensity), 0.0, kInfinity, "light intensity", where, problems);
         if (!is_invertible(light.to_world)) {
             problems.error(where, "the light's transform is singular, not affine or not finite");
+        }
+        if (light.profile) {
+            check_handle(light.profile, scene.ies_profiles, "IES profile", where, problems);
+            if (light.type == LightType::Directional)
+                problems.error(where, "a directional light has no position from which an IES profile could shine");
         }
         const float inner = light.inner_cone_angle;
         const float outer = light.outer_cone_angle;
@@ -87,6 +111,14 @@ void validate_lights(const SceneDesc& scene, ProblemList& problems) {
     }
     const EnvironmentDesc& environment = scene.environment;
     if (!environment.enabled) return;
+    if (environment.cube) {
+        for (const Handle<ImageDesc>& face : environment.cube->faces)
+            check_handle(face, scene.images, "image", environment.location, problems);
+        check_range(static_cast<double>(environment.cube->intensity), 0.0, kInfinity, "environment intensity",
+                    environment.location, problems);
+        if (!is_invertible(environment.cube->to_world))
+            problems.error(environment.location, "the cube map's transform is singular, not affine or not finite");
+    }
     check_range(environment.color, 0.0, kInfinity, "environment colour", environment.location, problems);
     check_range(static_cast<double>(environment.scale), 0.0, kInfinity, "environment scale", environment.location,
                 problems);

@@ -41,7 +41,7 @@ World compile_world(SceneDesc scene, const ColorConfig& colors, const std::strin
     data.textures = textures.decode(threads);
     compile_geometry(scene, threads, data);
     compile_bodies(data);
-    compile_lights(scene, data, problems);
+    compile_lights(scene, threads, data, problems);
 
     std::vector<bool> has_alpha;
     has_alpha.reserve(data.geometries.size());

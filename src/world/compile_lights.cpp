@@ -1,10 +1,12 @@
 #include "core/position_error.h"
-#include "image/read.h"
 #include "world/compile_parts.h"
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <span>
 #include <utility>
+#include <vector>
 
 namespace etendue {
 
@@ -14,46 +16,35 @@ namespace {
 /// beyond is found by chance only, which is slower but not wrong.
 constexpr std::size_t kMaxLightTriangles = std::size_t{1} << 24;
 
-Light compile_punctual(const LightDesc& desc, const ColorMatrix& from_rec709) {
-    const Vec3f position = transform_point(desc.to_world, Vec3f(0.0f));
-    const Vec3f axis = normalize(transform_vector(desc.to_world, {0.0f, 0.0f, -1.0f}));
-    const Rgb intensity = clamp_negative(from_rec709(desc.color)) * desc.intensity;
-    switch (desc.type) {
-        case LightType::Point:
-            return PointLight{position, intensity};
-        case LightType::Directional:
-            return DirectionalLight{axis, intensity};
-        case LightType::Spot:
-            break;
-    }
-    const float cos_outer = std::cos(desc.outer_cone_angle);
-    const float cos_inner = std::cos(desc.inner_cone_angle);
-    return SpotLight{position, axis, intensity, cos_inner, cos_outer};
+/// The tables of the scene's profiles; lamps share them.
+std::vector<std::shared_ptr<const IesProfile>> compile_profiles(const SceneDesc& scene) {
+    std::vector<std::shared_ptr<const IesProfile>> profiles;
+    profiles.reserve(scene.ies_profiles.size());
+    for (const IesProfileDesc& desc : scene.ies_profiles)
+        profiles.push_back(std::make_shared<const IesProfile>(desc.vertical, desc.horizontal, desc.candela));
+    return profiles;
 }
 
-Light compile_environment(const EnvironmentDesc& desc, const ColorMatrix& from_rec709) {
-    const Rgb tint = desc.color * desc.scale;
-    if (desc.image.empty()) return ConstantEnvironment{clamp_negative(from_rec709(tint))};
-    ImageF file;
-    try {
-        file = read_image_float(desc.image);
-    } catch (const IoError& error) {
-        throw SceneError(desc.location,
-                         "the environment image '" + desc.image.string() + "' cannot be read: " + error.what());
-    }
-    ImageF image(file.width, file.height, 3);
-    for (int y = 0; y < file.height; ++y) {
-        for (int x = 0; x < file.width; ++x) {
-            const auto from = file.pixel(x, y);
-            const Rgb rec709 = file.channels >= 3 ? Rgb(from[0], from[1], from[2]) : Rgb(from[0]);
-            const Rgb value = clamp_negative(from_rec709(rec709 * tint));
-            const auto to = image.pixel(x, y);
-            to[0] = value.r;
-            to[1] = value.g;
-            to[2] = value.b;
-        }
-    }
-    return ImageEnvironment(std::move(image), desc.rotation);
+/// `scale` turns the units of lamps into those of the image.
+Light compile_punctual(const LightDesc& desc, std::span<const std::shared_ptr<const IesProfile>> profiles, float scale,
+                       const ColorMatrix& from_rec709) {
+    const Vec3f position = transform_point(desc.to_world, Vec3f(0.0f));
+    const Vec3f axis = normalize(transform_vector(desc.to_world, {0.0f, 0.0f, -1.0f}));
+    const Rgb intensity = clamp_negative(from_rec709(desc.color)) * (desc.intensity * scale);
+    if (desc.type == LightType::Directional) return DirectionalLight{axis, intensity};
+
+    const PointLight point{position, intensity};
+    const SpotLight spot{position, axis, intensity, std::cos(desc.inner_cone_angle), std::cos(desc.outer_cone_angle)};
+    const bool is_spot = desc.type == LightType::Spot;
+    if (!desc.profile) return is_spot ? Light(spot) : Light(point);
+    ProfileLight light;
+    if (is_spot)
+        light.lamp = spot;
+    else
+        light.lamp = point;
+    light.frame = Frame::from_normal_and_tangent(-axis, transform_vector(desc.to_world, {1.0f, 0.0f, 0.0f}));
+    light.profile = profiles[static_cast<std::size_t>(desc.profile.index)];
+    return light;
 }
 
 std::vector<LightTriangle> world_triangles(const Geometry& geometry, const Instance& instance) {
@@ -126,17 +117,19 @@ void compile_mesh_lights(WorldData& data, ProblemList& problems) {
 
 }  // namespace
 
-void compile_lights(const SceneDesc& scene, WorldData& data, ProblemList& problems) {
+void compile_lights(const SceneDesc& scene, const ThreadPool& threads, WorldData& data, ProblemList& problems) {
+    const auto profiles = compile_profiles(scene);
+    const float scale = scene.settings.light_units == LightUnits::Radiometric ? 1.0f / kLumensPerWatt : 1.0f;
     for (const LightDesc& desc : scene.lights) {
         if (!(desc.intensity > 0.0f) || !(max_component(desc.color) > 0.0f)) continue;
-        data.lights.push_back(compile_punctual(desc, data.from_rec709));
+        data.lights.push_back(compile_punctual(desc, profiles, scale, data.from_rec709));
         data.emitter_of_light.emplace_back();
     }
     compile_mesh_lights(data, problems);
     if (scene.environment.enabled) {
         data.environment = static_cast<std::uint32_t>(data.lights.size());
         data.environment_visible = scene.environment.visible_to_camera;
-        data.lights.push_back(compile_environment(scene.environment, data.from_rec709));
+        data.lights.push_back(compile_environment(scene, data.from_rec709, threads));
         data.emitter_of_light.emplace_back();
     }
 }

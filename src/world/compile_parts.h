@@ -48,8 +48,12 @@ void compile_geometry(SceneDesc& scene, const ThreadPool& threads, WorldData& da
 /// Numbers the bodies by precedence. Needs materials and geometry in `data`.
 void compile_bodies(WorldData& data);
 
+/// The environment, which must be enabled. Throws SceneError if an image cannot be decoded.
+[[nodiscard]] Light compile_environment(const SceneDesc& scene, const ColorMatrix& from_rec709,
+                                        const ThreadPool& threads);
+
 /// Punctual lights, emissive meshes and the environment. Needs materials, textures and geometry in `data`.
-void compile_lights(const SceneDesc& scene, WorldData& data, ProblemList& problems);
+void compile_lights(const SceneDesc& scene, const ThreadPool& threads, WorldData& data, ProblemList& problems);
 
 /// Throws SceneError if the camera that the settings name does not exist.
 [[nodiscard]] Camera compile_camera(const SceneDesc& scene);

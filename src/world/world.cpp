@@ -42,7 +42,7 @@ std::optional<Vec3f> light_position(const Light& light) {
 
 bool is_delta_light(const Light& light) {
     return std::holds_alternative<PointLight>(light) || std::holds_alternative<SpotLight>(light) ||
-           std::holds_alternative<DirectionalLight>(light);
+           std::holds_alternative<ProfileLight>(light) || std::holds_alternative<DirectionalLight>(light);
 }
 
 /// True if the material mirrors or refracts without roughness; textured roughness is taken not to reach zero.

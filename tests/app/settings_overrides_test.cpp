@@ -83,14 +83,16 @@ TEST(SettingsOverrides, EachOptionReachesItsSetting) {
     write_file(folder / "sky.exr", "");
     SceneDesc scene = scene_of(640, 360, 100);
     const SettingsOverrides overrides =
-        parse({"--integrator", "naive", "--camera", "side", "--seed", "4294967295", "--time", "2.5", "--max-depth", "3",
-               "--environment", (folder / "sky.exr").string(), "--exposure", "-1.5", "--view", "Raw", "--working-space",
-               "ACEScg", "--float"});
+        parse({"--integrator", "naive",         "--camera",    "side", "--seed",          "4294967295",
+               "--time",       "2.5",           "--max-depth", "3",    "--environment",   (folder / "sky.exr").string(),
+               "--exposure",   "-1.5",          "--view",      "Raw",  "--working-space", "ACEScg",
+               "--float",      "--light-units", "radiometric"});
     overrides.apply(scene);
     EXPECT_EQ(scene.settings.integrator.type, "naive");
     EXPECT_EQ(scene.settings.camera, "side");
     EXPECT_EQ(scene.settings.seed, 4294967295u);
     EXPECT_EQ(scene.settings.time_limit, 2.5);
+    EXPECT_EQ(scene.settings.light_units, LightUnits::Radiometric);
     EXPECT_EQ(scene.settings.integrator.max_depth, 3);
     EXPECT_TRUE(scene.environment.enabled);
     EXPECT_EQ(scene.environment.image, folder / "sky.exr");
@@ -146,6 +148,7 @@ TEST(SettingsOverrides, NonsenseIsAUsageError) {
                                                        {"--quality", "best"},
                                                        {"--integrator", "bdpt"},
                                                        {"--environment", "/no/such/file.exr"},
+                                                       {"--light-units", "watts"},
                                                        {"--half", "--float"},
                                                        {"--colour", "red"}};
     for (const auto& arguments : bad)

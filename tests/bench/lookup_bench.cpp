@@ -46,7 +46,8 @@ struct NamedLobe {
 
 std::vector<NamedLobe> lobes() {
     return {{"diffuse", Diffuse{Rgb(0.5f)}},
-            {"metallic_roughness", MetallicRoughness{.base = Rgb(0.5f), .metallic = 0.0f, .alpha = 0.25f}},
+            {"metallic_roughness",
+             MetallicRoughness{.base = Rgb(0.5f), .metallic = 0.0f, .alpha_x = 0.25f, .alpha_y = 0.25f}},
             {"rough_conductor", RoughConductor{FresnelMetal::from_f0_f82(Rgb(0.9f), Rgb(0.8f)), 0.25f}},
             {"rough_dielectric", RoughDielectric::make(1.5f, 0.25f)},
             {"smooth_conductor", SmoothConductor{FresnelMetal::from_f0_f82(Rgb(0.9f), Rgb(0.8f))}},

@@ -40,6 +40,8 @@ struct ClosedFormCase {
 [[nodiscard]] std::vector<ClosedFormCase> environment_cases();
 /// Closed spheres, empty or with lossless bodies in them.
 [[nodiscard]] std::vector<ClosedFormCase> furnace_cases();
+/// Bodies that absorb, nest, overlap, disperse and scatter.
+[[nodiscard]] std::vector<ClosedFormCase> body_cases();
 /// Direct light where rounding is large.
 [[nodiscard]] std::vector<ClosedFormCase> far_from_origin_cases();
 /// Emitters, occluders and cameras that move while the shutter is open.

@@ -2,6 +2,7 @@
 #include "integrator/closed_form_scene.h"
 #include "integrator/form_factors.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -119,11 +120,45 @@ std::vector<ClosedFormCase> punctual_light_cases() {
     return cases;
 }
 
+/// cos(theta) times `peak` candela, every degree, from 0 to 90.
+IesProfileDesc lambertian_profile(float peak) {
+    IesProfileDesc profile;
+    profile.horizontal = {0.0f, 2.0f * kPi};
+    for (int degree = 0; degree <= 90; ++degree) profile.vertical.push_back(kPi * static_cast<float>(degree) / 180.0f);
+    for (int plane = 0; plane < 2; ++plane)
+        for (const float angle : profile.vertical) profile.candela.push_back(peak * std::max(0.0f, std::cos(angle)));
+    return profile;
+}
+
+std::vector<ClosedFormCase> measured_light_cases() {
+    std::vector<ClosedFormCase> cases;
+    constexpr float kZ = 0.013f;
+    const double distance = std::hypot(0.75, 1.0);
+    const double cosine = 1.0 / distance;
+
+    SceneDesc lamp = floor_seen_at(0.75f);
+    add_light(lamp, LightType::Point, 0.5f, {0.0f, 1.0f, kZ}).profile.index = 0;
+    lamp.ies_profiles.push_back(lambertian_profile(10.0f));
+    const double irradiance = 5.0 * cosine * cosine / (distance * distance);
+    cases.push_back({"ies_lambertian", lamp, kRho / kPiD * irradiance, 2e-4, {}, kLightSamplers});
+
+    // Beside a lamp of another kind, so that a wrong power shows as noise and a wrong probability as a wrong mean.
+    SceneDesc several = lamp;
+    add_light(several, LightType::Point, 3.0f, {0.75f, 2.0f, kZ});
+    cases.push_back({"ies_and_point", several, kRho / kPiD * (irradiance + 3.0 / 4.0), 2e-4, {}, kLightSamplers});
+
+    SceneDesc watts = lamp;
+    watts.settings.light_units = LightUnits::Radiometric;
+    cases.push_back({"ies_radiometric", watts, kRho / kPiD * irradiance / 683.002, 2e-4, {}, kLightSamplers});
+    return cases;
+}
+
 }  // namespace
 
 std::vector<ClosedFormCase> direct_light_cases() {
     std::vector<ClosedFormCase> cases = mesh_light_cases();
     for (ClosedFormCase& c : punctual_light_cases()) cases.push_back(std::move(c));
+    for (ClosedFormCase& c : measured_light_cases()) cases.push_back(std::move(c));
     return cases;
 }
 

@@ -13,6 +13,7 @@ RenderStatistics make_statistics() {
     s.frame = 7;
     s.time_code = 0.25;
     s.settings_hash = "0123abcd";
+    s.light_units = "radiometric";
     s.width = 64;
     s.height = 32;
     s.full_width = 128;
@@ -45,7 +46,7 @@ TEST(StatisticsJson, HasEveryField) {
     const auto json = nlohmann::json::parse(to_json(make_statistics()));
     const auto expected = nlohmann::json::parse(R"({
         "scene": "cornell-box", "frame": 7, "time_code": 0.25, "settings_hash": "0123abcd",
-        "size": [64, 32], "full_size": [128, 96],
+        "light_units": "radiometric", "size": [64, 32], "full_size": [128, 96],
         "complete": false, "halt_reason": "time limit", "spp": {"requested": 16, "done": 8},
         "samples": 80, "samples_per_second": 40.0,
         "rays": {"camera": 100, "bounce": 250, "shadow": 50, "total": 400}, "rays_per_second": 200.0,

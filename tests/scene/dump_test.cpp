@@ -10,12 +10,17 @@ TEST(Dump, NamesEverythingButBulkArrays) {
     SceneDesc scene = small_scene();
     scene.materials[0].override_model = ConductorDesc{"Au", 0.25f};
     scene.extensions_ignored = {"KHR_x"};
+    scene.lights[0].profile.index = 0;
+    scene.ies_profiles.push_back({"lamp.ies", {0, 1}, {0, 2 * kPi}, {1, 2, 3, 4}, {}});
+    scene.environment.cube.emplace();
+    scene.settings.light_units = LightUnits::Radiometric;
     const std::string text = dump(scene);
     for (const char* expected :
          {"scene \"small\"", "extensions ignored: KHR_x", "image 0 \"\": 2 x 2, image.png", "texture 0", "\"paper\"",
           "override conductor Au roughness 0.25", "1 triangles, 3 vertices, material 0, tangents, uv0, uv1, colours",
-          "instance 0", "camera 0 \"main\": perspective yfov 0.8", "light 0 \"\": spot", "environment",
-          "integrator path", "64 spp", "film: 1024 x 576", "colour: working space"}) {
+          "instance 0", "camera 0 \"main\": perspective yfov 0.8", "light 0 \"\": spot", "times IES profile 0",
+          "IES profile 0 \"lamp.ies\": 2 x 2 directions, peak 4 cd", "environment cube map: images -1", "environment:",
+          "light units: radiometric", "integrator path", "64 spp", "film: 1024 x 576", "colour: working space"}) {
         EXPECT_NE(text.find(expected), std::string::npos) << expected << "\n" << text;
     }
 }

@@ -41,7 +41,37 @@ PrimitiveDesc& primitive(SceneDesc& s) {
     return s.meshes[0].primitives[0];
 }
 
+/// A profile that is good, for the scene's spot light.
+IesProfileDesc& add_profile(SceneDesc& s) {
+    s.lights[0].profile.index = 0;
+    return s.ies_profiles.emplace_back(IesProfileDesc{"lamp", {0, 1}, {0, 1, 2 * kPi}, {1, 2, 3, 4, 5, 6}, {}});
+}
+
+TEST(Validate, AcceptsLightsWithAProfile) {
+    SceneDesc scene = small_scene();
+    add_profile(scene);
+    EXPECT_FALSE(validate(scene).has_errors());
+}
+
 const Defect kDefects[] = {
+    {"ProfileMissing", "IES profile 3 does not exist", [](SceneDesc& s) { s.lights[0].profile.index = 3; }},
+    {"ProfileOfTheSun", "directional light has no position",
+     [](SceneDesc& s) {
+         add_profile(s);
+         s.lights[0].type = LightType::Directional;
+     }},
+    {"ProfileShort", "5 values for 2 x 3", [](SceneDesc& s) { add_profile(s).candela.pop_back(); }},
+    {"ProfileNegative", "negative or not finite", [](SceneDesc& s) { add_profile(s).candela[4] = -1; }},
+    {"ProfileNan", "negative or not finite", [](SceneDesc& s) { add_profile(s).candela[4] = kNan; }},
+    {"ProfileOpen", "do not ascend", [](SceneDesc& s) { add_profile(s).horizontal[2] = 6; }},
+    {"ProfileRepeated", "do not ascend", [](SceneDesc& s) { add_profile(s).horizontal[1] = 0; }},
+    {"ProfileBeyondTheZenith", "do not ascend", [](SceneDesc& s) { add_profile(s).vertical[1] = 3.2f; }},
+    {"ProfileAngleNan", "do not ascend", [](SceneDesc& s) { add_profile(s).vertical[0] = kNan; }},
+    {"CubeWithoutFaces", "image -1 does not exist",
+     [](SceneDesc& s) {
+         s.environment.cube.emplace();
+         for (std::size_t face = 1; face < 6; ++face) s.environment.cube->faces[face].index = 0;
+     }},
     {"ImageWithoutSource", "either a file or bytes", [](SceneDesc& s) { s.images[0].path.clear(); }},
     {"ImageWithTwoSources", "either a file or bytes", [](SceneDesc& s) { s.images[0].encoded.resize(4); }},
     {"ImageWithoutSize", "0 x 2", [](SceneDesc& s) { s.images[0].width = 0; }},

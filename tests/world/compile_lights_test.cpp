@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 
 #include <gtest/gtest.h>
 
@@ -58,6 +59,64 @@ TEST(CompileLights, SpotsKeepTheirFullIntensityHoweverNarrow) {
                         3.0f, 1e-3f)
                 << "outer " << outer << ", inner share " << inner;
         }
+}
+
+// 683.002 lm/W divides lamps; surfaces and environments are what they are.
+TEST(CompileLights, RadiometricUnitsDivideLampsOnly) {
+    for (const LightType type : {LightType::Point, LightType::Spot, LightType::Directional}) {
+        SceneDesc scene = empty_scene();
+        scene.lights.push_back(punctual(type, 6.0f));
+        const auto seen = [](const SceneDesc& s) {
+            return compile(s).sample_light({0, 0, -1}, {{0.5f, 0.5f}, {0.5f, 0.5f}, {0.5f, 0.5f}}).sample.radiance.g;
+        };
+        EXPECT_FLOAT_EQ(seen(scene), 6.0f);
+        scene.settings.light_units = LightUnits::Radiometric;
+        EXPECT_FLOAT_EQ(seen(scene), 6.0f / 683.002f);
+    }
+    SceneDesc scene = empty_scene();
+    scene.settings.light_units = LightUnits::Radiometric;
+    scene.environment.enabled = true;
+    add_object(scene, quad({0, 0, -2}, {1, 0, 0}, {0, 1, 0}), add_material(scene, emissive(Rgb(3.0f))));
+    const World world = compile(std::move(scene));
+    EXPECT_EQ(world.environment_radiance({0, 1, 0}), Rgb(1.0f));
+    Ray ray;
+    ray.direction = {0, 0, -1};
+    const Hit hit = intersect(world, ray);
+    ASSERT_TRUE(hit.valid());
+    EXPECT_EQ(world.emission(world.surface_point(hit), {0, 0, 1}), Rgb(3.0f));
+}
+
+TEST(CompileLights, ProfilesFollowTheAxesOfTheirLight) {
+    SceneDesc scene = empty_scene();
+    // Bright downwards (local -Z), and half as bright sideways at 90 degrees, which is local +Y.
+    const float quarter = 0.5f * kPi;
+    scene.ies_profiles.push_back({"lamp",
+                                  {0.0f, quarter, kPi},
+                                  {0.0f, quarter, 2.0f * quarter, 4.0f * quarter},
+                                  {100, 0, 0, 100, 50, 0, 100, 0, 0, 100, 0, 0},
+                                  {}});
+    Random random(7);
+    for (const LightType type : {LightType::Point, LightType::Spot}) {
+        LightDesc light = punctual(type, 2.0f);
+        light.outer_cone_angle = quarter;
+        light.inner_cone_angle = 0.99f * quarter;
+        light.profile.index = 0;
+        light.to_world.rotate(Vec3f(random.next(), random.next(), random.next()) * 6.0f);
+        light.to_world[3][0] = 4.0f;
+        scene.lights = {light};
+        const World world = compile(scene);
+        EXPECT_TRUE(world.has_delta_lights());
+        const auto seen_at = [&](const Vec3f& local) {
+            return world
+                .sample_light(transform_point(light.to_world, local), {{0.5f, 0.5f}, {0.5f, 0.5f}, {0.5f, 0.5f}})
+                .sample.radiance.g;
+        };
+        EXPECT_NEAR(seen_at({0, 0, -2}), 200.0f / 4.0f, 1e-2f);
+        EXPECT_NEAR(seen_at({0, 0, 2}), 0.0f, 1e-4f);
+        EXPECT_NEAR(seen_at({0, -1, 0}), 0.0f, 1e-3f);
+        // A spot light's cone ends where this one is.
+        EXPECT_NEAR(seen_at({0, 1, 0.01f}), type == LightType::Point ? 100.0f : 0.0f, 2.0f);
+    }
 }
 
 TEST(CompileLights, LightsThatAreOffAreLeftOut) {
@@ -128,6 +187,25 @@ TEST(CompileLights, EnvironmentImagesAreTintedScaledAndTurned) {
     EXPECT_NEAR(world.environment_radiance(lit).r, 0.0f, 1e-4f);
     std::filesystem::remove(file);
     EXPECT_THROW((void)compile(scene), SceneError);
+}
+
+TEST(CompileLights, RadianceImagesAreEnvironmentsToo) {
+    const std::filesystem::path file = temporary_file("etendue-world-environment.hdr");
+    // Four columns of two rows, the third one lit: mantissas of a half with the exponent of 8.
+    std::ofstream stream(file, std::ios::binary);
+    stream << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n";
+    for (int row = 0; row < 2; ++row)
+        for (int column = 0; column < 4; ++column) stream.write(column == 2 ? "\x80\x80\x80\x84" : "\0\0\0\0", 4);
+    stream.close();
+    SceneDesc scene = empty_scene();
+    scene.environment.enabled = true;
+    scene.environment.image = file;
+    scene.environment.scale = 0.5f;
+    scene.environment.rotation = kPi;
+    const World world = compile(std::move(scene));
+    EXPECT_NEAR(world.environment_radiance(normalize(Vec3f(-1, 0, 1))).g, 4.0f, 0.05f);
+    EXPECT_NEAR(world.environment_radiance(normalize(Vec3f(1, 0, -1))).g, 0.0f, 1e-4f);
+    std::filesystem::remove(file);
 }
 
 }  // namespace

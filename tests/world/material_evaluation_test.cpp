@@ -181,6 +181,69 @@ TEST_F(MaterialEvaluation, UnlitSurfacesShowTheirBaseColourAndEmitNothing) {
     EXPECT_FALSE(world.has_lights());
 }
 
+TEST_F(MaterialEvaluation, LayersTakeTheirChannels) {
+    MaterialDesc material;
+    material.metallic = 0.0f;
+    material.roughness = 0.5f;
+    material.clearcoat.factor = 0.8f;
+    material.clearcoat.texture.texture = texture(1, {{128, 255, 255, 255}});
+    material.clearcoat.roughness = 0.9f;
+    material.clearcoat.roughness_texture.texture = texture(1, {{255, 64, 255, 255}});
+    material.sheen.color = {0.5f, 0.5f, 0.5f};
+    material.sheen.color_texture.texture = texture(1, {{188, 255, 0, 255}});
+    material.sheen.roughness = 0.8f;
+    material.sheen.roughness_texture.texture = texture(1, {{255, 255, 255, 128}});
+    material.iridescence.factor = 0.9f;
+    material.iridescence.texture.texture = texture(1, {{64, 255, 255, 255}});
+    material.iridescence.thickness_texture.texture = texture(1, {{255, 128, 255, 255}});
+    material.diffuse_transmission.factor = 0.6f;
+    material.diffuse_transmission.texture.texture = texture(1, {{255, 255, 255, 128}});
+    material.anisotropy.strength = 0.7f;
+    material.anisotropy.texture.texture = texture(1, {{255, 128, 128, 255}});
+    const World world = world_with(material);
+    const Hit hit = intersect(world, Ray{.origin = {0.1f, 0.1f, 0}, .direction = {0, 0, -1}});
+    Bsdf storage;
+    const auto& surface =
+        std::get<LayeredSurface>(world.bsdf(world.surface_point(hit), {0.0f, 0.0f, 1.0f}, 0.0f, storage));
+    constexpr float kHalf = 128.0f / 255.0f;
+    constexpr float kQuarter = 64.0f / 255.0f;
+    EXPECT_NEAR(surface.coat.strength, 0.8f * kHalf, 1e-5f);
+    EXPECT_NEAR(surface.coat.alpha, 0.81f * kQuarter * kQuarter, 1e-5f);
+    EXPECT_NEAR(surface.sheen.color.r, 0.5 * srgb_to_linear(188), 1e-5);
+    EXPECT_NEAR(surface.sheen.alpha, 0.64f * kHalf * kHalf, 1e-5f);
+    const auto& base = std::get<MetallicRoughness>(surface.base);
+    EXPECT_NEAR(base.film.strength, 0.9f * kQuarter, 1e-5f);
+    EXPECT_NEAR(base.film.thickness_nm, 100.0f + 300.0f * kHalf, 1e-3f);
+    EXPECT_NEAR(base.diffuse_transmission, 0.6f * kHalf, 1e-5f);
+    const float strength = 0.7f * kHalf;
+    EXPECT_NEAR(base.alpha_x, 0.25f + 0.75f * strength * strength, 1e-5f);
+    EXPECT_NEAR(base.alpha_y, 0.25f, 1e-6f);
+}
+
+TEST_F(MaterialEvaluation, AnisotropyTurnsTheFrame) {
+    MaterialDesc material;
+    material.anisotropy.strength = 0.5f;
+    material.anisotropy.rotation = kPi / 6.0f;
+    surface_.tangents.assign(4, {1.0f, 0.0f, 0.0f, 1.0f});
+    const World world = world_with(material);
+    const Hit hit = intersect(world, Ray{.origin = {0.1f, 0.1f, 0}, .direction = {0, 0, -1}});
+    const Frame frame = world.surface_point(hit).shading;
+    EXPECT_NEAR(frame.tangent.x, std::cos(kPi / 6.0f), 1e-5f);
+    EXPECT_NEAR(frame.tangent.y, std::sin(kPi / 6.0f), 1e-5f);
+}
+
+TEST_F(MaterialEvaluation, ACoatDoesNotShowTheReliefBelowIt) {
+    surface_.tangents.assign(4, {1.0f, 0.0f, 0.0f, 1.0f});
+    MaterialDesc material;
+    material.clearcoat.factor = 1.0f;
+    material.normal_texture.texture = texture(1, {{200, 128, 230, 255}});
+    const World world = world_with(material);
+    const Hit hit = intersect(world, Ray{.origin = {0.1f, 0.1f, 0}, .direction = {0, 0, -1}});
+    const SurfacePoint point = world.surface_point(hit);
+    EXPECT_GT(point.shading.normal.x, 0.3f);
+    EXPECT_NEAR(point.coat_normal.z, 1.0f, 1e-6f);
+}
+
 }  // namespace
 
 }  // namespace etendue::test

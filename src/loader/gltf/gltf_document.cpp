@@ -24,31 +24,47 @@ namespace {
 using Json = nlohmann::json;
 
 /// To support another extension: its line here, its properties in gltf_shape_table.cpp, and whoever reads them.
-constexpr std::array<std::string_view, 22> kSupportedExtensions{"EXT_mesh_gpu_instancing",
-                                                                "EXT_meshopt_compression",
-                                                                "EXT_texture_webp",
-                                                                "KHR_animation_pointer",
-                                                                "KHR_draco_mesh_compression",
-                                                                "KHR_lights_punctual",
-                                                                "KHR_materials_anisotropy",
-                                                                "KHR_materials_clearcoat",
-                                                                "KHR_materials_diffuse_transmission",
-                                                                "KHR_materials_dispersion",
-                                                                "KHR_materials_emissive_strength",
-                                                                "KHR_materials_ior",
-                                                                "KHR_materials_iridescence",
-                                                                "KHR_materials_sheen",
-                                                                "KHR_materials_specular",
-                                                                "KHR_materials_transmission",
-                                                                "KHR_materials_unlit",
-                                                                "KHR_materials_variants",
-                                                                "KHR_materials_volume",
-                                                                "KHR_materials_volume_scatter",
-                                                                "KHR_mesh_quantization",
-                                                                "KHR_texture_transform"};
+constexpr std::array<std::string_view, 25> kSupportedExtensions{
+    "EXT_lights_ies",
+    "EXT_lights_image_based",
+    "EXT_mesh_gpu_instancing",
+    "EXT_meshopt_compression",
+    "EXT_texture_webp",
+    "KHR_animation_pointer",
+    "KHR_draco_mesh_compression",
+    "KHR_lights_punctual",
+    "KHR_materials_anisotropy",
+    "KHR_materials_clearcoat",
+    "KHR_materials_diffuse_transmission",
+    "KHR_materials_dispersion",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_iridescence",
+    "KHR_materials_sheen",
+    "KHR_materials_specular",
+    "KHR_materials_transmission",
+    "KHR_materials_unlit",
+    "KHR_materials_variants",
+    "KHR_materials_volume",
+    "KHR_materials_volume_scatter",
+    "KHR_mesh_quantization",
+    "KHR_node_visibility",
+    "KHR_texture_transform",
+};
+
+/// Metadata, and what belongs to interaction.
+constexpr std::array<std::string_view, 3> kIrrelevantExtensions{
+    "KHR_node_hoverability",
+    "KHR_node_selectability",
+    "KHR_xmp_json_ld",
+};
 
 bool is_supported(std::string_view extension) {
-    return std::ranges::find(kSupportedExtensions, extension) != kSupportedExtensions.end();
+    return std::ranges::binary_search(kSupportedExtensions, extension);
+}
+
+bool is_irrelevant(std::string_view extension) {
+    return std::ranges::binary_search(kIrrelevantExtensions, extension);
 }
 
 void throw_if_errors(const ProblemList& problems) {
@@ -69,13 +85,14 @@ std::vector<std::string> string_array(const Json& document, const char* key) {
 void check_extensions(const Json& document, GltfDocument& result, ProblemList& problems) {
     const std::vector<std::string> required = string_array(document, "extensionsRequired");
     for (std::size_t i = 0; i < required.size(); ++i) {
-        if (is_supported(required[i])) continue;
+        if (is_supported(required[i]) || is_irrelevant(required[i])) continue;
         problems.error(result.at(child_pointer("/extensionsRequired", i)),
                        fmt::format("the file requires the extension {}, which is not supported", shown(required[i])));
     }
     throw_if_errors(problems);
 
     for (const std::string& used : string_array(document, "extensionsUsed")) {
+        if (is_irrelevant(used)) continue;
         (is_supported(used) ? result.extensions_used : result.extensions_ignored).push_back(shown(used));
     }
     if (!result.extensions_ignored.empty()) {
@@ -279,6 +296,14 @@ Json parse_file(const std::filesystem::path& file, std::vector<unsigned char>& b
 }
 
 }  // namespace
+
+std::span<const std::string_view> supported_gltf_extensions() {
+    return kSupportedExtensions;
+}
+
+std::span<const std::string_view> irrelevant_gltf_extensions() {
+    return kIrrelevantExtensions;
+}
 
 GltfDocument read_gltf_document(const std::filesystem::path& file, ProblemList& problems) {
     GltfDocument result;

@@ -5,7 +5,9 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <tiny_gltf.h>
@@ -61,6 +63,12 @@ struct GltfDocument {
 
     [[nodiscard]] SourceLocation at(std::string pointer) const { return {file, std::move(pointer)}; }
 };
+
+/// The extensions that are read, sorted.
+[[nodiscard]] std::span<const std::string_view> supported_gltf_extensions();
+
+/// The extensions that no image depends on, sorted: nothing is said of them, and files may require them.
+[[nodiscard]] std::span<const std::string_view> irrelevant_gltf_extensions();
 
 /// Reads `file`, a .gltf or .glb, and the buffers it names inside its directory.
 ///

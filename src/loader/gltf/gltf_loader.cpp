@@ -4,6 +4,7 @@
 #include "loader/gltf/gltf_animation.h"
 #include "loader/gltf/gltf_animation_pointer.h"
 #include "loader/gltf/gltf_document.h"
+#include "loader/gltf/gltf_environment.h"
 #include "loader/gltf/gltf_material.h"
 #include "loader/gltf/gltf_mesh.h"
 #include "loader/gltf/gltf_nodes.h"
@@ -51,6 +52,7 @@ void GltfLoader::load(const std::filesystem::path& file, const RenderSettings& s
         apply_pointers(sampler->pointer_values(*settings.shown_time() + settings.shutter.middle()), document, problems);
     TextureReader textures(document, accessors, scene, problems);
     read_materials(document, textures, scene, problems);
+    read_environment(document, textures, scene, problems);
     const std::vector<MeshDeformation> deformations = read_meshes(document, accessors, scene, problems);
     read_nodes(document, accessors, deformations, sampler ? &*sampler : nullptr, settings, scene, problems);
 }

@@ -1,6 +1,7 @@
 #include "loader/gltf/gltf_nodes.h"
 
 #include "loader/gltf/gltf_instancing.h"
+#include "loader/gltf/gltf_lights.h"
 #include "loader/gltf/gltf_mesh_deformer.h"
 #include "loader/gltf/gltf_posed_nodes.h"
 #include "loader/gltf/gltf_transform.h"
@@ -99,13 +100,15 @@ class Placer {
           deformer_(deformer),
           nodes_(nodes),
           scene_(scene),
-          problems_(problems) {}
+          problems_(problems),
+          lights_(document, accessors, scene, problems) {}
 
+    /// Of a node that is not visible only the camera is placed.
     void place(const PlacedNode& placed) {
         const tinygltf::Node& node = document_.model.nodes[static_cast<std::size_t>(placed.node)];
         const SourceLocation where = document_.at(fmt::format("/nodes/{}", placed.node));
         const std::span<const Mat4d> motion = nodes_.motion(placed.node);
-        if (node.mesh >= 0) {
+        if (placed.visible && node.mesh >= 0) {
             const MeshDeformer::Result mesh = deformer_.deform(placed.node, where);
             const tinygltf::Value* instancing = find_extension(node.extensions, "EXT_mesh_gpu_instancing");
             if (mesh.is_in_world_space)
@@ -115,9 +118,8 @@ class Placer {
             else
                 place_mesh(node, mesh.mesh, placed.to_world, motion, where);
         }
-        const tinygltf::Value* light = find_extension(node.extensions, "KHR_lights_punctual");
-        const int light_index = light != nullptr ? integer_or(*light, "light", -1) : -1;
-        if (node.camera < 0 && light_index < 0) return;
+        const bool shines = placed.visible && LightReader::has_light(node);
+        if (node.camera < 0 && !shines) return;
 
         const std::optional<Mat4f> rigid = rigid_part(to_float(placed.to_world));
         if (!rigid) {
@@ -125,8 +127,8 @@ class Placer {
             return;
         }
         if (node.camera >= 0) place_camera(node, *rigid, motion);
-        if (light_index >= 0) {
-            place_light(node, static_cast<std::size_t>(light_index), *rigid);
+        if (shines) {
+            lights_.place(node, *rigid, where);
             if (!motion.empty()) ++moving_lights_;
         }
     }
@@ -209,30 +211,13 @@ class Placer {
         return name;
     }
 
-    void place_light(const tinygltf::Node& node, std::size_t index, const Mat4f& to_world) {
-        const tinygltf::Light& source = document_.model.lights[index];
-        LightDesc& light = scene_.lights.emplace_back();
-        light.name = source.name.empty() ? node.name : source.name;
-        light.type = source.type == "spot"          ? LightType::Spot
-                     : source.type == "directional" ? LightType::Directional
-                                                    : LightType::Point;
-        if (source.color.size() == 3) {
-            light.color = {static_cast<float>(source.color[0]), static_cast<float>(source.color[1]),
-                           static_cast<float>(source.color[2])};
-        }
-        light.intensity = static_cast<float>(source.intensity);
-        light.inner_cone_angle = static_cast<float>(source.spot.innerConeAngle);
-        light.outer_cone_angle = static_cast<float>(source.spot.outerConeAngle);
-        light.to_world = to_world;
-        light.location = document_.at(fmt::format("/extensions/KHR_lights_punctual/lights/{}", index));
-    }
-
     const GltfDocument& document_;
     AccessorReader& accessors_;
     MeshDeformer& deformer_;
     const PosedNodes& nodes_;
     SceneDesc& scene_;
     ProblemList& problems_;
+    LightReader lights_;
     std::map<std::int32_t, Bounds> bounds_;  ///< by mesh
     std::size_t moving_lights_ = 0;
     std::set<std::string> camera_names_;

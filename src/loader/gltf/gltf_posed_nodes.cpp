@@ -1,5 +1,7 @@
 #include "loader/gltf/gltf_posed_nodes.h"
 
+#include "loader/gltf/gltf_value.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -87,6 +89,11 @@ Bounds unit_box() {
     return bounds;
 }
 
+bool is_visible(const tinygltf::Node& node) {
+    const tinygltf::Value* extension = find_extension(node.extensions, "KHR_node_visibility");
+    return extension == nullptr || !extension->Has("visible") || extension->Get("visible").Get<bool>();
+}
+
 }  // namespace
 
 std::vector<Mat4f> thin_out(std::span<const Mat4d> steps, const Bounds& bounds) {
@@ -140,8 +147,9 @@ std::vector<PlacedNode> PosedNodes::walk(std::span<const PlacedNode> starts, con
         const tinygltf::Node& node = document_.model.nodes[static_cast<std::size_t>(visit.node)];
         const SourceLocation where = document_.at(fmt::format("/nodes/{}", visit.node));
         visit.to_world = local_transform(node, pose_of(poses, visit.node), where, problems) * visit.to_world;
+        visit.visible = visit.visible && is_visible(node);
         for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
-            stack.push_back({*child, visit.to_world});
+            stack.push_back({*child, visit.to_world, visit.visible});
         placed.push_back(visit);
     }
     return placed;

@@ -17,6 +17,7 @@ namespace etendue {
 struct PlacedNode {
     int node;
     Mat4d to_world;
+    bool visible = true;  ///< KHR_node_visibility: it and all nodes above it are
 };
 
 /// Of what a motion sweeps: farther from it than this no straight piece of it may be.

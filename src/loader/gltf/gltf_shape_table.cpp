@@ -291,9 +291,17 @@ constexpr Shape kMesh = object(kMeshFields);
 constexpr Shape kNodeIndex = index_of("/nodes");
 constexpr ShapeField kNodeLightFields[] = {{"light", index_of("/extensions/KHR_lights_punctual/lights"), true}};
 constexpr ShapeField kInstancingFields[] = {{"attributes", kAttributes, true}};
+constexpr ShapeField kNodeProfileFields[] = {
+    {"light", index_of("/extensions/EXT_lights_ies/lights"), true},
+    {"multiplier", number(0.0)},
+    {"color", array(kNumber, 3)},
+};
+constexpr ShapeField kVisibilityFields[] = {{"visible", boolean()}};
 constexpr ShapeField kNodeExtensionFields[] = {
+    {"EXT_lights_ies", object(kNodeProfileFields)},
     {"EXT_mesh_gpu_instancing", object(kInstancingFields)},
     {"KHR_lights_punctual", object(kNodeLightFields)},
+    {"KHR_node_visibility", object(kVisibilityFields)},
 };
 constexpr ShapeField kNodeFields[] = {
     {"name", text()},
@@ -310,9 +318,14 @@ constexpr ShapeField kNodeFields[] = {
 };
 constexpr Shape kNode = object(kNodeFields);
 
+constexpr ShapeField kSceneEnvironmentFields[] = {
+    {"light", index_of("/extensions/EXT_lights_image_based/lights"), true},
+};
+constexpr ShapeField kSceneExtensionFields[] = {{"EXT_lights_image_based", object(kSceneEnvironmentFields)}};
 constexpr ShapeField kSceneFields[] = {
     {"name", text()},
     {"nodes", array(kNodeIndex)},
+    {"extensions", object(kSceneExtensionFields)},
 };
 constexpr Shape kScene = object(kSceneFields);
 
@@ -350,10 +363,32 @@ constexpr ShapeField kLightFields[] = {
 };
 constexpr Shape kLight = object(kLightFields);
 constexpr ShapeField kLightsFields[] = {{"lights", array(kLight), true}};
+constexpr ShapeField kProfileFields[] = {
+    {"name", text()},
+    {"uri", text()},
+    {"mimeType", text()},
+    {"bufferView", index_of("/bufferViews")},
+};
+constexpr Shape kProfile = object(kProfileFields);
+constexpr ShapeField kProfilesFields[] = {{"lights", array(kProfile), true}};
+constexpr Shape kImageIndex = index_of("/images");
+constexpr Shape kCubeFaces = array(kImageIndex, 6);
+constexpr Shape kCubeLevels = {.kind = Shape::Kind::Array, .min_length = 1, .element = &kCubeFaces};
+constexpr ShapeField kImageLightFields[] = {
+    {"name", text()},
+    {"rotation", array(kNumber, 4)},
+    {"intensity", number(0.0)},
+    {"specularImages", kCubeLevels, true},
+    {"specularImageSize", integer(1, kMaxInt), true},
+};
+constexpr Shape kImageLight = object(kImageLightFields);
+constexpr ShapeField kImageLightsFields[] = {{"lights", array(kImageLight), true}};
 constexpr ShapeField kVariantFields[] = {{"name", text(), true}};
 constexpr Shape kVariant = object(kVariantFields);
 constexpr ShapeField kVariantsFields[] = {{"variants", array(kVariant), true}};
 constexpr ShapeField kDocumentExtensionFields[] = {
+    {"EXT_lights_ies", object(kProfilesFields)},
+    {"EXT_lights_image_based", object(kImageLightsFields)},
     {"KHR_lights_punctual", object(kLightsFields)},
     {"KHR_materials_variants", object(kVariantsFields)},
 };

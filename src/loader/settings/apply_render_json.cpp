@@ -1,11 +1,13 @@
 #include "image/read.h"
 #include "loader/files.h"
+#include "loader/ies/ies_file.h"
 #include "loader/json_text.h"
 #include "loader/settings/json_object.h"
 #include "loader/settings/render_json.h"
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <vector>
 
 #include <fmt/format.h>
@@ -65,15 +67,72 @@ void apply_materials(const RenderJson& json, SceneDesc& scene, ProblemList& prob
     }
 }
 
+/// Reads each IES file once, however many lights name it.
+class ProfileFiles {
+  public:
+    ProfileFiles(SceneDesc& scene, ProblemList& problems) : scene_(scene), problems_(problems) {}
+
+    /// The profile in the file `name`; an invalid handle, reported at `where`, if it cannot be used.
+    Handle<IesProfileDesc> profile(const std::string& name, const SourceLocation& where) {
+        const auto [entry, is_new] = handles_.try_emplace(name);
+        if (is_new) entry->second = read(name, where);
+        return entry->second;
+    }
+
+  private:
+    Handle<IesProfileDesc> read(const std::string& name, const SourceLocation& where) {
+        try {
+            const std::filesystem::path file = resolve_name(scene_.directory, name);
+            const std::vector<unsigned char> bytes = read_bytes(file, kMaxIesBytes);
+            scene_.ies_profiles.push_back(
+                parse_ies({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, name, {file.string(), {}}));
+            scene_.inputs.push_back(file);
+            return {static_cast<std::int32_t>(scene_.ies_profiles.size()) - 1};
+        } catch (const IoError& error) {
+            problems_.error(where, fmt::format("'{}': {}", shown(name), error.what()));
+        } catch (const SceneError& error) {
+            for (const Problem& problem : error.problems().all()) problems_.add(problem);
+        }
+        return {};
+    }
+
+    SceneDesc& scene_;
+    ProblemList& problems_;
+    std::map<std::string, Handle<IesProfileDesc>> handles_;
+};
+
+void apply_light(const LightOverride& change, Handle<IesProfileDesc> profile, const SceneDesc& scene,
+                 LightDesc& light) {
+    light.color = change.color.value_or(light.color);
+    if (profile) {
+        light.profile = profile;
+        light.intensity = 1.0f;  // as measured
+    }
+    if (change.intensity) {
+        // Of a lamp with a profile it is the peak's, if that is not dark anyway.
+        const float peak =
+            light.profile ? peak_candela(scene.ies_profiles[static_cast<std::size_t>(light.profile.index)]) : 1.0f;
+        light.intensity = peak > 0.0f ? *change.intensity / peak : 0.0f;
+    }
+    light.intensity *= change.scale;
+}
+
 void apply_lights(const RenderJson& json, SceneDesc& scene, ProblemList& problems) {
+    ProfileFiles files(scene, problems);
     std::vector<std::string> disabled;
     for (const auto& [name, change] : json.lights) {
         if (!check_name(scene.lights, "light", name, change.location, problems)) continue;
         if (!change.enabled) disabled.push_back(name);
+        const SourceLocation where{change.location.file, child_pointer(change.location.pointer, "ies")};
+        const Handle<IesProfileDesc> profile =
+            change.ies.empty() ? Handle<IesProfileDesc>{} : files.profile(change.ies, where);
         for (LightDesc& light : scene.lights) {
             if (light.name != name) continue;
-            light.color = change.color.value_or(light.color);
-            light.intensity = change.intensity.value_or(light.intensity) * change.scale;
+            if (profile && light.type == LightType::Directional) {
+                problems.error(where, "a directional light has no position from which an IES profile could shine");
+                continue;
+            }
+            apply_light(change, profile, scene, light);
         }
     }
     std::erase_if(scene.lights,

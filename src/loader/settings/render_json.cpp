@@ -221,6 +221,7 @@ LightOverride read_light(const Json& value, const SourceLocation& where, Problem
     float intensity = 0.0f;
     if (object.color("color", kNotNegative, color)) result.color = color;
     if (object.number("intensity", kNotNegative, intensity)) result.intensity = intensity;
+    object.text("ies", result.ies);
     object.number("scale", kNotNegative, result.scale);
     object.boolean("enabled", result.enabled);
     object.finish();
@@ -305,6 +306,7 @@ void read_document(const Json& value, ProblemList& problems, RenderJson& out) {
         settings.shutter = {static_cast<double>(shutter[0]), static_cast<double>(shutter[1])};
     }
     object.choice("sampler", kSamplers, settings.sampler);
+    object.choice("light_units", kLightUnitNames, settings.light_units);
     object.integer("spp", 1, kMaxSpp, settings.spp);
     object.integer("seed", 0, kMaxSeed, settings.seed);
     object.number("time", kNotNegative, settings.time_limit);

@@ -25,6 +25,7 @@ struct MaterialOverride {
 struct LightOverride {
     std::optional<Rgb> color;
     std::optional<float> intensity;
+    std::string ies;  ///< file name of a profile; not yet resolved
     float scale = 1.0f;
     bool enabled = true;
     SourceLocation location;

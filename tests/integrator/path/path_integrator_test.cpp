@@ -109,6 +109,73 @@ TEST(PathIntegrator, StrategiesAgreeOnALampAndAGlossyWall) {
     }
 }
 
+/// A body whose boundary does not refract.
+MaterialDesc fog(const Rgb& multiscatter_color, float g) {
+    MaterialDesc m;
+    m.metallic = 0.0f;
+    m.roughness = 0.0f;
+    m.transmission = 1.0f;
+    m.ior = 1.0f;
+    m.volume = {.closed = true,
+                .attenuation_color = {0.3f, 0.5f, 0.7f},
+                .attenuation_distance = 0.8f,
+                .multiscatter_color = multiscatter_color,
+                .scatter_anisotropy = g};
+    return m;
+}
+
+TEST(PathIntegrator, StrategiesAgreeOnALampInFog) {
+    for (const float g : {-0.4f, 0.0f, 0.6f}) {
+        SceneDesc scene = empty_scene();
+        add_object(scene, sphere({0, 0, -3}, 2.0f, 16), add_material(scene, fog({0.8f, 0.9f, 0.6f}, g)));
+        add_object(scene, sphere({0.3f, 0.2f, -3}, 0.4f, 8), add_material(scene, emissive({2.0f, 3.0f, 4.0f})));
+        const World world = compile(std::move(scene));
+        ASSERT_TRUE(world.has_lights_in_media());
+        const TileResult by_mis = render_tile(world, path_of(100, 2, true), 1024);
+        const TileResult by_chance = render_tile(world, path_of(100, 2, false), 1024);
+        EXPECT_GT(by_mis.mean.g, 0.01f);
+        EXPECT_NEAR(by_mis.mean.g, by_chance.mean.g, 5.0 * std::hypot(by_mis.error, by_chance.error)) << "g " << g;
+    }
+}
+
+// A body many mean free paths thick, seen at right angles in diffuse light. The mapping from its colour to the albedo
+// of one scattering is a fit, good to two hundredths.
+TEST(PathIntegrator, ALargeSubsurfaceBodyReflectsItsAlbedo) {
+    for (const float g : {0.0f, 0.5f}) {
+        SceneDesc scene = with_environment(1.0f);
+        MaterialDesc wax;
+        wax.override_model =
+            SubsurfaceDesc{.albedo = {0.2f, 0.5f, 0.8f}, .radius = Rgb(0.01f), .anisotropy = g, .ior = 1.0f};
+        add_object(scene, sphere({0, 0, -30}, 20.0f, 64), add_material(scene, wax));
+        const World world = compile(std::move(scene));
+        const TileResult result = render_tile(world, path_of(100), 512);
+        EXPECT_NEAR(result.mean.r, 0.2, 5.0 * result.error + 0.02) << "g " << g;
+        EXPECT_NEAR(result.mean.g, 0.5, 5.0 * result.error + 0.02) << "g " << g;
+        EXPECT_NEAR(result.mean.b, 0.8, 5.0 * result.error + 0.02) << "g " << g;
+    }
+}
+
+// What a prism spreads is red on one side and blue on the other; without dispersion it has no colour at all.
+TEST(PathIntegrator, ADispersiveBodySpreadsColours) {
+    for (const float dispersion : {0.0f, 2.0f}) {
+        SceneDesc scene = empty_scene();
+        // Seen through the bottom of a thick wedge, the edge of a bright half-plane lies in another place for each
+        // colour.
+        MaterialDesc glass;
+        glass.override_model = DielectricDesc{1.6f, 0.0f, {.closed = true, .dispersion = dispersion}};
+        add_object(scene, sphere({0, 0, -3}, 1.5f, 64), add_material(scene, glass));
+        add_object(scene, quad({5.05f, 0, -20}, {5, 0, 0}, {0, 10, 0}), add_material(scene, emissive(Rgb(1.0f))));
+        const World world = compile(std::move(scene));
+        const TileResult result = render_tile(world, path_of(20), 2048);
+        const double spread = std::abs(static_cast<double>(result.mean.r - result.mean.b));
+        EXPECT_GT(result.mean.g, 0.05f);
+        if (dispersion == 0.0f)
+            EXPECT_LT(spread, 1e-6);
+        else
+            EXPECT_GT(spread, 10.0 * result.error);
+    }
+}
+
 TEST(PathIntegrator, PointLightsFollowTheInverseSquare) {
     SceneDesc scene = empty_scene();
     add_object(scene, quad({0, 0, -1}, {0.05f, 0, 0}, {0, 0.05f, 0}), add_material(scene, diffuse(Rgb(1.0f))));

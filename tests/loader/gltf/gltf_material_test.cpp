@@ -1,5 +1,8 @@
 #include "loader/gltf/gltf_builder.h"
 
+#include <cmath>
+#include <string>
+
 #include <gtest/gtest.h>
 
 namespace etendue {
@@ -49,6 +52,73 @@ TEST(Material, DefaultsAreTheSpecifications) {
     EXPECT_FALSE(m.unlit);
     EXPECT_FALSE(m.base_color_texture.valid());
     EXPECT_TRUE(loaded.scene.images.empty());  // nothing that no material uses is opened
+}
+
+TEST(Material, LayersAreRead) {
+    const LoadedScene loaded = load_with(R"({"extensions": {
+        "KHR_materials_clearcoat": {"clearcoatFactor": 0.5, "clearcoatTexture": {"index": 0},
+            "clearcoatRoughnessFactor": 0.25, "clearcoatRoughnessTexture": {"index": 1},
+            "clearcoatNormalTexture": {"index": 2, "scale": 0.5}},
+        "KHR_materials_sheen": {"sheenColorFactor": [0.1, 0.2, 0.3], "sheenColorTexture": {"index": 1},
+            "sheenRoughnessFactor": 0.75, "sheenRoughnessTexture": {"index": 2}},
+        "KHR_materials_iridescence": {"iridescenceFactor": 0.9, "iridescenceTexture": {"index": 0},
+            "iridescenceIor": 1.8, "iridescenceThicknessMinimum": 50, "iridescenceThicknessMaximum": 900,
+            "iridescenceThicknessTexture": {"index": 1}},
+        "KHR_materials_anisotropy": {"anisotropyStrength": 0.6, "anisotropyRotation": 1.5,
+            "anisotropyTexture": {"index": 2}},
+        "KHR_materials_diffuse_transmission": {"diffuseTransmissionFactor": 0.4,
+            "diffuseTransmissionTexture": {"index": 0}, "diffuseTransmissionColorFactor": [1, 0.5, 0.25],
+            "diffuseTransmissionColorTexture": {"index": 1}}}})");
+    const MaterialDesc& m = material_of(loaded);
+    EXPECT_EQ(m.clearcoat.factor, 0.5f);
+    EXPECT_EQ(m.clearcoat.roughness, 0.25f);
+    EXPECT_EQ(m.clearcoat.normal_scale, 0.5f);
+    EXPECT_EQ(texture_name(loaded, m.clearcoat.texture), "t0");
+    EXPECT_EQ(texture_name(loaded, m.clearcoat.roughness_texture), "t1");
+    EXPECT_EQ(texture_name(loaded, m.clearcoat.normal_texture), "t2");
+    EXPECT_EQ(m.sheen.color, Rgb(0.1f, 0.2f, 0.3f));
+    EXPECT_EQ(m.sheen.roughness, 0.75f);
+    EXPECT_EQ(texture_name(loaded, m.sheen.color_texture), "t1");
+    EXPECT_EQ(texture_name(loaded, m.sheen.roughness_texture), "t2");
+    EXPECT_EQ(m.iridescence.factor, 0.9f);
+    EXPECT_EQ(m.iridescence.ior, 1.8f);
+    EXPECT_EQ(m.iridescence.thickness_minimum_nm, 50.0f);
+    EXPECT_EQ(m.iridescence.thickness_maximum_nm, 900.0f);
+    EXPECT_EQ(texture_name(loaded, m.iridescence.texture), "t0");
+    EXPECT_EQ(texture_name(loaded, m.iridescence.thickness_texture), "t1");
+    EXPECT_EQ(m.anisotropy.strength, 0.6f);
+    EXPECT_EQ(m.anisotropy.rotation, 1.5f);
+    EXPECT_EQ(texture_name(loaded, m.anisotropy.texture), "t2");
+    EXPECT_EQ(m.diffuse_transmission.factor, 0.4f);
+    EXPECT_EQ(m.diffuse_transmission.color, Rgb(1.0f, 0.5f, 0.25f));
+    EXPECT_EQ(texture_name(loaded, m.diffuse_transmission.texture), "t0");
+    EXPECT_EQ(texture_name(loaded, m.diffuse_transmission.color_texture), "t1");
+}
+
+TEST(Material, VolumesAreRead) {
+    const LoadedScene loaded = load_with(R"({"extensions": {
+        "KHR_materials_volume": {"thicknessFactor": 0.1, "attenuationDistance": 0.5, "attenuationColor": [1, 0.5, 0.25]},
+        "KHR_materials_dispersion": {"dispersion": 2.5},
+        "KHR_materials_volume_scatter": {"multiscatterColor": [0.5, 0.25, 0], "scatterAnisotropy": -0.5}}})");
+    const VolumeDesc& volume = material_of(loaded).volume;
+    EXPECT_TRUE(volume.closed);
+    EXPECT_EQ(volume.attenuation_distance, 0.5f);
+    EXPECT_EQ(volume.attenuation_color, Rgb(1.0f, 0.5f, 0.25f));
+    EXPECT_EQ(volume.dispersion, 2.5f);
+    EXPECT_EQ(volume.multiscatter_color, Rgb(0.5f, 0.25f, 0.0f));
+    EXPECT_EQ(volume.scatter_anisotropy, -0.5f);
+}
+
+TEST(Material, VolumesWithoutThicknessAreThinWalls) {
+    for (const char* volume : {R"({})", R"({"thicknessFactor": 0, "attenuationDistance": 2})"}) {
+        const LoadedScene loaded =
+            load_with((R"({"extensions": {"KHR_materials_volume": )" + std::string(volume) + "}}").c_str());
+        EXPECT_FALSE(material_of(loaded).volume.closed);
+    }
+    const LoadedScene loaded =
+        load_with(R"({"extensions": {"KHR_materials_volume": {"thicknessFactor": 1, "attenuationDistance": 0}}})");
+    EXPECT_TRUE(has_problem(loaded.problems, Severity::Warning, "attenuationDistance"));
+    EXPECT_TRUE(std::isinf(material_of(loaded).volume.attenuation_distance));
 }
 
 TEST(Material, EverythingIsRead) {

@@ -172,6 +172,33 @@ TEST(Cameras, WithoutTheirDescriptionAreErrors) {
     EXPECT_TRUE(has_problem(builder.load().problems, Severity::Error, "yfov is 4", "/cameras/0"));
 }
 
+// KHR_node_visibility: what is below a hidden node is hidden, whatever it says itself; cameras are not.
+TEST(Nodes, HiddenNodesShowNothingButTheirCameras) {
+    const auto visible = [](bool value) { return nlohmann::json{{"KHR_node_visibility", {{"visible", value}}}}; };
+    nlohmann::json lamp = visible(true);
+    lamp["KHR_lights_punctual"]["light"] = 0;
+    GltfBuilder builder =
+        with_nodes({{{"mesh", 0}, {"name", "seen"}, {"extensions", visible(true)}},
+                    {{"children", {2}}, {"camera", 0}, {"mesh", 0}, {"extensions", visible(false)}},
+                    {{"mesh", 0}, {"extensions", lamp}},
+                    {{"mesh", 0}, {"extensions", {{"KHR_node_visibility", nlohmann::json::object()}}}},
+                    {{"extensions", lamp}, {"name", "shining"}}},
+                   {0, 1, 3, 4});
+    builder.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}}};
+    builder.json["extensionsUsed"] = {"KHR_node_visibility", "KHR_lights_punctual"};
+    builder.json["extensionsRequired"] = {"KHR_node_visibility"};
+    builder.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
+    const LoadedScene loaded = builder.load();
+    EXPECT_TRUE(loaded.problems.all().empty()) << listing(loaded.problems);
+    ASSERT_EQ(loaded.scene.instances.size(), 2u);
+    EXPECT_EQ(loaded.scene.instances[0].name, "seen");
+    ASSERT_EQ(loaded.scene.lights.size(), 1u);
+    EXPECT_EQ(loaded.scene.lights[0].name, "shining");
+    EXPECT_EQ(loaded.scene.cameras.size(), 1u);
+    builder.json["nodes"][0]["extensions"]["KHR_node_visibility"]["visible"] = 1;
+    EXPECT_TRUE(has_problem(builder.load().problems, Severity::Error, "must be true or false", "/visible"));
+}
+
 TEST(Lights, AreReadAndPlaced) {
     GltfBuilder builder =
         with_nodes({{{"mesh", 0}},

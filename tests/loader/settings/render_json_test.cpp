@@ -48,7 +48,7 @@ TEST(RenderJson, EverySettingIsRead) {
     const Parsed parsed = parse(R"({
         "scene": "x.glb", "integrator": {"type": "direct", "max_depth": 7, "min_depth": 2, "roulette_depth": 3},
         "sampler": "random", "spp": 9, "seed": 4294967295, "time": 1.5, "resolution": [30, 20], "crop": [1, 2, 3, 4],
-        "camera": "c", "lens_radius": 0.5, "focus_distance": 4,
+        "light_units": "radiometric", "camera": "c", "lens_radius": 0.5, "focus_distance": 4,
         "film": {"filter": "mitchell", "filter_radius": 2.5},
         "environment": {"image": "i.exr", "color": [1, 2, 3], "scale": 4, "rotation": 5, "visible_to_camera": false},
         "color": {"working_space": "w", "display": "d", "view": "v", "exposure": -1}})");
@@ -63,6 +63,7 @@ TEST(RenderJson, EverySettingIsRead) {
     EXPECT_EQ(s.spp, 9);
     EXPECT_EQ(s.seed, 4294967295u);
     EXPECT_EQ(s.time_limit, 1.5);
+    EXPECT_EQ(s.light_units, LightUnits::Radiometric);
     EXPECT_EQ(s.film.width, 30);
     EXPECT_EQ(s.film.height, 20);
     EXPECT_EQ(s.film.crop, (std::array{1, 2, 3, 4}));
@@ -186,6 +187,50 @@ TEST(RenderJson, LightOverrides) {
     const LoadedScene replaced = load_with(R"({"lights": {"lamp": {"intensity": 2, "scale": 3}}})");
     EXPECT_EQ(replaced.scene.lights.at(0).intensity, 6.0f);
     EXPECT_TRUE(load_with(R"({"lights": {"lamp": {"enabled": false}}})").scene.lights.empty());
+}
+
+/// The light "lamp" of a scene of two such lights, with these changes and the file lamp.ies, whose peak is 200 candela.
+LoadedScene load_with_profile(const std::string& changes, const std::string& type = "point") {
+    GltfBuilder builder;
+    builder.add_triangle();
+    builder.json["nodes"][0]["extensions"] = {{"KHR_lights_punctual", {{"light", 0}}}};
+    builder.json["nodes"].push_back(builder.json["nodes"][0]);
+    builder.json["scenes"][0]["nodes"] = {0, 1};
+    builder.json["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", type}, {"name", "lamp"}, {"intensity", 10}}};
+    const TempDir dir;
+    builder.write(dir);
+    dir.write("lamp.ies", "IESNA91\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n1 1 10\n0 90\n0\n200 50\n");
+    dir.write("broken.ies", "IESNA91\nTILT=NONE\n1 -1 1 2 1 2 2 0 0 0\n1 1 10\n0 90\n0\n200 50\n");
+    dir.write("render.json", R"({"lights": {"lamp": )" + changes + "}}");
+    return inspect_scene(dir.path());
+}
+
+TEST(RenderJson, LightProfiles) {
+    const LoadedScene measured = load_with_profile(R"({"ies": "lamp.ies"})");
+    EXPECT_FALSE(measured.problems.has_errors()) << listing(measured.problems);
+    ASSERT_EQ(measured.scene.ies_profiles.size(), 1u) << "both lights share it";
+    EXPECT_EQ(measured.scene.ies_profiles[0].name, "lamp.ies");
+    ASSERT_EQ(measured.scene.lights.size(), 2u);
+    for (const LightDesc& light : measured.scene.lights) {
+        EXPECT_EQ(light.profile.index, 0);
+        EXPECT_EQ(light.intensity, 1.0f) << "the file's candela, not the light's";
+    }
+    EXPECT_EQ(measured.scene.inputs.back().filename(), "lamp.ies");
+    EXPECT_EQ(load_with_profile(R"({"ies": "lamp.ies", "scale": 3})").scene.lights.at(1).intensity, 3.0f);
+    EXPECT_EQ(load_with_profile(R"({"ies": "lamp.ies", "intensity": 50, "scale": 2})").scene.lights.at(0).intensity,
+              0.5f);
+}
+
+TEST(RenderJson, BadLightProfilesAreErrorsWithTheirPlace) {
+    const auto expect = [](const LoadedScene& loaded, const std::string& message, const std::string& pointer) {
+        EXPECT_TRUE(has_problem(loaded.problems, Severity::Error, message, pointer)) << listing(loaded.problems);
+    };
+    expect(load_with_profile(R"({"ies": "other.ies"})"), "'other.ies': the file does not exist", "/lights/lamp/ies");
+    expect(load_with_profile(R"({"ies": "../lamp.ies"})"), "'..'", "/lights/lamp/ies");
+    expect(load_with_profile(R"({"ies": "broken.ies"})"), "line 3: type B photometry is not supported", "");
+    expect(load_with_profile(R"({"ies": "lamp.ies"})", "directional"), "a directional light has no position",
+           "/lights/lamp/ies");
 }
 
 TEST(RenderJson, EnvironmentImagesAreCheckedAndStayInside) {

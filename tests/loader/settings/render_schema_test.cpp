@@ -89,7 +89,9 @@ const char* const kGood[] = {
     R"({"materials": {"a": {"subsurface": {}}, "b": {"subsurface": {"albedo": [1, 0, 0.5], "radius": [1, 2, 0.5],
         "anisotropy": 0.9, "ior": 1, "roughness": 1}}, "c": {"diffuse": {"roughness": 1}}}})",
     R"({"materials": {"a": {"emission": {"color": [0, 5, 1], "strength": 100}}, "b": {"diffuse": {}, "emission": {}}}})",
-    R"({"lights": {"a": {"color": [1, 2, 3], "intensity": 0, "scale": 2, "enabled": false}, "b": {}}})",
+    R"({"lights": {"a": {"color": [1, 2, 3], "intensity": 0, "scale": 2, "enabled": false}, "b": {"ies": "x.ies"}}})",
+    R"({"light_units": "photometric"})",
+    R"({"light_units": "radiometric"})",
 };
 
 const char* const kBad[] = {
@@ -116,6 +118,10 @@ const char* const kBad[] = {
     R"({"integrator": {"roulette_depth": "5"}})",
     R"({"sampler": "halton"})",
     R"({"sampler": 3})",
+    R"({"light_units": "raw"})",
+    R"({"light_units": 683})",
+    R"({"lights": {"a": {"ies": ""}}})",
+    R"({"lights": {"a": {"ies": 1}}})",
     R"({"spp": 0})",
     R"({"spp": 16777217})",
     R"({"spp": true})",

@@ -1,0 +1,31 @@
+#include "light/profile_light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace etendue {
+
+LightSample ProfileLight::sample(const Vec3f& point, Vec2f u) const {
+    LightSample sample = std::visit([&](const auto& l) { return l.sample(point, u); }, lamp);
+    if (is_black(sample.radiance)) return sample;
+    sample.radiance *= profile->candela(frame.to_local(-sample.wi));
+    return sample;
+}
+
+float ProfileLight::power(float) const {
+    constexpr int kSteps = 1024;
+    const SpotLight* spot = std::get_if<SpotLight>(&lamp);
+    const Rgb intensity = spot != nullptr ? spot->intensity : std::get<PointLight>(lamp).intensity;
+    auto end = static_cast<double>(profile->last_vertical());
+    if (spot != nullptr) end = std::min(end, std::acos(static_cast<double>(spot->cos_outer)));
+    double sum = 0.0;
+    for (int i = 0; i < kSteps; ++i) {
+        const double theta = (i + 0.5) / kSteps * end;
+        const float falloff = spot != nullptr ? spot->falloff(static_cast<float>(std::cos(theta))) : 1.0f;
+        sum += profile->mean_candela(theta) * static_cast<double>(falloff) * std::sin(theta);
+    }
+    return static_cast<float>(sum * end / kSteps * 2.0 * std::numbers::pi) * average(intensity);
+}
+
+}  // namespace etendue

@@ -1,0 +1,26 @@
+// A point or spot light whose intensity follows a measured profile.
+#pragma once
+
+#include "core/frame.h"
+#include "light/ies_profile.h"
+#include "light/punctual_light.h"
+
+#include <memory>
+#include <variant>
+
+namespace etendue {
+
+/// Intensity is that of `lamp` times the profile's candela. Lamps of one kind share their profile.
+struct ProfileLight {
+    std::variant<PointLight, SpotLight> lamp;
+    /// The lamp's own axes: it points along -normal, and the profile's horizontal angles begin at the tangent.
+    Frame frame;
+    std::shared_ptr<const IesProfile> profile;
+
+    [[nodiscard]] LightSample sample(const Vec3f& point, Vec2f u) const;
+    /// By a rule of 1,024 points over the vertical angle: near enough for a choice, and exact to some 1e-5 for profiles
+    /// as they are measured.
+    [[nodiscard]] float power(float scene_radius) const;
+};
+
+}  // namespace etendue

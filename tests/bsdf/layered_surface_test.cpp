@@ -1,0 +1,91 @@
+#include "bsdf/layered_surface.h"
+
+#include "bsdf_settings.h"
+#include "support/random.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace etendue::test {
+
+namespace {
+
+const MetallicRoughness kPaint{.base = {0.5f, 0.2f, 0.1f}, .metallic = 0.0f, .alpha_x = 0.4f, .alpha_y = 0.4f};
+
+TEST(LayeredSurface, WithoutLayersIsItsBase) {
+    const LayeredSurface bare = LayeredSurface::make(kPaint, {}, {});
+    const Vec3f wo = direction_at(0.6f);
+    for (const float cos_i : {0.1f, 0.5f, 0.9f}) {
+        const BsdfValue expected = kPaint.evaluate(wo, direction_at(cos_i), TransportMode::Radiance);
+        const BsdfValue value = bare.evaluate(wo, direction_at(cos_i), TransportMode::Radiance);
+        EXPECT_NEAR(value.f_cos.r, expected.f_cos.r, 1e-5f);
+        EXPECT_NEAR(value.pdf_solid_angle, expected.pdf_solid_angle, 1e-5f);
+    }
+}
+
+TEST(LayeredSurface, ACoatAddsAHighlightAndDimsTheRest) {
+    const LayeredSurface coated = LayeredSurface::make(kPaint, {}, ClearCoat{1.0f, 0.01f});
+    const Vec3f wo = direction_at(0.7f);
+    const Vec3f mirror = mirror_direction(wo);
+    const Vec3f aside = normalize({0.1f, 0.6f, 0.5f});
+    EXPECT_GT(coated.evaluate(wo, mirror, TransportMode::Radiance).f_cos.g,
+              2.0f * kPaint.evaluate(wo, mirror, TransportMode::Radiance).f_cos.g);
+    EXPECT_LT(coated.evaluate(wo, aside, TransportMode::Radiance).f_cos.r,
+              kPaint.evaluate(wo, aside, TransportMode::Radiance).f_cos.r);
+}
+
+TEST(LayeredSurface, ACoatReflectsAboutItsOwnNormal) {
+    const Vec3f tilted = normalize({0.3f, -0.1f, 1.0f});
+    const LayeredSurface coated = LayeredSurface::make(kPaint, {}, ClearCoat{1.0f, 0.0f, tilted});
+    const Vec3f wo = direction_at(0.9f);
+    Random random(1);
+    int mirrored = 0;
+    for (int i = 0; i < 500; ++i) {
+        const float u_lobe = random.next();
+        const BsdfSample s = coated.sample(wo, u_lobe, random.next_2d(), TransportMode::Radiance);
+        if (!s.is_delta) continue;
+        ++mirrored;
+        const Vec3f half = normalize(wo + s.wi);
+        EXPECT_NEAR(dot(half, tilted), 1.0f, 1e-5f);
+    }
+    EXPECT_GT(mirrored, 5);
+}
+
+// With the coat's normal beside the surface's, light walks weigh what eye walks do in the other direction.
+TEST(LayeredSurface, ModesAreAdjointUnderATiltedCoat) {
+    const Vec3f tilted = normalize({0.3f, 0.2f, 1.0f});
+    const LayeredSurface coated = LayeredSurface::make(kPaint, Sheen{Rgb(0.3f), 0.3f}, ClearCoat{0.9f, 0.1f, tilted});
+    Random random(2);
+    for (int i = 0; i < 500; ++i) {
+        Vec3f wo = direction_at(0.05f + 0.9f * random.next());
+        wo = normalize({wo.x * 0.8f, wo.x * 0.6f, wo.z});
+        const Vec3f wi = Sheen::sample(random.next_2d());
+        if (wi.z < 0.01f) continue;
+        const float eye = coated.evaluate(wo, wi, TransportMode::Radiance).f_cos.r / wi.z;
+        const float light = coated.evaluate(wi, wo, TransportMode::Importance).f_cos.r / wo.z;
+        EXPECT_NEAR(eye, light, 1e-3f * (eye + light) + 1e-6f);
+    }
+}
+
+TEST(Sheen, WhatItPassesIsWhatItDoesNotReflect) {
+    for (const float alpha : {0.05f, 0.3f, 1.0f}) {
+        const Sheen sheen{Rgb(1.0f), alpha};
+        for (const float cos_o : {0.1f, 0.4f, 0.9f}) {
+            const Vec3f wo = direction_at(cos_o);
+            double sum = 0.0;
+            constexpr int kSamples = 65'536;
+            Random random(3);
+            for (int i = 0; i < kSamples; ++i) {
+                const BsdfValue value = sheen.evaluate(wo, Sheen::sample(random.next_2d()));
+                sum += static_cast<double>(value.f_cos.r / value.pdf_solid_angle);
+            }
+            EXPECT_NEAR(sum / kSamples, 1.0 - static_cast<double>(sheen.passed(cos_o)), 0.012)
+                << "alpha " << alpha << ", cos " << cos_o;
+        }
+    }
+}
+
+}  // namespace
+
+}  // namespace etendue::test

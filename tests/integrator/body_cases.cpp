@@ -1,0 +1,184 @@
+// Bodies and what fills them. Slabs whose index is that of what surrounds them let light through as exp(-σ d); lossless
+// bodies, however they nest, overlap, disperse or scatter, do not show in a white environment.
+#include "integrator/closed_form.h"
+#include "integrator/closed_form_scene.h"
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <string>
+#include <utility>
+
+namespace etendue::test {
+
+namespace {
+
+const std::vector<std::string> kUnbounded{"path", "naive"};
+
+/// A body of glTF's material that nothing reflects, of which a quarter of the light passes one metre.
+MaterialDesc tinted_air(int priority = 0, float left = 0.25f) {
+    MaterialDesc m;
+    m.metallic = 0.0f;
+    m.roughness = 0.0f;
+    m.transmission = 1.0f;
+    m.ior = 1.0f;
+    m.volume = {.closed = true, .attenuation_color = Rgb(left), .attenuation_distance = 1.0f, .priority = priority};
+    return m;
+}
+
+/// A box 4 metres wide whose faces at z = `front` and `back` the camera looks through.
+PrimitiveDesc slab(float front, float back) {
+    const float middle = 0.5f * (front + back);
+    const Vec3f x(4.0f, 0.0f, 0.0f);
+    const Vec3f y(0.0f, 4.0f, 0.0f);
+    const Vec3f z(0.0f, 0.0f, front - back);
+    PrimitiveDesc box;
+    const auto add_face = [&](const Vec3f& center, const Vec3f& u, const Vec3f& v) {
+        const PrimitiveDesc face = parallelogram(center, u, v);
+        const auto first = static_cast<std::uint32_t>(box.positions.size());
+        box.positions.insert(box.positions.end(), face.positions.begin(), face.positions.end());
+        for (const auto& t : face.triangles) box.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    };
+    add_face({0.0f, 0.0f, front}, x, y);
+    add_face({0.0f, 0.0f, back}, y, x);
+    add_face({2.0f, 0.0f, middle}, y, z);
+    add_face({-2.0f, 0.0f, middle}, z, y);
+    add_face({0.0f, 2.0f, middle}, z, x);
+    add_face({0.0f, -2.0f, middle}, x, z);
+    return box;
+}
+
+SceneDesc empty_in_environment() {
+    SceneDesc scene;
+    set_environment(scene);
+    look(scene, {0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -1.0f});
+    return scene;
+}
+
+ClosedFormCase exact_case(const std::string& name, SceneDesc scene, double exponent) {
+    ClosedFormCase c{name, std::move(scene), std::pow(0.25, exponent), 1e-4, {.max_depth = 100}, kUnbounded, 16};
+    // Roulette would end some of the paths.
+    c.lengths.roulette_depth = 1000;
+    c.is_exact = true;
+    return c;
+}
+
+std::vector<ClosedFormCase> absorption_cases() {
+    std::vector<ClosedFormCase> cases;
+    SceneDesc one = empty_in_environment();
+    add(one, slab(-1.0f, -1.7f), tinted_air());
+    cases.push_back(exact_case("slab_absorbs", one, 0.7));
+
+    SceneDesc inside = empty_in_environment();
+    add(inside, slab(0.5f, -1.5f), tinted_air());
+    cases.push_back(exact_case("camera_in_a_slab", inside, 1.5));
+
+    SceneDesc nested = empty_in_environment();
+    add(nested, slab(-1.0f, -4.0f), tinted_air());
+    add(nested, slab(-2.0f, -3.0f), tinted_air(0, 0.0625f));
+    cases.push_back(exact_case("the_smaller_slab_fills_the_larger", nested, 2.0 + 2.0));
+
+    // From -2 to -3 both are there.
+    for (const int priority : {-1, 1}) {
+        SceneDesc overlapping = empty_in_environment();
+        add(overlapping, slab(-1.0f, -3.0f), tinted_air(priority));
+        add(overlapping, slab(-2.0f, -4.0f), tinted_air(0, 0.0625f));
+        cases.push_back(exact_case(priority > 0 ? "the_first_slab_has_priority" : "the_second_slab_has_priority",
+                                   overlapping, priority > 0 ? 2.0 + 2.0 : 1.0 + 4.0));
+    }
+
+    // An opaque wall in the medium, lit from within it.
+    SceneDesc wall = empty_in_environment();
+    wall.environment.enabled = false;
+    add(wall, slab(0.5f, -2.0f), tinted_air());
+    add(wall, parallelogram({0.0f, 0.0f, -1.0f}, {1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}), diffuse(0.5f));
+    add_light(wall, LightType::Point, 2.0f, {0.0f, 0.0f, 0.25f});
+    ClosedFormCase lit{"light_is_absorbed_on_its_way",
+                       wall,
+                       0.5 * std::numbers::inv_pi * 2.0 / (1.25 * 1.25) * std::pow(0.25, 1.25 + 1.0),
+                       1e-4,
+                       {.max_depth = 100},
+                       {"path", "direct"},
+                       16};
+    cases.push_back(lit);
+    return cases;
+}
+
+ClosedFormCase lossless(const std::string& name, SceneDesc scene, double tolerance, std::uint32_t spp = 32) {
+    scene.cameras.clear();
+    look(scene, {0.0f, 0.0f, 3.0f}, {0.0f, 0.0f, -1.0f}, 0.4f);
+    return {name, std::move(scene), 1.0, tolerance, {.max_depth = 1000}, kUnbounded, spp};
+}
+
+MaterialDesc dielectric(float ior, float roughness = 0.0f, VolumeDesc volume = {.closed = true}) {
+    MaterialDesc m;
+    m.override_model = DielectricDesc{ior, roughness, volume};
+    return m;
+}
+
+std::vector<ClosedFormCase> lossless_cases() {
+    std::vector<ClosedFormCase> cases;
+    const auto ball = [](const Vec3f& center, float radius) { return sphere(center, radius, 3, Facing::Outwards); };
+
+    for (const float roughness : {0.0f, 0.4f}) {
+        SceneDesc ice = empty_in_environment();
+        add(ice, ball({0.0f, 0.0f, 0.0f}, 1.0f), dielectric(1.33f, roughness));
+        add(ice, ball({0.1f, 0.0f, 0.1f}, 0.6f), dielectric(1.6f, roughness));
+        add(ice, ball({0.1f, 0.1f, 0.2f}, 0.3f), dielectric(1.01f, roughness));
+        cases.push_back(lossless(roughness > 0.0f ? "rough_bodies_in_bodies" : "bodies_in_bodies", ice,
+                                 roughness > 0.0f ? 1e-2 : 1e-4));
+    }
+    for (const int priority : {-1, 0, 1}) {
+        SceneDesc overlap = empty_in_environment();
+        add(overlap, ball({0.3f, 0.0f, 0.0f}, 0.8f), dielectric(1.5f, 0.0f, {.closed = true, .priority = priority}));
+        add(overlap, ball({-0.3f, 0.1f, 0.2f}, 0.7f), dielectric(1.33f));
+        cases.push_back(lossless("bodies_overlap_with_priority_" + std::string(priority < 0   ? "below"
+                                                                               : priority > 0 ? "above"
+                                                                                              : "equal"),
+                                 overlap, 1e-4));
+    }
+    for (const float roughness : {0.0f, 0.3f}) {
+        SceneDesc prism = empty_in_environment();
+        add(prism, ball({0.0f, 0.0f, 0.0f}, 0.9f), dielectric(1.6f, roughness, {.closed = true, .dispersion = 1.0f}));
+        cases.push_back(lossless(roughness > 0.0f ? "rough_dispersive_body" : "dispersive_body", prism,
+                                 roughness > 0.0f ? 1e-2 : 1e-4, 128));
+    }
+
+    VolumeDesc milk{.closed = true,
+                    .attenuation_color = {0.2f, 0.3f, 0.5f},
+                    .attenuation_distance = 0.3f,
+                    .multiscatter_color = Rgb(1.0f),
+                    .scatter_anisotropy = 0.4f};
+    SceneDesc glass_of_milk = empty_in_environment();
+    add(glass_of_milk, ball({0.0f, 0.0f, 0.0f}, 0.9f), dielectric(1.3f, 0.0f, milk));
+    cases.push_back(lossless("milk_in_glass", glass_of_milk, 1e-3));
+
+    MaterialDesc wax;
+    wax.metallic = 0.0f;
+    wax.roughness = 0.5f;
+    wax.diffuse_transmission.factor = 1.0f;
+    wax.volume = milk;
+    SceneDesc candle = empty_in_environment();
+    add(candle, ball({0.0f, 0.0f, 0.0f}, 0.9f), wax);
+    cases.push_back(lossless("wax", candle, 5e-3));
+
+    MaterialDesc partly;
+    partly.metallic = 0.3f;
+    partly.roughness = 0.3f;
+    partly.transmission = 0.6f;
+    partly.volume.closed = true;
+    SceneDesc mixed = empty_in_environment();
+    add(mixed, ball({0.0f, 0.0f, 0.0f}, 0.9f), partly);
+    cases.push_back(lossless("partly_metal_body", mixed, 5e-3));
+    return cases;
+}
+
+}  // namespace
+
+std::vector<ClosedFormCase> body_cases() {
+    std::vector<ClosedFormCase> cases = absorption_cases();
+    for (ClosedFormCase& c : lossless_cases()) cases.push_back(std::move(c));
+    return cases;
+}
+
+}  // namespace etendue::test

@@ -1,0 +1,100 @@
+// Which body a point is in, and what its boundary looks like from there.
+#include "world/test_scene.h"
+#include "world/world.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace etendue::test {
+
+namespace {
+
+MaterialDesc body(float ior, int priority = 0, float dispersion = 0.0f) {
+    MaterialDesc m;
+    m.override_model = DielectricDesc{ior, 0.0f, {.closed = true, .dispersion = dispersion, .priority = priority}};
+    return m;
+}
+
+void add_ball(SceneDesc& scene, const Vec3f& center, float radius, const MaterialDesc& material) {
+    add_object(scene, sphere(center, radius, 12), add_material(scene, material));
+}
+
+/// The boundary that a ray along -Z through the origin's axis meets from `z` on, seen from within `interior`.
+Crossing crossing_from(const World& world, float z, const Interior& interior) {
+    const Hit hit = intersect(world, Ray{.origin = {0.01f, 0.02f, z}, .direction = {0, 0, -1}});
+    EXPECT_TRUE(hit.valid());
+    const SurfacePoint point = world.surface_point(hit);
+    EXPECT_TRUE(world.is_boundary(point));
+    return world.crossing(point, interior);
+}
+
+TEST(Bodies, APointKnowsWhatItIsIn) {
+    SceneDesc scene = empty_scene();
+    add_ball(scene, {0, 0, 0}, 2.0f, body(1.33f));
+    add_ball(scene, {0, 0, 0.2f}, 1.0f, body(1.5f));
+    const World world = compile(std::move(scene));
+    EXPECT_TRUE(world.has_bodies());
+    EXPECT_TRUE(world.interior_at({3, 0, 0}).is_empty());
+    EXPECT_TRUE(world.interior_at({0, -3, 0}).is_empty()) << "below all, on the ray's way";
+    const Interior water = world.interior_at({1.5f, 0, 0});
+    const Interior glass = world.interior_at({0, 0, 0.2f});
+    EXPECT_EQ(crossing_from(world, 1.6f, water).outside_ior, 1.33f);
+    EXPECT_NE(water.filling(), glass.filling());
+    EXPECT_EQ(world.camera_interior().filling(), glass.filling()) << "the camera stands at the origin";
+}
+
+TEST(Bodies, AnInnerBoundaryIsRelativeToWhatSurroundsIt) {
+    SceneDesc scene = empty_scene();
+    add_ball(scene, {0, 0, 0}, 2.0f, body(1.33f));
+    add_ball(scene, {0, 0, 0}, 1.0f, body(1.5f));
+    const World world = compile(std::move(scene));
+    const Crossing outer = crossing_from(world, 5.0f, Interior());
+    EXPECT_FALSE(outer.is_hidden);
+    EXPECT_FLOAT_EQ(outer.relative_ior(0.0f), 1.33f);
+    const Crossing inner = crossing_from(world, 1.5f, outer.inside);
+    EXPECT_FALSE(inner.is_hidden) << "the smaller one fills the space";
+    EXPECT_FLOAT_EQ(inner.relative_ior(0.0f), 1.5f / 1.33f);
+    // From within, the same boundary says the same.
+    EXPECT_FLOAT_EQ(crossing_from(world, 0.0f, inner.inside).relative_ior(0.0f), 1.5f / 1.33f);
+}
+
+TEST(Bodies, PriorityHidesABoundary) {
+    SceneDesc scene = empty_scene();
+    add_ball(scene, {0, 0, 0}, 2.0f, body(1.33f, 1));
+    add_ball(scene, {0, 0, 0}, 1.0f, body(1.5f, 0));
+    const World world = compile(std::move(scene));
+    const Crossing outer = crossing_from(world, 5.0f, Interior());
+    const Crossing inner = crossing_from(world, 1.5f, outer.inside);
+    EXPECT_TRUE(inner.is_hidden);
+    EXPECT_TRUE(crossing_from(world, 0.0f, inner.inside).is_hidden);
+    EXPECT_FALSE(crossing_from(world, -1.5f, outer.inside).is_hidden);
+}
+
+TEST(Bodies, OpaqueAndThinMaterialsHaveNone) {
+    MaterialDesc thin;
+    thin.transmission = 1.0f;
+    thin.metallic = 0.0f;
+    MaterialDesc opaque;
+    opaque.volume.closed = true;
+    SceneDesc scene = empty_scene();
+    add_ball(scene, {0, 0, -3}, 1.0f, thin);
+    add_ball(scene, {0, 0, -6}, 1.0f, opaque);
+    EXPECT_FALSE(compile(std::move(scene)).has_bodies());
+}
+
+TEST(Bodies, ShortWavesAreRefractedMore) {
+    SceneDesc scene = empty_scene();
+    // 20 over the Abbe number: 1 is V = 20.
+    add_ball(scene, {0, 0, -3}, 1.0f, body(1.6f, 0, 1.0f));
+    const World world = compile(std::move(scene));
+    const Crossing crossing = crossing_from(world, 0.0f, Interior());
+    EXPECT_TRUE(crossing.disperses());
+    EXPECT_NEAR(crossing.relative_ior(587.6f), 1.6f, 1e-4f);
+    // The definition of the Abbe number: V = (n_d - 1) / (n_F - n_C).
+    EXPECT_NEAR(0.6f / (crossing.relative_ior(486.1f) - crossing.relative_ior(656.3f)), 20.0f, 0.02f);
+}
+
+}  // namespace
+
+}  // namespace etendue::test
