@@ -1,9 +1,8 @@
 // etendue batch: every scene directory below some directories.
 #include "app/commands.h"
+#include "app/image_job.h"
 #include "app/interrupt.h"
 #include "app/progress_display.h"
-#include "app/scene_render.h"
-#include "app/up_to_date.h"
 #include "core/log.h"
 #include "loader/loader.h"
 
@@ -18,7 +17,6 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace etendue {
 
@@ -38,32 +36,9 @@ struct BatchArguments {
 
 struct BatchItem {
     fs::path scene;
-    fs::path output;   ///< the EXR
+    fs::path root;     ///< the directory given, below which it was found
     std::string name;  ///< path below the output directory, without extension
 };
-
-enum class Outcome { Rendered, UpToDate, Failed, Interrupted };
-
-struct BatchRow {
-    BatchItem item;
-    Outcome outcome = Outcome::Failed;
-    std::string error;
-    RenderStatistics statistics;
-};
-
-const char* outcome_name(Outcome outcome) {
-    switch (outcome) {
-        case Outcome::Rendered:
-            return "rendered";
-        case Outcome::UpToDate:
-            return "up to date";
-        case Outcome::Failed:
-            return "failed";
-        case Outcome::Interrupted:
-            return "interrupted";
-    }
-    return "?";
-}
 
 /// A scene's name is its path below the root; with several roots that hold the same name, the root's name comes first.
 std::vector<BatchItem> collect_items(const BatchArguments& arguments) {
@@ -82,48 +57,67 @@ std::vector<BatchItem> collect_items(const BatchArguments& arguments) {
             ++uses[name];
         }
     }
-    std::set<std::string> taken;
-    for (BatchItem& item : items) {
-        if (uses[item.name] > 1) item.name = (item.output.filename() / item.name).string();
-        if (!taken.insert(item.name).second)
-            throw SceneError({item.scene.string(), ""}, "two scenes would be written to '" + item.name +
-                                                            "'; render them to different directories");
-        item.output = fs::path(arguments.output) / (item.name + ".exr");
-    }
+    for (BatchItem& item : items)
+        if (uses[item.name] > 1) item.name = (item.root.filename() / item.name).string();
     return items;
 }
 
-BatchRow process(const BatchItem& item, const std::string& title, const BatchArguments& arguments,
-                 const ThreadPool& threads) {
-    BatchRow row{item, Outcome::Failed, {}, {}};
-    try {
-        PreparedScene prepared = prepare_scene(item.scene, arguments.overrides);
-        const OutputPaths paths = OutputPaths::beside(item.output);
-        const std::string hash = settings_hash(prepared.scene, arguments.overrides.depth);
-        if (!arguments.force && is_up_to_date(paths, prepared.scene.inputs, hash)) {
-            row.outcome = Outcome::UpToDate;
-            return row;
+/// One job for each image of each scene. Throws SceneError if two would be written to the same file.
+std::vector<ImageJob> collect_jobs(const BatchArguments& arguments) {
+    std::vector<ImageJob> jobs;
+    std::set<fs::path> taken;
+    for (const BatchItem& item : collect_items(arguments)) {
+        const fs::path output = fs::path(arguments.output) / (item.name + ".exr");
+        for (ImageJob& job : image_jobs(item.scene, output, item.name, arguments.overrides)) {
+            if (!taken.insert(job.output).second)
+                throw SceneError(
+                    {item.scene.string(), ""},
+                    fmt::format("two images would be written to '{}'; render them to different directories",
+                                job.output.string()));
+            jobs.push_back(std::move(job));
         }
-        fs::create_directories(item.output.parent_path());
-        const SceneRenderRequest request{item.scene, item.output, arguments.overrides, arguments.quiet, title};
-        const SceneRenderResult result = render_scene(std::move(prepared), request, threads);
-        row.statistics = result.statistics;
-        row.outcome = result.interrupted ? Outcome::Interrupted : Outcome::Rendered;
-    } catch (const std::exception& error) {
-        row.error = error.what();
-        log_error("{}: {}", item.scene.string(), row.error);
     }
-    return row;
+    return jobs;
 }
 
-void print_table(const std::vector<BatchRow>& rows) {
+ImageResult process(const ImageJob& job, const std::string& title, const BatchArguments& arguments,
+                    const ThreadPool& threads) {
+    try {
+        return run_job(job,
+                       {.overrides = arguments.overrides,
+                        .force = arguments.force,
+                        .quiet = arguments.quiet,
+                        .make_directories = true,
+                        .title = title},
+                       threads);
+    } catch (const std::exception& error) {
+        log_error("{}: {}", job.scene.string(), error.what());
+        return {job, ImageOutcome::Failed, error.what(), {}};
+    }
+}
+
+/// What is wrong with one frame of a scene is wrong with the others: they are not tried once one has failed.
+std::vector<ImageResult> process_all(const std::vector<ImageJob>& jobs, const BatchArguments& arguments,
+                                     const ThreadPool& threads) {
+    std::vector<ImageResult> results;
+    fs::path failed_scene;
+    for (std::size_t i = 0; i < jobs.size() && !interrupt_requested(); ++i) {
+        if (jobs[i].scene == failed_scene) continue;
+        results.push_back(
+            process(jobs[i], fmt::format("[{}/{}] {}", i + 1, jobs.size(), jobs[i].name), arguments, threads));
+        if (results.back().outcome == ImageOutcome::Failed) failed_scene = jobs[i].scene;
+    }
+    return results;
+}
+
+void print_table(const std::vector<ImageResult>& results) {
     std::size_t width = 5;
-    for (const BatchRow& row : rows) width = std::max(width, row.item.name.size());
+    for (const ImageResult& result : results) width = std::max(width, result.job.name.size());
     fmt::print("{:<{}}  {:<11}  {:>11}  {:>6}  {:>9}  {:>8}  {}\n", "scene", width, "result", "size", "spp", "time",
                "Mrays/s", "image");
-    for (const BatchRow& row : rows) {
-        const RenderStatistics& s = row.statistics;
-        fmt::print("{:<{}}  {:<11}  ", row.item.name, width, outcome_name(row.outcome));
+    for (const ImageResult& result : results) {
+        const RenderStatistics& s = result.statistics;
+        fmt::print("{:<{}}  {:<11}  ", result.job.name, width, outcome_name(result.outcome));
         if (s.samples > 0)
             fmt::print("{:>11}  {:>6}  {:>9}  {:>8.1f}  ", fmt::format("{}x{}", s.width, s.height), s.spp_done,
                        format_duration(s.render.wall),
@@ -131,43 +125,27 @@ void print_table(const std::vector<BatchRow>& rows) {
         else
             fmt::print("{:>11}  {:>6}  {:>9}  {:>8}  ", "-", "-", "-", "-");
         // A message of several lines would break the table; its first line is enough here, all were logged.
-        fmt::print("{}\n", row.outcome == Outcome::Failed ? row.error.substr(0, row.error.find('\n'))
-                                                          : row.item.output.string());
+        fmt::print("{}\n", result.outcome == ImageOutcome::Failed ? result.error.substr(0, result.error.find('\n'))
+                                                                  : result.job.output.string());
     }
-}
-
-void print_json(const std::vector<BatchRow>& rows) {
-    nlohmann::json list = nlohmann::json::array();
-    for (const BatchRow& row : rows) {
-        nlohmann::json entry{{"scene", row.item.scene.string()},
-                             {"image", row.item.output.string()},
-                             {"result", outcome_name(row.outcome)}};
-        if (!row.error.empty()) entry["error"] = row.error;
-        if (row.statistics.samples > 0) entry["statistics"] = nlohmann::json::parse(to_json(row.statistics));
-        list.push_back(std::move(entry));
-    }
-    fmt::print("{}\n", list.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 ExitCode run_batch(const BatchArguments& arguments) {
-    const std::vector<BatchItem> items = collect_items(arguments);
-    if (items.empty()) {
+    const std::vector<ImageJob> jobs = collect_jobs(arguments);
+    if (jobs.empty()) {
         log_error(
             "error: no scene directory was found; a scene directory holds a render.json or exactly one glTF file");
         return ExitCode::InvalidScene;
     }
     const ThreadPool threads(arguments.threads);
-    std::vector<BatchRow> rows;
-    for (std::size_t i = 0; i < items.size() && !interrupt_requested(); ++i)
-        rows.push_back(
-            process(items[i], fmt::format("[{}/{}] {}", i + 1, items.size(), items[i].name), arguments, threads));
+    const std::vector<ImageResult> results = process_all(jobs, arguments, threads);
     if (arguments.json)
-        print_json(rows);
+        fmt::print("{}", to_json(results));
     else if (!arguments.quiet)
-        print_table(rows);
+        print_table(results);
     if (interrupt_requested()) return interrupt_exit_code();
     const bool failed =
-        std::any_of(rows.begin(), rows.end(), [](const BatchRow& r) { return r.outcome == Outcome::Failed; });
+        std::ranges::any_of(results, [](const ImageResult& result) { return result.outcome == ImageOutcome::Failed; });
     return failed ? ExitCode::RenderFailed : ExitCode::Success;
 }
 
@@ -190,10 +168,12 @@ void add_batch_command(CLI::App& app, Action& action) {
     command->footer(
         "A scene directory holds a render.json or exactly one glTF file. A scene that fails is reported and the others "
         "go\n"
-        "on; images that are newer than all of their inputs and were made with the same settings are skipped.\n\n"
+        "on; images that are newer than all of their inputs and were made with the same settings are skipped. Of a\n"
+        "sequence of frames the table has one row for each.\n\n"
         "Examples:\n"
         "  etendue batch scenes -o out --quality draft\n"
         "  etendue batch shots/a shots/b -o /renders --spp 512 --force\n"
+        "  etendue batch characters -o turntables --frames 0:47 --animation Walk\n"
         "  etendue batch scenes -o out --json --quiet > summary.json");
     command->callback([arguments, &action] { action = [arguments] { return run_batch(*arguments); }; });
 }

@@ -5,6 +5,7 @@
 #include "loader/loader.h"
 #include "world/compile.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -54,6 +55,7 @@ nlohmann::json summarize(const SceneDesc& s) {
             {"light_units", light_units_name(s.settings.light_units)},
             {"ies_profiles", names(s.ies_profiles)},
             {"environment", s.environment.enabled},
+            {"animations", s.animations},
             {"extensions_used", s.extensions_used},
             {"extensions_ignored", s.extensions_ignored}};
 }
@@ -99,8 +101,12 @@ void print_text(const Inspection& i) {
     fmt::print("triangles: {}, vertices: {}\n", i.triangles, i.vertices);
     if (i.world)
         fmt::print(
-            "compiled: {} triangles as seen, {} lights, {:.1f} MiB BVH, {:.1f} MiB geometry, {:.1f} MiB textures\n",
+            "compiled: {} triangles as seen, {} lights, {:.1f} MiB BVH in {:.2f} s ({:.2f} Mtris/s), {:.1f} MiB "
+            "geometry, "
+            "{:.1f} MiB textures\n",
             i.world->instanced_triangles, i.world->lights, static_cast<double>(i.world->bvh_bytes) / (1 << 20),
+            i.world->bvh_build_seconds,
+            static_cast<double>(i.world->triangles) / std::max(i.world->bvh_build_seconds, 1e-9) * 1e-6,
             static_cast<double>(i.world->geometry_bytes) / (1 << 20),
             static_cast<double>(i.world->texture_bytes) / (1 << 20));
     if (i.problems.all().empty()) fmt::print("problems: none\n");
@@ -124,6 +130,7 @@ void print_json(const Inspection& i) {
         json["compiled"] = {{"triangles_as_seen", i.world->instanced_triangles},
                             {"lights", i.world->lights},
                             {"bvh_bytes", i.world->bvh_bytes},
+                            {"bvh_build_seconds", i.world->bvh_build_seconds},
                             {"geometry_bytes", i.world->geometry_bytes},
                             {"texture_bytes", i.world->texture_bytes}};
     constexpr const char* kSeverities[] = {"note", "warning", "error"};

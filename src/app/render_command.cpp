@@ -1,5 +1,6 @@
 // etendue render: one scene.
 #include "app/commands.h"
+#include "app/image_job.h"
 #include "app/interrupt.h"
 #include "app/progress_display.h"
 #include "app/scene_render.h"
@@ -10,6 +11,8 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -23,47 +26,83 @@ struct RenderArguments {
     std::string scene;
     std::string output;
     int threads = 0;
+    bool force = false;
     bool json = false;
 };
 
-void report(const SceneRenderResult& result) {
-    const RenderStatistics& s = result.statistics;
+void report(const std::filesystem::path& output, const RenderStatistics& s) {
     const double seconds = std::max(s.render.wall, 1e-9);
-    log_info("{}: {}x{}, {} spp in {} ({:.2f} Msamples/s, {:.1f} Mrays/s){}", result.output.string(), s.width, s.height,
+    log_info("{}: {}x{}, {} spp in {} ({:.2f} Msamples/s, {:.1f} Mrays/s){}", output.string(), s.width, s.height,
              s.spp_done, format_duration(s.render.wall), static_cast<double>(s.samples) / seconds * 1e-6,
              static_cast<double>(s.rays.total()) / seconds * 1e-6,
              s.complete ? "" : fmt::format(", incomplete: {}", s.halt_reason));
 }
 
-ExitCode run_render(const RenderArguments& arguments) {
-    const ThreadPool threads(arguments.threads);
+/// One image: rendered whether or not it is up to date.
+ExitCode render_image(const RenderArguments& arguments, const ThreadPool& threads) {
     const SceneRenderResult result =
         render_scene(prepare_scene(arguments.scene, arguments.request.overrides), arguments.request, threads);
-    if (!arguments.request.quiet) report(result);
+    if (!arguments.request.quiet) report(result.output, result.statistics);
     if (arguments.json) std::fputs(to_json(result.statistics).c_str(), stdout);
     return result.interrupted ? interrupt_exit_code() : ExitCode::Success;
+}
+
+/// A sequence: what an earlier run has finished is left as it is.
+ExitCode render_frames(const RenderArguments& arguments, const std::vector<ImageJob>& jobs, const ThreadPool& threads) {
+    const bool quiet = arguments.request.quiet;
+    std::vector<ImageResult> results;
+    for (std::size_t i = 0; i < jobs.size() && !interrupt_requested(); ++i) {
+        const std::string title = fmt::format("[{}/{}] {}", i + 1, jobs.size(), jobs[i].name);
+        ImageResult result = run_job(
+            jobs[i],
+            {.overrides = arguments.request.overrides, .force = arguments.force, .quiet = quiet, .title = title},
+            threads);
+        if (!quiet && result.outcome == ImageOutcome::UpToDate)
+            log_info("{}: up to date", result.job.output.string());
+        else if (!quiet)
+            report(result.job.output, result.statistics);
+        // Statistics of many frames are kept only for those who want them.
+        if (arguments.json) results.push_back(std::move(result));
+    }
+    if (arguments.json) std::fputs(to_json(results).c_str(), stdout);
+    return interrupt_requested() ? interrupt_exit_code() : ExitCode::Success;
+}
+
+ExitCode run_render(const RenderArguments& arguments) {
+    const ThreadPool threads(arguments.threads);
+    const std::string name = scene_name(arguments.scene);
+    const std::filesystem::path output =
+        arguments.output.empty() ? std::filesystem::path(name + ".exr") : arguments.request.output;
+    const std::vector<ImageJob> jobs = image_jobs(arguments.scene, output, name, arguments.request.overrides);
+    return jobs.front().frame ? render_frames(arguments, jobs, threads) : render_image(arguments, threads);
 }
 
 }  // namespace
 
 void add_render_command(CLI::App& app, Action& action) {
     auto arguments = std::make_shared<RenderArguments>();
-    CLI::App* command = app.add_subcommand("render", "Render one scene to NAME.exr, NAME.png and NAME.json");
+    CLI::App* command = app.add_subcommand(
+        "render", "Render one scene to NAME.exr, NAME.png and NAME.json, or its frames to NAME.0001.exr ...");
     command->add_option("scene", arguments->scene, "Scene directory, .gltf or .glb")->required();
     command->add_option("-o,--output", arguments->output,
-                        "EXR file to write; PNG and JSON go beside it (default: NAME.exr in the current directory)");
+                        "EXR file to write; PNG and JSON go beside it (default: NAME.exr in the current directory). "
+                        "Frames of a sequence have their number in place of #### or before the extension");
     arguments->request.overrides.add_options(*command);
     command->add_option("--threads", arguments->threads, "Threads to use (default: one per processor)")
         ->check(CLI::Range(1, 4096));
+    command->add_flag("--force", arguments->force, "Of a sequence, render again what is up to date");
     command->add_flag("--quiet", arguments->request.quiet, "No progress, notes or warnings; errors only");
-    command->add_flag("--json", arguments->json, "Print the statistics as JSON on stdout");
+    command->add_flag("--json", arguments->json, "Print the statistics as JSON on stdout; of a sequence, an array");
     command->footer(
-        "Options override render.json.\n\n"
+        "Options override render.json. Of a sequence, frames that are newer than all of their inputs and were made "
+        "with\n"
+        "the same settings are skipped: what was interrupted goes on when it is started again.\n\n"
         "Examples:\n"
         "  etendue render scenes/cornell-box -o box.exr\n"
         "  etendue render scenes/cornell-box --quality draft --integrator naive --seed 7\n"
         "  etendue render model.glb --environment studio.hdr --size 800x600 --spp 256 --exposure 0.5\n"
         "  etendue render fox.glb --time-code 0.35 --animation Run\n"
+        "  etendue render fox.glb --frames 0:23 --fps 30 -o run/fox.####.exr --shutter 0:0.0167\n"
         "  etendue render scenes/veach-mis --crop 100,100,200,200 --time 60 --json --quiet");
     command->callback([arguments, &action] {
         action = [arguments] {

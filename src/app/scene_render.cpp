@@ -153,6 +153,9 @@ void report_dropped(const RenderCounters& counters, const SceneRenderRequest& re
         quoted(working_space));
     if (!settings.camera.empty()) command += " --camera " + quoted(settings.camera);
     if (settings.time_code) command += fmt::format(" --time-code {}", *settings.time_code);
+    if (settings.frame) command += fmt::format(" --frames {} --fps {}", *settings.frame, settings.fps);
+    if (settings.shutter.is_open())
+        command += fmt::format(" --shutter {}:{}", settings.shutter.open, settings.shutter.close);
     if (!settings.animation.empty()) command += " --animation " + quoted(settings.animation);
     if (!settings.variant.empty()) command += " --variant " + quoted(settings.variant);
     if (request.overrides.light_units)
@@ -265,6 +268,8 @@ SceneRenderResult render_scene(PreparedScene prepared, const SceneRenderRequest&
     SceneRenderResult result;
     RenderStatistics& statistics = result.statistics;
     statistics.scene = scene.name;
+    statistics.frame = scene.settings.frame;
+    statistics.time_code = scene.settings.shown_time();
     statistics.settings_hash = hash;
     statistics.light_units = light_units_name(scene.settings.light_units);
     statistics.width = options.window.width();
@@ -285,6 +290,7 @@ SceneRenderResult render_scene(PreparedScene prepared, const SceneRenderRequest&
     const WorldStatistics world_statistics = world.statistics();
     statistics.build = build_timer.elapsed();
     statistics.bvh_bytes = world_statistics.bvh_bytes;
+    statistics.bvh_build_seconds = world_statistics.bvh_build_seconds;
     statistics.triangles = world_statistics.triangles;
     statistics.instances = world_statistics.instances;
     statistics.lights = world_statistics.lights;

@@ -4,6 +4,8 @@
 #include "integrator/integrator.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <map>
 #include <vector>
@@ -60,6 +62,33 @@ std::uint64_t parse_texture_memory(const std::string& text) {
     return *bytes;
 }
 
+/// "3", "1:48" or "1:48:2".
+FrameRange parse_frames(const std::string& text) {
+    FrameRange f;
+    char rest = 0;
+    const int ends = std::sscanf(text.c_str(), "%d:%d%c", &f.first, &f.last, &rest);
+    const bool is_one = std::sscanf(text.c_str(), "%d%c", &f.first, &rest) == 1;
+    const bool has_step = std::sscanf(text.c_str(), "%d:%d:%d%c", &f.first, &f.last, &f.step, &rest) == 3;
+    if (is_one) f.last = f.first;
+    constexpr int kMost = FrameRange::kMaxFrame;
+    if (!(is_one || ends == 2 || has_step) || f.first < -kMost || f.last > kMost || f.last < f.first || f.step < 1)
+        throw CLI::ValidationError(
+            "--frames", fmt::format("'{}' is not FRAME, FIRST:LAST or FIRST:LAST:STEP with {} <= FIRST <= LAST <= {} "
+                                    "and STEP >= 1",
+                                    text, -kMost, kMost));
+    return f;
+}
+
+/// "0:0.02".
+Shutter parse_shutter(const std::string& text) {
+    Shutter shutter;
+    char rest = 0;
+    if (std::sscanf(text.c_str(), "%lf:%lf%c", &shutter.open, &shutter.close, &rest) != 2 ||
+        !std::isfinite(shutter.open) || !std::isfinite(shutter.close) || shutter.close < shutter.open)
+        throw CLI::ValidationError("--shutter", "'" + text + "' is not OPEN:CLOSE in seconds with OPEN <= CLOSE");
+    return shutter;
+}
+
 std::vector<std::string> integrator_names() {
     std::vector<std::string> names;
     for (const IntegratorEntry& entry : integrator_registry()) names.emplace_back(entry.name);
@@ -84,8 +113,15 @@ void SettingsOverrides::add_options(CLI::App& command) {
         "Render only pixels x0,y0,x1,y1 (half-open, y down)");
     command.add_option("--camera", camera, "Name of the camera (default: the first)");
     command.add_option("--time-code", moment.time_code, "Moment of the animation to show, seconds (default: at rest)");
-    command.add_option("--animation", moment.animation, "Name of the animation to show (default: the first)")
-        ->needs(command.get_option("--time-code"));
+    command.add_option("--animation", moment.animation, "Name of the animation to show (default: the first)");
+    command.add_option_function<std::string>(
+        "--frames", [this](const std::string& text) { frames = parse_frames(text); },
+        "Render a sequence, FIRST:LAST or FIRST:LAST:STEP, or one frame of it; frame f is at time code + f / fps");
+    command.add_option("--fps", moment.fps, "Frames per second of a sequence (default: 24)")
+        ->check(CLI::Range(1e-3, 1e6));
+    command.add_option_function<std::string>(
+        "--shutter", [this](const std::string& text) { moment.shutter = parse_shutter(text); },
+        "Blur what moves from OPEN to CLOSE, seconds from the moment shown: OPEN:CLOSE (default: no motion blur)");
     command.add_option("--variant", variant, "Name of the file's set of materials (KHR_materials_variants)");
     command.add_option("--seed", seed, "Seed of everything random");
     command.add_option("--time", time_seconds, "Start no new pass after this many seconds")

@@ -32,6 +32,7 @@ struct SettingsOverrides {
     std::optional<std::string> camera;
     std::optional<std::string> variant;
     LoadOptions moment;
+    std::optional<FrameRange> frames;
     std::optional<std::uint32_t> seed;
     std::optional<double> time_seconds;
     std::optional<int> max_depth;

@@ -24,6 +24,16 @@ const CameraPose& pose_of(const OrthographicCamera& c) {
     return c.pose;
 }
 
+void set_pose(PinholeCamera& c, const CameraPose& pose) {
+    c.pose = pose;
+}
+void set_pose(ThinLensCamera& c, const CameraPose& pose) {
+    c.pinhole.pose = pose;
+}
+void set_pose(OrthographicCamera& c, const CameraPose& pose) {
+    c.pose = pose;
+}
+
 Mat4f projection(const PinholeCamera& c) {
     return {1.0f / c.half_width, 0, 0, 0, 0, 1.0f / c.half_height, 0, 0, 0, 0, -1, -1, 0, 0, 0, 0};
 }
@@ -99,6 +109,12 @@ RayCone ThinLensCamera::pixel_cone(const Vec3f& direction, float pixel_area) con
 
 RayCone OrthographicCamera::pixel_cone(const Vec3f&, float pixel_area) const {
     return {std::sqrt(4.0f * half_width * half_height * pixel_area), 0.0f};
+}
+
+Camera with_pose(const Camera& camera, const CameraPose& pose) {
+    Camera result = camera;
+    std::visit([&](auto& c) { set_pose(c, pose); }, result);
+    return result;
 }
 
 Ray generate_ray(const Camera& camera, Vec2f film, Vec2f lens) {

@@ -68,6 +68,9 @@ struct OrthographicCamera {
 
 using Camera = std::variant<PinholeCamera, ThinLensCamera, OrthographicCamera>;
 
+/// `camera` with another pose.
+[[nodiscard]] Camera with_pose(const Camera& camera, const CameraPose& pose);
+
 /// The ray through film point `film`, for a lens point made from `lens` in [0, 1)². Its direction is unit length.
 [[nodiscard]] Ray generate_ray(const Camera& camera, Vec2f film, Vec2f lens);
 [[nodiscard]] float camera_pdf_solid_angle(const Camera& camera, const Vec3f& direction);

@@ -17,8 +17,9 @@ struct Ray {
     std::uint32_t alpha_key = 0;
     Vec3f direction{0.0f, 0.0f, 1.0f};
     float t_max = std::numeric_limits<float>::infinity();
+    float time = 0.0f;  ///< from the shutter's opening, 0, to its closing, 1
 };
-static_assert(sizeof(Ray) == 32);
+static_assert(sizeof(Ray) == 36);
 
 /// The point `distance` metres off the surface at `p`, on the side of the unit geometric normal `n` towards which
 /// `direction` points.

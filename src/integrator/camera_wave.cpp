@@ -28,7 +28,8 @@ void generate_camera_rays(const World& world, const TileJob& job, std::size_t fi
         sample.weight = filtered.weight;
         const Vec2f film{(static_cast<float>(position.x) + 0.5f + filtered.offset.x) * to_film.x,
                          (static_cast<float>(position.y) + 0.5f + filtered.offset.y) * to_film.y};
-        rays[i] = generate_ray(world.camera(), film, sample_2d(job.sequence, sample.key, kLensDimension));
+        const float time = world.has_motion() ? sample_2d(job.sequence, sample.key, kTimeDimension).x : 0.0f;
+        rays[i] = world.generate_ray(film, sample_2d(job.sequence, sample.key, kLensDimension), time);
         rays[i].alpha_key = sample_bits(sample.key, kCameraAlphaDimension);
     }
 }

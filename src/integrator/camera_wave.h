@@ -11,8 +11,15 @@
 
 namespace etendue {
 
-/// Pairs of dimensions that camera rays use; integrators begin after them.
-enum CameraDimension : std::uint32_t { kFilmDimension, kLensDimension, kCameraAlphaDimension, kFirstFreeDimension };
+/// Pairs of dimensions that camera rays use; integrators begin after them. The alpha key takes bits, which are
+/// unrelated to the pair of the same dimension: the time has that.
+enum CameraDimension : std::uint32_t {
+    kFilmDimension,
+    kLensDimension,
+    kCameraAlphaDimension,
+    kFirstFreeDimension,
+    kTimeDimension = kCameraAlphaDimension
+};
 
 /// One camera sample.
 struct CameraSample {

@@ -12,10 +12,13 @@
 
 namespace etendue {
 
-/// Which moment of a scene is loaded.
+/// Which moment of a scene is loaded. What is left open is as render.json says.
 struct LoadOptions {
     std::optional<double> time_code{};  ///< seconds of the animation; none for the scene at rest
     std::string animation{};            ///< name; empty for the first
+    std::optional<int> frame{};         ///< of a sequence: shown at time_code (0 if none) + frame / fps
+    std::optional<double> fps{};        ///< frames per second, > 0
+    std::optional<Shutter> shutter{};
 };
 
 /// Reads one scene file format.
@@ -29,9 +32,9 @@ class SceneLoader {
     /// "broken".
     [[nodiscard]] virtual bool can_load(const std::filesystem::path& file) const = 0;
 
-    /// Fills `scene` from `file`. Every problem goes to `problems`; when nothing useful can follow, throws SceneError
-    /// with those that are not in `problems` yet.
-    virtual void load(const std::filesystem::path& file, const LoadOptions& options, SceneDesc& scene,
+    /// Fills `scene` from `file`, at the moment that `settings` show. Every problem goes to `problems`; when nothing
+    /// useful can follow, throws SceneError with those that are not in `problems` yet.
+    virtual void load(const std::filesystem::path& file, const RenderSettings& settings, SceneDesc& scene,
                       ProblemList& problems) const = 0;
 };
 
@@ -49,6 +52,13 @@ struct LoadedScene {
 
 /// The same, but every problem is returned and none is thrown, for `inspect`.
 [[nodiscard]] LoadedScene inspect_scene(const std::filesystem::path& path, const LoadOptions& options = {});
+
+/// What the user would call the scene directory or file `path`, also for "." and "scenes/box/".
+[[nodiscard]] std::string scene_name(const std::filesystem::path& path);
+
+/// The frames that the render.json of the scene directory or file `path` asks for; none if there are none, or if it
+/// cannot be read, which loading the scene will say.
+[[nodiscard]] std::optional<FrameRange> find_frames(const std::filesystem::path& path);
 
 /// Every scene directory at or below `root`, sorted by path: a directory that holds a render.json or exactly one glTF
 /// file, also inside another one. Does not follow links. Throws SceneError if `root` is no directory.

@@ -95,20 +95,29 @@ std::optional<RenderJson> read_settings(const fs::path& directory, ProblemList& 
     return read_render_json(file, problems);
 }
 
-/// What the user would call it, also for "." and "scenes/box/".
-std::string scene_name(const fs::path& path, bool is_directory) {
-    const fs::path full = fs::absolute(path).lexically_normal();
-    if (!is_directory) return full.stem().string();
-    return (full.has_filename() ? full.filename() : full.parent_path().filename()).string();
+/// The directory of the scene at `path`.
+fs::path directory_of(const fs::path& path, bool is_directory) {
+    if (is_directory) return path;
+    return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-void load_into(const fs::path& path, LoadOptions options, SceneDesc& scene, ProblemList& problems) {
+/// `settings`, with what `options` say in place of what they say.
+RenderSettings apply_options(RenderSettings settings, const LoadOptions& options) {
+    if (options.time_code) settings.time_code = options.time_code;
+    if (!options.animation.empty()) settings.animation = options.animation;
+    settings.frame = options.frame;
+    settings.fps = options.fps.value_or(settings.fps);
+    settings.shutter = options.shutter.value_or(settings.shutter);
+    return settings;
+}
+
+void load_into(const fs::path& path, const LoadOptions& options, SceneDesc& scene, ProblemList& problems) {
     std::error_code code;
     const bool is_directory = fs::is_directory(path, code);
     if (!fs::exists(path, code)) throw SceneError({path.string(), {}}, "there is no such file or directory");
 
-    scene.directory = is_directory ? path : path.has_parent_path() ? path.parent_path() : fs::path(".");
-    scene.name = scene_name(path, is_directory);
+    scene.directory = directory_of(path, is_directory);
+    scene.name = scene_name(path);
     std::optional<RenderJson> settings = read_settings(scene.directory, problems);
     scene.file = is_directory ? choose_scene_file(path, settings ? settings->scene : "",
                                                   settings ? settings->location : SourceLocation{})
@@ -122,15 +131,11 @@ void load_into(const fs::path& path, LoadOptions options, SceneDesc& scene, Prob
     if (loader == nullptr) {
         throw SceneError({scene.file.string(), {}}, "the file's format is not known; glTF files are .gltf or .glb");
     }
-    if (settings && !options.time_code) options.time_code = settings->settings.time_code;
-    if (settings && options.animation.empty()) options.animation = settings->settings.animation;
-    loader->load(scene.file, options, scene, problems);
-    if (settings) {
-        scene.inputs.push_back(settings->location.file);
-        apply_render_json(*settings, scene, problems);
-    }
-    scene.settings.time_code = options.time_code;
-    scene.settings.animation = options.animation;
+    scene.settings = apply_options(settings ? settings->settings : RenderSettings{}, options);
+    loader->load(scene.file, scene.settings, scene, problems);
+    if (!settings) return;
+    scene.inputs.push_back(settings->location.file);
+    apply_render_json(*settings, scene, problems);
 }
 
 void append(const ProblemList& from, ProblemList& to) {
@@ -156,6 +161,27 @@ LoadedScene load_scene(const fs::path& path, const LoadOptions& options) {
     LoadedScene result = inspect_scene(path, options);
     if (result.problems.has_errors()) throw SceneError(result.problems);
     return result;
+}
+
+std::string scene_name(const fs::path& path) {
+    const fs::path full = fs::absolute(path).lexically_normal();
+    std::error_code code;
+    if (!fs::is_directory(path, code)) return full.stem().string();
+    return (full.has_filename() ? full.filename() : full.parent_path().filename()).string();
+}
+
+std::optional<FrameRange> find_frames(const fs::path& path) {
+    std::error_code code;
+    const bool is_directory = fs::is_directory(path, code);
+    const fs::path directory = directory_of(path, is_directory);
+    ProblemList problems;
+    try {
+        const std::optional<RenderJson> settings = read_settings(directory, problems);
+        if (!settings || (!is_directory && is_for_another_file(*settings, directory, path))) return std::nullopt;
+        return settings->settings.frames;
+    } catch (const SceneError&) {
+        return std::nullopt;
+    }
 }
 
 std::vector<fs::path> find_scene_directories(const fs::path& root) {

@@ -30,6 +30,8 @@ std::string to_json(const RenderStatistics& s) {
     Json json;
     json["software"] = software_name();
     json["scene"] = s.scene;
+    json["frame"] = s.frame ? Json(*s.frame) : Json();
+    json["time_code"] = s.time_code ? Json(*s.time_code) : Json();
     json["settings_hash"] = s.settings_hash;
     json["light_units"] = s.light_units;
     json["size"] = {s.width, s.height};
@@ -48,6 +50,8 @@ std::string to_json(const RenderStatistics& s) {
                        {"write", to_object(s.write)}};
     json["peak_memory_bytes"] = s.peak_memory_bytes;
     json["bvh_bytes"] = s.bvh_bytes;
+    json["bvh_build_seconds"] = s.bvh_build_seconds;
+    json["bvh_triangles_per_second"] = per_second(s.triangles, s.bvh_build_seconds);
     json["triangles"] = s.triangles;
     json["instances"] = s.instances;
     json["lights"] = s.lights;

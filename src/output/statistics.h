@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,9 +27,11 @@ struct PhaseTime {
 
 struct RenderStatistics {
     std::string scene;
-    std::string settings_hash;  ///< equal for equal settings and inputs
-    std::string light_units;    ///< of lamps: "photometric" (the image is in cd/m²) or "radiometric" (W/(m² sr))
-    int width = 0;              ///< pixels rendered: the crop window's, or the image's
+    std::optional<int> frame;         ///< of a sequence
+    std::optional<double> time_code;  ///< seconds of the animation that is shown
+    std::string settings_hash;        ///< equal for equal settings and inputs
+    std::string light_units;  ///< of lamps: "photometric" (the image is in cd/m²) or "radiometric" (W/(m² sr))
+    int width = 0;            ///< pixels rendered: the crop window's, or the image's
     int height = 0;
     int full_width = 0;  ///< pixels of the whole image
     int full_height = 0;
@@ -47,6 +50,7 @@ struct RenderStatistics {
 
     std::uint64_t peak_memory_bytes = 0;  ///< of the process
     std::uint64_t bvh_bytes = 0;
+    double bvh_build_seconds = 0.0;
     std::uint64_t triangles = 0;  ///< stored ones; a mesh counts once however often it is placed
     std::uint64_t instances = 0;
     std::uint64_t lights = 0;

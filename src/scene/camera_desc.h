@@ -5,6 +5,7 @@
 #include "core/vec.h"
 
 #include <string>
+#include <vector>
 
 namespace etendue {
 
@@ -20,7 +21,8 @@ struct CameraDesc {
     float aspect_ratio = 0.0f;
     float lens_radius = 0.0f;     ///< metres; 0 for a pinhole
     float focus_distance = 1.0f;  ///< metres along the optical axis, > 0; used when lens_radius > 0
-    Mat4f to_world;
+    Mat4f to_world;               ///< in the middle of the shutter
+    std::vector<Mat4f> motion;    ///< at equally spaced times from its opening to its closing; empty if it stands still
     SourceLocation location;
 };
 

@@ -148,6 +148,10 @@ void dump_layers(const MaterialDesc& m, Out out) {
                        m.clearcoat.normal_scale, text(m.clearcoat.normal_texture));
 }
 
+std::string text_of_motion(std::size_t steps) {
+    return steps == 0 ? std::string() : fmt::format(", {} steps of motion", steps);
+}
+
 std::string text_of_override(const MaterialDesc& material) {
     const auto describe = [](const auto& model) -> std::string {
         using Model = std::decay_t<decltype(model)>;
@@ -192,16 +196,16 @@ void dump_geometry(const SceneDesc& scene, Out out) {
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
         fmt::format_to(out, "mesh {} \"{}\"\n", i, scene.meshes[i].name);
         for (const PrimitiveDesc& p : scene.meshes[i].primitives) {
-            fmt::format_to(out, "  {} triangles, {} vertices, material {}{}{}{}{}\n", p.triangles.size(),
+            fmt::format_to(out, "  {} triangles, {} vertices, material {}{}{}{}{}{}\n", p.triangles.size(),
                            p.positions.size(), p.material.index, p.tangents.empty() ? "" : ", tangents",
                            p.uv0.empty() ? "" : ", uv0", p.uv1.empty() ? "" : ", uv1",
-                           p.colors.empty() ? "" : ", colours");
+                           p.colors.empty() ? "" : ", colours", text_of_motion(p.motion.size()));
         }
     }
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
         const InstanceDesc& instance = scene.instances[i];
-        fmt::format_to(out, "instance {} \"{}\": mesh {}, {}\n", i, instance.name, instance.mesh.index,
-                       text(instance.to_world));
+        fmt::format_to(out, "instance {} \"{}\": mesh {}, {}{}\n", i, instance.name, instance.mesh.index,
+                       text(instance.to_world), text_of_motion(instance.motion.size()));
     }
 }
 
@@ -209,9 +213,10 @@ void dump_cameras_and_lights(const SceneDesc& scene, Out out) {
     for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
         const CameraDesc& c = scene.cameras[i];
         const bool perspective = c.type == CameraType::Perspective;
-        fmt::format_to(out, "camera {} \"{}\": {} {:g}, aspect {:g}, lens radius {:g}, focus {:g}, {}\n", i, c.name,
+        fmt::format_to(out, "camera {} \"{}\": {} {:g}, aspect {:g}, lens radius {:g}, focus {:g}, {}{}\n", i, c.name,
                        perspective ? "perspective yfov" : "orthographic ymag", perspective ? c.yfov : c.ymag,
-                       c.aspect_ratio, c.lens_radius, c.focus_distance, text(c.to_world));
+                       c.aspect_ratio, c.lens_radius, c.focus_distance, text(c.to_world),
+                       text_of_motion(c.motion.size()));
     }
     for (std::size_t i = 0; i < scene.ies_profiles.size(); ++i) {
         const IesProfileDesc& p = scene.ies_profiles[i];
@@ -249,7 +254,10 @@ void dump_settings(const RenderSettings& s, Out out) {
     if (s.film.crop) fmt::format_to(out, "crop: {}\n", fmt::join(*s.film.crop, " "));
     fmt::format_to(out, "camera used: \"{}\"\n", s.camera);
     fmt::format_to(out, "light units: {}\n", light_units_name(s.light_units));
-    if (s.time_code) fmt::format_to(out, "time code {} of animation \"{}\"\n", *s.time_code, s.animation);
+    // Not the sequence that a frame belongs to: it is the same image in a longer one.
+    if (s.shown_time()) fmt::format_to(out, "time code {} of animation \"{}\"\n", *s.shown_time(), s.animation);
+    if (s.shutter.is_open() || s.shutter.middle() != 0.0)
+        fmt::format_to(out, "shutter {} to {}\n", s.shutter.open, s.shutter.close);
     if (!s.variant.empty()) fmt::format_to(out, "variant used: \"{}\"\n", s.variant);
     if (s.texture_memory) fmt::format_to(out, "texture memory: {} bytes\n", *s.texture_memory);
     fmt::format_to(out, "colour: working space \"{}\", display \"{}\", view \"{}\", exposure {:g}\n",
@@ -267,6 +275,7 @@ std::string dump(const SceneDesc& scene) {
     dump_textures(scene, out);
     for (std::size_t i = 0; i < scene.materials.size(); ++i) dump_material(i, scene.materials[i], out);
     dump_geometry(scene, out);
+    for (const std::string& animation : scene.animations) fmt::format_to(out, "animation \"{}\"\n", animation);
     for (const std::string& variant : scene.variants) fmt::format_to(out, "variant \"{}\"\n", variant);
     dump_cameras_and_lights(scene, out);
     dump_settings(scene.settings, out);

@@ -7,6 +7,7 @@
 #include "scene/material_desc.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -19,6 +20,12 @@ struct VariantMaterial {
     Handle<MaterialDesc> material;
 };
 
+/// The vertices of a primitive at one moment of its motion.
+struct VertexStep {
+    std::vector<Vec3f> positions;
+    std::vector<Vec3f> normals;
+};
+
 /// Triangles with one material. Attribute arrays are empty or as long as `positions`. Strips and fans are already
 /// unrolled into `triangles`, whose indices are all below positions.size().
 struct PrimitiveDesc {
@@ -29,6 +36,9 @@ struct PrimitiveDesc {
     std::vector<Vec2f> uv1;
     std::vector<Vec4f> colors;  ///< linear Rec.709 rgb and alpha, multiplied with the base colour
     std::vector<std::array<std::uint32_t, 3>> triangles;
+    /// The vertices at equally spaced times from the shutter's opening to its closing, moving in straight lines between
+    /// them; empty if they stay where they are. Tangents are those of the middle, as is everything above.
+    std::vector<VertexStep> motion;
     Handle<MaterialDesc> material;
     std::vector<VariantMaterial> variants;  ///< where it has another material than `material`
     SourceLocation location;
@@ -40,11 +50,19 @@ struct MeshDesc {
     SourceLocation location;
 };
 
-/// A mesh placed in the world. Meshes used once are baked, shared ones become instances of one BVH.
+/// The transforms of something that moves, at equally spaced times from the shutter's opening to its closing; each
+/// number of the matrix changes linearly between them. Empty for what stays where it is.
+using TransformMotion = std::vector<Mat4f>;
+
+/// Most moments of a motion, of transforms and of vertices: what Embree takes.
+inline constexpr std::size_t kMaxMotionSteps = 129;
+
+/// A mesh placed in the world. Meshes used once are baked, shared ones and those that move become instances of one BVH.
 struct InstanceDesc {
     std::string name;
     Handle<MeshDesc> mesh;
-    Mat4f to_world;  ///< mesh space to world space; may mirror, must not be singular
+    Mat4f to_world;  ///< mesh space to world space, in the middle of the shutter; may mirror, must not be singular
+    TransformMotion motion;
     SourceLocation location;
 };
 

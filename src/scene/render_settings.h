@@ -5,6 +5,7 @@
 #include "scene/light_desc.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -38,6 +39,27 @@ struct ColorSettings {
     float exposure = 0.0f;      ///< stops, applied to the preview image only
 };
 
+/// Frames of a sequence: `first`, `first + step`, … not beyond `last`.
+struct FrameRange {
+    static constexpr int kMaxFrame = 999'999;  ///< largest number of a frame, and of frames
+
+    int first = 0;  ///< [-kMaxFrame, kMaxFrame]
+    int last = 0;   ///< the same, >= first
+    int step = 1;   ///< >= 1
+
+    [[nodiscard]] std::size_t count() const { return static_cast<std::size_t>((last - first) / step) + 1; }
+    [[nodiscard]] int frame(std::size_t index) const { return first + static_cast<int>(index) * step; }
+};
+
+/// When light reaches the film, seconds from the moment that is shown.
+struct Shutter {
+    double open = 0.0;
+    double close = 0.0;  ///< >= open; equal for a moment without motion blur
+
+    [[nodiscard]] bool is_open() const { return close > open; }
+    [[nodiscard]] double middle() const { return 0.5 * (open + close); }
+};
+
 struct RenderSettings {
     IntegratorSettings integrator;
     SamplerType sampler = SamplerType::Sobol;
@@ -46,14 +68,23 @@ struct RenderSettings {
     double time_limit = 0.0;  ///< seconds; 0 for none. Rendering stops after the pass that exceeds it.
     std::string camera;       ///< name of the camera; empty for the first
     std::string variant;      ///< KHR_materials_variants: name of the set of materials; empty for the file's default
-    std::optional<double> time_code;  ///< seconds of the animation that is shown; none for the scene at rest
-    std::string animation;            ///< its name; empty for the file's first
+    std::optional<double> time_code;   ///< seconds of the animation; of a sequence, where frame 0 is
+    std::optional<FrameRange> frames;  ///< a sequence; none for one image
+    double fps = 24.0;                 ///< frames per second, > 0
+    Shutter shutter;
+    std::optional<int> frame;  ///< which frame of the sequence this is
+    std::string animation;     ///< its name; empty for the file's first
     LightUnits light_units = LightUnits::Photometric;
     std::optional<std::uint64_t> texture_memory;  ///< bytes for decoded textures; none for half of the machine's memory
     FilmSettings film;
     ColorSettings color;
     SourceLocation location;                     ///< of render.json
     std::map<std::string, std::string> options;  ///< JSON pointers of what the command line set, and with which option
+
+    /// The moment of the animation that is shown, seconds; none for the scene at rest.
+    [[nodiscard]] std::optional<double> shown_time() const {
+        return frame ? time_code.value_or(0.0) + *frame / fps : time_code;
+    }
 
     /// Where the setting with this JSON pointer comes from: an option, or render.json.
     [[nodiscard]] SourceLocation at(const std::string& pointer) const {

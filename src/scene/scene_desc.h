@@ -26,7 +26,8 @@ struct SceneDesc {
     std::vector<TextureDesc> textures;
     std::vector<MaterialDesc> materials;  ///< a primitive without one gets an index into here too
     std::vector<MeshDesc> meshes;
-    std::vector<std::string> variants;  ///< names of the sets of materials that the file offers
+    std::vector<std::string> animations;  ///< names of those that the file has
+    std::vector<std::string> variants;    ///< names of the sets of materials that the file offers
     std::vector<InstanceDesc> instances;
     std::vector<CameraDesc> cameras;
     std::vector<IesProfileDesc> ies_profiles;

@@ -42,6 +42,20 @@ void validate_attribute(const std::vector<T>& values, std::size_t vertices, bool
     }
 }
 
+void validate_vertex_motion(const PrimitiveDesc& p, ProblemList& problems) {
+    if (p.motion.empty()) return;
+    if (p.motion.size() < 2 || p.motion.size() > kMaxMotionSteps)
+        problems.error(p.location,
+                       fmt::format("{} steps of motion, but there must be 2 to {}", p.motion.size(), kMaxMotionSteps));
+    const auto finite = [](const Vec3f& v) { return is_finite(v); };
+    for (const VertexStep& step : p.motion) {
+        validate_attribute(step.positions, p.positions.size(), false, "moving positions", "is not finite", finite,
+                           p.location, problems);
+        validate_attribute(step.normals, p.positions.size(), false, "moving normals", "is not of unit length", is_unit,
+                           p.location, problems);
+    }
+}
+
 void validate_primitive(const PrimitiveDesc& p, const SceneDesc& scene, ProblemList& problems) {
     const std::size_t n = p.positions.size();
     const auto finite = [](const Vec3f& v) { return is_finite(v); };
@@ -54,6 +68,7 @@ void validate_primitive(const PrimitiveDesc& p, const SceneDesc& scene, ProblemL
     validate_attribute(p.colors, n, true, "vertex colours", "is negative or not finite", is_good_color, p.location,
                        problems);
 
+    validate_vertex_motion(p, problems);
     if (p.triangles.empty()) problems.error(p.location, "a primitive without triangles");
     const auto in_range = [n](const std::array<std::uint32_t, 3>& t) { return t[0] < n && t[1] < n && t[2] < n; };
     const auto bad = std::ranges::find_if_not(p.triangles, in_range);
@@ -68,6 +83,15 @@ void validate_primitive(const PrimitiveDesc& p, const SceneDesc& scene, ProblemL
 
 }  // namespace
 
+void check_motion(const TransformMotion& motion, const SourceLocation& where, ProblemList& problems) {
+    if (motion.empty()) return;
+    if (motion.size() < 2 || motion.size() > kMaxMotionSteps)
+        problems.error(where,
+                       fmt::format("{} steps of motion, but there must be 2 to {}", motion.size(), kMaxMotionSteps));
+    if (!std::ranges::all_of(motion, is_invertible))
+        problems.error(where, "a transform of the motion is singular, not affine or not finite");
+}
+
 void validate_meshes(const SceneDesc& scene, ProblemList& problems) {
     for (const MeshDesc& mesh : scene.meshes) {
         for (const PrimitiveDesc& primitive : mesh.primitives) validate_primitive(primitive, scene, problems);
@@ -80,6 +104,7 @@ void validate_instances(const SceneDesc& scene, ProblemList& problems) {
         if (!is_invertible(instance.to_world)) {
             problems.error(instance.location, "the transform is singular, not affine or not finite");
         }
+        check_motion(instance.motion, instance.location, problems);
     }
 }
 

@@ -12,6 +12,9 @@
 
 namespace etendue {
 
+/// Errors unless `motion` is empty or has from 2 to kMaxMotionSteps transforms that can be inverted.
+void check_motion(const TransformMotion& motion, const SourceLocation& where, ProblemList& problems);
+
 void validate_images_and_textures(const SceneDesc& scene, ProblemList& problems);
 void validate_materials(const SceneDesc& scene, ProblemList& problems);
 void validate_meshes(const SceneDesc& scene, ProblemList& problems);

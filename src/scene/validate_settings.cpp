@@ -83,6 +83,7 @@ void validate_cameras(const SceneDesc& scene, ProblemList& problems) {
         if (!is_invertible(camera.to_world)) {
             problems.error(where, "the camera's transform is singular, not affine or not finite");
         }
+        check_motion(camera.motion, where, problems);
     }
 }
 
@@ -144,6 +145,9 @@ void validate_settings(const SceneDesc& scene, ProblemList& problems) {
     check(settings.spp, 1, kMaxSpp, "spp", "/spp");
     check(settings.time_limit, 0.0, kInfinity, "time", "/time");
     check(static_cast<double>(settings.color.exposure), -kMaxExposure, kMaxExposure, "exposure", "/color/exposure");
+    if (!(settings.shutter.close >= settings.shutter.open))
+        problems.error(settings.at("/shutter"), fmt::format("the shutter closes at {} before it opens at {}",
+                                                            settings.shutter.close, settings.shutter.open));
     validate_film(settings, problems);
     validate_camera_name(scene, problems);
     validate_variant(scene, problems);

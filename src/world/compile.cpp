@@ -35,6 +35,7 @@ World compile_world(SceneDesc scene, const ColorConfig& colors, const std::strin
     data.xyz_to_working = xyz_to_working(data.from_rec709);
     data.response = SpectralResponse(data.xyz_to_working);
     data.camera = compile_camera(scene);
+    data.camera_motion = compile_camera_motion(scene);
 
     TextureCompiler textures(scene);
     compile_materials(scene, textures, data);
@@ -47,7 +48,7 @@ World compile_world(SceneDesc scene, const ColorConfig& colors, const std::strin
     has_alpha.reserve(data.geometries.size());
     for (const Geometry& geometry : data.geometries)
         has_alpha.push_back(data.materials[geometry.material].alpha_test != AlphaTest::Opaque);
-    data.bvh = std::make_unique<EmbreeScene>(data.geometries, data.instances, has_alpha, threads);
+    data.bvh = std::make_unique<EmbreeScene>(data.geometries, data.instances, data.motions, has_alpha, threads);
     return World(std::move(data));
 }
 

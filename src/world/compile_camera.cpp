@@ -21,6 +21,10 @@ const CameraDesc& find_camera(const SceneDesc& scene) {
 
 }  // namespace
 
+TransformMotion compile_camera_motion(const SceneDesc& scene) {
+    return find_camera(scene).motion;
+}
+
 Camera compile_camera(const SceneDesc& scene) {
     const CameraDesc& desc = find_camera(scene);
     const FilmSettings& film = scene.settings.film;

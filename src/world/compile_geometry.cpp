@@ -1,6 +1,8 @@
 #include "world/compile_parts.h"
+#include "world/tangent_space.h"
 
 #include <cmath>
+#include <span>
 #include <utility>
 
 namespace etendue {
@@ -18,8 +20,41 @@ Geometry take_geometry(PrimitiveDesc& primitive) {
     geometry.uv1 = std::move(primitive.uv1);
     geometry.colors = std::move(primitive.colors);
     geometry.triangles = std::move(primitive.triangles);
+    geometry.motion = std::move(primitive.motion);
+    for (VertexStep& step : geometry.motion) step.positions.reserve(step.positions.size() + 1);
     geometry.material = static_cast<std::uint32_t>(primitive.material.index);
     return geometry;
+}
+
+/// Copies of the elements of `values` that `source` names.
+template <typename T>
+void gather(std::vector<T>& values, const std::vector<std::uint32_t>& source) {
+    if (values.empty()) return;
+    std::vector<T> gathered;
+    gathered.reserve(source.size() + 1);  // one more, as for positions
+    for (const std::uint32_t i : source) gathered.push_back(values[i]);
+    values = std::move(gathered);
+}
+
+/// Tangents along the image of `slot` as it lies on the mesh, its transform included.
+void add_tangents(Geometry& geometry, const TextureSlot& slot) {
+    std::vector<Vec2f> uv = slot.texcoord == 1 ? geometry.uv1 : geometry.uv0;
+    if (uv.empty() || geometry.normals.empty()) return;
+    for (Vec2f& c : uv)
+        c = {slot.row0.x * c.x + slot.row0.y * c.y + slot.row0.z, slot.row1.x * c.x + slot.row1.y * c.y + slot.row1.z};
+    TangentVertices vertices = generate_tangents(geometry.positions, geometry.normals, uv, geometry.triangles);
+    geometry.tangents = std::move(vertices.tangents);
+    geometry.triangles = std::move(vertices.triangles);
+    if (vertices.source.size() == geometry.positions.size()) return;
+    gather(geometry.positions, vertices.source);
+    gather(geometry.normals, vertices.source);
+    gather(geometry.uv0, vertices.source);
+    gather(geometry.uv1, vertices.source);
+    gather(geometry.colors, vertices.source);
+    for (VertexStep& step : geometry.motion) {
+        gather(step.positions, vertices.source);
+        gather(step.normals, vertices.source);
+    }
 }
 
 bool mirrors(const Mat4f& m) {
@@ -39,8 +74,12 @@ Vec3f normalized_or_zero(const Vec3f& v) {
 void bake(Geometry& geometry, const Mat4f& to_world) {
     const Mat4f to_local = to_world.inverse();
     const bool mirrored = mirrors(to_world);
-    for (Vec3f& p : geometry.positions) p = transform_point(to_world, p);
-    for (Vec3f& n : geometry.normals) n = normalized_or_zero(transform_normal(to_local, n));
+    const auto bake_vertices = [&](std::vector<Vec3f>& positions, std::vector<Vec3f>& normals) {
+        for (Vec3f& p : positions) p = transform_point(to_world, p);
+        for (Vec3f& n : normals) n = normalized_or_zero(transform_normal(to_local, n));
+    };
+    bake_vertices(geometry.positions, geometry.normals);
+    for (VertexStep& step : geometry.motion) bake_vertices(step.positions, step.normals);
     for (Vec4f& t : geometry.tangents) {
         const Vec3f world = normalized_or_zero(transform_vector(to_world, {t.x, t.y, t.z}));
         t = {world.x, world.y, world.z, mirrored ? -t.w : t.w};
@@ -52,21 +91,25 @@ void bake(Geometry& geometry, const Mat4f& to_world) {
 Bounds bounds_of(const Geometry& geometry) {
     Bounds bounds;
     for (const Vec3f& p : geometry.positions) bounds.extend(p);
+    for (const VertexStep& step : geometry.motion)
+        for (const Vec3f& p : step.positions) bounds.extend(p);
     return bounds;
 }
 
 /// `local_bounds` are those of every geometry, in the space it is stored in.
-void extend_bounds(const Instance& instance, const std::vector<Bounds>& local_bounds, Bounds& world) {
+void extend_bounds(const Instance& instance, std::span<const Mat4f> transforms, const std::vector<Bounds>& local_bounds,
+                   Bounds& world) {
     for (std::uint32_t g = 0; g < instance.geometry_count; ++g) {
         const Bounds& local = local_bounds[instance.first_geometry + g];
         if (instance.baked || local.empty()) {
             world.extend(local);
             continue;
         }
-        for (int corner = 0; corner < 8; ++corner)
-            world.extend(transform_point(instance.to_world, {(corner & 1) != 0 ? local.max.x : local.min.x,
-                                                             (corner & 2) != 0 ? local.max.y : local.min.y,
-                                                             (corner & 4) != 0 ? local.max.z : local.min.z}));
+        for (const Mat4f& to_world : transforms)
+            for (int corner = 0; corner < 8; ++corner)
+                world.extend(transform_point(to_world, {(corner & 1) != 0 ? local.max.x : local.min.x,
+                                                        (corner & 2) != 0 ? local.max.y : local.min.y,
+                                                        (corner & 4) != 0 ? local.max.z : local.min.z}));
     }
 }
 
@@ -83,6 +126,12 @@ void compile_geometry(SceneDesc& scene, const ThreadPool& threads, WorldData& da
         for (PrimitiveDesc& primitive : scene.meshes[m].primitives) data.geometries.push_back(take_geometry(primitive));
     }
 
+    threads.parallel_for(data.geometries.size(), [&](std::size_t g, int) {
+        Geometry& geometry = data.geometries[g];
+        const TextureSlot* texture = data.materials[geometry.material].tangent_texture();
+        if (texture != nullptr && geometry.tangents.empty()) add_tangents(geometry, *texture);
+    });
+
     std::uint32_t light_slots = 0;
     for (const InstanceDesc& desc : scene.instances) {
         const auto mesh = static_cast<std::size_t>(desc.mesh.index);
@@ -91,11 +140,15 @@ void compile_geometry(SceneDesc& scene, const ThreadPool& threads, WorldData& da
         instance.geometry_count = static_cast<std::uint32_t>(scene.meshes[mesh].primitives.size());
         instance.first_light_slot = light_slots;
         light_slots += instance.geometry_count;
-        instance.baked = uses[mesh] == 1;
+        instance.baked = uses[mesh] == 1 && desc.motion.empty();
         if (!instance.baked) {
             instance.to_world = desc.to_world;
             instance.to_local = desc.to_world.inverse();
             instance.mirrors = mirrors(desc.to_world);
+        }
+        if (!desc.motion.empty()) {
+            instance.motion = static_cast<std::uint32_t>(data.motions.size());
+            data.motions.push_back(desc.motion);
         }
         data.instances.push_back(instance);
     }
@@ -110,7 +163,11 @@ void compile_geometry(SceneDesc& scene, const ThreadPool& threads, WorldData& da
     std::vector<Bounds> local_bounds(data.geometries.size());
     threads.parallel_for(data.geometries.size(),
                          [&](std::size_t g, int) { local_bounds[g] = bounds_of(data.geometries[g]); });
-    for (const Instance& instance : data.instances) extend_bounds(instance, local_bounds, data.bounds);
+    for (const Instance& instance : data.instances) {
+        const std::span<const Mat4f> here(&instance.to_world, 1);
+        extend_bounds(instance, instance.motion == kNone ? here : data.motions[instance.motion], local_bounds,
+                      data.bounds);
+    }
 }
 
 }  // namespace etendue

@@ -77,6 +77,7 @@ Rgb mean_emission(const WorldData& data, const Material& material) {
 void compile_mesh_lights(WorldData& data, ProblemList& problems) {
     std::size_t triangle_count = 0;
     std::size_t skipped = 0;
+    std::size_t moving = 0;
     for (std::size_t i = 0; i < data.instances.size(); ++i) {
         const Instance& instance = data.instances[i];
         for (std::uint32_t g = 0; g < instance.geometry_count; ++g) {
@@ -84,6 +85,10 @@ void compile_mesh_lights(WorldData& data, ProblemList& problems) {
             const Geometry& geometry = data.geometries[index];
             const Material& material = data.materials[geometry.material];
             if (!material.emits || geometry.triangles.empty()) continue;
+            if (instance.motion != kNone || !geometry.motion.empty()) {
+                ++moving;
+                continue;
+            }
             if (triangle_count + geometry.triangles.size() > kMaxLightTriangles) {
                 skipped += geometry.triangles.size();
                 continue;
@@ -100,6 +105,10 @@ void compile_mesh_lights(WorldData& data, ProblemList& problems) {
             data.emitter_of_light.push_back({static_cast<std::uint32_t>(i), index});
         }
     }
+    if (moving > 0)
+        problems.note({}, std::to_string(moving) +
+                              " emissive surfaces move while the shutter is open and will be found "
+                              "by chance only: small ones give noise");
     if (skipped > 0)
         problems.warning({}, std::to_string(skipped) + " emissive triangles are beyond the limit of " +
                                  std::to_string(kMaxLightTriangles) +

@@ -48,7 +48,8 @@ void compile_materials(const SceneDesc& scene, TextureCompiler& textures, WorldD
 /// What fills the closed surfaces of a material, if it has such.
 [[nodiscard]] std::optional<Filling> compile_filling(const MaterialDesc& desc, const ColorMatrix& from_rec709);
 
-/// Moves the meshes of `scene` into `data`: bakes those that are placed once, keeps shared ones for instancing.
+/// Moves the meshes of `scene` into `data`: bakes those that are placed once and stay
+/// there, keeps the others for instancing. Needs the materials in `data`, which say what needs tangents.
 void compile_geometry(SceneDesc& scene, const ThreadPool& threads, WorldData& data);
 
 /// Numbers the bodies by precedence. Needs materials and geometry in `data`.
@@ -63,5 +64,7 @@ void compile_lights(const SceneDesc& scene, const ThreadPool& threads, WorldData
 
 /// Throws SceneError if the camera that the settings name does not exist.
 [[nodiscard]] Camera compile_camera(const SceneDesc& scene);
+/// How that camera moves; empty if it stands still.
+[[nodiscard]] TransformMotion compile_camera_motion(const SceneDesc& scene);
 
 }  // namespace etendue

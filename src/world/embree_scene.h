@@ -26,7 +26,8 @@ class EmbreeScene {
     /// Builds all BVHs with the threads of `threads`. The geometries' vectors must stay where they are: Embree reads
     /// them. `has_alpha[g]` says which geometries need their opacity evaluated.
     EmbreeScene(std::span<const Geometry> geometries, std::span<const Instance> instances,
-                const std::vector<bool>& has_alpha, const ThreadPool& threads);
+                std::span<const TransformMotion> motions, const std::vector<bool>& has_alpha,
+                const ThreadPool& threads);
     ~EmbreeScene();
     EmbreeScene(const EmbreeScene&) = delete;
     EmbreeScene& operator=(const EmbreeScene&) = delete;
@@ -38,6 +39,10 @@ class EmbreeScene {
     void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, QueryForm form) const;
 
     [[nodiscard]] std::size_t bytes() const { return bytes_; }
+    /// Seconds that all BVHs took to build.
+    [[nodiscard]] double build_seconds() const { return build_seconds_; }
+    /// True if anything moves while the shutter is open.
+    [[nodiscard]] bool has_motion() const { return has_motion_; }
 
     /// What one top-level entry of Embree stands for.
     struct TopLevelEntry {
@@ -59,9 +64,10 @@ class EmbreeScene {
     void occluded_single(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const;
     void occluded_packets(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const;
     [[nodiscard]] Hit make_hit(float t, float u, float v, unsigned int triangle, unsigned int inner,
-                               unsigned int instance) const;
+                               unsigned int instance, float time) const;
 
     void add_triangles(RTCScene scene, const Geometry& geometry, bool has_alpha) const;
+    void add_instance(RTCScene shared, const Instance& instance, std::span<const TransformMotion> motions) const;
     RTCScene build_shared_scene(const Instance& instance, std::span<const Geometry> geometries,
                                 const std::vector<bool>& has_alpha);
 
@@ -72,6 +78,8 @@ class EmbreeScene {
     OpacityFunction opacity_ = nullptr;
     const void* world_ = nullptr;
     std::size_t bytes_ = 0;
+    double build_seconds_ = 0.0;
+    bool has_motion_ = false;
 };
 
 }  // namespace etendue

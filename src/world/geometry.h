@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/vec.h"
+#include "scene/mesh_desc.h"
 
 #include <array>
 #include <cstdint>
@@ -9,8 +10,9 @@
 
 namespace etendue {
 
-/// One primitive of a mesh. A mesh that is placed once is baked to world space, one that is shared stays in mesh space.
-/// Attributes are empty or one per vertex. 12 bytes a triangle, 12 to 76 bytes a vertex.
+/// One primitive of a mesh. A mesh that is placed once and stays there is baked to world space, others stay in mesh
+/// space. Attributes are empty or one per vertex. 12 bytes a triangle, 12 to 76 bytes a vertex; 24 more for each step
+/// of motion.
 struct Geometry {
     std::vector<Vec3f> positions;
     std::vector<Vec3f> normals;
@@ -19,6 +21,7 @@ struct Geometry {
     std::vector<Vec2f> uv1;
     std::vector<Vec4f> colors;
     std::vector<std::array<std::uint32_t, 3>> triangles;
+    std::vector<VertexStep> motion;  ///< empty, or the vertices at equally spaced times of the shutter
     std::uint32_t material = 0;
 };
 
@@ -30,9 +33,10 @@ struct Instance {
     std::uint32_t geometry_count = 0;
     /// Where this instance's entries begin in the World's table of lights, one per geometry.
     std::uint32_t first_light_slot = 0;
-    bool baked = true;     ///< geometry is in world space already; the matrices are identities
-    bool mirrors = false;  ///< to_world turns right-handed into left-handed
-    Mat4f to_world;
+    std::uint32_t motion = kNone;  ///< index into WorldData::motions; kNone if it stays where it is
+    bool baked = true;             ///< geometry is in world space already; the matrices are identities
+    bool mirrors = false;          ///< to_world turns right-handed into left-handed
+    Mat4f to_world;                ///< in the middle of the shutter
     Mat4f to_local;
 };
 

@@ -103,6 +103,13 @@ struct Material {
     [[nodiscard]] bool needs_tangents() const {
         return normal_texture.valid() || coat_normal_texture.valid() || is_anisotropic;
     }
+    /// The texture whose coordinates tangents follow where the mesh has none of its own; null if nothing needs any.
+    [[nodiscard]] const TextureSlot* tangent_texture() const {
+        if (!needs_tangents()) return nullptr;
+        return normal_texture.valid()        ? &normal_texture
+               : coat_normal_texture.valid() ? &coat_normal_texture
+                                             : &anisotropy_texture;
+    }
 };
 
 }  // namespace etendue

@@ -4,6 +4,7 @@
 #include "world/cone_section.h"
 #include "world/interpolation.h"
 #include "world/material_evaluation.h"
+#include "world/motion.h"
 #include "world/world.h"
 
 #include <cmath>
@@ -12,32 +13,29 @@ namespace etendue {
 
 namespace {
 
-/// Tangent along increasing u of the texture as it lies on the triangle, its transform included, mesh space; zero if
-/// the coordinates are degenerate.
-Vec3f tangent_from_uv(const Geometry& geometry, const TextureSlot& slot, const std::array<std::uint32_t, 3>& triangle,
-                      float& bitangent_sign) {
-    bitangent_sign = 1.0f;
-    const std::vector<Vec2f>& uv = slot.texcoord == 1 ? geometry.uv1 : geometry.uv0;
-    if (uv.empty()) return Vec3f(0.0f);
-    const auto transformed = [&](const Vec2f& d) {
-        return Vec2f(slot.row0.x * d.x + slot.row0.y * d.y, slot.row1.x * d.x + slot.row1.y * d.y);
-    };
-    const Vec3f e1 = geometry.positions[triangle[1]] - geometry.positions[triangle[0]];
-    const Vec3f e2 = geometry.positions[triangle[2]] - geometry.positions[triangle[0]];
-    const Vec2f d1 = transformed(uv[triangle[1]] - uv[triangle[0]]);
-    const Vec2f d2 = transformed(uv[triangle[2]] - uv[triangle[0]]);
-    const float determinant = d1.x * d2.y - d1.y * d2.x;
-    if (std::abs(determinant) < 1e-20f) return Vec3f(0.0f);
-    // v grows downwards in glTF's images while tangent space has +Y up, hence the sign.
-    bitangent_sign = determinant < 0.0f ? 1.0f : -1.0f;
-    return (e1 * d2.y - e2 * d1.y) * (1.0f / determinant);
-}
+/// Where a moving triangle is at one time, in the space of its mesh.
+struct MovedTriangle {
+    Vec3f p[3];
+    Vec3f extent;  ///< largest coordinates, absolute, of what `p` was made from
+    Vec3f normal;  ///< interpolated
+};
 
-/// Whose texture coordinates decide on the tangents where the mesh has none.
-const TextureSlot& tangent_slot(const Material& material) {
-    return material.normal_texture.valid()        ? material.normal_texture
-           : material.coat_normal_texture.valid() ? material.coat_normal_texture
-                                                  : material.anisotropy_texture;
+MovedTriangle move_triangle(const Geometry& geometry, const std::array<std::uint32_t, 3>& triangle, Vec2f barycentric,
+                            float time) {
+    const MotionSegment segment = motion_segment(geometry.motion.size(), time);
+    const VertexStep& before = geometry.motion[segment.first];
+    const VertexStep& after = geometry.motion[segment.first + 1];
+    const auto between = [t = segment.t](const Vec3f& a, const Vec3f& b) { return a * (1.0f - t) + b * t; };
+    MovedTriangle moved{{}, Vec3f(0.0f), {}};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3f& a = before.positions[triangle[i]];
+        const Vec3f& b = after.positions[triangle[i]];
+        moved.p[i] = between(a, b);
+        moved.extent = max_components(moved.extent, max_components(abs_components(a), abs_components(b)));
+    }
+    moved.normal =
+        between(interpolate(before.normals, triangle, barycentric), interpolate(after.normals, triangle, barycentric));
+    return moved;
 }
 
 /// What the material's maps make of the interpolated frame. The base's relief does not show in a coat over it.
@@ -55,10 +53,10 @@ void apply_relief(const WorldData& data, const Material& material, float bitange
                                 .normal;
 }
 
-}  // namespace
-
-SurfacePoint make_surface_point(const WorldData& data, std::uint32_t instance_index, std::uint32_t geometry_index,
-                                std::uint32_t triangle_index, Vec2f barycentric, const ConeSection& section) {
+/// `Moves` is false for what neither moves nor deforms, so that it does not pay for what does.
+template <bool Moves>
+SurfacePoint make_point(const WorldData& data, std::uint32_t instance_index, std::uint32_t geometry_index,
+                        std::uint32_t triangle_index, Vec2f barycentric, float time, const ConeSection& section) {
     const Instance& instance = data.instances[instance_index];
     const Geometry& geometry = data.geometries[geometry_index];
     const auto& triangle = geometry.triangles[triangle_index];
@@ -70,14 +68,19 @@ SurfacePoint make_surface_point(const WorldData& data, std::uint32_t instance_in
     point.geometry = geometry_index;
     point.triangle = triangle_index;
 
-    const Vec3f p0 = geometry.positions[triangle[0]];
-    const Vec3f e1 = geometry.positions[triangle[1]] - p0;
-    const Vec3f e2 = geometry.positions[triangle[2]] - p0;
+    const bool deforms = Moves && !geometry.motion.empty();
+    MovedTriangle moved;
+    if (deforms) moved = move_triangle(geometry, triangle, barycentric, time);
+    const Vec3f p0 = deforms ? moved.p[0] : geometry.positions[triangle[0]];
+    const Vec3f e1 = (deforms ? moved.p[1] : geometry.positions[triangle[1]]) - p0;
+    const Vec3f e2 = (deforms ? moved.p[2] : geometry.positions[triangle[2]]) - p0;
     point.position = p0 + e1 * barycentric.x + e2 * barycentric.y;
     Vec3f geometric = triangle_normal(e1, e2);
-    const Vec3f extent =
-        max_components(abs_components(p0), max_components(abs_components(p0 + e1), abs_components(p0 + e2)));
-    Vec3f shading = geometry.normals.empty() ? geometric : interpolate(geometry.normals, triangle, barycentric);
+    Vec3f extent = max_components(abs_components(p0), max_components(abs_components(p0 + e1), abs_components(p0 + e2)));
+    if (deforms) extent = max_components(extent, moved.extent);
+    Vec3f shading = deforms                    ? moved.normal
+                    : geometry.normals.empty() ? geometric
+                                               : interpolate(geometry.normals, triangle, barycentric);
 
     point.uv[0] = interpolate_uv(geometry.uv0, triangle, barycentric);
     point.uv[1] = interpolate_uv(geometry.uv1, triangle, barycentric);
@@ -89,20 +92,25 @@ SurfacePoint make_surface_point(const WorldData& data, std::uint32_t instance_in
         const Vec4f t = interpolate(geometry.tangents, triangle, barycentric);
         tangent = {t.x, t.y, t.z};
         bitangent_sign = geometry.tangents[triangle[0]].w;
-    } else if (material.needs_tangents()) {
-        tangent = tangent_from_uv(geometry, tangent_slot(material), triangle, bitangent_sign);
     }
 
+    const bool moves = Moves && instance.motion != kNone;
+    const Mat4f moved_to_world =
+        moves ? transform_at(data.motions[instance.motion], time) : Mat4f(Imath::UNINITIALIZED);
+    const Mat4f& to_world = moves ? moved_to_world : instance.to_world;
     if (!instance.baked) {
-        point.position = transform_point(instance.to_world, point.position);
-        geometric = transform_normal(instance.to_local, geometric);
-        shading = transform_normal(instance.to_local, shading);
-        tangent = transform_vector(instance.to_world, tangent);
+        const Mat4f moved_to_local = moves ? to_world.inverse() : Mat4f(Imath::UNINITIALIZED);
+        const Mat4f& to_local = moves ? moved_to_local : instance.to_local;
+        point.position = transform_point(to_world, point.position);
+        geometric = transform_normal(to_local, geometric);
+        shading = transform_normal(to_local, shading);
+        tangent = transform_vector(to_world, tangent);
         if (instance.mirrors) bitangent_sign = -bitangent_sign;
     }
     point.geometric_normal = instance.baked ? geometric : normalize(geometric);
-    point.clearance = clearance(point.geometric_normal,
-                                instance.baked ? position_error(extent) : position_error(extent, instance.to_world));
+    point.clearance =
+        clearance(point.geometric_normal, instance.baked ? position_error(extent) : position_error(extent, to_world));
+    // A filter asks for no more than where the triangle is in the middle of the shutter.
     if (section.width > 0.0f) add_footprints(instance, geometry, section, point);
     // Interpolated normals can cancel out or point to the back; the triangle's own then stands in.
     const float shading_length = length(shading);
@@ -112,6 +120,15 @@ SurfacePoint make_surface_point(const WorldData& data, std::uint32_t instance_in
         length_squared(tangent) > 0.0f ? Frame::from_normal_and_tangent(normal, tangent) : Frame::from_normal(normal);
     if (material.needs_tangents() || material.has_coat) apply_relief(data, material, bitangent_sign, point);
     return point;
+}
+
+}  // namespace
+
+SurfacePoint make_surface_point(const WorldData& data, std::uint32_t instance, std::uint32_t geometry,
+                                std::uint32_t triangle, Vec2f barycentric, float time, const ConeSection& section) {
+    const bool moves = data.instances[instance].motion != kNone || !data.geometries[geometry].motion.empty();
+    return moves ? make_point<true>(data, instance, geometry, triangle, barycentric, time, section)
+                 : make_point<false>(data, instance, geometry, triangle, barycentric, time, section);
 }
 
 }  // namespace etendue

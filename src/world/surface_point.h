@@ -28,9 +28,10 @@ struct SurfacePoint {
     std::uint32_t triangle = 0;
 };
 
-/// The surface at `barycentric` (weights of the second and third vertex) of a triangle of an instance, seen by a
-/// ray with this `section`.
+/// The surface at `barycentric` (weights of the second and third vertex) of a triangle of an instance, at `time` of the
+/// shutter, [0, 1], seen by a ray with this `section`.
 [[nodiscard]] SurfacePoint make_surface_point(const WorldData& data, std::uint32_t instance, std::uint32_t geometry,
-                                              std::uint32_t triangle, Vec2f barycentric, const ConeSection& section);
+                                              std::uint32_t triangle, Vec2f barycentric, float time,
+                                              const ConeSection& section);
 
 }  // namespace etendue

@@ -6,6 +6,7 @@
 #include "world/embree_scene.h"
 #include "world/gltf_surface.h"
 #include "world/material_evaluation.h"
+#include "world/motion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,6 +21,9 @@ namespace {
 float opacity_callback(const void* data, std::uint32_t geometry, std::uint32_t triangle, Vec2f barycentric) {
     return evaluate_opacity(*static_cast<const WorldData*>(data), geometry, triangle, barycentric);
 }
+
+/// Of the time that the shutter is open.
+constexpr float kMiddle = 0.5f;
 
 float radius_of(const Bounds& bounds) {
     const float radius = 0.5f * length(bounds.size());
@@ -76,12 +80,13 @@ WorldData& WorldData::operator=(WorldData&&) noexcept = default;
 World::World(WorldData data)
     : data_(std::make_unique<WorldData>(std::move(data))), selector_(data_->lights, radius_of(data_->bounds)) {
     data_->bvh->set_opacity(opacity_callback, data_.get());
+    has_motion_ = data_->bvh->has_motion() || !data_->camera_motion.empty();
     has_transparency_ = std::any_of(data_->materials.begin(), data_->materials.end(),
                                     [](const Material& m) { return m.alpha_test != AlphaTest::Opaque; });
     has_delta_lights_ = std::any_of(data_->lights.begin(), data_->lights.end(), is_delta_light);
     has_scattering_bodies_ = std::any_of(data_->fillings.begin(), data_->fillings.end(),
                                          [](const Filling& f) { return f.medium.scatters(); });
-    if (has_bodies()) camera_interior_ = interior_at(generate_ray(data_->camera, {0.5f, 0.5f}, {0.5f, 0.5f}).origin);
+    if (has_bodies()) camera_interior_ = interior_at(generate_ray({0.5f, 0.5f}, {0.5f, 0.5f}, kMiddle).origin);
     has_lights_in_media_ = has_scattering_bodies_ && any_light_in_media();
     has_specular_surfaces_ = std::any_of(data_->geometries.begin(), data_->geometries.end(),
                                          [&](const Geometry& g) { return is_specular(data_->materials[g.material]); });
@@ -102,11 +107,12 @@ void World::occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded
 }
 
 SurfacePoint World::surface_point(const Hit& hit) const {
-    return make_surface_point(*data_, hit.instance, hit.geometry, hit.triangle, {hit.u, hit.v}, ConeSection{});
+    return make_surface_point(*data_, hit.instance, hit.geometry, hit.triangle, {hit.u, hit.v}, hit.time,
+                              ConeSection{});
 }
 
 SurfacePoint World::surface_point(const Hit& hit, const Ray& ray, const RayCone& cone) const {
-    return make_surface_point(*data_, hit.instance, hit.geometry, hit.triangle, {hit.u, hit.v},
+    return make_surface_point(*data_, hit.instance, hit.geometry, hit.triangle, {hit.u, hit.v}, hit.time,
                               ConeSection{ray.direction, std::abs(cone.width_at(hit.t))});
 }
 
@@ -191,6 +197,7 @@ Interior World::interior_at(const Vec3f& point) const {
     Ray ray;
     ray.origin = point;
     ray.direction = {0.0f, 1.0f, 0.0f};
+    ray.time = kMiddle;
     for (int i = 0; i < kMostBoundaries; ++i) {
         Hit hit;
         data_->bvh->intersect({&ray, 1}, {&hit, 1}, Coherence::Incoherent, QueryForm::Single);
@@ -216,11 +223,13 @@ ChosenLight World::sample_light(const Vec3f& point, const LightNumbers& u) const
     ChosenLight chosen{etendue::sample_light(light, point, u.triangle, u.direction), choice.probability};
     LightSample& sample = chosen.sample;
     sample.pdf_solid_angle *= choice.probability;
+    // Surfaces that move are no lights, so that any time will do.
+    constexpr float kAnyTime = 0.0f;
     const MeshLight* mesh = std::get_if<MeshLight>(&light);
     if (mesh && !mesh->is_uniform() && !is_black(sample.radiance)) {
         const Emitter& emitter = data_->emitter_of_light[choice.index];
         const SurfacePoint on_light = make_surface_point(*data_, emitter.instance, emitter.geometry, sample.triangle,
-                                                         sample.barycentric, ConeSection{});
+                                                         sample.barycentric, kAnyTime, ConeSection{});
         sample.radiance = emission(on_light, -sample.wi) *
                           evaluate_opacity(*data_, emitter.geometry, sample.triangle, sample.barycentric);
     }
@@ -247,6 +256,18 @@ float World::environment_pdf_solid_angle(const Vec3f& direction) const {
            selector_.probability(data_->environment);
 }
 
+Ray World::generate_ray(Vec2f film, Vec2f lens, float time) const {
+    Ray ray;
+    if (data_->camera_motion.empty()) {
+        ray = etendue::generate_ray(data_->camera, film, lens);
+    } else {
+        const Mat4f to_world = transform_at(data_->camera_motion, time);
+        ray = etendue::generate_ray(with_pose(data_->camera, CameraPose::from_matrix(to_world)), film, lens);
+    }
+    ray.time = time;
+    return ray;
+}
+
 float World::bounding_radius() const {
     return radius_of(data_->bounds);
 }
@@ -258,6 +279,8 @@ WorldStatistics World::statistics() const {
         s.geometry_bytes += vector_bytes(g.positions) + vector_bytes(g.normals) + vector_bytes(g.tangents) +
                             vector_bytes(g.uv0) + vector_bytes(g.uv1) + vector_bytes(g.colors) +
                             vector_bytes(g.triangles);
+        for (const VertexStep& step : g.motion)
+            s.geometry_bytes += vector_bytes(step.positions) + vector_bytes(step.normals);
     }
     for (const Instance& instance : data_->instances)
         for (std::uint32_t g = 0; g < instance.geometry_count; ++g)
@@ -274,6 +297,7 @@ WorldStatistics World::statistics() const {
     s.instances = data_->instances.size();
     s.lights = data_->lights.size();
     s.bvh_bytes = data_->bvh->bytes();
+    s.bvh_build_seconds = data_->bvh->build_seconds();
     return s;
 }
 

@@ -26,13 +26,14 @@ namespace etendue {
 
 class EmbreeScene;
 
-/// The nearest surface along a ray. 24 bytes.
+/// The nearest surface along a ray. 28 bytes.
 struct Hit {
     float t = 0.0f;            ///< metres along the ray
     float u = 0.0f, v = 0.0f;  ///< barycentric coordinates of the second and third vertex
     std::uint32_t triangle = 0;
     std::uint32_t geometry = 0;
     std::uint32_t instance = kNone;  ///< kNone if nothing was hit
+    float time = 0.0f;               ///< of the ray: things that move are hit where they were then
 
     [[nodiscard]] bool valid() const { return instance != kNone; }
 };
@@ -62,6 +63,7 @@ struct WorldStatistics {
     std::size_t instances = 0;
     std::size_t lights = 0;
     std::size_t bvh_bytes = 0;
+    double bvh_build_seconds = 0.0;
     std::size_t geometry_bytes = 0;
     std::size_t textures = 0;
     std::size_t texture_bytes = 0;             ///< held in memory: all of them, or tiles in the cache
@@ -81,6 +83,7 @@ struct Emitter {
 struct WorldData {
     std::vector<Geometry> geometries;
     std::vector<Instance> instances;
+    std::vector<TransformMotion> motions;  ///< of the instances that move
     std::vector<Material> materials;
     std::unique_ptr<TextureCache> texture_cache;  ///< null if all textures are resident
     std::vector<Texture> textures;
@@ -90,7 +93,8 @@ struct WorldData {
     std::uint32_t environment = kNone;         ///< index into `lights`
     bool environment_visible = true;           ///< to camera rays
     Camera camera;
-    ColorMatrix from_rec709;  ///< linear Rec.709 to the working space
+    TransformMotion camera_motion;  ///< camera to world; empty if it stands still
+    ColorMatrix from_rec709;        ///< linear Rec.709 to the working space
     XyzToWorking xyz_to_working{};
     SpectralResponse response;
     std::vector<Filling> fillings;               ///< of materials
@@ -161,13 +165,15 @@ class World {
     [[nodiscard]] Crossing crossing(const SurfacePoint& point, const Interior& current) const;
     /// What fills the space, null in vacuum.
     [[nodiscard]] const HomogeneousMedium* medium(const Interior& interior) const;
-    /// The bodies that `point` is in, found by a ray through all that lies above it.
+    /// The bodies that `point` is in in the middle of the shutter, found by a ray through all that lies above it.
     [[nodiscard]] Interior interior_at(const Vec3f& point) const;
     /// Those that the camera is in.
     [[nodiscard]] const Interior& camera_interior() const { return camera_interior_; }
     /// How the working space sees single wavelengths.
     [[nodiscard]] const SpectralResponse& spectral_response() const { return data_->response; }
 
+    /// True if anything moves while the shutter is open, so that rays need times.
+    [[nodiscard]] bool has_motion() const { return has_motion_; }
     /// False if every surface stops all light, so that rays need no alpha keys.
     [[nodiscard]] bool has_transparency() const { return has_transparency_; }
     [[nodiscard]] bool has_lights() const { return !selector_.empty(); }
@@ -188,7 +194,11 @@ class World {
     [[nodiscard]] float environment_pdf_solid_angle(const Vec3f& direction) const;
     [[nodiscard]] bool environment_visible_to_camera() const { return data_->environment_visible; }
 
+    /// In the middle of the shutter.
     [[nodiscard]] const Camera& camera() const { return data_->camera; }
+    /// The ray of the camera as it is at `time`, through film point `film` and the lens point made from `lens`, all in
+    /// [0, 1); the ray has that time.
+    [[nodiscard]] Ray generate_ray(Vec2f film, Vec2f lens, float time) const;
     [[nodiscard]] const Bounds& bounds() const { return data_->bounds; }
     /// Of a sphere around all geometry, metres; 1 for an empty world.
     [[nodiscard]] float bounding_radius() const;
@@ -200,6 +210,7 @@ class World {
     // On the heap, so that Embree's callbacks keep their pointer to it when a World is moved.
     std::unique_ptr<WorldData> data_;
     LightSelector selector_;
+    bool has_motion_ = false;
     bool has_transparency_ = false;
     bool has_delta_lights_ = false;
     bool has_specular_surfaces_ = false;

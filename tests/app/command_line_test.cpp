@@ -3,6 +3,7 @@
 #include "app/small_files.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -50,9 +51,10 @@ TEST_F(CommandLine, HelpHasExamplesForEachCommand) {
         EXPECT_NE(help.out.find(std::string("  etendue ") + command), std::string::npos) << command;
     }
     const ProgramResult render_help = run({"render", "--help"});
-    for (const char* option : {"--integrator", "--spp", "--size", "--crop", "--camera", "--threads", "--seed", "--time",
-                               "--quality", "--max-depth", "--environment", "--exposure", "--view", "--working-space",
-                               "--half", "--float", "--quiet", "--json"})
+    for (const char* option :
+         {"--integrator", "--spp",     "--size",      "--crop",        "--camera",   "--threads", "--seed",
+          "--time",       "--quality", "--max-depth", "--environment", "--exposure", "--view",    "--working-space",
+          "--half",       "--float",   "--frames",    "--fps",         "--force",    "--quiet",   "--json"})
         EXPECT_NE(render_help.out.find(option), std::string::npos) << option;
     EXPECT_EQ(run({"--version"}).exit_code, 0);
     EXPECT_TRUE(list(work_).empty());
@@ -281,6 +283,84 @@ TEST_F(CommandLine, BatchFindsScenesInsideScenesAndEachOnce) {
     EXPECT_EQ(batch_results(result), (Names{"outer: rendered", "inner: rendered"}));
     EXPECT_EQ(list(work_ / "out"),
               (Names{"inner.exr", "inner.json", "inner.png", "outer.exr", "outer.json", "outer.png"}));
+}
+
+/// A scene whose triangle moves to the right, off the screen, in the second after time 0.
+std::string animated_scene(const std::string& directory) {
+    std::string text = read_file(directory + "/scene.gltf");
+    const auto replace = [&text](const std::string& from, const std::string& to) {
+        text.replace(text.find(from), from.size(), to);
+    };
+    const std::array<float, 8> keys = {0, 1, 0, 0, 0, 20, 0, 0};
+    write_file(directory + "/keys.bin", std::string(reinterpret_cast<const char*>(keys.data()), sizeof keys));
+    replace(R"("max": [1, 1, -2]})", R"("max": [1, 1, -2]},
+                {"bufferView": 1, "componentType": 5126, "count": 2, "type": "SCALAR", "min": [0], "max": [1]},
+                {"bufferView": 2, "componentType": 5126, "count": 2, "type": "VEC3"})");
+    replace(R"("byteLength": 36}],)", R"("byteLength": 36}, {"buffer": 1, "byteLength": 8},
+                  {"buffer": 1, "byteOffset": 8, "byteLength": 24}],
+  "animations": [{"name": "slide", "samplers": [{"input": 1, "output": 2}],
+                  "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]}],)");
+    replace(R"("byteLength": 36}])", R"("byteLength": 36}, {"uri": "keys.bin", "byteLength": 32}])");
+    write_file(directory + "/scene.gltf", text);
+    return directory;
+}
+
+TEST_F(CommandLine, FramesAreImagesOfTheirMoments) {
+    const std::string box = animated_scene(scene("box"));
+    const ProgramResult result = run({"render", box, "--frames", "-1:3:2", "--fps", "3"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(list(work_), (Names{"box.-0001.exr", "box.-0001.json", "box.-0001.png", "box.0001.exr", "box.0001.json",
+                                  "box.0001.png", "box.0003.exr", "box.0003.json", "box.0003.png"}));
+    EXPECT_NE(result.err.find("[2/3] box frame 1"), std::string::npos) << result.err;
+    const json first = json::parse(read_file(work_ / "box.0001.json"));
+    EXPECT_EQ(first["frame"], 1);
+    EXPECT_EQ(first["time_code"], 1.0 / 3.0);
+    // The same moment as one image; before the first key and at rest it is the same.
+    EXPECT_EQ(run({"render", box, "--time-code", "1", "-o", "end.exr", "--quiet"}).exit_code, 0);
+    EXPECT_EQ(run({"render", box, "-o", "rest.exr", "--quiet"}).exit_code, 0);
+    EXPECT_EQ(read_file(work_ / "box.0003.png"), read_file(work_ / "end.png"));
+    EXPECT_EQ(read_file(work_ / "box.-0001.png"), read_file(work_ / "rest.png"));
+    EXPECT_NE(read_file(work_ / "box.-0001.png"), read_file(work_ / "end.png"));
+}
+
+TEST_F(CommandLine, FinishedFramesAreNotRenderedAgain) {
+    const std::string box = animated_scene(scene("box", R"("frames": [0, 1],)"));
+    const auto results = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{"render", box, "--quiet", "--json", "-o", "a.###.exr"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const ProgramResult result = run(arguments);
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        return batch_results(result);
+    };
+    EXPECT_EQ(results({}), (Names{"a.0000: rendered", "a.0001: rendered"}));
+    EXPECT_EQ(results({"--frames", "0:2"}), (Names{"a.0000: up to date", "a.0001: up to date", "a.0002: rendered"}));
+    EXPECT_EQ(results({"--frames", "2", "--force"}), (Names{"a.0002: rendered"}));
+    EXPECT_EQ(results({"--fps", "25"}), (Names{"a.0000: up to date", "a.0001: rendered"}));
+    const ProgramResult batch = run({"batch", scenes(), "-o", "out", "--quiet", "--json"});
+    EXPECT_EQ(batch_results(batch), (Names{"box.0000: rendered", "box.0001: rendered"})) << batch.err;
+}
+
+TEST_F(CommandLine, AnInterruptBetweenFramesKeepsThoseBefore) {
+    const std::string box = animated_scene(scene("box"));
+    const ProgramResult result = run_etendue({"render", box, "--frames", "0:9999", "--quiet"}, work_, [this](int pid) {
+        for (int i = 0; i < 1000 && !fs::exists(work_ / "box.0001.json"); ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        kill(pid, SIGINT);
+    });
+    EXPECT_EQ(result.exit_code, 130) << result.err;
+    EXPECT_EQ(json::parse(read_file(work_ / "box.0001.json"))["complete"], true);
+    EXPECT_LT(list(work_).size(), 3000u);
+}
+
+TEST_F(CommandLine, FramesOfAStillSceneAreAnError) {
+    const std::string box = scene("box");
+    const ProgramResult still = run({"render", box, "--frames", "0:1"});
+    EXPECT_EQ(still.exit_code, 3);
+    EXPECT_NE(still.err.find("no animation"), std::string::npos) << still.err;
+    const ProgramResult batch = run({"batch", scenes(), "-o", "out", "--frames", "0:9", "--json"});
+    EXPECT_EQ(batch.exit_code, 1);
+    EXPECT_EQ(batch_results(batch), (Names{"box.0000: failed"})) << "the others are not tried";
+    EXPECT_TRUE(list(work_).empty());
 }
 
 TEST_F(CommandLine, BatchOfNothingIsAnError) {

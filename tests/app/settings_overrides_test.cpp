@@ -113,6 +113,19 @@ TEST(SettingsOverrides, EachOptionReachesItsSetting) {
     EXPECT_EQ(scene.inputs.back(), folder / "sky.exr");
 }
 
+TEST(SettingsOverrides, FramesAreOneARangeOrEveryNth) {
+    const auto frames = [](const std::string& text) {
+        const FrameRange range = parse({"--frames", text}).frames.value();
+        std::vector<int> numbers;
+        for (std::size_t i = 0; i < range.count(); ++i) numbers.push_back(range.frame(i));
+        return numbers;
+    };
+    EXPECT_EQ(frames("7"), (std::vector{7}));
+    EXPECT_EQ(frames("-1:2"), (std::vector{-1, 0, 1, 2}));
+    EXPECT_EQ(frames("1:8:3"), (std::vector{1, 4, 7}));
+    EXPECT_FALSE(parse({}).frames);
+}
+
 TEST(SettingsOverrides, NonsenseIsAUsageError) {
     const std::vector<std::vector<std::string>> bad = {{"--size", "100"},
                                                        {"--size", "100x"},
@@ -123,6 +136,16 @@ TEST(SettingsOverrides, NonsenseIsAUsageError) {
                                                        {"--crop", "5,0,5,9"},
                                                        {"--crop", "-1,0,5,9"},
                                                        {"--crop", "0,9,5,0"},
+                                                       {"--frames", "3:1"},
+                                                       {"--frames", "1:3:0"},
+                                                       {"--frames", "1:2:3:4"},
+                                                       {"--frames", "1:"},
+                                                       {"--frames", "0:1000000"},
+                                                       {"--frames", "a"},
+                                                       {"--fps", "0"},
+                                                       {"--shutter", "0.1"},
+                                                       {"--shutter", "0.1:0"},
+                                                       {"--shutter", "0:inf"},
                                                        {"--spp", "0"},
                                                        {"--spp", "16777217"},
                                                        {"--spp", "many"},

@@ -44,6 +44,8 @@ struct ClosedFormCase {
 [[nodiscard]] std::vector<ClosedFormCase> body_cases();
 /// Direct light where rounding is large.
 [[nodiscard]] std::vector<ClosedFormCase> far_from_origin_cases();
+/// Emitters, occluders and cameras that move while the shutter is open.
+[[nodiscard]] std::vector<ClosedFormCase> motion_cases();
 /// Partly transparent cards, lights and films.
 [[nodiscard]] std::vector<ClosedFormCase> transparency_cases();
 

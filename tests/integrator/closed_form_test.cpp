@@ -31,7 +31,7 @@ void PrintTo(const Comparison& comparison, std::ostream* out) {
 std::vector<ClosedFormCase> all_cases() {
     std::vector<ClosedFormCase> cases;
     for (auto&& list : {direct_light_cases(), environment_cases(), furnace_cases(), far_from_origin_cases(),
-                        transparency_cases(), body_cases()})
+                        motion_cases(), transparency_cases(), body_cases()})
         cases.insert(cases.end(), list.begin(), list.end());
     return cases;
 }

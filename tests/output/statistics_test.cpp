@@ -10,6 +10,8 @@ namespace {
 RenderStatistics make_statistics() {
     RenderStatistics s;
     s.scene = "cornell-box";
+    s.frame = 7;
+    s.time_code = 0.25;
     s.settings_hash = "0123abcd";
     s.light_units = "radiometric";
     s.width = 64;
@@ -28,6 +30,7 @@ RenderStatistics make_statistics() {
     s.write = {0.125, 0.0625};
     s.peak_memory_bytes = 5'000'000'000;
     s.bvh_bytes = 1234;
+    s.bvh_build_seconds = 0.5;
     s.triangles = 36;
     s.instances = 1;
     s.lights = 2;
@@ -47,13 +50,15 @@ RenderStatistics make_statistics() {
 TEST(StatisticsJson, HasEveryField) {
     const auto json = nlohmann::json::parse(to_json(make_statistics()));
     const auto expected = nlohmann::json::parse(R"({
-        "scene": "cornell-box", "settings_hash": "0123abcd", "light_units": "radiometric", "size": [64, 32], "full_size": [128, 96],
+        "scene": "cornell-box", "frame": 7, "time_code": 0.25, "settings_hash": "0123abcd",
+        "light_units": "radiometric", "size": [64, 32], "full_size": [128, 96],
         "complete": false, "halt_reason": "time limit", "spp": {"requested": 16, "done": 8},
         "samples": 80, "samples_per_second": 40.0,
         "rays": {"camera": 100, "bounce": 250, "shadow": 50, "total": 400}, "rays_per_second": 200.0,
         "seconds": {"load": {"wall": 0.25, "cpu": 0.5}, "build": {"wall": 1.0, "cpu": 1.5},
                     "render": {"wall": 2.0, "cpu": 3.75}, "write": {"wall": 0.125, "cpu": 0.0625}},
-        "peak_memory_bytes": 5000000000, "bvh_bytes": 1234, "triangles": 36, "instances": 1, "lights": 2,
+        "peak_memory_bytes": 5000000000, "bvh_bytes": 1234, "bvh_build_seconds": 0.5,
+        "bvh_triangles_per_second": 72.0, "triangles": 36, "instances": 1, "lights": 2,
         "textures": {"count": 4, "held": "cached", "bytes": 5678, "cache_budget_bytes": 9000, "failed_lookups": 6},
         "dropped_samples": {"count": 3, "first": [{"x": 1, "y": 2, "sample": 3}, {"x": 4, "y": 5, "sample": 6}]},
         "threads": 2, "isa": "avx2", "libraries": {"embree": "3.13.5", "oiio": "2.4.7"}})");

@@ -20,8 +20,8 @@ namespace etendue::test {
 namespace {
 
 /// A bit of everything: glass, metal, a translucent sheet, instances, a lamp, a spot, an environment, and holes through
-/// which the background shows.
-SceneDesc busy_scene(int width, int height) {
+/// which the background shows. If `moves`, all surfaces do.
+SceneDesc busy_scene(int width, int height, bool moves = false) {
     SceneDesc scene = empty_scene();
     scene.settings.film.width = width;
     scene.settings.film.height = height;
@@ -40,6 +40,12 @@ SceneDesc busy_scene(int width, int height) {
     ball.material = add_material(scene, brushed);
     const auto shared = add_mesh(scene, {ball});
     for (const float x : {0.3f, 0.8f}) place(scene, shared, translation({x, -0.3f, -2.8f}));
+    if (moves)
+        for (InstanceDesc& instance : scene.instances)
+            for (int i = 0; i < 5; ++i) {
+                const float x = 0.02f * static_cast<float>(i);
+                instance.motion.push_back(instance.to_world * translation({x, x * x, 0.0f}));
+            }
     LightDesc spot;
     spot.type = LightType::Spot;
     spot.intensity = 3.0f;
@@ -71,13 +77,13 @@ bool same_bytes(const std::vector<float>& a, const std::vector<float>& b) {
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
 }
 
-class Determinism : public testing::TestWithParam<std::tuple<const char*, SampleSequence>> {};
+class Determinism : public testing::TestWithParam<std::tuple<const char*, SampleSequence, bool>> {};
 
 TEST_P(Determinism, ThreadsAndTileOrderDoNotChangeABit) {
     constexpr int kWidth = 100;
     constexpr int kHeight = 70;
-    const auto [integrator, sequence] = GetParam();
-    const World world = compile(busy_scene(kWidth, kHeight));
+    const auto [integrator, sequence, moves] = GetParam();
+    const World world = compile(busy_scene(kWidth, kHeight, moves));
     RenderOptions options = options_for(kWidth, kHeight, 6);
     options.sequence = sequence;
     const RenderResult reference = render_now(world, integrator, options, 1);
@@ -106,8 +112,8 @@ TEST_P(Determinism, ThreadsAndTileOrderDoNotChangeABit) {
 TEST_P(Determinism, ACropIsThePartOfTheWholeBitForBit) {
     constexpr int kWidth = 100;
     constexpr int kHeight = 70;
-    const auto [integrator, sequence] = GetParam();
-    const World world = compile(busy_scene(kWidth, kHeight));
+    const auto [integrator, sequence, moves] = GetParam();
+    const World world = compile(busy_scene(kWidth, kHeight, moves));
     RenderOptions options = options_for(kWidth, kHeight, 5);
     options.sequence = sequence;
     const std::vector<float> whole = render_now(world, integrator, options, 2).film.resolve();
@@ -127,10 +133,12 @@ TEST_P(Determinism, ACropIsThePartOfTheWholeBitForBit) {
 
 INSTANTIATE_TEST_SUITE_P(Render, Determinism,
                          testing::Combine(testing::Values("path", "naive", "direct"),
-                                          testing::Values(SampleSequence::Sobol, SampleSequence::Random)),
+                                          testing::Values(SampleSequence::Sobol, SampleSequence::Random),
+                                          testing::Bool()),
                          [](const auto& param) {
                              return std::string(std::get<0>(param.param)) +
-                                    (std::get<1>(param.param) == SampleSequence::Sobol ? "Sobol" : "Random");
+                                    (std::get<1>(param.param) == SampleSequence::Sobol ? "Sobol" : "Random") +
+                                    (std::get<2>(param.param) ? "Moving" : "");
                          });
 
 TEST(Render, CountsSamplesAndRays) {

@@ -147,6 +147,7 @@ void PathWave::shade(const Context& context) {
     for (std::size_t i = 0; i < active_; ++i) {
         PathStep next;
         if (!shade_path(context, i, next)) continue;
+        next.ray.time = rays_[i].time;
         states_[kept] = next.state;
         rays_[kept] = next.ray;
         if (context.world.has_bodies()) interiors_[kept] = next.interior;
@@ -353,6 +354,7 @@ void PathWave::queue_direct_light_in_medium(const Context& context, std::size_t 
 
 void PathWave::queue(const Context& context, std::size_t i, Ray ray, const Rgb& contribution) {
     if (is_black(contribution)) return;
+    ray.time = rays_[i].time;
     ray.alpha_key = ~alpha_key(context, i);  // another key than the bounce ray's
     shadow_rays_[pending_count_] = ray;
     pending_[pending_count_] = {contribution, states_[i].slot};

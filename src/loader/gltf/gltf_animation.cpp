@@ -2,28 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
+#include <map>
+#include <utility>
 
 #include <fmt/format.h>
 
 namespace etendue {
 
 namespace {
-
-/// The keys of one sampler.
-struct Keys {
-    std::vector<float> times;   ///< seconds, strictly increasing
-    std::vector<float> values;  ///< `width` numbers a key; three times as many for cubic splines
-    std::size_t width = 0;
-    Interpolation interpolation = Interpolation::Linear;
-
-    [[nodiscard]] bool is_cubic() const { return interpolation == Interpolation::CubicSpline; }
-    /// Part 0 is a cubic key's in-tangent, 1 the value, 2 the out-tangent.
-    [[nodiscard]] double number(std::size_t key, std::size_t part, std::size_t component) const {
-        const std::size_t row = is_cubic() ? 3 * key + part : key;
-        return static_cast<double>(values[row * width + component]);
-    }
-};
 
 /// Spherical interpolation along the shorter way (appendix C.4).
 std::vector<double> slerp(std::vector<double> a, const std::vector<double>& b, double t) {
@@ -39,7 +25,7 @@ std::vector<double> slerp(std::vector<double> a, const std::vector<double>& b, d
     return a;
 }
 
-std::vector<double> evaluate(const Keys& keys, double seconds, bool is_rotation) {
+std::vector<double> evaluate(const AnimationKeys& keys, double seconds, bool is_rotation) {
     const auto value_of = [&](std::size_t key) {
         std::vector<double> value(keys.width);
         for (std::size_t c = 0; c < keys.width; ++c) value[c] = keys.number(key, 1, c);
@@ -68,73 +54,57 @@ std::vector<double> evaluate(const Keys& keys, double seconds, bool is_rotation)
     return value;
 }
 
-/// Reads samplers and puts their values into poses.
-class PoseSampler {
-  public:
-    PoseSampler(const GltfAnimation& animation, double seconds, AccessorReader& accessors, ProblemList& problems)
-        : animation_(animation), seconds_(seconds), accessors_(accessors), problems_(problems) {}
+std::optional<AnimationKeys> read_keys(const GltfAnimation& animation, const GltfAnimation::Channel& channel,
+                                       int components, AccessorReader& accessors, const SourceLocation& where,
+                                       ProblemList& problems) {
+    const auto fail = [&](const std::string& message) {
+        problems.error(where, message);
+        return std::nullopt;
+    };
+    if (channel.sampler >= animation.samplers.size())
+        return fail(fmt::format("sampler {} does not exist", channel.sampler));
+    const GltfAnimation::Sampler& sampler = animation.samplers[channel.sampler];
+    std::optional<AttributeData> times = accessors.attribute(sampler.input, {1, 1}, where);
+    const auto fractions = static_cast<IntegerTypes>(kSignedFractions | kUnsignedFractions);
+    const IntegerTypes integers = components == 3 ? kNoIntegers : fractions;
+    std::optional<AttributeData> values =
+        accessors.attribute(sampler.output, {components, components, integers}, where);
+    if (!times || !values) return std::nullopt;
 
-    void apply(const GltfAnimation::Channel& channel, const SourceLocation& where, NodePoses& poses) {
-        if (channel.node < 0) return;
-        const bool is_rotation = channel.path == "rotation";
-        const bool is_weights = channel.path == "weights";
-        if (!is_rotation && !is_weights && channel.path != "translation" && channel.path != "scale") {
-            problems_.warning(where, fmt::format("'{}' cannot be animated; the channel is ignored", channel.path));
-            return;
-        }
-        const std::optional<Keys> keys = read(channel, is_rotation ? 4 : is_weights ? 1 : 3, where);
-        if (!keys) return;
-        const std::vector<double> value = evaluate(*keys, seconds_, is_rotation);
-        NodePose& pose = poses[channel.node];
-        if (is_rotation)
-            pose.rotation = std::array{value[0], value[1], value[2], value[3]};
-        else if (is_weights)
-            pose.weights = value;
-        else
-            (channel.path == "scale" ? pose.scale : pose.translation) = std::array{value[0], value[1], value[2]};
-    }
+    AnimationKeys keys{std::move(times->values), std::move(values->values), 0, sampler.interpolation};
+    const auto is_bad = [](float v) { return !std::isfinite(v); };
+    if (std::ranges::any_of(keys.times, is_bad) || std::ranges::any_of(keys.values, is_bad))
+        return fail("a key is not finite");
+    if (std::ranges::adjacent_find(keys.times, std::ranges::greater_equal()) != keys.times.end())
+        return fail("the times of the keys do not increase");
+    const std::size_t rows = keys.times.size() * (keys.is_cubic() ? 3 : 1);
+    keys.width = keys.values.size() / rows;
+    if (keys.width == 0 || keys.width * rows != keys.values.size() ||
+        (components > 1 && keys.width != static_cast<std::size_t>(components)))
+        return fail(fmt::format("{} numbers do not make {} keys", keys.values.size(), keys.times.size()));
+    return keys;
+}
 
-  private:
-    std::optional<Keys> read(const GltfAnimation::Channel& channel, int components, const SourceLocation& where) {
-        const auto fail = [&](const std::string& message) {
-            problems_.error(where, message);
-            return std::nullopt;
-        };
-        if (channel.sampler >= animation_.samplers.size())
-            return fail(fmt::format("sampler {} does not exist", channel.sampler));
-        const GltfAnimation::Sampler& sampler = animation_.samplers[channel.sampler];
-        std::optional<AttributeData> times = accessors_.attribute(sampler.input, {1, 1}, where);
-        const auto fractions = static_cast<IntegerTypes>(kSignedFractions | kUnsignedFractions);
-        const IntegerTypes integers = components == 3 ? kNoIntegers : fractions;
-        std::optional<AttributeData> values =
-            accessors_.attribute(sampler.output, {components, components, integers}, where);
-        if (!times || !values) return std::nullopt;
-
-        Keys keys{std::move(times->values), std::move(values->values), 0, sampler.interpolation};
-        const auto is_bad = [](float v) { return !std::isfinite(v); };
-        if (std::ranges::any_of(keys.times, is_bad) || std::ranges::any_of(keys.values, is_bad))
-            return fail("a key is not finite");
-        if (std::ranges::adjacent_find(keys.times, std::ranges::greater_equal()) != keys.times.end())
-            return fail("the times of the keys do not increase");
-        const std::size_t rows = keys.times.size() * (keys.is_cubic() ? 3 : 1);
-        keys.width = keys.values.size() / rows;
-        if (keys.width == 0 || keys.width * rows != keys.values.size() ||
-            (components > 1 && keys.width != static_cast<std::size_t>(components)))
-            return fail(fmt::format("{} numbers do not make {} keys", keys.values.size(), keys.times.size()));
-        return keys;
-    }
-
-    const GltfAnimation& animation_;
-    double seconds_;
-    AccessorReader& accessors_;
-    ProblemList& problems_;
-};
+/// Numbers in each value of a channel, as the accessor has them: what is pointed to decides whether that is right.
+int output_components(const GltfDocument& document, const GltfAnimation& animation,
+                      const GltfAnimation::Channel& channel) {
+    if (channel.sampler >= animation.samplers.size()) return 1;
+    const auto accessor = static_cast<std::size_t>(animation.samplers[channel.sampler].output);
+    return std::clamp(component_count(document.model.accessors[accessor]), 1, 4);
+}
 
 }  // namespace
 
-const GltfAnimation* find_animation(const GltfDocument& document, const std::string& name, ProblemList& problems) {
+const GltfAnimation* find_animation(const GltfDocument& document, const RenderSettings& settings,
+                                    ProblemList& problems) {
+    const std::string& name = settings.animation;
     if (document.animations.empty()) {
-        problems.warning(document.at(""), "a time code was given, but the file has no animation");
+        if (settings.frame)
+            problems.error(document.at(""),
+                           "the file has no animation, so all frames would be the same; render one "
+                           "image, without --frames and \"frames\"");
+        else
+            problems.warning(document.at(""), "a time code was given, but the file has no animation");
         return nullptr;
     }
     if (name.empty()) return &document.animations.front();
@@ -148,12 +118,60 @@ const GltfAnimation* find_animation(const GltfDocument& document, const std::str
     return nullptr;
 }
 
-NodePoses sample_animation(const GltfDocument& document, const GltfAnimation& animation, double seconds,
-                           AccessorReader& accessors, ProblemList& problems) {
+AnimationSampler::AnimationSampler(const GltfDocument& document, const GltfAnimation& animation,
+                                   AccessorReader& accessors, ProblemList& problems) {
+    static const std::map<std::string, Target> kTargets{{"translation", Target::Translation},
+                                                        {"rotation", Target::Rotation},
+                                                        {"scale", Target::Scale},
+                                                        {"weights", Target::Weights}};
+    for (std::size_t c = 0; c < animation.channels.size(); ++c) {
+        const GltfAnimation::Channel& channel = animation.channels[c];
+        const SourceLocation where = document.at(fmt::format("{}/channels/{}", animation.pointer, c));
+        if (!channel.pointer.empty()) {
+            const int components = output_components(document, animation, channel);
+            std::optional<AnimationKeys> keys = read_keys(animation, channel, components, accessors, where, problems);
+            if (keys) pointer_channels_.push_back({channel.pointer, where, std::move(*keys)});
+            continue;
+        }
+        if (channel.node < 0) continue;
+        const auto target = kTargets.find(channel.path);
+        if (target == kTargets.end()) {
+            problems.warning(where, fmt::format("'{}' cannot be animated; the channel is ignored", channel.path));
+            continue;
+        }
+        const int components = target->second == Target::Rotation ? 4 : target->second == Target::Weights ? 1 : 3;
+        std::optional<AnimationKeys> keys = read_keys(animation, channel, components, accessors, where, problems);
+        if (keys) channels_.push_back({channel.node, target->second, std::move(*keys)});
+    }
+}
+
+std::vector<PointerValue> AnimationSampler::pointer_values(double seconds) const {
+    std::vector<PointerValue> values;
+    for (const PointerChannel& channel : pointer_channels_)
+        values.push_back({channel.pointer, evaluate(channel.keys, seconds, false), channel.where});
+    return values;
+}
+
+NodePoses AnimationSampler::poses(double seconds) const {
     NodePoses poses;
-    PoseSampler sampler(animation, seconds, accessors, problems);
-    for (std::size_t c = 0; c < animation.channels.size(); ++c)
-        sampler.apply(animation.channels[c], document.at(fmt::format("{}/channels/{}", animation.pointer, c)), poses);
+    for (const Channel& channel : channels_) {
+        std::vector<double> value = evaluate(channel.keys, seconds, channel.target == Target::Rotation);
+        NodePose& pose = poses[channel.node];
+        switch (channel.target) {
+            case Target::Translation:
+                pose.translation = std::array{value[0], value[1], value[2]};
+                break;
+            case Target::Rotation:
+                pose.rotation = std::array{value[0], value[1], value[2], value[3]};
+                break;
+            case Target::Scale:
+                pose.scale = std::array{value[0], value[1], value[2]};
+                break;
+            case Target::Weights:
+                pose.weights = std::move(value);
+                break;
+        }
+    }
     return poses;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "loader/gltf/gltf_accessor.h"
+#include "scene/render_settings.h"
 
 #include <array>
 #include <map>
@@ -22,14 +23,60 @@ struct NodePose {
 /// Poses by node index.
 using NodePoses = std::map<int, NodePose>;
 
-/// The animation of that name, or the first for an empty one. Null if there is none of that name (an error) or none at
-/// all (a warning).
-[[nodiscard]] const GltfAnimation* find_animation(const GltfDocument& document, const std::string& name,
+/// The animation that `settings` name, or the first. Null if there is none of that name (an error) or none at all (an
+/// error if a frame of a sequence is asked for, which would be like all the others, else a warning).
+[[nodiscard]] const GltfAnimation* find_animation(const GltfDocument& document, const RenderSettings& settings,
                                                   ProblemList& problems);
 
-/// The poses at `seconds`: before the first key as at the first, after the last as at the last, between by the
-/// sampler's interpolation (glTF 2.0 specification, appendix C). Channels that cannot be read are errors.
-[[nodiscard]] NodePoses sample_animation(const GltfDocument& document, const GltfAnimation& animation, double seconds,
-                                         AccessorReader& accessors, ProblemList& problems);
+/// The keys of one sampler.
+struct AnimationKeys {
+    std::vector<float> times;   ///< seconds, strictly increasing
+    std::vector<float> values;  ///< `width` numbers a key; three times as many for cubic splines
+    std::size_t width = 0;
+    Interpolation interpolation = Interpolation::Linear;
+
+    [[nodiscard]] bool is_cubic() const { return interpolation == Interpolation::CubicSpline; }
+    /// Part 0 is a cubic key's in-tangent, 1 the value, 2 the out-tangent.
+    [[nodiscard]] double number(std::size_t key, std::size_t part, std::size_t component) const {
+        const std::size_t row = is_cubic() ? 3 * key + part : key;
+        return static_cast<double>(values[row * width + component]);
+    }
+};
+
+/// What an animation says of something that is no node, at one moment.
+struct PointerValue {
+    std::string pointer;  ///< JSON pointer to it
+    std::vector<double> numbers;
+    SourceLocation where;  ///< the channel
+};
+
+/// An animation, read once and posed at any moment.
+class AnimationSampler {
+  public:
+    /// Channels that cannot be read are errors, those whose target is not known warnings.
+    AnimationSampler(const GltfDocument& document, const GltfAnimation& animation, AccessorReader& accessors,
+                     ProblemList& problems);
+
+    /// The poses at `seconds`: before the first key as at the first, after the last as at the last, between by the
+    /// sampler's interpolation (glTF 2.0 specification, appendix C).
+    [[nodiscard]] NodePoses poses(double seconds) const;
+    /// The same for what else is animated (KHR_animation_pointer).
+    [[nodiscard]] std::vector<PointerValue> pointer_values(double seconds) const;
+
+  private:
+    enum class Target { Translation, Rotation, Scale, Weights };
+    struct Channel {
+        int node;
+        Target target;
+        AnimationKeys keys;
+    };
+    struct PointerChannel {
+        std::string pointer;
+        SourceLocation where;
+        AnimationKeys keys;
+    };
+    std::vector<Channel> channels_;
+    std::vector<PointerChannel> pointer_channels_;
+};
 
 }  // namespace etendue

@@ -27,6 +27,15 @@ Mat4d blend(const PrimitiveDeformation& deformation, std::size_t vertex, std::sp
     return total > 0.0 ? sum * (1.0 / total) : Mat4d();
 }
 
+/// Triangles may lose their area in passing; vertices without a normal then have that of the primitive.
+void finish_step(VertexStep& step, const PrimitiveDesc& primitive, bool has_normals) {
+    if (!has_normals) step.normals = area_weighted_normals(primitive.triangles, step.positions);
+    for (std::size_t i = 0; i < step.normals.size(); ++i) {
+        const float squared = length_squared(step.normals[i]);
+        step.normals[i] = std::isnormal(squared) ? step.normals[i] * (1.0f / std::sqrt(squared)) : primitive.normals[i];
+    }
+}
+
 }  // namespace
 
 bool MeshDeformation::is_skinned() const {
@@ -72,7 +81,12 @@ void skin(PrimitiveDesc& primitive, const PrimitiveDeformation& deformation, std
 }
 
 bool finish_deformation(PrimitiveDesc& primitive, const PrimitiveDeformation& deformation) {
-    if (!std::ranges::all_of(primitive.positions, [](const Vec3f& p) { return is_finite(p); })) return false;
+    const auto all_finite = [](const std::vector<Vec3f>& positions) {
+        return std::ranges::all_of(positions, [](const Vec3f& p) { return is_finite(p); });
+    };
+    if (!all_finite(primitive.positions) ||
+        !std::ranges::all_of(primitive.motion, [&](const VertexStep& step) { return all_finite(step.positions); }))
+        return false;
     const std::size_t removed = remove_degenerate_triangles(primitive.triangles, primitive.positions);
     if (primitive.triangles.empty()) return false;
     // The generator wants every vertex to be used.
@@ -89,12 +103,17 @@ bool finish_deformation(PrimitiveDesc& primitive, const PrimitiveDeformation& de
         gather(primitive.uv0);
         gather(primitive.uv1);
         gather(primitive.colors);
+        for (VertexStep& step : primitive.motion) {
+            gather(step.positions);
+            gather(step.normals);
+        }
     }
     if (deformation.has_normals)
         normalize_normals(primitive.normals, primitive.triangles, primitive.positions);
     else
         primitive.normals = area_weighted_normals(primitive.triangles, primitive.positions);
     if (!normalize_tangents(primitive.tangents)) primitive.tangents.clear();
+    for (VertexStep& step : primitive.motion) finish_step(step, primitive, deformation.has_normals);
     return true;
 }
 

@@ -44,8 +44,8 @@ void morph(PrimitiveDesc& primitive, const PrimitiveDeformation& deformation, st
 /// space that `joints` lead to. Joint indices must be in range.
 void skin(PrimitiveDesc& primitive, const PrimitiveDeformation& deformation, std::span<const Mat4d> joints);
 
-/// Makes the normals and tangents unit length again, or generates them, and drops triangles that have lost their area.
-/// False if a position is not finite or no triangle is left.
+/// Makes the normals and tangents unit length again, or generates them, and drops triangles that have lost their area;
+/// the same vertices and triangles go from its motion. False if a position is not finite or no triangle is left.
 [[nodiscard]] bool finish_deformation(PrimitiveDesc& primitive, const PrimitiveDeformation& deformation);
 
 }  // namespace etendue

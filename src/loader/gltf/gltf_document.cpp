@@ -2,6 +2,7 @@
 
 #include "loader/files.h"
 #include "loader/gltf/glb.h"
+#include "loader/gltf/gltf_animation_pointer.h"
 #include "loader/gltf/gltf_buffers.h"
 #include "loader/gltf/gltf_draco.h"
 #include "loader/gltf/gltf_meshopt.h"
@@ -23,12 +24,13 @@ namespace {
 using Json = nlohmann::json;
 
 /// To support another extension: its line here, its properties in gltf_shape_table.cpp, and whoever reads them.
-constexpr std::array<std::string_view, 24> kSupportedExtensions{
+constexpr std::array<std::string_view, 25> kSupportedExtensions{
     "EXT_lights_ies",
     "EXT_lights_image_based",
     "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",
     "EXT_texture_webp",
+    "KHR_animation_pointer",
     "KHR_draco_mesh_compression",
     "KHR_lights_punctual",
     "KHR_materials_anisotropy",
@@ -157,7 +159,17 @@ void take_images(Json& document, GltfDocument& result, ProblemList& problems) {
     document.erase("images");
 }
 
-GltfAnimation read_animation(const Json& json, std::string pointer) {
+/// Where a channel leads, without its sampler.
+GltfAnimation::Channel read_target(const Json& target, std::size_t node_count) {
+    const std::string path = target["path"].get<std::string>();
+    const Json extensions = target.value("extensions", Json::object());
+    if (path != "pointer" || !extensions.contains("KHR_animation_pointer"))
+        return {0, target.value("node", -1), shown(path), {}};
+    const std::string pointer = extensions["KHR_animation_pointer"]["pointer"].get<std::string>();
+    return node_channel(pointer, node_count).value_or(GltfAnimation::Channel{0, -1, path, pointer});
+}
+
+GltfAnimation read_animation(const Json& json, std::string pointer, std::size_t node_count) {
     GltfAnimation animation{json.value("name", ""), std::move(pointer), {}, {}};
     for (const Json& sampler : json["samplers"]) {
         const std::string interpolation = sampler.value("interpolation", "LINEAR");
@@ -167,9 +179,8 @@ GltfAnimation read_animation(const Json& json, std::string pointer) {
                                                                        : Interpolation::Linear});
     }
     for (const Json& channel : json["channels"]) {
-        const Json& target = channel["target"];
-        animation.channels.push_back({channel["sampler"].get<std::size_t>(), target.value("node", -1),
-                                      shown(target["path"].get<std::string>())});
+        animation.channels.push_back(read_target(channel["target"], node_count));
+        animation.channels.back().sampler = channel["sampler"].get<std::size_t>();
     }
     return animation;
 }
@@ -178,8 +189,13 @@ GltfAnimation read_animation(const Json& json, std::string pointer) {
 void take_animations_and_skins(Json& document, GltfDocument& result) {
     if (document.contains("animations")) {
         const Json& animations = document["animations"];
+        const std::size_t node_count = document.contains("nodes") ? document["nodes"].size() : 0;
         for (std::size_t i = 0; i < animations.size(); ++i)
-            result.animations.push_back(read_animation(animations[i], child_pointer("/animations", i)));
+            result.animations.push_back(read_animation(animations[i], child_pointer("/animations", i), node_count));
+        const bool has_pointers = std::ranges::any_of(result.animations, [](const GltfAnimation& animation) {
+            return std::ranges::any_of(animation.channels, [](const auto& c) { return !c.pointer.empty(); });
+        });
+        if (has_pointers) result.animatable = animatable_json(document);
     }
     if (document.contains("skins")) {
         for (const Json& json : document["skins"]) {

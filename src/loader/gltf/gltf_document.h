@@ -36,6 +36,7 @@ struct GltfAnimation {
         std::size_t sampler = 0;
         int node = -1;  ///< none: the target is an extension's
         std::string path;
+        std::string pointer;  ///< KHR_animation_pointer: what is animated, if it is no node's
     };
     std::string name;
     std::string pointer;
@@ -53,6 +54,7 @@ struct GltfDocument {
     std::vector<GltfImage> images;
     std::vector<GltfAnimation> animations;
     std::vector<GltfSkin> skins;
+    std::string animatable;  ///< JSON of what animations point to; empty if none does
     std::filesystem::path directory;
     std::string file;                             ///< for messages
     std::vector<std::string> extensions_used;     ///< and supported

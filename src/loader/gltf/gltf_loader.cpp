@@ -2,6 +2,7 @@
 
 #include "loader/gltf/gltf_accessor.h"
 #include "loader/gltf/gltf_animation.h"
+#include "loader/gltf/gltf_animation_pointer.h"
 #include "loader/gltf/gltf_document.h"
 #include "loader/gltf/gltf_environment.h"
 #include "loader/gltf/gltf_material.h"
@@ -30,27 +31,30 @@ bool GltfLoader::can_load(const std::filesystem::path& file) const {
     return stream && std::string_view(magic.data(), magic.size()) == "glTF";
 }
 
-void GltfLoader::load(const std::filesystem::path& file, const LoadOptions& options, SceneDesc& scene,
+void GltfLoader::load(const std::filesystem::path& file, const RenderSettings& settings, SceneDesc& scene,
                       ProblemList& problems) const {
-    const GltfDocument document = read_gltf_document(file, problems);
+    GltfDocument document = read_gltf_document(file, problems);
     scene.extensions_used = document.extensions_used;
     scene.extensions_ignored = document.extensions_ignored;
     scene.inputs.insert(scene.inputs.end(), document.inputs.begin(), document.inputs.end());
     AccessorReader accessors(document, problems);
-    TextureReader textures(document, accessors, scene, problems);
-    read_materials(document, textures, scene, problems);
-    read_environment(document, textures, scene, problems);
-    const std::vector<MeshDeformation> deformations = read_meshes(document, accessors, scene, problems);
-    NodePoses poses;
-    if (options.time_code) {
-        if (const GltfAnimation* animation = find_animation(document, options.animation, problems))
-            poses = sample_animation(document, *animation, *options.time_code, accessors, problems);
+    for (const GltfAnimation& animation : document.animations) scene.animations.push_back(animation.name);
+    std::optional<AnimationSampler> sampler;
+    if (settings.shown_time()) {
+        if (const GltfAnimation* animation = find_animation(document, settings, problems))
+            sampler.emplace(document, *animation, accessors, problems);
     } else if (!document.animations.empty()) {
         problems.note(document.at("/animations"),
                       "the scene is shown at rest; --time-code SECONDS shows a moment of "
                       "its animation");
     }
-    read_nodes(document, accessors, deformations, poses, scene, problems);
+    if (sampler)
+        apply_pointers(sampler->pointer_values(*settings.shown_time() + settings.shutter.middle()), document, problems);
+    TextureReader textures(document, accessors, scene, problems);
+    read_materials(document, textures, scene, problems);
+    read_environment(document, textures, scene, problems);
+    const std::vector<MeshDeformation> deformations = read_meshes(document, accessors, scene, problems);
+    read_nodes(document, accessors, deformations, sampler ? &*sampler : nullptr, settings, scene, problems);
 }
 
 }  // namespace etendue

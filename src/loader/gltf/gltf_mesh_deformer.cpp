@@ -1,47 +1,74 @@
 #include "loader/gltf/gltf_mesh_deformer.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
 namespace etendue {
 
-MeshDeformer::Result MeshDeformer::deform(const tinygltf::Node& node, const NodePose& pose,
-                                          const SourceLocation& where) {
+namespace {
+
+/// Most pieces of a deformation: each step is a copy of the vertices.
+constexpr std::size_t kMaxDeformationSegments = 16;
+
+/// Keeps the fewest of `steps` from which straight lines lead to all of them within a thousandth of what they sweep.
+void thin_out(std::vector<VertexStep>& steps) {
+    Bounds swept;
+    for (const VertexStep& step : steps)
+        for (const Vec3f& p : step.positions) swept.extend(p);
+    const auto distance = [&](std::size_t a, std::size_t b, double t, std::size_t c) {
+        float largest = 0.0f;
+        for (std::size_t v = 0; v < steps[a].positions.size(); ++v) {
+            const Vec3f& from = steps[a].positions[v];
+            const Vec3f straight = from + (steps[b].positions[v] - from) * static_cast<float>(t);
+            largest = std::max(largest, length(straight - steps[c].positions[v]));
+        }
+        return static_cast<double>(largest);
+    };
+    const double tolerance = kMotionTolerance * static_cast<double>(length(swept.size()));
+    const std::size_t stride = coarsest_stride(steps.size() - 1, tolerance, distance);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < steps.size(); i += stride) std::swap(steps[kept++], steps[i]);
+    steps.resize(kept);
+}
+
+}  // namespace
+
+MeshDeformer::Result MeshDeformer::deform(int node_index, const SourceLocation& where) {
+    const tinygltf::Node& node = document_.model.nodes[static_cast<std::size_t>(node_index)];
     const auto index = static_cast<std::size_t>(node.mesh);
     const MeshDeformation& deformation = deformations_[index];
-    const std::vector<double>& weights = !pose.weights.empty()   ? pose.weights
-                                         : !node.weights.empty() ? node.weights
-                                                                 : deformation.default_weights;
+    const std::vector<double>& weights = weights_of(node_index, nodes_.pose(node_index).weights);
+    const bool weights_change = nodes_.weights_change(node_index);
     const bool is_morphed =
-        std::ranges::any_of(weights, [](double w) { return w != 0.0; }) &&
+        (weights_change || std::ranges::any_of(weights, [](double w) { return w != 0.0; })) &&
         std::ranges::any_of(deformation.primitives, [](const PrimitiveDeformation& p) { return !p.targets.empty(); });
     const bool is_skinned = node.skin >= 0 && deformation.is_skinned();
     const Result unchanged{{node.mesh}, false};
     if (!is_morphed && !is_skinned) return unchanged;
 
-    std::vector<Mat4d> joints;
+    std::optional<Binding> binding;
     if (is_skinned) {
-        joints = joint_matrices(document_.skins[static_cast<std::size_t>(node.skin)], where);
-        if (joints.empty()) return unchanged;
-        if (deformation.largest_joint() >= joints.size()) {
+        binding = bind(document_.skins[static_cast<std::size_t>(node.skin)], where);
+        if (!binding) return unchanged;
+        if (deformation.largest_joint() >= binding->joints.size()) {
             problems_.error(where, fmt::format("the mesh refers to joint {}, but the skin has {}",
-                                               deformation.largest_joint(), joints.size()));
+                                               deformation.largest_joint(), binding->joints.size()));
             return unchanged;
         }
     }
-    // Copies are taken from what may still be decoded: any number of nodes can deform one mesh.
-    for (const PrimitiveDesc& primitive : scene_.meshes[index].primitives) {
-        constexpr std::size_t kBytesPerVertex = sizeof(Vec3f) * 2 + sizeof(Vec4f) * 2 + sizeof(Vec2f) * 2;
-        if (!accessors_.allocate(primitive.positions.size(), kBytesPerVertex, where) ||
-            !accessors_.allocate(primitive.triangles.size(), 3 * sizeof(std::uint32_t), where))
-            return unchanged;
-    }
+    if (!allocate_copy(scene_.meshes[index], where)) return unchanged;
+    const bool moves =
+        (is_morphed && weights_change) ||
+        (binding && std::ranges::any_of(binding->joints, [&](int j) { return !nodes_.motion(j).empty(); }));
+
     MeshDesc mesh{scene_.meshes[index].name, {}, scene_.meshes[index].location};
     for (std::size_t p = 0; p < deformation.primitives.size(); ++p) {
         PrimitiveDesc primitive = scene_.meshes[index].primitives[p];
+        if (moves) primitive.motion = move(primitive, deformation.primitives[p], node_index, binding, where);
         morph(primitive, deformation.primitives[p], weights);
-        if (is_skinned) skin(primitive, deformation.primitives[p], joints);
+        if (binding) skin(primitive, deformation.primitives[p], binding->to_world);
         if (finish_deformation(primitive, deformation.primitives[p]))
             mesh.primitives.push_back(std::move(primitive));
         else
@@ -52,15 +79,53 @@ MeshDeformer::Result MeshDeformer::deform(const tinygltf::Node& node, const Node
     return {{static_cast<std::int32_t>(scene_.meshes.size()) - 1}, is_skinned};
 }
 
-std::vector<Mat4d> MeshDeformer::joint_matrices(const GltfSkin& skin, const SourceLocation& where) {
-    std::vector<Mat4d> matrices(skin.joints.size());
+const std::vector<double>& MeshDeformer::weights_of(int node_index, const std::vector<double>& animated) const {
+    const tinygltf::Node& node = document_.model.nodes[static_cast<std::size_t>(node_index)];
+    if (!animated.empty()) return animated;
+    return !node.weights.empty() ? node.weights : deformations_[static_cast<std::size_t>(node.mesh)].default_weights;
+}
+
+/// Copies are taken from what may still be decoded: any number of nodes can deform one mesh.
+bool MeshDeformer::allocate_copy(const MeshDesc& mesh, const SourceLocation& where) {
+    constexpr std::size_t kBytesPerVertex = sizeof(Vec3f) * 2 + sizeof(Vec4f) * 2 + sizeof(Vec2f) * 2;
+    return std::ranges::all_of(mesh.primitives, [&](const PrimitiveDesc& primitive) {
+        return accessors_.allocate(primitive.positions.size(), kBytesPerVertex, where) &&
+               accessors_.allocate(primitive.triangles.size(), 3 * sizeof(std::uint32_t), where);
+    });
+}
+
+std::vector<VertexStep> MeshDeformer::move(const PrimitiveDesc& primitive, const PrimitiveDeformation& deformation,
+                                           int node, const std::optional<Binding>& binding,
+                                           const SourceLocation& where) {
+    const std::size_t segments = std::min(nodes_.segments(), kMaxDeformationSegments);
+    if (!accessors_.allocate(primitive.positions.size() * (segments + 1), 2 * sizeof(Vec3f), where)) return {};
+    std::vector<VertexStep> steps(segments + 1);
+    std::vector<Mat4d> joints(binding ? binding->joints.size() : 0);
+    for (std::size_t s = 0; s <= segments; ++s) {
+        const std::size_t moment = s * (nodes_.segments() / segments);
+        PrimitiveDesc vertices;
+        vertices.positions = primitive.positions;
+        vertices.normals = primitive.normals;
+        morph(vertices, deformation, weights_of(node, nodes_.weights_at(node, moment)));
+        for (std::size_t j = 0; j < joints.size(); ++j)
+            joints[j] = binding->inverse_bind[j] * nodes_.to_world_at(binding->joints[j], moment);
+        if (binding) skin(vertices, deformation, joints);
+        steps[s] = {std::move(vertices.positions), std::move(vertices.normals)};
+    }
+    thin_out(steps);
+    return steps;
+}
+
+std::optional<MeshDeformer::Binding> MeshDeformer::bind(const GltfSkin& skin, const SourceLocation& where) {
+    Binding binding{skin.joints, std::vector<Mat4d>(skin.joints.size()), {}};
+    std::vector<Mat4d>& matrices = binding.inverse_bind;
     if (skin.inverse_bind_matrices) {
         const std::optional<AttributeData> data = accessors_.attribute(*skin.inverse_bind_matrices, {16, 16}, where);
-        if (!data) return {};
+        if (!data) return std::nullopt;
         if (data->values.size() < 16 * matrices.size()) {
             problems_.error(where, fmt::format("{} inverse bind matrices for {} joints", data->values.size() / 16,
                                                matrices.size()));
-            return {};
+            return std::nullopt;
         }
         for (std::size_t j = 0; j < matrices.size(); ++j)
             for (std::size_t i = 0; i < 16; ++i)
@@ -68,15 +133,15 @@ std::vector<Mat4d> MeshDeformer::joint_matrices(const GltfSkin& skin, const Sour
                     static_cast<double>(data->values[16 * j + i]);
     }
     for (std::size_t j = 0; j < matrices.size(); ++j) {
-        const std::optional<Mat4d>& joint = to_world_[static_cast<std::size_t>(skin.joints[j])];
+        const std::optional<Mat4d>& joint = nodes_.to_world(skin.joints[j]);
         if (!joint) {
             problems_.error(where,
                             fmt::format("joint {} of the skin, node {}, is not in the scene", j, skin.joints[j]));
-            return {};
+            return std::nullopt;
         }
-        matrices[j] = matrices[j] * *joint;
+        binding.to_world.push_back(matrices[j] * *joint);
     }
-    return matrices;
+    return binding;
 }
 
 }  // namespace etendue

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "loader/gltf/gltf_accessor.h"
-#include "loader/gltf/gltf_animation.h"
 #include "loader/gltf/gltf_deformation.h"
+#include "loader/gltf/gltf_posed_nodes.h"
 #include "scene/scene_desc.h"
 
 #include <optional>
@@ -14,13 +14,12 @@ namespace etendue {
 
 class MeshDeformer {
   public:
-    /// `to_world` are the transforms of all nodes that the scene shows, by node index.
     MeshDeformer(const GltfDocument& document, AccessorReader& accessors, std::span<const MeshDeformation> deformations,
-                 std::span<const std::optional<Mat4d>> to_world, SceneDesc& scene, ProblemList& problems)
+                 const PosedNodes& nodes, SceneDesc& scene, ProblemList& problems)
         : document_(document),
           accessors_(accessors),
           deformations_(deformations),
-          to_world_(to_world),
+          nodes_(nodes),
           scene_(scene),
           problems_(problems) {}
 
@@ -29,17 +28,33 @@ class MeshDeformer {
         bool is_in_world_space = false;  ///< a skin has placed it; the node's own transform does not count
     };
 
-    /// The mesh of `node`, which has one, in `pose`. A mesh that cannot be deformed stays as it is, with an error.
-    [[nodiscard]] Result deform(const tinygltf::Node& node, const NodePose& pose, const SourceLocation& where);
+    /// The mesh of a placed node that has one, in its pose, with its motion while the shutter is open. A mesh that
+    /// cannot be deformed stays as it is, with an error.
+    [[nodiscard]] Result deform(int node, const SourceLocation& where);
 
   private:
-    /// From the mesh to the world by way of each joint; empty, with an error, if they cannot be had.
-    [[nodiscard]] std::vector<Mat4d> joint_matrices(const GltfSkin& skin, const SourceLocation& where);
+    /// A skin's joints, all of them in the scene.
+    struct Binding {
+        std::span<const int> joints;      ///< nodes
+        std::vector<Mat4d> inverse_bind;  ///< from the mesh to each joint
+        std::vector<Mat4d> to_world;      ///< from the mesh to the world by way of each joint
+    };
+
+    /// Nothing, with an error, if the skin cannot be had.
+    [[nodiscard]] std::optional<Binding> bind(const GltfSkin& skin, const SourceLocation& where);
+    [[nodiscard]] const std::vector<double>& weights_of(int node, const std::vector<double>& animated) const;
+    /// The vertices of `primitive` through the time that the shutter is open; empty if that is more than may be
+    /// decoded.
+    [[nodiscard]] std::vector<VertexStep> move(const PrimitiveDesc& primitive, const PrimitiveDeformation& deformation,
+                                               int node, const std::optional<Binding>& binding,
+                                               const SourceLocation& where);
+    /// False if copies of the mesh are more than may be decoded.
+    [[nodiscard]] bool allocate_copy(const MeshDesc& mesh, const SourceLocation& where);
 
     const GltfDocument& document_;
     AccessorReader& accessors_;
     std::span<const MeshDeformation> deformations_;
-    std::span<const std::optional<Mat4d>> to_world_;
+    const PosedNodes& nodes_;
     SceneDesc& scene_;
     ProblemList& problems_;
 };

@@ -3,6 +3,7 @@
 #include "loader/gltf/gltf_instancing.h"
 #include "loader/gltf/gltf_lights.h"
 #include "loader/gltf/gltf_mesh_deformer.h"
+#include "loader/gltf/gltf_posed_nodes.h"
 #include "loader/gltf/gltf_transform.h"
 #include "loader/gltf/gltf_value.h"
 #include "scene/transform.h"
@@ -12,6 +13,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -88,82 +90,60 @@ std::vector<int> find_roots(const GltfDocument& document, const std::vector<int>
     return roots;
 }
 
-Mat4d local_transform(const tinygltf::Node& node, const NodePose& pose, const SourceLocation& where,
-                      ProblemList& problems) {
-    if (node.matrix.size() == 16) {
-        const std::optional<Mat4d> matrix = affine_matrix(node.matrix);
-        if (!matrix) problems.error(where, "the matrix is not affine: its fourth row must be 0, 0, 0, 1");
-        if (pose.translation || pose.rotation || pose.scale)
-            problems.warning(where, "the node has a matrix and cannot be animated: its animation is ignored");
-        return matrix.value_or(Mat4d());
-    }
-    // What is animated, or else what the node has.
-    const auto numbers = [](const auto& animated, const std::vector<double>& own) {
-        return animated ? std::vector<double>(animated->begin(), animated->end()) : own;
-    };
-    const std::vector<double> scale = numbers(pose.scale, node.scale);
-    const std::vector<double> rotation = numbers(pose.rotation, node.rotation);
-    const std::vector<double> translation = numbers(pose.translation, node.translation);
-    Mat4d result;
-    if (scale.size() == 3) result.setScale(Imath::V3d(scale[0], scale[1], scale[2]));
-    if (rotation.size() == 4) {
-        const std::optional<Mat4d> matrix = rotation_matrix({rotation[0], rotation[1], rotation[2], rotation[3]});
-        if (!matrix) problems.warning(where, "the rotation is a zero quaternion and is ignored");
-        result *= matrix.value_or(Mat4d());
-    }
-    if (translation.size() == 3) {
-        for (int i = 0; i < 3; ++i) result[3][i] = translation[static_cast<std::size_t>(i)];
-    }
-    return result;
-}
-
-const NodePose& pose_of(const NodePoses& poses, int node) {
-    static const NodePose kAtRest;
-    const auto found = poses.find(node);
-    return found == poses.end() ? kAtRest : found->second;
-}
-
 /// Turns one node after the other into what it places.
 class Placer {
   public:
-    Placer(const GltfDocument& document, AccessorReader& accessors, MeshDeformer& deformer, SceneDesc& scene,
-           ProblemList& problems)
+    Placer(const GltfDocument& document, AccessorReader& accessors, MeshDeformer& deformer, const PosedNodes& nodes,
+           SceneDesc& scene, ProblemList& problems)
         : document_(document),
           accessors_(accessors),
           deformer_(deformer),
+          nodes_(nodes),
           scene_(scene),
           problems_(problems),
           lights_(document, accessors, scene, problems) {}
 
-    /// Of a node that is not `visible` only the camera is placed.
-    void place(const tinygltf::Node& node, const NodePose& pose, const Mat4d& node_to_world,
-               const SourceLocation& where, bool visible) {
-        if (visible && node.mesh >= 0) {
-            const MeshDeformer::Result mesh = deformer_.deform(node, pose, where);
+    /// Of a node that is not visible only the camera is placed.
+    void place(const PlacedNode& placed) {
+        const tinygltf::Node& node = document_.model.nodes[static_cast<std::size_t>(placed.node)];
+        const SourceLocation where = document_.at(fmt::format("/nodes/{}", placed.node));
+        const std::span<const Mat4d> motion = nodes_.motion(placed.node);
+        if (placed.visible && node.mesh >= 0) {
+            const MeshDeformer::Result mesh = deformer_.deform(placed.node, where);
             const tinygltf::Value* instancing = find_extension(node.extensions, "EXT_mesh_gpu_instancing");
             if (mesh.is_in_world_space)
-                place_mesh(node, mesh.mesh, Mat4f(), where);
+                place_mesh(node, mesh.mesh, Mat4d(), {}, where);
             else if (instancing != nullptr)
-                place_instances(node, mesh.mesh, *instancing, node_to_world, where);
+                place_instances(node, mesh.mesh, *instancing, placed, where);
             else
-                place_mesh(node, mesh.mesh, to_float(node_to_world), where);
+                place_mesh(node, mesh.mesh, placed.to_world, motion, where);
         }
-        const Mat4f to_world = to_float(node_to_world);
-        const bool shines = visible && LightReader::has_light(node);
+        const bool shines = placed.visible && LightReader::has_light(node);
         if (node.camera < 0 && !shines) return;
 
-        const std::optional<Mat4f> rigid = rigid_part(to_world);
+        const std::optional<Mat4f> rigid = rigid_part(to_float(placed.to_world));
         if (!rigid) {
             problems_.warning(where, "the node's transform is singular: its camera and light are left out");
             return;
         }
-        if (node.camera >= 0) place_camera(node, *rigid);
-        if (shines) lights_.place(node, *rigid, where);
+        if (node.camera >= 0) place_camera(node, *rigid, motion);
+        if (shines) {
+            lights_.place(node, *rigid, where);
+            if (!motion.empty()) ++moving_lights_;
+        }
+    }
+
+    void report_moving_lights() const {
+        if (moving_lights_ == 0) return;
+        problems_.note(document_.at("/animations"),
+                       fmt::format("{} punctual lights move while the shutter is open; they are taken to stand still "
+                                   "where they are in the middle of it",
+                                   moving_lights_));
     }
 
   private:
     void place_instances(const tinygltf::Node& node, Handle<MeshDesc> mesh, const tinygltf::Value& extension,
-                         const Mat4d& node_to_world, const SourceLocation& where) {
+                         const PlacedNode& placed, const SourceLocation& where) {
         const SourceLocation at = document_.at(where.pointer + "/extensions/EXT_mesh_gpu_instancing");
         const std::optional<std::vector<Mat4d>> transforms =
             read_instance_transforms(extension, accessors_, at, problems_);
@@ -172,29 +152,43 @@ class Placer {
             problems_.error(at, fmt::format("more than {} instances in all", kMaxNodes));
             return;
         }
-        for (const Mat4d& to_node : *transforms) place_mesh(node, mesh, to_float(to_node * node_to_world), where);
+        const std::span<const Mat4d> node_motion = nodes_.motion(placed.node);
+        if (!accessors_.allocate(transforms->size() * node_motion.size(), sizeof(Mat4f), at)) return;
+        std::vector<Mat4d> motion(node_motion.size());
+        for (const Mat4d& to_node : *transforms) {
+            std::ranges::transform(node_motion, motion.begin(), [&](const Mat4d& m) { return to_node * m; });
+            place_mesh(node, mesh, to_node * placed.to_world, motion, where);
+        }
     }
 
-    void place_mesh(const tinygltf::Node& node, Handle<MeshDesc> handle, const Mat4f& to_world,
-                    const SourceLocation& where) {
+    void place_mesh(const tinygltf::Node& node, Handle<MeshDesc> handle, const Mat4d& to_world,
+                    std::span<const Mat4d> motion, const SourceLocation& where) {
         const MeshDesc& mesh = scene_.meshes[static_cast<std::size_t>(handle.index)];
         if (mesh.primitives.empty()) return;  // reported with the mesh
-        if (!is_invertible(to_world)) {
+        InstanceDesc instance{node.name.empty() ? mesh.name : node.name, handle, to_float(to_world), {}, where};
+        if (!motion.empty()) instance.motion = thin_out(motion, bounds_of(handle));
+        if (!is_invertible(instance.to_world) || !std::ranges::all_of(instance.motion, is_invertible)) {
             problems_.warning(where, "the node's transform is singular: its mesh is left out");
             return;
         }
-        InstanceDesc& instance = scene_.instances.emplace_back();
-        instance.name = node.name.empty() ? mesh.name : node.name;
-        instance.mesh = handle;
-        instance.to_world = to_world;
-        instance.location = where;
+        scene_.instances.push_back(std::move(instance));
     }
 
-    void place_camera(const tinygltf::Node& node, const Mat4f& to_world) {
+    /// Of a mesh at rest; found once for each, however often it is placed.
+    const Bounds& bounds_of(Handle<MeshDesc> handle) {
+        const auto [entry, is_new] = bounds_.try_emplace(handle.index);
+        if (is_new)
+            for (const PrimitiveDesc& primitive : scene_.meshes[static_cast<std::size_t>(handle.index)].primitives)
+                for (const Vec3f& p : primitive.positions) entry->second.extend(p);
+        return entry->second;
+    }
+
+    void place_camera(const tinygltf::Node& node, const Mat4f& to_world, std::span<const Mat4d> motion) {
         const tinygltf::Camera& source = document_.model.cameras[static_cast<std::size_t>(node.camera)];
         CameraDesc camera;
         camera.name = unique_camera_name(source.name.empty() ? node.name : source.name);
         camera.to_world = to_world;
+        if (!motion.empty()) camera.motion = thin_out(motion, {});
         camera.location = document_.at(fmt::format("/cameras/{}", node.camera));
         if (source.type == "orthographic") {
             camera.type = CameraType::Orthographic;
@@ -220,49 +214,21 @@ class Placer {
     const GltfDocument& document_;
     AccessorReader& accessors_;
     MeshDeformer& deformer_;
+    const PosedNodes& nodes_;
     SceneDesc& scene_;
     ProblemList& problems_;
     LightReader lights_;
+    std::map<std::int32_t, Bounds> bounds_;  ///< by mesh
+    std::size_t moving_lights_ = 0;
     std::set<std::string> camera_names_;
     std::map<std::string, int> last_number_;  ///< by name, so that finding a free one does not start over
 };
 
-/// A node of the scene, where it is.
-struct PlacedNode {
-    int node;
-    Mat4d to_world;
-    bool visible = true;  ///< KHR_node_visibility: it and all nodes above it are
-};
-
-bool is_visible(const tinygltf::Node& node) {
-    const tinygltf::Value* extension = find_extension(node.extensions, "KHR_node_visibility");
-    return extension == nullptr || !extension->Has("visible") || extension->Get("visible").Get<bool>();
-}
-
-/// Depth first over the forest, with a stack of its own: hierarchies may be as deep as the file likes.
-std::vector<PlacedNode> walk(const GltfDocument& document, const std::vector<int>& roots, const NodePoses& poses,
-                             ProblemList& problems) {
-    std::vector<PlacedNode> placed;
-    std::vector<PlacedNode> stack;  // with the transforms and the visibility of their parents
-    for (auto root = roots.rbegin(); root != roots.rend(); ++root) stack.push_back({*root, Mat4d()});
-    while (!stack.empty()) {
-        PlacedNode visit = stack.back();
-        stack.pop_back();
-        const tinygltf::Node& node = document.model.nodes[static_cast<std::size_t>(visit.node)];
-        const SourceLocation where = document.at(fmt::format("/nodes/{}", visit.node));
-        visit.to_world = local_transform(node, pose_of(poses, visit.node), where, problems) * visit.to_world;
-        visit.visible = visit.visible && is_visible(node);
-        for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
-            stack.push_back({*child, visit.to_world, visit.visible});
-        placed.push_back(visit);
-    }
-    return placed;
-}
-
 }  // namespace
 
 void read_nodes(const GltfDocument& document, AccessorReader& accessors, std::span<const MeshDeformation> deformations,
-                const NodePoses& poses, SceneDesc& scene, ProblemList& problems) {
+                const AnimationSampler* animation, const RenderSettings& settings, SceneDesc& scene,
+                ProblemList& problems) {
     if (document.model.nodes.size() > kMaxNodes) {
         problems.error(document.at("/nodes"), fmt::format("more than {} nodes", kMaxNodes));
         return;
@@ -274,14 +240,11 @@ void read_nodes(const GltfDocument& document, AccessorReader& accessors, std::sp
     for (const Problem& problem : structure.all()) problems.add(problem);
     if (structure.has_errors()) return;
 
-    const std::vector<PlacedNode> nodes = walk(document, roots, poses, problems);
-    std::vector<std::optional<Mat4d>> to_world(document.model.nodes.size());
-    for (const PlacedNode& node : nodes) to_world[static_cast<std::size_t>(node.node)] = node.to_world;
-    MeshDeformer deformer(document, accessors, deformations, to_world, scene, problems);
-    Placer placer(document, accessors, deformer, scene, problems);
-    for (const PlacedNode& node : nodes)
-        placer.place(document.model.nodes[static_cast<std::size_t>(node.node)], pose_of(poses, node.node),
-                     node.to_world, document.at(fmt::format("/nodes/{}", node.node)), node.visible);
+    const PosedNodes nodes(document, roots, parents, animation, settings, accessors, problems);
+    MeshDeformer deformer(document, accessors, deformations, nodes, scene, problems);
+    Placer placer(document, accessors, deformer, nodes, scene, problems);
+    for (const PlacedNode& placed : nodes.placed()) placer.place(placed);
+    placer.report_moving_lights();
     if (scene.instances.empty()) problems.warning(document.at(""), "the scene shows no triangles");
 }
 

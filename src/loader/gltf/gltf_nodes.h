@@ -14,9 +14,11 @@ namespace etendue {
 /// Appends what the nodes of the document's scene place: `scene`, else the first one, else all root nodes. The meshes
 /// must have been read. Errors if the nodes are no forest (a cycle, or a node with two parents) or a transform is not
 /// affine; nodes with a singular transform are left out with a warning.
-/// `deformations` are those of the meshes, `poses` what an animation says of the nodes; skinned and morphed meshes are
-/// appended to the scene's as they are then.
+/// `deformations` are those of the meshes. The nodes are where `animation` has them at the moment that `settings` show,
+/// or in their own pose without one; skinned and morphed meshes are appended to the scene's as they are then. While the
+/// shutter is open, what moves gets its motion; a note says which lights do, as they are taken to stand still.
 void read_nodes(const GltfDocument& document, AccessorReader& accessors, std::span<const MeshDeformation> deformations,
-                const NodePoses& poses, SceneDesc& scene, ProblemList& problems);
+                const AnimationSampler* animation, const RenderSettings& settings, SceneDesc& scene,
+                ProblemList& problems);
 
 }  // namespace etendue

@@ -402,9 +402,12 @@ constexpr ShapeField kAnimationSamplerFields[] = {
     {"interpolation", text(kInterpolations)},
 };
 constexpr Shape kAnimationSampler = object(kAnimationSamplerFields);
+constexpr ShapeField kAnimationPointerFields[] = {{"pointer", text(), true}};
+constexpr ShapeField kTargetExtensionFields[] = {{"KHR_animation_pointer", object(kAnimationPointerFields)}};
 constexpr ShapeField kTargetFields[] = {
     {"node", index_of("/nodes")},
     {"path", text(), true},
+    {"extensions", object(kTargetExtensionFields)},
 };
 constexpr ShapeField kChannelFields[] = {
     {"sampler", integer(0, kMaxInt), true},

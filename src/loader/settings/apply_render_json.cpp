@@ -181,7 +181,6 @@ void apply_environment(const RenderJson& json, SceneDesc& scene, ProblemList& pr
 }  // namespace
 
 void apply_render_json(const RenderJson& json, SceneDesc& scene, ProblemList& problems) {
-    scene.settings = json.settings;
     apply_camera(json, scene, problems);
     apply_environment(json, scene, problems);
     apply_materials(json, scene, problems);

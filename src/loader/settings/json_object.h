@@ -57,6 +57,11 @@ class JsonObject {
     }
 
     template <std::size_t N>
+    bool numbers(std::string_view key, const NumberRange& range, std::array<float, N>& out) {
+        return read_numbers(key, range, out);
+    }
+
+    template <std::size_t N>
     bool integers(std::string_view key, std::int64_t min, std::int64_t max, std::array<int, N>& out) {
         const nlohmann::json* value = member(key);
         if (value == nullptr || !check_array(*value, at(key), N, "integers")) return false;

@@ -259,6 +259,31 @@ void read_texture_memory(JsonObject& object, RenderSettings& settings) {
         object.problems().error(object.at("texture_memory"), fmt::format("'{}' is not {}", text, kByteSizeForm));
 }
 
+/// [first, last] or [first, last, step].
+void read_frames(JsonObject& object, RenderSettings& settings) {
+    object.number("fps", kPositive, settings.fps);
+    const Json* member = object.member("frames");
+    if (member == nullptr) return;
+    FrameRange frames;
+    constexpr std::int64_t kMost = FrameRange::kMaxFrame;
+    std::array<int, 2> ends{};
+    std::array<int, 3> ends_and_step{};
+    if (member->is_array() && member->size() == 3) {
+        if (!object.integers("frames", -kMost, kMost, ends_and_step)) return;
+        frames = {ends_and_step[0], ends_and_step[1], ends_and_step[2]};
+    } else {
+        if (!object.integers("frames", -kMost, kMost, ends)) return;
+        frames = {ends[0], ends[1], 1};
+    }
+    if (frames.last < frames.first || frames.step < 1) {
+        object.problems().error(object.at("frames"),
+                                "must be [first, last] or [first, last, step] with first <= last "
+                                "and step >= 1");
+        return;
+    }
+    settings.frames = frames;
+}
+
 void read_overrides(JsonObject& object, RenderJson& out) {
     ProblemList& problems = object.problems();
     if (const Json* member = object.member("materials")) {
@@ -284,6 +309,11 @@ void read_document(const Json& value, ProblemList& problems, RenderJson& out) {
     object.text("variant", settings.variant);
     if (double seconds = 0.0; object.number("time_code", kAnyNumber, seconds)) settings.time_code = seconds;
     object.text("animation", settings.animation);
+    read_frames(object, settings);
+    std::array<float, 2> shutter{};
+    if (object.numbers("shutter", kAnyNumber, shutter)) {
+        settings.shutter = {static_cast<double>(shutter[0]), static_cast<double>(shutter[1])};
+    }
     object.choice("sampler", kSamplers, settings.sampler);
     object.choice("light_units", kLightUnitNames, settings.light_units);
     object.integer("spp", 1, kMaxSpp, settings.spp);

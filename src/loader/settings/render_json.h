@@ -46,8 +46,8 @@ struct RenderJson {
 /// Parses `file`. All errors go to `problems`, each with its JSON pointer; members with errors keep their defaults.
 [[nodiscard]] RenderJson read_render_json(const std::filesystem::path& file, ProblemList& problems);
 
-/// Applies the settings to a scene that has been loaded: overrides by name, camera, environment (whose header is read).
-/// Names that the scene does not have are errors that suggest the nearest one.
+/// Applies what the document says of the scene to one that has been loaded: overrides by name, camera, environment
+/// (whose header is read). Names that the scene does not have are errors that suggest the nearest one.
 void apply_render_json(const RenderJson& json, SceneDesc& scene, ProblemList& problems);
 
 }  // namespace etendue

@@ -1,0 +1,84 @@
+#include "loader/gltf/gltf_builder.h"
+
+#include <gtest/gtest.h>
+
+namespace etendue {
+namespace {
+
+/// A triangle with a material, a camera and a lamp, and an animation of `pointer` from `values` at 0 s to those at 1 s.
+GltfBuilder pointing(const std::string& pointer, const std::vector<float>& values, int components) {
+    GltfBuilder builder;
+    builder.add_triangle()["material"] = 0;
+    auto& json = builder.json;
+    json["materials"] = {{{"name", "paint"}}};
+    json["nodes"].push_back({{"camera", 0}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    json["scenes"][0]["nodes"] = {0, 1};
+    json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.8}, {"znear", 0.1}}}}};
+    json["extensionsUsed"] = {"KHR_lights_punctual", "KHR_animation_pointer"};
+    json["extensionsRequired"] = {"KHR_animation_pointer"};
+    json["extensions"] = {{"KHR_lights_punctual", {{"lights", {{{"type", "point"}}}}}}};
+    json["animations"] = {
+        {{"samplers", {{{"input", builder.floats({0, 1}, 1)}, {"output", builder.floats(values, components)}}}},
+         {"channels",
+          {{{"sampler", 0},
+            {"target", {{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}}}}}}}};
+    return builder;
+}
+
+LoadedScene load_at(const GltfBuilder& builder, double seconds) {
+    LoadOptions options;
+    options.time_code = seconds;
+    LoadedScene loaded = builder.load(options);
+    EXPECT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
+    return loaded;
+}
+
+TEST(AnimationPointer, MaterialsHaveTheValuesOfTheMoment) {
+    const GltfBuilder color =
+        pointing("/materials/0/pbrMetallicRoughness/baseColorFactor", {0, 0, 0, 1, 1, 0.5f, 0, 1}, 4);
+    EXPECT_EQ(load_at(color, 0.5).scene.materials.at(0).base_color, Rgb(0.5f, 0.25f, 0.0f));
+    EXPECT_EQ(color.load().scene.materials.at(0).base_color, Rgb(1.0f)) << "at rest";
+    const GltfBuilder metallic = pointing("/materials/0/pbrMetallicRoughness/metallicFactor", {-1, 1}, 1);
+    EXPECT_EQ(load_at(metallic, 0.75).scene.materials.at(0).metallic, 0.5f);
+    EXPECT_EQ(load_at(metallic, 0.0).scene.materials.at(0).metallic, 0.0f) << "kept within the range";
+    const GltfBuilder strength =
+        pointing("/materials/0/extensions/KHR_materials_emissive_strength/emissiveStrength", {2, 4}, 1);
+    EXPECT_EQ(load_at(strength, 0.5).scene.materials.at(0).emissive_strength, 3.0f);
+    const GltfBuilder cutoff = pointing("/materials/0/alphaCutoff", {0, 1}, 1);
+    EXPECT_EQ(load_at(cutoff, 0.25).scene.materials.at(0).alpha_cutoff, 0.25f);
+}
+
+TEST(AnimationPointer, CamerasAndLightsToo) {
+    EXPECT_EQ(load_at(pointing("/cameras/0/perspective/yfov", {0.5f, 1.5f}, 1), 0.5).scene.cameras.at(0).yfov, 1.0f);
+    EXPECT_EQ(load_at(pointing("/extensions/KHR_lights_punctual/lights/0/intensity", {0, 8}, 1), 0.5)
+                  .scene.lights.at(0)
+                  .intensity,
+              4.0f);
+    EXPECT_EQ(load_at(pointing("/extensions/KHR_lights_punctual/lights/0/color", {0, 0, 0, 1, 1, 1}, 3), 0.5)
+                  .scene.lights.at(0)
+                  .color,
+              Rgb(0.5f));
+}
+
+TEST(AnimationPointer, NodesMoveAsWithOrdinaryChannels) {
+    const GltfBuilder builder = pointing("/nodes/0/translation", {0, 0, 0, 4, 0, 0}, 3);
+    const LoadedScene loaded = load_at(builder, 0.5);
+    EXPECT_EQ(transform_point(loaded.scene.instances.at(0).to_world, Vec3f(0.0f)), Vec3f(2, 0, 0));
+    LoadOptions open;
+    open.time_code = 0.0;
+    open.shutter = Shutter{0.0, 0.5};
+    EXPECT_EQ(builder.load(open).scene.instances.at(0).motion.size(), 2u);
+}
+
+TEST(AnimationPointer, WhatItCannotAnimateIsSaid) {
+    for (const char* pointer :
+         {"/materials/1/alphaCutoff", "/materials/0/name", "/materials/0/glitter", "/materials/-1/alphaCutoff",
+          "/materials", "/meshes/0/weights", "/nodes/9/translation", "no pointer", "/materials/0/emissiveFactor"}) {
+        const LoadedScene loaded = load_at(pointing(pointer, {0, 1}, 1), 0.5);
+        EXPECT_TRUE(has_problem(loaded.problems, Severity::Warning, "cannot be animated", "/animations/0/channels/0"))
+            << pointer;
+    }
+}
+
+}  // namespace
+}  // namespace etendue
