@@ -6,26 +6,14 @@ are written by hand; --check says where render.json disagrees with the numbers t
 """
 
 import argparse
-import os
 import sys
 from pathlib import Path
 
 from scenegen.check import check_scene
 from scenegen.scenes import SCENES
+from scenegen.write import write_files
 
 DEFAULT_OUTPUT = Path(__file__).resolve().parent.parent / "scenes"
-
-
-def write(directory, contents):
-    """Writes the files `contents` (bytes by name), each under a temporary name first; what is there already stays."""
-    directory.mkdir(parents=True, exist_ok=True)
-    for name, data in contents.items():
-        target = directory / name
-        if target.exists() and target.read_bytes() == data:
-            continue
-        temporary = directory / f".{name}.{os.getpid()}"
-        temporary.write_bytes(data)
-        temporary.replace(target)
 
 
 def check(name, directory):
@@ -54,7 +42,7 @@ def main():
         if arguments.check:
             good = check(name, directory) and good
         else:
-            write(directory, SCENES[name]().contents())
+            write_files(directory, SCENES[name]().contents())
     return 0 if good else 1
 
 

@@ -1,4 +1,5 @@
-// Scene regressions: every scene of scenes/ against its stored reference, by a z-test of block means.
+// Scene regressions: every scene of scenes/ and every row of materials against its stored reference, by a z-test of
+// block means.
 //
 // With --update-references the same program renders the references instead; with --seed N it renders the tests with
 // other seeds, which tells chance from error: a test that fails for one seed in a thousand is right.
@@ -76,9 +77,10 @@ class EverySceneHasATest : public testing::Test {
         std::set<std::string> tested;
         for (const RegressionScene& scene : regression_scenes()) tested.emplace(scene.name);
         std::set<std::string> present;
-        for (const std::filesystem::path& path : find_scene_directories(ETENDUE_SCENES))
-            present.insert(path.filename().string());
-        EXPECT_EQ(tested, present) << "rows of regression_scenes.cpp, and directories of scenes/";
+        for (const std::string_view parent : kSceneDirectories)
+            for (const std::filesystem::path& path : find_scene_directories(parent))
+                present.insert(path.filename().string());
+        EXPECT_EQ(tested, present) << "rows of regression_scenes.cpp, and directories of scenes";
     }
 };
 

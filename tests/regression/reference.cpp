@@ -38,7 +38,7 @@ ImageF without_alpha(const Film& film) {
 
 ImageEstimate render_estimate(const RegressionScene& scene, const Sampling& sampling, SampleSequence sequence,
                               std::uint32_t first_seed) {
-    SceneDesc desc = load_scene(std::filesystem::path(ETENDUE_SCENES) / scene.name).scene;
+    SceneDesc desc = load_scene(std::filesystem::path(scene.parent) / scene.name).scene;
     desc.settings.film.width = scene.width;
     desc.settings.film.height = scene.height;
     const IntegratorSettings lengths = desc.settings.integrator;

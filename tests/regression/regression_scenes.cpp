@@ -4,22 +4,49 @@ namespace etendue::test {
 
 namespace {
 
+constexpr std::string_view kScenes = kSceneDirectories[0];
+constexpr std::string_view kRows = kSceneDirectories[1];
+
+/// The rows are lit so that the naive integrator finds the light soon. A block holds a quarter of a sphere.
+constexpr RegressionScene row(std::string_view name) {
+    return {kRows, name, 128, 64, 16, 0.01, {"path", 4, 48}, {"naive", 8, 128}};
+}
+
+/// Dark spheres, whose blocks lie inside them: noise of the bright walls would hide what changes there.
+constexpr RegressionScene dark_row(std::string_view name) {
+    return {kRows, name, 128, 64, 8, 0.01, {"path", 4, 64}, {"naive", 8, 384}};
+}
+
 // The naive integrator cannot find a directional light (sun-and-sky, instances), and hardly the small lights of
 // veach-mis. The mean of veach-mis is mostly what the camera sees of its smallest and brightest light.
-constexpr RegressionScene kScenes[] = {
-    {"cornell-box", 64, 64, 16, 0.01, {"path", 4, 256}, {"naive", 8, 16384}},
-    {"cornell-glass", 64, 64, 16, 0.01, {"path", 4, 64}, {"naive", 8, 4096}},
-    {"furnace", 32, 32, 8, 0.01, {"path", 4, 16}, {"naive", 4, 64}},
-    {"instances", 96, 54, 8, 0.01, {"path", 4, 16}, {"path", 8, 128}},
-    {"material-grid", 96, 54, 16, 0.01, {"path", 4, 48}, {"naive", 8, 2048}},
-    {"sun-and-sky", 96, 54, 8, 0.01, {"path", 4, 32}, {"path", 8, 256}},
-    {"veach-mis", 96, 64, 8, 0.1, {"path", 4, 64}, {"path", 8, 256}},
+constexpr RegressionScene kRegressionScenes[] = {
+    {kScenes, "cornell-box", 64, 64, 16, 0.01, {"path", 4, 256}, {"naive", 8, 16384}},
+    {kScenes, "cornell-glass", 64, 64, 16, 0.01, {"path", 4, 64}, {"naive", 8, 4096}},
+    {kScenes, "furnace", 32, 32, 8, 0.01, {"path", 4, 16}, {"naive", 4, 64}},
+    {kScenes, "instances", 96, 54, 8, 0.01, {"path", 4, 16}, {"path", 8, 128}},
+    {kScenes, "material-grid", 96, 54, 16, 0.01, {"path", 4, 48}, {"naive", 8, 2048}},
+    {kScenes, "sun-and-sky", 96, 54, 8, 0.01, {"path", 4, 32}, {"path", 8, 256}},
+    {kScenes, "veach-mis", 96, 64, 8, 0.1, {"path", 4, 64}, {"path", 8, 256}},
+    row("row-anisotropy"),
+    dark_row("row-clearcoat"),
+    row("row-diffuse-transmission"),
+    row("row-dispersion"),
+    row("row-emission"),
+    dark_row("row-ior"),
+    row("row-iridescence"),
+    row("row-models"),
+    row("row-nested"),
+    row("row-sheen"),
+    dark_row("row-specular"),
+    row("row-transmission"),
+    row("row-volume"),
+    row("row-volume-scatter"),
 };
 
 }  // namespace
 
 std::span<const RegressionScene> regression_scenes() {
-    return kScenes;
+    return kRegressionScenes;
 }
 
 }  // namespace etendue::test

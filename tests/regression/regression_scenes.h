@@ -14,14 +14,18 @@ struct Sampling {
     int spp = 32;     ///< of each render
 };
 
-/// A scene of scenes/, seen small.
+/// Where scenes are: those for users, and what tools/make_material_rows.py makes.
+inline constexpr std::string_view kSceneDirectories[] = {ETENDUE_SCENES, ETENDUE_MATERIAL_ROWS};
+
+/// A scene of kSceneDirectories, seen small.
 ///
 /// To add one: a row in regression_scenes.cpp, then tools/update_references with a filter for its name.
 struct RegressionScene {
-    std::string_view name;  ///< of the directory
-    int width = 0;          ///< pixels
-    int height = 0;         ///< pixels
-    int block_size = 8;     ///< pixels; larger for scenes with fireflies, whose small blocks are far from normal
+    std::string_view parent;  ///< one of kSceneDirectories
+    std::string_view name;    ///< of the directory in it
+    int width = 0;            ///< pixels
+    int height = 0;           ///< pixels
+    int block_size = 8;       ///< pixels; larger for scenes with fireflies, whose small blocks are far from normal
     /// Most relative difference of the images' means; what their noise allows.
     double mean_tolerance = 0.01;
     Sampling test;

@@ -24,15 +24,21 @@ class GltfWriter:
         }
 
     def add_material(self, name, base_color=(1.0, 1.0, 1.0), metallic=0.0, roughness=1.0, emission=None,
-                     base_color_texture=None, transmission=0.0, double_sided=False):
-        """A metallic-roughness material. `emission` is radiance; `transmission` in [0, 1] through a thin wall."""
+                     base_color_texture=None, transmission=0.0, double_sided=False, emissive_texture=None,
+                     further_extensions=None):
+        """A metallic-roughness material. `emission` is radiance; `transmission` in [0, 1] through a thin wall.
+
+        `further_extensions` are values by the extension's name, as in glTF.
+        """
         pbr = {"baseColorFactor": [*base_color, 1.0], "metallicFactor": metallic, "roughnessFactor": roughness}
         if base_color_texture is not None:
             pbr["baseColorTexture"] = {"index": base_color_texture}
         material = {"name": name, "pbrMetallicRoughness": pbr}
         if double_sided:
             material["doubleSided"] = True
-        extensions = {}
+        if emissive_texture is not None:
+            material["emissiveTexture"] = {"index": emissive_texture}
+        extensions = dict(further_extensions or {})
         if emission is not None:
             # The factor is limited to [0, 1]; the rest goes to the extension.
             strength = max(1.0, *emission)
@@ -97,6 +103,8 @@ class GltfWriter:
         attributes = {
             "POSITION": self._add_accessor(mesh.positions, FLOAT, "VEC3", with_bounds=True),
             "NORMAL": self._add_accessor(mesh.normals, FLOAT, "VEC3")}
+        if mesh.tangents:
+            attributes["TANGENT"] = self._add_accessor(mesh.tangents, FLOAT, "VEC4")
         if mesh.uvs:
             attributes["TEXCOORD_0"] = self._add_accessor(mesh.uvs, FLOAT, "VEC2")
         if mesh.colors:

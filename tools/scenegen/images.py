@@ -58,15 +58,16 @@ def latitude_longitude(width, height, radiance):
     return pixels
 
 
-def png(width, height, pixels):
-    """Bytes of an 8-bit RGB PNG. `pixels` are bytes, rows from the top."""
+def png(width, height, pixels, channels=3):
+    """Bytes of an 8-bit PNG, RGB or with 4 `channels` RGBA. `pixels` are bytes, rows from the top."""
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
-    stride = 3 * width
+    stride = channels * width
+    color_type = {3: 2, 4: 6}[channels]
     # Filter type 0 in front of each row.
     rows = b"".join(b"\0" + pixels[stride * y:stride * (y + 1)] for y in range(height))
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0))
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, color_type, 0, 0, 0))
             + chunk(b"IDAT", zlib.compress(rows, 9)) + chunk(b"IEND", b""))
 
 

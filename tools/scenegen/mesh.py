@@ -7,11 +7,12 @@ from .vector import add, cross, dot, length, normalize, scale, sub
 
 
 class Mesh:
-    """Triangles with normals and, if wanted, texture coordinates and colours."""
+    """Triangles with normals and, if wanted, tangents, texture coordinates and colours."""
 
     def __init__(self):
         self.positions = array("f")
         self.normals = array("f")
+        self.tangents = array("f")
         self.uvs = array("f")
         self.colors = array("B")
         self.indices = array("I")
@@ -24,14 +25,19 @@ class Mesh:
     def triangle_count(self):
         return len(self.indices) // 3
 
-    def add_vertex(self, position, normal, uv=None, color=None):
-        """Appends one vertex and returns its index. `uv` and `color` (RGBA bytes) for all vertices or for none."""
+    def add_vertex(self, position, normal, uv=None, color=None, tangent=None):
+        """Appends one vertex and returns its index.
+
+        `uv`, `color` (RGBA bytes) and `tangent` (x, y, z, handedness) for all vertices or for none.
+        """
         self.positions.extend(position)
         self.normals.extend(normal)
         if uv is not None:
             self.uvs.extend(uv)
         if color is not None:
             self.colors.extend(color)
+        if tangent is not None:
+            self.tangents.extend(tangent)
         return self.vertex_count - 1
 
     def add_triangle(self, a, b, c):
@@ -107,6 +113,26 @@ def sphere(radius, frequency, center=(0.0, 0.0, 0.0)):
     for corners in _icosahedron():
         for indices in _subdivided(corners, frequency, vertex):
             mesh.add_triangle(*indices)
+    return mesh
+
+
+def mapped_sphere(radius, columns, rows):
+    """A sphere about the origin with exact normals, texture coordinates and tangents: longitude and latitude.
+
+    u runs once around from the seam at -Z, counter-clockwise seen from above; v from the top to the bottom, as in
+    images; tangents lie along u. 2 · columns · (rows - 1) triangles.
+    """
+    mesh = Mesh()
+    for row in range(rows + 1):
+        # From the bottom, so that column × row points outwards; exactly on the axis at the poles.
+        v = 1.0 - row / rows
+        ring, height = (math.sin(math.pi * v), math.cos(math.pi * v)) if 0 < row < rows else (0.0, 1.0 - 2.0 * v)
+        for column in range(columns + 1):
+            angle = 2.0 * math.pi * (column % columns) / columns
+            s, c = -math.sin(angle), -math.cos(angle)
+            normal = (ring * s, height, ring * c)
+            mesh.add_vertex(scale(normal, radius), normal, uv=(column / columns, v), tangent=(c, 0.0, -s, 1.0))
+    mesh.add_grid(columns, rows)
     return mesh
 
 
@@ -214,7 +240,7 @@ def merged(meshes):
     result = Mesh()
     for mesh in meshes:
         offset = result.vertex_count
-        for name in ("positions", "normals", "uvs", "colors"):
+        for name in ("positions", "normals", "tangents", "uvs", "colors"):
             getattr(result, name).extend(getattr(mesh, name))
         result.indices.extend(i + offset for i in mesh.indices)
     return result

@@ -1,0 +1,21 @@
+"""Rows of spheres that hold the material extensions in place, for tests/regression. Each is a function that returns a
+GeneratedScene with its render.json. To add another: the function in the module of its kind, and its line here."""
+
+from . import bodies, emission, nested, sheets, surfaces
+
+ROWS = {
+    "row-anisotropy": surfaces.anisotropy,
+    "row-clearcoat": surfaces.clearcoat,
+    "row-diffuse-transmission": sheets.diffuse_transmission,
+    "row-dispersion": bodies.dispersion,
+    "row-emission": emission.emission,
+    "row-ior": surfaces.ior,
+    "row-iridescence": surfaces.iridescence,
+    "row-models": bodies.models,
+    "row-nested": nested.nested,
+    "row-sheen": surfaces.sheen,
+    "row-specular": surfaces.specular,
+    "row-transmission": sheets.transmission,
+    "row-volume": bodies.volume,
+    "row-volume-scatter": bodies.volume_scatter,
+}
