@@ -11,9 +11,8 @@
 #include "table_writer.h"
 
 #include <array>
-#include <fstream>
-#include <iostream>
 #include <memory>
+#include <ostream>
 #include <string>
 
 namespace {
@@ -161,24 +160,16 @@ void fill_averages(Tables& tables) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    if (argc != 2) {
-        std::cerr << "usage: make_ggx_albedo OUTPUT.inc\n";
-        return 2;
-    }
-    const auto tables = std::make_unique<Tables>();
-    fill_directional(*tables);
-    fill_averages(*tables);
-    std::ofstream out(argv[1]);
-    write_table(out, "Slice", "kSingle", tables->single);
-    write_table(out, "ShareSlice", "kSchlickShare", tables->schlick_share);
-    write_table(out, "std::array<std::array<Slice, kEtas>, 2>", "kDielectric", tables->dielectric);
-    write_table(out, "Averages", "kSingleAverage", tables->single_average);
-    write_table(out, "Averages", "kSchlickAverage", tables->schlick_average);
-    write_table(out, "std::array<std::array<Averages, kEtas>, 2>", "kDielectricAverage", tables->dielectric_average);
-    out.flush();
-    if (!out) {
-        std::cerr << "make_ggx_albedo: cannot write " << argv[1] << "\n";
-        return 1;
-    }
-    return 0;
+    return write_table_file(argc, argv, "make_ggx_albedo", [](std::ostream& out) {
+        const auto tables = std::make_unique<Tables>();
+        fill_directional(*tables);
+        fill_averages(*tables);
+        write_table(out, "Slice", "kSingle", tables->single);
+        write_table(out, "ShareSlice", "kSchlickShare", tables->schlick_share);
+        write_table(out, "std::array<std::array<Slice, kEtas>, 2>", "kDielectric", tables->dielectric);
+        write_table(out, "Averages", "kSingleAverage", tables->single_average);
+        write_table(out, "Averages", "kSchlickAverage", tables->schlick_average);
+        write_table(out, "std::array<std::array<Averages, kEtas>, 2>", "kDielectricAverage",
+                    tables->dielectric_average);
+    });
 }

@@ -9,9 +9,8 @@
 #include "sampling/sobol.h"
 #include "table_writer.h"
 
-#include <fstream>
-#include <iostream>
 #include <memory>
+#include <ostream>
 
 namespace {
 
@@ -102,21 +101,12 @@ void fill(Tables& tables) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    if (argc != 2) {
-        std::cerr << "usage: make_ggx_anisotropic_albedo OUTPUT.inc\n";
-        return 2;
-    }
-    const auto tables = std::make_unique<Tables>();
-    fill(*tables);
-    std::ofstream out(argv[1]);
-    write_table(out, "Table", "kSingle", tables->single);
-    write_table(out, "Table", "kSchlickShare", tables->schlick_share);
-    write_table(out, "Averages", "kSingleAverage", tables->single_average);
-    write_table(out, "Averages", "kSchlickAverage", tables->schlick_average);
-    out.flush();
-    if (!out) {
-        std::cerr << "make_ggx_anisotropic_albedo: cannot write " << argv[1] << "\n";
-        return 1;
-    }
-    return 0;
+    return write_table_file(argc, argv, "make_ggx_anisotropic_albedo", [](std::ostream& out) {
+        const auto tables = std::make_unique<Tables>();
+        fill(*tables);
+        write_table(out, "Table", "kSingle", tables->single);
+        write_table(out, "Table", "kSchlickShare", tables->schlick_share);
+        write_table(out, "Averages", "kSingleAverage", tables->single_average);
+        write_table(out, "Averages", "kSchlickAverage", tables->schlick_average);
+    });
 }

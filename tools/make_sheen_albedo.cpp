@@ -7,9 +7,8 @@
 #include "bsdf/sheen_albedo_layout.h"
 #include "table_writer.h"
 
-#include <fstream>
-#include <iostream>
 #include <memory>
+#include <ostream>
 
 namespace {
 
@@ -67,19 +66,10 @@ void fill(Tables& tables) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    if (argc != 2) {
-        std::cerr << "usage: make_sheen_albedo OUTPUT.inc\n";
-        return 2;
-    }
-    const auto tables = std::make_unique<Tables>();
-    fill(*tables);
-    std::ofstream out(argv[1]);
-    write_table(out, "Table", "kUnbounded", tables->unbounded);
-    write_table(out, "Table", "kBounded", tables->bounded);
-    out.flush();
-    if (!out) {
-        std::cerr << "make_sheen_albedo: cannot write " << argv[1] << "\n";
-        return 1;
-    }
-    return 0;
+    return write_table_file(argc, argv, "make_sheen_albedo", [](std::ostream& out) {
+        const auto tables = std::make_unique<Tables>();
+        fill(*tables);
+        write_table(out, "Table", "kUnbounded", tables->unbounded);
+        write_table(out, "Table", "kBounded", tables->bounded);
+    });
 }

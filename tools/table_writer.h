@@ -4,6 +4,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdio>
+#include <fstream>
+#include <iostream>
 #include <ostream>
 
 namespace etendue {
@@ -30,6 +32,23 @@ void write_table(std::ostream& out, const char* type, const char* name, const T&
     out << "const " << type << " " << name << " = ";
     write_value(out, values);
     out << ";\n";
+}
+
+/// The whole of such a program: `write(out)` fills the file that its only argument names. Returns the exit status.
+template <typename Write>
+int write_table_file(int argc, char** argv, const char* program, const Write& write) {
+    if (argc != 2) {
+        std::cerr << "usage: " << program << " OUTPUT.inc\n";
+        return 2;
+    }
+    std::ofstream out(argv[1]);
+    write(out);
+    out.flush();
+    if (!out) {
+        std::cerr << program << ": cannot write " << argv[1] << "\n";
+        return 1;
+    }
+    return 0;
 }
 
 }  // namespace etendue

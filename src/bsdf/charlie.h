@@ -22,7 +22,8 @@ struct Charlie {
 
     /// Smith's auxiliary function.
     [[nodiscard]] float lambda(float cos_theta) const {
-        return cos_theta < 0.5f ? std::exp(fit(cos_theta)) : std::exp(2.0f * fit(0.5f) - fit(1.0f - cos_theta));
+        return cos_theta < 0.5f ? std::exp(fit(cos_theta))
+                                : std::exp(2.0f * fit(0.5f) - fit(std::max(0.0f, 1.0f - cos_theta)));
     }
 
     /// Reflected radiance per irradiance times cos_i, 1/sr: D G / (4 cos_o), for unit directions with z > 0.

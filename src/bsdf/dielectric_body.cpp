@@ -52,7 +52,8 @@ BsdfSample DielectricBody::sample(const Vec3f& wo, float u_lobe, Vec2f u, Transp
         sample.wi = facing(sample.wi, wo);
     }
     // The share is both part of the value and the chance of the choice, and cancels from a delta's weight.
-    if (is_black(sample.weight) || sample.is_delta) return sample;
+    if (sample.is_delta) return sample;
+    if (!(sample.pdf_solid_angle > 0.0f)) return {};
     const BsdfValue value = evaluate(wo, sample.wi, mode);
     if (!(value.pdf_solid_angle > 0.0f)) return {};
     sample.weight = value.f_cos / value.pdf_solid_angle;

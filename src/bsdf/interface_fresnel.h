@@ -35,9 +35,10 @@ struct InterfaceFresnel {
         return {reflected, transmitted, chance + transmitted > 0.0f ? chance / (chance + transmitted) : 1.0f};
     }
 
-  private:
+    /// True if it is that of the indices alone.
     [[nodiscard]] bool is_bare() const { return !film.exists() && scale == Rgb(1.0f); }
 
+  private:
     /// The film's reflectance is the same from both sides, at the two angles of one ray.
     [[nodiscard]] Rgb film_reflectance(float cos_o, float eta, bool outside) const {
         const float ior = outside ? eta : 1.0f / eta;

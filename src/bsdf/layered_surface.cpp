@@ -113,7 +113,7 @@ BsdfSample LayeredSurface::sample(const Vec3f& wo, float u_lobe, Vec2f u, Transp
     } else {
         const float u_rest = std::clamp((u_lobe - end_layers) / (1.0f - end_layers), 0.0f, kOneMinusEpsilon);
         sample = sample_base(*this, wo, u_rest, u, mode);
-        if (is_black(sample.weight)) return {};
+        if (!sample.is_delta && !(sample.pdf_solid_angle > 0.0f)) return {};
         if (sample.is_delta) {
             sample.weight *= std::min(layers.passed_o, Layers::passed(*this, sample.wi)) / (1.0f - end_layers);
             return sample;

@@ -45,8 +45,7 @@ struct Layers {
         dielectric_multiple = max_component(dielectric_series);
         multiple_fresnel = lerp(dielectric_series, reflection.multiple_fresnel(metal.average()), metallic);
         coupling = passed(reflection.albedo_o, wo.z);
-        coupling_average =
-            smooth ? 1.0f - max_component(dielectric.average()) : 1.0f - layer_albedo(reflection.albedo_average);
+        coupling_average = average_passed();
         const float under = 1.0f - metallic;
         const float stays = under * (1.0f - m.transmission);
         diffuse = m.base * (stays * (1.0f - m.diffuse_transmission));

@@ -67,7 +67,9 @@ Rgb ThinFilm::reflectance(const Rgb& f0, float cos_theta) const {
         return LowerFace{r, base_ior < ior ? kPi : 0.0f};
     };
     const std::array<LowerFace, 3> lower{lower_face(f0.r), lower_face(f0.g), lower_face(f0.b)};
-    const float path_nm = 2.0f * ior * thickness_nm * cos_film;
+    // Longer paths have lost all colour; the bound keeps what files may say from overflowing.
+    constexpr float kLongestPath = 1e6f;
+    const float path_nm = std::min(kLongestPath, 2.0f * ior * thickness_nm * cos_film);
 
     // Equation 10: the mean over wavelengths, and the first two orders of interference.
     std::array<float, 3> result{};

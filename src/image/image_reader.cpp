@@ -1,5 +1,6 @@
 #include "image/image_reader.h"
 
+#include "core/error.h"
 #include "image/open_image.h"
 
 namespace etendue {
@@ -50,17 +51,26 @@ ImageLevel ImageReader::tile() const {
 }
 
 void ImageReader::read_rows(int level, int y_begin, int y_end, std::span<float> values) {
-    const auto width = static_cast<std::size_t>(impl_->levels[static_cast<std::size_t>(level)].width);
+    const ImageLevel& size = impl_->levels[static_cast<std::size_t>(level)];
+    seek_level(impl_->image, size, level);
+    // The library counts rows from where the image lies in its canvas.
+    const int first_row = impl_->image.input->spec().y;
+    const auto width = static_cast<std::size_t>(size.width);
     const std::size_t pixel_count = width * static_cast<std::size_t>(y_end - y_begin);
     const ChannelRange range = channel_range(impl_->image);
     float* const target = impl_->target(pixel_count, values);
-    const bool read = impl_->image.input->read_scanlines(0, level, y_begin, y_end, 0, range.first, range.last,
-                                                         OIIO::TypeDesc::FLOAT, target);
+    const bool read = impl_->image.input->read_scanlines(0, level, first_row + y_begin, first_row + y_end, 0,
+                                                         range.first, range.last, OIIO::TypeDesc::FLOAT, target);
     impl_->finish(read, pixel_count, values);
 }
 
 void ImageReader::read_tile(int level, int x, int y, std::span<float> values) {
+    seek_level(impl_->image, impl_->levels[static_cast<std::size_t>(level)], level);
+    const OIIO::ImageSpec live = impl_->image.input->spec();
     const auto [width, height] = impl_->tile;
+    if (live.tile_width != width || live.tile_height != height) throw IoError("its levels have different tiles");
+    x += live.x;
+    y += live.y;
     const std::size_t pixel_count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     const ChannelRange range = channel_range(impl_->image);
     float* const target = impl_->target(pixel_count, values);

@@ -44,6 +44,14 @@ Encoded look_at(std::span<const std::byte> bytes) {
     return encoded;
 }
 
+void refuse_large_tiles(const OIIO::ImageSpec& spec) {
+    constexpr int kMaxTileBeyondImage = 4096;
+    if (spec.tile_width > std::max(spec.width, kMaxTileBeyondImage) ||
+        spec.tile_height > std::max(spec.height, kMaxTileBeyondImage))
+        throw IoError(
+            fmt::format("its tiles of {} x {} pixels are larger than the image", spec.tile_width, spec.tile_height));
+}
+
 void refuse_absurd(const OIIO::ImageSpec& spec, const EncodedFormat& format, std::int64_t encoded_size) {
     if (spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0) throw IoError("the image has no pixels");
     if (spec.deep || spec.depth > 1) throw IoError("deep and volume images are not supported");
@@ -52,11 +60,7 @@ void refuse_absurd(const OIIO::ImageSpec& spec, const EncodedFormat& format, std
         throw IoError(fmt::format("{} x {} pixels are more than are allowed ({} in all, {} on a side)", spec.width,
                                   spec.height, kMaxImagePixels, kMaxImageSide));
     }
-    constexpr int kMaxTileBeyondImage = 4096;
-    if (spec.tile_width > std::max(spec.width, kMaxTileBeyondImage) ||
-        spec.tile_height > std::max(spec.height, kMaxTileBeyondImage))
-        throw IoError(
-            fmt::format("its tiles of {} x {} pixels are larger than the image", spec.tile_width, spec.tile_height));
+    refuse_large_tiles(spec);
     const auto bytes_per_pixel = static_cast<std::int64_t>(spec.pixel_bytes(true));
     if (pixels * bytes_per_pixel / format.max_expansion > encoded_size) {
         throw IoError(fmt::format("the header claims {} x {} pixels, which {} bytes cannot hold", spec.width,
@@ -150,6 +154,15 @@ std::vector<ImageLevel> levels_of(OpenImage& image) {
         levels.push_back(half);
     }
     return levels;
+}
+
+void seek_level(OpenImage& image, const ImageLevel& size, int level) {
+    if (!image.input->seek_subimage(0, level)) throw_library_error(*image.input, "a mip level is broken");
+    const OIIO::ImageSpec live = image.input->spec();
+    const bool is_as_stated = live.width == size.width && live.height == size.height && live.depth <= 1 &&
+                              live.nchannels == image.spec.nchannels;
+    if (!is_as_stated) throw IoError(fmt::format("level {} is not what the header says", level));
+    refuse_large_tiles(live);
 }
 
 ChannelRange channel_range(const OpenImage& image) {

@@ -33,6 +33,10 @@ struct OpenImage {
 /// at least 1).
 [[nodiscard]] std::vector<ImageLevel> levels_of(OpenImage& image);
 
+/// Makes `level`, which is `size` large, the one that is read next. Throws IoError if the file says otherwise now that
+/// it is looked at: some formats read what a level is only then, and its size decides how much is written into memory.
+void seek_level(OpenImage& image, const ImageLevel& size, int level);
+
 /// Moves the selected channels of `count` pixels together: `stored` holds all channels from the first selected to the
 /// last.
 template <typename T>

@@ -11,6 +11,7 @@ namespace {
 
 template <typename T>
 Image<T> read_level(OpenImage& open, const ImageLevel& size, int level) {
+    seek_level(open, size, level);
     Image<T> image(size.width, size.height, static_cast<int>(open.channels.size()));
     const std::size_t pixel_count = static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
     const ChannelRange range = channel_range(open);

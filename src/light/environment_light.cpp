@@ -12,10 +12,11 @@ namespace etendue {
 
 namespace {
 
-/// Negative and non-finite values become zero, in place.
+/// Negative and non-finite values become zero, and none is so large that sums of them overflow; in place.
 ImageF& sanitize(ImageF& image) {
+    constexpr float kBrightest = 1e30f;
     for (float& value : image.pixels)
-        if (!(value >= 0.0f) || !std::isfinite(value)) value = 0.0f;
+        value = value >= 0.0f && std::isfinite(value) ? std::min(value, kBrightest) : 0.0f;
     return image;
 }
 

@@ -141,6 +141,10 @@ std::vector<T> MipChain::take_levels(std::vector<NativeImage>& images) {
         else
             values.insert(values.end(), level.pixels.begin(), level.pixels.end());
     }
+    // One texel that is no number would spoil all that it is averaged with.
+    if constexpr (!std::is_integral_v<T>)
+        for (T& value : values)
+            if (!std::isfinite(static_cast<float>(value))) value = T(0.0f);
     return values;
 }
 

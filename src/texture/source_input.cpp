@@ -5,6 +5,7 @@
 #include "texture/srgb.h"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 
 namespace etendue {
@@ -94,6 +95,8 @@ bool SourceInput::convert(std::size_t pixel_count, void* data, const Read& read)
         errorfmt("{}", error.what());
         return false;
     }
+    for (float& value : values_)
+        if (!std::isfinite(value)) value = 0.0f;
     if (entry_->encoding == Encoding::Srgb) linearize(values_, info.depth, info.decoded_channels);
     return OIIO::convert_pixel_values(OIIO::TypeDesc::FLOAT, values_.data(), m_spec.format, data,
                                       static_cast<int>(values_.size()));

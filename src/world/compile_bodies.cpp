@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <map>
+#include <numeric>
 #include <tuple>
 
 namespace etendue {
@@ -38,19 +39,24 @@ Filling compile_subsurface(const SubsurfaceDesc& desc, const ColorMatrix& from_r
     return filling;
 }
 
-/// Diagonal of the bounds of a mesh where it is placed, metres.
-float size_of(const Geometry& geometry, const Instance& instance) {
-    Bounds bounds;
-    for (const Vec3f& p : geometry.positions) bounds.extend(instance.baked ? p : transform_point(instance.to_world, p));
-    return bounds.empty() ? 0.0f : length(bounds.size());
+/// Bounds where an instance places a geometry whose own bounds are `local`.
+Bounds placed(const Bounds& local, const Instance& instance) {
+    if (instance.baked || local.empty()) return local;
+    Bounds world;
+    for (int corner = 0; corner < 8; ++corner)
+        world.extend(transform_point(instance.to_world, {(corner & 1) != 0 ? local.max.x : local.min.x,
+                                                         (corner & 2) != 0 ? local.max.y : local.min.y,
+                                                         (corner & 4) != 0 ? local.max.z : local.min.z}));
+    return world;
 }
 
-/// A boundary as it is placed, before it has its number.
+/// The boundary of a filling in one instance, which may be of several geometries, before it has its number.
 struct Candidate {
     int priority;
-    float size;
-    std::uint32_t slot;
+    Bounds bounds;
     std::uint32_t filling;
+
+    [[nodiscard]] float size() const { return bounds.empty() ? 0.0f : length(bounds.size()); }
 };
 
 }  // namespace
@@ -60,6 +66,8 @@ std::optional<Filling> compile_filling(const MaterialDesc& desc, const ColorMatr
         return compile_volume(dielectric->volume, dielectric->ior, from_rec709);
     if (const auto* subsurface = std::get_if<SubsurfaceDesc>(&desc.override_model))
         return compile_subsurface(*subsurface, from_rec709);
+    // A surface with holes encloses nothing.
+    if (desc.alpha_mode == AlphaMode::Mask) return std::nullopt;
     const bool transmits = desc.transmission > 0.0f || desc.diffuse_transmission.factor > 0.0f;
     const bool is_gltf = std::holds_alternative<std::monostate>(desc.override_model);
     if (!is_gltf || !desc.volume.closed || !transmits || desc.ior == 0.0f) return std::nullopt;
@@ -67,26 +75,47 @@ std::optional<Filling> compile_filling(const MaterialDesc& desc, const ColorMatr
 }
 
 void compile_bodies(WorldData& data) {
+    const auto filling_of = [&](std::size_t geometry) {
+        return data.materials[data.geometries[geometry].material].filling;
+    };
+    std::vector<Bounds> local_bounds(data.geometries.size());
+    for (std::size_t g = 0; g < data.geometries.size(); ++g)
+        if (filling_of(g) != kNone)
+            for (const Vec3f& p : data.geometries[g].positions) local_bounds[g].extend(p);
+
+    // Exporters cut meshes into parts; those of one instance with one filling are one boundary.
     std::vector<Candidate> candidates;
+    std::vector<std::uint32_t> candidate_of_slot(data.light_of_slot.size(), kNone);
+    std::map<std::uint32_t, std::uint32_t> of_instance;  // candidate by filling
     for (const Instance& instance : data.instances) {
+        of_instance.clear();
         for (std::uint32_t g = 0; g < instance.geometry_count; ++g) {
-            const Geometry& geometry = data.geometries[instance.first_geometry + g];
-            const std::uint32_t filling = data.materials[geometry.material].filling;
-            if (filling == kNone || geometry.triangles.empty()) continue;
-            candidates.push_back(
-                {data.fillings[filling].priority, size_of(geometry, instance), instance.first_light_slot + g, filling});
+            const std::uint32_t geometry = instance.first_geometry + g;
+            const std::uint32_t filling = filling_of(geometry);
+            if (filling == kNone || data.geometries[geometry].triangles.empty()) continue;
+            const auto [entry, is_new] =
+                of_instance.try_emplace(filling, static_cast<std::uint32_t>(candidates.size()));
+            if (is_new) candidates.push_back({data.fillings[filling].priority, {}, filling});
+            candidates[entry->second].bounds.extend(placed(local_bounds[geometry], instance));
+            candidate_of_slot[instance.first_light_slot + g] = entry->second;
         }
     }
     if (candidates.empty()) return;
     // What is wholly inside another is smaller than it, and is what one means to see there.
-    std::ranges::sort(candidates, [](const Candidate& a, const Candidate& b) {
-        return std::tuple(-a.priority, a.size, a.slot) < std::tuple(-b.priority, b.size, b.slot);
+    std::vector<std::uint32_t> order(candidates.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
+        return std::tuple(-candidates[a].priority, candidates[a].size(), a) <
+               std::tuple(-candidates[b].priority, candidates[b].size(), b);
     });
-    data.body_of_slot.assign(data.light_of_slot.size(), kNone);
-    for (const Candidate& candidate : candidates) {
-        data.body_of_slot[candidate.slot] = static_cast<std::uint32_t>(data.filling_of_body.size());
-        data.filling_of_body.push_back(candidate.filling);
+    std::vector<std::uint32_t> body_of_candidate(candidates.size());
+    for (const std::uint32_t candidate : order) {
+        body_of_candidate[candidate] = static_cast<std::uint32_t>(data.filling_of_body.size());
+        data.filling_of_body.push_back(candidates[candidate].filling);
     }
+    data.body_of_slot.assign(candidate_of_slot.size(), kNone);
+    for (std::size_t slot = 0; slot < candidate_of_slot.size(); ++slot)
+        if (candidate_of_slot[slot] != kNone) data.body_of_slot[slot] = body_of_candidate[candidate_of_slot[slot]];
 }
 
 }  // namespace etendue

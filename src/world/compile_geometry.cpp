@@ -40,8 +40,11 @@ void gather(std::vector<T>& values, const std::vector<std::uint32_t>& source) {
 void add_tangents(Geometry& geometry, const TextureSlot& slot) {
     std::vector<Vec2f> uv = slot.texcoord == 1 ? geometry.uv1 : geometry.uv0;
     if (uv.empty() || geometry.normals.empty()) return;
-    for (Vec2f& c : uv)
+    for (Vec2f& c : uv) {
         c = {slot.row0.x * c.x + slot.row0.y * c.y + slot.row0.z, slot.row1.x * c.x + slot.row1.y * c.y + slot.row1.z};
+        // Both are finite, but not all that they make together; what is sorted by them must be.
+        if (!std::isfinite(c.x) || !std::isfinite(c.y)) c = {0.0f, 0.0f};
+    }
     TangentVertices vertices = generate_tangents(geometry.positions, geometry.normals, uv, geometry.triangles);
     geometry.tangents = std::move(vertices.tangents);
     geometry.triangles = std::move(vertices.triangles);

@@ -99,7 +99,7 @@ GltfModel compile_gltf(const MaterialDesc& desc, TextureCompiler& textures) {
     model.transmission = desc.transmission;
     model.transmission_texture = textures.slot(desc.transmission_texture, TextureUse::Data);
     // An infinite index reflects everything.
-    model.refracts = desc.volume.closed && desc.ior > 0.0f;
+    model.refracts = desc.volume.closed && desc.ior > 0.0f && desc.alpha_mode != AlphaMode::Mask;
     model.ior = desc.ior;
     model.layers = compile_layers(desc, textures);
     return model;
@@ -127,7 +127,8 @@ Material compile_material(const MaterialDesc& desc, const ColorMatrix& from_rec7
         material.model = compile_gltf(desc, textures);
 
     material.unlit = desc.unlit && std::holds_alternative<GltfModel>(material.model);
-    compile_alpha(desc, textures, material);
+    // Rays that a filter lets through would not know that they are in a body; what passes its surface is transmission.
+    if (!compile_filling(desc, from_rec709)) compile_alpha(desc, textures, material);
     material.normal_texture = textures.slot(desc.normal_texture, TextureUse::Data);
     material.normal_scale = desc.normal_scale;
 

@@ -45,21 +45,14 @@ TextureFootprint to_texture(const SectionEllipse& ellipse, const Vec3f& e1, cons
 
 }  // namespace
 
-void add_footprints(const Instance& instance, const Geometry& geometry, const ConeSection& section,
+void add_footprints(const Geometry& geometry, const Vec3f& edge1, const Vec3f& edge2, const ConeSection& section,
                     SurfacePoint& point) {
     const auto& triangle = geometry.triangles[point.triangle];
-    const Vec3f p0 = geometry.positions[triangle[0]];
-    Vec3f e1 = geometry.positions[triangle[1]] - p0;
-    Vec3f e2 = geometry.positions[triangle[2]] - p0;
-    if (!instance.baked) {
-        e1 = transform_vector(instance.to_world, e1);
-        e2 = transform_vector(instance.to_world, e2);
-    }
     const SectionEllipse ellipse = cut(section, point.geometric_normal);
     if (!geometry.uv0.empty())
-        point.footprint[0] = to_texture(ellipse, e1, e2, point.geometric_normal, geometry.uv0, triangle);
+        point.footprint[0] = to_texture(ellipse, edge1, edge2, point.geometric_normal, geometry.uv0, triangle);
     if (!geometry.uv1.empty())
-        point.footprint[1] = to_texture(ellipse, e1, e2, point.geometric_normal, geometry.uv1, triangle);
+        point.footprint[1] = to_texture(ellipse, edge1, edge2, point.geometric_normal, geometry.uv1, triangle);
 }
 
 float mean_curvature(const WorldData& data, const SurfacePoint& point) {

@@ -14,7 +14,8 @@ struct ConeSection {
 };
 
 /// Fills in the footprints of `point`, whose position, triangle and normals are known, for a section with a width.
-void add_footprints(const Instance& instance, const Geometry& geometry, const ConeSection& section,
+/// `edge1` and `edge2` are the triangle's, from its first vertex, where the ray met it, world space.
+void add_footprints(const Geometry& geometry, const Vec3f& edge1, const Vec3f& edge2, const ConeSection& section,
                     SurfacePoint& point);
 
 /// Mean curvature of the surface around `point`'s triangle, 1/m: how fast the normals of its vertices turn away from

@@ -24,8 +24,9 @@ float alpha(const Texel& t) {
     return t.alpha;
 }
 
+/// Textures of floating point hold what they like, also what is no number.
 float unit(float v) {
-    return std::clamp(v, 0.0f, 1.0f);
+    return v > 0.0f ? std::min(v, 1.0f) : 0.0f;
 }
 
 float squared(float v) {
@@ -38,7 +39,7 @@ struct Specular {
     Rgb tint;  ///< linear Rec.709
 
     Specular(const WorldData& data, const GltfModel& model, const SurfacePoint& point)
-        : weight(scaled(data, model.specular, model.specular_texture, point, alpha)),
+        : weight(unit(scaled(data, model.specular, model.specular_texture, point, alpha))),
           tint(scaled(data, model.specular_color, model.specular_color_texture, point)) {}
 
     [[nodiscard]] bool is_tinted() const { return !(tint == Rgb(1.0f)); }
@@ -100,7 +101,8 @@ DielectricBody make_body(const MetallicRoughness& lobe, float relative_ior, cons
                         .opaque = lobe,
                         .interface_share = (1.0f - lobe.metallic) * lobe.transmission};
     body.opaque.transmission = 0.0f;
-    if (body.interface_share < 1.0f) body.opaque.metallic = lobe.metallic / (1.0f - body.interface_share);
+    if (body.interface_share < 1.0f)
+        body.opaque.metallic = std::min(1.0f, lobe.metallic / (1.0f - body.interface_share));
     return body;
 }
 
@@ -146,7 +148,7 @@ Bsdf evaluate_gltf_surface(const WorldData& data, const GltfModel& model, const 
     const Specular specular(data, model, point);
     lobe.f90 = specular.weight;
     lobe.f0 = specular.f0(data, model.f0);
-    lobe.transmission = scaled(data, model.transmission, model.transmission_texture, point, red);
+    lobe.transmission = unit(scaled(data, model.transmission, model.transmission_texture, point, red));
     if (model.layers) evaluate_base_layers(data, *model.layers, point, lobe);
 
     const bool refracts = model.refracts && (1.0f - lobe.metallic) * lobe.transmission > 0.0f;

@@ -44,8 +44,10 @@ template <typename Channel>
     return slot.valid() ? factor * lookup(data, slot, point).rgb : factor;
 }
 
+/// Each channel in [0, 1]; what is no number is 0.
 [[nodiscard]] inline Rgb clamp_unit(const Rgb& c) {
-    return {std::clamp(c.r, 0.0f, 1.0f), std::clamp(c.g, 0.0f, 1.0f), std::clamp(c.b, 0.0f, 1.0f)};
+    const auto channel = [](float v) { return v > 0.0f ? std::min(v, 1.0f) : 0.0f; };
+    return {channel(c.r), channel(c.g), channel(c.b)};
 }
 
 }  // namespace etendue

@@ -38,6 +38,12 @@ MovedTriangle move_triangle(const Geometry& geometry, const std::array<std::uint
     return moved;
 }
 
+/// Rounding between two steps of a motion goes with where they are, however close to the origin what lies between is.
+Vec3f step_error(const Vec3f& extent, const TransformMotion& steps, float time) {
+    const std::size_t first = motion_segment(steps.size(), time).first;
+    return max_components(position_error(extent, steps[first]), position_error(extent, steps[first + 1]));
+}
+
 /// What the material's maps make of the interpolated frame. The base's relief does not show in a coat over it.
 void apply_relief(const WorldData& data, const Material& material, float bitangent_sign, SurfacePoint& point) {
     const Frame interpolated = point.shading;
@@ -108,10 +114,15 @@ SurfacePoint make_point(const WorldData& data, std::uint32_t instance_index, std
         if (instance.mirrors) bitangent_sign = -bitangent_sign;
     }
     point.geometric_normal = instance.baked ? geometric : normalize(geometric);
-    point.clearance =
-        clearance(point.geometric_normal, instance.baked ? position_error(extent) : position_error(extent, to_world));
-    // A filter asks for no more than where the triangle is in the middle of the shutter.
-    if (section.width > 0.0f) add_footprints(instance, geometry, section, point);
+    Vec3f error = instance.baked ? position_error(extent) : position_error(extent, to_world);
+    if (moves) error = max_components(error, step_error(extent, data.motions[instance.motion], time));
+    point.clearance = clearance(point.geometric_normal, error);
+    if (section.width > 0.0f) {
+        const auto to_scene = [&](const Vec3f& edge) {
+            return instance.baked ? edge : transform_vector(to_world, edge);
+        };
+        add_footprints(geometry, to_scene(e1), to_scene(e2), section, point);
+    }
     // Interpolated normals can cancel out or point to the back; the triangle's own then stands in.
     const float shading_length = length(shading);
     const bool usable = shading_length > 0.0f && dot(shading, point.geometric_normal) > 0.0f;

@@ -34,6 +34,8 @@ float radius_of(const Bounds& bounds) {
 std::optional<Vec3f> light_position(const Light& light) {
     if (const auto* point = std::get_if<PointLight>(&light)) return point->position;
     if (const auto* spot = std::get_if<SpotLight>(&light)) return spot->position;
+    if (const auto* measured = std::get_if<ProfileLight>(&light))
+        return std::visit([](const auto& lamp) { return lamp.position; }, measured->lamp);
     if (const auto* mesh = std::get_if<MeshLight>(&light)) {
         const LightTriangle& first = mesh->triangles().front();
         return first.p0 + (first.edge1 + first.edge2) * (1.0f / 3.0f);

@@ -35,6 +35,32 @@ TEST(LayeredSurface, ACoatAddsAHighlightAndDimsTheRest) {
               kPaint.evaluate(wo, aside, TransportMode::Radiance).f_cos.r);
 }
 
+// The base's samples are the only ones near the coat's highlight that are many; they must count for the coat.
+TEST(LayeredSurface, ABlackBaseLosesNothingOfItsCoat) {
+    const MetallicRoughness black{
+        .base = Rgb(0.0f), .metallic = 0.0f, .alpha_x = 0.2f, .alpha_y = 0.2f, .f0 = Rgb(0.0f), .f90 = 0.0f};
+    const ClearCoat coat{1.0f, 0.2f};
+    const LayeredSurface surface = LayeredSurface::make(black, {}, coat);
+    for (const float cos_o : {0.2f, 0.9f}) {
+        const Vec3f wo = direction_at(cos_o);
+        Random random(5);
+        double sum = 0.0;
+        constexpr int kSamples = 40'000;
+        for (int i = 0; i < kSamples; ++i) {
+            const float u_lobe = random.next();
+            sum +=
+                static_cast<double>(surface.sample(wo, u_lobe, random.next_2d(), TransportMode::Importance).weight.g);
+        }
+        EXPECT_NEAR(sum / kSamples, 1.0 - static_cast<double>(coat.passed(cos_o)), 0.01) << "cos " << cos_o;
+    }
+}
+
+TEST(Sheen, IsFiniteWhereRoundingTakesTheCosineAboveOne) {
+    const float above_one = 1.0f + 3e-7f;
+    const BsdfValue value = Sheen{Rgb(1.0f), 0.3f}.evaluate({0.0f, 0.0f, above_one}, {0.1f, 0.0f, 0.99f});
+    EXPECT_TRUE(is_finite(value.f_cos));
+}
+
 TEST(LayeredSurface, ACoatReflectsAboutItsOwnNormal) {
     const Vec3f tilted = normalize({0.3f, -0.1f, 1.0f});
     const LayeredSurface coated = LayeredSurface::make(kPaint, {}, ClearCoat{1.0f, 0.0f, tilted});

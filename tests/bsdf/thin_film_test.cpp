@@ -56,6 +56,10 @@ TEST(ThinFilm, AThickOneHasNoColour) {
     EXPECT_NEAR(color.b, color.g, 1e-3f);
 }
 
+TEST(ThinFilm, IsFiniteHoweverThickAFileSaysItIs) {
+    EXPECT_TRUE(is_finite(film(3e38f, 3e38f).reflectance(Rgb(0.1f), 0.5f)));
+}
+
 TEST(ThinFilm, ReflectsEverythingAtGrazingAngles) {
     EXPECT_NEAR(film(1.4f, 300.0f).reflectance(Rgb(0.04f), 0.0f).g, 1.0f, 1e-3f);
 }

@@ -71,6 +71,37 @@ TEST(Bodies, PriorityHidesABoundary) {
     EXPECT_FALSE(crossing_from(world, -1.5f, outer.inside).is_hidden);
 }
 
+TEST(Bodies, PartsOfOneMeshAreOneBoundary) {
+    SceneDesc scene = empty_scene();
+    PrimitiveDesc front = quad({0, 0, -1}, {1, 0, 0}, {0, 1, 0});
+    PrimitiveDesc back = quad({0, 0, -2}, {0, 1, 0}, {1, 0, 0});
+    front.material = back.material = add_material(scene, body(1.5f));
+    place(scene, add_mesh(scene, {front, back}));
+    const World world = compile(std::move(scene));
+    const Crossing in = crossing_from(world, 0.0f, Interior());
+    EXPECT_FALSE(in.is_hidden);
+    const Crossing out = crossing_from(world, -1.5f, in.inside);
+    EXPECT_FALSE(out.is_hidden);
+    EXPECT_TRUE(out.outside.is_empty());
+    EXPECT_FLOAT_EQ(out.relative_ior(0.0f), 1.5f);
+}
+
+TEST(Bodies, ABlendedBodyIsWholeAndAMaskedOneAThinWall) {
+    for (const AlphaMode mode : {AlphaMode::Blend, AlphaMode::Mask}) {
+        MaterialDesc glass;
+        glass.metallic = 0.0f;
+        glass.transmission = 1.0f;
+        glass.base_alpha = 0.4f;
+        glass.volume.closed = true;
+        glass.alpha_mode = mode;
+        SceneDesc scene = empty_scene();
+        add_ball(scene, {0, 0, -3}, 1.0f, glass);
+        const World world = compile(std::move(scene));
+        EXPECT_EQ(world.has_bodies(), mode == AlphaMode::Blend);
+        EXPECT_EQ(world.has_transparency(), mode == AlphaMode::Mask);
+    }
+}
+
 TEST(Bodies, OpaqueAndThinMaterialsHaveNone) {
     MaterialDesc thin;
     thin.transmission = 1.0f;

@@ -35,10 +35,12 @@ std::uint32_t body_dimension(int depth, std::uint32_t which) {
     return kFirst + static_cast<std::uint32_t>(depth) * kBodyDimensions + which;
 }
 
+/// Rays after which a path counts as long.
+constexpr int kLongPath = 64;
+
 /// Most of the paths of `depth` edges that Russian roulette lets live. Lossless ones live on as long as paths usually
 /// get; between perfect mirrors they would do so until the longest path allowed.
 float most_survival(int depth) {
-    constexpr int kLongPath = 64;
     return depth < kLongPath ? 1.0f : 0.95f;
 }
 
@@ -170,6 +172,7 @@ bool PathWave::shade_path(const Context& context, std::size_t i, PathStep& next)
     if (world.has_bodies() && scatter_in_medium(context, i, next)) return survives(context, i, next.state);
     const PathState& state = states_[i];
     const SurfacePoint point = world.surface_point(hit, rays_[i], state.cone);
+    if (point.material->emits) add_emission(context, state, rays_[i], hit, point);
     if (world.has_bodies() && world.is_boundary(point)) {
         crossing = world.crossing(point, interiors_[i]);
         if (crossing->is_hidden) {
@@ -177,7 +180,6 @@ bool PathWave::shade_path(const Context& context, std::size_t i, PathStep& next)
             return survives(context, i, next.state);
         }
     }
-    if (point.material->emits) add_emission(context, state, rays_[i], hit, point);
     if (point.material->unlit) {
         // Only what the eye sees directly or in mirrors shows an unlit surface; it lights nothing.
         if (state.only_delta && state.edges >= context.options.lengths.min_depth)
@@ -216,7 +218,7 @@ bool PathWave::scatter_at_surface(const Context& context, std::size_t i, const S
     const auto* mirror = chooses_wavelength && sample.is_delta && !sample.is_transmission
                              ? std::get_if<SmoothDielectric>(&bsdf)
                              : nullptr;
-    if (mirror != nullptr) {
+    if (mirror != nullptr && mirror->fresnel.is_bare()) {
         // All wavelengths go where a mirror sends them, each with its own share: the path need not choose.
         next.state.throughput *= world.spectral_response().mean_over_chance([&](float nm) {
             const float cos_o = scattering.wo_local().z;
@@ -253,7 +255,7 @@ bool PathWave::scatter_in_medium(const Context& context, std::size_t i, PathStep
 
     const Vec3f position = ray.origin + ray.direction * sample.distance;
     const bool samples_lights = context.options.sample_lights && context.world.has_lights_in_media();
-    if (samples_lights && state.edges + 1 >= context.options.lengths.min_depth)
+    if (samples_lights && state.edges >= context.options.lengths.min_depth)
         queue_direct_light_in_medium(context, i, position, *medium);
     next.state = state;
     next.ray.origin = position;
@@ -280,7 +282,10 @@ void PathWave::pass_hidden(const Context& context, std::size_t i, const SurfaceP
 }
 
 bool PathWave::survives(const Context& context, std::size_t i, PathState& state) const {
-    if (context.depth < context.options.lengths.roulette_depth) return true;
+    // In bodies nothing but roulette bounds a walk: neither media nor hidden boundaries add edges.
+    const int first = context.world.has_bodies() ? std::min(context.options.lengths.roulette_depth, kLongPath)
+                                                 : context.options.lengths.roulette_depth;
+    if (context.depth < first) return true;
     const float survival = std::min(most_survival(context.depth), max_component(state.throughput) * state.eta_scale);
     if (choices_.y[i] >= survival) return false;
     state.throughput *= 1.0f / survival;

@@ -22,16 +22,17 @@ using Json = nlohmann::json;
 std::vector<std::string> split_pointer(std::string_view pointer) {
     std::vector<std::string> tokens;
     if (!pointer.starts_with('/')) return tokens;
-    for (const char c : pointer) {
-        if (c == '/')
+    for (std::size_t i = 0; i < pointer.size(); ++i) {
+        const char next = i + 1 < pointer.size() ? pointer[i + 1] : '\0';
+        if (pointer[i] == '/') {
             tokens.emplace_back();
-        else
-            tokens.back() += c;
+        } else if (pointer[i] == '~' && (next == '0' || next == '1')) {
+            tokens.back() += next == '0' ? '~' : '/';
+            ++i;
+        } else {
+            tokens.back() += pointer[i];
+        }
     }
-    for (std::string& token : tokens)
-        for (const auto& [code, character] : {std::pair{"~1", "/"}, std::pair{"~0", "~"}})
-            for (std::size_t at = token.find(code); at != std::string::npos; at = token.find(code, at + 1))
-                token.replace(at, 2, character);
     return tokens;
 }
 

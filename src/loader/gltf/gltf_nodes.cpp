@@ -188,7 +188,10 @@ class Placer {
         CameraDesc camera;
         camera.name = unique_camera_name(source.name.empty() ? node.name : source.name);
         camera.to_world = to_world;
-        if (!motion.empty()) camera.motion = thin_out(motion, {});
+        // Its scale has no meaning.
+        std::vector<Mat4f> poses;
+        for (const Mat4d& step : motion) poses.push_back(rigid_part(to_float(step)).value_or(to_world));
+        if (!poses.empty()) camera.motion = thin_out_poses(poses);
         camera.location = document_.at(fmt::format("/cameras/{}", node.camera));
         if (source.type == "orthographic") {
             camera.type = CameraType::Orthographic;

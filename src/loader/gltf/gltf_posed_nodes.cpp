@@ -103,6 +103,24 @@ std::vector<Mat4f> thin_out(std::span<const Mat4d> steps, const Bounds& bounds) 
     return kept;
 }
 
+std::vector<Mat4f> thin_out_poses(std::span<const Mat4f> steps) {
+    constexpr double kTolerance = 1e-4;
+    const auto row = [](const Mat4f& m, int r) { return Vec3f(m[r][0], m[r][1], m[r][2]); };
+    float way = 0.0f;
+    for (std::size_t i = 1; i < steps.size(); ++i) way += length(row(steps[i], 3) - row(steps[i - 1], 3));
+    const auto distance = [&](std::size_t a, std::size_t b, double t, std::size_t c) {
+        const Mat4f between = steps[a] * static_cast<float>(1.0 - t) + steps[b] * static_cast<float>(t);
+        float worst = 0.0f;
+        for (int axis = 0; axis < 3; ++axis) worst = std::max(worst, length(row(between, axis) - row(steps[c], axis)));
+        if (way > 0.0f) worst = std::max(worst, length(row(between, 3) - row(steps[c], 3)) / way);
+        return static_cast<double>(worst);
+    };
+    const std::size_t stride = coarsest_stride(steps.size() - 1, kTolerance, distance);
+    std::vector<Mat4f> kept;
+    for (std::size_t i = 0; i < steps.size(); i += stride) kept.push_back(steps[i]);
+    return kept;
+}
+
 PosedNodes::PosedNodes(const GltfDocument& document, std::span<const int> roots, std::span<const int> parents,
                        const AnimationSampler* animation, const RenderSettings& settings, AccessorReader& accessors,
                        ProblemList& problems)

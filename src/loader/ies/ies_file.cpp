@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cfloat>
+#include <cmath>
 #include <cstddef>
 #include <numbers>
 #include <utility>
@@ -50,13 +51,16 @@ void skip_tilt(IesTokens& tokens, std::string_view tilt) {
 
 /// The standard lets the angles begin and end at a few places, each of which says how the rest is to be mirrored.
 void check_angles(const IesTokens& tokens, const IesNumbers& n) {
+    // By more than what single precision tells apart.
+    constexpr double kLeastStep = 1e-3;
     const auto ascending = [](const std::vector<double>& v) {
-        return std::ranges::adjacent_find(v, [](double a, double b) { return !(a < b); }) == v.end();
+        return std::ranges::adjacent_find(v, [](double a, double b) { return !(b - a >= kLeastStep); }) == v.end();
     };
     if (!ascending(n.vertical)) tokens.fail("the vertical angles do not ascend");
     if (!ascending(n.horizontal)) tokens.fail("the horizontal angles do not ascend");
     const double first = n.horizontal.front();
     const double last = n.horizontal.back();
+    if (last != 360.0 && std::abs(360.0 - last) < kLeastStep) tokens.fail("the horizontal angles end beside 360");
     const bool from_zero = first == 0.0 && (last == 0.0 || last == 90.0 || last == 180.0 || last > 180.0);
     const bool from_ninety = first == 90.0 && last == 270.0 && std::ranges::binary_search(n.horizontal, 180.0);
     if (!from_zero && !from_ninety)
