@@ -101,8 +101,8 @@ template <typename Distance>
 /// sweeps of where it was.
 [[nodiscard]] std::vector<Mat4f> thin_out(std::span<const Mat4d> steps, const Bounds& bounds);
 
-/// The fewest of a camera's poses, rigid transforms, that keep its axes within a ten-thousandth of a radian, and its place
-/// within a ten-thousandth of its way, of where they were: what it sees may be far away.
+/// The fewest of a camera's poses, rigid transforms, that keep its axes within a ten-thousandth of a radian, and its
+/// place within a ten-thousandth of its way, of where they were: what it sees may be far away.
 [[nodiscard]] std::vector<Mat4f> thin_out_poses(std::span<const Mat4f> steps);
 
 }  // namespace etendue
