@@ -41,11 +41,13 @@ struct Layers {
           // scattering are not.
           mixed{lerp(m.f0, m.base, m.metallic), m.f90 + (1.0f - m.f90) * m.metallic, {}},
           metallic(m.metallic) {
-        const Rgb dielectric_series = reflection.multiple_fresnel(dielectric.average());
+        // Of a pure material the other half is not asked for: under a film each average is several evaluations.
+        const Rgb dielectric_series = metallic < 1.0f ? reflection.multiple_fresnel(dielectric.average()) : Rgb();
+        const Rgb metal_series = metallic > 0.0f ? reflection.multiple_fresnel(metal.average()) : Rgb();
         dielectric_multiple = max_component(dielectric_series);
-        multiple_fresnel = lerp(dielectric_series, reflection.multiple_fresnel(metal.average()), metallic);
-        coupling = passed(reflection.albedo_o, wo.z);
-        coupling_average = average_passed();
+        multiple_fresnel = lerp(dielectric_series, metal_series, metallic);
+        coupling = metallic < 1.0f ? passed(reflection.albedo_o, wo.z) : 0.0f;
+        coupling_average = metallic < 1.0f ? average_passed() : 0.0f;
         const float under = 1.0f - metallic;
         const float stays = under * (1.0f - m.transmission);
         diffuse = m.base * (stays * (1.0f - m.diffuse_transmission));

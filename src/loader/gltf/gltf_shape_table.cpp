@@ -1,56 +1,14 @@
 // The parts of the glTF 2.0 schema that are used here, as data. To read another property, add its line.
 
+#include "loader/gltf/gltf_material_shape.h"
 #include "loader/gltf/gltf_shape.h"
-
-#include <cfloat>
+#include "loader/gltf/gltf_shape_build.h"
 
 namespace etendue {
 
 namespace {
 
-using namespace std::string_view_literals;
-
-constexpr double kMaxInt = 2147483647.0;
-constexpr double kMaxOffset = 9007199254740992.0;  // 2^53, exact in JSON
-constexpr double kMaxVertices = 4294967294.0;      // so that every index fits 32 bits
-
-constexpr Shape text(std::span<const std::string_view> allowed = {}) {
-    return {.kind = Shape::Kind::Text, .texts = allowed};
-}
-constexpr Shape boolean() {
-    return {.kind = Shape::Kind::Boolean};
-}
-constexpr Shape integer(double min, double max) {
-    return {.kind = Shape::Kind::Integer, .min = min, .max = max};
-}
-constexpr Shape one_of(std::span<const std::int64_t> allowed) {
-    return {.kind = Shape::Kind::Integer, .min = -kMaxInt, .max = kMaxInt, .integers = allowed};
-}
-constexpr Shape index_of(std::string_view target) {
-    return {.kind = Shape::Kind::Integer, .target = target};
-}
-constexpr Shape number(double min = -FLT_MAX, double max = FLT_MAX) {
-    return {.kind = Shape::Kind::Number, .min = min, .max = max};
-}
-constexpr Shape array(const Shape& element) {
-    return {.kind = Shape::Kind::Array, .element = &element};
-}
-constexpr Shape array(const Shape& element, std::size_t length) {
-    return {.kind = Shape::Kind::Array, .min_length = length, .max_length = length, .element = &element};
-}
-constexpr Shape map(const Shape& element) {
-    return {.kind = Shape::Kind::Map, .element = &element};
-}
-template <std::size_t N>
-constexpr Shape object(const ShapeField (&fields)[N]) {
-    return {.kind = Shape::Kind::Object, .fields = fields, .field_count = N};
-}
-constexpr Shape object() {
-    return {.kind = Shape::Kind::Object};
-}
-
-constexpr Shape kText = text();
-constexpr Shape kNumber = number();
+using namespace gltf_schema;
 
 // ---- buffers, views, accessors ----
 
@@ -118,142 +76,6 @@ constexpr ShapeField kAccessorFields[] = {
     {"sparse", object(kSparseFields)},
 };
 constexpr Shape kAccessor = object(kAccessorFields);
-
-// ---- images, textures, materials ----
-
-constexpr ShapeField kImageFields[] = {
-    {"name", text()},
-    {"uri", text()},
-    {"mimeType", text()},
-    {"bufferView", index_of("/bufferViews")},
-};
-constexpr Shape kImage = object(kImageFields);
-
-constexpr std::int64_t kMagFilters[] = {9728, 9729};
-constexpr std::int64_t kMinFilters[] = {9728, 9729, 9984, 9985, 9986, 9987};
-constexpr std::int64_t kWraps[] = {33071, 33648, 10497};
-constexpr ShapeField kSamplerFields[] = {
-    {"name", text()},          {"magFilter", one_of(kMagFilters)}, {"minFilter", one_of(kMinFilters)},
-    {"wrapS", one_of(kWraps)}, {"wrapT", one_of(kWraps)},
-};
-constexpr Shape kSampler = object(kSamplerFields);
-
-constexpr ShapeField kWebpFields[] = {{"source", index_of("/images"), true}};
-constexpr ShapeField kTextureExtensionFields[] = {{"EXT_texture_webp", object(kWebpFields)}};
-constexpr ShapeField kTextureFields[] = {
-    {"name", text()},
-    {"sampler", index_of("/samplers")},
-    {"source", index_of("/images")},
-    {"extensions", object(kTextureExtensionFields)},
-};
-constexpr Shape kTexture = object(kTextureFields);
-
-constexpr ShapeField kTextureTransformFields[] = {
-    {"offset", array(kNumber, 2)},
-    {"rotation", number()},
-    {"scale", array(kNumber, 2)},
-    {"texCoord", integer(0, kMaxInt)},
-};
-constexpr ShapeField kTextureInfoExtensionFields[] = {
-    {"KHR_texture_transform", object(kTextureTransformFields)},
-};
-constexpr ShapeField kTextureInfoFields[] = {
-    {"index", index_of("/textures"), true},
-    {"texCoord", integer(0, kMaxInt)},
-    {"scale", number()},     // normalTexture only
-    {"strength", number()},  // occlusionTexture only
-    {"extensions", object(kTextureInfoExtensionFields)},
-};
-constexpr Shape kTextureInfo = object(kTextureInfoFields);
-
-constexpr ShapeField kMetallicRoughnessFields[] = {
-    {"baseColorFactor", array(kNumber, 4)}, {"baseColorTexture", kTextureInfo},         {"metallicFactor", number()},
-    {"roughnessFactor", number()},          {"metallicRoughnessTexture", kTextureInfo},
-};
-constexpr ShapeField kEmissiveStrengthFields[] = {{"emissiveStrength", number(0.0)}};
-constexpr ShapeField kTransmissionFields[] = {
-    {"transmissionFactor", number()},
-    {"transmissionTexture", kTextureInfo},
-};
-constexpr ShapeField kSpecularFields[] = {
-    {"specularFactor", number()},
-    {"specularTexture", kTextureInfo},
-    {"specularColorFactor", array(kNumber, 3)},
-    {"specularColorTexture", kTextureInfo},
-};
-constexpr ShapeField kIorFields[] = {{"ior", number(0.0)}};
-constexpr ShapeField kVolumeFields[] = {
-    {"thicknessFactor", number(0.0)},
-    {"thicknessTexture", kTextureInfo},
-    {"attenuationDistance", number(0.0)},
-    {"attenuationColor", array(kNumber, 3)},
-};
-constexpr ShapeField kDispersionFields[] = {{"dispersion", number(0.0)}};
-constexpr ShapeField kVolumeScatterFields[] = {
-    {"multiscatterColor", array(kNumber, 3)},
-    {"scatterAnisotropy", number(-1.0, 1.0)},
-};
-constexpr ShapeField kDiffuseTransmissionFields[] = {
-    {"diffuseTransmissionFactor", number()},
-    {"diffuseTransmissionTexture", kTextureInfo},
-    {"diffuseTransmissionColorFactor", array(kNumber, 3)},
-    {"diffuseTransmissionColorTexture", kTextureInfo},
-};
-constexpr ShapeField kAnisotropyFields[] = {
-    {"anisotropyStrength", number()},
-    {"anisotropyRotation", number()},
-    {"anisotropyTexture", kTextureInfo},
-};
-constexpr ShapeField kIridescenceFields[] = {
-    {"iridescenceFactor", number()},
-    {"iridescenceTexture", kTextureInfo},
-    {"iridescenceIor", number(1.0)},
-    {"iridescenceThicknessMinimum", number(0.0)},
-    {"iridescenceThicknessMaximum", number(0.0)},
-    {"iridescenceThicknessTexture", kTextureInfo},
-};
-constexpr ShapeField kSheenFields[] = {
-    {"sheenColorFactor", array(kNumber, 3)},
-    {"sheenColorTexture", kTextureInfo},
-    {"sheenRoughnessFactor", number()},
-    {"sheenRoughnessTexture", kTextureInfo},
-};
-constexpr ShapeField kClearcoatFields[] = {
-    {"clearcoatFactor", number()},
-    {"clearcoatTexture", kTextureInfo},
-    {"clearcoatRoughnessFactor", number()},
-    {"clearcoatRoughnessTexture", kTextureInfo},
-    {"clearcoatNormalTexture", kTextureInfo},
-};
-constexpr ShapeField kMaterialExtensionFields[] = {
-    {"KHR_materials_anisotropy", object(kAnisotropyFields)},
-    {"KHR_materials_clearcoat", object(kClearcoatFields)},
-    {"KHR_materials_diffuse_transmission", object(kDiffuseTransmissionFields)},
-    {"KHR_materials_dispersion", object(kDispersionFields)},
-    {"KHR_materials_iridescence", object(kIridescenceFields)},
-    {"KHR_materials_sheen", object(kSheenFields)},
-    {"KHR_materials_volume", object(kVolumeFields)},
-    {"KHR_materials_volume_scatter", object(kVolumeScatterFields)},
-    {"KHR_materials_emissive_strength", object(kEmissiveStrengthFields)},
-    {"KHR_materials_transmission", object(kTransmissionFields)},
-    {"KHR_materials_ior", object(kIorFields)},
-    {"KHR_materials_specular", object(kSpecularFields)},
-    {"KHR_materials_unlit", object()},
-};
-constexpr std::string_view kAlphaModes[] = {"OPAQUE", "MASK", "BLEND"};
-constexpr ShapeField kMaterialFields[] = {
-    {"name", text()},
-    {"pbrMetallicRoughness", object(kMetallicRoughnessFields)},
-    {"normalTexture", kTextureInfo},
-    {"occlusionTexture", kTextureInfo},
-    {"emissiveTexture", kTextureInfo},
-    {"emissiveFactor", array(kNumber, 3)},
-    {"alphaMode", text(kAlphaModes)},
-    {"alphaCutoff", number(0.0)},
-    {"doubleSided", boolean()},
-    {"extensions", object(kMaterialExtensionFields)},
-};
-constexpr Shape kMaterial = object(kMaterialFields);
 
 // ---- meshes, nodes, scenes ----
 
