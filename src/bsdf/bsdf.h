@@ -24,12 +24,15 @@ using Bsdf = std::variant<Diffuse, DielectricBody, LayeredSurface, MetallicRough
 /// f |cos theta_i| and the density of `sample_bsdf`, for local unit directions; zero across the delta parts, and where
 /// a lobe does not scatter.
 [[nodiscard]] inline BsdfValue evaluate_bsdf(const Bsdf& bsdf, const Vec3f& wo, const Vec3f& wi, TransportMode mode) {
+    // The commonest by far, and so cheap that reaching it would cost more than what it does.
+    if (const auto* diffuse = std::get_if<Diffuse>(&bsdf)) return diffuse->evaluate(wo, wi, mode);
     return std::visit([&](const auto& lobe) { return lobe.evaluate(wo, wi, mode); }, bsdf);
 }
 
 /// Samples wi given wo. `u_lobe` and `u` in [0, 1). A weight of zero ends the walk.
 [[nodiscard]] inline BsdfSample sample_bsdf(const Bsdf& bsdf, const Vec3f& wo, float u_lobe, Vec2f u,
                                             TransportMode mode) {
+    if (const auto* diffuse = std::get_if<Diffuse>(&bsdf)) return diffuse->sample(wo, u_lobe, u, mode);
     return std::visit([&](const auto& lobe) { return lobe.sample(wo, u_lobe, u, mode); }, bsdf);
 }
 

@@ -1,7 +1,9 @@
 // What a smooth patch of a dielectric interface reflects and what it lets through.
 //
-// Fresnel's equations, scaled and tinted as KHR_materials_specular wants it, and with the thin film of
-// KHR_materials_iridescence on the outside. What is transmitted is what the most reflective channel leaves.
+// Fresnel's equations with the changes of KHR_materials_specular: its colour tints the reflectance at normal incidence,
+// its factor scales all of it; in between goes the curve of the indices, where Schlick's stands in the specification.
+// The thin film of KHR_materials_iridescence lies on the outside. What is transmitted is what the most reflective
+// channel leaves.
 #pragma once
 
 #include "bsdf/fresnel.h"
@@ -13,7 +15,8 @@
 namespace etendue {
 
 struct InterfaceFresnel {
-    Rgb scale{1.0f};  ///< of the reflectance, >= 0
+    Rgb tint{1.0f};       ///< of the reflectance at normal incidence, >= 0
+    float weight = 1.0f;  ///< of the reflectance, [0, 1]
     ThinFilm film{};
 
     struct Split {
@@ -25,27 +28,35 @@ struct InterfaceFresnel {
     [[nodiscard]] Split operator()(float cos_o, float eta, bool outside) const {
         const float bare = fresnel_dielectric(cos_o, eta);
         if (is_bare()) return {Rgb(bare), 1.0f - bare, bare};
-        Rgb reflected = Rgb(bare) * scale;
+        const float bare_normal = normal_reflectance(eta);
+        const float rise = std::clamp((bare - bare_normal) / (1.0f - bare_normal), 0.0f, 1.0f);
+        Rgb reflected = lerp(at_normal_incidence(eta), Rgb(weight), rise);
         if (film.exists() && bare < 1.0f)
             reflected = lerp(reflected, film_reflectance(cos_o, eta, outside), film.strength);
         if (bare >= 1.0f) reflected = Rgb(1.0f);
-        reflected = {std::min(1.0f, reflected.r), std::min(1.0f, reflected.g), std::min(1.0f, reflected.b)};
         const float transmitted = 1.0f - max_component(reflected);
         const float chance = etendue::average(reflected);
         return {reflected, transmitted, chance + transmitted > 0.0f ? chance / (chance + transmitted) : 1.0f};
     }
 
     /// True if it is that of the indices alone.
-    [[nodiscard]] bool is_bare() const { return !film.exists() && scale == Rgb(1.0f); }
+    [[nodiscard]] bool is_bare() const { return !film.exists() && weight == 1.0f && tint == Rgb(1.0f); }
 
   private:
+    /// The same from both sides.
+    [[nodiscard]] static float normal_reflectance(float eta) {
+        const float root = (eta - 1.0f) / (eta + 1.0f);
+        return root * root;
+    }
+    [[nodiscard]] Rgb at_normal_incidence(float eta) const {
+        return clamp_unit(tint * normal_reflectance(eta)) * weight;
+    }
+
     /// The film's reflectance is the same from both sides, at the two angles of one ray.
     [[nodiscard]] Rgb film_reflectance(float cos_o, float eta, bool outside) const {
-        const float ior = outside ? eta : 1.0f / eta;
-        const float root = (ior - 1.0f) / (ior + 1.0f);
         const float cos_outside =
             outside ? cos_o : std::sqrt(std::max(0.0f, 1.0f - (1.0f - cos_o * cos_o) / (eta * eta)));
-        return film.reflectance(Rgb(root * root), cos_outside) * scale;
+        return film.reflectance(at_normal_incidence(eta), cos_outside);
     }
 };
 

@@ -70,6 +70,12 @@ struct Rgb {
     return {std::max(0.0f, c.r), std::max(0.0f, c.g), std::max(0.0f, c.b)};
 }
 
+/// Each channel in [0, 1]; what is no number is 0.
+[[nodiscard]] constexpr Rgb clamp_unit(const Rgb& c) {
+    const auto channel = [](float v) { return v > 0.0f ? std::min(v, 1.0f) : 0.0f; };
+    return {channel(c.r), channel(c.g), channel(c.b)};
+}
+
 [[nodiscard]] constexpr Rgb lerp(const Rgb& a, const Rgb& b, float t) {
     return a * (1.0f - t) + b * t;
 }

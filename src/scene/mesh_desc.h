@@ -23,14 +23,14 @@ struct VariantMaterial {
 /// The vertices of a primitive at one moment of its motion.
 struct VertexStep {
     std::vector<Vec3f> positions;
-    std::vector<Vec3f> normals;
+    std::vector<Vec3f> normals;  ///< empty where the primitive has none
 };
 
 /// Triangles with one material. Attribute arrays are empty or as long as `positions`. Strips and fans are already
 /// unrolled into `triangles`, whose indices are all below positions.size().
 struct PrimitiveDesc {
     std::vector<Vec3f> positions;  ///< metres, mesh space, finite
-    std::vector<Vec3f> normals;    ///< unit length; generated if the file has none
+    std::vector<Vec3f> normals;    ///< unit length; empty if every triangle is flat
     std::vector<Vec4f> tangents;   ///< xyz unit length, w = ±1 is the bitangent's sign; empty if the file has none
     std::vector<Vec2f> uv0;
     std::vector<Vec2f> uv1;

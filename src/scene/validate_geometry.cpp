@@ -51,8 +51,8 @@ void validate_vertex_motion(const PrimitiveDesc& p, ProblemList& problems) {
     for (const VertexStep& step : p.motion) {
         validate_attribute(step.positions, p.positions.size(), false, "moving positions", "is not finite", finite,
                            p.location, problems);
-        validate_attribute(step.normals, p.positions.size(), false, "moving normals", "is not of unit length", is_unit,
-                           p.location, problems);
+        validate_attribute(step.normals, p.positions.size(), p.normals.empty(), "moving normals",
+                           "is not of unit length", is_unit, p.location, problems);
     }
 }
 
@@ -60,7 +60,7 @@ void validate_primitive(const PrimitiveDesc& p, const SceneDesc& scene, ProblemL
     const std::size_t n = p.positions.size();
     const auto finite = [](const Vec3f& v) { return is_finite(v); };
     validate_attribute(p.positions, n, true, "positions", "is not finite", finite, p.location, problems);
-    validate_attribute(p.normals, n, false, "normals", "is not of unit length", is_unit, p.location, problems);
+    validate_attribute(p.normals, n, true, "normals", "is not of unit length", is_unit, p.location, problems);
     validate_attribute(p.tangents, n, true, "tangents", "is not of unit length with w = 1 or -1", is_good_tangent,
                        p.location, problems);
     validate_attribute(p.uv0, n, true, "texture coordinates 0", "is not finite", is_finite_uv, p.location, problems);

@@ -1,3 +1,4 @@
+#include "scene/material_textures.h"
 #include "scene/validate_parts.h"
 
 #include <algorithm>
@@ -71,39 +72,26 @@ void validate_override(const SubsurfaceDesc& model, const SourceLocation& where,
 void validate_override(std::monostate, const SourceLocation&, ProblemList&) {}
 
 /// The layers that extensions add.
-void validate_layers(const MaterialDesc& m, const SceneDesc& scene, ProblemList& problems) {
+void validate_layers(const MaterialDesc& m, ProblemList& problems) {
     const auto in_unit = [&](float value, std::string_view what) {
         check_range(static_cast<double>(value), 0.0, 1.0, what, m.location, problems);
     };
     const auto finite = [&](float value, double least, std::string_view what) {
         check_range(static_cast<double>(value), least, std::numeric_limits<float>::max(), what, m.location, problems);
     };
-    const auto texture = [&](const TextureRef& ref, std::string_view slot) {
-        validate_texture_ref(ref, slot, scene, m.location, problems);
-    };
     in_unit(m.clearcoat.factor, "clearcoat");
     in_unit(m.clearcoat.roughness, "clearcoat roughness");
     finite(m.clearcoat.normal_scale, -std::numeric_limits<float>::max(), "clearcoat normal scale");
-    texture(m.clearcoat.texture, "clearcoat");
-    texture(m.clearcoat.roughness_texture, "clearcoat roughness");
-    texture(m.clearcoat.normal_texture, "the clearcoat's normal map");
     check_range(m.sheen.color, 0.0, 1.0, "sheen colour", m.location, problems);
     in_unit(m.sheen.roughness, "sheen roughness");
-    texture(m.sheen.color_texture, "sheen colour");
-    texture(m.sheen.roughness_texture, "sheen roughness");
     in_unit(m.iridescence.factor, "iridescence");
     finite(m.iridescence.ior, 1.0, "iridescence ior");
     finite(m.iridescence.thickness_minimum_nm, 0.0, "iridescence thickness minimum");
     finite(m.iridescence.thickness_maximum_nm, 0.0, "iridescence thickness maximum");
-    texture(m.iridescence.texture, "iridescence");
-    texture(m.iridescence.thickness_texture, "iridescence thickness");
     in_unit(m.anisotropy.strength, "anisotropy");
     finite(m.anisotropy.rotation, -std::numeric_limits<float>::max(), "anisotropy rotation");
-    texture(m.anisotropy.texture, "anisotropy");
     in_unit(m.diffuse_transmission.factor, "diffuse transmission");
     check_range(m.diffuse_transmission.color, 0.0, 1.0, "diffuse transmission colour", m.location, problems);
-    texture(m.diffuse_transmission.texture, "diffuse transmission");
-    texture(m.diffuse_transmission.color_texture, "diffuse transmission colour");
 }
 
 void validate_material(const MaterialDesc& m, const SceneDesc& scene, ProblemList& problems) {
@@ -124,16 +112,11 @@ void validate_material(const MaterialDesc& m, const SceneDesc& scene, ProblemLis
                 problems);
     if (m.ior != 0.0f) in_range(m.ior, 1.0, kInfinity, "ior (other than 0)");
 
-    validate_layers(m, scene, problems);
+    validate_layers(m, problems);
     validate_volume(m.volume, m.location, problems);
-
-    validate_texture_ref(m.base_color_texture, "base colour", scene, m.location, problems);
-    validate_texture_ref(m.metallic_roughness_texture, "metallic-roughness", scene, m.location, problems);
-    validate_texture_ref(m.normal_texture, "the normal map", scene, m.location, problems);
-    validate_texture_ref(m.emissive_texture, "emission", scene, m.location, problems);
-    validate_texture_ref(m.specular_texture, "specular", scene, m.location, problems);
-    validate_texture_ref(m.specular_color_texture, "specular colour", scene, m.location, problems);
-    validate_texture_ref(m.transmission_texture, "transmission", scene, m.location, problems);
+    for_each_texture(m, [&](const TextureRef& ref, std::string_view slot) {
+        validate_texture_ref(ref, slot, scene, m.location, problems);
+    });
     std::visit([&](const auto& model) { validate_override(model, m.location, problems); }, m.override_model);
 }
 

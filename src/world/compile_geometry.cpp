@@ -36,10 +36,44 @@ void gather(std::vector<T>& values, const std::vector<std::uint32_t>& source) {
     values = std::move(gathered);
 }
 
+/// The vertices that `source` names, in its order, in place of those there are. Tangents are not among them.
+void gather_vertices(Geometry& geometry, const std::vector<std::uint32_t>& source) {
+    gather(geometry.positions, source);
+    gather(geometry.normals, source);
+    gather(geometry.uv0, source);
+    gather(geometry.uv1, source);
+    gather(geometry.colors, source);
+    for (VertexStep& step : geometry.motion) {
+        gather(step.positions, source);
+        gather(step.normals, source);
+    }
+}
+
+/// Gives every triangle three vertices of its own, with its normal: flat triangles have no common tangents.
+void separate_triangles(Geometry& geometry) {
+    std::vector<std::uint32_t> source;
+    source.reserve(3 * geometry.triangles.size());
+    for (auto& triangle : geometry.triangles) {
+        for (std::uint32_t& vertex : triangle) {
+            source.push_back(vertex);
+            vertex = static_cast<std::uint32_t>(source.size() - 1);
+        }
+    }
+    gather_vertices(geometry, source);
+    geometry.normals.reserve(source.size());
+    for (const auto& [a, b, c] : geometry.triangles) {
+        const std::vector<Vec3f>& p = geometry.positions;
+        const Vec3f normal = triangle_normal(p[b] - p[a], p[c] - p[a]);
+        geometry.normals.insert(geometry.normals.end(), 3, normal);
+    }
+}
+
 /// Tangents along the image of `slot` as it lies on the mesh, its transform included.
 void add_tangents(Geometry& geometry, const TextureSlot& slot) {
-    std::vector<Vec2f> uv = slot.texcoord == 1 ? geometry.uv1 : geometry.uv0;
-    if (uv.empty() || geometry.normals.empty()) return;
+    std::vector<Vec2f>& texcoords = slot.texcoord == 1 ? geometry.uv1 : geometry.uv0;
+    if (texcoords.empty()) return;
+    if (geometry.normals.empty()) separate_triangles(geometry);
+    std::vector<Vec2f> uv = texcoords;
     for (Vec2f& c : uv) {
         c = {slot.row0.x * c.x + slot.row0.y * c.y + slot.row0.z, slot.row1.x * c.x + slot.row1.y * c.y + slot.row1.z};
         // Both are finite, but not all that they make together; what is sorted by them must be.
@@ -49,15 +83,7 @@ void add_tangents(Geometry& geometry, const TextureSlot& slot) {
     geometry.tangents = std::move(vertices.tangents);
     geometry.triangles = std::move(vertices.triangles);
     if (vertices.source.size() == geometry.positions.size()) return;
-    gather(geometry.positions, vertices.source);
-    gather(geometry.normals, vertices.source);
-    gather(geometry.uv0, vertices.source);
-    gather(geometry.uv1, vertices.source);
-    gather(geometry.colors, vertices.source);
-    for (VertexStep& step : geometry.motion) {
-        gather(step.positions, vertices.source);
-        gather(step.normals, vertices.source);
-    }
+    gather_vertices(geometry, vertices.source);
 }
 
 bool mirrors(const Mat4f& m) {

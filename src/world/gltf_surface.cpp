@@ -46,8 +46,9 @@ struct Specular {
     [[nodiscard]] Rgb f0(const WorldData& data, float f0) const {
         return (is_tinted() ? clamp_unit(data.from_rec709(tint * f0)) : Rgb(f0)) * weight;
     }
-    [[nodiscard]] Rgb scale(const WorldData& data) const {
-        return (is_tinted() ? clamp_negative(data.from_rec709(tint)) : Rgb(1.0f)) * weight;
+    [[nodiscard]] InterfaceFresnel on_interface(const WorldData& data, const ThinFilm& film) const {
+        return {
+            .tint = is_tinted() ? clamp_negative(data.from_rec709(tint)) : Rgb(1.0f), .weight = weight, .film = film};
     }
 };
 
@@ -154,7 +155,7 @@ Bsdf evaluate_gltf_surface(const WorldData& data, const GltfModel& model, const 
     const bool refracts = model.refracts && (1.0f - lobe.metallic) * lobe.transmission > 0.0f;
     DielectricBody body;
     if (refracts)
-        body = make_body(lobe, relative_ior > 0.0f ? relative_ior : model.ior, {specular.scale(data), lobe.film});
+        body = make_body(lobe, relative_ior > 0.0f ? relative_ior : model.ior, specular.on_interface(data, lobe.film));
     if (model.layers) {
         const Sheen sheen = evaluate_sheen(data, *model.layers, point);
         const ClearCoat coat = evaluate_clear_coat(data, *model.layers, point, from_back && !refracts);

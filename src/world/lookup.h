@@ -4,7 +4,6 @@
 #include "world/surface_point.h"
 #include "world/world.h"
 
-#include <algorithm>
 #include <cstddef>
 
 namespace etendue {
@@ -42,12 +41,6 @@ template <typename Channel>
 [[nodiscard]] inline Rgb scaled(const WorldData& data, const Rgb& factor, const TextureSlot& slot,
                                 const SurfacePoint& point) {
     return slot.valid() ? factor * lookup(data, slot, point).rgb : factor;
-}
-
-/// Each channel in [0, 1]; what is no number is 0.
-[[nodiscard]] inline Rgb clamp_unit(const Rgb& c) {
-    const auto channel = [](float v) { return v > 0.0f ? std::min(v, 1.0f) : 0.0f; };
-    return {channel(c.r), channel(c.g), channel(c.b)};
 }
 
 }  // namespace etendue

@@ -17,7 +17,7 @@ namespace {
 struct MovedTriangle {
     Vec3f p[3];
     Vec3f extent;  ///< largest coordinates, absolute, of what `p` was made from
-    Vec3f normal;  ///< interpolated
+    Vec3f normal;  ///< interpolated, if there are any
 };
 
 MovedTriangle move_triangle(const Geometry& geometry, const std::array<std::uint32_t, 3>& triangle, Vec2f barycentric,
@@ -33,8 +33,9 @@ MovedTriangle move_triangle(const Geometry& geometry, const std::array<std::uint
         moved.p[i] = between(a, b);
         moved.extent = max_components(moved.extent, max_components(abs_components(a), abs_components(b)));
     }
-    moved.normal =
-        between(interpolate(before.normals, triangle, barycentric), interpolate(after.normals, triangle, barycentric));
+    if (!before.normals.empty())
+        moved.normal = between(interpolate(before.normals, triangle, barycentric),
+                               interpolate(after.normals, triangle, barycentric));
     return moved;
 }
 
@@ -84,9 +85,10 @@ SurfacePoint make_point(const WorldData& data, std::uint32_t instance_index, std
     Vec3f geometric = triangle_normal(e1, e2);
     Vec3f extent = max_components(abs_components(p0), max_components(abs_components(p0 + e1), abs_components(p0 + e2)));
     if (deforms) extent = max_components(extent, moved.extent);
-    Vec3f shading = deforms                    ? moved.normal
-                    : geometry.normals.empty() ? geometric
-                                               : interpolate(geometry.normals, triangle, barycentric);
+    const bool is_smooth = !(deforms ? geometry.motion.front().normals : geometry.normals).empty();
+    Vec3f shading = !is_smooth ? geometric
+                    : deforms  ? moved.normal
+                               : interpolate(geometry.normals, triangle, barycentric);
 
     point.uv[0] = interpolate_uv(geometry.uv0, triangle, barycentric);
     point.uv[1] = interpolate_uv(geometry.uv1, triangle, barycentric);
@@ -123,10 +125,12 @@ SurfacePoint make_point(const WorldData& data, std::uint32_t instance_index, std
         };
         add_footprints(geometry, to_scene(e1), to_scene(e2), section, point);
     }
-    // Interpolated normals can cancel out or point to the back; the triangle's own then stands in.
-    const float shading_length = length(shading);
-    const bool usable = shading_length > 0.0f && dot(shading, point.geometric_normal) > 0.0f;
-    const Vec3f normal = usable ? shading * (1.0f / shading_length) : point.geometric_normal;
+    Vec3f normal = point.geometric_normal;
+    if (is_smooth) {
+        // Interpolated normals can cancel out or point to the back; the triangle's own then stands in.
+        const float shading_length = length(shading);
+        if (shading_length > 0.0f && dot(shading, normal) > 0.0f) normal = shading * (1.0f / shading_length);
+    }
     point.shading =
         length_squared(tangent) > 0.0f ? Frame::from_normal_and_tangent(normal, tangent) : Frame::from_normal(normal);
     if (material.needs_tangents() || material.has_coat) apply_relief(data, material, bitangent_sign, point);

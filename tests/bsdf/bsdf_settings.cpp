@@ -95,7 +95,7 @@ void add_layered(std::vector<BsdfSetting>& settings) {
 }
 
 void add_bodies(std::vector<BsdfSetting>& settings, TransportMode mode, const char* mode_name) {
-    const InterfaceFresnel tinted{.scale = {0.5f, 0.8f, 1.0f}, .film = film(300.0f)};
+    const InterfaceFresnel tinted{.tint = {0.5f, 0.8f, 1.0f}, .weight = 0.9f, .film = film(300.0f)};
     RoughDielectric rough = RoughDielectric::make(1.4f, 0.1f, 0.4f);
     rough.tint = {0.9f, 0.7f, 0.5f};
     settings.push_back({fmt::format("anisotropic dielectric {}", mode_name), rough, mode});

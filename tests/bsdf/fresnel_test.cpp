@@ -1,5 +1,7 @@
 #include "bsdf/fresnel.h"
 
+#include "bsdf/interface_fresnel.h"
+
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -73,6 +75,30 @@ TEST(Refract, FollowsSnellsLaw) {
     }
     Vec3f wi;
     EXPECT_FALSE(refract(normalize({0.9f, 0.0f, 0.3f}), {0.0f, 0.0f, 1.0f}, 1.0f / 1.5f, wi));
+}
+
+TEST(InterfaceFresnel, IsThatOfTheIndicesUnlessItIsChanged) {
+    for (const float eta : {1.5f, 1.0f / 1.5f}) {
+        for (const float degrees : {0.0f, 30.0f, 41.0f, 60.0f, 89.0f}) {
+            const float bare = fresnel_dielectric(cosine_of_degrees(degrees), eta);
+            // A weight this close to 1 takes the general way.
+            const InterfaceFresnel general{.weight = 1.0f - 1e-6f};
+            EXPECT_NEAR(general(cosine_of_degrees(degrees), eta, eta > 1.0f).reflected.g, bare, 1e-5f);
+        }
+    }
+}
+
+TEST(InterfaceFresnel, TheTintFadesTowardsGrazingAnglesAndTheWeightDoesNot) {
+    const InterfaceFresnel black{.tint = Rgb(0.0f)};
+    EXPECT_EQ(black(1.0f, 1.5f, true).reflected, Rgb(0.0f));
+    EXPECT_GT(black(cosine_of_degrees(88.0f), 1.5f, true).reflected.r, 0.8f);
+    const InterfaceFresnel tinted{.tint = {0.5f, 1.0f, 100.0f}, .weight = 0.5f};
+    const Rgb normal = tinted(1.0f, 1.5f, true).reflected;
+    EXPECT_NEAR(normal.r, 0.5f * 0.02f, 1e-6f);
+    EXPECT_NEAR(normal.g, 0.5f * 0.04f, 1e-6f);
+    EXPECT_NEAR(normal.b, 0.5f, 1e-6f);
+    EXPECT_NEAR(tinted(cosine_of_degrees(89.99f), 1.5f, true).reflected.r, 0.5f, 1e-3f);
+    EXPECT_EQ(tinted(cosine_of_degrees(60.0f), 1.0f / 1.5f, false).reflected, Rgb(1.0f)) << "reflected totally";
 }
 
 TEST(FresnelSchlick, PassesThroughItsEnds) {

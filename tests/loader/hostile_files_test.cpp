@@ -48,7 +48,8 @@ GltfBuilder rich_scene() {
     builder.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}}};
     builder.json["extensions"]["KHR_lights_punctual"]["lights"] = {
         {{"type", "spot"}, {"color", {1, 1, 1}}, {"spot", {{"outerConeAngle", 0.5}}}}};
-    builder.json["extensionsUsed"] = {"KHR_lights_punctual"};
+    builder.json["extensionsUsed"] = {"KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_materials_ior",
+                                      "KHR_materials_transmission", "KHR_texture_transform"};
     builder.json["nodes"][0]["children"] = {1};
     builder.json["nodes"].push_back({{"camera", 0},
                                      {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 5, 1}},

@@ -97,7 +97,7 @@ const Defect kDefects[] = {
      }},
     {"AlbedoAboveOne", "albedo", [](SceneDesc& s) { s.materials[0].override_model = DiffuseDesc{Rgb(1.5f)}; }},
     {"PositionInfinite", "positions 1", [](SceneDesc& s) { primitive(s).positions[1].x = kInf; }},
-    {"NormalsMissing", "0 normals for 3", [](SceneDesc& s) { primitive(s).normals.clear(); }},
+    {"NormalsMissing", "2 normals for 3", [](SceneDesc& s) { primitive(s).normals.pop_back(); }},
     {"NormalNotUnit", "normals 2",
      [](SceneDesc& s) {
          primitive(s).normals[2] = {0, 0, 2};

@@ -65,6 +65,48 @@ TEST(SurfacePoint, NormalsThatPointBackGiveWayToTheTriangles) {
     EXPECT_EQ(point.shading.normal, Vec3f(0, 0, 1));
 }
 
+/// A cube whose eight vertices are shared by its faces.
+PrimitiveDesc welded_cube() {
+    PrimitiveDesc cube;
+    for (std::uint32_t i = 0; i < 8; ++i) {
+        cube.positions.emplace_back((i & 1) != 0 ? 1.0f : -1.0f, (i & 2) != 0 ? 1.0f : -1.0f,
+                                    (i & 4) != 0 ? 1.0f : -1.0f);
+        cube.uv0.emplace_back((i & 1) != 0 ? 1.0f : 0.0f, (i & 2) != 0 ? 1.0f : 0.0f);
+    }
+    const std::uint32_t faces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                       {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+    for (const auto& f : faces) {
+        cube.triangles.push_back({f[0], f[1], f[2]});
+        cube.triangles.push_back({f[0], f[2], f[3]});
+    }
+    return cube;
+}
+
+/// That what lies at the ends of random rays towards the cube is flat and faces the ray.
+void expect_flat(const World& world, float time) {
+    Random random(3);
+    for (int i = 0; i < 200; ++i) {
+        Ray ray{.origin = random_direction(random) * 8.0f};
+        ray.direction = normalize(random_direction(random) * 0.5f - ray.origin);
+        ray.time = time;
+        const Hit hit = intersect(world, ray);
+        ASSERT_TRUE(hit.valid());
+        const SurfacePoint point = world.surface_point(hit);
+        EXPECT_GT(dot(point.shading.normal, point.geometric_normal), 1.0f - 1e-5f);
+        EXPECT_LT(dot(point.geometric_normal, ray.direction), 0.0f);
+    }
+}
+
+TEST(SurfacePoint, WithoutNormalsTrianglesAreFlat) {
+    Random random(21);
+    for (const Placement placement : kPlacements)
+        expect_flat(world_of(empty_scene(), welded_cube(), diffuse(Rgb(0.5f)), Mat4f(), placement), 0.0f);
+    PrimitiveDesc deforming = welded_cube();
+    deforming.motion.assign(3, VertexStep{deforming.positions, {}});
+    for (Vec3f& p : deforming.motion.back().positions) p += random_direction(random) * 0.3f;
+    expect_flat(world_of(empty_scene(), deforming, diffuse(Rgb(0.5f)), Mat4f(), Placement::Baked), 0.8f);
+}
+
 TEST(SurfacePoint, AttributesAreInterpolated) {
     PrimitiveDesc surface = quad({0, 0, -1}, {1, 0, 0}, {0, 1, 0});
     surface.uv1 = {{10, 0}, {12, 0}, {12, 4}, {10, 4}};
@@ -106,6 +148,14 @@ class NormalMap : public testing::Test {
     TextureTransform transform_;
     std::filesystem::path png_ = temporary_file("etendue-world-normal-map.png");
 };
+
+TEST_F(NormalMap, TiltsEachTriangleOfAFlatMeshFromItsOwnNormal) {
+    PrimitiveDesc roof = quad(Vec3f(0.0f), {1, 0, 0}, {0, 1, 0});
+    roof.normals.clear();
+    const Vec3f n = mapped_normal({188, 128, 238}, roof, Mat4f(), Placement::Baked);
+    EXPECT_NEAR(n.x, 0.47f, 0.02f);
+    EXPECT_NEAR(n.y, 0.0f, 0.01f);
+}
 
 PrimitiveDesc with_tangents(PrimitiveDesc surface) {
     // What MikkTSpace gives a quad whose u runs along x and whose v runs down.

@@ -18,6 +18,8 @@ namespace {
 
 using Json = nlohmann::json;
 
+constexpr const char* kLights = "KHR_lights_punctual";
+
 /// The tokens of a JSON pointer, unescaped (RFC 6901); empty if it is none.
 std::vector<std::string> split_pointer(std::string_view pointer) {
     std::vector<std::string> tokens;
@@ -106,8 +108,11 @@ std::optional<GltfAnimation::Channel> node_channel(const std::string& pointer, s
 
 std::string animatable_json(const Json& document) {
     Json reduced = Json::object();
-    for (const char* member : {"asset", "extensionsUsed", "materials", "cameras", "extensions"})
+    for (const char* member : {"asset", "extensionsUsed", "materials", "cameras"})
         if (document.contains(member)) reduced[member] = document[member];
+    // Other extensions of the root refer to what is not here.
+    if (document.contains("extensions") && document["extensions"].contains(kLights))
+        reduced["extensions"][kLights] = document["extensions"][kLights];
     // Only how many textures there are counts: materials refer to them.
     if (document.contains("textures")) reduced["textures"] = Json(document["textures"].size(), Json::object());
     return reduced.dump();

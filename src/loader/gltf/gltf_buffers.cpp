@@ -53,10 +53,12 @@ class BufferLoader {
     std::vector<unsigned char> from_file(const std::string& uri, std::uintmax_t length) {
         try {
             const std::filesystem::path path = resolve_uri(directory_, uri);
-            // A document of a few lines could name one large file thousands of times.
-            if (std::ranges::find(inputs_, path) != inputs_.end()) throw IoError("another buffer is already this file");
-            std::vector<unsigned char> bytes = read_bytes(path, kMaxBufferBytes, length);
-            inputs_.push_back(path);
+            const bool again = std::ranges::find(inputs_, path) != inputs_.end();
+            std::vector<unsigned char> bytes = read_bytes(path, again ? repeatable_ : kMaxBufferBytes, length);
+            if (again)
+                repeatable_ -= bytes.size();
+            else
+                inputs_.push_back(path);
             return bytes;
         } catch (const IoError& error) {
             throw IoError(fmt::format("buffer file '{}': {}", shown(uri), error.what()));
@@ -66,6 +68,9 @@ class BufferLoader {
     std::optional<std::span<const unsigned char>> bin_;
     const std::filesystem::path& directory_;
     std::vector<std::filesystem::path>& inputs_;
+    /// Bytes of files that several buffers name which may still be read: a document of a few lines could name one large
+    /// file thousands of times.
+    std::uintmax_t repeatable_ = std::uintmax_t{1} << 28;
 };
 
 }  // namespace

@@ -28,8 +28,7 @@ Mat4d blend(const PrimitiveDeformation& deformation, std::size_t vertex, std::sp
 }
 
 /// Triangles may lose their area in passing; vertices without a normal then have that of the primitive.
-void finish_step(VertexStep& step, const PrimitiveDesc& primitive, bool has_normals) {
-    if (!has_normals) step.normals = area_weighted_normals(primitive.triangles, step.positions);
+void finish_step(VertexStep& step, const PrimitiveDesc& primitive) {
     for (std::size_t i = 0; i < step.normals.size(); ++i) {
         const float squared = length_squared(step.normals[i]);
         step.normals[i] = std::isnormal(squared) ? step.normals[i] * (1.0f / std::sqrt(squared)) : primitive.normals[i];
@@ -80,7 +79,7 @@ void skin(PrimitiveDesc& primitive, const PrimitiveDeformation& deformation, std
     }
 }
 
-bool finish_deformation(PrimitiveDesc& primitive, const PrimitiveDeformation& deformation) {
+bool finish_deformation(PrimitiveDesc& primitive) {
     const auto all_finite = [](const std::vector<Vec3f>& positions) {
         return std::ranges::all_of(positions, [](const Vec3f& p) { return is_finite(p); });
     };
@@ -108,12 +107,9 @@ bool finish_deformation(PrimitiveDesc& primitive, const PrimitiveDeformation& de
             gather(step.normals);
         }
     }
-    if (deformation.has_normals)
-        normalize_normals(primitive.normals, primitive.triangles, primitive.positions);
-    else
-        primitive.normals = area_weighted_normals(primitive.triangles, primitive.positions);
+    normalize_normals(primitive.normals, primitive.triangles, primitive.positions);
     if (!normalize_tangents(primitive.tangents)) primitive.tangents.clear();
-    for (VertexStep& step : primitive.motion) finish_step(step, primitive, deformation.has_normals);
+    for (VertexStep& step : primitive.motion) finish_step(step, primitive);
     return true;
 }
 

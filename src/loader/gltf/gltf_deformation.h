@@ -24,7 +24,6 @@ struct PrimitiveDeformation {
     std::size_t influences = 0;         ///< joints that move a vertex
     std::vector<std::uint32_t> joints;  ///< `influences` a vertex: indices into the skin's joints
     std::vector<float> weights;         ///< the same, >= 0
-    bool has_normals = false;           ///< the file has some; otherwise they are generated after deformation
 };
 
 /// One for each primitive of a mesh.
@@ -44,8 +43,8 @@ void morph(PrimitiveDesc& primitive, const PrimitiveDeformation& deformation, st
 /// space that `joints` lead to. Joint indices must be in range.
 void skin(PrimitiveDesc& primitive, const PrimitiveDeformation& deformation, std::span<const Mat4d> joints);
 
-/// Makes the normals and tangents unit length again, or generates them, and drops triangles that have lost their area;
+/// Makes the normals and tangents unit length again, and drops triangles that have lost their area;
 /// the same vertices and triangles go from its motion. False if a position is not finite or no triangle is left.
-[[nodiscard]] bool finish_deformation(PrimitiveDesc& primitive, const PrimitiveDeformation& deformation);
+[[nodiscard]] bool finish_deformation(PrimitiveDesc& primitive);
 
 }  // namespace etendue

@@ -6,6 +6,7 @@
 #include "loader/gltf/gltf_buffers.h"
 #include "loader/gltf/gltf_draco.h"
 #include "loader/gltf/gltf_meshopt.h"
+#include "loader/gltf/gltf_rules.h"
 #include "loader/gltf/gltf_shape.h"
 #include "loader/json_text.h"
 
@@ -104,7 +105,9 @@ void check_extensions(const Json& document, GltfDocument& result, ProblemList& p
 
 void check_version(const Json& document, const GltfDocument& result, ProblemList& problems) {
     const std::string version = document["asset"]["version"].get<std::string>();
-    if (version.substr(0, 2) != "2.") {
+    const bool is_second = version.size() > 2 && version.starts_with("2.") &&
+                           std::all_of(version.begin() + 2, version.end(), [](char c) { return c >= '0' && c <= '9'; });
+    if (!is_second) {
         problems.error(result.at("/asset/version"), fmt::format("glTF {} is not supported, only 2.0", shown(version)));
     }
     const std::string least = document["asset"].value("minVersion", "2.0");
@@ -114,27 +117,36 @@ void check_version(const Json& document, const GltfDocument& result, ProblemList
     }
 }
 
-/// tinygltf refuses such accessors with a message that does not say where. Compressed primitives have their indices
-/// elsewhere; tinygltf need not see that they name an accessor.
-void check_index_accessors(Json& document, const GltfDocument& result, ProblemList& problems) {
-    if (!document.contains("meshes")) return;
+/// The index accessor of a primitive.
+struct PrimitiveIndices {
+    std::size_t mesh;
+    std::size_t primitive;
+    int accessor;
+};
+
+/// Takes the indices out of the document: tinygltf refuses accessors whose elements are all sparse, and says of none
+/// where it is. Compressed primitives have their indices elsewhere, whatever accessor they name.
+std::vector<PrimitiveIndices> take_indices(Json& document, const GltfDocument& result, ProblemList& problems) {
+    std::vector<PrimitiveIndices> taken;
+    if (!document.contains("meshes")) return taken;
     Json& meshes = document["meshes"];
     for (std::size_t m = 0; m < meshes.size(); ++m) {
         Json& primitives = meshes[m]["primitives"];
         for (std::size_t p = 0; p < primitives.size(); ++p) {
             Json& primitive = primitives[p];
             if (!primitive.contains("indices")) continue;
-            if (primitive.contains("extensions") && primitive["extensions"].contains(kDracoExtension)) {
-                primitive.erase("indices");
-                continue;
-            }
-            const auto accessor = primitive["indices"].get<std::size_t>();
-            if (document["accessors"][accessor].contains("bufferView")) continue;
+            const auto index = primitive["indices"].get<std::size_t>();
+            primitive.erase("indices");
+            if (primitive.contains("extensions") && primitive["extensions"].contains(kDracoExtension)) continue;
+            taken.push_back({m, p, static_cast<int>(index)});
+            const Json& accessor = document["accessors"][index];
+            if (accessor.contains("bufferView") || accessor.contains("sparse")) continue;
             problems.error(
                 result.at(fmt::format("/meshes/{}/primitives/{}/indices", m, p)),
-                fmt::format("accessor {} has no buffer view: indices that are all zero make no triangles", accessor));
+                fmt::format("accessor {} has no buffer view: indices that are all zero make no triangles", index));
         }
     }
+    return taken;
 }
 
 /// Takes the images out of the document: their pixels are decoded elsewhere, and tinygltf shall not touch their files.
@@ -321,7 +333,8 @@ GltfDocument read_gltf_document(const std::filesystem::path& file, ProblemList& 
     check_shape(document, gltf_shape(), result.at(""), found);
     throw_if_errors(found);
     check_version(document, result, found);
-    check_index_accessors(document, result, found);
+    check_rules(document, result.at(""), found);
+    const std::vector<PrimitiveIndices> indices = take_indices(document, result, found);
     take_images(document, result, found);
     take_animations_and_skins(document, result);
     GltfBuffers buffers = load_gltf_buffers(document, bin, result.directory, result.at(""), result.inputs, found);
@@ -330,6 +343,8 @@ GltfDocument read_gltf_document(const std::filesystem::path& file, ProblemList& 
 
     bytes = {};
     result.model = parse_model(document, buffers, result);
+    for (const PrimitiveIndices& taken : indices)
+        result.model.meshes[taken.mesh].primitives[taken.primitive].indices = taken.accessor;
     for (const Problem& problem : found.all()) problems.add(problem);
     return result;
 }

@@ -4,6 +4,7 @@
 #include "loader/gltf/gltf_value.h"
 #include "loader/gltf/repair_log.h"
 #include "loader/gltf/vertex_data.h"
+#include "scene/material_textures.h"
 
 #include <algorithm>
 #include <cmath>
@@ -48,7 +49,6 @@ class PrimitiveReader {
         PrimitiveDesc result;
         result.location = where;
         if (!read_triangles(result) || !read_attributes(result)) return std::nullopt;
-        deformation.has_normals = !result.normals.empty();
         if (!read_targets(deformation) || !read_influences(deformation)) return std::nullopt;
         repair_normals(result);
         repair_tangents(result);
@@ -259,7 +259,6 @@ class PrimitiveReader {
 
     void repair_normals(PrimitiveDesc& p) {
         if (p.normals.empty()) {
-            p.normals = area_weighted_normals(p.triangles, p.positions);
             p.tangents.clear();  // the specification: tangents without normals are ignored
             return;
         }
@@ -330,13 +329,11 @@ std::vector<VariantMaterial> read_variants(const tinygltf::Primitive& source) {
 
 /// Counts primitives that their material's textures would sample without coordinates.
 void check_texcoords(const PrimitiveDesc& p, const MaterialDesc& material, RepairLog& repairs) {
-    for (const TextureRef& ref : {material.base_color_texture, material.metallic_roughness_texture,
-                                  material.normal_texture, material.emissive_texture, material.transmission_texture,
-                                  material.specular_texture, material.specular_color_texture}) {
-        if (!ref.valid() || !(ref.texcoord == 0 ? p.uv0 : p.uv1).empty()) continue;
-        repairs.add(Repair::MissingTexcoords, 1, p.location);
-        return;
-    }
+    bool missing = false;
+    for_each_texture(material, [&](const TextureRef& ref, std::string_view) {
+        if (ref.valid() && (ref.texcoord == 0 ? p.uv0 : p.uv1).empty()) missing = true;
+    });
+    repairs.add(Repair::MissingTexcoords, missing ? 1 : 0, p.location);
 }
 
 Handle<MaterialDesc> default_material(SceneDesc& scene, Handle<MaterialDesc>& cached, const std::string& file) {

@@ -69,7 +69,7 @@ MeshDeformer::Result MeshDeformer::deform(int node_index, const SourceLocation& 
         if (moves) primitive.motion = move(primitive, deformation.primitives[p], node_index, binding, where);
         morph(primitive, deformation.primitives[p], weights);
         if (binding) skin(primitive, deformation.primitives[p], binding->to_world);
-        if (finish_deformation(primitive, deformation.primitives[p]))
+        if (finish_deformation(primitive))
             mesh.primitives.push_back(std::move(primitive));
         else
             problems_.warning(where,

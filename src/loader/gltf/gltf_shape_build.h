@@ -36,6 +36,10 @@ constexpr Shape number(double min = -FLT_MAX, double max = FLT_MAX) {
 constexpr Shape array(const Shape& element) {
     return {.kind = Shape::Kind::Array, .element = &element};
 }
+/// At least one.
+constexpr Shape some(const Shape& element) {
+    return {.kind = Shape::Kind::Array, .min_length = 1, .element = &element};
+}
 constexpr Shape array(const Shape& element, std::size_t length) {
     return {.kind = Shape::Kind::Array, .min_length = length, .max_length = length, .element = &element};
 }

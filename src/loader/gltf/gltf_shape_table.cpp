@@ -105,7 +105,7 @@ constexpr ShapeField kPrimitiveFields[] = {
 constexpr Shape kPrimitive = object(kPrimitiveFields);
 constexpr ShapeField kMeshFields[] = {
     {"name", text()},
-    {"primitives", array(kPrimitive), true},
+    {"primitives", some(kPrimitive), true},
     {"weights", array(kNumber)},
 };
 constexpr Shape kMesh = object(kMeshFields);
@@ -157,14 +157,14 @@ constexpr std::string_view kCameraTypes[] = {"perspective", "orthographic"};
 constexpr ShapeField kPerspectiveFields[] = {
     {"yfov", number(), true},
     {"aspectRatio", number(0.0)},
-    {"znear", number()},
+    {"znear", number(), true},
     {"zfar", number()},
 };
 constexpr ShapeField kOrthographicFields[] = {
     {"xmag", number(), true},
     {"ymag", number(), true},
-    {"znear", number()},
-    {"zfar", number()},
+    {"znear", number(), true},
+    {"zfar", number(), true},
 };
 constexpr ShapeField kCameraFields[] = {
     {"name", text()},
@@ -195,7 +195,7 @@ constexpr Shape kProfile = object(kProfileFields);
 constexpr ShapeField kProfilesFields[] = {{"lights", array(kProfile), true}};
 constexpr Shape kImageIndex = index_of("/images");
 constexpr Shape kCubeFaces = array(kImageIndex, 6);
-constexpr Shape kCubeLevels = {.kind = Shape::Kind::Array, .min_length = 1, .element = &kCubeFaces};
+constexpr Shape kCubeLevels = some(kCubeFaces);
 constexpr ShapeField kImageLightFields[] = {
     {"name", text()},
     {"rotation", array(kNumber, 4)},
@@ -238,13 +238,13 @@ constexpr ShapeField kChannelFields[] = {
 constexpr Shape kChannel = object(kChannelFields);
 constexpr ShapeField kAnimationFields[] = {
     {"name", text()},
-    {"samplers", array(kAnimationSampler), true},
-    {"channels", array(kChannel), true},
+    {"samplers", some(kAnimationSampler), true},
+    {"channels", some(kChannel), true},
 };
 constexpr Shape kAnimation = object(kAnimationFields);
 constexpr ShapeField kSkinFields[] = {
     {"inverseBindMatrices", index_of("/accessors")},
-    {"joints", array(kNodeIndex), true},
+    {"joints", some(kNodeIndex), true},
 };
 constexpr Shape kSkin = object(kSkinFields);
 

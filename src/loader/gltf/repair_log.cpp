@@ -19,6 +19,14 @@ constexpr std::array<std::string_view, static_cast<std::size_t>(Repair::Count)> 
     "texture coordinates that are not finite are set to 0",
     "vertex colours that are negative or not finite are set to 0 or 1",
     "texture coordinates that a material needs are missing from its primitive; (0, 0) is used",
+    "empty arrays, which glTF does not allow, are taken for absent ones",
+    "extensions that the file does not declare in extensionsUsed are read all the same",
+    "required extensions are missing from extensionsUsed",
+    "nodes have a matrix and a translation, rotation or scale as well; the matrix counts",
+    "rotations that are not of unit length are normalised",
+    "weights of meshes without morph targets are ignored",
+    "positions have no min and max, which glTF asks for; they are not needed here",
+    "cameras have a far plane that is not beyond the near one; nothing is clipped here",
 };
 
 }  // namespace

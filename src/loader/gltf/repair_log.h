@@ -1,4 +1,4 @@
-// Counts what was repaired in a file's geometry, so that a million bad vertices make one warning, not a million.
+// Counts what was repaired in a file, so that a million bad vertices make one warning, not a million.
 #pragma once
 
 #include "core/error.h"
@@ -19,6 +19,14 @@ enum class Repair {
     BadTexcoords,         ///< texture coordinates
     BadColors,            ///< vertex colours
     MissingTexcoords,     ///< primitives
+    EmptyArrays,          ///< arrays of the document
+    Undeclared,           ///< objects of extensions
+    RequiredNotUsed,      ///< extensions
+    MatrixWithParts,      ///< nodes
+    RotationNotUnit,      ///< nodes
+    WeightsOfNothing,     ///< meshes and nodes
+    NoPositionBounds,     ///< primitives
+    ClipPlanes,           ///< cameras
     Count
 };
 

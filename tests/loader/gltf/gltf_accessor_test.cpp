@@ -108,6 +108,21 @@ TEST(Accessor, SparseOverZeros) {
     EXPECT_EQ(only_primitive(sparse_triangle(false).load()).positions[2], Vec3f(0, 6, 0));
 }
 
+TEST(Accessor, IndicesMayBeSparseOverZeros) {
+    GltfBuilder builder;
+    nlohmann::json& primitive = builder.add_triangle();
+    primitive["indices"] = builder.indices({0, 0, 0});
+    nlohmann::json& accessor = builder.json["accessors"][primitive["indices"].get<std::size_t>()];
+    accessor.erase("bufferView");
+    accessor["sparse"] = {
+        {"count", 2},
+        {"indices", {{"bufferView", builder.view(std::vector<std::uint8_t>{0, 1})}, {"componentType", 5121}}},
+        {"values", {{"bufferView", builder.view(std::vector<std::uint32_t>{1, 2})}}}};
+    const LoadedScene loaded = builder.load();
+    EXPECT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
+    EXPECT_EQ(only_primitive(loaded).triangles.at(0), (std::array<std::uint32_t, 3>{1, 2, 0}));
+}
+
 TEST(Accessor, WithoutViewIsZeros) {
     GltfBuilder builder;
     nlohmann::json& primitive = builder.add_triangle();

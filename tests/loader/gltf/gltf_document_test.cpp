@@ -87,9 +87,6 @@ const BadDocument kBadDocuments[] = {
     {"BufferHuge", R"({"buffers": [{"byteLength": 9007199254740992, "uri": "scene.bin"}]})", "are needed",
      "/buffers/0"},
     {"BufferWithoutUri", R"({"buffers": [{"byteLength": 36}]})", "neither a URI", "/buffers/0"},
-    {"BufferTwice",
-     R"({"buffers": [{"byteLength": 36, "uri": "scene.bin"}, {"byteLength": 36, "uri": "./scene.bin"}]})",
-     "another buffer", "/buffers/1"},
     {"DataUriNotBase64", R"({"buffers": [{"byteLength": 3, "uri": "data:text/plain,abc"}]})", "base64", "/buffers/0"},
     {"DataUriBroken", R"({"buffers": [{"byteLength": 3, "uri": "data:;base64,AB*D"}]})", "base64", "/buffers/0"},
     {"DataUriShort", R"({"buffers": [{"byteLength": 36, "uri": "data:;base64,AAAA"}]})", "data URI has 3",
@@ -174,6 +171,24 @@ TEST(GltfDocument, BufferFilesMayBeLongerThanTheirBuffer) {
     triangle().write(dir);
     std::filesystem::resize_file(dir.path() / "scene.bin", 100);
     EXPECT_FALSE(inspect_scene(dir.path() / "scene.gltf").problems.has_errors());
+}
+
+TEST(GltfDocument, BuffersMayShareAFile) {
+    GltfBuilder builder = triangle();
+    builder.json["buffers"] = {{{"byteLength", 36}, {"uri", "scene.bin"}},
+                               {{"byteLength", 12}, {"uri", "./scene.bin"}}};
+    const LoadedScene loaded = builder.load();
+    EXPECT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
+    EXPECT_EQ(loaded.scene.meshes.at(0).primitives.at(0).positions.at(2), Vec3f(0, 1, 0));
+}
+
+TEST(GltfDocument, OneLargeFileIsNotReadAgainAndAgain) {
+    GltfBuilder builder = triangle();
+    builder.bin.resize(std::size_t{100} << 20);
+    builder.json["buffers"] = nlohmann::json::array();
+    for (int i = 0; i < 4; ++i)
+        builder.json["buffers"].push_back({{"byteLength", builder.bin.size()}, {"uri", "scene.bin"}});
+    EXPECT_TRUE(has_problem(builder.load().problems, Severity::Error, "more than the limit", "/buffers/3"));
 }
 
 TEST(GltfDocument, BuffersFromDataUris) {

@@ -22,12 +22,11 @@ TEST(Mesh, StripsAndFansBecomeTriangles) {
         GltfBuilder builder;
         builder.add_mesh({{"POSITION", builder.floats(kSquare, 3)}})["mode"] = mode;
         const LoadedScene loaded = builder.load();
-        EXPECT_EQ(only_primitive(loaded).triangles.size(), 2u);
-        for (const Vec3f& n : only_primitive(loaded).normals) {
-            if (mode == 5) {
-                EXPECT_NEAR(n.z, 1.0f, 1e-6f);  // both triangles are wound alike
-            }
-        }
+        const PrimitiveDesc& p = only_primitive(loaded);
+        ASSERT_EQ(p.triangles.size(), 2u);
+        if (mode != 5) continue;
+        for (const auto& [a, b, c] : p.triangles)
+            EXPECT_GT(cross(p.positions[b] - p.positions[a], p.positions[c] - p.positions[a]).z, 0.0f) << "wound alike";
     }
 }
 
@@ -84,12 +83,29 @@ TEST(Mesh, AttributesMustBeAsManyAsPositions) {
     }
 }
 
-TEST(Mesh, MissingNormalsAreGeneratedAndTangentsDropped) {
+TEST(Mesh, WithoutNormalsTrianglesAreFlatAndTangentsDropped) {
     GltfBuilder builder;
     builder.add_triangle()["attributes"]["TANGENT"] = builder.floats({1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}, 4);
     const LoadedScene loaded = builder.load();
-    EXPECT_EQ(only_primitive(loaded).normals[0], Vec3f(0, 0, 1));
+    EXPECT_TRUE(only_primitive(loaded).normals.empty());
     EXPECT_TRUE(only_primitive(loaded).tangents.empty());
+}
+
+TEST(Mesh, TexturesWithoutCoordinatesAreSaidOnWhateverLayer) {
+    GltfBuilder builder;
+    builder.add_triangle()["material"] = 0;
+    builder.json["images"] = {
+        {{"uri",
+          "data:image/png;base64,"
+          "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg=="}}};
+    builder.json["textures"] = {{{"source", 0}}};
+    builder.json["extensionsUsed"] = {"KHR_materials_clearcoat"};
+    builder.json["materials"] = {
+        {{"extensions",
+          {{"KHR_materials_clearcoat", {{"clearcoatFactor", 1}, {"clearcoatTexture", {{"index", 0}}}}}}}}};
+    const LoadedScene loaded = builder.load();
+    EXPECT_TRUE(has_problem(loaded.problems, Severity::Warning, "texture coordinates", "/meshes/0/primitives/0"))
+        << listing(loaded.problems);
 }
 
 TEST(Mesh, BadNormalsAreRepaired) {

@@ -115,9 +115,7 @@ TEST(GltfMotion, MorphTargetsMoveVertices) {
     EXPECT_EQ(p.motion[0].positions[2], Vec3f(0, 1, 0));
     EXPECT_EQ(p.positions[2], Vec3f(0, 1, 1));
     EXPECT_EQ(p.motion[1].positions[2], Vec3f(0, 1, 2));
-    // The file has no normals: each step has those of its own shape.
-    const float s = std::sqrt(0.2f);
-    EXPECT_LT(length(p.motion[1].normals[0] - Vec3f(0, -2 * s, s)), 1e-6f);
+    EXPECT_TRUE(p.motion[1].normals.empty()) << "the file has none: triangles are flat at every step";
     EXPECT_TRUE(loaded.scene.instances.at(0).motion.empty());
     EXPECT_TRUE(first_primitive(builder.load(shutter(3.0, 0.0, 1.0))).motion.empty()) << "after the last key";
 }

@@ -1,0 +1,141 @@
+#include "loader/gltf/gltf_rules.h"
+
+#include "loader/gltf/repair_log.h"
+#include "loader/json_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace etendue {
+
+namespace {
+
+using Json = nlohmann::json;
+
+class RuleCheck {
+  public:
+    RuleCheck(const Json& document, const SourceLocation& file, ProblemList& problems)
+        : document_(document), file_(file), problems_(problems) {}
+
+    void run() {
+        check_tree(document_, "");
+        for (const Json& required : list("extensionsRequired"))
+            if (!contains("extensionsUsed", required))
+                repairs_.add(Repair::RequiredNotUsed, 1, at("/extensionsRequired"));
+        for_each("nodes", [this](const Json& node, const std::string& pointer) { check_node(node, pointer); });
+        for_each("meshes", [this](const Json& mesh, const std::string& pointer) { check_mesh(mesh, pointer); });
+        for_each("cameras", [this](const Json& camera, const std::string& pointer) { check_camera(camera, pointer); });
+        for_each("bufferViews", [this](const Json& view, const std::string& pointer) {
+            if (view.contains("byteStride") && view["byteStride"].get<std::uint64_t>() % 4 != 0)
+                problems_.error(at(pointer + "/byteStride"),
+                                fmt::format("must be a multiple of 4, but is {}", view["byteStride"].dump()));
+        });
+        repairs_.report(problems_);
+    }
+
+  private:
+    [[nodiscard]] SourceLocation at(std::string pointer) const { return {file_.file, std::move(pointer)}; }
+
+    [[nodiscard]] const Json& list(const char* key) const {
+        static const Json kNone = Json::array();
+        return document_.contains(key) ? document_[key] : kNone;
+    }
+    [[nodiscard]] bool contains(const char* key, const Json& value) const {
+        const Json& values = list(key);
+        return std::find(values.begin(), values.end(), value) != values.end();
+    }
+    template <typename Visit>
+    void for_each(const char* key, const Visit& visit) const {
+        const Json& elements = list(key);
+        for (std::size_t i = 0; i < elements.size(); ++i) visit(elements[i], child_pointer(std::string("/") + key, i));
+    }
+
+    /// Empty arrays, and extensions that are not declared, wherever they are. `extras` may hold what they like.
+    void check_tree(const Json& place, const std::string& pointer) {
+        if (place.is_array()) {
+            if (place.empty()) repairs_.add(Repair::EmptyArrays, 1, at(pointer));
+            for (std::size_t i = 0; i < place.size(); ++i)
+                if (place[i].is_structured()) check_tree(place[i], child_pointer(pointer, i));
+        } else if (place.is_object()) {
+            for (const auto& [key, value] : place.items()) {
+                const std::string child = child_pointer(pointer, key);
+                if (key == "extensions" && value.is_object())
+                    check_declared(value, child);
+                else if (key != "extras" && value.is_structured())
+                    check_tree(value, child);
+            }
+        }
+    }
+
+    void check_declared(const Json& extensions, const std::string& pointer) {
+        for (const auto& [name, value] : extensions.items()) {
+            const std::string child = child_pointer(pointer, name);
+            if (!contains("extensionsUsed", name)) repairs_.add(Repair::Undeclared, 1, at(child));
+            check_tree(value, child);
+        }
+    }
+
+    void check_node(const Json& node, const std::string& pointer) {
+        const auto has = [&](const char* key) { return node.contains(key); };
+        if (has("matrix") && (has("translation") || has("rotation") || has("scale")))
+            repairs_.add(Repair::MatrixWithParts, 1, at(pointer + "/matrix"));
+        if (has("rotation")) {
+            constexpr double kTolerance = 1e-3;
+            double squared = 0.0;
+            for (const Json& q : node["rotation"]) squared += q.get<double>() * q.get<double>();
+            if (!(std::abs(squared - 1.0) < kTolerance))
+                repairs_.add(Repair::RotationNotUnit, 1, at(pointer + "/rotation"));
+        }
+        const auto targets = [this](const Json& mesh) {
+            const Json& primitives = list("meshes")[mesh.get<std::size_t>()]["primitives"];
+            return std::any_of(primitives.begin(), primitives.end(),
+                               [](const Json& p) { return p.contains("targets"); });
+        };
+        if (has("weights") && !(has("mesh") && targets(node["mesh"])))
+            repairs_.add(Repair::WeightsOfNothing, 1, at(pointer + "/weights"));
+    }
+
+    void check_mesh(const Json& mesh, const std::string& pointer) {
+        const Json& primitives = mesh["primitives"];
+        bool has_targets = false;
+        for (std::size_t i = 0; i < primitives.size(); ++i) {
+            has_targets = has_targets || primitives[i].contains("targets");
+            const Json& attributes = primitives[i]["attributes"];
+            if (!attributes.contains("POSITION")) continue;
+            const Json& accessor = list("accessors")[attributes["POSITION"].get<std::size_t>()];
+            if (!accessor.contains("min") || !accessor.contains("max"))
+                repairs_.add(Repair::NoPositionBounds, 1, at(child_pointer(pointer + "/primitives", i)));
+        }
+        if (mesh.contains("weights") && !has_targets)
+            repairs_.add(Repair::WeightsOfNothing, 1, at(pointer + "/weights"));
+    }
+
+    void check_camera(const Json& camera, const std::string& pointer) {
+        const std::string& type = camera["type"].get_ref<const std::string&>();
+        if (!camera.contains(type)) {
+            problems_.error(at(pointer), fmt::format("the camera is {}, but has no '{}'", type, type));
+            return;
+        }
+        const Json& lens = camera[type];
+        if (lens.contains("zfar") && lens["zfar"].get<double>() <= lens["znear"].get<double>())
+            repairs_.add(Repair::ClipPlanes, 1, at(pointer + "/" + type));
+    }
+
+    const Json& document_;
+    SourceLocation file_;
+    ProblemList& problems_;
+    RepairLog repairs_;
+};
+
+}  // namespace
+
+void check_rules(const Json& document, const SourceLocation& file, ProblemList& problems) {
+    RuleCheck(document, file, problems).run();
+}
+
+}  // namespace etendue

@@ -1,0 +1,98 @@
+// What glTF demands beyond types: errors where nothing can be rendered, one warning each for what is put right.
+#include "loader/gltf/gltf_builder.h"
+
+#include <functional>
+
+#include <gtest/gtest.h>
+
+namespace etendue {
+namespace {
+
+struct Breach {
+    const char* name;
+    Severity severity;
+    const char* expected;
+    const char* where;
+    std::function<void(GltfBuilder&)> make;
+};
+
+class BreachTest : public testing::TestWithParam<Breach> {};
+
+TEST_P(BreachTest, IsSaid) {
+    GltfBuilder builder;
+    builder.add_triangle();
+    GetParam().make(builder);
+    const LoadedScene loaded = builder.load();
+    EXPECT_TRUE(has_problem(loaded.problems, GetParam().severity, GetParam().expected, GetParam().where))
+        << listing(loaded.problems);
+    EXPECT_EQ(loaded.problems.has_errors(), GetParam().severity == Severity::Error);
+}
+
+nlohmann::json& node(GltfBuilder& b) {
+    return b.json["nodes"][0];
+}
+
+void add_camera(GltfBuilder& b, const nlohmann::json& camera) {
+    b.json["cameras"] = {camera};
+    node(b)["camera"] = 0;
+}
+
+const Breach kBreaches[] = {
+    {"EmptyChildren", Severity::Warning, "empty arrays", "/nodes/0/children",
+     [](GltfBuilder& b) { node(b)["children"] = nlohmann::json::array(); }},
+    {"Undeclared", Severity::Warning, "does not declare", "/materials/0/extensions/KHR_materials_ior",
+     [](GltfBuilder& b) {
+         b.json["materials"] = {{{"extensions", {{"KHR_materials_ior", {{"ior", 1.4}}}}}}};
+     }},
+    {"RequiredNotUsed", Severity::Warning, "missing from extensionsUsed", "/extensionsRequired",
+     [](GltfBuilder& b) { b.json["extensionsRequired"] = {"KHR_materials_ior"}; }},
+    {"MatrixAndScale", Severity::Warning, "the matrix counts", "/nodes/0/matrix",
+     [](GltfBuilder& b) {
+         node(b)["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+         node(b)["scale"] = {2, 2, 2};
+     }},
+    {"LongRotation", Severity::Warning, "normalised", "/nodes/0/rotation",
+     [](GltfBuilder& b) {
+         node(b)["rotation"] = {5, 0, 0, 1};
+     }},
+    {"WeightsOfNode", Severity::Warning, "morph targets", "/nodes/0/weights",
+     [](GltfBuilder& b) { node(b)["weights"] = {0.5}; }},
+    {"WeightsOfMesh", Severity::Warning, "morph targets", "/meshes/0/weights",
+     [](GltfBuilder& b) { b.json["meshes"][0]["weights"] = {0.5}; }},
+    {"NoBounds", Severity::Warning, "no min and max", "/meshes/0/primitives/0",
+     [](GltfBuilder& b) { b.json["accessors"][0].erase("min"); }},
+    {"FarBeforeNear", Severity::Warning, "far plane", "/cameras/0/perspective",
+     [](GltfBuilder& b) {
+         add_camera(b, {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 2}, {"zfar", 1}}}});
+     }},
+    {"NoNear", Severity::Error, "znear", "/cameras/0/perspective",
+     [](GltfBuilder& b) {
+         add_camera(b, {{"type", "perspective"}, {"perspective", {{"yfov", 1}}}});
+     }},
+    {"NoLens", Severity::Error, "has no 'orthographic'", "/cameras/0",
+     [](GltfBuilder& b) {
+         add_camera(b, {{"type", "orthographic"}});
+     }},
+    {"OddStride", Severity::Error, "multiple of 4", "/bufferViews/0/byteStride",
+     [](GltfBuilder& b) { b.json["bufferViews"][0]["byteStride"] = 13; }},
+    {"NoPrimitives", Severity::Error, "at least 1", "/meshes/0/primitives",
+     [](GltfBuilder& b) { b.json["meshes"][0]["primitives"] = nlohmann::json::array(); }},
+    {"NoJoints", Severity::Error, "at least 1", "/skins/0/joints",
+     [](GltfBuilder& b) {
+         b.json["skins"] = {{{"joints", nlohmann::json::array()}}};
+     }},
+    {"VersionTwoAndLetters", Severity::Error, "is not supported", "/asset/version",
+     [](GltfBuilder& b) { b.json["asset"]["version"] = "2.0x"; }},
+};
+
+INSTANTIATE_TEST_SUITE_P(All, BreachTest, testing::ValuesIn(kBreaches),
+                         [](const auto& breach) { return std::string(breach.param.name); });
+
+TEST(GltfRules, AFileThatKeepsThemHasNoWarnings) {
+    GltfBuilder builder;
+    builder.add_triangle();
+    EXPECT_TRUE(builder.load().problems.all().empty()) << listing(builder.load().problems);
+}
+
+}  // namespace
+}  // namespace etendue
