@@ -20,10 +20,10 @@ struct GgxAlbedo {
 [[nodiscard]] GgxAlbedo ggx_albedo_average(float alpha);
 
 /// Largest index of refraction, and inverse of the smallest, that the dielectric tables cover.
-inline constexpr float kMaxTabulatedEta = 3.0f;
+inline constexpr float kMaxTabulatedEta = 9.0f;
 
 /// Reflected plus transmitted share of a rough dielectric interface, seen from the side on which the relative index of
-/// the other side is `eta` in [1/3, 3].
+/// the other side is `eta` in [1/9, 9].
 [[nodiscard]] float ggx_dielectric_albedo(float cos_theta, float alpha, float eta);
 [[nodiscard]] float ggx_dielectric_albedo_average(float alpha, float eta);
 

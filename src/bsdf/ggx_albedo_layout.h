@@ -20,14 +20,14 @@ inline constexpr int kAlphas = 40;       ///< alpha = t², t in [0, 1]: uniform 
 inline constexpr int kShareAlphas = 64;  ///< the same for Schlick's share, which grazing angles bend more
 /// The same for the averages. They are not piecewise linear in t, but have kinks at the nodes of the albedos.
 inline constexpr int kAverageAlphas = 10 * (kAlphas - 1) + 1;
-inline constexpr int kEtas = 36;  ///< from eta = 1 to 3, for each side
+inline constexpr int kEtas = 42;  ///< from eta = 1 to 9, for each side
 
 using Slice = std::array<std::array<float, kCosines>, kAlphas>;  ///< [alpha][cosine]
 using ShareSlice = std::array<std::array<float, kCosines>, kShareAlphas>;
 using Averages = std::array<float, kAverageAlphas>;
 
 inline constexpr float kSmallestAlpha = 1e-4f;
-inline constexpr float kLargestR0Root = 0.5f;  ///< (3 - 1) / (3 + 1)
+inline constexpr float kLargestR0Root = 0.8f;  ///< (9 - 1) / (9 + 1)
 
 /// Position of `node` out of `count` in [0, 1].
 [[nodiscard]] inline float fraction(int node, int count) {

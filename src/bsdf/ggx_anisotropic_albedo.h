@@ -15,4 +15,8 @@ namespace etendue {
 /// The same averaged over a cosine-weighted hemisphere.
 [[nodiscard]] GgxAlbedo ggx_anisotropic_albedo_average(float alpha_x, float alpha_y);
 
+/// Reflected plus transmitted share of a rough dielectric interface, as `ggx_dielectric_albedo`.
+[[nodiscard]] float ggx_anisotropic_dielectric_albedo(const Vec3f& w, float alpha_x, float alpha_y, float eta);
+[[nodiscard]] float ggx_anisotropic_dielectric_albedo_average(float alpha_x, float alpha_y, float eta);
+
 }  // namespace etendue

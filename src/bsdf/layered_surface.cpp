@@ -4,6 +4,7 @@
 #include "sampling/warp.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace etendue {
 
@@ -43,9 +44,11 @@ BsdfValue evaluate_layers(const LayeredSurface& surface, const Layers& layers, c
     const MetallicRoughness::Value base = evaluate_base(surface, wo, wi, mode);
     const float passed_i = Layers::passed(surface, wi);
     const float p_base = 1.0f - layers.p_coat - layers.p_sheen;
-    BsdfValue value{base.diffuse * (layers.passed_o * passed_i / surface.passed_average) +
-                        base.specular * std::min(layers.passed_o, passed_i),
-                    base.pdf_solid_angle * p_base};
+    const float diffuse_scale = layers.passed_o * passed_i / surface.passed_average;
+    const float specular_scale =
+        std::lerp(std::min(layers.passed_o, passed_i), layers.passed_o * passed_i / surface.passed_average_plain,
+                  surface.diffuseness);
+    BsdfValue value{base.diffuse * diffuse_scale + base.specular * specular_scale, base.pdf_solid_angle * p_base};
     if (wo.z <= 0.0f || wi.z <= 0.0f) return value;
     if (surface.sheen.exists()) {
         const BsdfValue sheen = surface.sheen.evaluate(wo, wi);
@@ -86,7 +89,12 @@ LayeredSurface LayeredSurface::make(const std::variant<MetallicRoughness, Dielec
     const float through_all =
         cosine_average([&](float mu) { return through_base(mu) * coat.passed(mu) * sheen.passed(mu); });
     const float total = cosine_average(through_base);
-    return {.base = base, .sheen = sheen, .coat = coat, .passed_average = total > 0.0f ? through_all / total : 1.0f};
+    return {.base = base,
+            .sheen = sheen,
+            .coat = coat,
+            .passed_average = total > 0.0f ? through_all / total : 1.0f,
+            .passed_average_plain = cosine_average([&](float mu) { return coat.passed(mu) * sheen.passed(mu); }),
+            .diffuseness = plain != nullptr ? std::min(opaque.alpha_x, opaque.alpha_y) : 0.0f};
 }
 
 bool LayeredSurface::has_non_delta() const {

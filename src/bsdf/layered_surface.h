@@ -2,11 +2,14 @@
 //
 // What a layer reflects is taken from what reaches those below. With t(w) the share that passes the layers along w, the
 // base's diffuse part is scaled by t(o) t(i) / t_avg, as a specular layer does to its diffuse base
-// (metallic_roughness.h), and everything else by min(t(o), t(i)): reciprocal, never more than arrives, and exact where
-// light leaves as it came, as in a mirror. (KHR_materials_sheen asks for the latter; the former does not darken.)
+// (metallic_roughness.h), what a mirror reflects by min(t(o), t(i)): reciprocal, never more than arrives, and exact
+// where light leaves as it came. (KHR_materials_sheen asks for the latter; the former does not darken.) What a rough
+// base scatters around a direction lies between the two, by its alpha.
 //
 // A white surface in a white furnace reflects between 0.99 and 1 under one layer if its base is a dielectric, 0.975
-// under both; rough metals under a coat lose up to 5%. The layers lie on the outside of closed bodies.
+// under both; metals lose up to 3.6% under a coat, 4.6% under a white sheen, 7% under both, panes 5%. The layers lie on
+// the outside of refracting bodies, where nothing comes back from their inner side: what leaves a glass at the critical
+// angle loses up to 16% under a coat and 29% under a white sheen. On all other surfaces they lie on both sides.
 #pragma once
 
 #include "bsdf/bsdf_sample.h"
@@ -23,7 +26,9 @@ struct LayeredSurface {
     std::variant<MetallicRoughness, DielectricBody> base;
     Sheen sheen{};
     ClearCoat coat{};
-    float passed_average = 1.0f;  ///< t_avg
+    float passed_average = 1.0f;        ///< t_avg, of what the base's own specular layer lets through too
+    float passed_average_plain = 1.0f;  ///< t_avg of the layers alone
+    float diffuseness = 0.0f;           ///< of what the base does around a direction: its alpha, [0, 1]
 
     /// Prepares the average above.
     [[nodiscard]] static LayeredSurface make(const std::variant<MetallicRoughness, DielectricBody>& base,

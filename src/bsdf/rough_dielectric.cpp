@@ -3,6 +3,7 @@
 #include "bsdf/fresnel.h"
 #include "bsdf/ggx.h"
 #include "bsdf/ggx_albedo.h"
+#include "bsdf/ggx_anisotropic_albedo.h"
 #include "bsdf/ggx_multiple.h"
 
 #include <algorithm>
@@ -12,30 +13,22 @@ namespace etendue {
 
 namespace {
 
-/// The alpha that isotropic tables are asked for: what a direction sees of two.
-float seen_alpha(const Ggx& ggx, const Vec3f& w) {
-    if (ggx.is_isotropic()) return ggx.alpha_x;
-    const float sin2 = w.x * w.x + w.y * w.y;
-    if (!(sin2 > 0.0f)) return std::sqrt(ggx.alpha_x * ggx.alpha_y);
-    const float x = ggx.alpha_x * w.x;
-    const float y = ggx.alpha_y * w.y;
-    return std::sqrt((x * x + y * y) / sin2);
-}
-
 float mean_alpha(const Ggx& ggx) {
     return ggx.is_isotropic() ? ggx.alpha_x : std::sqrt(ggx.alpha_x * ggx.alpha_y);
 }
 
-/// 1 - E averaged over the hemisphere: over the azimuths of the alphas that they see.
+/// 1 - E(w), for `w` on the side whose other side has the relative index `eta`.
+float missing_of(const Ggx& ggx, const Vec3f& w, float eta) {
+    const Vec3f above{w.x, w.y, std::abs(w.z)};
+    const float albedo = ggx.is_isotropic() ? ggx_dielectric_albedo(above.z, ggx.alpha_x, eta)
+                                            : ggx_anisotropic_dielectric_albedo(above, ggx.alpha_x, ggx.alpha_y, eta);
+    return std::clamp(1.0f - albedo, 0.0f, 1.0f);
+}
+
+/// The same averaged over the hemisphere.
 float missing_average_of(const Ggx& ggx, float eta) {
-    if (ggx.is_isotropic()) return 1.0f - ggx_dielectric_albedo_average(ggx.alpha_x, eta);
-    constexpr int kAzimuths = 16;
-    float sum = 0.0f;
-    for (int i = 0; i < kAzimuths; ++i) {
-        const float phi = 0.5f * kPi * (static_cast<float>(i) + 0.5f) / kAzimuths;
-        sum += ggx_dielectric_albedo_average(seen_alpha(ggx, {std::cos(phi), std::sin(phi), 0.0f}), eta);
-    }
-    return 1.0f - sum / kAzimuths;
+    return 1.0f - (ggx.is_isotropic() ? ggx_dielectric_albedo_average(ggx.alpha_x, eta)
+                                      : ggx_anisotropic_dielectric_albedo_average(ggx.alpha_x, ggx.alpha_y, eta));
 }
 
 /// The interface seen from wo's side, mirrored so that wo.z > 0.
@@ -55,7 +48,7 @@ struct Side {
           multiple_directions(mean_alpha(ggx)),
           outside(wo.z > 0.0f),
           eta(outside ? interface.ior : 1.0f / interface.ior),
-          missing(std::clamp(1.0f - ggx_dielectric_albedo(std::abs(wo.z), seen_alpha(ggx, wo), eta), 0.0f, 1.0f)),
+          missing(missing_of(ggx, wo, eta)),
           multiple_transmitted(outside ? interface.multiple_transmitted_outside
                                        : interface.multiple_transmitted_inside) {}
 
@@ -68,9 +61,7 @@ struct Side {
 /// (1 - E(w)) / (1 - E_avg) |cos| / pi on the side whose other side has the relative index `eta`: integrates to 1.
 float multiple_shape(const Side& side, float eta, float missing_average, const Vec3f& w) {
     if (!(missing_average > 0.0f)) return 0.0f;
-    const float cos_theta = std::abs(w.z);
-    const float missing = 1.0f - ggx_dielectric_albedo(cos_theta, seen_alpha(side.ggx, w), eta);
-    return missing / missing_average * cos_theta * kInvPi;
+    return missing_of(side.ggx, w, eta) / missing_average * std::abs(w.z) * kInvPi;
 }
 
 /// Both in particle (importance) mode; wo.z > 0, wi.z > 0.
@@ -120,7 +111,8 @@ Vec3f flip(const Vec3f& w) {
 
 }  // namespace
 
-RoughDielectric RoughDielectric::make(float ior, float alpha_x, float alpha_y) {
+RoughDielectric RoughDielectric::make(float wanted_ior, float alpha_x, float alpha_y) {
+    const float ior = std::clamp(wanted_ior, 1.0f / kMaxTabulatedEta, kMaxTabulatedEta);
     const Ggx ggx{alpha_x, alpha_y};
     const float missing_outside = missing_average_of(ggx, ior);
     const float missing_inside = missing_average_of(ggx, 1.0f / ior);

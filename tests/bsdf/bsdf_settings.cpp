@@ -94,12 +94,29 @@ void add_layered(std::vector<BsdfSetting>& settings) {
     }
 }
 
+/// Sheets that light passes, bare and under layers.
+void add_sheets(std::vector<BsdfSetting>& settings) {
+    MetallicRoughness pane = kPlastic;
+    pane.transmission = 0.7f;
+    pane.alpha_y = 0.5f;
+    MetallicRoughness leaf = kPlastic;
+    leaf.diffuse_transmission = 0.6f;
+    leaf.diffuse_transmission_color = {0.9f, 0.4f, 0.1f};
+    for (const auto& [name, sheet] : {std::pair{"pane", pane}, std::pair{"leaf", leaf}}) {
+        settings.push_back({fmt::format("{} of two alphas", name), sheet});
+        settings.push_back({fmt::format("layers over a {}", name),
+                            LayeredSurface::make(sheet, Sheen{{0.3f, 0.3f, 0.6f}, 0.4f}, ClearCoat{0.8f, 0.2f})});
+    }
+}
+
 void add_bodies(std::vector<BsdfSetting>& settings, TransportMode mode, const char* mode_name) {
     const InterfaceFresnel tinted{.tint = {0.5f, 0.8f, 1.0f}, .weight = 0.9f, .film = film(300.0f)};
     RoughDielectric rough = RoughDielectric::make(1.4f, 0.1f, 0.4f);
     rough.tint = {0.9f, 0.7f, 0.5f};
     settings.push_back({fmt::format("anisotropic dielectric {}", mode_name), rough, mode});
     settings.push_back({fmt::format("bubble {}", mode_name), RoughDielectric::make(0.7f, 0.2f), mode});
+    rough = RoughDielectric::make(1.7f, 1.0f, 0.05f);
+    settings.push_back({fmt::format("combed dielectric {}", mode_name), rough, mode});
     rough = RoughDielectric::make(1.4f, 0.2f);
     rough.fresnel = tinted;
     settings.push_back({fmt::format("film on a dielectric {}", mode_name), rough, mode});
@@ -147,6 +164,7 @@ std::vector<BsdfSetting> all_bsdf_settings() {
     add_metallic_roughness(settings);
     add_gltf_extensions(settings);
     add_layered(settings);
+    add_sheets(settings);
     add_conductors(settings);
     add_dielectrics(settings);
     return settings;

@@ -57,7 +57,8 @@ double albedo(const Bsdf& bsdf, const Vec3f& wo, const std::vector<HaltonPoint>&
 /// The largest deviation of the albedo from one over a grid of alpha in [0.001, 1] and |cos theta| in [0.02, 1]. A
 /// coarse estimate that deviates by more than half of what is allowed is repeated with more samples.
 template <typename Make>
-void expect_white(const std::string& name, const Make& make, float side, double tolerance = kTolerance) {
+void expect_white(const std::string& name, const Make& make, float side, double tolerance = kTolerance,
+                  float azimuth = 0.0f) {
     static const std::vector<HaltonPoint> coarse = halton(1024);
     static const std::vector<HaltonPoint> fine = halton(32'768);
     constexpr int kAlphas = 16;
@@ -69,7 +70,8 @@ void expect_white(const std::string& name, const Make& make, float side, double 
         const Bsdf bsdf = make(alpha);
         for (int j = 0; j < kCosines; ++j) {
             const float t = static_cast<float>(j) / (kCosines - 1);
-            const Vec3f wo = direction_at(side * (0.02f + 0.98f * t * t));
+            const Vec3f in_plane = direction_at(side * (0.02f + 0.98f * t * t));
+            const Vec3f wo{in_plane.x * std::cos(azimuth), in_plane.x * std::sin(azimuth), in_plane.z};
             double deviation = albedo(bsdf, wo, coarse) - 1.0;
             if (std::abs(deviation) > 0.5 * tolerance) deviation = albedo(bsdf, wo, fine) - 1.0;
             if (std::abs(deviation) <= std::abs(worst)) continue;
@@ -133,7 +135,7 @@ TEST(WhiteFurnace, WhiteThinSheet) {
 }
 
 TEST(WhiteFurnace, DielectricFromBothSides) {
-    for (const float ior : {1.01f, 1.05f, 1.1f, 1.33f, 1.5f, 1.9f, 2.5f})
+    for (const float ior : {1.01f, 1.05f, 1.1f, 1.33f, 1.5f, 1.9f, 2.5f, 4.0f, 9.0f, 20.0f})
         for (const float side : {1.0f, -1.0f})
             expect_white(
                 "dielectric " + std::to_string(ior) + (side > 0.0f ? " outside" : " inside"),
@@ -169,7 +171,9 @@ TEST(WhiteFurnace, AnisotropicMetal) {
             return MetallicRoughness{
                 .base = Rgb(1.0f), .alpha_x = alpha + (1.0f - alpha) * strength * strength, .alpha_y = alpha};
         };
-        expect_white("strength " + std::to_string(strength), make, 1.0f);
+        for (const float azimuth : {0.0f, 0.7f, 0.5f * kPi})
+            expect_white("strength " + std::to_string(strength) + " azimuth " + std::to_string(azimuth), make, 1.0f,
+                         kTolerance, azimuth);
     }
 }
 
@@ -178,14 +182,21 @@ TEST(WhiteFurnace, AnisotropicPlastic) {
         return MetallicRoughness{
             .base = Rgb(1.0f), .metallic = 0.0f, .alpha_x = alpha, .alpha_y = alpha + (1.0f - alpha) * 0.49f};
     };
-    expect_white("plastic", make, 1.0f, 1e-2);
+    for (const float azimuth : {0.0f, 0.7f, 0.5f * kPi}) expect_white("plastic", make, 1.0f, 1e-2, azimuth);
 }
 
 TEST(WhiteFurnace, AnisotropicDielectric) {
-    for (const float side : {1.0f, -1.0f})
-        expect_white(
-            "anisotropic dielectric",
-            [](float alpha) { return RoughDielectric::make(1.5f, alpha, alpha + (1.0f - alpha) * 0.36f); }, side, 0.13);
+    for (const float ior : {1.1f, 1.5f, 2.2f})
+        for (const float strength : {0.6f, 1.0f})
+            for (const float azimuth : {0.0f, 0.7f, 0.5f * kPi})
+                for (const float side : {1.0f, -1.0f})
+                    expect_white(
+                        "index " + std::to_string(ior) + " strength " + std::to_string(strength) + " azimuth " +
+                            std::to_string(azimuth) + " side " + std::to_string(side),
+                        [=](float alpha) {
+                            return RoughDielectric::make(ior, alpha + (1.0f - alpha) * strength * strength, alpha);
+                        },
+                        side, 0.05, azimuth);
 }
 
 TEST(WhiteFurnace, WhiteUnderFilm) {
@@ -224,8 +235,40 @@ TEST(WhiteFurnace, CoatOverWhite) {
                     {}, ClearCoat{1.0f, alpha});
             };
             expect_white("metallic " + std::to_string(metallic) + " base " + std::to_string(base_alpha), make, 1.0f,
-                         metallic > 0.0f ? 0.05 : 0.01);
+                         metallic > 0.0f ? 0.04 : 0.01);
         }
+}
+
+// Layers take more from what is neither diffuse nor a mirror than they reflect, and nothing comes back from their inner
+// side: these lose light, and none makes any.
+TEST(WhiteFurnace, LayersOverWhatIsNotDiffuse) {
+    const ClearCoat coat{1.0f, 0.1f};
+    const Sheen sheen{Rgb(1.0f), 0.3f};
+    const auto metal = [](float alpha) {
+        return MetallicRoughness{.base = Rgb(1.0f), .alpha_x = alpha, .alpha_y = alpha};
+    };
+    const auto pane = [](float alpha) {
+        return MetallicRoughness{
+            .base = Rgb(1.0f), .metallic = 0.0f, .alpha_x = alpha, .alpha_y = alpha, .transmission = 1.0f};
+    };
+    const auto leaf = [](float alpha) {
+        return MetallicRoughness{
+            .base = Rgb(1.0f), .metallic = 0.0f, .alpha_x = alpha, .alpha_y = alpha, .diffuse_transmission = 0.7f};
+    };
+    const auto glass = [](float alpha) { return DielectricBody{RoughDielectric::make(1.5f, alpha), {}, 1.0f}; };
+    const auto over = [](const auto& base, const Sheen& s, const ClearCoat& c) {
+        return [=](float alpha) { return LayeredSurface::make(base(alpha), s, c); };
+    };
+    expect_white("sheen over metal", over(metal, sheen, {}), 1.0f, 0.05);
+    expect_white("both over metal", over(metal, sheen, coat), 1.0f, 0.07);
+    expect_white("coat over a pane", over(pane, {}, coat), 1.0f, 0.03);
+    expect_white("sheen over a pane", over(pane, sheen, {}), 1.0f, 0.05);
+    expect_white("both over a leaf", over(leaf, sheen, coat), 1.0f, 0.025);
+    expect_white("coat over glass", over(glass, {}, coat), 1.0f, 0.01);
+    expect_white("sheen over glass", over(glass, sheen, {}), 1.0f, 0.015);
+    // At the critical angle, where all that leaves would graze.
+    expect_white("coat over glass, from inside", over(glass, {}, coat), -1.0f, 0.17);
+    expect_white("sheen over glass, from inside", over(glass, sheen, {}), -1.0f, 0.3);
 }
 
 TEST(WhiteFurnace, CoatOverSheen) {
