@@ -3,9 +3,12 @@
 #include "bsdf/color_matching.h"
 #include "bsdf/fresnel.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -21,33 +24,65 @@ ThinFilm film(float ior, float thickness_nm) {
     return {.strength = 1.0f, .ior = ior, .thickness_nm = thickness_nm, .xyz_to_working = &kToRec709};
 }
 
-/// Luminance of what a film over a dielectric reflects at right angles: Airy's formula, summed over the wavelengths of
-/// a flat spectrum.
-double exact_luminance(double film_ior, double thickness_nm, double base_ior) {
-    const double r12 = (1.0 - film_ior) / (1.0 + film_ior);
-    const double r23 = (film_ior - base_ior) / (film_ior + base_ior);
-    double sum = 0.0;
+/// What a film over a dielectric reflects: Airy's formula for both polarisations, summed over the wavelengths of a flat
+/// spectrum, in linear Rec.709.
+std::array<double, 3> exact_rgb(double film_ior, double thickness_nm, double base_ior, double cos_above) {
+    const double sin2 = 1.0 - cos_above * cos_above;
+    const double cos_film = std::sqrt(1.0 - sin2 / (film_ior * film_ior));
+    const double cos_base = std::sqrt(1.0 - sin2 / (base_ior * base_ior));
+    const auto across = [](double n1, double c1, double n2, double c2) {
+        return (n1 * c1 - n2 * c2) / (n1 * c1 + n2 * c2);
+    };
+    const auto along = [](double n1, double c1, double n2, double c2) {
+        return (n2 * c1 - n1 * c2) / (n2 * c1 + n1 * c2);
+    };
+    std::array<double, 3> xyz{};
     double total = 0.0;
     for (double nm = 380.0; nm <= 780.0; nm += 1.0) {
-        const double y = color_matching_xyz(nm)[1];
-        const std::complex<double> turn = std::polar(1.0, 4.0 * std::numbers::pi * film_ior * thickness_nm / nm);
-        sum += y * std::norm((r12 + r23 * turn) / (1.0 + r12 * r23 * turn));
-        total += y;
+        const double phase = 4.0 * std::numbers::pi * film_ior * thickness_nm * cos_film / nm;
+        const std::complex<double> turn = std::polar(1.0, phase);
+        double reflected = 0.0;
+        for (const auto& r :
+             {std::pair{across(1.0, cos_above, film_ior, cos_film), across(film_ior, cos_film, base_ior, cos_base)},
+              std::pair{along(1.0, cos_above, film_ior, cos_film), along(film_ior, cos_film, base_ior, cos_base)}})
+            reflected += 0.5 * std::norm((r.first + r.second * turn) / (1.0 + r.first * r.second * turn));
+        const auto matching = color_matching_xyz(nm);
+        for (std::size_t c = 0; c < 3; ++c) xyz[c] += matching[c] * reflected;
+        total += matching[1];
     }
-    return sum / total;
+    std::array<double, 3> rgb{};
+    for (std::size_t row = 0; row < 3; ++row) {
+        const Rgb& m = kToRec709[row];
+        rgb[row] = (static_cast<double>(m.r) * xyz[0] + static_cast<double>(m.g) * xyz[1] +
+                    static_cast<double>(m.b) * xyz[2]) /
+                   total;
+    }
+    return rgb;
+}
+
+/// White is that of the flat spectrum, as in the film, whose channels are 1 where everything is reflected.
+std::array<double, 3> exact_color(double film_ior, double thickness_nm, double base_ior, double cos_above) {
+    std::array<double, 3> color = exact_rgb(film_ior, thickness_nm, base_ior, cos_above);
+    const std::array<double, 3> white = exact_rgb(1.0, 0.0, 1e9, 1.0);
+    for (std::size_t c = 0; c < 3; ++c) color[c] /= white[c];
+    return color;
 }
 
 TEST(ThinFilm, IsCloseToTheExactSumOverWavelengths) {
     for (const float base_ior : {1.2f, 1.5f, 2.0f})
         for (const float film_ior : {1.3f, 1.8f})
-            for (const float thickness : {100.0f, 250.0f, 400.0f, 800.0f}) {
-                const float root = (base_ior - 1.0f) / (base_ior + 1.0f);
-                const Rgb color = film(film_ior, thickness).reflectance(Rgb(root * root), 1.0f);
-                const float luminance = 0.2126f * color.r + 0.7152f * color.g + 0.0722f * color.b;
-                // The fit of the matching functions and two orders of interference; what is clamped to [0, 1].
-                EXPECT_NEAR(luminance, exact_luminance(film_ior, thickness, base_ior), 0.02)
-                    << "film " << film_ior << ", " << thickness << " nm, over " << base_ior;
-            }
+            for (const float thickness : {100.0f, 250.0f, 400.0f, 800.0f})
+                for (const float cos_above : {1.0f, 0.8f, 0.5f}) {
+                    const float root = (base_ior - 1.0f) / (base_ior + 1.0f);
+                    const Rgb color = film(film_ior, thickness).reflectance(Rgb(root * root), cos_above);
+                    const std::array<double, 3> exact = exact_color(film_ior, thickness, base_ior, cos_above);
+                    // The fit of the matching functions, two orders of interference, and Schlick's curve.
+                    SCOPED_TRACE(testing::Message() << "film " << film_ior << ", " << thickness << " nm, over "
+                                                    << base_ior << ", cosine " << cos_above);
+                    EXPECT_NEAR(color.r, exact[0], 0.05);
+                    EXPECT_NEAR(color.g, exact[1], 0.05);
+                    EXPECT_NEAR(color.b, exact[2], 0.05);
+                }
 }
 
 TEST(ThinFilm, AThickOneHasNoColour) {

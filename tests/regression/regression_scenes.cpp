@@ -17,6 +17,11 @@ constexpr RegressionScene dark_row(std::string_view name) {
     return {kRows, name, 128, 64, 8, 0.01, {"path", 4, 64}, {"naive", 8, 384}};
 }
 
+/// What shows in few pixels or in faint colours.
+constexpr RegressionScene fine_row(std::string_view name) {
+    return {kRows, name, 128, 64, 8, 0.01, {"path", 4, 128}, {"naive", 8, 1024}};
+}
+
 // The naive integrator cannot find a directional light (sun-and-sky, instances), and hardly the small lights of
 // veach-mis. The mean of veach-mis is mostly what the camera sees of its smallest and brightest light.
 constexpr RegressionScene kRegressionScenes[] = {
@@ -28,13 +33,14 @@ constexpr RegressionScene kRegressionScenes[] = {
     {kScenes, "sun-and-sky", 96, 54, 8, 0.01, {"path", 4, 32}, {"path", 8, 256}},
     {kScenes, "veach-mis", 96, 64, 8, 0.1, {"path", 4, 64}, {"path", 8, 256}},
     row("row-anisotropy"),
-    dark_row("row-clearcoat"),
+    fine_row("row-clearcoat"),
     row("row-diffuse-transmission"),
-    row("row-dispersion"),
+    fine_row("row-dispersion"),
     row("row-emission"),
+    row("row-geometry"),
     dark_row("row-ior"),
     row("row-iridescence"),
-    row("row-models"),
+    fine_row("row-models"),
     row("row-nested"),
     row("row-sheen"),
     dark_row("row-specular"),

@@ -114,6 +114,22 @@ TEST(Bodies, OpaqueAndThinMaterialsHaveNone) {
     EXPECT_FALSE(compile(std::move(scene)).has_bodies());
 }
 
+TEST(Bodies, EachChannelOfSubsurfaceHasItsOwnMeanFreePath) {
+    SceneDesc scene = empty_scene();
+    MaterialDesc wax;
+    wax.override_model = SubsurfaceDesc{.albedo = {0.8f, 0.5f, 0.2f}, .radius = {0.04f, 0.02f, 0.01f}};
+    add_ball(scene, {0, 0, 0}, 2.0f, wax);
+    const World world = compile(std::move(scene));
+    const HomogeneousMedium* medium = world.medium(world.interior_at(Vec3f(0.0f)));
+    ASSERT_NE(medium, nullptr);
+    const Rgb left = medium->transmittance(0.02f);
+    EXPECT_NEAR(left.r, std::exp(-0.5f), 1e-5f);
+    EXPECT_NEAR(left.g, std::exp(-1.0f), 1e-5f);
+    EXPECT_NEAR(left.b, std::exp(-2.0f), 1e-5f);
+    EXPECT_GT(medium->single_scatter_albedo.r, medium->single_scatter_albedo.g);
+    EXPECT_GT(medium->single_scatter_albedo.g, medium->single_scatter_albedo.b);
+}
+
 TEST(Bodies, ShortWavesAreRefractedMore) {
     SceneDesc scene = empty_scene();
     // 20 over the Abbe number: 1 is V = 20.

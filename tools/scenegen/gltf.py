@@ -4,7 +4,7 @@ import json
 import struct
 import sys
 
-FLOAT, UNSIGNED_BYTE, UNSIGNED_SHORT, UNSIGNED_INT = 5126, 5121, 5123, 5125
+FLOAT, BYTE, UNSIGNED_BYTE, SHORT, UNSIGNED_SHORT, UNSIGNED_INT = 5126, 5120, 5121, 5122, 5123, 5125
 ARRAY_BUFFER, ELEMENT_ARRAY_BUFFER = 34962, 34963
 COMPONENTS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
 
@@ -16,6 +16,7 @@ class GltfWriter:
         self._bin = bytearray()
         self._geometry = {}
         self._extensions = set()
+        self._required = set()
         self.document = {
             "asset": {"version": "2.0", "generator": "etendue tools/make_scenes.py"},
             "scene": 0,
@@ -28,11 +29,13 @@ class GltfWriter:
                      further_extensions=None):
         """A metallic-roughness material. `emission` is radiance; `transmission` in [0, 1] through a thin wall.
 
-        `further_extensions` are values by the extension's name, as in glTF.
+        Textures are indices; the first may also be a whole reference, as in glTF. `further_extensions` are values by
+        the extension's name, as in glTF.
         """
         pbr = {"baseColorFactor": [*base_color, 1.0], "metallicFactor": metallic, "roughnessFactor": roughness}
         if base_color_texture is not None:
-            pbr["baseColorTexture"] = {"index": base_color_texture}
+            reference = base_color_texture
+            pbr["baseColorTexture"] = reference if isinstance(reference, dict) else {"index": reference}
         material = {"name": name, "pbrMetallicRoughness": pbr}
         if double_sided:
             material["doubleSided"] = True
@@ -49,7 +52,7 @@ class GltfWriter:
         if extensions:
             material["extensions"] = extensions
             self._extensions.update(extensions)
-        return self._append("materials", material)
+        return self.add("materials", material)
 
     def add_mesh(self, name, mesh, material):
         """A mesh of one primitive. The data of the same `mesh` object is stored once, whatever the material."""
@@ -57,19 +60,19 @@ class GltfWriter:
             # The mesh is kept with its accessors, lest another object gets its id.
             self._geometry[id(mesh)] = (mesh, self._add_geometry(mesh))
         primitive = dict(self._geometry[id(mesh)][1], material=material)
-        return self._append("meshes", {"name": name, "primitives": [primitive]})
+        return self.add("meshes", {"name": name, "primitives": [primitive]})
 
     def add_node(self, name=None, **properties):
         """A node at the root: mesh, camera, translation, rotation (x, y, z, w), scale, extensions, as in glTF."""
         node = {"name": name} if name else {}
         node.update((key, list(value) if isinstance(value, tuple) else value) for key, value in properties.items())
-        index = self._append("nodes", node)
+        index = self.add("nodes", node)
         self.document["scenes"][0]["nodes"].append(index)
         return index
 
     def add_camera(self, name, position, rotation, yfov, aspect_ratio, near=0.01, far=1000.0):
         """A perspective camera with the vertical field of view `yfov` in radians, and its node."""
-        camera = self._append("cameras", {"name": name, "type": "perspective", "perspective": {
+        camera = self.add("cameras", {"name": name, "type": "perspective", "perspective": {
             "yfov": yfov, "aspectRatio": aspect_ratio, "znear": near, "zfar": far}})
         return self.add_node(name, camera=camera, translation=position, rotation=rotation)
 
@@ -82,61 +85,79 @@ class GltfWriter:
 
     def add_texture(self, name, png):
         """A repeating texture of the PNG file `png` (bytes), stored in the buffer."""
-        image = self._append("images", {
+        image = self.add("images", {
             "name": name, "mimeType": "image/png", "bufferView": self._add_view(png, None)})
-        sampler = self._append("samplers", {"magFilter": 9729, "minFilter": 9987, "wrapS": 10497, "wrapT": 10497})
-        return self._append("textures", {"source": image, "sampler": sampler})
+        sampler = self.add("samplers", {"magFilter": 9729, "minFilter": 9987, "wrapS": 10497, "wrapT": 10497})
+        return self.add("textures", {"source": image, "sampler": sampler})
+
+    def use_extension(self, name, required=False):
+        """Declares an extension that is written into the document by hand."""
+        self._extensions.add(name)
+        if required:
+            self._required.add(name)
 
     def finish(self):
         """The two files: the document as a dictionary and the buffer as bytes."""
         self.document["buffers"][0]["byteLength"] = len(self._bin)
         if self._extensions:
             self.document["extensionsUsed"] = sorted(self._extensions)
+        if self._required:
+            self.document["extensionsRequired"] = sorted(self._required)
         return self.document, bytes(self._bin)
 
-    def _append(self, key, value):
+    def add(self, key, value):
+        """Appends `value` to the list `key` of the document."""
         values = self.document.setdefault(key, [])
         values.append(value)
         return len(values) - 1
 
     def _add_geometry(self, mesh):
         attributes = {
-            "POSITION": self._add_accessor(mesh.positions, FLOAT, "VEC3", with_bounds=True),
-            "NORMAL": self._add_accessor(mesh.normals, FLOAT, "VEC3")}
+            "POSITION": self.add_accessor(mesh.positions, FLOAT, "VEC3", with_bounds=True),
+            "NORMAL": self.add_accessor(mesh.normals, FLOAT, "VEC3")}
         if mesh.tangents:
-            attributes["TANGENT"] = self._add_accessor(mesh.tangents, FLOAT, "VEC4")
+            attributes["TANGENT"] = self.add_accessor(mesh.tangents, FLOAT, "VEC4")
         if mesh.uvs:
-            attributes["TEXCOORD_0"] = self._add_accessor(mesh.uvs, FLOAT, "VEC2")
+            attributes["TEXCOORD_0"] = self.add_accessor(mesh.uvs, FLOAT, "VEC2")
         if mesh.colors:
-            attributes["COLOR_0"] = self._add_accessor(mesh.colors, UNSIGNED_BYTE, "VEC4", normalized=True)
-        return {"attributes": attributes, "indices": self._add_indices(mesh)}
+            attributes["COLOR_0"] = self.add_accessor(mesh.colors, UNSIGNED_BYTE, "VEC4", normalized=True)
+        return {"attributes": attributes, "indices": self.add_indices(mesh)}
 
-    def _add_indices(self, mesh):
+    def add_indices(self, mesh):
+        """An accessor of the mesh's triangles."""
         # 65535 itself is the primitive restart value and not allowed.
         if mesh.vertex_count > 65535:
-            return self._add_accessor(mesh.indices, UNSIGNED_INT, "SCALAR", ELEMENT_ARRAY_BUFFER)
+            return self.add_accessor(mesh.indices, UNSIGNED_INT, "SCALAR", ELEMENT_ARRAY_BUFFER)
         short = struct.pack(f"<{len(mesh.indices)}H", *mesh.indices)
-        return self._add_accessor(memoryview(short).cast("H"), UNSIGNED_SHORT, "SCALAR", ELEMENT_ARRAY_BUFFER)
+        return self.add_accessor(memoryview(short).cast("H"), UNSIGNED_SHORT, "SCALAR", ELEMENT_ARRAY_BUFFER)
 
-    def _add_accessor(self, values, component_type, kind, target=ARRAY_BUFFER, with_bounds=False, normalized=False):
+    def add_accessor(self, values, component_type, kind, target=ARRAY_BUFFER, with_bounds=False, normalized=False,
+                     stride=None):
+        """An accessor of all of `values`, which are padded to one element each `stride` bytes if that is given."""
         assert sys.byteorder == "little", "glTF is little-endian and the arrays are written as they are"
         n = COMPONENTS[kind]
-        accessor = {"bufferView": self._add_view(values.tobytes(), target), "componentType": component_type,
+        data = values.tobytes()
+        if stride is not None:
+            size = n * values.itemsize
+            data = b"".join(data[i:i + size].ljust(stride, b"\0") for i in range(0, len(data), size))
+        accessor = {"bufferView": self._add_view(data, target, stride), "componentType": component_type,
                     "count": len(values) // n, "type": kind}
         if normalized:
             accessor["normalized"] = True
         if with_bounds:
             accessor["min"] = [min(values[i::n]) for i in range(n)]
             accessor["max"] = [max(values[i::n]) for i in range(n)]
-        return self._append("accessors", accessor)
+        return self.add("accessors", accessor)
 
-    def _add_view(self, data, target):
+    def _add_view(self, data, target, stride=None):
         self._bin.extend(b"\0" * (-len(self._bin) % 4))
         view = {"buffer": 0, "byteOffset": len(self._bin), "byteLength": len(data)}
         if target is not None:
             view["target"] = target
+        if stride is not None:
+            view["byteStride"] = stride
         self._bin.extend(data)
-        return self._append("bufferViews", view)
+        return self.add("bufferViews", view)
 
 
 def to_json(document):

@@ -68,12 +68,12 @@ class Stage:
         if override is not None:
             self.overrides[name] = override
 
-    def finish(self):
-        """The scene, with its render.json."""
+    def finish(self, **settings):
+        """The scene, with its render.json; `settings` are further members of that."""
         self.scene.files["render.json"] = (json.dumps({
             "integrator": {"max_depth": 24}, "spp": 256, "resolution": [1024, 512],
             "environment": {"color": SKY_RADIANCE}, "color": {"exposure": 0.7},
-            "materials": self.overrides}, indent=2) + "\n").encode()
+            "materials": self.overrides, **settings}, indent=2) + "\n").encode()
         return self.scene
 
     def _add(self, name, mesh, material, **node):
