@@ -4,7 +4,9 @@ import json
 import math
 from array import array
 
-_ARRAY_TYPE = {5121: "B", 5123: "H", 5125: "I", 5126: "f"}
+_ARRAY_TYPE = {5120: "b", 5121: "B", 5122: "h", 5123: "H", 5125: "I", 5126: "f"}
+# What normalised integers are divided by.
+_LARGEST = {5120: 127, 5121: 255, 5122: 32767, 5123: 65535}
 _COMPONENTS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
 # render.json states derived numbers with four decimals.
 _TOLERANCE = 6e-5
@@ -45,12 +47,25 @@ def check_buffers(document, binary):
 
 
 def read_accessor(document, binary, index):
-    """All components of a tightly packed accessor, as an array."""
+    """All components of an accessor, as an array; those of normalised integers as they are stored."""
     accessor = document["accessors"][index]
     view = document["bufferViews"][accessor["bufferView"]]
     values = array(_ARRAY_TYPE[accessor["componentType"]])
-    values.frombytes(binary[view["byteOffset"]:view["byteOffset"] + view["byteLength"]])
+    size = values.itemsize * _COMPONENTS[accessor["type"]]
+    begin, length = view["byteOffset"], view["byteLength"]
+    for i in range(begin, begin + length, view.get("byteStride", length)):
+        values.frombytes(binary[i:i + (size if "byteStride" in view else length)])
     return values
+
+
+def read_vectors(document, binary, index):
+    """The vectors of an accessor of three components, and how far rounding may have moved each component."""
+    accessor = document["accessors"][index]
+    values = read_accessor(document, binary, index)
+    if not accessor.get("normalized"):
+        return _triples(values), 0.0
+    scale = 1.0 / _LARGEST[accessor["componentType"]]
+    return _triples([value * scale for value in values]), 0.5 * scale
 
 
 def check_nodes(document):
@@ -79,21 +94,25 @@ def check_meshes(document, binary, closed_meshes):
         if key in checked:
             continue
         checked.add(key)
-        positions = _triples(read_accessor(document, binary, attributes["POSITION"]))
-        normals = _triples(read_accessor(document, binary, attributes["NORMAL"]))
+        positions, _ = read_vectors(document, binary, attributes["POSITION"])
         triangles = _triples(read_accessor(document, binary, primitive["indices"]))
-        found = check_normals(positions, normals, triangles)
+        found = []
+        if "NORMAL" in attributes:
+            normals, rounding = read_vectors(document, binary, attributes["NORMAL"])
+            found = check_normals(positions, normals, triangles, 1e-5 + 4.0 * rounding)
         if closed and not found:
             found = check_watertight(positions, triangles)
         problems += [f"mesh '{mesh['name']}': {problem}" for problem in found]
     return problems
 
 
-def check_normals(positions, normals, triangles):
-    """Unit normals on the front of every triangle, which has an area, and indices in range."""
+def check_normals(positions, normals, triangles, tolerance):
+    """Unit normals on the front of every triangle, which has an area, and indices in range.
+
+    Squared lengths may differ from 1 by `tolerance`."""
     if len(positions) != len(normals) or max(map(max, triangles)) >= len(positions):
         return ["attributes of different lengths, or an index out of range"]
-    wrong_length = sum(abs(x * x + y * y + z * z - 1.0) > 1e-5 for x, y, z in normals)
+    wrong_length = sum(abs(x * x + y * y + z * z - 1.0) > tolerance for x, y, z in normals)
     problems = [f"{wrong_length} normals are not of unit length"] if wrong_length else []
     degenerate = backward = 0
     for a, b, c in triangles:

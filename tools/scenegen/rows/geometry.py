@@ -31,13 +31,13 @@ def geometry():
     return scene
 
 
-def _add(stage, name, attributes, material, place, **node):
+def _add(stage, name, attributes, material, place, mesh=BALL, **node):
     gltf = stage.scene.gltf
-    primitive = {"attributes": attributes, "indices": gltf.add_indices(BALL), "material": material}
-    mesh = gltf.add("meshes", {"name": name, "primitives": [primitive]})
-    gltf.add_node(name, mesh=mesh, translation=place, **node)
-    stage.scene.triangles += BALL.triangle_count
-    return gltf.document["meshes"][mesh]
+    primitive = {"attributes": attributes, "indices": gltf.add_indices(mesh), "material": material}
+    stage.scene.triangles += mesh.triangle_count
+    index = gltf.add("meshes", {"name": name, "primitives": [primitive]})
+    gltf.add_node(name, mesh=index, translation=place, **node)
+    return gltf.document["meshes"][index]
 
 
 def _quantized(stage, place, gray, _):
@@ -94,8 +94,7 @@ def _flat(stage, place, gray, _):
     gltf = stage.scene.gltf
     coarse = mapped_sphere(RADIUS, columns=12, rows=6)
     positions = {"POSITION": gltf.add_accessor(coarse.positions, FLOAT, "VEC3", with_bounds=True)}
-    mesh = _add(stage, "flat", positions, gray, place)
-    mesh["primitives"][0]["indices"] = gltf.add_indices(coarse)
+    _add(stage, "flat", positions, gray, place, mesh=coarse)
 
 
 def _smooth(gltf):
