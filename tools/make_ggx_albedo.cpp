@@ -4,9 +4,8 @@
 //
 // Usage: make_ggx_albedo OUTPUT.inc
 
-#include "bsdf/fresnel.h"
-#include "bsdf/ggx.h"
 #include "bsdf/ggx_albedo_layout.h"
+#include "ggx_view.h"
 #include "sampling/sobol.h"
 #include "table_writer.h"
 
@@ -31,43 +30,11 @@ struct Tables {
     std::array<std::array<Averages, kEtas>, 2> dielectric_average;
 };
 
-/// One surface seen from one direction.
-class View {
-  public:
-    View(float alpha_of_row, float cos_theta) : ggx_(Ggx::isotropic(alpha_of_row)) {
-        // Edge-on light is the limit from just above.
-        const float mu = std::max(cos_theta, 1e-5f);
-        wo_ = {std::sqrt(1.0f - mu * mu), 0.0f, mu};
-        masking_ = 1.0f + ggx_.lambda(wo_);
-    }
-
-    [[nodiscard]] const Vec3f& wo() const { return wo_; }
-
-    /// Normals on both sides of the plane of incidence scatter alike: half of them suffices.
-    [[nodiscard]] Vec3f normal(std::uint32_t i) const {
-        const Vec2f u = owen_sobol_2d(i, 1);
-        return ggx_.sample_visible_normal(wo_, {0.5f * u.x, u.y});
-    }
-
-    /// The weight G2 / G1 of light that leaves along `wi`.
-    [[nodiscard]] float weight(const Vec3f& wi) const { return masking_ / (masking_ + ggx_.lambda(wi)); }
-
-    [[nodiscard]] float weight_reflected(const Vec3f& h) const {
-        const Vec3f wi = h * (2.0f * dot(wo_, h)) - wo_;
-        return wi.z > 0.0f ? weight(wi) : 0.0f;
-    }
-
-  private:
-    Ggx ggx_;
-    Vec3f wo_{0.0f};
-    float masking_;
-};
-
-float schlick_share(const View& view) {
+float schlick_share(const GgxView& view) {
     double single = 0.0;
     double schlick = 0.0;
     for (std::uint32_t i = 0; i < kSamples; ++i) {
-        const Vec3f h = view.normal(i);
+        const Vec3f h = view.normal_of_one_side(i);
         const float weight = view.weight_reflected(h);
         single += static_cast<double>(weight);
         schlick += static_cast<double>(weight * pow5(std::clamp(1.0f - dot(view.wo(), h), 0.0f, 1.0f)));
@@ -81,22 +48,17 @@ struct Directional {
 };
 
 /// The same normals serve every index of refraction.
-Directional integrate(const View& view) {
+Directional integrate(const GgxView& view) {
     Directional sum;
     for (std::uint32_t i = 0; i < kSamples; ++i) {
-        const Vec3f h = view.normal(i);
-        const float o_h = dot(view.wo(), h);
+        const Vec3f h = view.normal_of_one_side(i);
         const float reflected = view.weight_reflected(h);
         sum.single += static_cast<double>(reflected);
         for (std::size_t side = 0; side < 2; ++side) {
             for (std::size_t e = 0; e < kEtas; ++e) {
-                const float outside = eta(static_cast<int>(e));
-                const float relative = side == 0 ? outside : 1.0f / outside;
-                const float f = fresnel_dielectric(o_h, relative);
-                Vec3f wi;
-                const bool refracts = refract(view.wo(), h, relative, wi) && wi.z < 0.0f;
+                const float outside = eta(static_cast<int>(e), kEtas);
                 sum.dielectric[side][e] +=
-                    static_cast<double>(f * reflected + (refracts ? (1.0f - f) * view.weight(wi) : 0.0f));
+                    static_cast<double>(view.weight_of_interface(h, reflected, side == 0 ? outside : 1.0f / outside));
             }
         }
     }
@@ -107,7 +69,8 @@ void fill_directional(Tables& tables) {
     for (std::size_t a = 0; a < kAlphas; ++a) {
         const float row_alpha = alpha(static_cast<int>(a), kAlphas);
         for (std::size_t c = 0; c < kCosines; ++c) {
-            const Directional sum = integrate({row_alpha, cosine(static_cast<float>(c), row_alpha)});
+            const Directional sum =
+                integrate({Ggx::isotropic(row_alpha), 0.0f, cosine(static_cast<float>(c), row_alpha)});
             tables.single[a][c] = static_cast<float>(sum.single / kSamples);
             for (std::size_t side = 0; side < 2; ++side)
                 for (std::size_t e = 0; e < kEtas; ++e)
@@ -116,8 +79,8 @@ void fill_directional(Tables& tables) {
     }
     for (std::size_t a = 0; a < kShareAlphas; ++a)
         for (std::size_t c = 0; c < kCosines; ++c)
-            tables.schlick_share[a][c] =
-                schlick_share({alpha(static_cast<int>(a), kShareAlphas), share_cosine(static_cast<int>(c))});
+            tables.schlick_share[a][c] = schlick_share(
+                {Ggx::isotropic(alpha(static_cast<int>(a), kShareAlphas)), 0.0f, share_cosine(static_cast<int>(c))});
 }
 
 /// 2 ∫ f(mu) mu dmu of an interpolated function: what the lobes divide by must be the average of what they look up. `f`

@@ -3,9 +3,8 @@
 //
 // Usage: make_ggx_anisotropic_albedo OUTPUT.inc
 
-#include "bsdf/fresnel.h"
-#include "bsdf/ggx.h"
 #include "bsdf/ggx_anisotropic_albedo_layout.h"
+#include "ggx_view.h"
 #include "sampling/sobol.h"
 #include "table_writer.h"
 
@@ -28,39 +27,13 @@ struct Tables {
     std::array<std::array<Averages<kDielectric>, kEtas>, 2> dielectric_average;
 };
 
-/// One surface seen from one direction.
-class View {
-  public:
-    View(const Ggx& ggx, float phi, float cos_theta) : ggx_(ggx) {
-        // Edge-on light is the limit from just above.
-        const float mu = std::max(cos_theta, 1e-5f);
-        const float sine = std::sqrt(1.0f - mu * mu);
-        wo_ = {sine * std::cos(phi), sine * std::sin(phi), mu};
-        masking_ = 1.0f + ggx.lambda(wo_);
-    }
-
-    [[nodiscard]] const Vec3f& wo() const { return wo_; }
-    [[nodiscard]] Vec3f normal(std::uint32_t i) const { return ggx_.sample_visible_normal(wo_, owen_sobol_2d(i, 1)); }
-    /// The weight G2 / G1 of light that leaves along `wi`.
-    [[nodiscard]] float weight(const Vec3f& wi) const { return masking_ / (masking_ + ggx_.lambda(wi)); }
-    [[nodiscard]] float weight_reflected(const Vec3f& h) const {
-        const Vec3f wi = h * (2.0f * dot(wo_, h)) - wo_;
-        return wi.z > 0.0f ? weight(wi) : 0.0f;
-    }
-
-  private:
-    Ggx ggx_;
-    Vec3f wo_{0.0f};
-    float masking_;
-};
-
 struct Albedo {
     float single;
     float schlick_share;
 };
 
 /// Mean weight G2 / G1 of light that visible normals reflect, plain and with Schlick's factor.
-Albedo integrate_reflection(const View& view) {
+Albedo integrate_reflection(const GgxView& view) {
     double single = 0.0;
     double schlick = 0.0;
     for (std::uint32_t i = 0; i < kSamples; ++i) {
@@ -73,19 +46,16 @@ Albedo integrate_reflection(const View& view) {
 }
 
 /// The same normals serve every index of refraction.
-std::array<std::array<double, kEtas>, 2> integrate_dielectric(const View& view) {
+std::array<std::array<double, kEtas>, 2> integrate_dielectric(const GgxView& view) {
     std::array<std::array<double, kEtas>, 2> sums{};
     for (std::uint32_t i = 0; i < kSamples; ++i) {
         const Vec3f h = view.normal(i);
         const float reflected = view.weight_reflected(h);
         for (std::size_t side = 0; side < 2; ++side) {
             for (std::size_t e = 0; e < kEtas; ++e) {
-                const float outside = eta(static_cast<int>(e));
-                const float relative = side == 0 ? outside : 1.0f / outside;
-                const float f = fresnel_dielectric(dot(view.wo(), h), relative);
-                Vec3f wi;
-                const bool refracts = refract(view.wo(), h, relative, wi) && wi.z < 0.0f;
-                sums[side][e] += static_cast<double>(f * reflected + (refracts ? (1.0f - f) * view.weight(wi) : 0.0f));
+                const float outside = eta(static_cast<int>(e), kEtas);
+                sums[side][e] +=
+                    static_cast<double>(view.weight_of_interface(h, reflected, side == 0 ? outside : 1.0f / outside));
             }
         }
     }

@@ -21,7 +21,7 @@ struct DielectricPlace {
 
 DielectricPlace dielectric_place(float eta) {
     const bool outside = eta >= 1.0f;
-    return {outside ? std::size_t{0} : std::size_t{1}, place(eta_coordinate(outside ? eta : 1.0f / eta), kEtas)};
+    return {outside ? std::size_t{0} : std::size_t{1}, place(eta_coordinate(outside ? eta : 1.0f / eta, kEtas), kEtas)};
 }
 
 }  // namespace

@@ -61,14 +61,14 @@ inline constexpr float kLargestR0Root = 0.8f;  ///< (9 - 1) / (9 + 1)
     return std::sqrt(cos_theta) * (kCosines - 1);
 }
 
-[[nodiscard]] inline float eta(int node) {
-    const float t = fraction(node, kEtas);
+[[nodiscard]] inline float eta(int node, int count) {
+    const float t = fraction(node, count);
     const float root = kLargestR0Root * t * t * t;
     return (1.0f + root) / (1.0f - root);
 }
 /// For eta >= 1.
-[[nodiscard]] inline float eta_coordinate(float e) {
-    return std::cbrt((e - 1.0f) / (e + 1.0f) / kLargestR0Root) * (kEtas - 1);
+[[nodiscard]] inline float eta_coordinate(float e, int count) {
+    return std::cbrt((e - 1.0f) / (e + 1.0f) / kLargestR0Root) * static_cast<float>(count - 1);
 }
 
 /// Between nodes `index` and `index + 1`, at `t` in [0, 1].

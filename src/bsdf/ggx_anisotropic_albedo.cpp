@@ -34,7 +34,7 @@ struct Alphas {
 template <typename At>
 float between_etas(float eta, const At& at) {
     const bool outside = eta >= 1.0f;
-    const Place e = place(eta_coordinate(outside ? eta : 1.0f / eta), kEtas);
+    const Place e = place(eta_coordinate(outside ? eta : 1.0f / eta, kEtas), kEtas);
     const std::size_t side = outside ? 0 : 1;
     return mix(at(side, e.index), at(side, e.index + 1), e.t);
 }

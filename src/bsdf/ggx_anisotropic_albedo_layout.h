@@ -17,8 +17,9 @@
 
 namespace etendue::ggx_anisotropic_layout {
 
+using ggx_albedo_layout::eta;
+using ggx_albedo_layout::eta_coordinate;
 using ggx_albedo_layout::fraction;
-using ggx_albedo_layout::kLargestR0Root;
 using ggx_albedo_layout::kSmallestAlpha;
 using ggx_albedo_layout::mix;
 using ggx_albedo_layout::Place;
@@ -85,17 +86,6 @@ template <Sizes S>
 [[nodiscard]] float cosine_coordinate(float cos_theta, float alpha) {
     const float a = 4.0f * std::max(alpha, kSmallestAlpha);
     return std::sqrt(cos_theta * (1.0f + a) / (cos_theta + a)) * (S.cosines - 1);
-}
-
-/// As in ggx_albedo_layout.h.
-[[nodiscard]] inline float eta(int node) {
-    const float t = fraction(node, kEtas);
-    const float root = kLargestR0Root * t * t * t;
-    return (1.0f + root) / (1.0f - root);
-}
-/// For eta >= 1.
-[[nodiscard]] inline float eta_coordinate(float e) {
-    return std::cbrt((e - 1.0f) / (e + 1.0f) / kLargestR0Root) * (kEtas - 1);
 }
 
 /// Everything that says where a direction lies in a table.
