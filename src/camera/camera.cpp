@@ -14,6 +14,11 @@ Vec2f to_plane(Vec2f film, float half_width, float half_height) {
     return {(2.0f * film.x - 1.0f) * half_width, (1.0f - 2.0f * film.y) * half_height};
 }
 
+/// The inverse of `to_plane`.
+Vec2f to_film(Vec2f plane, float half_width, float half_height) {
+    return {0.5f + 0.5f * plane.x / half_width, 0.5f - 0.5f * plane.y / half_height};
+}
+
 const CameraPose& pose_of(const PinholeCamera& c) {
     return c.pose;
 }
@@ -64,6 +69,18 @@ Ray PinholeCamera::generate_ray(Vec2f film, Vec2f) const {
     return ray;
 }
 
+// The density of directions, 1 / (A cos³), times what a facing surface takes of them, 1 / d².
+CameraConnection PinholeCamera::connect(const Vec3f& point, Vec2f) const {
+    const Vec3f to_point = point - pose.position;
+    const float depth = dot(to_point, pose.forward);
+    if (!(depth > 0.0f)) return {};
+    const float distance = length(to_point);
+    const Vec2f plane{dot(to_point, pose.right) / depth, dot(to_point, pose.up) / depth};
+    return {.lens = pose.position,
+            .film = to_film(plane, half_width, half_height),
+            .importance_area = distance / (4.0f * half_width * half_height * depth * depth * depth)};
+}
+
 float PinholeCamera::pdf_solid_angle(const Vec3f& direction) const {
     const float cos_theta = dot(direction, pose.forward);
     if (cos_theta <= 0.0f) return 0.0f;
@@ -84,6 +101,19 @@ Ray ThinLensCamera::generate_ray(Vec2f film, Vec2f lens) const {
     return ray;
 }
 
+// Seen from one point of the lens, directions have the density of the pinhole's: the plane of focus is its image plane,
+// enlarged.
+CameraConnection ThinLensCamera::connect(const Vec3f& point, Vec2f lens) const {
+    const Vec2f l = square_to_disk(lens) * lens_radius;
+    PinholeCamera through = pinhole;
+    through.pose.position += through.pose.right * l.x + through.pose.up * l.y;
+    CameraConnection connection = through.connect(point, lens);
+    // The ray meets the plane of focus beside where one through the middle of the lens would.
+    connection.film +=
+        Vec2f(0.5f * l.x / pinhole.half_width, -0.5f * l.y / pinhole.half_height) * (1.0f / focus_distance);
+    return connection;
+}
+
 float ThinLensCamera::pdf_solid_angle(const Vec3f& direction) const {
     return pinhole.pdf_solid_angle(direction);
 }
@@ -94,6 +124,15 @@ Ray OrthographicCamera::generate_ray(Vec2f film, Vec2f) const {
     ray.origin = pose.position + pose.right * p.x + pose.up * p.y;
     ray.direction = pose.forward;
     return ray;
+}
+
+CameraConnection OrthographicCamera::connect(const Vec3f& point, Vec2f) const {
+    const Vec3f to_point = point - pose.position;
+    const float depth = dot(to_point, pose.forward);
+    if (!(depth > 0.0f)) return {};
+    return {.lens = point - pose.forward * depth,
+            .film = to_film({dot(to_point, pose.right), dot(to_point, pose.up)}, half_width, half_height),
+            .importance_area = 1.0f / (4.0f * half_width * half_height)};
 }
 
 // A pixel's solid angle is its area on the image plane times cos³; the plane's area is the reciprocal of that density.
@@ -119,6 +158,10 @@ Camera with_pose(const Camera& camera, const CameraPose& pose) {
 
 Ray generate_ray(const Camera& camera, Vec2f film, Vec2f lens) {
     return std::visit([&](const auto& c) { return c.generate_ray(film, lens); }, camera);
+}
+
+CameraConnection connect(const Camera& camera, const Vec3f& point, Vec2f lens) {
+    return std::visit([&](const auto& c) { return c.connect(point, lens); }, camera);
 }
 
 float camera_pdf_solid_angle(const Camera& camera, const Vec3f& direction) {

@@ -1,7 +1,7 @@
 // Cameras: from a point on the film and one on the lens to a ray.
 //
-// To add another: a struct with `generate_ray`, `pdf_solid_angle` and `pixel_cone`, its place in the variant, one case
-// in world/compile_camera.cpp, and its row in tests/camera.
+// To add another: a struct with `generate_ray`, `connect`, `pdf_solid_angle` and `pixel_cone`, its place in the
+// variant, one case in world/compile_camera.cpp, and its row in tests/camera.
 //
 // Film coordinates run over [0, 1)², x to the right and y down from the top left corner of the full image.
 #pragma once
@@ -29,6 +29,15 @@ struct CameraPose {
     }
 };
 
+/// How a camera sees a point.
+struct CameraConnection {
+    Vec3f lens{0.0f};  ///< where light from the point reaches the camera, world space, metres
+    Vec2f film;        ///< where it is seen; may lie outside of [0, 1)²
+    /// Share of the film that a surface at the point takes per area across the ray, 1/m²; 0 if the camera cannot see
+    /// the point, wherever its film ends.
+    float importance_area = 0.0f;
+};
+
 /// Perspective through a point.
 struct PinholeCamera {
     CameraPose pose;
@@ -36,6 +45,7 @@ struct PinholeCamera {
     float half_height = 0.5f;  ///< of the image plane at distance 1
 
     [[nodiscard]] Ray generate_ray(Vec2f film, Vec2f lens) const;
+    [[nodiscard]] CameraConnection connect(const Vec3f& point, Vec2f lens) const;
     /// Density per solid angle of the ray directions for uniform film points: 1 / (A cos³); 0 outside the image.
     [[nodiscard]] float pdf_solid_angle(const Vec3f& direction) const;
     [[nodiscard]] RayCone pixel_cone(const Vec3f& direction, float pixel_area) const;
@@ -48,6 +58,7 @@ struct ThinLensCamera {
     float focus_distance = 1.0f;  ///< metres along the optical axis, > 0
 
     [[nodiscard]] Ray generate_ray(Vec2f film, Vec2f lens) const;
+    [[nodiscard]] CameraConnection connect(const Vec3f& point, Vec2f lens) const;
     /// Density per solid angle of the directions through the centre of the lens.
     [[nodiscard]] float pdf_solid_angle(const Vec3f& direction) const;
     /// The pinhole's: what the lens blurs, its samples blur.
@@ -61,6 +72,7 @@ struct OrthographicCamera {
     float half_height = 1.0f;  ///< metres
 
     [[nodiscard]] Ray generate_ray(Vec2f film, Vec2f lens) const;
+    [[nodiscard]] CameraConnection connect(const Vec3f& point, Vec2f lens) const;
     /// All rays have one direction: a delta, so 0.
     [[nodiscard]] float pdf_solid_angle(const Vec3f&) const { return 0.0f; }
     [[nodiscard]] RayCone pixel_cone(const Vec3f& direction, float pixel_area) const;
@@ -73,6 +85,11 @@ using Camera = std::variant<PinholeCamera, ThinLensCamera, OrthographicCamera>;
 
 /// The ray through film point `film`, for a lens point made from `lens` in [0, 1)². Its direction is unit length.
 [[nodiscard]] Ray generate_ray(const Camera& camera, Vec2f film, Vec2f lens);
+
+/// The inverse of `generate_ray`: how `point` is seen through the lens point made from `lens` in [0, 1)². Averaged over
+/// lens points and times the radiance and the cosine of a surface, `importance_area` integrates over surfaces to what
+/// `generate_ray` averages over the film.
+[[nodiscard]] CameraConnection connect(const Camera& camera, const Vec3f& point, Vec2f lens);
 [[nodiscard]] float camera_pdf_solid_angle(const Camera& camera, const Vec3f& direction);
 
 /// The cone around a camera ray along `direction` that is as large as a pixel, which takes the share `pixel_area` of

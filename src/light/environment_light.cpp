@@ -1,5 +1,6 @@
 #include "light/environment_light.h"
 
+#include "light/punctual_light.h"
 #include "sampling/warp.h"
 
 #include <algorithm>
@@ -18,6 +19,15 @@ ImageF& sanitize(ImageF& image) {
     for (float& value : image.pixels)
         value = value >= 0.0f && std::isfinite(value) ? std::min(value, kBrightest) : 0.0f;
     return image;
+}
+
+/// A ray from where `towards` lies.
+EmissionSample emission_from(const LightSample& towards, const EmissionNumbers& u, const SceneSphere& scene) {
+    if (!(towards.pdf_solid_angle > 0.0f)) return {};
+    EmissionSample sample = sample_emission_from_afar(-towards.wi, scene, u.position);
+    sample.radiance = towards.radiance;
+    sample.pdf_direction_solid_angle = towards.pdf_solid_angle;
+    return sample;
 }
 
 /// Mean of the bilinear reconstruction over each texel's cell: a 3 × 3 stencil (1, 6, 1)² / 64 that wraps around in x
@@ -68,6 +78,10 @@ LightSample ConstantEnvironment::sample(const Vec3f&, Vec2f u) const {
     return sample;
 }
 
+EmissionSample ConstantEnvironment::sample_emission(const EmissionNumbers& u, const SceneSphere& scene) const {
+    return emission_from(sample(scene.center, u.direction), u, scene);
+}
+
 float ConstantEnvironment::pdf_solid_angle(const Vec3f&) const {
     return sphere_pdf_solid_angle();
 }
@@ -114,6 +128,10 @@ LightSample ImageEnvironment::sample(const Vec3f&, Vec2f u) const {
     sample.radiance = texture_.lookup(position.position).rgb;
     sample.pdf_solid_angle = position.pdf / (2.0f * kPi * kPi * sin_theta);
     return sample;
+}
+
+EmissionSample ImageEnvironment::sample_emission(const EmissionNumbers& u, const SceneSphere& scene) const {
+    return emission_from(sample(scene.center, u.direction), u, scene);
 }
 
 float ImageEnvironment::pdf_solid_angle(const Vec3f& direction) const {

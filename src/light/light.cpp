@@ -16,6 +16,10 @@ LightSample sample_light(const Light& light, const Vec3f& point, Vec2f u_triangl
         light);
 }
 
+EmissionSample sample_emission(const Light& light, const EmissionNumbers& u, const SceneSphere& scene) {
+    return std::visit([&](const auto& l) { return l.sample_emission(u, scene); }, light);
+}
+
 float light_power(const Light& light, float scene_radius) {
     return std::visit([&](const auto& l) { return l.power(scene_radius); }, light);
 }

@@ -1,7 +1,8 @@
 // All lights, and the choice between them.
 //
-// To add another: a struct with `sample(point, u)` and `power(scene_radius)`, its place in the variant, one case in
-// world/compile_lights.cpp, one in is_delta_light() of world/world.cpp if it is a delta, and its row in tests/light.
+// To add another: a struct with `sample(point, u)`, `sample_emission(u, scene)` and `power(scene_radius)`, its place in
+// the variant, one case in world/compile_lights.cpp, one in is_delta_light() of world/world.cpp if it is a delta, and
+// its row in tests/light.
 #pragma once
 
 #include "light/environment_light.h"
@@ -22,6 +23,9 @@ using Light = std::variant<PointLight, SpotLight, ProfileLight, DirectionalLight
 
 /// Light at `point` from a direction chosen with `u`; of a mesh, `u_triangle` chooses the triangle. Both in [0, 1)².
 [[nodiscard]] LightSample sample_light(const Light& light, const Vec3f& point, Vec2f u_triangle, Vec2f u);
+
+/// A ray that leaves the light, for subpaths that begin there. Black where the light emits nothing.
+[[nodiscard]] EmissionSample sample_emission(const Light& light, const EmissionNumbers& u, const SceneSphere& scene);
 
 /// Emitted power in watts, mean of the channels; lights at infinity count what crosses a disk of `scene_radius` metres.
 [[nodiscard]] float light_power(const Light& light, float scene_radius);

@@ -1,5 +1,6 @@
 #include "light/mesh_light.h"
 
+#include "core/frame.h"
 #include "core/position_error.h"
 #include "core/ray.h"
 #include "sampling/warp.h"
@@ -45,6 +46,31 @@ LightSample MeshLight::sample(const Vec3f& point, Vec2f u_triangle, Vec2f u) con
     sample.end = offset_origin(on_light, normal, clearance(normal, position_error_), -sample.wi);
     sample.pdf_solid_angle = pdf_solid_angle(sample.distance, -dot(sample.wi, normal));
     if (sample.pdf_solid_angle > 0.0f) sample.radiance = radiance_;
+    sample.triangle = choice.index;
+    sample.barycentric = b;
+    return sample;
+}
+
+EmissionSample MeshLight::sample_emission(const EmissionNumbers& u, const SceneSphere&) const {
+    const AliasTable::Choice choice = by_area_.sample(u.triangle);
+    const LightTriangle& t = triangles_[choice.index];
+    const Vec2f b = square_to_triangle(u.position);
+    Vec3f normal = triangle_normal(t.edge1, t.edge2) * front_sign_;
+    Vec2f u_direction = u.direction;
+    if (two_sided_) {
+        const bool back = u_direction.x >= 0.5f;
+        u_direction.x = 2.0f * u_direction.x - (back ? 1.0f : 0.0f);
+        if (back) normal = -normal;
+    }
+    const Vec3f local = square_to_cosine_hemisphere(u_direction);
+    EmissionSample sample;
+    sample.direction = Frame::from_normal(normal).to_world(local);
+    sample.position = t.p0 + t.edge1 * b.x + t.edge2 * b.y;
+    sample.offset = normal * clearance(normal, position_error_);
+    sample.cos_theta = local.z;
+    sample.pdf_position_area = 1.0f / area_;
+    sample.pdf_direction_solid_angle = cosine_hemisphere_pdf_solid_angle(local) * (two_sided_ ? 0.5f : 1.0f);
+    if (sample.pdf_direction_solid_angle > 0.0f) sample.radiance = radiance_;
     sample.triangle = choice.index;
     sample.barycentric = b;
     return sample;

@@ -4,6 +4,7 @@
 // the same code that evaluates it where a ray hits, so that both strategies of MIS agree.
 #pragma once
 
+#include "light/emission_sample.h"
 #include "light/light_sample.h"
 #include "sampling/alias_table.h"
 
@@ -33,6 +34,8 @@ class MeshLight {
     /// Density of `sample` for a hit at `distance`, where `cos_light` is the cosine between the geometric normal and
     /// the direction back to the lit point: d² / (A |cos|). 0 for the back of a one-sided light.
     [[nodiscard]] float pdf_solid_angle(float distance, float cos_light) const;
+    /// Uniform over the area, by the cosine over the directions of each side that emits.
+    [[nodiscard]] EmissionSample sample_emission(const EmissionNumbers& u, const SceneSphere& scene) const;
     [[nodiscard]] float power(float scene_radius) const;
 
     [[nodiscard]] float area() const { return area_; }

@@ -13,6 +13,19 @@ LightSample ProfileLight::sample(const Vec3f& point, Vec2f u) const {
     return sample;
 }
 
+EmissionSample ProfileLight::sample_emission(const EmissionNumbers& u, const SceneSphere&) const {
+    // Into all directions in which the profile, and the spot's cone, have any light.
+    const float cos_last = std::cos(profile->last_vertical());
+    const SpotLight* spot = std::get_if<SpotLight>(&lamp);
+    const Vec3f position = std::visit([](const auto& l) { return l.position; }, lamp);
+    const float cos_max = spot != nullptr ? std::max(cos_last, spot->cos_outer) : cos_last;
+    EmissionSample sample = sample_emission_in_cone(position, -frame.normal, cos_max, u.direction);
+    sample.radiance = spot != nullptr ? spot->intensity * spot->falloff(dot(sample.direction, spot->axis))
+                                      : std::get<PointLight>(lamp).intensity;
+    sample.radiance *= profile->candela(frame.to_local(sample.direction));
+    return sample;
+}
+
 float ProfileLight::power(float) const {
     constexpr int kSteps = 1024;
     const SpotLight* spot = std::get_if<SpotLight>(&lamp);

@@ -18,6 +18,7 @@ struct ProfileLight {
     std::shared_ptr<const IesProfile> profile;
 
     [[nodiscard]] LightSample sample(const Vec3f& point, Vec2f u) const;
+    [[nodiscard]] EmissionSample sample_emission(const EmissionNumbers& u, const SceneSphere& scene) const;
     /// By a rule of 1,024 points over the vertical angle: near enough for a choice, and exact to some 1e-5 for profiles
     /// as they are measured.
     [[nodiscard]] float power(float scene_radius) const;

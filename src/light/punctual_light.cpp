@@ -1,5 +1,10 @@
 #include "light/punctual_light.h"
 
+#include "core/frame.h"
+#include "sampling/warp.h"
+
+#include <algorithm>
+
 namespace etendue {
 
 namespace {
@@ -25,6 +30,12 @@ LightSample PointLight::sample(const Vec3f& point, Vec2f) const {
     return sample;
 }
 
+EmissionSample PointLight::sample_emission(const EmissionNumbers& u, const SceneSphere&) const {
+    EmissionSample sample = sample_emission_in_cone(position, {0.0f, 0.0f, 1.0f}, -1.0f, u.direction);
+    sample.radiance = intensity;
+    return sample;
+}
+
 float PointLight::power(float) const {
     return 4.0f * kPi * average(intensity);
 }
@@ -44,6 +55,12 @@ LightSample SpotLight::sample(const Vec3f& point, Vec2f) const {
     return sample;
 }
 
+EmissionSample SpotLight::sample_emission(const EmissionNumbers& u, const SceneSphere&) const {
+    EmissionSample sample = sample_emission_in_cone(position, axis, cos_outer, u.direction);
+    sample.radiance = intensity * falloff(dot(sample.direction, axis));
+    return sample;
+}
+
 float SpotLight::power(float) const {
     // The squared ramp integrates to a third of the solid angle between the cones.
     return 2.0f * kPi * average(intensity) * (1.0f - cos_inner + (cos_inner - cos_outer) / 3.0f);
@@ -57,8 +74,37 @@ LightSample DirectionalLight::sample(const Vec3f&, Vec2f) const {
     return sample;
 }
 
+EmissionSample DirectionalLight::sample_emission(const EmissionNumbers& u, const SceneSphere& scene) const {
+    EmissionSample sample = sample_emission_from_afar(direction, scene, u.position);
+    sample.radiance = irradiance;
+    return sample;
+}
+
 float DirectionalLight::power(float scene_radius) const {
     return kPi * scene_radius * scene_radius * average(irradiance);
+}
+
+EmissionSample sample_emission_in_cone(const Vec3f& position, const Vec3f& axis, float cos_max, Vec2f u) {
+    // A cone that single precision closes still has a density.
+    const float open = std::min(cos_max, kOneMinusEpsilon);
+    const Vec3f local = square_to_cone(u, open);
+    EmissionSample sample;
+    sample.position = position;
+    sample.direction = normalize(Frame::from_normal(axis).to_world(local));
+    sample.pdf_direction_solid_angle = kInvPi * 0.5f / (1.0f - open);
+    return sample;
+}
+
+EmissionSample sample_emission_from_afar(const Vec3f& direction, const SceneSphere& scene, Vec2f u) {
+    // The disk touches the sphere from outside; a little further, lest it cuts what touches the sphere from inside.
+    constexpr float kBefore = 1.001f;
+    const Vec2f d = square_to_disk(u);
+    const Frame frame = Frame::from_normal(direction);
+    EmissionSample sample;
+    sample.position = scene.center + (frame.tangent * d.x + frame.bitangent * d.y - direction * kBefore) * scene.radius;
+    sample.direction = direction;
+    sample.pdf_position_area = kInvPi / (scene.radius * scene.radius);
+    return sample;
 }
 
 }  // namespace etendue

@@ -1,6 +1,7 @@
 // Lights without extent: point, spot and directional (glTF's KHR_lights_punctual). All are deltas: no ray hits them.
 #pragma once
 
+#include "light/emission_sample.h"
 #include "light/light_sample.h"
 
 namespace etendue {
@@ -11,6 +12,7 @@ struct PointLight {
     Rgb intensity{1.0f};  ///< W/sr
 
     [[nodiscard]] LightSample sample(const Vec3f& point, Vec2f u) const;
+    [[nodiscard]] EmissionSample sample_emission(const EmissionNumbers& u, const SceneSphere& scene) const;
     [[nodiscard]] float power(float scene_radius) const;
 };
 
@@ -25,6 +27,7 @@ struct SpotLight {
 
     [[nodiscard]] float falloff(float cos_angle) const;
     [[nodiscard]] LightSample sample(const Vec3f& point, Vec2f u) const;
+    [[nodiscard]] EmissionSample sample_emission(const EmissionNumbers& u, const SceneSphere& scene) const;
     [[nodiscard]] float power(float scene_radius) const;
 };
 
@@ -34,7 +37,16 @@ struct DirectionalLight {
     Rgb irradiance{1.0f};                ///< W/m² on a surface that faces it
 
     [[nodiscard]] LightSample sample(const Vec3f& point, Vec2f u) const;
+    [[nodiscard]] EmissionSample sample_emission(const EmissionNumbers& u, const SceneSphere& scene) const;
     [[nodiscard]] float power(float scene_radius) const;
 };
+
+/// The part of an emission sample that all lights at a point share: a direction within the cone around the unit `axis`
+/// whose half angle has the cosine `cos_max`, uniformly; without the radiance.
+[[nodiscard]] EmissionSample sample_emission_in_cone(const Vec3f& position, const Vec3f& axis, float cos_max, Vec2f u);
+
+/// That of all lights that lie in one direction, infinitely far away: a point on a disk as large as the scene, across
+/// the unit `direction` in which light goes.
+[[nodiscard]] EmissionSample sample_emission_from_afar(const Vec3f& direction, const SceneSphere& scene, Vec2f u);
 
 }  // namespace etendue

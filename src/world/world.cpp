@@ -30,19 +30,6 @@ float radius_of(const Bounds& bounds) {
     return radius > 0.0f ? radius : 1.0f;
 }
 
-/// Some point of a light, nothing for those that are infinitely far away.
-std::optional<Vec3f> light_position(const Light& light) {
-    if (const auto* point = std::get_if<PointLight>(&light)) return point->position;
-    if (const auto* spot = std::get_if<SpotLight>(&light)) return spot->position;
-    if (const auto* measured = std::get_if<ProfileLight>(&light))
-        return std::visit([](const auto& lamp) { return lamp.position; }, measured->lamp);
-    if (const auto* mesh = std::get_if<MeshLight>(&light)) {
-        const LightTriangle& first = mesh->triangles().front();
-        return first.p0 + (first.edge1 + first.edge2) * (1.0f / 3.0f);
-    }
-    return std::nullopt;
-}
-
 bool is_delta_light(const Light& light) {
     return std::holds_alternative<PointLight>(light) || std::holds_alternative<SpotLight>(light) ||
            std::holds_alternative<ProfileLight>(light) || std::holds_alternative<DirectionalLight>(light);
@@ -89,7 +76,18 @@ World::World(WorldData data)
     has_scattering_bodies_ = std::any_of(data_->fillings.begin(), data_->fillings.end(),
                                          [](const Filling& f) { return f.medium.scatters(); });
     if (has_bodies()) camera_interior_ = interior_at(generate_ray({0.5f, 0.5f}, {0.5f, 0.5f}, kMiddle).origin);
-    has_lights_in_media_ = has_scattering_bodies_ && any_light_in_media();
+    if (has_bodies()) {
+        // Where a ray starts that leaves the middle of the light on its front.
+        const EmissionNumbers front{{0.5f, 0.5f}, {0.5f, 0.5f}, {0.25f, 0.5f}};
+        for (const Light& light : data_->lights) {
+            const EmissionSample middle = etendue::sample_emission(light, front, scene_sphere());
+            light_interiors_.push_back(interior_at(middle.origin(middle.direction)));
+        }
+        has_lights_in_media_ = std::any_of(light_interiors_.begin(), light_interiors_.end(), [&](const Interior& i) {
+            const HomogeneousMedium* around = medium(i);
+            return around != nullptr && around->scatters();
+        });
+    }
     has_specular_surfaces_ = std::any_of(data_->geometries.begin(), data_->geometries.end(),
                                          [&](const Geometry& g) { return is_specular(data_->materials[g.material]); });
 }
@@ -150,15 +148,6 @@ Rgb World::emission(const SurfacePoint& point, const Vec3f& wo) const {
 
 Rgb World::unlit_color(const SurfacePoint& point) const {
     return evaluate_base_color(*data_, std::get<GltfModel>(point.material->model), point);
-}
-
-bool World::any_light_in_media() const {
-    return std::any_of(data_->lights.begin(), data_->lights.end(), [&](const Light& light) {
-        const std::optional<Vec3f> position = light_position(light);
-        if (!position) return false;
-        const HomogeneousMedium* around = medium(interior_at(*position));
-        return around != nullptr && around->scatters();
-    });
 }
 
 float Crossing::relative_ior(float nm) const {
@@ -225,17 +214,49 @@ ChosenLight World::sample_light(const Vec3f& point, const LightNumbers& u) const
     ChosenLight chosen{etendue::sample_light(light, point, u.triangle, u.direction), choice.probability};
     LightSample& sample = chosen.sample;
     sample.pdf_solid_angle *= choice.probability;
+    if (!is_black(sample.radiance) && has_uneven_emission(choice.index))
+        sample.radiance = mesh_emission(choice.index, sample.triangle, sample.barycentric, -sample.wi);
+    return chosen;
+}
+
+bool World::has_uneven_emission(std::uint32_t light) const {
+    const MeshLight* mesh = std::get_if<MeshLight>(&data_->lights[light]);
+    return mesh != nullptr && !mesh->is_uniform();
+}
+
+Rgb World::mesh_emission(std::uint32_t light, std::uint32_t triangle, Vec2f barycentric, const Vec3f& direction) const {
     // Surfaces that move are no lights, so that any time will do.
     constexpr float kAnyTime = 0.0f;
-    const MeshLight* mesh = std::get_if<MeshLight>(&light);
-    if (mesh && !mesh->is_uniform() && !is_black(sample.radiance)) {
-        const Emitter& emitter = data_->emitter_of_light[choice.index];
-        const SurfacePoint on_light = make_surface_point(*data_, emitter.instance, emitter.geometry, sample.triangle,
-                                                         sample.barycentric, kAnyTime, ConeSection{});
-        sample.radiance = emission(on_light, -sample.wi) *
-                          evaluate_opacity(*data_, emitter.geometry, sample.triangle, sample.barycentric);
-    }
-    return chosen;
+    const Emitter& emitter = data_->emitter_of_light[light];
+    const SurfacePoint point =
+        make_surface_point(*data_, emitter.instance, emitter.geometry, triangle, barycentric, kAnyTime, ConeSection{});
+    return emission(point, direction) * evaluate_opacity(*data_, emitter.geometry, triangle, barycentric);
+}
+
+Emission World::sample_emission(Vec2f u_light, const EmissionNumbers& u, float time) const {
+    const AliasTable::Choice choice = selector_.sample(u_light);
+    Emission emission;
+    emission.light = choice.index;
+    emission.probability = choice.probability;
+    EmissionSample& sample = emission.sample;
+    sample = etendue::sample_emission(data_->lights[choice.index], u, scene_sphere());
+    if (is_black(sample.radiance)) return emission;
+    if (has_uneven_emission(choice.index))
+        sample.radiance = mesh_emission(choice.index, sample.triangle, sample.barycentric, sample.direction);
+    emission.weight = sample.weight() / choice.probability;
+    emission.ray.origin = sample.origin(sample.direction);
+    emission.ray.direction = sample.direction;
+    emission.ray.time = time;
+    return emission;
+}
+
+Rgb World::surface_emission(const Emission& emission, const Vec3f& direction) const {
+    const MeshLight* mesh = std::get_if<MeshLight>(&data_->lights[emission.light]);
+    if (mesh == nullptr) return {};
+    const EmissionSample& sample = emission.sample;
+    const LightTriangle& t = mesh->triangles()[sample.triangle];
+    return mesh_emission(emission.light, sample.triangle, sample.barycentric, direction) *
+           abs_dot(triangle_normal(t.edge1, t.edge2), direction);
 }
 
 float World::emitter_pdf_solid_angle(const SurfacePoint& point, const Vec3f& direction, float distance) const {
@@ -258,16 +279,19 @@ float World::environment_pdf_solid_angle(const Vec3f& direction) const {
            selector_.probability(data_->environment);
 }
 
+Camera World::camera_at(float time) const {
+    return with_pose(data_->camera, CameraPose::from_matrix(transform_at(data_->camera_motion, time)));
+}
+
 Ray World::generate_ray(Vec2f film, Vec2f lens, float time) const {
-    Ray ray;
-    if (data_->camera_motion.empty()) {
-        ray = etendue::generate_ray(data_->camera, film, lens);
-    } else {
-        const Mat4f to_world = transform_at(data_->camera_motion, time);
-        ray = etendue::generate_ray(with_pose(data_->camera, CameraPose::from_matrix(to_world)), film, lens);
-    }
+    Ray ray = data_->camera_motion.empty() ? etendue::generate_ray(data_->camera, film, lens)
+                                           : etendue::generate_ray(camera_at(time), film, lens);
     ray.time = time;
     return ray;
+}
+
+CameraConnection World::connect_to_camera(const Vec3f& point, Vec2f lens, float time) const {
+    return data_->camera_motion.empty() ? connect(data_->camera, point, lens) : connect(camera_at(time), point, lens);
 }
 
 float World::bounding_radius() const {

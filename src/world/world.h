@@ -115,6 +115,15 @@ struct ChosenLight {
     float probability = 0;  ///< of choosing this light
 };
 
+/// The beginning of a light subpath.
+struct Emission {
+    Ray ray;
+    Rgb weight;  ///< radiance and cosine over the densities of origin, direction and choice
+    EmissionSample sample;
+    std::uint32_t light = kNone;
+    float probability = 0;  ///< of choosing this light
+};
+
 /// What a light sample is made from, each in [0, 1)².
 struct LightNumbers {
     Vec2f light;      ///< which light
@@ -183,6 +192,13 @@ class World {
     [[nodiscard]] bool has_specular_surfaces() const { return has_specular_surfaces_; }
     /// Light arriving at `point` from a light chosen by power.
     [[nodiscard]] ChosenLight sample_light(const Vec3f& point, const LightNumbers& u) const;
+    /// A ray that leaves a light, chosen as `sample_light` does with `u_light` in [0, 1)²; it has that time.
+    [[nodiscard]] Emission sample_emission(Vec2f u_light, const EmissionNumbers& u, float time) const;
+    /// Radiance and cosine towards `direction` of the point at which an emission starts, W/(m² sr); black for lights
+    /// without a surface.
+    [[nodiscard]] Rgb surface_emission(const Emission& emission, const Vec3f& direction) const;
+    /// The bodies that the light of this index shines in.
+    [[nodiscard]] const Interior& light_interior(std::uint32_t light) const { return light_interiors_[light]; }
     /// Density, choice included, with which `sample_light` would have picked the direction that hit the emitter `point`
     /// at `distance`. 0 if it is no sampled light.
     [[nodiscard]] float emitter_pdf_solid_angle(const SurfacePoint& point, const Vec3f& direction,
@@ -196,6 +212,8 @@ class World {
 
     /// In the middle of the shutter.
     [[nodiscard]] const Camera& camera() const { return data_->camera; }
+    /// How the camera as it is at `time` sees `point` through the lens point made from `lens` in [0, 1)².
+    [[nodiscard]] CameraConnection connect_to_camera(const Vec3f& point, Vec2f lens, float time) const;
     /// The ray of the camera as it is at `time`, through film point `film` and the lens point made from `lens`, all in
     /// [0, 1); the ray has that time.
     [[nodiscard]] Ray generate_ray(Vec2f film, Vec2f lens, float time) const;
@@ -205,7 +223,13 @@ class World {
     [[nodiscard]] WorldStatistics statistics() const;
 
   private:
-    [[nodiscard]] bool any_light_in_media() const;
+    /// True if light `index` is a mesh whose radiance depends on the place.
+    [[nodiscard]] bool has_uneven_emission(std::uint32_t light) const;
+    /// Radiance of a point of a mesh light towards `direction`.
+    [[nodiscard]] Rgb mesh_emission(std::uint32_t light, std::uint32_t triangle, Vec2f barycentric,
+                                    const Vec3f& direction) const;
+    [[nodiscard]] Camera camera_at(float time) const;
+    [[nodiscard]] SceneSphere scene_sphere() const { return {data_->bounds.center(), bounding_radius()}; }
 
     // On the heap, so that Embree's callbacks keep their pointer to it when a World is moved.
     std::unique_ptr<WorldData> data_;
@@ -217,6 +241,7 @@ class World {
     bool has_scattering_bodies_ = false;
     bool has_lights_in_media_ = false;
     Interior camera_interior_;
+    std::vector<Interior> light_interiors_;  ///< of each light; only if there are bodies
     RayObserver* observer_ = nullptr;
 };
 

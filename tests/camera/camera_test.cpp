@@ -1,5 +1,6 @@
 #include "camera/camera.h"
 
+#include "core/frame.h"
 #include "support/chi2.h"
 #include "support/random.h"
 
@@ -61,6 +62,38 @@ TEST(CameraPose, IgnoresScaleAndNeverMirrorsTheImage) {
     }
     const CameraPose pose = CameraPose::from_matrix(scaling({-3, 0.5f, 2}) * turn_x(2.0f));
     EXPECT_NEAR(dot(cross(pose.right, pose.up), -pose.forward), 1.0f, 1e-5f);
+}
+
+TEST(Camera, ConnectIsTheInverseOfGenerateRay) {
+    Random random(12);
+    for (const Camera& camera : cameras())
+        for (int i = 0; i < 200; ++i) {
+            // Filters reach beyond the film.
+            const Vec2f film = random.next_2d() * 1.2f - Vec2f(0.1f, 0.1f);
+            const Vec2f lens = random.next_2d();
+            const Ray ray = generate_ray(camera, film, lens);
+            const Vec3f point = ray.origin + ray.direction * (0.5f + 10.0f * random.next());
+            const CameraConnection connection = connect(camera, point, lens);
+            EXPECT_LT(length(connection.lens - ray.origin), 1e-5f);
+            EXPECT_NEAR(connection.film.x, film.x, 1e-5f);
+            EXPECT_NEAR(connection.film.y, film.y, 1e-5f);
+            // How fast the film point moves with the point, across the ray.
+            constexpr float kStep = 1e-2f;
+            const Frame across = Frame::from_normal(ray.direction);
+            const auto moved = [&](const Vec3f& axis) {
+                const Vec2f plus = connect(camera, point + axis * kStep, lens).film;
+                const Vec2f minus = connect(camera, point - axis * kStep, lens).film;
+                return (plus - minus) * (0.5f / kStep);
+            };
+            const Vec2f a = moved(across.tangent);
+            const Vec2f b = moved(across.bitangent);
+            EXPECT_NEAR(std::abs(a.x * b.y - a.y * b.x) / connection.importance_area, 1.0f, 0.01f);
+        }
+}
+
+TEST(Camera, WhatLiesBehindIsNotSeen) {
+    for (const Camera& camera : cameras())
+        EXPECT_EQ(connect(camera, tilted_pose().position - tilted_pose().forward, {0.5f, 0.5f}).importance_area, 0.0f);
 }
 
 TEST(Camera, FilmRunsRightAndDownFromTheTopLeft) {
