@@ -17,6 +17,12 @@ void Film::add(const TileBuffer& tile) {
     }
 }
 
+void Film::add_splats(std::span<const std::vector<Splat>> lists, std::uint64_t light_paths, const PixelFilter& filter,
+                      const ThreadPool& threads) {
+    if (!splats_) splats_.emplace(full_width_, full_height_, window_, filter);
+    splats_->add(lists, light_paths, threads);
+}
+
 std::vector<float> Film::resolve() const {
     std::vector<float> image;
     image.reserve(pixels_.size() * 4);
@@ -28,6 +34,7 @@ std::vector<float> Film::resolve() const {
         const double scale = weight > 0.0 ? 1.0 / weight : 0.0;
         for (const double sum : {p.r, p.g, p.b, p.alpha}) image.push_back(static_cast<float>(sum * scale));
     }
+    if (splats_) splats_->add_to(image);
     return image;
 }
 

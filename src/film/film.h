@@ -2,28 +2,16 @@
 #pragma once
 
 #include "core/rgb.h"
+#include "film/pixel_rect.h"
+#include "film/splat_film.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 namespace etendue {
-
-/// Pixels [x0, x1) × [y0, y1), y down, in the coordinates of the full image.
-struct PixelRect {
-    int x0 = 0;
-    int y0 = 0;
-    int x1 = 0;
-    int y1 = 0;
-
-    [[nodiscard]] int width() const { return x1 - x0; }
-    [[nodiscard]] int height() const { return y1 - y0; }
-    [[nodiscard]] std::size_t area() const {
-        return static_cast<std::size_t>(width()) * static_cast<std::size_t>(height());
-    }
-    friend bool operator==(const PixelRect&, const PixelRect&) = default;
-};
 
 /// Sums of one pixel, in double because they grow. 48 bytes.
 struct PixelSum {
@@ -61,15 +49,19 @@ class TileBuffer {
     void reset(const PixelRect& rect) {
         rect_ = rect;
         pixels_.assign(rect.area(), PixelSum{});
+        splats_.clear();
     }
     [[nodiscard]] const PixelRect& rect() const { return rect_; }
     /// Pixel `index` of the rectangle, row by row.
     [[nodiscard]] PixelSum& pixel(std::size_t index) { return pixels_[index]; }
     [[nodiscard]] const PixelSum& pixel(std::size_t index) const { return pixels_[index]; }
+    /// Light for any pixel of the image, of integrators that make such.
+    [[nodiscard]] std::vector<Splat>& splats() { return splats_; }
 
   private:
     PixelRect rect_;
     std::vector<PixelSum> pixels_;
+    std::vector<Splat> splats_;
 };
 
 /// The image, or its crop window. Tiles of one pass do not overlap, so that they can be added from any thread in any
@@ -78,15 +70,19 @@ class Film {
   public:
     Film(int full_width, int full_height, const PixelRect& window);
 
-    /// Adds a finished tile. Calls for tiles that do not overlap may run at the same time.
+    /// Adds the pixels of a finished tile. Calls for tiles that do not overlap may run at the same time.
     void add(const TileBuffer& tile);
+    /// Adds what tiles have for any pixel, in the order of `lists`, from `light_paths` paths; seen through `filter`,
+    /// which must be the same in all calls.
+    void add_splats(std::span<const std::vector<Splat>> lists, std::uint64_t light_paths, const PixelFilter& filter,
+                    const ThreadPool& threads);
 
     [[nodiscard]] int full_width() const { return full_width_; }
     [[nodiscard]] int full_height() const { return full_height_; }
     [[nodiscard]] const PixelRect& window() const { return window_; }
 
-    /// Means of red, green, blue and alpha of the window, row by row, four floats a pixel; pixels without samples are
-    /// zero.
+    /// Means of red, green, blue and alpha of the window, row by row, four floats a pixel, with the splats; pixels
+    /// without samples are zero.
     [[nodiscard]] std::vector<float> resolve() const;
     [[nodiscard]] std::uint64_t sample_count() const;
 
@@ -95,6 +91,7 @@ class Film {
     int full_height_;
     PixelRect window_;
     std::vector<PixelSum> pixels_;
+    std::optional<SplatFilm> splats_;
 };
 
 }  // namespace etendue

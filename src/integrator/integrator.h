@@ -23,6 +23,7 @@ namespace etendue {
 /// The samples to take: `sample_count` of every pixel of `rect`, beginning with index `first_sample`.
 struct TileJob {
     PixelRect rect;
+    PixelRect window;  ///< all that is rendered: what splats may fall into
     int full_width = 0;
     int full_height = 0;
     std::uint32_t first_sample = 0;
@@ -69,6 +70,9 @@ class Integrator {
 
     /// What light of `world` this algorithm can never find, a sentence for each kind of path; empty if it finds all.
     [[nodiscard]] virtual std::vector<std::string> unreachable_light(const World& world) const = 0;
+
+    /// True if `render_tile` leaves splats, one light path for each of its samples.
+    [[nodiscard]] virtual bool makes_splats() const { return false; }
 
     /// Adds the samples of `job` to `tile`, which has been reset to its rectangle. The result depends on `job` and the
     /// world only. `scratch` comes from `make_scratch` and is used by no other call at the same time.

@@ -2,6 +2,7 @@
 
 #include "render/tiles.h"
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <mutex>
@@ -88,7 +89,9 @@ double process_cpu_seconds() {
 RenderResult render(const World& world, const Integrator& integrator, const RenderOptions& options,
                     const ThreadPool& threads, const std::atomic<bool>& stop, const ProgressCallback& progress) {
     RenderResult result{.film = Film(options.full_width, options.full_height, options.window), .counters = {}};
-    const std::vector<PixelRect> tiles = make_tiles(options.window, options.tile_order_seed);
+    const std::vector<PixelRect> tiles = make_tiles(options.window);
+    const bool makes_splats = integrator.makes_splats();
+    std::vector<std::vector<Splat>> splats;  // of each tile of a group
     std::vector<Worker> workers(static_cast<std::size_t>(threads.thread_count()));
     for (Worker& worker : workers) worker.scratch = integrator.make_scratch();
 
@@ -106,17 +109,39 @@ RenderResult render(const World& world, const Integrator& integrator, const Rend
             }
             count = fit_pass(count, result.spp_done, seconds, options.time_limit_seconds);
         }
-        threads.parallel_for(tiles.size(), [&](std::size_t index, int slot) {
-            if (stop.load(std::memory_order_relaxed)) return;
-            Worker& worker = workers[static_cast<std::size_t>(slot)];
-            const TileJob job{tiles[index], options.full_width, options.full_height, result.spp_done,
-                              count,        options.seed,       options.sequence,    &options.filter};
-            const std::uint64_t rays_before = worker.counters.rays();
-            worker.tile.reset(job.rect);
-            integrator.render_tile(world, job, *worker.scratch, worker.tile, worker.counters);
-            result.film.add(worker.tile);
-            reporter.tile_done(job.rect.area() * count, worker.counters.rays() - rays_before);
-        });
+        // Splats are added in the order of the tiles, whatever the order in which these are rendered.
+        const std::size_t group_size = makes_splats ? splat_group_size(count) : tiles.size();
+        for (std::size_t first = 0; first < tiles.size() && !stop.load(); first += group_size) {
+            const std::size_t group = std::min(group_size, tiles.size() - first);
+            const std::vector<std::size_t> order = make_order(group, options.tile_order_seed);
+            if (makes_splats) splats.resize(group);
+            std::atomic<std::uint64_t> light_paths = 0;
+            threads.parallel_for(group, [&](std::size_t index, int slot) {
+                if (stop.load(std::memory_order_relaxed)) return;
+                Worker& worker = workers[static_cast<std::size_t>(slot)];
+                const TileJob job{tiles[first + order[index]],
+                                  options.window,
+                                  options.full_width,
+                                  options.full_height,
+                                  result.spp_done,
+                                  count,
+                                  options.seed,
+                                  options.sequence,
+                                  &options.filter};
+                const std::uint64_t rays_before = worker.counters.rays();
+                worker.tile.reset(job.rect);
+                integrator.render_tile(world, job, *worker.scratch, worker.tile, worker.counters);
+                result.film.add(worker.tile);
+                const std::uint64_t samples = job.rect.area() * count;
+                if (makes_splats) {
+                    splats[order[index]].swap(worker.tile.splats());
+                    light_paths += samples;
+                }
+                reporter.tile_done(samples, worker.counters.rays() - rays_before);
+            });
+            if (makes_splats) result.film.add_splats(splats, light_paths, options.filter, threads);
+            for (std::vector<Splat>& list : splats) list.clear();
+        }
         if (stop.load()) {
             result.halt_reason = HaltReason::Interrupted;
             break;

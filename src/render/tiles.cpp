@@ -1,22 +1,34 @@
 #include "render/tiles.h"
 
 #include <algorithm>
+#include <numeric>
 #include <random>
 #include <utility>
 
 namespace etendue {
 
-std::vector<PixelRect> make_tiles(const PixelRect& window, std::uint32_t order_seed) {
+std::vector<PixelRect> make_tiles(const PixelRect& window) {
     std::vector<PixelRect> tiles;
     for (int y = window.y0 / kTileSize * kTileSize; y < window.y1; y += kTileSize)
         for (int x = window.x0 / kTileSize * kTileSize; x < window.x1; x += kTileSize)
             tiles.push_back({std::max(x, window.x0), std::max(y, window.y0), std::min(x + kTileSize, window.x1),
                              std::min(y + kTileSize, window.y1)});
-    if (order_seed != 0) {
-        std::minstd_rand random(order_seed);
-        for (std::size_t i = tiles.size(); i > 1; --i) std::swap(tiles[i - 1], tiles[random() % i]);
-    }
     return tiles;
+}
+
+std::vector<std::size_t> make_order(std::size_t count, std::uint32_t seed) {
+    std::vector<std::size_t> order(count);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    if (seed == 0) return order;
+    std::minstd_rand random(seed);
+    for (std::size_t i = count; i > 1; --i) std::swap(order[i - 1], order[random() % i]);
+    return order;
+}
+
+std::size_t splat_group_size(std::uint32_t spp) {
+    constexpr std::size_t kSamples = std::size_t{1} << 20;
+    constexpr std::size_t kTileArea = std::size_t{kTileSize} * kTileSize;
+    return std::max<std::size_t>(1, kSamples / (kTileArea * spp));
 }
 
 std::uint32_t pass_size(std::uint32_t done, std::uint32_t total) {

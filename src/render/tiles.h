@@ -3,6 +3,7 @@
 
 #include "film/film.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -11,9 +12,14 @@ namespace etendue {
 /// Side of a tile in pixels: two samples of every pixel fill a wave of paths.
 inline constexpr int kTileSize = 32;
 
-/// Tiles of a grid that is anchored at the full image's origin, cut to `window`, row by row; or shuffled by
-/// `order_seed` if it is not 0.
-[[nodiscard]] std::vector<PixelRect> make_tiles(const PixelRect& window, std::uint32_t order_seed);
+/// Tiles of a grid that is anchored at the full image's origin, cut to `window`, row by row.
+[[nodiscard]] std::vector<PixelRect> make_tiles(const PixelRect& window);
+
+/// The numbers [0, count) in an order shuffled by `seed`, or in theirs if it is 0.
+[[nodiscard]] std::vector<std::size_t> make_order(std::size_t count, std::uint32_t seed);
+
+/// Tiles to render with `spp` samples before their splats are added to the film, so that not many have to be held.
+[[nodiscard]] std::size_t splat_group_size(std::uint32_t spp);
 
 /// Samples of the pass that begins after `done` of `total` samples: 1, 1, 2, 4, 8, 16, 16, … so that the first picture
 /// comes soon, stopping is prompt, and later passes fill their waves. Depends on `done` only, so that a render that is

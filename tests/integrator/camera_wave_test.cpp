@@ -24,7 +24,7 @@ class CameraWave : public testing::Test {
 
     World world_ = compile(empty_scene());
     PixelFilter filter_{FilterShape::Box};
-    TileJob job_{{10, 20, 15, 24}, 40, 30, 3, 6, 9, SampleSequence::Sobol, &filter_};
+    TileJob job_{{10, 20, 15, 24}, {0, 0, 40, 30}, 40, 30, 3, 6, 9, SampleSequence::Sobol, &filter_};
     std::vector<CameraSample> samples_;
     std::vector<Ray> rays_;
 };

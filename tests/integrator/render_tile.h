@@ -26,7 +26,7 @@ struct TileResult {
     TileResult result;
     std::vector<double> means;
     for (std::uint32_t seed = 0; seed < kRepetitions; ++seed) {
-        const TileJob job{{0, 0, 4, 4}, 4, 4, 0, spp, seed, sequence, &filter};
+        const TileJob job{{0, 0, 4, 4}, {0, 0, 4, 4}, 4, 4, 0, spp, seed, sequence, &filter};
         TileBuffer tile;
         tile.reset(job.rect);
         integrator.render_tile(world, job, *scratch, tile, result.counters);

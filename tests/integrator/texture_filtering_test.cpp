@@ -53,7 +53,7 @@ class TextureAliasing : public testing::Test {
     static std::vector<Rgb> render(const World& world, const PixelRect& window, std::uint32_t spp) {
         const PixelFilter filter(FilterShape::Box);
         const auto scratch = kPath.make_scratch();
-        const TileJob job{window, kWidth, kHeight, 0, spp, 1, SampleSequence::Sobol, &filter};
+        const TileJob job{window, window, kWidth, kHeight, 0, spp, 1, SampleSequence::Sobol, &filter};
         TileBuffer tile;
         tile.reset(job.rect);
         RenderCounters counters;

@@ -141,6 +141,26 @@ INSTANTIATE_TEST_SUITE_P(Render, Determinism,
                                     (std::get<2>(param.param) ? "Moving" : "");
                          });
 
+TEST(Render, SplatsDependOnNeitherThreadsNorTileOrder) {
+    constexpr int kWidth = 100;
+    constexpr int kHeight = 70;
+    for (const bool moves : {false, true}) {
+        const World world = compile(busy_scene(kWidth, kHeight, moves));
+        // More than a group of tiles in some passes.
+        RenderOptions options = options_for(kWidth, kHeight, 40);
+        const RenderResult reference = render_now(world, "light", options, 1);
+        const std::vector<float> image = reference.film.resolve();
+        EXPECT_GT(*std::ranges::max_element(image), 0.1f);
+        for (const int threads : {1, 2, 5})
+            for (const std::uint32_t order : {0u, 12345u}) {
+                options.tile_order_seed = order;
+                const RenderResult again = render_now(world, "light", options, threads);
+                EXPECT_TRUE(same_bytes(again.film.resolve(), image)) << threads << " threads, tile order " << order;
+                EXPECT_EQ(again.counters.rays(), reference.counters.rays());
+            }
+    }
+}
+
 TEST(Render, CountsSamplesAndRays) {
     const World world = compile(busy_scene(50, 40));
     const RenderOptions options = options_for(50, 40, 7);

@@ -1,6 +1,7 @@
 #include "render/tiles.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -13,39 +14,48 @@ namespace {
 TEST(Tiles, CoverTheWindowExactlyOnce) {
     const PixelRect windows[] = {{0, 0, 1, 1}, {0, 0, 32, 32},   {0, 0, 33, 31},   {0, 0, 640, 360},
                                  {5, 7, 6, 8}, {31, 31, 33, 33}, {32, 64, 64, 96}, {17, 40, 301, 111}};
-    for (const PixelRect& window : windows)
-        for (const std::uint32_t order : {0u, 1u, 77u}) {
-            std::vector<int> covered(window.area(), 0);
-            for (const PixelRect& tile : make_tiles(window, order)) {
-                ASSERT_GT(tile.width(), 0);
-                ASSERT_GT(tile.height(), 0);
-                for (int y = tile.y0; y < tile.y1; ++y)
-                    for (int x = tile.x0; x < tile.x1; ++x) {
-                        ASSERT_TRUE(x >= window.x0 && x < window.x1 && y >= window.y0 && y < window.y1);
-                        ++covered[static_cast<std::size_t>((y - window.y0) * window.width() + x - window.x0)];
-                    }
-            }
-            EXPECT_TRUE(std::all_of(covered.begin(), covered.end(), [](int n) { return n == 1; }));
+    for (const PixelRect& window : windows) {
+        std::vector<int> covered(window.area(), 0);
+        for (const PixelRect& tile : make_tiles(window)) {
+            ASSERT_GT(tile.width(), 0);
+            ASSERT_GT(tile.height(), 0);
+            for (int y = tile.y0; y < tile.y1; ++y)
+                for (int x = tile.x0; x < tile.x1; ++x) {
+                    ASSERT_TRUE(x >= window.x0 && x < window.x1 && y >= window.y0 && y < window.y1);
+                    ++covered[static_cast<std::size_t>((y - window.y0) * window.width() + x - window.x0)];
+                }
         }
+        EXPECT_TRUE(std::all_of(covered.begin(), covered.end(), [](int n) { return n == 1; }));
+    }
 }
 
 TEST(Tiles, LieOnTheGridOfTheFullImage) {
-    for (const PixelRect& tile : make_tiles({17, 40, 301, 111}, 0)) {
+    for (const PixelRect& tile : make_tiles({17, 40, 301, 111})) {
         EXPECT_EQ(tile.x0 / kTileSize, (tile.x1 - 1) / kTileSize);
         EXPECT_EQ(tile.y0 / kTileSize, (tile.y1 - 1) / kTileSize);
     }
 }
 
-TEST(Tiles, TheSeedChangesTheirOrderOnly) {
-    const PixelRect window{0, 0, 320, 320};
+TEST(Tiles, GoRowByRow) {
     const auto less = [](const PixelRect& a, const PixelRect& b) { return a.y0 != b.y0 ? a.y0 < b.y0 : a.x0 < b.x0; };
-    const std::vector<PixelRect> in_order = make_tiles(window, 0);
-    EXPECT_TRUE(std::is_sorted(in_order.begin(), in_order.end(), less));
-    std::vector<PixelRect> shuffled = make_tiles(window, 3);
+    const std::vector<PixelRect> tiles = make_tiles({0, 0, 320, 320});
+    EXPECT_TRUE(std::is_sorted(tiles.begin(), tiles.end(), less));
+}
+
+TEST(MakeOrder, TheSeedShufflesAllNumbers) {
+    const std::vector<std::size_t> in_order = make_order(100, 0);
+    EXPECT_TRUE(std::is_sorted(in_order.begin(), in_order.end()));
+    std::vector<std::size_t> shuffled = make_order(100, 3);
     EXPECT_NE(shuffled, in_order);
-    EXPECT_NE(shuffled, make_tiles(window, 4));
-    std::sort(shuffled.begin(), shuffled.end(), less);
+    EXPECT_NE(shuffled, make_order(100, 4));
+    std::sort(shuffled.begin(), shuffled.end());
     EXPECT_EQ(shuffled, in_order);
+}
+
+TEST(SplatGroupSize, HoldsAMillionSamplesButAtLeastOneTile) {
+    EXPECT_EQ(splat_group_size(1), 1024u);
+    EXPECT_EQ(splat_group_size(16), 64u);
+    EXPECT_EQ(splat_group_size(1u << 20), 1u);
 }
 
 TEST(PassSize, GrowsToSixteenAndStopsAtTheTotal) {

@@ -1,0 +1,87 @@
+#include "film/splat_film.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace etendue {
+
+namespace {
+
+/// Enough that bands with more splats do not keep the others waiting long.
+constexpr int kBandsPerThread = 4;
+
+float centre(int pixel) {
+    return static_cast<float>(pixel) + 0.5f;
+}
+
+/// Pixels [begin, end) within [low, high) whose centres lie within `radius` of `position`.
+struct Reach {
+    int begin;
+    int end;
+
+    Reach(float position, float radius, int low, int high)
+        : begin(std::max(low, static_cast<int>(std::ceil(position - 0.5f - radius)))),
+          end(std::min(high, static_cast<int>(std::floor(position - 0.5f + radius)) + 1)) {}
+};
+
+}  // namespace
+
+bool reaches(const PixelRect& window, const PixelFilter& filter, const Vec2f& position) {
+    const float r = filter.radius();
+    return position.x > centre(window.x0) - r && position.x < centre(window.x1 - 1) + r &&
+           position.y > centre(window.y0) - r && position.y < centre(window.y1 - 1) + r;
+}
+
+SplatFilm::SplatFilm(int full_width, int full_height, const PixelRect& window, const PixelFilter& filter)
+    : full_width_(full_width), full_height_(full_height), window_(window), filter_(filter), pixels_(window.area()) {}
+
+void SplatFilm::add(std::span<const std::vector<Splat>> lists, std::uint64_t light_paths, const ThreadPool& threads) {
+    light_paths_ += light_paths;
+    // Every thread goes through all splats for each of its bands.
+    const int bands = std::min(window_.height(), kBandsPerThread * threads.thread_count());
+    threads.parallel_for(static_cast<std::size_t>(bands), [&](std::size_t band, int) {
+        const auto edge = [&](int i) { return window_.y0 + window_.height() * i / bands; };
+        add_rows(lists, edge(static_cast<int>(band)), edge(static_cast<int>(band) + 1));
+    });
+}
+
+void SplatFilm::add_rows(std::span<const std::vector<Splat>> lists, int y0, int y1) {
+    const float low = static_cast<float>(y0) + 0.5f - filter_.radius();
+    const float high = static_cast<float>(y1) - 0.5f + filter_.radius();
+    std::vector<float> along_x;
+    for (const std::vector<Splat>& list : lists)
+        for (const Splat& splat : list)
+            if (splat.position.y >= low && splat.position.y <= high) add_splat(splat, y0, y1, along_x);
+}
+
+void SplatFilm::add_splat(const Splat& splat, int y0, int y1, std::vector<float>& along_x) {
+    const Reach columns(splat.position.x, filter_.radius(), window_.x0, window_.x1);
+    const Reach rows(splat.position.y, filter_.radius(), y0, y1);
+    along_x.clear();
+    for (int x = columns.begin; x < columns.end; ++x) along_x.push_back(filter_.evaluate(centre(x) - splat.position.x));
+    for (int y = rows.begin; y < rows.end; ++y) {
+        const float along_y = filter_.evaluate(centre(y) - splat.position.y);
+        Sum* sum = &pixels_[static_cast<std::size_t>(y - window_.y0) * static_cast<std::size_t>(window_.width()) +
+                            static_cast<std::size_t>(columns.begin - window_.x0)];
+        for (const float x_weight : along_x) {
+            const auto weight = static_cast<double>(along_y * x_weight);
+            sum->r += weight * static_cast<double>(splat.value.r);
+            sum->g += weight * static_cast<double>(splat.value.g);
+            sum->b += weight * static_cast<double>(splat.value.b);
+            ++sum;
+        }
+    }
+}
+
+void SplatFilm::add_to(std::span<float> image) const {
+    if (light_paths_ == 0) return;
+    const double scale =
+        static_cast<double>(full_width_) * static_cast<double>(full_height_) / static_cast<double>(light_paths_);
+    for (std::size_t i = 0; i < pixels_.size(); ++i) {
+        image[4 * i] += static_cast<float>(pixels_[i].r * scale);
+        image[4 * i + 1] += static_cast<float>(pixels_[i].g * scale);
+        image[4 * i + 2] += static_cast<float>(pixels_[i].b * scale);
+    }
+}
+
+}  // namespace etendue

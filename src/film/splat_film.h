@@ -1,0 +1,60 @@
+// Light that is brought to any pixel: what subpaths from the light leave on the film.
+//
+// A splat falls into every pixel whose filter reaches it. The image is their sum over the number of light paths, times
+// the pixels of the film; there is no filter weight to divide by, and a crop window sees what the full image would.
+#pragma once
+
+#include "core/parallel.h"
+#include "core/rgb.h"
+#include "core/vec.h"
+#include "film/pixel_filter.h"
+#include "film/pixel_rect.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace etendue {
+
+/// Light at a place on the film.
+struct Splat {
+    Vec2f position;  ///< pixels of the full image, x right and y down from its corner
+    Rgb value;       ///< of the integral over the film of area 1
+};
+
+/// True if some pixel of `window` sees what falls on `position` through `filter`.
+[[nodiscard]] bool reaches(const PixelRect& window, const PixelFilter& filter, const Vec2f& position);
+
+/// Sums of splats, in double. 24 bytes a pixel.
+class SplatFilm {
+  public:
+    SplatFilm(int full_width, int full_height, const PixelRect& window, const PixelFilter& filter);
+
+    /// Adds lists of splats, which came from `light_paths` paths. The sums are those of adding one after the other in
+    /// the order of `lists`, whatever the number of threads.
+    void add(std::span<const std::vector<Splat>> lists, std::uint64_t light_paths, const ThreadPool& threads);
+
+    /// Adds the image to that of a `Film` of the same window, four floats a pixel.
+    void add_to(std::span<float> image) const;
+
+  private:
+    struct Sum {
+        double r = 0.0;
+        double g = 0.0;
+        double b = 0.0;
+    };
+
+    /// Adds what falls on rows [y0, y1) of the full image.
+    void add_rows(std::span<const std::vector<Splat>> lists, int y0, int y1);
+    void add_splat(const Splat& splat, int y0, int y1, std::vector<float>& along_x);
+
+    int full_width_;
+    int full_height_;
+    PixelRect window_;
+    PixelFilter filter_;
+    std::vector<Sum> pixels_;
+    std::uint64_t light_paths_ = 0;
+};
+
+}  // namespace etendue
