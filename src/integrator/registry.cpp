@@ -1,6 +1,7 @@
 // All integrators, in the order in which --help lists them.
 #include "integrator/debug/debug_integrator.h"
 #include "integrator/integrator.h"
+#include "integrator/light/light_integrator.h"
 #include "integrator/path/path_integrator.h"
 
 #include <algorithm>
@@ -26,6 +27,10 @@ std::unique_ptr<const Integrator> make_naive(const IntegratorOptions& options) {
     return std::make_unique<PathIntegrator>(PathOptions{.lengths = options, .sample_lights = false});
 }
 
+std::unique_ptr<const Integrator> make_light(const IntegratorOptions& options) {
+    return std::make_unique<LightIntegrator>(options);
+}
+
 std::unique_ptr<const Integrator> make_normals(const IntegratorOptions&) {
     return std::make_unique<DebugIntegrator>(DebugQuantity::Normals);
 }
@@ -38,6 +43,7 @@ constexpr IntegratorEntry kRegistry[] = {
     {"path", "eye paths with light sampling, combined by MIS", make_path},
     {"direct", "path, one bounce only", make_direct, kDirectPath},
     {"naive", "eye paths that find lights by chance", make_naive},
+    {"light", "paths from the lights, connected to the camera", make_light},
     {"normals", "shading normals, for debugging", make_normals},
     {"albedo", "scattered share of light, for debugging", make_albedo},
 };

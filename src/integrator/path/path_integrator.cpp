@@ -15,7 +15,7 @@ std::vector<std::string> PathIntegrator::unreachable_light(const World& world) c
     if (world.has_specular_surfaces())
         return {
             "what point, spot and directional lights send through smooth glass or by way of mirrors (their "
-            "caustics) cannot be found by eye paths and is missing"};
+            "caustics) cannot be found by eye paths and is missing; 'light' finds it"};
     return {};
 }
 

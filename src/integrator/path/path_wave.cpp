@@ -1,12 +1,12 @@
 #include "integrator/path/path_wave.h"
 
+#include "integrator/connecting_ray.h"
 #include "integrator/scattered_cone.h"
 #include "sampling/mis.h"
 #include "world/scattering.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace etendue {
 
@@ -46,16 +46,10 @@ float most_survival(int depth) {
 
 /// From a point to where the light was sampled; the end is clear of the surface there.
 Ray shadow_ray(const Vec3f& origin, const LightSample& light) {
-    // What rounding may add to the length; the end is clear of the light by more than its own rounding.
-    constexpr float kBeforeEnd = 1.0f - 8.0f * std::numeric_limits<float>::epsilon();
+    if (!std::isinf(light.distance)) return connecting_ray(origin, light.end);
     Ray ray;
     ray.origin = origin;
     ray.direction = light.wi;
-    if (std::isinf(light.distance)) return ray;
-    const Vec3f to_end = light.end - ray.origin;
-    const float distance = length(to_end);
-    if (distance > 0.0f) ray.direction = to_end * (1.0f / distance);
-    ray.t_max = distance * kBeforeEnd;
     return ray;
 }
 

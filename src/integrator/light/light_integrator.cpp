@@ -1,0 +1,34 @@
+#include "integrator/light/light_integrator.h"
+
+#include "integrator/light/light_wave.h"
+
+#include <algorithm>
+
+namespace etendue {
+
+std::vector<std::string> LightIntegrator::unreachable_light(const World& world) const {
+    std::vector<std::string> sentences;
+    if (world.has_specular_surfaces())
+        sentences.emplace_back(
+            "what the eye sees in mirrors or through smooth glass cannot be found by paths from the light and stays "
+            "black; 'path' finds it");
+    if (world.has_environment() && world.environment_visible_to_camera())
+        sentences.emplace_back(
+            "the environment itself is not seen: paths from the light start there, and no camera can be connected to "
+            "what is infinitely far away; 'path' finds it");
+    return sentences;
+}
+
+std::unique_ptr<IntegratorScratch> LightIntegrator::make_scratch() const {
+    return std::make_unique<LightWave>();
+}
+
+void LightIntegrator::render_tile(const World& world, const TileJob& job, IntegratorScratch& scratch, TileBuffer& tile,
+                                  RenderCounters& counters) const {
+    auto& wave = static_cast<LightWave&>(scratch);
+    const std::size_t total = camera_sample_count(job);
+    for (std::size_t first = 0; first < total; first += LightWave::kCapacity)
+        wave.trace(world, job, options_, first, std::min(LightWave::kCapacity, total - first), tile, counters);
+}
+
+}  // namespace etendue
