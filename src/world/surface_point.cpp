@@ -7,6 +7,7 @@
 #include "world/motion.h"
 #include "world/world.h"
 
+#include <array>
 #include <cmath>
 
 namespace etendue {
@@ -15,9 +16,9 @@ namespace {
 
 /// Where a moving triangle is at one time, in the space of its mesh.
 struct MovedTriangle {
-    Vec3f p[3];
-    Vec3f extent;  ///< largest coordinates, absolute, of what `p` was made from
-    Vec3f normal;  ///< interpolated, if there are any
+    std::array<Vec3f, 3> p{};
+    Vec3f extent{0.0f};  ///< largest coordinates, absolute, of what `p` was made from
+    Vec3f normal{0.0f};  ///< interpolated, if there are any
 };
 
 MovedTriangle move_triangle(const Geometry& geometry, const std::array<std::uint32_t, 3>& triangle, Vec2f barycentric,
@@ -26,7 +27,7 @@ MovedTriangle move_triangle(const Geometry& geometry, const std::array<std::uint
     const VertexStep& before = geometry.motion[segment.first];
     const VertexStep& after = geometry.motion[segment.first + 1];
     const auto between = [t = segment.t](const Vec3f& a, const Vec3f& b) { return a * (1.0f - t) + b * t; };
-    MovedTriangle moved{{}, Vec3f(0.0f), {}};
+    MovedTriangle moved;
     for (std::size_t i = 0; i < 3; ++i) {
         const Vec3f& a = before.positions[triangle[i]];
         const Vec3f& b = after.positions[triangle[i]];
