@@ -18,7 +18,8 @@ TEST(IntegratorRegistry, HoldsWhatTheDocumentationNames) {
         ASSERT_NE(integrator, nullptr);
         EXPECT_NE(integrator->make_scratch(), nullptr);
     }
-    for (const char* name : {"path", "direct", "naive", "light", "normals", "albedo"}) EXPECT_TRUE(names.contains(name)) << name;
+    for (const char* name : {"path", "direct", "naive", "light", "normals", "albedo"})
+        EXPECT_TRUE(names.contains(name)) << name;
 }
 
 TEST(IntegratorRegistry, UnknownNamesMakeNothing) {
