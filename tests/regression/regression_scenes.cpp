@@ -22,8 +22,8 @@ constexpr RegressionScene fine_row(std::string_view name) {
     return {kRows, name, 128, 64, 8, 0.01, {"path", 4, 128}, {"naive", 8, 1024}};
 }
 
-// The naive integrator cannot find a directional light (sun-and-sky, instances), and hardly the small lights of
-// veach-mis. The mean of veach-mis is mostly what the camera sees of its smallest and brightest light.
+// The naive integrator cannot find a directional light (sun-and-sky, instances) or the points of row-lamps, and hardly
+// the small lights of veach-mis. The mean of veach-mis is mostly what the camera sees of its smallest and brightest light.
 constexpr RegressionScene kRegressionScenes[] = {
     {kScenes, "cornell-box", 64, 64, 16, 0.01, {"path", 4, 256}, {"naive", 8, 16384}},
     {kScenes, "cornell-glass", 64, 64, 16, 0.01, {"path", 4, 64}, {"naive", 8, 4096}},
@@ -40,6 +40,7 @@ constexpr RegressionScene kRegressionScenes[] = {
     row("row-geometry"),
     dark_row("row-ior"),
     row("row-iridescence"),
+    {kRows, "row-lamps", 128, 64, 16, 0.01, {"path", 4, 48}, {"light", 8, 1024}},
     fine_row("row-models"),
     row("row-nested"),
     row("row-sheen"),

@@ -17,7 +17,9 @@ from scenegen.rows import ROWS, textures  # noqa: E402
 MATERIAL_EXTENSIONS = {
     "anisotropy", "clearcoat", "diffuse_transmission", "dispersion", "emissive_strength", "ior", "iridescence",
     "sheen", "specular", "transmission", "unlit", "variants", "volume", "volume_scatter"}
-OTHER_EXTENSIONS = {"EXT_mesh_gpu_instancing", "KHR_mesh_quantization", "KHR_texture_transform"}
+OTHER_EXTENSIONS = {
+    "EXT_lights_ies", "EXT_lights_image_based", "EXT_mesh_gpu_instancing", "KHR_lights_punctual",
+    "KHR_mesh_quantization", "KHR_node_visibility", "KHR_texture_transform"}
 
 
 class Rows(unittest.TestCase):

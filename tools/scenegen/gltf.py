@@ -83,10 +83,13 @@ class GltfWriter:
         lights.append({"name": name, "type": "directional", "color": list(color), "intensity": intensity})
         return self.add_node(name, rotation=rotation, extensions={"KHR_lights_punctual": {"light": len(lights) - 1}})
 
+    def add_image(self, name, png):
+        """The PNG file `png` (bytes), stored in the buffer."""
+        return self.add("images", {"name": name, "mimeType": "image/png", "bufferView": self._add_view(png, None)})
+
     def add_texture(self, name, png):
         """A repeating texture of the PNG file `png` (bytes), stored in the buffer."""
-        image = self.add("images", {
-            "name": name, "mimeType": "image/png", "bufferView": self._add_view(png, None)})
+        image = self.add_image(name, png)
         sampler = self.add("samplers", {"magFilter": 9729, "minFilter": 9987, "wrapS": 10497, "wrapT": 10497})
         return self.add("textures", {"source": image, "sampler": sampler})
 

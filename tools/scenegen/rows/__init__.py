@@ -1,7 +1,7 @@
 """Rows of spheres that hold the material extensions in place, for tests/regression. Each is a function that returns a
 GeneratedScene with its render.json. To add another: the function in the module of its kind, and its line here."""
 
-from . import bodies, emission, geometry, nested, sheets, surfaces
+from . import bodies, emission, geometry, lamps, nested, sheets, surfaces
 
 ROWS = {
     "row-anisotropy": surfaces.anisotropy,
@@ -12,6 +12,7 @@ ROWS = {
     "row-geometry": geometry.geometry,
     "row-ior": surfaces.ior,
     "row-iridescence": surfaces.iridescence,
+    "row-lamps": lamps.lamps,
     "row-models": bodies.models,
     "row-nested": nested.nested,
     "row-sheen": surfaces.sheen,

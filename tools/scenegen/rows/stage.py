@@ -30,8 +30,8 @@ def parameter(column, low=0.0, high=1.0):
 class Stage:
     """A scene under construction."""
 
-    def __init__(self, checkered=False):
-        """`checkered` walls show what is seen through the spheres."""
+    def __init__(self, checkered=False, lit=True):
+        """`checkered` walls show what is seen through the spheres; a stage that is not `lit` has no lamp."""
         self.scene = GeneratedScene()
         self.overrides = {}
         gltf = self.scene.gltf
@@ -39,12 +39,10 @@ class Stage:
         floor = gltf.add_material("floor", base_color=(0.5, 0.5, 0.5))
         wall = gltf.add_material("wall", base_color=(1.0, 1.0, 1.0) if checkered else (0.4, 0.4, 0.4),
                                  base_color_texture=texture)
-        lamp = gltf.add_material("lamp", base_color=(0.0, 0.0, 0.0), emission=LAMP_RADIANCE)
         self._add("floor", _treads(), floor)
         self._add("wall", _walls(), wall)
-        width, height = LAMP_SIZE
-        self._add("lamp", _panel(width, height), lamp, translation=LAMP_CENTER,
-                  rotation=look_at(LAMP_CENTER, LAMP_TARGET))
+        if lit:
+            self._add_lamp()
         gltf.add_camera("camera", CAMERA_POSITION, look_at(CAMERA_POSITION, CAMERA_TARGET),
                         yfov=math.radians(12.3), aspect_ratio=2.0)
 
@@ -69,12 +67,20 @@ class Stage:
             self.overrides[name] = override
 
     def finish(self, **settings):
-        """The scene, with its render.json; `settings` are further members of that."""
-        self.scene.files["render.json"] = (json.dumps({
+        """The scene, with its render.json; `settings` are further members of that, None to leave one out."""
+        members = {
             "integrator": {"max_depth": 24}, "spp": 256, "resolution": [1024, 512],
             "environment": {"color": SKY_RADIANCE}, "color": {"exposure": 0.7},
-            "materials": self.overrides, **settings}, indent=2) + "\n").encode()
+            "materials": self.overrides, **settings}
+        members = {key: value for key, value in members.items() if value is not None}
+        self.scene.files["render.json"] = (json.dumps(members, indent=2) + "\n").encode()
         return self.scene
+
+    def _add_lamp(self):
+        lamp = self.scene.gltf.add_material("lamp", base_color=(0.0, 0.0, 0.0), emission=LAMP_RADIANCE)
+        width, height = LAMP_SIZE
+        self._add("lamp", _panel(width, height), lamp, translation=LAMP_CENTER,
+                  rotation=look_at(LAMP_CENTER, LAMP_TARGET))
 
     def _add(self, name, mesh, material, **node):
         self.scene.gltf.add_node(name, mesh=self.scene.gltf.add_mesh(name, mesh, material), **node)
