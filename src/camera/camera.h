@@ -31,8 +31,8 @@ struct CameraPose {
 
 /// How a camera sees a point.
 struct CameraConnection {
-    Vec3f lens{0.0f};  ///< where light from the point reaches the camera, world space, metres
-    Vec2f film;        ///< where it is seen; may lie outside of [0, 1)²
+    Vec3f lens{0.0f};        ///< where light from the point reaches the camera, world space, metres
+    Vec2f film{0.0f, 0.0f};  ///< where it is seen; may lie outside of [0, 1)²
     /// Share of the film that a surface at the point takes per area across the ray, 1/m²; 0 if the camera cannot see
     /// the point, wherever its film ends.
     float importance_area = 0.0f;
