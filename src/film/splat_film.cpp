@@ -57,6 +57,7 @@ void SplatFilm::add_rows(std::span<const std::vector<Splat>> lists, int y0, int 
 void SplatFilm::add_splat(const Splat& splat, int y0, int y1, std::vector<float>& along_x) {
     const Reach columns(splat.position.x, filter_.radius(), window_.x0, window_.x1);
     const Reach rows(splat.position.y, filter_.radius(), y0, y1);
+    if (columns.begin >= columns.end) return;
     along_x.clear();
     for (int x = columns.begin; x < columns.end; ++x) along_x.push_back(filter_.evaluate(centre(x) - splat.position.x));
     for (int y = rows.begin; y < rows.end; ++y) {

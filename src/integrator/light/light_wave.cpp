@@ -1,6 +1,7 @@
 #include "integrator/light/light_wave.h"
 
 #include "integrator/connecting_ray.h"
+#include "integrator/walk.h"
 #include "world/scattering.h"
 
 #include <algorithm>
@@ -18,18 +19,6 @@ constexpr std::uint32_t kFirstLightDimension = 1u << 29;
 
 std::uint32_t bounce_dimension(int depth, std::uint32_t which) {
     return kFirstLightDimension + kEmissionDimensions + static_cast<std::uint32_t>(depth) * kBounceDimensions + which;
-}
-
-/// Rays after which a path counts as long; in bodies nothing but roulette bounds a walk.
-constexpr int kLongPath = 64;
-
-const Interior& beyond(const Crossing& crossing, const SurfacePoint& point, const Vec3f& direction) {
-    return dot(direction, point.geometric_normal) > 0.0f ? crossing.outside : crossing.inside;
-}
-
-Rgb transmittance(const World& world, const Interior& interior, float distance) {
-    const HomogeneousMedium* medium = world.medium(interior);
-    return medium != nullptr ? medium->transmittance(distance) : Rgb(1.0f);
 }
 
 }  // namespace
@@ -180,8 +169,7 @@ bool LightWave::survives(const Context& context, LightPathState& state) const {
     const int first = context.world.has_bodies() ? std::min(context.options.roulette_depth, kLongPath)
                                                  : context.options.roulette_depth;
     if (context.depth < first) return true;
-    const float most = context.depth < kLongPath ? 1.0f : 0.95f;
-    const float survival = std::min(most, max_component(state.throughput) / state.begun_with);
+    const float survival = std::min(most_survival(context.depth), max_component(state.throughput) / state.begun_with);
     if (sample_2d(context.job.sequence, state.key, bounce_dimension(context.depth, kChoices)).y >= survival)
         return false;
     state.throughput *= 1.0f / survival;

@@ -2,6 +2,7 @@
 
 #include "integrator/connecting_ray.h"
 #include "integrator/scattered_cone.h"
+#include "integrator/walk.h"
 #include "sampling/mis.h"
 #include "world/scattering.h"
 
@@ -35,15 +36,6 @@ std::uint32_t body_dimension(int depth, std::uint32_t which) {
     return kFirst + static_cast<std::uint32_t>(depth) * kBodyDimensions + which;
 }
 
-/// Rays after which a path counts as long.
-constexpr int kLongPath = 64;
-
-/// Most of the paths of `depth` edges that Russian roulette lets live. Lossless ones live on as long as paths usually
-/// get; between perfect mirrors they would do so until the longest path allowed.
-float most_survival(int depth) {
-    return depth < kLongPath ? 1.0f : 0.95f;
-}
-
 /// From a point to where the light was sampled; the end is clear of the surface there.
 Ray shadow_ray(const Vec3f& origin, const LightSample& light) {
     if (!std::isinf(light.distance)) return connecting_ray(origin, light.end);
@@ -59,17 +51,6 @@ float light_sample_scale(const ChosenLight& chosen, float pdf_solid_angle) {
     // A delta light can be found in no other way; its density is the choice's probability alone.
     return light.is_delta ? 1.0f / chosen.probability
                           : power_heuristic(light.pdf_solid_angle, pdf_solid_angle) / light.pdf_solid_angle;
-}
-
-/// Share of light that arrives from `distance` metres away.
-Rgb transmittance(const World& world, const Interior& interior, float distance) {
-    const HomogeneousMedium* medium = world.medium(interior);
-    return medium != nullptr ? medium->transmittance(distance) : Rgb(1.0f);
-}
-
-/// Where a direction leads from a boundary.
-const Interior& beyond(const Crossing& crossing, const SurfacePoint& point, const Vec3f& direction) {
-    return dot(direction, point.geometric_normal) > 0.0f ? crossing.outside : crossing.inside;
 }
 
 }  // namespace
