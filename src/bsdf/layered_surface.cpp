@@ -39,6 +39,55 @@ MetallicRoughness::Value evaluate_base(const LayeredSurface& surface, const Vec3
     return std::get<MetallicRoughness>(surface.base).evaluate_parts(wo, wi);
 }
 
+/// Light that the layers keep of what leaves a body, given back to its inside.
+class InnerSide {
+  public:
+    explicit InnerSide(const LayeredSurface& surface)
+        : surface_(surface), body_(std::get_if<DielectricBody>(&surface.base)) {}
+
+    /// True if it holds anything for light from `wo`.
+    [[nodiscard]] bool is_seen_from(const Vec3f& wo) const { return body_ != nullptr && wo.z < 0.0f; }
+
+    /// Probability of `sample_rough`; a smooth interface decides when it has been sampled.
+    [[nodiscard]] float choice(const Vec3f& wo) const {
+        return is_seen_from(wo) && rough() != nullptr ? body_->interface_share * (1.0f - surface_.passed_average_plain)
+                                                      : 0.0f;
+    }
+    [[nodiscard]] Vec3f sample_rough(const Vec3f& wo, Vec2f u) const { return rough()->sample_returned(wo, u); }
+
+    /// The density without that probability.
+    [[nodiscard]] BsdfValue evaluate(const Vec3f& wo, const Vec3f& wi) const {
+        if (!is_seen_from(wo) || wi.z >= 0.0f || rough() == nullptr) return {};
+        const RoughDielectric::Returned returned = rough()->evaluate_returned(wo, wi);
+        const float value = returned.single * kept(returned.out_o, returned.out_i) +
+                            returned.multiple * (1.0f - surface_.passed_average_plain);
+        return {Rgb(value * body_->interface_share), returned.pdf_solid_angle};
+    }
+
+    /// What becomes of a sample that would leave a smooth interface.
+    [[nodiscard]] BsdfSample leave_or_return(const Vec3f& wo, const BsdfSample& leaving, float u) const {
+        const float passed = Layers::passed(surface_, leaving.wi);
+        if (u < passed) return leaving;
+        const auto& interface = std::get<SmoothDielectric>(body_->interface);
+        const InterfaceFresnel::Split split = interface.fresnel(std::min(1.0f, -wo.z), 1.0f / interface.ior, false);
+        const Vec3f mirrored{-leaving.wi.x, -leaving.wi.y, leaving.wi.z};
+        const float weight =
+            split.transmitted / (1.0f - split.reflection_share) * kept(leaving.wi, mirrored) / (1.0f - passed);
+        return {.wi = mirror_direction(wo), .weight = Rgb(weight), .is_delta = true};
+    }
+
+  private:
+    [[nodiscard]] const RoughDielectric* rough() const { return std::get_if<RoughDielectric>(&body_->interface); }
+
+    /// Of light that would leave along `out_o`, or along `out_i` were it seen from its other end.
+    [[nodiscard]] float kept(const Vec3f& out_o, const Vec3f& out_i) const {
+        return 1.0f - std::max(Layers::passed(surface_, out_o), Layers::passed(surface_, out_i));
+    }
+
+    const LayeredSurface& surface_;
+    const DielectricBody* body_;
+};
+
 BsdfValue evaluate_layers(const LayeredSurface& surface, const Layers& layers, const Vec3f& wo, const Vec3f& wi,
                           TransportMode mode) {
     const MetallicRoughness::Value base = evaluate_base(surface, wo, wi, mode);
@@ -49,6 +98,13 @@ BsdfValue evaluate_layers(const LayeredSurface& surface, const Layers& layers, c
         std::lerp(std::min(layers.passed_o, passed_i), layers.passed_o * passed_i / surface.passed_average_plain,
                   surface.diffuseness);
     BsdfValue value{base.diffuse * diffuse_scale + base.specular * specular_scale, base.pdf_solid_angle * p_base};
+    const InnerSide inner(surface);
+    if (inner.is_seen_from(wo)) {
+        const BsdfValue returned = inner.evaluate(wo, wi);
+        value.f_cos += returned.f_cos;
+        value.pdf_solid_angle = std::lerp(value.pdf_solid_angle, returned.pdf_solid_angle, inner.choice(wo));
+        return value;
+    }
     if (wo.z <= 0.0f || wi.z <= 0.0f) return value;
     if (surface.sheen.exists()) {
         const BsdfValue sheen = surface.sheen.evaluate(wo, wi);
@@ -110,19 +166,26 @@ BsdfValue LayeredSurface::evaluate(const Vec3f& wo, const Vec3f& wi, TransportMo
 BsdfSample LayeredSurface::sample(const Vec3f& wo, float u_lobe, Vec2f u, TransportMode mode) const {
     if (wo.z == 0.0f || (wo.z < 0.0f && !is_two_sided())) return {};
     const Layers layers(*this, wo);
-    const float end_layers = layers.p_coat + layers.p_sheen;
+    const InnerSide inner(*this);
+    const float end_sheen = layers.p_coat + layers.p_sheen;
+    const float end_layers = end_sheen + inner.choice(wo);  // one of the two is zero
     BsdfSample sample;
     if (u_lobe < layers.p_coat) {
         sample.wi = coat.sample(wo, u_lobe / layers.p_coat, u);
         if (coat.is_smooth()) return sample_smooth_coat(*this, layers, wo, sample.wi, mode);
         if (sample.wi.z <= 0.0f) return {};
-    } else if (u_lobe < end_layers) {
+    } else if (u_lobe < end_sheen) {
         sample.wi = Sheen::sample(u);
+    } else if (u_lobe < end_layers) {
+        sample.wi = inner.sample_rough(wo, u);
+        if (sample.wi.z >= 0.0f) return {};
     } else {
         const float u_rest = std::clamp((u_lobe - end_layers) / (1.0f - end_layers), 0.0f, kOneMinusEpsilon);
         sample = sample_base(*this, wo, u_rest, u, mode);
         if (!sample.is_delta && !(sample.pdf_solid_angle > 0.0f)) return {};
         if (sample.is_delta) {
+            // The choice among deltas leaves `u` unused.
+            if (sample.is_transmission && inner.is_seen_from(wo)) return inner.leave_or_return(wo, sample, u.x);
             sample.weight *= std::min(layers.passed_o, Layers::passed(*this, sample.wi)) / (1.0f - end_layers);
             return sample;
         }

@@ -165,4 +165,30 @@ BsdfSample RoughDielectric::sample(const Vec3f& wo_signed, float u_lobe, Vec2f u
             .eta = transmitted ? side.eta : 1.0f};
 }
 
+RoughDielectric::Returned RoughDielectric::evaluate_returned(const Vec3f& wo_inside, const Vec3f& wi_inside) const {
+    const Side side(*this, wo_inside);
+    const Vec3f wo = flip(wo_inside);
+    const Vec3f wi = flip(wi_inside);
+    const Vec3f h = normalize(wo + wi);
+    const float o_h = std::min(1.0f, dot(wo, h));
+    const float mirrored = side.ggx.d(h) / (4.0f * wo.z);
+    Returned result{.single = 0.0f,
+                    .multiple = side.multiple_transmitted * side.missing *
+                                multiple_shape(side, side.eta, side.missing_average(side.outside), wi),
+                    .pdf_solid_angle = mirrored * side.ggx.g1(wo),
+                    .out_o = Vec3f(0.0f),
+                    .out_i = Vec3f(0.0f)};
+    if (!refract(wo, h, side.eta, result.out_o) || !refract(wi, h, side.eta, result.out_i)) return result;
+    result.single = side.split(o_h).transmitted * mirrored * side.ggx.g2(wo, wi);
+    result.out_o = flip(result.out_o);
+    result.out_i = flip(result.out_i);
+    return result;
+}
+
+Vec3f RoughDielectric::sample_returned(const Vec3f& wo_inside, Vec2f u) const {
+    const Vec3f wo = flip(wo_inside);
+    const Vec3f h = Ggx{alpha_x, alpha_y}.sample_visible_normal(wo, u);
+    return flip(h * (2.0f * dot(wo, h)) - wo);
+}
+
 }  // namespace etendue

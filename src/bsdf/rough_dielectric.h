@@ -38,6 +38,19 @@ struct RoughDielectric {
     [[nodiscard]] BsdfValue evaluate(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const;
     [[nodiscard]] BsdfSample sample(const Vec3f& wo, float u_lobe, Vec2f u, TransportMode mode) const;
     [[nodiscard]] bool has_non_delta() const { return true; }
+
+    /// What would leave a body if a layer on its outside did not send it back: `single` at the facet that mirrors wo to
+    /// wi, where it would go on along `out_o`, or along `out_i` were it wi that arrives; `multiple` in all directions.
+    /// Both are f |cos theta_i| of light that is sent back whole. wo.z < 0, wi.z < 0.
+    struct Returned {
+        float single;
+        float multiple;
+        float pdf_solid_angle;  ///< of `sample_returned`
+        Vec3f out_o, out_i;
+    };
+    [[nodiscard]] Returned evaluate_returned(const Vec3f& wo, const Vec3f& wi) const;
+    /// A mirror direction of wo at a facet that it sees. It may lie outside.
+    [[nodiscard]] Vec3f sample_returned(const Vec3f& wo, Vec2f u) const;
 };
 
 }  // namespace etendue

@@ -127,6 +127,12 @@ void add_bodies(std::vector<BsdfSetting>& settings, TransportMode mode, const ch
         {fmt::format("smooth, partly opaque {}", mode_name), DielectricBody{smooth, kPlastic, 0.5f}, mode});
     settings.push_back({fmt::format("coated body {}", mode_name),
                         LayeredSurface::make(DielectricBody{rough, kPlastic, 0.7f}, {}, ClearCoat{0.7f, 0.1f}), mode});
+    settings.push_back({fmt::format("varnished velvet glass {}", mode_name),
+                        LayeredSurface::make(DielectricBody{RoughDielectric::make(1.5f, 0.3f), {}, 1.0f},
+                                             Sheen{{0.9f, 0.6f, 0.9f}, 0.4f}, ClearCoat{0.9f, 0.0f}),
+                        mode});
+    settings.push_back({fmt::format("coated smooth body {}", mode_name),
+                        LayeredSurface::make(DielectricBody{smooth, kPlastic, 0.7f}, {}, ClearCoat{0.8f, 0.2f}), mode});
 }
 
 void add_conductors(std::vector<BsdfSetting>& settings) {
