@@ -4,6 +4,18 @@
 
 namespace etendue {
 
+float reverse_pdf_solid_angle(const Bsdf& bsdf, const Vec3f& wo, const Vec3f& wi) {
+    // Densities are the same in both modes.
+    constexpr TransportMode kAny = TransportMode::Importance;
+    if (wi.z > 0.0f || is_two_sided_interface(bsdf)) return evaluate_bsdf(bsdf, wi, wo, kAny).pdf_solid_angle;
+    // Lobes that do not tell sides apart are turned to face where the walk comes from.
+    const Vec3f from = turned_about_y(wi);
+    const Vec3f to = turned_about_y(wo);
+    if (const auto* layered = std::get_if<LayeredSurface>(&bsdf))
+        return layered->from_behind().evaluate(from, to, kAny).pdf_solid_angle;
+    return evaluate_bsdf(bsdf, from, to, kAny).pdf_solid_angle;
+}
+
 Rgb estimate_albedo(const Bsdf& bsdf, const Vec3f& wo, int count, std::uint32_t seed) {
     Rgb sum;
     for (int i = 0; i < count; ++i) {

@@ -36,6 +36,9 @@ using Bsdf = std::variant<Diffuse, DielectricBody, LayeredSurface, MetallicRough
     return std::visit([&](const auto& lobe) { return lobe.sample(wo, u_lobe, u, mode); }, bsdf);
 }
 
+/// Density, 1/sr, with which `sample_bsdf` would pick wo if it were given wi: what the walk from the other end does.
+[[nodiscard]] float reverse_pdf_solid_angle(const Bsdf& bsdf, const Vec3f& wo, const Vec3f& wi);
+
 /// False if everything the lobe does is a delta, so that connecting to it or sampling a light from it is useless.
 [[nodiscard]] inline bool has_non_delta(const Bsdf& bsdf) {
     return std::visit([](const auto& lobe) { return lobe.has_non_delta(); }, bsdf);

@@ -28,7 +28,14 @@ struct BsdfSample {
     bool is_delta = false;
     bool is_transmission = false;
     float eta = 1.0f;  ///< index on wi's side over the index on wo's side, for Russian roulette
+    /// Of a delta: probability of choosing it on the way back, from wi, over that of having chosen it from wo.
+    float reverse_choice_ratio = 1.0f;
 };
+
+/// Where `w` points in the frame of the surface's other side, which is turned about y.
+[[nodiscard]] inline Vec3f turned_about_y(const Vec3f& w) {
+    return {-w.x, w.y, -w.z};
+}
 
 [[nodiscard]] inline Vec3f mirror_direction(const Vec3f& wo) {
     return {-wo.x, -wo.y, wo.z};

@@ -24,6 +24,8 @@ struct Layers {
         p_sheen = sheen / total;
     }
 
+    [[nodiscard]] float p_base() const { return 1.0f - p_coat - p_sheen; }
+
     /// Share of light along `w` that passes the layers. There are none inside a body.
     [[nodiscard]] static float passed(const LayeredSurface& surface, const Vec3f& w) {
         if (surface.is_two_sided() && w.z < 0.0f) return 1.0f;
@@ -67,13 +69,20 @@ class InnerSide {
     /// What becomes of a sample that would leave a smooth interface.
     [[nodiscard]] BsdfSample leave_or_return(const Vec3f& wo, const BsdfSample& leaving, float u) const {
         const float passed = Layers::passed(surface_, leaving.wi);
-        if (u < passed) return leaving;
+        if (u < passed) {
+            BsdfSample sample = leaving;
+            sample.reverse_choice_ratio *= Layers(surface_, leaving.wi).p_base() / passed;
+            return sample;
+        }
         const auto& interface = std::get<SmoothDielectric>(body_->interface);
         const InterfaceFresnel::Split split = interface.fresnel(std::min(1.0f, -wo.z), 1.0f / interface.ior, false);
         const Vec3f mirrored{-leaving.wi.x, -leaving.wi.y, leaving.wi.z};
         const float weight =
             split.transmitted / (1.0f - split.reflection_share) * kept(leaving.wi, mirrored) / (1.0f - passed);
-        return {.wi = mirror_direction(wo), .weight = Rgb(weight), .is_delta = true};
+        return {.wi = mirror_direction(wo),
+                .weight = Rgb(weight),
+                .is_delta = true,
+                .reverse_choice_ratio = (1.0f - Layers::passed(surface_, mirrored)) / (1.0f - passed)};
     }
 
   private:
@@ -92,7 +101,7 @@ BsdfValue evaluate_layers(const LayeredSurface& surface, const Layers& layers, c
                           TransportMode mode) {
     const MetallicRoughness::Value base = evaluate_base(surface, wo, wi, mode);
     const float passed_i = Layers::passed(surface, wi);
-    const float p_base = 1.0f - layers.p_coat - layers.p_sheen;
+    const float p_base = layers.p_base();
     const float diffuse_scale = layers.passed_o * passed_i / surface.passed_average;
     const float specular_scale =
         std::lerp(std::min(layers.passed_o, passed_i), layers.passed_o * passed_i / surface.passed_average_plain,
@@ -127,7 +136,19 @@ BsdfSample sample_smooth_coat(const LayeredSurface& surface, const Layers& layer
     float weight = surface.coat.smooth_reflectance(wo) / layers.p_coat;
     // Both cosines to the coat's normal are equal; those to the surface's are in its adjoint factor.
     if (mode == TransportMode::Importance) weight *= wi.z / wo.z;
-    return {.wi = wi, .weight = Rgb(weight), .is_delta = true};
+    return {.wi = wi,
+            .weight = Rgb(weight),
+            .is_delta = true,
+            .reverse_choice_ratio = Layers(surface, wi).p_coat / layers.p_coat};
+}
+
+/// Probability with which a delta of the base is left to the base on its way back.
+float base_choice_back(const LayeredSurface& surface, const Layers& layers, const Vec3f& wo, const BsdfSample& sample) {
+    if (!surface.is_two_sided() && sample.wi.z < 0.0f)
+        return Layers(surface.from_behind(), turned_about_y(sample.wi)).p_base();
+    // What arrives inside a smooth body leaves it with the chance of passing.
+    if (wo.z > 0.0f && sample.wi.z < 0.0f) return layers.passed_o;
+    return Layers(surface, sample.wi).p_base();
 }
 
 BsdfSample sample_base(const LayeredSurface& surface, const Vec3f& wo, float u_lobe, Vec2f u, TransportMode mode) {
@@ -186,7 +207,9 @@ BsdfSample LayeredSurface::sample(const Vec3f& wo, float u_lobe, Vec2f u, Transp
         if (sample.is_delta) {
             // The choice among deltas leaves `u` unused.
             if (sample.is_transmission && inner.is_seen_from(wo)) return inner.leave_or_return(wo, sample, u.x);
-            sample.weight *= std::min(layers.passed_o, Layers::passed(*this, sample.wi)) / (1.0f - end_layers);
+            const float passed_i = Layers::passed(*this, sample.wi);
+            sample.weight *= std::min(layers.passed_o, passed_i) / (1.0f - end_layers);
+            sample.reverse_choice_ratio *= base_choice_back(*this, layers, wo, sample) / layers.p_base();
             return sample;
         }
     }

@@ -39,6 +39,13 @@ struct LayeredSurface {
     [[nodiscard]] BsdfValue evaluate(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const;
     [[nodiscard]] BsdfSample sample(const Vec3f& wo, float u_lobe, Vec2f u, TransportMode mode) const;
     [[nodiscard]] bool has_non_delta() const;
+    /// The same for a thin sheet that is seen from its other side, in the frame turned about y: the coat's normal is
+    /// the opposite one there.
+    [[nodiscard]] LayeredSurface from_behind() const {
+        LayeredSurface turned = *this;
+        turned.coat.normal.y = -coat.normal.y;
+        return turned;
+    }
     [[nodiscard]] bool is_two_sided() const { return std::holds_alternative<DielectricBody>(base); }
 };
 

@@ -82,6 +82,10 @@ EmissionSample ConstantEnvironment::sample_emission(const EmissionNumbers& u, co
     return emission_from(sample(scene.center, u.direction), u, scene);
 }
 
+float ConstantEnvironment::emission_pdf(const Vec3f&, float, const SceneSphere& scene) const {
+    return emission_from_afar_pdf_area(scene);
+}
+
 float ConstantEnvironment::pdf_solid_angle(const Vec3f&) const {
     return sphere_pdf_solid_angle();
 }
@@ -132,6 +136,10 @@ LightSample ImageEnvironment::sample(const Vec3f&, Vec2f u) const {
 
 EmissionSample ImageEnvironment::sample_emission(const EmissionNumbers& u, const SceneSphere& scene) const {
     return emission_from(sample(scene.center, u.direction), u, scene);
+}
+
+float ImageEnvironment::emission_pdf(const Vec3f&, float, const SceneSphere& scene) const {
+    return emission_from_afar_pdf_area(scene);
 }
 
 float ImageEnvironment::pdf_solid_angle(const Vec3f& direction) const {

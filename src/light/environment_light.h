@@ -23,6 +23,7 @@ struct ConstantEnvironment {
     [[nodiscard]] Rgb radiance(const Vec3f&) const { return value; }
     [[nodiscard]] LightSample sample(const Vec3f& point, Vec2f u) const;
     [[nodiscard]] EmissionSample sample_emission(const EmissionNumbers& u, const SceneSphere& scene) const;
+    [[nodiscard]] float emission_pdf(const Vec3f& direction, float cos_light, const SceneSphere& scene) const;
     [[nodiscard]] float pdf_solid_angle(const Vec3f& direction) const;
     [[nodiscard]] float power(float scene_radius) const;
 };
@@ -38,6 +39,7 @@ class ImageEnvironment {
     [[nodiscard]] Rgb radiance(const Vec3f& direction) const;
     [[nodiscard]] LightSample sample(const Vec3f& point, Vec2f u) const;
     [[nodiscard]] EmissionSample sample_emission(const EmissionNumbers& u, const SceneSphere& scene) const;
+    [[nodiscard]] float emission_pdf(const Vec3f& direction, float cos_light, const SceneSphere& scene) const;
     [[nodiscard]] float pdf_solid_angle(const Vec3f& direction) const;
     [[nodiscard]] float power(float scene_radius) const;
     [[nodiscard]] std::size_t bytes() const { return texture_.bytes() + distribution_.bytes(); }

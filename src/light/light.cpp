@@ -20,6 +20,20 @@ EmissionSample sample_emission(const Light& light, const EmissionNumbers& u, con
     return std::visit([&](const auto& l) { return l.sample_emission(u, scene); }, light);
 }
 
+float emission_pdf(const Light& light, const Vec3f& direction, float cos_light, const SceneSphere& scene) {
+    return std::visit([&](const auto& l) { return l.emission_pdf(direction, cos_light, scene); }, light);
+}
+
+bool is_delta_light(const Light& light) {
+    return std::holds_alternative<PointLight>(light) || std::holds_alternative<SpotLight>(light) ||
+           std::holds_alternative<ProfileLight>(light) || std::holds_alternative<DirectionalLight>(light);
+}
+
+bool is_at_infinity(const Light& light) {
+    return std::holds_alternative<DirectionalLight>(light) || std::holds_alternative<ConstantEnvironment>(light) ||
+           std::holds_alternative<ImageEnvironment>(light);
+}
+
 float light_power(const Light& light, float scene_radius) {
     return std::visit([&](const auto& l) { return l.power(scene_radius); }, light);
 }

@@ -1,8 +1,8 @@
 // All lights, and the choice between them.
 //
-// To add another: a struct with `sample(point, u)`, `sample_emission(u, scene)` and `power(scene_radius)`, its place in
-// the variant, one case in world/compile_lights.cpp, one in is_delta_light() of world/world.cpp if it is a delta, and
-// its row in tests/light.
+// To add another: a struct with `sample(point, u)`, `sample_emission(u, scene)` with its `emission_pdf(direction, cos,
+// scene)` and `power(scene_radius)`, its place in the variant, one case in world/compile_lights.cpp, one in
+// is_delta_light() if it is a delta, and its row in tests/light.
 #pragma once
 
 #include "light/environment_light.h"
@@ -26,6 +26,15 @@ using Light = std::variant<PointLight, SpotLight, ProfileLight, DirectionalLight
 
 /// A ray that leaves the light, for subpaths that begin there. Black where the light emits nothing.
 [[nodiscard]] EmissionSample sample_emission(const Light& light, const EmissionNumbers& u, const SceneSphere& scene);
+
+/// Of what `sample_emission` samples, once the point of the light is given, or at infinity the direction: the density
+/// of the ray's `direction`, 1/sr, or at infinity of the place where it passes, 1/m² across it. `cos_light`: between
+/// the direction and the geometric normal of a mesh light's front.
+[[nodiscard]] float emission_pdf(const Light& light, const Vec3f& direction, float cos_light, const SceneSphere& scene);
+/// True if it has no extent, in space or in direction, so that no ray meets it by chance.
+[[nodiscard]] bool is_delta_light(const Light& light);
+/// True if it shines from infinitely far away.
+[[nodiscard]] bool is_at_infinity(const Light& light);
 
 /// Emitted power in watts, mean of the channels; lights at infinity count what crosses a disk of `scene_radius` metres.
 [[nodiscard]] float light_power(const Light& light, float scene_radius);

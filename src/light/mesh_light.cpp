@@ -44,7 +44,8 @@ LightSample MeshLight::sample(const Vec3f& point, Vec2f u_triangle, Vec2f u) con
     sample.wi = to_light * (1.0f / sample.distance);
     const Vec3f normal = triangle_normal(t.edge1, t.edge2) * front_sign_;
     sample.end = offset_origin(on_light, normal, clearance(normal, position_error_), -sample.wi);
-    sample.pdf_solid_angle = pdf_solid_angle(sample.distance, -dot(sample.wi, normal));
+    sample.cos_light = -dot(sample.wi, normal);
+    sample.pdf_solid_angle = pdf_solid_angle(sample.distance, sample.cos_light);
     if (sample.pdf_solid_angle > 0.0f) sample.radiance = radiance_;
     sample.triangle = choice.index;
     sample.barycentric = b;
@@ -74,6 +75,11 @@ EmissionSample MeshLight::sample_emission(const EmissionNumbers& u, const SceneS
     sample.triangle = choice.index;
     sample.barycentric = b;
     return sample;
+}
+
+float MeshLight::emission_pdf(const Vec3f&, float cos_light, const SceneSphere&) const {
+    const float cosine = two_sided_ ? 0.5f * std::abs(cos_light) : cos_light;
+    return cosine > 0.0f ? cosine * kInvPi : 0.0f;
 }
 
 float MeshLight::pdf_solid_angle(float distance, float cos_light) const {

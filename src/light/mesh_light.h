@@ -36,6 +36,7 @@ class MeshLight {
     [[nodiscard]] float pdf_solid_angle(float distance, float cos_light) const;
     /// Uniform over the area, by the cosine over the directions of each side that emits.
     [[nodiscard]] EmissionSample sample_emission(const EmissionNumbers& u, const SceneSphere& scene) const;
+    [[nodiscard]] float emission_pdf(const Vec3f& direction, float cos_light, const SceneSphere& scene) const;
     [[nodiscard]] float power(float scene_radius) const;
 
     [[nodiscard]] float area() const { return area_; }

@@ -13,13 +13,20 @@ LightSample ProfileLight::sample(const Vec3f& point, Vec2f u) const {
     return sample;
 }
 
-EmissionSample ProfileLight::sample_emission(const EmissionNumbers& u, const SceneSphere&) const {
-    // Into all directions in which the profile, and the spot's cone, have any light.
+float ProfileLight::cos_emission() const {
     const float cos_last = std::cos(profile->last_vertical());
     const SpotLight* spot = std::get_if<SpotLight>(&lamp);
+    return spot != nullptr ? std::max(cos_last, spot->cos_outer) : cos_last;
+}
+
+float ProfileLight::emission_pdf(const Vec3f& direction, float, const SceneSphere&) const {
+    return emission_in_cone_pdf_solid_angle(direction, -frame.normal, cos_emission());
+}
+
+EmissionSample ProfileLight::sample_emission(const EmissionNumbers& u, const SceneSphere&) const {
+    const SpotLight* spot = std::get_if<SpotLight>(&lamp);
     const Vec3f position = std::visit([](const auto& l) { return l.position; }, lamp);
-    const float cos_max = spot != nullptr ? std::max(cos_last, spot->cos_outer) : cos_last;
-    EmissionSample sample = sample_emission_in_cone(position, -frame.normal, cos_max, u.direction);
+    EmissionSample sample = sample_emission_in_cone(position, -frame.normal, cos_emission(), u.direction);
     sample.radiance = spot != nullptr ? spot->intensity * spot->falloff(dot(sample.direction, spot->axis))
                                       : std::get<PointLight>(lamp).intensity;
     sample.radiance *= profile->candela(frame.to_local(sample.direction));

@@ -36,6 +36,10 @@ EmissionSample PointLight::sample_emission(const EmissionNumbers& u, const Scene
     return sample;
 }
 
+float PointLight::emission_pdf(const Vec3f& direction, float, const SceneSphere&) const {
+    return emission_in_cone_pdf_solid_angle(direction, {0.0f, 0.0f, 1.0f}, -1.0f);
+}
+
 float PointLight::power(float) const {
     return 4.0f * kPi * average(intensity);
 }
@@ -61,6 +65,10 @@ EmissionSample SpotLight::sample_emission(const EmissionNumbers& u, const SceneS
     return sample;
 }
 
+float SpotLight::emission_pdf(const Vec3f& direction, float, const SceneSphere&) const {
+    return emission_in_cone_pdf_solid_angle(direction, axis, cos_outer);
+}
+
 float SpotLight::power(float) const {
     // The squared ramp integrates to a third of the solid angle between the cones.
     return 2.0f * kPi * average(intensity) * (1.0f - cos_inner + (cos_inner - cos_outer) / 3.0f);
@@ -80,19 +88,38 @@ EmissionSample DirectionalLight::sample_emission(const EmissionNumbers& u, const
     return sample;
 }
 
+float DirectionalLight::emission_pdf(const Vec3f&, float, const SceneSphere& scene) const {
+    return emission_from_afar_pdf_area(scene);
+}
+
 float DirectionalLight::power(float scene_radius) const {
     return kPi * scene_radius * scene_radius * average(irradiance);
 }
 
+namespace {
+
+/// A cone that single precision closes still has a density.
+float opened(float cos_max) {
+    return std::min(cos_max, kOneMinusEpsilon);
+}
+
+float cone_density(float cos_max) {
+    return kInvPi * 0.5f / (1.0f - opened(cos_max));
+}
+
+}  // namespace
+
 EmissionSample sample_emission_in_cone(const Vec3f& position, const Vec3f& axis, float cos_max, Vec2f u) {
-    // A cone that single precision closes still has a density.
-    const float open = std::min(cos_max, kOneMinusEpsilon);
-    const Vec3f local = square_to_cone(u, open);
+    const Vec3f local = square_to_cone(u, opened(cos_max));
     EmissionSample sample;
     sample.position = position;
     sample.direction = normalize(Frame::from_normal(axis).to_world(local));
-    sample.pdf_direction_solid_angle = kInvPi * 0.5f / (1.0f - open);
+    sample.pdf_direction_solid_angle = cone_density(cos_max);
     return sample;
+}
+
+float emission_in_cone_pdf_solid_angle(const Vec3f& direction, const Vec3f& axis, float cos_max) {
+    return dot(direction, axis) >= opened(cos_max) ? cone_density(cos_max) : 0.0f;
 }
 
 EmissionSample sample_emission_from_afar(const Vec3f& direction, const SceneSphere& scene, Vec2f u) {
@@ -103,8 +130,12 @@ EmissionSample sample_emission_from_afar(const Vec3f& direction, const SceneSphe
     EmissionSample sample;
     sample.position = scene.center + (frame.tangent * d.x + frame.bitangent * d.y - direction * kBefore) * scene.radius;
     sample.direction = direction;
-    sample.pdf_position_area = kInvPi / (scene.radius * scene.radius);
+    sample.pdf_position_area = emission_from_afar_pdf_area(scene);
     return sample;
+}
+
+float emission_from_afar_pdf_area(const SceneSphere& scene) {
+    return kInvPi / (scene.radius * scene.radius);
 }
 
 }  // namespace etendue

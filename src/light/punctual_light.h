@@ -13,6 +13,7 @@ struct PointLight {
 
     [[nodiscard]] LightSample sample(const Vec3f& point, Vec2f u) const;
     [[nodiscard]] EmissionSample sample_emission(const EmissionNumbers& u, const SceneSphere& scene) const;
+    [[nodiscard]] float emission_pdf(const Vec3f& direction, float cos_light, const SceneSphere& scene) const;
     [[nodiscard]] float power(float scene_radius) const;
 };
 
@@ -28,6 +29,7 @@ struct SpotLight {
     [[nodiscard]] float falloff(float cos_angle) const;
     [[nodiscard]] LightSample sample(const Vec3f& point, Vec2f u) const;
     [[nodiscard]] EmissionSample sample_emission(const EmissionNumbers& u, const SceneSphere& scene) const;
+    [[nodiscard]] float emission_pdf(const Vec3f& direction, float cos_light, const SceneSphere& scene) const;
     [[nodiscard]] float power(float scene_radius) const;
 };
 
@@ -38,6 +40,7 @@ struct DirectionalLight {
 
     [[nodiscard]] LightSample sample(const Vec3f& point, Vec2f u) const;
     [[nodiscard]] EmissionSample sample_emission(const EmissionNumbers& u, const SceneSphere& scene) const;
+    [[nodiscard]] float emission_pdf(const Vec3f& direction, float cos_light, const SceneSphere& scene) const;
     [[nodiscard]] float power(float scene_radius) const;
 };
 
@@ -45,8 +48,14 @@ struct DirectionalLight {
 /// whose half angle has the cosine `cos_max`, uniformly; without the radiance.
 [[nodiscard]] EmissionSample sample_emission_in_cone(const Vec3f& position, const Vec3f& axis, float cos_max, Vec2f u);
 
+/// Density of its direction, 1/sr.
+[[nodiscard]] float emission_in_cone_pdf_solid_angle(const Vec3f& direction, const Vec3f& axis, float cos_max);
+
 /// That of all lights that lie in one direction, infinitely far away: a point on a disk as large as the scene, across
 /// the unit `direction` in which light goes.
 [[nodiscard]] EmissionSample sample_emission_from_afar(const Vec3f& direction, const SceneSphere& scene, Vec2f u);
+
+/// Density of that point, 1/m² across the direction.
+[[nodiscard]] float emission_from_afar_pdf_area(const SceneSphere& scene);
 
 }  // namespace etendue

@@ -128,7 +128,8 @@ ClearCoat evaluate_clear_coat(const WorldData& data, const GltfLayers& layers, c
     coat.alpha =
         squared(unit(scaled(data, layers.clearcoat_roughness, layers.clearcoat_roughness_texture, point, green)));
     coat.normal = point.shading.to_local(point.coat_normal);
-    // Seen from behind, the frame is turned about its bitangent, and the coat's normal is the opposite one.
+    // Seen from behind, the frame is turned about its bitangent, and the coat's normal is the opposite one
+    // (LayeredSurface::from_behind).
     if (from_back) coat.normal.y = -coat.normal.y;
     return coat;
 }

@@ -12,17 +12,19 @@
 #include "bsdf/bsdf.h"
 #include "core/frame.h"
 
+#include <algorithm>
+#include <cmath>
 #include <variant>
 
 namespace etendue {
 
 class Scattering {
   public:
-    /// `geometric_normal` and `frame.normal` on the front side. Lobes that do not tell sides apart are turned to face
-    /// `wo`.
+    /// `bsdf` must outlive it. `geometric_normal` and `frame.normal` on the front side. Lobes that do not tell sides
+    /// apart are turned to face `wo`.
     Scattering(const Bsdf& bsdf, Frame frame, Vec3f geometric_normal, const Vec3f& wo)
-        : bsdf_(bsdf), frame_(frame), geometric_normal_(geometric_normal) {
-        if (dot(wo, geometric_normal_) < 0.0f && !is_two_sided_interface(bsdf_)) {
+        : bsdf_(&bsdf), frame_(frame), geometric_normal_(geometric_normal) {
+        if (dot(wo, geometric_normal_) < 0.0f && !is_two_sided_interface(*bsdf_)) {
             geometric_normal_ = -geometric_normal_;
             frame_.normal = -frame_.normal;
             frame_.tangent = -frame_.tangent;  // keeps the frame right-handed
@@ -36,7 +38,7 @@ class Scattering {
     [[nodiscard]] BsdfValue evaluate(const Vec3f& wi, TransportMode mode) const {
         const Vec3f wi_local = frame_.to_local(wi);
         if (!wo_agrees_ || !agrees(wi, wi_local)) return {};
-        BsdfValue value = evaluate_bsdf(bsdf_, wo_local_, wi_local, mode);
+        BsdfValue value = evaluate_bsdf(*bsdf_, wo_local_, wi_local, mode);
         if (mode == TransportMode::Importance) value.f_cos *= adjoint_factor(wi, wi_local);
         return value;
     }
@@ -44,7 +46,7 @@ class Scattering {
     /// wi of the result is in world space.
     [[nodiscard]] BsdfSample sample(float u_lobe, Vec2f u, TransportMode mode) const {
         if (!wo_agrees_) return {};
-        BsdfSample sample = sample_bsdf(bsdf_, wo_local_, u_lobe, u, mode);
+        BsdfSample sample = sample_bsdf(*bsdf_, wo_local_, u_lobe, u, mode);
         if (is_black(sample.weight)) return {};
         const Vec3f wi_local = sample.wi;
         sample.wi = frame_.to_world(wi_local);
@@ -53,9 +55,29 @@ class Scattering {
         return sample;
     }
 
-    [[nodiscard]] bool has_non_delta() const { return etendue::has_non_delta(bsdf_); }
+    /// Density, 1/sr, with which a walk that arrives from `wi` would go on to `wo`.
+    [[nodiscard]] float reverse_pdf_solid_angle(const Vec3f& wi) const {
+        const Vec3f wi_local = frame_.to_local(wi);
+        if (!wo_agrees_ || !agrees(wi, wi_local)) return 0.0f;
+        return etendue::reverse_pdf_solid_angle(*bsdf_, wo_local_, wi_local);
+    }
+
+    /// Of a delta `sample`: the density of the way back over that of this way. Both are probabilities times a delta in
+    /// solid angle; refraction compresses solid angles by n² |cos|, which the two deltas see from either side.
+    [[nodiscard]] float reverse_density_ratio(const BsdfSample& sample) const {
+        if (!sample.is_transmission) return sample.reverse_choice_ratio;
+        const float cos_i = std::abs(frame_.to_local(sample.wi).z);
+        return sample.reverse_choice_ratio * std::abs(wo_local_.z) / (sample.eta * sample.eta * std::max(cos_i, 1e-6f));
+    }
+
+    /// The same surface for a walk that arrives from `w`. (Of thin sheets under a coat with a normal of its own,
+    /// World::bsdf makes another lobe for the other side.)
+    [[nodiscard]] Scattering seen_from(const Vec3f& w) const { return {*bsdf_, frame_, geometric_normal_, w}; }
+
+    [[nodiscard]] bool has_non_delta() const { return etendue::has_non_delta(*bsdf_); }
     [[nodiscard]] const Vec3f& geometric_normal() const { return geometric_normal_; }
-    [[nodiscard]] const Bsdf& bsdf() const { return bsdf_; }
+    [[nodiscard]] const Bsdf& bsdf() const { return *bsdf_; }
+    [[nodiscard]] const Vec3f& wo() const { return wo_; }
     [[nodiscard]] const Vec3f& wo_local() const { return wo_local_; }
 
   private:
@@ -68,7 +90,7 @@ class Scattering {
         return below > 0.0f ? above / below : 0.0f;
     }
 
-    const Bsdf& bsdf_;
+    const Bsdf* bsdf_;
     Frame frame_;
     Vec3f geometric_normal_;
     Vec3f wo_{0.0f};

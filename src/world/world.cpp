@@ -30,11 +30,6 @@ float radius_of(const Bounds& bounds) {
     return radius > 0.0f ? radius : 1.0f;
 }
 
-bool is_delta_light(const Light& light) {
-    return std::holds_alternative<PointLight>(light) || std::holds_alternative<SpotLight>(light) ||
-           std::holds_alternative<ProfileLight>(light) || std::holds_alternative<DirectionalLight>(light);
-}
-
 /// True if the material mirrors or refracts without roughness; textured roughness is taken not to reach zero.
 bool is_specular(const Material& material) {
     if (material.unlit) return false;
@@ -211,7 +206,7 @@ Interior World::interior_at(const Vec3f& point) const {
 ChosenLight World::sample_light(const Vec3f& point, const LightNumbers& u) const {
     const AliasTable::Choice choice = selector_.sample(u.light);
     const Light& light = data_->lights[choice.index];
-    ChosenLight chosen{etendue::sample_light(light, point, u.triangle, u.direction), choice.probability};
+    ChosenLight chosen{etendue::sample_light(light, point, u.triangle, u.direction), choice.probability, choice.index};
     LightSample& sample = chosen.sample;
     sample.pdf_solid_angle *= choice.probability;
     if (!is_black(sample.radiance) && has_uneven_emission(choice.index))
@@ -259,14 +254,21 @@ Rgb World::surface_emission(const Emission& emission, const Vec3f& direction) co
            abs_dot(triangle_normal(t.edge1, t.edge2), direction);
 }
 
-float World::emitter_pdf_solid_angle(const SurfacePoint& point, const Vec3f& direction, float distance) const {
+std::uint32_t World::light_at(const SurfacePoint& point) const {
     const Instance& instance = data_->instances[point.instance];
-    const std::uint32_t light =
-        data_->light_of_slot[instance.first_light_slot + point.geometry - instance.first_geometry];
+    return data_->light_of_slot[instance.first_light_slot + point.geometry - instance.first_geometry];
+}
+
+float World::emitter_pdf_solid_angle(const SurfacePoint& point, const Vec3f& direction, float distance) const {
+    const std::uint32_t light = light_at(point);
     if (light == kNone) return 0.0f;
     const float cos_light = -dot(direction, point.geometric_normal);
     return std::get<MeshLight>(data_->lights[light]).pdf_solid_angle(distance, cos_light) *
            selector_.probability(light);
+}
+
+float World::emitter_pdf_area(std::uint32_t light) const {
+    return selector_.probability(light) / std::get<MeshLight>(data_->lights[light]).area();
 }
 
 Rgb World::environment_radiance(const Vec3f& direction) const {

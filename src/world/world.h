@@ -113,6 +113,7 @@ struct WorldData {
 struct ChosenLight {
     LightSample sample;     ///< pdf_solid_angle includes the choice
     float probability = 0;  ///< of choosing this light
+    std::uint32_t light = kNone;
 };
 
 /// The beginning of a light subpath.
@@ -197,12 +198,31 @@ class World {
     /// Radiance and cosine towards `direction` of the point at which an emission starts, W/(m² sr); black for lights
     /// without a surface.
     [[nodiscard]] Rgb surface_emission(const Emission& emission, const Vec3f& direction) const;
+    /// True if rays can meet the light of this index by chance.
+    [[nodiscard]] bool can_be_hit(std::uint32_t light) const { return !is_delta_light(data_->lights[light]); }
+    [[nodiscard]] bool is_at_infinity(std::uint32_t light) const {
+        return etendue::is_at_infinity(data_->lights[light]);
+    }
+    /// Of the rays of `sample_emission` from a given point of the light of this index, or at infinity in a given
+    /// direction: the density of `direction`, 1/sr, or at infinity of where they pass, 1/m² across it. `cos_light` is
+    /// the cosine between the direction and the normal of the light's front.
+    [[nodiscard]] float emission_pdf(std::uint32_t light, const Vec3f& direction, float cos_light) const {
+        return etendue::emission_pdf(data_->lights[light], direction, cos_light, scene_sphere());
+    }
+    /// The light that the surface at `point` belongs to; kNone if it is not sampled.
+    [[nodiscard]] std::uint32_t light_at(const SurfacePoint& point) const;
+    /// Index of the environment, kNone if there is none.
+    [[nodiscard]] std::uint32_t environment() const { return data_->environment; }
     /// The bodies that the light of this index shines in.
     [[nodiscard]] const Interior& light_interior(std::uint32_t light) const { return light_interiors_[light]; }
     /// Density, choice included, with which `sample_light` would have picked the direction that hit the emitter `point`
     /// at `distance`. 0 if it is no sampled light.
     [[nodiscard]] float emitter_pdf_solid_angle(const SurfacePoint& point, const Vec3f& direction,
                                                 float distance) const;
+
+    /// Density per area, 1/m², choice included, with which both kinds of samples pick a point of the mesh light of this
+    /// index.
+    [[nodiscard]] float emitter_pdf_area(std::uint32_t light) const;
 
     [[nodiscard]] bool has_environment() const { return data_->environment != kNone; }
     [[nodiscard]] Rgb environment_radiance(const Vec3f& direction) const;

@@ -1,5 +1,7 @@
 #include "world/scattering.h"
 
+#include "bsdf/ggx.h"
+#include "sampling/warp.h"
 #include "world/test_scene.h"
 
 #include <cmath>
@@ -161,6 +163,55 @@ TEST(Scattering, InterfacesKnowTheirSides) {
         EXPECT_NEAR(sample.wi.z, -side, 1e-6f);
         EXPECT_NEAR(sample.eta, side > 0.0f ? 1.5f : 1.0f / 1.5f, 1e-6f);
     }
+}
+
+// What a walk from the other end would do at a surface, told from this one.
+TEST(Scattering, ReverseDensitiesAreThoseOfTheOtherWalk) {
+    Random random(5);
+    for (const NamedLobe& lobe : lobes())
+        for (int i = 0; i < 500; ++i) {
+            const Surface surface = random_surface(random);
+            const Vec3f wo = random_direction(random);
+            const Vec3f wi = random_direction(random);
+            const Scattering forward(lobe.bsdf, surface.frame, surface.geometric_normal, wo);
+            const Scattering backward(lobe.bsdf, surface.frame, surface.geometric_normal, wi);
+            const float expected = backward.evaluate(wo, TransportMode::Radiance).pdf_solid_angle;
+            ASSERT_NEAR(forward.reverse_pdf_solid_angle(wi), expected, 1e-5f + 1e-3f * expected) << lobe.name;
+        }
+}
+
+// The ratio at a delta is what that of a rough surface's densities tends to, where its facets all but lie flat.
+TEST(Scattering, TheWayBackThroughADeltaIsTheLimitOfRoughness) {
+    const Frame frame = Frame::from_normal({0.0f, 0.0f, 1.0f});
+    const Bsdf smooth = SmoothDielectric{1.5f};
+    const Bsdf rough = RoughDielectric::make(1.5f, kSmoothAlpha);
+    for (const float cos_theta : {0.95f, 0.5f, 0.2f, -0.95f, -0.8f}) {
+        const Vec3f wo{std::sqrt(1.0f - cos_theta * cos_theta), 0.0f, cos_theta};
+        const Scattering delta(smooth, frame, frame.normal, wo);
+        for (const float u : {0.0f, kOneMinusEpsilon}) {
+            const BsdfSample sample = delta.sample(u, {0.5f, 0.5f}, TransportMode::Radiance);
+            ASSERT_TRUE(sample.is_delta && sample.is_transmission == (u > 0.0f));
+            const Scattering limit(rough, frame, frame.normal, wo);
+            const float there = limit.evaluate(sample.wi, TransportMode::Radiance).pdf_solid_angle;
+            const float back = limit.reverse_pdf_solid_angle(sample.wi);
+            EXPECT_NEAR(delta.reverse_density_ratio(sample) / (back / there), 1.0f, 0.02f) << cos_theta << ", " << u;
+        }
+    }
+}
+
+// A coat lets light in with another chance than the one with which it lets it out.
+TEST(Scattering, TheWayBackThroughACoatHasTheChancesOfBothEnds) {
+    const Frame frame = Frame::from_normal({0.0f, 0.0f, 1.0f});
+    const Bsdf coated =
+        LayeredSurface::make(DielectricBody{SmoothDielectric{1.5f}, {}, 1.0f}, {}, ClearCoat{1.0f, 0.0f});
+    const Vec3f wo{0.8f, 0.0f, 0.6f};
+    const Scattering outside(coated, frame, frame.normal, wo);
+    const BsdfSample in = outside.sample(kOneMinusEpsilon, {0.5f, 0.5f}, TransportMode::Importance);
+    ASSERT_TRUE(in.is_delta && in.is_transmission);
+    const Scattering inside(coated, frame, frame.normal, in.wi);
+    const BsdfSample out = inside.sample(kOneMinusEpsilon, {0.0f, 0.5f}, TransportMode::Importance);
+    ASSERT_TRUE(out.is_delta && out.is_transmission);
+    EXPECT_NEAR(outside.reverse_density_ratio(in) * inside.reverse_density_ratio(out), 1.0f, 1e-4f);
 }
 
 }  // namespace
