@@ -1,4 +1,5 @@
 // All integrators, in the order in which --help lists them.
+#include "integrator/bdpt/bdpt_integrator.h"
 #include "integrator/debug/debug_integrator.h"
 #include "integrator/integrator.h"
 #include "integrator/light/light_integrator.h"
@@ -31,6 +32,10 @@ std::unique_ptr<const Integrator> make_light(const IntegratorOptions& options) {
     return std::make_unique<LightIntegrator>(options);
 }
 
+std::unique_ptr<const Integrator> make_bdpt(const IntegratorOptions& options) {
+    return std::make_unique<BdptIntegrator>(BdptOptions{.lengths = options});
+}
+
 std::unique_ptr<const Integrator> make_normals(const IntegratorOptions&) {
     return std::make_unique<DebugIntegrator>(DebugQuantity::Normals);
 }
@@ -44,6 +49,7 @@ constexpr IntegratorEntry kRegistry[] = {
     {"direct", "path, one bounce only", make_direct, kDirectPath},
     {"naive", "eye paths that find lights by chance", make_naive},
     {"light", "paths from the lights, connected to the camera", make_light},
+    {"bdpt", "eye and light paths, connected in every way, combined by MIS", make_bdpt},
     {"normals", "shading normals, for debugging", make_normals},
     {"albedo", "scattered share of light, for debugging", make_albedo},
 };

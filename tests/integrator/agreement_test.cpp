@@ -1,15 +1,13 @@
 // Two integrators that can both find all light of a scene make the same image of it: block means agree within their own
-// noise, image means within 1%. Every scene is a room with the walls open to one kind of light, a body and an occluder.
+// noise, image means within 1%.
 //
 // All comparisons together fail with probability 0.01 if everything is right (Sidak's correction); seeds are fixed.
+#include "integrator/agreement_cases.h"
 #include "metrics/block_agreement.h"
 #include "render/render.h"
 #include "support/chi2.h"
-#include "world/test_scene.h"
 
 #include <atomic>
-#include <cmath>
-#include <functional>
 #include <ostream>
 #include <string>
 #include <utility>
@@ -21,201 +19,37 @@ namespace etendue::test {
 
 namespace {
 
-constexpr int kWidth = 64;
-constexpr int kHeight = 48;
 constexpr std::uint32_t kSeeds = 6;
 
-struct AgreementCase {
-    std::string name;
-    std::function<void(SceneDesc&)> make;
-    IntegratorOptions lengths{.max_depth = 6};
-    PixelRect window{0, 0, kWidth, kHeight};
-    std::uint32_t spp = 64;
+/// A scene and an integrator to compare with `path`.
+struct AgreementPair {
+    const AgreementCase* agreement;
+    std::string integrator;
 };
 
-void PrintTo(const AgreementCase& agreement, std::ostream* out) {
-    *out << agreement.name;
+void PrintTo(const AgreementPair& pair, std::ostream* out) {
+    *out << pair.integrator << " " << pair.agreement->name;
 }
 
-MaterialDesc gltf_plastic() {
-    MaterialDesc m;
-    m.base_color = {0.7f, 0.3f, 0.2f};
-    m.metallic = 0.0f;
-    m.roughness = 0.5f;
-    return m;
-}
-
-MaterialDesc conductor(float roughness) {
-    MaterialDesc m;
-    m.override_model = ConductorDesc{"Cu", roughness};
-    return m;
-}
-
-MaterialDesc glass(float roughness, float dispersion = 0.0f, const Rgb& attenuation = Rgb(1.0f)) {
-    MaterialDesc m;
-    DielectricDesc desc{.ior = 1.5f, .roughness = roughness};
-    desc.volume.dispersion = dispersion;
-    desc.volume.attenuation_color = attenuation;
-    desc.volume.attenuation_distance = 0.3f;
-    m.override_model = desc;
-    return m;
-}
-
-/// A floor and a wall behind it.
-void add_room(SceneDesc& scene) {
-    const auto gray = add_material(scene, diffuse({0.6f, 0.5f, 0.4f}));
-    add_object(scene, quad({0, -0.7f, -3}, {1.6f, 0, 0}, {0, 0, -1.6f}), gray);
-    add_object(scene, quad({0, 0.5f, -4.4f}, {1.6f, 0, 0}, {0, 1.4f, 0}), gray);
-}
-
-void add_ball(SceneDesc& scene, MaterialDesc material) {
-    add_object(scene, sphere({0.2f, -0.25f, -3.0f}, 0.4f, 12), add_material(scene, std::move(material)));
-}
-
-/// Throws a shadow, and is out of focus for a lens.
-void add_occluder(SceneDesc& scene) {
-    add_object(scene, quad({-0.5f, 0.1f, -2.2f}, {0.15f, 0.05f, 0}, {0, 0.2f, 0.1f}),
-               add_material(scene, diffuse({0.2f, 0.4f, 0.7f})));
-}
-
-void add_lamp(SceneDesc& scene, bool two_sided = false) {
-    MaterialDesc lamp = emissive(Rgb(6.0f));
-    lamp.double_sided = two_sided;
-    add_object(scene, quad({0, 1.3f, -3}, {0.5f, 0, 0}, {0, 0, 0.5f}), add_material(scene, lamp));
-}
-
-LightDesc light(LightType type, float intensity, const Mat4f& to_world) {
-    LightDesc desc;
-    desc.type = type;
-    desc.intensity = intensity;
-    desc.to_world = to_world;
-    return desc;
-}
-
-/// About +X, so that -Z points down.
-Mat4f looking_down(float angle) {
-    return {1, 0, 0, 0, 0, std::cos(angle), -std::sin(angle), 0, 0, std::sin(angle), std::cos(angle), 0, 0, 0, 0, 1};
-}
-
-std::function<void(SceneDesc&)> under_lamp(const MaterialDesc& material) {
-    return [=](SceneDesc& scene) {
-        add_ball(scene, material);
-        add_lamp(scene);
-    };
-}
-
-std::function<void(SceneDesc&)> under(const LightDesc& desc, const MaterialDesc& material = gltf_plastic()) {
-    return [=](SceneDesc& scene) {
-        add_ball(scene, material);
-        scene.lights.push_back(desc);
-    };
-}
-
-void add_environment(SceneDesc& scene) {
-    scene.environment.enabled = true;
-    scene.environment.color = {0.5f, 0.6f, 0.9f};
-    scene.environment.visible_to_camera = false;
-}
-
-std::vector<AgreementCase> all_cases() {
-    const LightDesc point = light(LightType::Point, 4.0f, translation({0.6f, 0.9f, -2.4f}));
-    LightDesc spot = light(LightType::Spot, 9.0f, looking_down(1.2f) * translation({0.3f, 1.2f, -2.2f}));
-    spot.inner_cone_angle = 0.3f;
-    const LightDesc sun = light(LightType::Directional, 3.0f, looking_down(0.9f));
-    MaterialDesc wax;
-    wax.override_model = SubsurfaceDesc{.albedo = {0.8f, 0.6f, 0.4f}, .radius = Rgb(0.15f)};
-    MaterialDesc coated = gltf_plastic();
-    coated.clearcoat.factor = 1.0f;
-    coated.clearcoat.roughness = 0.3f;
-    coated.sheen.color = Rgb(0.4f);
-    coated.sheen.roughness = 0.5f;
-    MaterialDesc sheet = gltf_plastic();
-    sheet.transmission = 0.8f;
-    sheet.roughness = 0.6f;
-    MaterialDesc leaf = gltf_plastic();
-    leaf.diffuse_transmission.factor = 0.6f;
-    MaterialDesc veil = diffuse({0.3f, 0.6f, 0.3f});
-    veil.alpha_mode = AlphaMode::Blend;
-    veil.base_alpha = 0.5f;
-    std::vector<AgreementCase> cases{
-        {"LampDiffuse", under_lamp(diffuse(Rgb(0.7f)))},
-        {"LampPlastic", under_lamp(gltf_plastic())},
-        {"LampConductor", under_lamp(conductor(0.6f))},
-        {"LampRoughGlass", under_lamp(glass(0.6f))},
-        {"LampAmber", under_lamp(glass(0.6f, 0.0f, {0.9f, 0.5f, 0.1f}))},
-        {"LampPrism", under_lamp(glass(0.6f, 4.0f))},
-        {"LampLayers", under_lamp(coated)},
-        {"LampWax", under_lamp(wax), {.max_depth = 4}},
-        {"PointPlastic", under(point)},
-        {"SpotConductor", under(spot, conductor(0.6f))},
-        {"SunRoughGlass", under(sun, glass(0.6f))},
-    };
-    cases.push_back(
-        {"TwoSidedLamp", [](SceneDesc& scene) {
-             add_ball(scene, gltf_plastic());
-             add_lamp(scene, true);
-             add_object(scene, quad({0, 1.7f, -3}, {1, 0, 0}, {0, 0, 1}), add_material(scene, diffuse(Rgb(0.8f))));
-         }});
-    cases.push_back({"Environment", [](SceneDesc& scene) {
-                         add_ball(scene, gltf_plastic());
-                         add_environment(scene);
-                     }});
-    cases.push_back(
-        {"SheetAndLeaf", [=](SceneDesc& scene) {
-             add_object(scene, quad({0.3f, 0, -2.6f}, {0.5f, 0, 0.2f}, {0, 0.5f, 0}), add_material(scene, sheet));
-             add_object(scene, quad({-0.6f, 0, -2.9f}, {0.4f, 0, 0}, {0, 0.4f, 0.2f}), add_material(scene, leaf));
-             scene.lights.push_back(point);
-         }});
-    cases.push_back(
-        {"VeilMirroredThinLens", [=](SceneDesc& scene) {
-             add_object(scene, quad({0.2f, 0.1f, -2.0f}, {0.4f, 0, 0}, {0, 0.4f, 0}), add_material(scene, veil));
-             PrimitiveDesc ball = sphere(Vec3f(0.0f), 0.4f, 12);
-             ball.material = add_material(scene, gltf_plastic());
-             const auto shared = add_mesh(scene, {ball});
-             place(scene, shared, scaling({-1.2f, 0.7f, 1.0f}) * translation({0.3f, -0.3f, -3}));
-             place(scene, shared, scaling(Vec3f(0.4f)) * translation({-0.6f, -0.5f, -2.8f}));
-             add_lamp(scene);
-             scene.cameras[0].lens_radius = 0.08f;
-             scene.cameras[0].focus_distance = 3.0f;
-         }});
-    // One refraction on the way: its squared index is in radiance and not in importance.
-    cases.push_back(
-        {"LampInRoughGlass", [](SceneDesc& scene) {
-             add_ball(scene, glass(0.6f));
-             MaterialDesc lamp = emissive(Rgb(20.0f));
-             lamp.double_sided = true;
-             add_object(scene, quad({0.2f, -0.25f, -3.0f}, {0.12f, 0, 0}, {0, 0.1f, 0.05f}), add_material(scene, lamp));
-         }});
-    // Normals that are far from those of the triangles: the adjoint's factor is large.
-    cases.push_back(
-        {"CoarseSmoothNormals", [](SceneDesc& scene) {
-             add_object(scene, sphere({0.1f, -0.2f, -2.8f}, 0.5f, 4), add_material(scene, diffuse(Rgb(0.8f))));
-             add_lamp(scene);
-         }});
-    cases.push_back({"Orthographic", [](SceneDesc& scene) {
-                         add_ball(scene, gltf_plastic());
-                         add_lamp(scene);
-                         scene.cameras[0].type = CameraType::Orthographic;
-                         scene.cameras[0].ymag = 1.2f;
-                     }});
-    // The caustic on the floor and the shadow around it; the glass itself, which light paths cannot show, is outside.
-    cases.push_back({"CausticCrop", under_lamp(glass(0.0f)), {.max_depth = 6}, {28, 38, 60, 48}, 512});
-    return cases;
-}
-
-const std::vector<AgreementCase>& cases() {
-    static const std::vector<AgreementCase> all = all_cases();
+const std::vector<AgreementPair>& pairs() {
+    static const std::vector<AgreementPair> all = [] {
+        std::vector<AgreementPair> result;
+        for (const AgreementCase& agreement : agreement_cases())
+            for (const std::string& integrator : agreement.integrators) result.push_back({&agreement, integrator});
+        return result;
+    }();
     return all;
 }
 
-ImageEstimate estimate(const World& world, const char* name, const AgreementCase& agreement, std::uint32_t first_seed) {
+ImageEstimate estimate(const World& world, const std::string& name, const AgreementCase& agreement,
+                       std::uint32_t first_seed) {
     const ThreadPool threads;
     const std::atomic<bool> stop{false};
     std::vector<ImageF> renders;
     for (std::uint32_t i = 0; i < kSeeds; ++i) {
         RenderOptions options;
-        options.full_width = kWidth;
-        options.full_height = kHeight;
+        options.full_width = kAgreementWidth;
+        options.full_height = kAgreementHeight;
         options.window = agreement.window;
         options.spp = agreement.spp;
         options.seed = first_seed + i;
@@ -231,25 +65,20 @@ ImageEstimate estimate(const World& world, const char* name, const AgreementCase
     return estimate_image(renders);
 }
 
-class Agreement : public testing::TestWithParam<AgreementCase> {};
+class Agreement : public testing::TestWithParam<AgreementPair> {};
 
-TEST_P(Agreement, LightTracingMakesTheImageOfPathTracing) {
-    SceneDesc scene = empty_scene();
-    scene.settings.film.width = kWidth;
-    scene.settings.film.height = kHeight;
-    add_room(scene);
-    add_occluder(scene);
-    GetParam().make(scene);
-    const World world = compile(std::move(scene));
-    const ImageEstimate path = estimate(world, "path", GetParam(), 100);
-    const ImageEstimate light = estimate(world, "light", GetParam(), 200);
+TEST_P(Agreement, MakesTheImageOfPathTracing) {
+    const auto& [agreement, integrator] = GetParam();
+    const World world = agreement_world(*agreement);
+    const ImageEstimate path = estimate(world, "path", *agreement, 100);
+    const ImageEstimate other = estimate(world, integrator, *agreement, 200);
     const BlockAgreement result =
-        test_agreement(path, light, {.block_size = 8, .significance = sidak_level(kFamilyLevel, cases().size())});
+        test_agreement(path, other, {.block_size = 8, .significance = sidak_level(kFamilyLevel, pairs().size())});
     EXPECT_TRUE(result.agree()) << result.str();
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Agreement, testing::ValuesIn(cases()),
-                         [](const auto& agreement) { return agreement.param.name; });
+INSTANTIATE_TEST_SUITE_P(Scenes, Agreement, testing::ValuesIn(pairs()),
+                         [](const auto& pair) { return pair.param.integrator + "_" + pair.param.agreement->name; });
 
 }  // namespace
 

@@ -1,0 +1,27 @@
+// Bidirectional path tracing: every path in every way that subpaths from the eye and from the light can make it,
+// combined by multiple importance sampling (Lafortune and Willems 1993; Veach and Guibas 1994; Veach 1997, chapter 10).
+//
+// Each camera sample has a light subpath of its own, whose vertices are connected to those of the sample's eye subpath
+// and to the camera. subpath/subpath_densities.h derives the weights. Textures are not filtered: subpaths from the
+// light have no pixel to filter for, and both must see one material.
+#pragma once
+
+#include "integrator/bdpt/bdpt_options.h"
+
+namespace etendue {
+
+class BdptIntegrator final : public Integrator {
+  public:
+    explicit BdptIntegrator(const BdptOptions& options) : options_(options) {}
+
+    [[nodiscard]] std::unique_ptr<IntegratorScratch> make_scratch() const override;
+    [[nodiscard]] std::vector<std::string> unreachable_light(const World& world) const override;
+    [[nodiscard]] bool makes_splats() const override { return true; }
+    void render_tile(const World& world, const TileJob& job, IntegratorScratch& scratch, TileBuffer& tile,
+                     RenderCounters& counters) const override;
+
+  private:
+    BdptOptions options_;
+};
+
+}  // namespace etendue

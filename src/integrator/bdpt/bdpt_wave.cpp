@@ -1,0 +1,281 @@
+#include "integrator/bdpt/bdpt_wave.h"
+
+#include "integrator/connecting_ray.h"
+#include "integrator/subpath/camera_splat.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace etendue {
+
+namespace {
+
+/// Paths of one edge, a light that the camera sees, have no strategy but one.
+constexpr int kDirectlySeen = 1;
+
+bool is_wanted(const IntegratorOptions& lengths, int edges) {
+    return edges >= lengths.min_depth && edges <= lengths.max_depth;
+}
+
+bool is_wanted(const BdptOptions& options, const Strategy& strategy) {
+    return !options.only || *options.only == strategy;
+}
+
+#ifdef NDEBUG
+constexpr bool kCheckAllWeights = false;
+#else
+constexpr bool kCheckAllWeights = true;
+#endif
+
+bool are_checked(const BdptOptions& options) {
+    return kCheckAllWeights || options.observer != nullptr;
+}
+
+/// The vertices of the subpath that ends in `last`, the last one first.
+void append_subpath(const SubpathWave& wave, const PathVertex* last, std::vector<const PathVertex*>& path) {
+    for (const PathVertex* v = last; v != nullptr;
+         v = v->previous != PathVertex::kNoVertex ? &wave.vertices()[v->previous] : nullptr)
+        path.push_back(v);
+}
+
+}  // namespace
+
+float BdptWave::weight(const BdptOptions& options, double fewer_from_light, double fewer_from_eye) {
+    return options.weighted ? static_cast<float>(1.0 / (1.0 + fewer_from_light + fewer_from_eye)) : 1.0f;
+}
+
+void BdptWave::trace(const World& world, const TileJob& job, const BdptOptions& options, std::size_t first,
+                     std::size_t count, TileBuffer& tile, RenderCounters& counters) {
+    samples_.resize(count);
+    camera_rays_.resize(count);
+    generate_camera_rays(world, job, first, samples_, camera_rays_);
+    radiance_.assign(count, Rgb());
+    alpha_.assign(count, 1.0f);
+    const Context context{{world, job, options.lengths, Raised{options.heuristic}, samples_, camera_rays_}, options};
+    context_ = &context;
+    eye_.trace(context, this, counters);
+    context_ = nullptr;
+    if (world.has_lights()) {
+        const auto resolve_if_full = [&] { connections_.resolve_if_full(world, samples_, radiance_, tile, counters); };
+        light_.trace(context, nullptr, counters);
+        for (const PathVertex& vertex : eye_.vertices()) {
+            if (!vertex.is_connectible) continue;
+            connect_to_light(context, vertex);
+            for (std::uint32_t i = light_.last_vertex(vertex.slot); i != PathVertex::kNoVertex;
+                 i = light_.vertices()[i].previous)
+                if (light_.vertices()[i].is_connectible) connect(context, vertex, light_.vertices()[i]);
+            resolve_if_full();
+        }
+        for (const PathVertex& vertex : light_.vertices()) {
+            if (!vertex.is_connectible) continue;
+            connect_to_camera(context, vertex);
+            resolve_if_full();
+        }
+        connections_.resolve(world, samples_, radiance_, tile, counters);
+    }
+    for (std::size_t i = 0; i < count; ++i) accumulate(job, samples_[i], radiance_[i], alpha_[i], tile, counters);
+}
+
+void BdptWave::check(const SubpathJob& job, const BdptOptions& options, std::size_t s, float weight,
+                     const PathLightEnd& end, const PathVertex* light, const PathVertex* eye,
+                     const CameraConnection& camera) const {
+    std::vector<const PathVertex*> path;
+    append_subpath(light_, light, path);
+    std::reverse(path.begin(), path.end());
+    append_subpath(eye_, eye, path);
+    const CompletePath complete{end, path, s, camera};
+    const std::vector<double> reference = reference_weights(job, complete);
+    if (options.observer != nullptr) options.observer->on_weight(complete, static_cast<double>(weight), reference);
+    assert(!options.weighted || std::abs(static_cast<double>(weight) - reference[s]) < 1e-4);
+}
+
+PathLightEnd BdptWave::light_end(std::uint32_t slot) const {
+    const Emission& emission = light_.emissions()[slot];
+    return {.light = emission.light,
+            .position = emission.sample.position,
+            .direction = emission.sample.direction,
+            .cos_light = emission.sample.cos_theta};
+}
+
+CameraConnection BdptWave::camera_of(const SubpathJob& job, const PathVertex& eye) const {
+    const PathVertex* first = &eye;
+    while (first->previous != PathVertex::kNoVertex) first = &eye_.vertices()[first->previous];
+    const Vec2f lens = sample_2d(job.job.sequence, job.samples[eye.slot].key, kLensDimension);
+    return job.world.connect_to_camera(first->position, lens, job.camera_rays[eye.slot].time);
+}
+
+void BdptWave::add(const SubpathState& state, const Rgb& light, double fewer_from_eye, const PathLightEnd& end) {
+    const Context& context = *context_;
+    if (!is_wanted(context.options, {.s = 0, .t = state.index + 1})) return;
+    const float share = weight(context.options, 0.0, fewer_from_eye);
+    radiance_[state.slot] +=
+        state.throughput * light * context.wavelength_weight(state.slot, state.is_dispersed) * share;
+    if (are_checked(context.options) && state.index > kDirectlySeen) {
+        const PathVertex& last = eye_.vertices()[state.last_vertex];
+        check(context, context.options, 0, share, end, nullptr, &last, camera_of(context, last));
+    }
+}
+
+void BdptWave::on_emitter(const SubpathState& state, const SurfacePoint& point, const Vec3f& direction,
+                          const SubpathDensities& arrived) {
+    if (state.edges < context_->lengths.min_depth) return;
+    const World& world = context_->world;
+    const Rgb emitted = world.emission(point, -direction);
+    if (is_black(emitted)) return;
+    double fewer = 0.0;
+    const std::uint32_t light = world.light_at(point);
+    if (state.index > kDirectlySeen && light != kNone) {
+        const float cos_light = -dot(direction, point.geometric_normal);
+        const Raised& raised = context_->raised;
+        fewer = raised(static_cast<double>(world.emitter_pdf_area(light))) *
+                arrived.fewer(raised, static_cast<double>(world.emission_pdf(light, -direction, cos_light)));
+    }
+    add(state, emitted, fewer,
+        {.light = light,
+         .position = point.position,
+         .direction = -direction,
+         .cos_light = -dot(direction, point.geometric_normal),
+         .is_reached_directly = state.is_direct});
+}
+
+void BdptWave::on_unlit(const SubpathState& state, const SurfacePoint& point, const Vec3f& direction) {
+    // Only what the eye sees directly or in mirrors shows an unlit surface; it lights nothing.
+    if (state.only_delta && state.edges >= context_->lengths.min_depth)
+        add(state, context_->world.unlit_color(point), 0.0, {.position = point.position, .direction = -direction});
+}
+
+void BdptWave::on_escape(const SubpathState& state, const Vec3f& direction) {
+    const World& world = context_->world;
+    const bool is_direct = state.index == kDirectlySeen;
+    if (is_direct && state.edges == 1 && !(world.has_environment() && world.environment_visible_to_camera())) {
+        alpha_[state.slot] = 0.0f;
+        return;
+    }
+    if (!world.has_environment() || state.edges < context_->lengths.min_depth) return;
+    double fewer = 0.0;
+    if (!is_direct) {
+        // The vertex is a direction: its density is per solid angle on both sides, and so is that of the light.
+        const Raised& raised = context_->raised;
+        DepartingDensities departing = state.departing;
+        departing.is_from_infinity = false;
+        const SubpathDensities arrived = departing.arrive(raised, 1.0, 1.0);
+        fewer = raised(static_cast<double>(world.environment_pdf_solid_angle(direction))) *
+                arrived.fewer(raised, static_cast<double>(world.emission_pdf(world.environment(), -direction, 1.0f)));
+    }
+    add(state, world.environment_radiance(direction), fewer,
+        {.light = world.environment(), .direction = -direction, .is_reached_directly = state.is_direct});
+}
+
+void BdptWave::connect_to_light(const Context& context, const PathVertex& vertex) {
+    if (!is_wanted(context.lengths, vertex.next_edges) || !is_wanted(context.options, {.s = 1, .t = vertex.index + 1}))
+        return;
+    const World& world = context.world;
+    const auto numbers = [&](BounceNumbers which) {
+        return context.numbers(SubpathEnd::AtEye, vertex.index, which, vertex.slot);
+    };
+    const ChosenLight chosen =
+        world.sample_light(vertex.position, {numbers(BounceNumbers::LightChoice), numbers(BounceNumbers::LightTriangle),
+                                             numbers(BounceNumbers::LightDirection)});
+    const LightSample& light = chosen.sample;
+    if (is_black(light.radiance)) return;
+    const PathVertex::Value value = vertex.evaluate(light.wi, TransportMode::Radiance);
+    if (is_black(value.f_cos)) return;
+    const Raised& raised = context.raised;
+    const bool at_infinity = std::isinf(light.distance);
+    const float arriving = world.emission_pdf(chosen.light, -light.wi, light.cos_light) * vertex.cosine(light.wi);
+    const double from_light =
+        static_cast<double>(at_infinity ? arriving : arriving / (light.distance * light.distance));
+    const double fewer_from_eye =
+        raised(from_light) *
+        vertex.densities.fewer(raised, static_cast<double>(vertex.reverse_pdf_solid_angle(light.wi)));
+    const double fewer_from_light =
+        light.is_delta ? 0.0 : raised(static_cast<double>(value.pdf_solid_angle / light.pdf_solid_angle));
+    const float share = weight(context.options, fewer_from_light, fewer_from_eye);
+    const float density = light.is_delta ? chosen.probability : light.pdf_solid_angle;
+    Ray ray;
+    if (at_infinity) {
+        ray.origin = vertex.origin(light.wi);
+        ray.direction = light.wi;
+    } else {
+        ray = connecting_ray(vertex.origin(light.wi), light.end);
+    }
+    ray.time = context.camera_rays[vertex.slot].time;
+    ray.alpha_key = context.connection_key(SubpathEnd::AtEye, vertex.index, vertex.slot);
+    connections_.to_sample(ray, vertex.slot,
+                           vertex.throughput * value.f_cos * light.radiance *
+                               vertex.transmittance(light.wi, light.distance) *
+                               context.wavelength_weight(vertex.slot, vertex.is_dispersed) * (share / density));
+    if (are_checked(context.options))
+        check(context, context.options, 1, share,
+              {.light = chosen.light,
+               .position = vertex.position + light.wi * (at_infinity ? 0.0f : light.distance),
+               .direction = -light.wi,
+               .cos_light = light.cos_light},
+              nullptr, &vertex, camera_of(context, vertex));
+}
+
+void BdptWave::connect_to_camera(const Context& context, const PathVertex& vertex) {
+    if (!is_wanted(context.lengths, vertex.next_edges) || !is_wanted(context.options, {.s = vertex.index + 1, .t = 1}))
+        return;
+    const float time = context.camera_rays[vertex.slot].time;
+    const Vec2f lens = context.numbers(SubpathEnd::AtLight, vertex.index, BounceNumbers::LightChoice, vertex.slot);
+    const auto view = view_from_camera(context.world, context.job, vertex.position, lens, time);
+    if (!view) return;
+    const PathVertex::Value value = vertex.evaluate(view->direction, TransportMode::Importance);
+    if (is_black(value.f_cos)) return;
+    const Raised& raised = context.raised;
+    const double from_eye = context.samples_per_light_path() *
+                            static_cast<double>(view->camera.importance_area * vertex.cosine(view->direction));
+    const double fewer =
+        raised(from_eye) *
+        vertex.densities.fewer(raised, static_cast<double>(vertex.reverse_pdf_solid_angle(view->direction)));
+    const float share = weight(context.options, fewer, 0.0);
+    Ray ray = connecting_ray(vertex.origin(view->direction), view->camera.lens);
+    ray.time = time;
+    ray.alpha_key = context.connection_key(SubpathEnd::AtLight, vertex.index, vertex.slot);
+    connections_.to_film(
+        ray, vertex.slot,
+        {view->pixel, vertex.throughput * value.f_cos * vertex.transmittance(view->direction, view->distance) *
+                          context.wavelength_weight(vertex.slot, vertex.is_dispersed) *
+                          (view->camera.importance_area * share)});
+    if (are_checked(context.options))
+        check(context, context.options, static_cast<std::size_t>(vertex.index) + 1, share, light_end(vertex.slot),
+              &vertex, nullptr, view->camera);
+}
+
+void BdptWave::connect(const Context& context, const PathVertex& eye, const PathVertex& light) {
+    if (!is_wanted(context.lengths, eye.next_edges + light.next_edges - 1) ||
+        !is_wanted(context.options, {.s = light.index + 1, .t = eye.index + 1}))
+        return;
+    const Vec3f to_light = light.position - eye.position;
+    const float squared = length_squared(to_light);
+    if (!(squared > 0.0f)) return;
+    const float distance = std::sqrt(squared);
+    const Vec3f w = to_light * (1.0f / distance);
+    const PathVertex::Value at_eye = eye.evaluate(w, TransportMode::Radiance);
+    if (is_black(at_eye.f_cos)) return;
+    const PathVertex::Value at_light = light.evaluate(-w, TransportMode::Importance);
+    if (is_black(at_light.f_cos)) return;
+    const Raised& raised = context.raised;
+    const double from_eye = static_cast<double>(at_eye.pdf_solid_angle * light.cosine(w) / squared);
+    const double from_light = static_cast<double>(at_light.pdf_solid_angle * eye.cosine(w) / squared);
+    const double fewer_from_light =
+        raised(from_eye) * light.densities.fewer(raised, static_cast<double>(light.reverse_pdf_solid_angle(-w)));
+    const double fewer_from_eye =
+        raised(from_light) * eye.densities.fewer(raised, static_cast<double>(eye.reverse_pdf_solid_angle(w)));
+    const float share = weight(context.options, fewer_from_light, fewer_from_eye);
+    Ray ray = connecting_ray(eye.origin(w), light.origin(-w));
+    ray.time = context.camera_rays[eye.slot].time;
+    ray.alpha_key = context.connection_key(SubpathEnd::AtEye, eye.index, eye.slot) +
+                    context.connection_key(SubpathEnd::AtLight, light.index, light.slot);
+    connections_.to_sample(
+        ray, eye.slot,
+        eye.throughput * at_eye.f_cos * at_light.f_cos * light.throughput * eye.transmittance(w, distance) *
+            context.wavelength_weight(eye.slot, eye.is_dispersed || light.is_dispersed) * (share / squared));
+    if (are_checked(context.options))
+        check(context, context.options, static_cast<std::size_t>(light.index) + 1, share, light_end(light.slot), &light,
+              &eye, camera_of(context, eye));
+}
+
+}  // namespace etendue

@@ -1,0 +1,64 @@
+// A wave of eye and light subpaths, and all connections between them.
+#pragma once
+
+#include "integrator/bdpt/bdpt_options.h"
+#include "integrator/bdpt/reference_weights.h"
+#include "integrator/subpath/connections.h"
+#include "integrator/subpath/subpath_wave.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace etendue {
+
+class BdptWave final : public IntegratorScratch, private LightFinder {
+  public:
+    /// Samples in a wave: their vertices, some 250 bytes each, are to stay in a cache of 2 MiB until they are
+    /// connected.
+    static constexpr std::size_t kCapacity = 512;
+
+    /// Traces samples [first, first + count) of the job, count <= kCapacity.
+    void trace(const World& world, const TileJob& job, const BdptOptions& options, std::size_t first, std::size_t count,
+               TileBuffer& tile, RenderCounters& counters);
+
+  private:
+    struct Context : SubpathJob {
+        const BdptOptions& options;
+    };
+
+    // s = 0: subpaths from the eye that meet a light.
+    void on_emitter(const SubpathState& state, const SurfacePoint& point, const Vec3f& direction,
+                    const SubpathDensities& arrived) override;
+    void on_unlit(const SubpathState& state, const SurfacePoint& point, const Vec3f& direction) override;
+    void on_escape(const SubpathState& state, const Vec3f& direction) override;
+    void add(const SubpathState& state, const Rgb& light, double fewer_from_eye, const PathLightEnd& end);
+
+    /// s = 1: to a point on a light that is sampled for the vertex.
+    void connect_to_light(const Context& context, const PathVertex& vertex);
+    /// t = 1: to a point on the lens that is sampled for the vertex.
+    void connect_to_camera(const Context& context, const PathVertex& vertex);
+    /// s > 1, t > 1.
+    void connect(const Context& context, const PathVertex& eye, const PathVertex& light);
+
+    /// Of a strategy, from the ratios of those with fewer vertices on one side.
+    [[nodiscard]] static float weight(const BdptOptions& options, double fewer_from_light, double fewer_from_eye);
+
+    /// Shows the weight of a path to the observer, and in debug builds compares it with the reference. The path leads
+    /// from `end` over the subpath that ends in `light` and back over that which ends in `eye`; either may be null.
+    void check(const SubpathJob& job, const BdptOptions& options, std::size_t s, float weight, const PathLightEnd& end,
+               const PathVertex* light, const PathVertex* eye, const CameraConnection& camera) const;
+    [[nodiscard]] PathLightEnd light_end(std::uint32_t slot) const;
+    /// How the camera sees the first vertex of a sample's eye subpath.
+    [[nodiscard]] CameraConnection camera_of(const SubpathJob& job, const PathVertex& eye) const;
+
+    std::vector<CameraSample> samples_;
+    std::vector<Ray> camera_rays_;
+    std::vector<Rgb> radiance_;
+    std::vector<float> alpha_;
+    SubpathWave eye_{SubpathEnd::AtEye};
+    SubpathWave light_{SubpathEnd::AtLight};
+    Connections connections_;
+    const Context* context_ = nullptr;  ///< of the call of `trace` under way, for what eye subpaths find
+};
+
+}  // namespace etendue

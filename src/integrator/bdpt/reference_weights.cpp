@@ -1,0 +1,148 @@
+#include "integrator/bdpt/reference_weights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace etendue {
+
+namespace {
+
+double cosine(const PathVertex& vertex, const Vec3f& w) {
+    return static_cast<double>(vertex.cosine(w));
+}
+
+/// Density per solid angle of going on along `to` when a walk arrives from `from`.
+double scattering_density(const PathVertex& vertex, const Vec3f& from, const Vec3f& to) {
+    if (!vertex.surface) return static_cast<double>(vertex.outside->phase.pdf_solid_angle(from, to));
+    return static_cast<double>(vertex.surface->seen_from(from).evaluate(to, TransportMode::Radiance).pdf_solid_angle);
+}
+
+/// A path and what the strategies' densities are made of. Vertex 0 lies on the light, `inner[i - 1]` is vertex i, the
+/// last one lies on the lens.
+class Path {
+  public:
+    Path(const SubpathJob& job, const CompletePath& path)
+        : job_(job),
+          end_(path.end),
+          inner_(path.inner),
+          is_connected_(path.s > 0),
+          from_light_(path.s > 0 ? path.s - 1 : 0),
+          camera_(path.camera),
+          at_infinity_(end_.light != kNone && job.world.is_at_infinity(end_.light)) {}
+
+    [[nodiscard]] std::size_t inner_count() const { return inner_.size(); }
+
+    /// Per area, vertex `i` from the light's side. Deltas have their share of `delta` instead of a density.
+    [[nodiscard]] double from_light(std::size_t i) const {
+        const World& world = job_.world;
+        if (i == 0) {
+            if (end_.light == kNone) return 0.0;
+            if (!world.can_be_hit(end_.light)) return 1.0;  // the same for all strategies that there are
+            return static_cast<double>(at_infinity_ ? world.environment_pdf_solid_angle(-end_.direction)
+                                                    : world.emitter_pdf_area(end_.light));
+        }
+        if (end_.light == kNone) return 0.0;
+        const PathVertex& vertex = *inner_[i - 1];
+        if (i == 1) {
+            const auto pdf = static_cast<double>(world.emission_pdf(end_.light, end_.direction, end_.cos_light));
+            return pdf * cosine(vertex, end_.direction) / (at_infinity_ ? 1.0 : squared_distance(0));
+        }
+        const PathVertex& before = *inner_[i - 2];
+        const double pdf =
+            is_delta(i - 1) ? delta_from_light(i - 1) : scattering_density(before, -direction(i - 2), direction(i - 1));
+        return pdf * cosine(vertex, direction(i - 1)) / squared_distance(i - 1);
+    }
+
+    /// Per area, vertex `i` from the eye's side.
+    [[nodiscard]] double from_eye(std::size_t i) const {
+        if (i == inner_.size()) {
+            return job_.samples_per_light_path() * static_cast<double>(camera_.importance_area) *
+                   cosine(*inner_.back(), direction(inner_.size()));
+        }
+        if (i == 0 && (end_.light == kNone ? false : !job_.world.can_be_hit(end_.light))) return 0.0;
+        const PathVertex& before = *inner_[i];
+        const double pdf =
+            is_delta(i + 1) ? delta_from_eye(i + 1) : scattering_density(before, direction(i + 1), -direction(i));
+        if (i > 0) return pdf * cosine(*inner_[i - 1], direction(i)) / squared_distance(i);
+        return at_infinity_ ? pdf : pdf * std::abs(static_cast<double>(end_.cos_light)) / squared_distance(0);
+    }
+
+    /// True if vertices i - 1 and i can be those of a connection.
+    [[nodiscard]] bool connects(std::size_t i) const {
+        return scatters_freely(i - 1) && scatters_freely(i) && is_direct(i);
+    }
+
+  private:
+    [[nodiscard]] bool is_delta(std::size_t i) const {
+        return i >= 1 && i <= inner_.size() && inner_[i - 1]->is_left_by_delta && !is_end_of_subpath(i);
+    }
+    /// The last vertices of both subpaths were left, if at all, elsewhere than to where this path goes.
+    [[nodiscard]] bool is_end_of_subpath(std::size_t i) const {
+        return is_connected_ && (i == from_light_ || i == from_light_ + 1);
+    }
+    [[nodiscard]] bool scatters_freely(std::size_t i) const {
+        return i == 0 || i > inner_.size() || (inner_[i - 1]->is_connectible && !is_delta(i));
+    }
+    /// True if nothing but the edge lies between vertices i - 1 and i.
+    [[nodiscard]] bool is_direct(std::size_t i) const {
+        if (i <= from_light_) return inner_[i - 1]->is_reached_directly;
+        if (i > from_light_ + 1) return inner_[i - 2]->is_reached_directly;
+        return is_connected_ || end_.is_reached_directly;
+    }
+
+    /// The deltas of both directions cancel but for this ratio, of which each side is given its part.
+    [[nodiscard]] double delta_from_light(std::size_t i) const {
+        return i <= from_light_ ? 1.0 : static_cast<double>(inner_[i - 1]->delta_reverse_ratio);
+    }
+    [[nodiscard]] double delta_from_eye(std::size_t i) const {
+        return i <= from_light_ ? static_cast<double>(inner_[i - 1]->delta_reverse_ratio) : 1.0;
+    }
+
+    /// From vertex i to vertex i + 1, unit.
+    [[nodiscard]] Vec3f direction(std::size_t i) const {
+        if (i == 0) return end_.direction;
+        const Vec3f to = i < inner_.size() ? inner_[i]->position : camera_.lens;
+        return normalize(to - inner_[i - 1]->position);
+    }
+    [[nodiscard]] double squared_distance(std::size_t i) const {
+        const Vec3f from = i == 0 ? end_.position : inner_[i - 1]->position;
+        return static_cast<double>(length_squared(inner_[i]->position - from));
+    }
+
+    const SubpathJob& job_;
+    const PathLightEnd& end_;
+    std::span<const PathVertex* const> inner_;
+    bool is_connected_;
+    std::size_t from_light_;  ///< how many of `inner_`
+    const CameraConnection& camera_;
+    bool at_infinity_;
+};
+
+}  // namespace
+
+std::vector<double> reference_weights(const SubpathJob& job, const CompletePath& complete) {
+    const Path path(job, complete);
+    const std::size_t last = path.inner_count() + 1;  // the vertex on the lens; it is s = last that has t = 1
+    std::vector<double> densities(last + 1, 0.0);
+    for (std::size_t s = 0; s <= last; ++s) {
+        if (s > 0 && !path.connects(s)) continue;
+        // In logarithms: products of densities leave the range of numbers.
+        double logarithm = 0.0;
+        for (std::size_t i = 0; i < s; ++i) logarithm += std::log(path.from_light(i));
+        for (std::size_t i = s; i < last; ++i) logarithm += std::log(path.from_eye(i));
+        densities[s] = logarithm;
+    }
+    double largest = -std::numeric_limits<double>::infinity();
+    for (std::size_t s = 0; s <= last; ++s)
+        if (s == 0 || path.connects(s)) largest = std::max(largest, densities[s]);
+    double sum = 0.0;
+    for (std::size_t s = 0; s <= last; ++s) {
+        densities[s] = s == 0 || path.connects(s) ? job.raised(std::exp(densities[s] - largest)) : 0.0;
+        sum += densities[s];
+    }
+    for (double& density : densities) density /= sum;
+    return densities;
+}
+
+}  // namespace etendue

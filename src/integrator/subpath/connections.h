@@ -1,0 +1,46 @@
+// Connections that wait for their rays: contributions that count if nothing is in the way.
+#pragma once
+
+#include "core/ray.h"
+#include "film/splat_film.h"
+#include "integrator/camera_wave.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace etendue {
+
+class Connections {
+  public:
+    /// To the radiance of sample `slot`.
+    void to_sample(const Ray& ray, std::uint32_t slot, const Rgb& contribution);
+    /// To the place on the film that `splat` says, by the light path of sample `slot`.
+    void to_film(const Ray& ray, std::uint32_t slot, const Splat& splat);
+
+    /// Traces all rays and adds what arrives, in the order of the calls above.
+    void resolve(const World& world, std::span<const CameraSample> samples, std::span<Rgb> radiance, TileBuffer& tile,
+                 RenderCounters& counters);
+    /// Resolves once there are enough to fill a batch.
+    void resolve_if_full(const World& world, std::span<const CameraSample> samples, std::span<Rgb> radiance,
+                         TileBuffer& tile, RenderCounters& counters) {
+        if (rays_.size() >= kBatch) resolve(world, samples, radiance, tile, counters);
+    }
+
+  private:
+    /// Rays traced together: enough for full packets, and their 36 bytes each stay in a cache of 1 MiB.
+    static constexpr std::size_t kBatch = 8192;
+
+    struct Pending {
+        Rgb value;
+        Vec2f position{0.0f, 0.0f};  ///< on the film, if it is a splat
+        std::uint32_t slot = 0;
+        bool is_splat = false;
+    };
+    std::vector<Ray> rays_;
+    std::vector<Pending> pending_;
+    std::vector<std::uint8_t> occluded_;
+};
+
+}  // namespace etendue

@@ -1,0 +1,69 @@
+// A point at which a subpath scatters, with all that connections to it need.
+#pragma once
+
+#include "core/ray.h"
+#include "core/rgb.h"
+#include "integrator/subpath/subpath_densities.h"
+#include "medium/homogeneous_medium.h"
+#include "world/scattering.h"
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+namespace etendue {
+
+/// Not the first of its subpath, which lies on the light or on the lens.
+struct PathVertex {
+    static constexpr std::uint32_t kNoVertex = std::numeric_limits<std::uint32_t>::max();
+
+    Vec3f position{0.0f};                        ///< metres
+    Vec3f wo{0.0f};                              ///< unit, to the vertex before
+    std::optional<Scattering> surface{};         ///< none in a medium
+    Vec3f geometric_normal{0.0f};                ///< of the surface's front, unit
+    float clearance = 0.0f;                      ///< metres, as in SurfacePoint
+    const HomogeneousMedium* outside = nullptr;  ///< what fills the space on the front; null in vacuum
+    const HomogeneousMedium* inside = nullptr;   ///< and on the back; in a medium both are that
+    Rgb throughput{};                            ///< of the subpath that arrives, without the weight of its wavelength
+    SubpathDensities densities{};
+    std::uint32_t slot = 0;              ///< which sample
+    std::uint32_t previous = kNoVertex;  ///< the one before it, kNoVertex after the light or the lens
+    int index = 1;                       ///< vertices before it
+    int next_edges = 1;                  ///< of the path when a ray from here has hit; media add none
+    bool is_dispersed = false;           ///< light of other wavelengths would not be here, or would not scatter so
+    bool is_connectible = true;          ///< false if all it does are deltas
+    bool is_reached_directly = true;     ///< false if boundaries that other bodies hide lie before it
+    bool is_left_by_delta = false;       ///< the subpath went on by one
+    float delta_reverse_ratio = 1.0f;    ///< of that one, Scattering::reverse_density_ratio
+
+    /// f |cos theta| towards `w`, with the density of going there and, on request, of coming back.
+    struct Value {
+        Rgb f_cos;
+        float pdf_solid_angle;
+    };
+    [[nodiscard]] Value evaluate(const Vec3f& w, TransportMode mode) const {
+        if (surface) {
+            const BsdfValue value = surface->evaluate(w, mode);
+            return {value.f_cos, value.pdf_solid_angle};
+        }
+        const float phase = outside->phase.pdf_solid_angle(wo, w);
+        return {Rgb(phase), phase};
+    }
+    [[nodiscard]] float reverse_pdf_solid_angle(const Vec3f& w) const {
+        return surface ? surface->reverse_pdf_solid_angle(w) : outside->phase.pdf_solid_angle(wo, w);
+    }
+    /// Cosine between `w` and the geometric normal; 1 in a medium.
+    [[nodiscard]] float cosine(const Vec3f& w) const { return surface ? abs_dot(w, geometric_normal) : 1.0f; }
+    /// Where a ray along `w` starts.
+    [[nodiscard]] Vec3f origin(const Vec3f& w) const {
+        return surface ? offset_origin(position, geometric_normal, clearance, w) : position;
+    }
+    /// Share of light that gets `distance` metres far along `w`.
+    [[nodiscard]] Rgb transmittance(const Vec3f& w, float distance) const {
+        const HomogeneousMedium* medium = dot(w, geometric_normal) > 0.0f ? outside : inside;
+        return medium != nullptr ? medium->transmittance(distance) : Rgb(1.0f);
+    }
+};
+
+}  // namespace etendue

@@ -1,0 +1,88 @@
+// The weights of bidirectional path tracing, in a constant number of steps per vertex and connection.
+//
+// A path x_0 ... x_k (x_0 on the light, x_k on the lens) can be made by every strategy (s, t) with s + t = k + 1: s
+// vertices from the light, t from the eye, the edge between x_{s-1} and x_s being the connection. With P_i the density
+// per area with which a subpath from the light makes x_i from x_{i-1}, and Q_i that with which one from the eye makes
+// it from x_{i+1}, strategies compare as
+//
+//   p_{s'} / p_s = prod_{i = s'}^{s-1} Q_i / P_i        (s' < s)
+//
+// wherever x_{s'-1} and x_{s'} can be connected (Veach 1997, equation 10.9), and the weight of s is one over the sum of
+// all those ratios, each raised to the power of the heuristic. That sum over s' < s, once only Q_{s-1} and Q_{s-2} are
+// still unknown, because they depend on where the path goes on, is
+//
+//   Q_{s-1} (a + b q)     with Q_{s-2} = q |cos theta_{s-2}| / |x_{s-2} - x_{s-1}|²
+//
+// where q is the density, per solid angle, of turning back at x_{s-1}. A subpath keeps a and b of its last vertex; with
+// D_i = a_i + b_i q_i the next vertex has
+//
+//   a_{i+1} = 1 / P_{i+1}                                     if x_i and x_{i+1} can be connected, otherwise 0
+//   b_{i+1} = |cos theta_i| / |x_i - x_{i+1}|² D_i / P_{i+1}
+//
+// (the recursion of Georgiev, "Implementing Vertex Connection and Merging", 2012, where they are called dVCM and dVC).
+// By symmetry the same serves the subpath from the eye. Where it starts:
+//
+//   light: D_0 = 1 / P_0, or 0 if nothing can hit the light. For s = 1 the light is sampled anew, with the same P_0.
+//   eye:   D = 0, as no light hits the lens. For t = 1 the lens is sampled anew. There are as many light paths as
+//          camera samples in the window, and camera samples have the density of the whole film: P_1 is divided by that
+//          number, and multiplied by the pixels of the film.
+//
+// Lights at infinity have a density per solid angle in place of P_0, and P_1 is that of a point on the disk across the
+// direction, times |cos theta_1|.
+//
+// At a delta D_i = b_i r_i: neither of its edges can be connected, and in r_i, the density of the way back over that of
+// this way, the deltas cancel; P_{i+1} then has a density of 1 per solid angle. r_i is the ratio of the two choices of
+// the event, times n² |cos| on the side of x_{i-1} over that on the side of x_{i+1} where it refracts, which is what
+// the densities of a rough interface tend to. (Probabilities of choosing the delta cancel where they are the same both
+// ways.)
+//
+// Left out of all densities, the same for every strategy of a path: Russian roulette, how far light gets in media, and
+// which wavelength a dispersed path has. Directions' densities are those of the lobes; cosines here belong to the
+// geometric normals, and are 1 in media.
+#pragma once
+
+namespace etendue {
+
+enum class Heuristic {
+    Power,    ///< exponent 2 (Veach 1997, section 9.2.4)
+    Balance,  ///< exponent 1
+};
+
+/// A density, or a ratio of them, as the heuristic wants it.
+struct Raised {
+    Heuristic heuristic = Heuristic::Power;
+
+    [[nodiscard]] double operator()(double ratio) const {
+        return heuristic == Heuristic::Power ? ratio * ratio : ratio;
+    }
+};
+
+/// a and b of a vertex, raised.
+struct SubpathDensities {
+    double a = 0.0;
+    double b = 0.0;
+
+    /// Sum over the strategies with fewer vertices on this side, but for the raised density per area with which the
+    /// other side makes this vertex. `turning_back` is q.
+    [[nodiscard]] double fewer(const Raised& raised, double turning_back) const { return a + b * raised(turning_back); }
+};
+
+/// From a vertex towards the next one.
+struct DepartingDensities {
+    double d = 0.0;              ///< D_i
+    double pdf_forward = 1.0;    ///< of the direction, 1/sr; of the point across it, 1/m², if it comes from infinity
+    double cosine = 1.0;         ///< |cos theta_i|
+    bool is_connectible = true;  ///< the edge can be that of a connection, as far as this vertex is concerned
+    bool is_from_infinity = false;
+
+    /// At a vertex `squared_distance` m² away, where the direction has the cosine `cos_arriving`.
+    [[nodiscard]] SubpathDensities arrive(const Raised& raised, double squared_distance, double cos_arriving) const {
+        const double per_area = is_from_infinity ? 1.0 : 1.0 / squared_distance;
+        const double next = raised(pdf_forward * cos_arriving * per_area);
+        if (!(next > 0.0)) return {};
+        const double back = is_from_infinity ? 1.0 : raised(cosine * per_area);
+        return {is_connectible ? 1.0 / next : 0.0, back * d / next};
+    }
+};
+
+}  // namespace etendue

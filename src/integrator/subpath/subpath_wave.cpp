@@ -1,0 +1,294 @@
+#include "integrator/subpath/subpath_wave.h"
+
+#include "integrator/walk.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace etendue {
+
+namespace {
+
+/// Pairs of dimensions of the beginning of a light subpath.
+enum EmissionDimension : std::uint32_t { kLightChoice, kTriangle, kPosition, kDirection, kEmissionDimensions };
+
+/// Far from those of eye paths.
+constexpr std::uint32_t kFirstLightDimension = 1u << 29;
+constexpr std::uint32_t kWavelengthDimension = 1u << 30;
+
+}  // namespace
+
+std::uint32_t subpath_dimension(SubpathEnd end, int bounce, BounceNumbers which) {
+    const std::uint32_t first =
+        end == SubpathEnd::AtEye ? kTimeDimension + 1 : kFirstLightDimension + kEmissionDimensions;
+    return first + static_cast<std::uint32_t>(bounce) * static_cast<std::uint32_t>(BounceNumbers::Count) +
+           static_cast<std::uint32_t>(which);
+}
+
+Wavelength SubpathJob::wavelength(std::uint32_t slot) const {
+    return world.spectral_response().sample(sample_2d(job.sequence, samples[slot].key, kWavelengthDimension).x);
+}
+
+Vec2f SubpathJob::numbers(SubpathEnd end, int index, BounceNumbers which, std::uint32_t slot) const {
+    return sample_2d(job.sequence, samples[slot].key, subpath_dimension(end, index, which));
+}
+
+std::uint32_t SubpathJob::connection_key(SubpathEnd end, int index, std::uint32_t slot) const {
+    if (!world.has_transparency()) return 0;
+    // Another one than that of the subpath's own ray.
+    return ~sample_bits(samples[slot].key, subpath_dimension(end, index, BounceNumbers::Alpha));
+}
+
+void SubpathWave::trace(const SubpathJob& job, LightFinder* finder, RenderCounters& counters) {
+    const std::size_t count = job.samples.size();
+    states_.assign(count, {});
+    rays_.assign(job.camera_rays.begin(), job.camera_rays.end());
+    interiors_.clear();
+    vertices_.clear();
+    bsdf_count_ = 0;
+    last_vertex_.assign(count, PathVertex::kNoVertex);
+    if (end_ == SubpathEnd::AtEye)
+        begin_at_eye(job);
+    else
+        begin_at_lights(job);
+    for (bounce_ = 1; !states_.empty(); ++bounce_) {
+        hits_.resize(rays_.size());
+        const bool from_camera = end_ == SubpathEnd::AtEye && bounce_ == 1;
+        job.world.intersect(rays_, hits_, from_camera ? Coherence::Coherent : Coherence::Incoherent);
+        (from_camera ? counters.camera_rays : counters.bounce_rays) += rays_.size();
+        draw_numbers(job);
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < states_.size(); ++i) {
+            if (!advance(job, finder, i)) continue;
+            if (job.world.has_transparency())
+                rays_[i].alpha_key = sample_bits({pixel_seeds_[i], sample_indices_[i]},
+                                                 subpath_dimension(end_, bounce_, BounceNumbers::Alpha));
+            states_[kept] = states_[i];
+            rays_[kept] = rays_[i];
+            if (!interiors_.empty()) interiors_[kept] = interiors_[i];
+            ++kept;
+        }
+        states_.resize(kept);
+        rays_.resize(kept);
+    }
+}
+
+void SubpathWave::begin_at_eye(const SubpathJob& job) {
+    if (job.world.has_bodies()) interiors_.assign(states_.size(), job.world.camera_interior());
+    for (std::size_t i = 0; i < states_.size(); ++i) {
+        states_[i].slot = static_cast<std::uint32_t>(i);
+        states_[i].from = rays_[i].origin;
+    }
+}
+
+void SubpathWave::begin_at_lights(const SubpathJob& job) {
+    const World& world = job.world;
+    emissions_.resize(job.samples.size());
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < job.samples.size(); ++i) {
+        const SampleKey key = job.samples[i].key;
+        const auto pair = [&](std::uint32_t which) {
+            return sample_2d(job.job.sequence, key, kFirstLightDimension + which);
+        };
+        const EmissionNumbers u{pair(kTriangle), pair(kPosition), pair(kDirection)};
+        const Emission& emission = emissions_[i] = world.sample_emission(pair(kLightChoice), u, rays_[i].time);
+        if (job.lengths.max_depth < 2 || is_black(emission.weight)) continue;
+        const EmissionSample& sample = emission.sample;
+        SubpathState state;
+        state.throughput = emission.weight;
+        state.roulette_scale = 1.0f / max_component(emission.weight);
+        state.from = sample.position;
+        state.slot = static_cast<std::uint32_t>(i);
+        const bool at_infinity = world.is_at_infinity(emission.light);
+        const auto position = static_cast<double>(sample.pdf_position_area);
+        const auto direction = static_cast<double>(sample.pdf_direction_solid_angle);
+        const auto choice = static_cast<double>(emission.probability);
+        state.departing = {.d = world.can_be_hit(emission.light)
+                                    ? 1.0 / job.raised(choice * (at_infinity ? direction : position))
+                                    : 0.0,
+                           .pdf_forward = at_infinity ? position : direction,
+                           .cosine = static_cast<double>(sample.cos_theta),
+                           .is_from_infinity = at_infinity};
+        states_[kept] = state;
+        rays_[kept] = emission.ray;
+        rays_[kept].alpha_key = sample_bits(key, kFirstLightDimension);
+        if (world.has_bodies()) interiors_.push_back(world.light_interior(emission.light));
+        ++kept;
+    }
+    states_.resize(kept);
+    rays_.resize(kept);
+}
+
+void SubpathWave::draw_numbers(const SubpathJob& job) {
+    pixel_seeds_.resize(states_.size());
+    sample_indices_.resize(states_.size());
+    for (std::size_t i = 0; i < states_.size(); ++i) {
+        const SampleKey key = job.samples[states_[i].slot].key;
+        pixel_seeds_[i] = key.pixel_seed;
+        sample_indices_[i] = key.index;
+    }
+    const auto draw = [&](BounceNumbers which, NumberPairs& numbers) {
+        numbers.draw(job.job.sequence, pixel_seeds_, sample_indices_, subpath_dimension(end_, bounce_, which));
+    };
+    draw(BounceNumbers::Scattering, scattering_);
+    draw(BounceNumbers::Choices, choices_);
+    if (job.world.has_bodies()) draw(BounceNumbers::Medium, medium_);
+}
+
+bool SubpathWave::advance(const SubpathJob& job, LightFinder* finder, std::size_t i) {
+    const World& world = job.world;
+    SubpathState& state = states_[i];
+    Ray& ray = rays_[i];
+    if (!hits_[i].valid()) {
+        if (finder != nullptr) finder->on_escape(state, ray.direction);
+        return false;
+    }
+    if (world.has_bodies() && scatter_in_medium(job, i)) return survives(job, i);
+    const SurfacePoint point = world.surface_point(hits_[i]);
+    const SubpathDensities arrived = arrive(job, i, point.position, abs_dot(ray.direction, point.geometric_normal));
+    if (finder != nullptr && point.material->emits) finder->on_emitter(state, point, ray.direction, arrived);
+    std::optional<Crossing> crossing;
+    if (world.has_bodies() && world.is_boundary(point)) {
+        crossing = world.crossing(point, interiors_[i]);
+        if (crossing->is_hidden) {
+            // No connection passes a boundary.
+            state.departing.is_connectible = false;
+            state.is_direct = false;
+            interiors_[i] = beyond(*crossing, point, ray.direction);
+            ray.origin = offset_origin(point.position, point.geometric_normal, point.clearance, ray.direction);
+            return survives(job, i);
+        }
+    }
+    if (point.material->unlit) {
+        if (finder != nullptr) finder->on_unlit(state, point, ray.direction);
+        return false;
+    }
+    if (state.edges >= job.lengths.max_depth) return false;
+    return scatter_at_surface(job, i, point, crossing, arrived) && survives(job, i);
+}
+
+SubpathDensities SubpathWave::arrive(const SubpathJob& job, std::size_t i, const Vec3f& position, float cosine) const {
+    const SubpathState& state = states_[i];
+    const auto cos_arriving = static_cast<double>(cosine);
+    if (end_ == SubpathEnd::AtEye && state.index == 1) {
+        // The lens and the film say how densely camera rays fall here.
+        const CameraSample& sample = job.samples[state.slot];
+        const Vec2f lens = sample_2d(job.job.sequence, sample.key, kLensDimension);
+        const CameraConnection camera = job.world.connect_to_camera(position, lens, rays_[i].time);
+        DepartingDensities departing = state.departing;
+        departing.pdf_forward = job.samples_per_light_path() * static_cast<double>(camera.importance_area);
+        departing.is_from_infinity = true;  // per area already
+        return departing.arrive(job.raised, 1.0, cos_arriving);
+    }
+    const Vec3f way = position - state.from;
+    return state.departing.arrive(job.raised, static_cast<double>(length_squared(way)), cos_arriving);
+}
+
+bool SubpathWave::scatter_at_surface(const SubpathJob& job, std::size_t i, const SurfacePoint& point,
+                                     const std::optional<Crossing>& crossing, const SubpathDensities& arrived) {
+    const World& world = job.world;
+    SubpathState& state = states_[i];
+    Ray& ray = rays_[i];
+    const Vec3f wo = -ray.direction;
+    float relative_ior = 0.0f;
+    if (crossing) {
+        state.is_dispersed = state.is_dispersed || crossing->disperses();
+        relative_ior = crossing->relative_ior(state.is_dispersed ? job.wavelength(state.slot).nm : 0.0f);
+    }
+    if (bsdf_count_ == bsdfs_.size()) bsdfs_.emplace_back();
+    Bsdf& storage = bsdfs_[bsdf_count_];
+    const Bsdf& bsdf = world.bsdf(point, wo, relative_ior, storage);
+    const Scattering scattering(bsdf, point.shading, point.geometric_normal, wo);
+    if (&bsdf == &storage) ++bsdf_count_;
+    PathVertex& vertex = store(state);
+    vertex.position = point.position;
+    vertex.wo = wo;
+    vertex.surface = scattering;
+    vertex.geometric_normal = point.geometric_normal;
+    vertex.clearance = point.clearance;
+    vertex.densities = arrived;
+    vertex.next_edges = state.edges + 1;
+    vertex.is_connectible = scattering.has_non_delta();
+    if (world.has_bodies()) {
+        vertex.outside = world.medium(crossing ? crossing->outside : interiors_[i]);
+        vertex.inside = world.medium(crossing ? crossing->inside : interiors_[i]);
+    }
+    // The last edge of a light's path is the one to the camera.
+    if (end_ == SubpathEnd::AtLight && state.edges + 2 > job.lengths.max_depth) return false;
+    const TransportMode mode = end_ == SubpathEnd::AtEye ? TransportMode::Radiance : TransportMode::Importance;
+    const BsdfSample sample = scattering.sample(choices_[i].x, scattering_[i], mode);
+    if (is_black(sample.weight)) return false;
+    vertex.is_left_by_delta = sample.is_delta;
+    if (sample.is_delta) vertex.delta_reverse_ratio = scattering.reverse_density_ratio(sample);
+    state.throughput *= sample.weight;
+    if (mode == TransportMode::Radiance && sample.is_transmission) state.roulette_scale *= sample.eta * sample.eta;
+    state.from = point.position;
+    state.departing = {
+        .d = sample.is_delta
+                 ? arrived.b * job.raised(static_cast<double>(vertex.delta_reverse_ratio))
+                 : arrived.fewer(job.raised, static_cast<double>(scattering.reverse_pdf_solid_angle(sample.wi))),
+        .pdf_forward = sample.is_delta ? 1.0 : static_cast<double>(sample.pdf_solid_angle),
+        .cosine = static_cast<double>(abs_dot(sample.wi, point.geometric_normal)),
+        .is_connectible = !sample.is_delta};
+    state.only_delta = state.only_delta && sample.is_delta;
+    ++state.index;
+    ++state.edges;
+    ray.origin = offset_origin(point.position, point.geometric_normal, point.clearance, sample.wi);
+    ray.direction = sample.wi;
+    if (crossing) interiors_[i] = beyond(*crossing, point, sample.wi);
+    return true;
+}
+
+bool SubpathWave::scatter_in_medium(const SubpathJob& job, std::size_t i) {
+    SubpathState& state = states_[i];
+    Ray& ray = rays_[i];
+    const HomogeneousMedium* medium = job.world.medium(interiors_[i]);
+    if (medium == nullptr) return false;
+    const MediumSample sample = medium->sample(state.throughput, hits_[i].t, medium_[i]);
+    state.throughput *= sample.weight;
+    if (!sample.scatters) return false;
+    const Vec3f wo = -ray.direction;
+    PathVertex& vertex = store(state);
+    vertex.position = ray.origin + ray.direction * sample.distance;
+    vertex.wo = wo;
+    vertex.outside = vertex.inside = medium;
+    vertex.densities = arrive(job, i, vertex.position, 1.0f);
+    vertex.next_edges = state.edges;
+    ray.origin = vertex.position;
+    ray.direction = medium->phase.sample(wo, scattering_[i]);
+    // Forwards and backwards a phase function has one density.
+    const auto phase = static_cast<double>(medium->phase.pdf_solid_angle(wo, ray.direction));
+    state.from = vertex.position;
+    state.departing = {.d = vertex.densities.fewer(job.raised, phase), .pdf_forward = phase};
+    state.only_delta = false;
+    ++state.index;
+    return true;
+}
+
+bool SubpathWave::survives(const SubpathJob& job, std::size_t i) {
+    // In bodies nothing but roulette bounds a walk: neither media nor hidden boundaries add edges.
+    const int first =
+        job.world.has_bodies() ? std::min(job.lengths.roulette_depth, kLongPath) : job.lengths.roulette_depth;
+    if (bounce_ < first) return true;
+    SubpathState& state = states_[i];
+    const float survival = std::min(most_survival(bounce_), max_component(state.throughput) * state.roulette_scale);
+    if (choices_[i].y >= survival) return false;
+    state.throughput *= 1.0f / survival;
+    return true;
+}
+
+PathVertex& SubpathWave::store(SubpathState& state) {
+    PathVertex& vertex = vertices_.emplace_back();
+    vertex.throughput = state.throughput;
+    vertex.slot = state.slot;
+    vertex.previous = state.last_vertex;
+    vertex.index = state.index;
+    vertex.is_dispersed = state.is_dispersed;
+    vertex.is_reached_directly = state.is_direct;
+    state.last_vertex = static_cast<std::uint32_t>(vertices_.size() - 1);
+    state.is_direct = true;
+    last_vertex_[state.slot] = state.last_vertex;
+    return vertex;
+}
+
+}  // namespace etendue

@@ -1,0 +1,137 @@
+// Subpaths from the eye or from the lights that advance together, one bounce at a time, and leave their vertices
+// behind.
+#pragma once
+
+#include "core/ray.h"
+#include "core/rgb.h"
+#include "integrator/camera_wave.h"
+#include "integrator/subpath/number_pairs.h"
+#include "integrator/subpath/path_vertex.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace etendue {
+
+enum class SubpathEnd { AtEye, AtLight };
+
+/// Pairs of dimensions of each bounce of a subpath, scattering and connections.
+enum class BounceNumbers : std::uint32_t {
+    Scattering,
+    Choices,  ///< x: which lobe, y: whether the path ends
+    Medium,
+    Alpha,
+    LightChoice,  ///< of connections; of those to the camera, the lens
+    LightTriangle,
+    LightDirection,
+    Count
+};
+/// The dimension of bounce `bounce`, from 1 on; 0 is where a light subpath begins.
+[[nodiscard]] std::uint32_t subpath_dimension(SubpathEnd end, int bounce, BounceNumbers which);
+
+/// What one wave of subpaths is for.
+struct SubpathJob {
+    const World& world;
+    const TileJob& job;
+    const IntegratorOptions& lengths;
+    Raised raised;
+    std::span<const CameraSample> samples;
+    std::span<const Ray> camera_rays;  ///< of the samples
+
+    /// Camera samples per area of the film over light paths: what the density of the eye's first vertex is times.
+    [[nodiscard]] double samples_per_light_path() const {
+        return static_cast<double>(job.full_width) * static_cast<double>(job.full_height) /
+               static_cast<double>(job.window.area());
+    }
+    /// The wavelength of a sample's path, if it needs one: the same for both of its subpaths.
+    [[nodiscard]] Wavelength wavelength(std::uint32_t slot) const;
+    [[nodiscard]] Rgb wavelength_weight(std::uint32_t slot, bool is_dispersed) const {
+        return is_dispersed ? wavelength(slot).weight : Rgb(1.0f);
+    }
+    /// Random numbers of the connections of a vertex; index 0 is the point on the light.
+    [[nodiscard]] Vec2f numbers(SubpathEnd end, int index, BounceNumbers which, std::uint32_t slot) const;
+    /// Key of rays that connect a vertex; 0 if nothing is transparent.
+    [[nodiscard]] std::uint32_t connection_key(SubpathEnd end, int index, std::uint32_t slot) const;
+};
+
+/// A subpath under way; its ray and interior stand beside it.
+struct SubpathState {
+    Rgb throughput{1.0f};
+    /// What Russian roulette multiplies the throughput by: eta² over the refractions of radiance, or one over what a
+    /// light began with.
+    float roulette_scale = 1.0f;
+    Vec3f from{0.0f};  ///< the vertex before
+    DepartingDensities departing;
+    std::uint32_t slot = 0;
+    std::uint32_t last_vertex = PathVertex::kNoVertex;
+    int index = 1;  ///< of the vertex to come
+    int edges = 1;  ///< of the path when its ray has hit; media and hidden boundaries add none
+    bool is_dispersed = false;
+    bool only_delta = true;
+    bool is_direct = true;  ///< no boundary that another body hides lies between `from` and where the ray is
+};
+
+/// Told what subpaths from the eye meet.
+class LightFinder {
+  public:
+    virtual ~LightFinder() = default;
+    /// `arrived` is for the point as a vertex.
+    virtual void on_emitter(const SubpathState& state, const SurfacePoint& point, const Vec3f& direction,
+                            const SubpathDensities& arrived) = 0;
+    virtual void on_unlit(const SubpathState& state, const SurfacePoint& point, const Vec3f& direction) = 0;
+    virtual void on_escape(const SubpathState& state, const Vec3f& direction) = 0;
+};
+
+class SubpathWave {
+  public:
+    explicit SubpathWave(SubpathEnd end) : end_(end) {}
+
+    /// Traces the subpath of each sample. Vertices of former calls are gone. `finder` may be null for lights.
+    void trace(const SubpathJob& job, LightFinder* finder, RenderCounters& counters);
+
+    /// Where the subpaths from lights began, by slot.
+    [[nodiscard]] std::span<const Emission> emissions() const { return emissions_; }
+    /// Of all slots, in the order of their bounces.
+    [[nodiscard]] std::span<const PathVertex> vertices() const { return vertices_; }
+    /// The last vertex of each slot's subpath, from where `previous` leads on; kNoVertex if it has none.
+    [[nodiscard]] std::uint32_t last_vertex(std::uint32_t slot) const { return last_vertex_[slot]; }
+
+  private:
+    void begin_at_eye(const SubpathJob& job);
+    void begin_at_lights(const SubpathJob& job);
+    void draw_numbers(const SubpathJob& job);
+    /// Advances subpath `i`; false if it ends.
+    bool advance(const SubpathJob& job, LightFinder* finder, std::size_t i);
+    bool scatter_in_medium(const SubpathJob& job, std::size_t i);
+    bool scatter_at_surface(const SubpathJob& job, std::size_t i, const SurfacePoint& point,
+                            const std::optional<Crossing>& crossing, const SubpathDensities& arrived);
+    [[nodiscard]] SubpathDensities arrive(const SubpathJob& job, std::size_t i, const Vec3f& position,
+                                          float cosine) const;
+    [[nodiscard]] bool survives(const SubpathJob& job, std::size_t i);
+    /// The next vertex, with what the state knows of it.
+    PathVertex& store(SubpathState& state);
+
+    SubpathEnd end_;
+    int bounce_ = 0;
+    // By active subpath; those that end are squeezed out after every bounce.
+    std::vector<SubpathState> states_;
+    std::vector<Ray> rays_;
+    std::vector<Hit> hits_;
+    std::vector<Interior> interiors_;  ///< only if the World has bodies
+    std::vector<std::uint32_t> pixel_seeds_;
+    std::vector<std::uint32_t> sample_indices_;
+    NumberPairs scattering_, choices_, medium_;
+    // By slot.
+    std::vector<Emission> emissions_;
+    std::vector<std::uint32_t> last_vertex_;
+    std::vector<PathVertex> vertices_;
+    // Lobes that vertices point to; it only grows, so that they stay where they are.
+    std::deque<Bsdf> bsdfs_;
+    std::size_t bsdf_count_ = 0;
+};
+
+}  // namespace etendue

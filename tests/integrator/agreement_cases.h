@@ -1,0 +1,32 @@
+// Rooms that integrators must agree on: the walls open to one kind of light, a body and an occluder.
+#pragma once
+
+#include "film/pixel_rect.h"
+#include "integrator/integrator.h"
+#include "scene/scene_desc.h"
+#include "world/world.h"
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace etendue::test {
+
+inline constexpr int kAgreementWidth = 64;
+inline constexpr int kAgreementHeight = 48;
+
+struct AgreementCase {
+    std::string name;
+    std::function<void(SceneDesc&)> make;
+    IntegratorOptions lengths{.max_depth = 6};
+    PixelRect window{0, 0, kAgreementWidth, kAgreementHeight};
+    std::uint32_t spp = 64;
+    std::vector<std::string> integrators{"light", "bdpt"};  ///< to compare with `path`
+};
+
+[[nodiscard]] const std::vector<AgreementCase>& agreement_cases();
+
+[[nodiscard]] World agreement_world(const AgreementCase& agreement);
+
+}  // namespace etendue::test
