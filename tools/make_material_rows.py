@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Generates the rows of spheres that tests/regression renders: one directory each, with scene.gltf, scene.bin and
-render.json. tools/scenegen/rows/ describes them."""
+render.json. tools/scenegen/rows/ describes them. row-compressed needs the program encode_gltf, which the build makes."""
 
 import argparse
 import sys

@@ -35,6 +35,7 @@ constexpr RegressionScene kRegressionScenes[] = {
     {kScenes, "veach-mis", 96, 64, 8, 0.1, {"path", 4, 64}, {"path", 8, 256}},
     row("row-anisotropy"),
     fine_row("row-clearcoat"),
+    row("row-compressed"),
     row("row-diffuse-transmission"),
     fine_row("row-dispersion"),
     row("row-emission"),

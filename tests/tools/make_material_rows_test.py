@@ -18,7 +18,8 @@ MATERIAL_EXTENSIONS = {
     "anisotropy", "clearcoat", "diffuse_transmission", "dispersion", "emissive_strength", "ior", "iridescence",
     "sheen", "specular", "transmission", "unlit", "variants", "volume", "volume_scatter"}
 OTHER_EXTENSIONS = {
-    "EXT_lights_ies", "EXT_lights_image_based", "EXT_mesh_gpu_instancing", "KHR_lights_punctual",
+    "EXT_lights_ies", "EXT_lights_image_based", "EXT_mesh_gpu_instancing", "EXT_meshopt_compression",
+    "EXT_texture_webp", "KHR_draco_mesh_compression", "KHR_lights_punctual",
     "KHR_mesh_quantization", "KHR_node_visibility", "KHR_texture_transform"}
 
 

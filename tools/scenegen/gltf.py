@@ -83,9 +83,9 @@ class GltfWriter:
         lights.append({"name": name, "type": "directional", "color": list(color), "intensity": intensity})
         return self.add_node(name, rotation=rotation, extensions={"KHR_lights_punctual": {"light": len(lights) - 1}})
 
-    def add_image(self, name, png):
-        """The PNG file `png` (bytes), stored in the buffer."""
-        return self.add("images", {"name": name, "mimeType": "image/png", "bufferView": self._add_view(png, None)})
+    def add_image(self, name, data, mime_type="image/png"):
+        """The image file `data` (bytes), stored in the buffer."""
+        return self.add("images", {"name": name, "mimeType": mime_type, "bufferView": self.add_view(data)})
 
     def add_texture(self, name, png):
         """A repeating texture of the PNG file `png` (bytes), stored in the buffer."""
@@ -143,7 +143,7 @@ class GltfWriter:
         if stride is not None:
             size = n * values.itemsize
             data = b"".join(data[i:i + size].ljust(stride, b"\0") for i in range(0, len(data), size))
-        accessor = {"bufferView": self._add_view(data, target, stride), "componentType": component_type,
+        accessor = {"bufferView": self.add_view(data, target, stride), "componentType": component_type,
                     "count": len(values) // n, "type": kind}
         if normalized:
             accessor["normalized"] = True
@@ -152,7 +152,8 @@ class GltfWriter:
             accessor["max"] = [max(values[i::n]) for i in range(n)]
         return self.add("accessors", accessor)
 
-    def _add_view(self, data, target, stride=None):
+    def add_view(self, data, target=None, stride=None):
+        """A view of `data` (bytes), which are appended to the buffer."""
         self._bin.extend(b"\0" * (-len(self._bin) % 4))
         view = {"buffer": 0, "byteOffset": len(self._bin), "byteLength": len(data)}
         if target is not None:

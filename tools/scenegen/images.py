@@ -1,4 +1,4 @@
-"""Images from the standard library alone: OpenEXR for environments, PNG for textures."""
+"""Images from the standard library alone: OpenEXR for environments, PNG and WebP for textures."""
 
 import struct
 import zlib
@@ -69,6 +69,43 @@ def png(width, height, pixels, channels=3):
     rows = b"".join(b"\0" + pixels[stride * y:stride * (y + 1)] for y in range(height))
     return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, color_type, 0, 0, 0))
             + chunk(b"IDAT", zlib.compress(rows, 9)) + chunk(b"IEND", b""))
+
+
+def webp(width, height, pixels):
+    """Bytes of a lossless 8-bit RGB WebP. `pixels` as of png().
+
+    The simplest stream of RFC 9649: no transforms, and a prefix code of 8 bits for each value of a channel.
+    """
+    stream = []  # bits
+
+    def put(value, count):
+        stream.extend(value >> i & 1 for i in range(count))
+
+    put(0x2F, 8)
+    put(width - 1, 14)
+    put(height - 1, 14)
+    put(0, 4)  # no alpha, version 0
+    put(0, 3)  # no transform, no cache of colours, one group of codes
+    for others in (24, 0, 0):
+        # Green with the lengths of copies, red, blue. Lengths are 0 or 8, which one bit tells apart; those two are the
+        # third and the twelfth in the order in which lengths are given codes.
+        put(0, 1)
+        put(12 - 4, 4)
+        for i in range(12):
+            put(1 if i in (2, 11) else 0, 3)
+        put(0, 1)
+        put((1 << 256) - 1, 256)
+        put(0, others)
+    put(0b11111111_101, 11)  # alpha is always 255
+    put(0b0001, 4)  # distances of copies do not occur
+    for i in range(0, 3 * width * height, 3):
+        red, green, blue = pixels[i:i + 3]
+        for value in (green, red, blue):
+            # Prefix codes begin with their highest bit.
+            put(int(f"{value:08b}"[::-1], 2), 8)
+    put(0, -len(stream) % 16)  # chunks have even lengths
+    data = bytes(sum(bit << i for i, bit in enumerate(stream[k:k + 8])) for k in range(0, len(stream), 8))
+    return b"RIFF" + struct.pack("<I", len(data) + 12) + b"WEBPVP8L" + struct.pack("<I", len(data)) + data
 
 
 def to_srgb_byte(linear):

@@ -1,11 +1,12 @@
-"""Rows of spheres that hold the material extensions in place, for tests/regression. Each is a function that returns a
+"""Rows of spheres that hold what glTF files can bring in place, for tests/regression. Each is a function that returns a
 GeneratedScene with its render.json. To add another: the function in the module of its kind, and its line here."""
 
-from . import bodies, emission, geometry, lamps, nested, sheets, surfaces
+from . import bodies, compressed, emission, geometry, lamps, nested, sheets, surfaces
 
 ROWS = {
     "row-anisotropy": surfaces.anisotropy,
     "row-clearcoat": surfaces.clearcoat,
+    "row-compressed": compressed.compressed,
     "row-diffuse-transmission": sheets.diffuse_transmission,
     "row-dispersion": bodies.dispersion,
     "row-emission": emission.emission,

@@ -31,15 +31,6 @@ def geometry():
     return scene
 
 
-def _add(stage, name, attributes, material, place, mesh=BALL, **node):
-    gltf = stage.scene.gltf
-    primitive = {"attributes": attributes, "indices": gltf.add_indices(mesh), "material": material}
-    stage.scene.triangles += mesh.triangle_count
-    index = gltf.add("meshes", {"name": name, "primitives": [primitive]})
-    gltf.add_node(name, mesh=index, translation=place, **node)
-    return gltf.document["meshes"][index]
-
-
 def _quantized(stage, place, gray, _):
     """Positions of 16 bits and normals of 8, both normalised."""
     gltf = stage.scene.gltf
@@ -49,7 +40,7 @@ def _quantized(stage, place, gray, _):
     # Vertices start at multiples of 4 bytes.
     attributes = {"POSITION": gltf.add_accessor(positions, SHORT, "VEC3", with_bounds=True, normalized=True, stride=8),
                   "NORMAL": gltf.add_accessor(normals, BYTE, "VEC3", normalized=True, stride=4)}
-    _add(stage, "quantized", attributes, gray, place, scale=(RADIUS, RADIUS, RADIUS))
+    stage.add_primitive("quantized", BALL, attributes, gray, place, scale=(RADIUS, RADIUS, RADIUS))
 
 
 def _instanced(stage, place, gray, _):
@@ -61,8 +52,8 @@ def _instanced(stage, place, gray, _):
     scales = array("f", (s for i in range(8) for s in (0.45, 0.2 if i % 2 else 0.45, 0.45)))
     attributes = {"TRANSLATION": gltf.add_accessor(translations, FLOAT, "VEC3"),
                   "SCALE": gltf.add_accessor(scales, FLOAT, "VEC3")}
-    _add(stage, "instanced", _smooth(gltf), gray, place,
-         extensions={"EXT_mesh_gpu_instancing": {"attributes": attributes}})
+    stage.add_primitive("instanced", BALL, _smooth(gltf), gray, place,
+                        extensions={"EXT_mesh_gpu_instancing": {"attributes": attributes}})
 
 
 def _morphed(stage, place, gray, _):
@@ -73,7 +64,7 @@ def _morphed(stage, place, gray, _):
         x, y, z = BALL.positions[i:i + 3]
         waist = -0.8 * math.cos(3.0 * y / RADIUS) ** 2
         target.extend((waist * x, 0.0, waist * z))
-    mesh = _add(stage, "morphed", _smooth(gltf), gray, place)
+    mesh = stage.add_primitive("morphed", BALL, _smooth(gltf), gray, place)
     mesh["primitives"][0]["targets"] = [{"POSITION": gltf.add_accessor(target, FLOAT, "VEC3", with_bounds=True)}]
     mesh["weights"] = [0.5]
 
@@ -84,7 +75,7 @@ def _varied(stage, place, gray, red):
     gltf.use_extension("KHR_materials_variants")
     gltf.document.setdefault("extensions", {})["KHR_materials_variants"] = {
         "variants": [{"name": "bare"}, {"name": VARIANT}]}
-    mesh = _add(stage, "varied", _smooth(gltf), gray, place)
+    mesh = stage.add_primitive("varied", BALL, _smooth(gltf), gray, place)
     mesh["primitives"][0]["extensions"] = {
         "KHR_materials_variants": {"mappings": [{"material": red, "variants": [1]}]}}
 
@@ -94,7 +85,7 @@ def _flat(stage, place, gray, _):
     gltf = stage.scene.gltf
     coarse = mapped_sphere(RADIUS, columns=12, rows=6)
     positions = {"POSITION": gltf.add_accessor(coarse.positions, FLOAT, "VEC3", with_bounds=True)}
-    _add(stage, "flat", positions, gray, place, mesh=coarse)
+    stage.add_primitive("flat", coarse, positions, gray, place)
 
 
 def _smooth(gltf):

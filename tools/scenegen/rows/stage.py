@@ -66,6 +66,16 @@ class Stage:
         if override is not None:
             self.overrides[name] = override
 
+    def add_primitive(self, name, mesh, attributes, material, place, indices=None, **node):
+        """A mesh of accessors made by hand, `indices` if they are not plain ones too. Returns its entry in the file."""
+        gltf = self.scene.gltf
+        primitive = {"attributes": attributes, "indices": gltf.add_indices(mesh) if indices is None else indices,
+                     "material": material}
+        self.scene.triangles += mesh.triangle_count
+        index = gltf.add("meshes", {"name": name, "primitives": [primitive]})
+        gltf.add_node(name, mesh=index, translation=place, **node)
+        return gltf.document["meshes"][index]
+
     def finish(self, **settings):
         """The scene, with its render.json; `settings` are further members of that, None to leave one out."""
         members = {
@@ -85,7 +95,6 @@ class Stage:
     def _add(self, name, mesh, material, **node):
         self.scene.gltf.add_node(name, mesh=self.scene.gltf.add_mesh(name, mesh, material), **node)
         self.scene.triangles += mesh.triangle_count
-
 
 def _treads():
     half, edge = 8.0, -0.5 * STEP_DEPTH

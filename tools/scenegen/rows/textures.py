@@ -18,14 +18,15 @@ def channel(name):
     return _image(texel)
 
 
-def color_bands():
-    """A colour image: hues around, bright and dark bands from the top to the bottom."""
+def color_bands(encode=png):
+    """A colour image: hues around, bright and dark bands from the top to the bottom. `encode` is png or webp of
+    images."""
     def texel(u, v):
         band = 1.0 if int(6 * v) % 2 else 0.5
         return [to_srgb_byte(band * (0.5 + 0.5 * math.cos(2.0 * math.pi * (2.0 * u - phase / 3.0))))
                 for phase in range(3)]
 
-    return _image(texel)
+    return encode(WIDTH, HEIGHT, _pixels(texel))
 
 
 def anisotropy():
@@ -59,11 +60,16 @@ def ramp(u):
 
 
 def _image(texel):
+    pixels = _pixels(texel)
+    return png(WIDTH, HEIGHT, pixels, len(pixels) // (WIDTH * HEIGHT))
+
+
+def _pixels(texel):
     pixels = bytearray()
     for y in range(HEIGHT):
         for x in range(WIDTH):
             pixels.extend(texel((x + 0.5) / WIDTH, (y + 0.5) / HEIGHT))
-    return png(WIDTH, HEIGHT, bytes(pixels), len(pixels) // (WIDTH * HEIGHT))
+    return bytes(pixels)
 
 
 def _byte(value):
