@@ -33,6 +33,7 @@ constexpr RegressionScene kRegressionScenes[] = {
     {kScenes, "material-grid", 96, 54, 16, 0.01, {"path", 4, 48}, {"naive", 8, 2048}},
     {kScenes, "sun-and-sky", 96, 54, 8, 0.01, {"path", 4, 32}, {"path", 8, 256}},
     {kScenes, "veach-mis", 96, 64, 8, 0.1, {"path", 4, 64}, {"path", 8, 256}},
+    fine_row("row-animated"),
     row("row-anisotropy"),
     fine_row("row-clearcoat"),
     row("row-compressed"),

@@ -19,7 +19,7 @@ MATERIAL_EXTENSIONS = {
     "sheen", "specular", "transmission", "unlit", "variants", "volume", "volume_scatter"}
 OTHER_EXTENSIONS = {
     "EXT_lights_ies", "EXT_lights_image_based", "EXT_mesh_gpu_instancing", "EXT_meshopt_compression",
-    "EXT_texture_webp", "KHR_draco_mesh_compression", "KHR_lights_punctual",
+    "EXT_texture_webp", "KHR_animation_pointer", "KHR_draco_mesh_compression", "KHR_lights_punctual",
     "KHR_mesh_quantization", "KHR_node_visibility", "KHR_texture_transform"}
 
 

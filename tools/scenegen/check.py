@@ -7,7 +7,7 @@ from array import array
 _ARRAY_TYPE = {5120: "b", 5121: "B", 5122: "h", 5123: "H", 5125: "I", 5126: "f"}
 # What normalised integers are divided by.
 _LARGEST = {5120: 127, 5121: 255, 5122: 32767, 5123: 65535}
-_COMPONENTS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
+_COMPONENTS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 # render.json states derived numbers with four decimals.
 _TOLERANCE = 6e-5
 

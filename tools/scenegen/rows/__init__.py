@@ -1,9 +1,10 @@
 """Rows of spheres that hold what glTF files can bring in place, for tests/regression. Each is a function that returns a
 GeneratedScene with its render.json. To add another: the function in the module of its kind, and its line here."""
 
-from . import bodies, compressed, emission, geometry, lamps, nested, sheets, surfaces
+from . import animated, bodies, compressed, emission, geometry, lamps, nested, sheets, surfaces
 
 ROWS = {
+    "row-animated": animated.animated,
     "row-anisotropy": surfaces.anisotropy,
     "row-clearcoat": surfaces.clearcoat,
     "row-compressed": compressed.compressed,

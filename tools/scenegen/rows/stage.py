@@ -39,8 +39,8 @@ class Stage:
         floor = gltf.add_material("floor", base_color=(0.5, 0.5, 0.5))
         wall = gltf.add_material("wall", base_color=(1.0, 1.0, 1.0) if checkered else (0.4, 0.4, 0.4),
                                  base_color_texture=texture)
-        self._add("floor", _treads(), floor)
-        self._add("wall", _walls(), wall)
+        self.add("floor", _treads(), floor)
+        self.add("wall", _walls(), wall)
         if lit:
             self._add_lamp()
         gltf.add_camera("camera", CAMERA_POSITION, look_at(CAMERA_POSITION, CAMERA_TARGET),
@@ -53,6 +53,11 @@ class Stage:
         """A point over the middle of a place on a step, `height` metres above it."""
         return ((column - 0.5 * (COLUMNS - 1)) * SPACING, row * STEP_HEIGHT + height, -row * STEP_DEPTH)
 
+    def add(self, name, mesh, material, **node):
+        """A mesh in a node, whose index is returned."""
+        self.scene.triangles += mesh.triangle_count
+        return self.scene.gltf.add_node(name, mesh=self.scene.gltf.add_mesh(name, mesh, material), **node)
+
     def add_ball(self, row, column, override=None, **material):
         """A sphere on a step; `material` as of GltfWriter.add_material, `override` as of render.json."""
         # A hair above the step, which it would otherwise touch in a vertex.
@@ -61,7 +66,7 @@ class Stage:
 
     def add_body(self, name, mesh, translation, override=None, **material):
         """A closed mesh with a material of its own."""
-        self._add(name, mesh, self.scene.gltf.add_material(name, **material), translation=translation)
+        self.add(name, mesh, self.scene.gltf.add_material(name, **material), translation=translation)
         self.scene.closed_meshes.add(name)
         if override is not None:
             self.overrides[name] = override
@@ -89,12 +94,8 @@ class Stage:
     def _add_lamp(self):
         lamp = self.scene.gltf.add_material("lamp", base_color=(0.0, 0.0, 0.0), emission=LAMP_RADIANCE)
         width, height = LAMP_SIZE
-        self._add("lamp", _panel(width, height), lamp, translation=LAMP_CENTER,
-                  rotation=look_at(LAMP_CENTER, LAMP_TARGET))
-
-    def _add(self, name, mesh, material, **node):
-        self.scene.gltf.add_node(name, mesh=self.scene.gltf.add_mesh(name, mesh, material), **node)
-        self.scene.triangles += mesh.triangle_count
+        self.add("lamp", _panel(width, height), lamp, translation=LAMP_CENTER,
+                 rotation=look_at(LAMP_CENTER, LAMP_TARGET))
 
 def _treads():
     half, edge = 8.0, -0.5 * STEP_DEPTH
