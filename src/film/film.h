@@ -1,8 +1,8 @@
 // Where samples end: sums per pixel, first of one tile, then of the image.
 #pragma once
 
+#include "core/pixel_rect.h"
 #include "core/rgb.h"
-#include "film/pixel_rect.h"
 #include "film/splat_film.h"
 
 #include <cstddef>

@@ -5,10 +5,10 @@
 #pragma once
 
 #include "core/parallel.h"
+#include "core/pixel_rect.h"
 #include "core/rgb.h"
 #include "core/vec.h"
 #include "film/pixel_filter.h"
-#include "film/pixel_rect.h"
 
 #include <cstddef>
 #include <cstdint>

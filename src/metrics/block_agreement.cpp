@@ -1,5 +1,6 @@
 #include "metrics/block_agreement.h"
 
+#include "core/pixel_rect.h"
 #include "metrics/error_metrics.h"
 
 #include <algorithm>
@@ -14,16 +15,9 @@ namespace etendue {
 
 namespace {
 
-struct Region {
-    int x0 = 0;
-    int y0 = 0;
-    int x1 = 0;
-    int y1 = 0;
-};
-
 /// The blocks, then the whole image if it is more than one block.
-std::vector<Region> regions(const ImageF& image, int block_size) {
-    std::vector<Region> result;
+std::vector<PixelRect> regions(const ImageF& image, int block_size) {
+    std::vector<PixelRect> result;
     for (int y = 0; y < image.height; y += block_size)
         for (int x = 0; x < image.width; x += block_size)
             result.push_back({x, y, std::min(x + block_size, image.width), std::min(y + block_size, image.height)});
@@ -36,7 +30,7 @@ struct Moments {
     double variance = 0.0;  ///< of `mean`
 };
 
-Moments moments(const ImageEstimate& image, const Region& region, int channel) {
+Moments moments(const ImageEstimate& image, const PixelRect& region, int channel) {
     Moments sum;
     const auto c = static_cast<std::size_t>(channel);
     for (int y = region.y0; y < region.y1; ++y) {
@@ -45,16 +39,15 @@ Moments moments(const ImageEstimate& image, const Region& region, int channel) {
             sum.variance += static_cast<double>(image.variance.pixel(x, y)[c]);
         }
     }
-    const double pixels = static_cast<double>(region.x1 - region.x0) * static_cast<double>(region.y1 - region.y0);
+    const auto pixels = static_cast<double>(region.area());
     return {sum.mean / pixels, sum.variance / (pixels * pixels)};
 }
 
-BlockDifference compare(const ImageEstimate& a, const ImageEstimate& b, const Region& region, int channel,
+BlockDifference compare(const ImageEstimate& a, const ImageEstimate& b, const PixelRect& region, int channel,
                         double tolerance) {
     const Moments of_a = moments(a, region, channel);
     const Moments of_b = moments(b, region, channel);
-    BlockDifference result{region.x0, region.y0, region.x1 - region.x0, region.y1 - region.y0, channel, of_a.mean,
-                           of_b.mean, 0.0};
+    BlockDifference result{region.x0, region.y0, region.width(), region.height(), channel, of_a.mean, of_b.mean, 0.0};
     const double difference = of_a.mean - of_b.mean;
     const double excess = std::abs(difference) - tolerance * std::max(std::abs(of_a.mean), std::abs(of_b.mean));
     // Written so that what is not a number does not pass.
@@ -66,7 +59,7 @@ BlockDifference compare(const ImageEstimate& a, const ImageEstimate& b, const Re
 
 /// Largest relative difference of the means of the whole images over the channels; NaN if one is not a number.
 double mean_difference(const ImageEstimate& a, const ImageEstimate& b) {
-    const Region whole{0, 0, a.mean.width, a.mean.height};
+    const PixelRect whole{0, 0, a.mean.width, a.mean.height};
     double largest = 0.0;
     for (int channel = 0; channel < a.mean.channels; ++channel) {
         const double mean_a = moments(a, whole, channel).mean;
@@ -108,7 +101,7 @@ BlockAgreement test_agreement(const ImageEstimate& a, const ImageEstimate& b, co
     require_same_shape(a.mean, a.variance, "an image and its variance");
     require_same_shape(b.mean, b.variance, "an image and its variance");
     BlockAgreement result;
-    for (const Region& region : regions(a.mean, options.block_size)) {
+    for (const PixelRect& region : regions(a.mean, options.block_size)) {
         for (int channel = 0; channel < a.mean.channels; ++channel) {
             const BlockDifference difference = compare(a, b, region, channel, options.block_tolerance);
             if (result.tests == 0 || std::abs(difference.z) > std::abs(result.worst.z)) result.worst = difference;

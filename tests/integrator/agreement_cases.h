@@ -1,7 +1,7 @@
 // Rooms that integrators must agree on: the walls open to one kind of light, a body and an occluder.
 #pragma once
 
-#include "film/pixel_rect.h"
+#include "core/pixel_rect.h"
 #include "integrator/integrator.h"
 #include "scene/scene_desc.h"
 #include "world/world.h"

@@ -1,6 +1,7 @@
 // A rectangle of pixels.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 
 namespace etendue {
@@ -17,7 +18,19 @@ struct PixelRect {
     [[nodiscard]] std::size_t area() const {
         return static_cast<std::size_t>(width()) * static_cast<std::size_t>(height());
     }
+    /// True if no pixel lies in it.
+    [[nodiscard]] bool empty() const { return x1 <= x0 || y1 <= y0; }
     friend bool operator==(const PixelRect&, const PixelRect&) = default;
 };
+
+/// The pixels that lie in both; empty() if there are none.
+[[nodiscard]] inline PixelRect intersection(const PixelRect& a, const PixelRect& b) {
+    return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
+}
+
+/// `rect` with its corner (x0, y0) at pixel (x, y).
+[[nodiscard]] inline PixelRect moved_to(const PixelRect& rect, int x, int y) {
+    return {x, y, x + rect.width(), y + rect.height()};
+}
 
 }  // namespace etendue
