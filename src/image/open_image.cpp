@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <limits>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -95,6 +97,20 @@ TexelDepth depth_of(const OIIO::ImageSpec& spec) {
     }
 }
 
+/// Windows are any integers in the file, so that their far corner may lie beyond what an int holds.
+PixelRect window(int x, int y, int width, int height) {
+    constexpr std::int64_t kMost = std::numeric_limits<int>::max();
+    return {x, y, static_cast<int>(std::min(kMost, std::int64_t{x} + width)),
+            static_cast<int>(std::min(kMost, std::int64_t{y} + height))};
+}
+
+std::optional<std::array<float, 8>> chromaticities_of(const OIIO::ImageSpec& spec) {
+    constexpr OIIO::TypeDesc kEightFloats(OIIO::TypeDesc::FLOAT, 8);
+    std::array<float, 8> values{};
+    if (!spec.getattribute("chromaticities", kEightFloats, values.data())) return std::nullopt;
+    return values;
+}
+
 }  // namespace
 
 void throw_library_error(const OIIO::ImageInput& input, std::string_view what) {
@@ -141,6 +157,10 @@ ImageInfo describe(const OpenImage& image) {
     info.bits_per_channel = image.spec.get_int_attribute("oiio:BitsPerSample", 8 * int(image.spec.format.basesize()));
     info.depth = depth_of(image.spec);
     info.format = image.format.name;
+    info.color_space = image.spec.get_string_attribute("oiio:ColorSpace");
+    info.chromaticities = chromaticities_of(image.spec);
+    info.data_window = window(image.spec.x, image.spec.y, image.spec.width, image.spec.height);
+    info.display_window = window(image.spec.full_x, image.spec.full_y, image.spec.full_width, image.spec.full_height);
     return info;
 }
 

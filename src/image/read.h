@@ -1,11 +1,14 @@
 // Reading image files and encoded images in memory.
 #pragma once
 
+#include "core/pixel_rect.h"
 #include "image/image.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <variant>
@@ -35,6 +38,16 @@ struct ImageInfo {
     bool is_float = false;
     TexelDepth depth = TexelDepth::UInt8;
     std::string format;  ///< "png", "jpeg", "openexr", …
+
+    /// What the file, or the library for its format, calls the colour space ("ACEScg", "sRGB"; "Linear" where an EXR
+    /// does not say). Nothing is converted by it.
+    std::string color_space;
+    /// CIE xy of red, green, blue and white, if the file has EXR's attribute of that name.
+    std::optional<std::array<float, 8>> chromaticities;
+    /// Where the pixels lie, and the full image that they are a part of, both in the file's coordinates with y down:
+    /// EXR's data and display window. The same for formats without.
+    PixelRect data_window;
+    PixelRect display_window;
 };
 
 /// Largest image that is decoded: 2^28 pixels (16384²), and no side above 65536. A header that claims more is refused

@@ -4,6 +4,7 @@
 #include "image/write.h"
 #include "image_test_files.h"
 
+#include <array>
 #include <chrono>
 #include <cstring>
 #include <random>
@@ -102,6 +103,30 @@ TEST(ReadImage, ExrChannelsAreTakenByName) {
     const ImageF image = read_image_float(path);
     EXPECT_EQ(image.channels, 4);
     EXPECT_EQ(image.pixels, (std::vector<float>{1.0f, 2.0f, 3.0f, 0.5f, 4.0f, 5.0f, 6.0f, 0.25f}));
+}
+
+TEST(ReadImage, HeadersSayColorSpaceAndWindows) {
+    const TemporaryFolder folder;
+    OIIO::ImageSpec spec(2, 1, 3, OIIO::TypeDesc::FLOAT);
+    const std::array<float, 8> primaries{0.713f, 0.293f, 0.165f, 0.83f, 0.128f, 0.044f, 0.32168f, 0.33767f};
+    spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), primaries.data());
+    spec.x = -3;
+    spec.y = 20;
+    spec.full_x = -10;
+    spec.full_y = 5;
+    spec.full_width = 64;
+    spec.full_height = 48;
+    const ImageInfo exr = read_image_info(write_reference(folder / "a.exr", spec, ramp<float>(6, 1.0)));
+    EXPECT_EQ(exr.color_space, "Linear");
+    EXPECT_EQ(exr.chromaticities, primaries);
+    EXPECT_EQ(exr.data_window, (PixelRect{-3, 20, -1, 21}));
+    EXPECT_EQ(exr.display_window, (PixelRect{-10, 5, 54, 53}));
+    const ImageInfo png = read_image_info(
+        write_reference(folder / "a.png", {5, 3, 3, OIIO::TypeDesc::UINT8}, ramp<std::uint8_t>(45, 4.0)));
+    EXPECT_EQ(png.color_space, "sRGB");
+    EXPECT_FALSE(png.chromaticities.has_value());
+    EXPECT_EQ(png.data_window, (PixelRect{0, 0, 5, 3}));
+    EXPECT_EQ(png.display_window, png.data_window);
 }
 
 TEST(ReadImage, MemoryAndFileAgreeInEveryFormat) {

@@ -120,6 +120,9 @@ TEST(WriteImage, ExrKeepsTheCropWindowInTheFullImage) {
     EXPECT_EQ(spec.full_width, 64);
     EXPECT_EQ(spec.full_height, 48);
     EXPECT_EQ(read_image_float(folder / "a.exr").height, 6) << "reading gives the data window";
+    const ImageInfo info = read_image_info(folder / "a.exr");
+    EXPECT_EQ(info.data_window, (PixelRect{10, 20, 15, 26}));
+    EXPECT_EQ(info.display_window, (PixelRect{0, 0, 64, 48}));
 }
 
 TEST(WriteImage, ExrTakesAnyChannelNames) {
