@@ -26,40 +26,128 @@ double trimmed_mean(std::vector<double>& terms, double share) {
     return std::accumulate(first_kept, terms.end(), 0.0) / static_cast<double>(terms.end() - first_kept);
 }
 
-}  // namespace
-
-std::string ErrorMetrics::str() const {
-    return fmt::format(
-        "relMSE          {:.6g}   mean (v - r)^2 / (r^2 + {:g})\n"
-        "relMSE trimmed  {:.6g}   the same without the largest {:g}% of the terms\n"
-        "MSE             {:.6g}   mean (v - r)^2\n"
-        "MAE             {:.6g}   mean |v - r|\n"
-        "SMAPE           {:.6g}   mean |v - r| / (|v| + |r| + {:g})\n",
-        rel_mse, kMetricEpsilon, rel_mse_trimmed, 100.0 * kTrimmedShare, mse, mae, smape, kMetricEpsilon);
+double squared_term(double v, double r) {
+    return (v - r) * (v - r);
+}
+double relative_term(double v, double r) {
+    return squared_term(v, r) / (r * r + kMetricEpsilon);
+}
+double absolute_term(double v, double r) {
+    return std::abs(v - r);
+}
+double symmetric_term(double v, double r) {
+    return std::abs(v - r) / (std::abs(v) + std::abs(r) + kMetricEpsilon);
 }
 
-ErrorMetrics compute_error_metrics(const ImageF& image, const ImageF& reference) {
+double term_of(ErrorMetric metric, double v, double r) {
+    switch (metric) {
+        case ErrorMetric::Mse:
+            return squared_term(v, r);
+        case ErrorMetric::Mae:
+            return absolute_term(v, r);
+        case ErrorMetric::Smape:
+            return symmetric_term(v, r);
+        case ErrorMetric::RelMse:
+        case ErrorMetric::RelMseTrimmed:
+            break;
+    }
+    return relative_term(v, r);
+}
+
+}  // namespace
+
+std::string_view name_of(ErrorMetric metric) {
+    switch (metric) {
+        case ErrorMetric::RelMseTrimmed:
+            return "relmse-trimmed";
+        case ErrorMetric::Mse:
+            return "mse";
+        case ErrorMetric::Mae:
+            return "mae";
+        case ErrorMetric::Smape:
+            return "smape";
+        case ErrorMetric::RelMse:
+            break;
+    }
+    return "relmse";
+}
+
+std::string formula_of(ErrorMetric metric) {
+    switch (metric) {
+        case ErrorMetric::RelMseTrimmed:
+            return fmt::format("{} without the largest {:g}% of the terms", formula_of(ErrorMetric::RelMse),
+                               100.0 * kTrimmedShare);
+        case ErrorMetric::Mse:
+            return "mean (v - r)^2";
+        case ErrorMetric::Mae:
+            return "mean |v - r|";
+        case ErrorMetric::Smape:
+            return fmt::format("mean |v - r| / (|v| + |r| + {:g})", kMetricEpsilon);
+        case ErrorMetric::RelMse:
+            break;
+    }
+    return fmt::format("mean (v - r)^2 / (r^2 + {:g})", kMetricEpsilon);
+}
+
+double ErrorMetrics::value(ErrorMetric metric) const {
+    switch (metric) {
+        case ErrorMetric::RelMseTrimmed:
+            return rel_mse_trimmed;
+        case ErrorMetric::Mse:
+            return mse;
+        case ErrorMetric::Mae:
+            return mae;
+        case ErrorMetric::Smape:
+            return smape;
+        case ErrorMetric::RelMse:
+            break;
+    }
+    return rel_mse;
+}
+
+std::string ErrorMetrics::str() const {
+    std::string text;
+    for (const ErrorMetric metric : kErrorMetrics)
+        text += fmt::format("{:<15} {:.6g}   {}\n", name_of(metric), value(metric), formula_of(metric));
+    return text;
+}
+
+ErrorMetrics compute_error_metrics(const ImageF& image, const ImageF& reference, const PixelSelection& selection) {
     require_same_shape(image, reference, "image and reference");
     ErrorMetrics sums;
     std::vector<double> relative_terms;
     relative_terms.reserve(image.pixels.size());
-    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-        const auto v = static_cast<double>(image.pixels[i]);
-        const auto r = static_cast<double>(reference.pixels[i]);
-        const double difference = std::abs(v - r);
-        const double squared = difference * difference;
-        sums.mse += squared;
-        sums.mae += difference;
-        sums.smape += difference / (std::abs(v) + std::abs(r) + kMetricEpsilon);
-        relative_terms.push_back(squared / (r * r + kMetricEpsilon));
-        sums.rel_mse += relative_terms.back();
-    }
-    const auto count = static_cast<double>(image.pixels.size());
+    const auto channels = static_cast<std::size_t>(image.channels);
+    for_each_pixel(image, selection, [&](std::size_t pixel) {
+        for (std::size_t i = pixel * channels; i < (pixel + 1) * channels; ++i) {
+            const auto v = static_cast<double>(image.pixels[i]);
+            const auto r = static_cast<double>(reference.pixels[i]);
+            sums.mse += squared_term(v, r);
+            sums.mae += absolute_term(v, r);
+            sums.smape += symmetric_term(v, r);
+            relative_terms.push_back(relative_term(v, r));
+            sums.rel_mse += relative_terms.back();
+        }
+    });
+    const auto count = static_cast<double>(relative_terms.size());
     return {.rel_mse = sums.rel_mse / count,
             .rel_mse_trimmed = trimmed_mean(relative_terms, kTrimmedShare),
             .mse = sums.mse / count,
             .mae = sums.mae / count,
             .smape = sums.smape / count};
+}
+
+ImageF error_map(ErrorMetric metric, const ImageF& image, const ImageF& reference) {
+    require_same_shape(image, reference, "image and reference");
+    ImageF map(image.width, image.height, 1);
+    const auto channels = static_cast<std::size_t>(image.channels);
+    for (std::size_t pixel = 0; pixel < map.pixels.size(); ++pixel) {
+        double sum = 0.0;
+        for (std::size_t i = pixel * channels; i < (pixel + 1) * channels; ++i)
+            sum += term_of(metric, static_cast<double>(image.pixels[i]), static_cast<double>(reference.pixels[i]));
+        map.pixels[pixel] = static_cast<float>(sum / static_cast<double>(channels));
+    }
+    return map;
 }
 
 void require_same_shape(const ImageF& a, const ImageF& b, std::string_view what) {

@@ -76,5 +76,28 @@ TEST(ErrorMetrics, PrintTheirFormulasAndEpsilon) {
     EXPECT_NE(text.find("0.1% of the terms"), std::string::npos) << text;
 }
 
+TEST(ErrorMetrics, AreOfTheRegionThatIsSelected) {
+    ImageF image(4, 2, 3);
+    image.pixel(2, 1)[1] = 3.0f;
+    const ImageF reference(4, 2, 3);
+    EXPECT_DOUBLE_EQ(compute_error_metrics(image, reference, {.region = PixelRect{2, 1, 4, 2}}).mse, 9.0 / 6.0);
+    EXPECT_EQ(compute_error_metrics(image, reference, {.region = PixelRect{0, 0, 4, 1}}).mse, 0.0);
+    EXPECT_TRUE(std::isnan(compute_error_metrics(image, reference, {.region = PixelRect{0, 0, 0, 0}}).mse));
+}
+
+TEST(ErrorMetrics, AreTheMeansOfTheirMaps) {
+    ImageF image(5, 3, 3);
+    ImageF reference(5, 3, 3);
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        image.pixels[i] = static_cast<float>(i % 7);
+        reference.pixels[i] = static_cast<float>(i % 5);
+    }
+    const ErrorMetrics metrics = compute_error_metrics(image, reference);
+    for (const ErrorMetric metric : kErrorMetrics)
+        EXPECT_NEAR(mean_of(error_map(metric, image, reference)), metrics.value(metric), 1e-6 * metrics.value(metric))
+            << name_of(metric) << ", of which 45 terms are too few to trim one";
+    EXPECT_EQ(error_map(ErrorMetric::Mae, image, reference).channels, 1);
+}
+
 }  // namespace
 }  // namespace etendue
