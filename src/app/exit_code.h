@@ -6,8 +6,9 @@ namespace etendue {
 enum class ExitCode : int {
     Success = 0,
     RenderFailed = 1,  ///< at least one scene could not be rendered or written
+    DiffFailed = 1,    ///< images were compared: a measure is above its limit, or pixels are not finite
     UsageError = 2,
-    InvalidScene = 3,   ///< invalid scene or settings
+    InvalidScene = 3,   ///< invalid scene or settings, or images that cannot be read or compared
     Interrupted = 130,  ///< SIGINT
     Terminated = 143,   ///< SIGTERM
 };

@@ -44,18 +44,19 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version", std::string(software_name()));
     app.require_subcommand(1);
     app.footer(
-        "Exit codes: 0 success, 1 rendering failed for at least one scene, 2 usage error, 3 invalid scene or "
-        "settings,\n"
-        "130/143 interrupted.\n\n"
+        "Exit codes: 0 success, 1 rendering failed for at least one scene or images differ too much, 2 usage error,\n"
+        "3 invalid scene, settings or images, 130/143 interrupted.\n\n"
         "Examples:\n"
         "  etendue render scenes/cornell-box\n"
         "  etendue batch scenes --quality draft -o out\n"
-        "  etendue inspect model.glb\n\n"
+        "  etendue inspect model.glb\n"
+        "  etendue diff box.exr reference.exr --metric flip --map flip.png\n\n"
         "'etendue COMMAND --help' tells more.");
     Action action;
     add_render_command(app, action);
     add_batch_command(app, action);
     add_inspect_command(app, action);
+    add_diff_command(app, action);
     // CLI11 would only say that a command is missing.
     if (argc > 1 && argv[1][0] != '-') {
         const std::vector<CLI::App*> commands = app.get_subcommands({});

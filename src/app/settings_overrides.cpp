@@ -47,15 +47,6 @@ std::array<int, 2> parse_size(const std::string& text) {
     return size;
 }
 
-std::array<int, 4> parse_crop(const std::string& text) {
-    std::array<int, 4> c{};
-    char rest = 0;
-    if (std::sscanf(text.c_str(), "%d,%d,%d,%d%c", &c[0], &c[1], &c[2], &c[3], &rest) != 4 || c[0] < 0 || c[1] < 0 ||
-        c[2] <= c[0] || c[3] <= c[1])
-        throw CLI::ValidationError("--crop", "'" + text + "' is not x0,y0,x1,y1 with 0 <= x0 < x1 and 0 <= y0 < y1");
-    return c;
-}
-
 std::uint64_t parse_texture_memory(const std::string& text) {
     const auto bytes = parse_byte_size(text);
     if (!bytes) throw CLI::ValidationError("--texture-memory", fmt::format("'{}' is not {}", text, kByteSizeForm));
@@ -97,6 +88,15 @@ std::vector<std::string> integrator_names() {
 
 }  // namespace
 
+std::array<int, 4> parse_pixel_window(const std::string& option, const std::string& text) {
+    std::array<int, 4> c{};
+    char rest = 0;
+    if (std::sscanf(text.c_str(), "%d,%d,%d,%d%c", &c[0], &c[1], &c[2], &c[3], &rest) != 4 || c[0] < 0 || c[1] < 0 ||
+        c[2] <= c[0] || c[3] <= c[1])
+        throw CLI::ValidationError(option, "'" + text + "' is not x0,y0,x1,y1 with 0 <= x0 < x1 and 0 <= y0 < y1");
+    return c;
+}
+
 void SettingsOverrides::add_options(CLI::App& command) {
     command
         .add_option_function<std::string>(
@@ -109,7 +109,7 @@ void SettingsOverrides::add_options(CLI::App& command) {
     command.add_option_function<std::string>(
         "--size", [this](const std::string& text) { size = parse_size(text); }, "Image size, WIDTHxHEIGHT");
     command.add_option_function<std::string>(
-        "--crop", [this](const std::string& text) { crop = parse_crop(text); },
+        "--crop", [this](const std::string& text) { crop = parse_pixel_window("--crop", text); },
         "Render only pixels x0,y0,x1,y1 (half-open, y down)");
     command.add_option("--camera", camera, "Name of the camera (default: the first)");
     command.add_option("--time-code", moment.time_code, "Moment of the animation to show, seconds (default: at rest)");

@@ -52,4 +52,8 @@ struct SettingsOverrides {
     void apply(SceneDesc& scene) const;
 };
 
+/// "100,100,200,200" to x0, y0, x1, y1. Throws the error that CLI11 shows for `option` unless 0 <= x0 < x1 and
+/// 0 <= y0 < y1.
+[[nodiscard]] std::array<int, 4> parse_pixel_window(const std::string& option, const std::string& text);
+
 }  // namespace etendue

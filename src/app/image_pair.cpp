@@ -1,0 +1,197 @@
+#include "app/image_pair.h"
+
+#include "core/error.h"
+#include "image/read.h"
+#include "texture/srgb.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace etendue {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Chromaticities of the same space differ by rounding only.
+constexpr float kChromaticityTolerance = 1e-3f;
+
+bool are_close(const std::array<float, 8>& file, const Chromaticities& space) {
+    const std::array<float, 8> known{space.red[0],  space.red[1],  space.green[0], space.green[1],
+                                     space.blue[0], space.blue[1], space.white[0], space.white[1]};
+    return std::ranges::equal(file, known, [](float a, float b) { return std::abs(a - b) <= kChromaticityTolerance; });
+}
+
+std::optional<Chromaticities> chromaticities_of(const std::string& space, const ColorConfig& colors) {
+    try {
+        return colors.chromaticities(space);
+    } catch (const SceneError&) {
+        return std::nullopt;  // it is not linear
+    }
+}
+
+/// The config's linear space with these primaries and white, if it has one.
+std::string space_with(const std::array<float, 8>& chromaticities, const ColorConfig& colors) {
+    for (const std::string& space : colors.spaces())
+        if (const auto known = chromaticities_of(space, colors); known && are_close(chromaticities, *known))
+            return space;
+    return "";
+}
+
+/// What floats are called that are linear in some primaries: by the library, and in files that know no better.
+bool says_nothing(std::string_view name) {
+    return name.empty() || name == "Linear" || name == "linear" || name == "scene_linear";
+}
+
+std::string color_space_of(const ImageInfo& info, const ColorConfig& colors) {
+    if (!says_nothing(info.color_space)) {
+        try {
+            return colors.resolve_space(info.color_space);
+        } catch (const SceneError&) {
+            return info.color_space;
+        }
+    }
+    if (!info.chromaticities) return "";
+    if (std::string space = space_with(*info.chromaticities, colors); !space.empty()) return space;
+    return fmt::format("linear with the chromaticities {:.4g}", fmt::join(*info.chromaticities, " "));
+}
+
+std::string size_text(const PixelRect& rect) {
+    return fmt::format("{}x{}", rect.width(), rect.height());
+}
+
+ImageInfo read_info(const fs::path& path) {
+    try {
+        return read_image_info(path);
+    } catch (const IoError& error) {
+        throw SceneError({path.string(), ""}, error.what());
+    }
+}
+
+ImageF read_pixels(const fs::path& path) {
+    try {
+        return read_image_float(path);
+    } catch (const IoError& error) {
+        throw SceneError({path.string(), ""}, error.what());
+    }
+}
+
+ComparedFile describe_file(const fs::path& path, const ImageInfo& info, const ColorConfig& colors) {
+    if (info.decoded_channels < 3)
+        throw SceneError({path.string(), ""}, fmt::format("it has {} channel{} where R, G and B are compared",
+                                                          info.channels, info.channels == 1 ? "" : "s"));
+    return {path, info.format, info.channels,
+            // Counted from the full image's first pixel, which is not (0, 0) in every EXR.
+            moved_to(info.data_window, info.data_window.x0 - info.display_window.x0,
+                     info.data_window.y0 - info.display_window.y0),
+            moved_to(info.display_window, 0, 0), color_space_of(info, colors)};
+}
+
+void require_same_kind(const ComparedFile& a, bool a_is_float, const ComparedFile& b, bool b_is_float) {
+    if (a_is_float == b_is_float) return;
+    const auto kind = [](bool is_float) { return is_float ? "scene-linear floats" : "integers encoded for a display"; };
+    throw SceneError({a.path.string(), ""},
+                     fmt::format("it holds {} and '{}' holds {}; compare two EXRs, or two PNGs made with the same view "
+                                 "and exposure",
+                                 kind(a_is_float), b.path.string(), kind(b_is_float)));
+}
+
+void require_same_display(const ComparedFile& a, const ComparedFile& b) {
+    if (a.display == b.display) return;
+    throw SceneError({a.path.string(), ""}, fmt::format("it is {} pixels large and '{}' is {}; render both in one size",
+                                                        size_text(a.display), b.path.string(), size_text(b.display)));
+}
+
+/// The space of both, with a word about what was assumed.
+std::string common_space(const ComparedFile& a, const ComparedFile& b, bool is_encoded,
+                         std::vector<std::string>& warnings) {
+    if (a.color_space == b.color_space) {
+        if (a.color_space.empty() && !is_encoded)
+            warnings.emplace_back("neither file says its colour space; they are taken to be in the same one");
+        return a.color_space;
+    }
+    const bool one_is_unknown = a.color_space.empty() || b.color_space.empty();
+    if (!one_is_unknown)
+        throw SceneError({a.path.string(), ""},
+                         fmt::format("it is in the colour space '{}' and '{}' is in '{}'; render both with the same "
+                                     "--working-space, or convert one of them (oiiotool --colorconvert)",
+                                     a.color_space, b.path.string(), b.color_space));
+    const ComparedFile& known = a.color_space.empty() ? b : a;
+    const ComparedFile& unknown = a.color_space.empty() ? a : b;
+    warnings.push_back(fmt::format("'{}' does not say its colour space; it is taken to be in '{}' as '{}' is",
+                                   unknown.path.string(), known.color_space, known.path.string()));
+    return known.color_space;
+}
+
+/// R, G and B of the pixels in `window`.
+ImageF rgb_in(const ImageF& image, const PixelRect& data, const PixelRect& window) {
+    ImageF rgb(window.width(), window.height(), 3);
+    for (int y = 0; y < rgb.height; ++y)
+        for (int x = 0; x < rgb.width; ++x)
+            std::ranges::copy(image.pixel(x + window.x0 - data.x0, y + window.y0 - data.y0).first(3),
+                              rgb.pixel(x, y).begin());
+    return rgb;
+}
+
+}  // namespace
+
+ImagePair read_image_pair(const fs::path& image, const fs::path& reference, const ColorConfig& colors) {
+    const ImageInfo image_info = read_info(image);
+    const ImageInfo reference_info = read_info(reference);
+    ImagePair pair;
+    pair.image_file = describe_file(image, image_info, colors);
+    pair.reference_file = describe_file(reference, reference_info, colors);
+    const ComparedFile& a = pair.image_file;
+    const ComparedFile& b = pair.reference_file;
+    require_same_kind(a, image_info.is_float, b, reference_info.is_float);
+    require_same_display(a, b);
+    pair.is_encoded = !image_info.is_float;
+    pair.color_space = common_space(a, b, pair.is_encoded, pair.warnings);
+    if (pair.is_encoded && !pair.color_space.empty() && !pair.color_space.starts_with("sRGB"))
+        pair.warnings.push_back(
+            fmt::format("the files are in '{}'; FLIP takes integers to be encoded as sRGB", pair.color_space));
+
+    pair.window = intersection(intersection(a.data, b.data), a.display);
+    if (pair.window.empty())
+        throw SceneError({image.string(), ""},
+                         fmt::format("it has no pixel in common with '{}': crop windows {},{},{},{} and {},{},{},{}",
+                                     reference.string(), a.data.x0, a.data.y0, a.data.x1, a.data.y1, b.data.x0,
+                                     b.data.y0, b.data.x1, b.data.y1));
+    pair.image = rgb_in(read_pixels(image), a.data, pair.window);
+    pair.reference = rgb_in(read_pixels(reference), b.data, pair.window);
+    return pair;
+}
+
+bool knows_linear_space(const std::string& color_space, const ColorConfig& colors) {
+    try {
+        (void)colors.matrix(color_space, kGltfColorSpace);
+        return true;
+    } catch (const SceneError&) {
+        return false;
+    }
+}
+
+ImageF to_linear_rec709(const ImageF& image, bool is_encoded, const std::string& color_space,
+                        const ColorConfig& colors) {
+    ImageF linear = image;
+    if (is_encoded) {
+        for (float& value : linear.pixels) value = linear_from_srgb(value);
+    } else if (!color_space.empty() && knows_linear_space(color_space, colors)) {
+        const ColorMatrix matrix = colors.matrix(color_space, kGltfColorSpace);
+        for (std::size_t i = 0; i + 2 < linear.pixels.size(); i += 3) {
+            const Rgb c = matrix({linear.pixels[i], linear.pixels[i + 1], linear.pixels[i + 2]});
+            linear.pixels[i] = c.r;
+            linear.pixels[i + 1] = c.g;
+            linear.pixels[i + 2] = c.b;
+        }
+    }
+    return linear;
+}
+
+}  // namespace etendue

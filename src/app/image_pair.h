@@ -1,0 +1,55 @@
+// Two image files that are to be compared: read, and made sure that comparing them means something.
+#pragma once
+
+#include "color/color_config.h"
+#include "core/pixel_rect.h"
+#include "image/image.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace etendue {
+
+/// What is said about one of the files.
+struct ComparedFile {
+    std::filesystem::path path;
+    std::string format;  ///< "openexr", "png", …
+    int channels = 0;    ///< in the file
+    PixelRect data;      ///< where its pixels lie
+    PixelRect display;   ///< the image that they are a part of
+    /// The config's name of its colour space if the config has it, else the file's; empty if the file does not say.
+    std::string color_space;
+};
+
+/// Both have 3 channels, R, G and B, and the size of `window`.
+struct ImagePair {
+    ComparedFile image_file;
+    ComparedFile reference_file;
+    ImageF image;
+    ImageF reference;
+    /// The pixels that both files have, in the coordinates of the full image, whose first pixel is (0, 0).
+    PixelRect window;
+    /// True for integers (PNG, JPEG, …): values are as they stand in the file, in [0, 1] and encoded for a display.
+    /// False for floats (EXR, HDR): scene-linear.
+    bool is_encoded = false;
+    std::string color_space;            ///< of both; empty if neither file says it
+    std::vector<std::string> warnings;  ///< what was assumed, one sentence each
+};
+
+/// Reads both. The files must have RGB or RGBA channels (alpha is not compared), full images of the same size, pixels
+/// in common, the same kind of values (integers or floats), and must not say that they are in different colour spaces.
+/// Throws SceneError that says what is wrong, where, and what to do.
+[[nodiscard]] ImagePair read_image_pair(const std::filesystem::path& image, const std::filesystem::path& reference,
+                                        const ColorConfig& colors);
+
+/// `image`, of a pair with these properties, as FLIP wants it: linear Rec.709. Integers are decoded from sRGB; floats
+/// are converted from `color_space`, or taken to be linear Rec.709 already if that is empty or the config does not
+/// know it.
+[[nodiscard]] ImageF to_linear_rec709(const ImageF& image, bool is_encoded, const std::string& color_space,
+                                      const ColorConfig& colors);
+
+/// False if `to_linear_rec709` would take floats in `color_space` to be linear Rec.709 for want of knowledge.
+[[nodiscard]] bool knows_linear_space(const std::string& color_space, const ColorConfig& colors);
+
+}  // namespace etendue
