@@ -10,9 +10,9 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-from scenegen import check, images, mesh, sky, spectra, vector  # noqa: E402
+from scenegen import check, images, mesh, noise, patterns, sky, spectra, vector  # noqa: E402
 from scenegen.gltf import GltfWriter  # noqa: E402
-from scenegen.scenes import SCENES, cornell_box  # noqa: E402
+from scenegen.scenes import SCENES, cornell_box, veach_mis  # noqa: E402
 
 
 def rotate(quaternion, v):
@@ -22,26 +22,38 @@ def rotate(quaternion, v):
 
 
 class Scenes(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.scenes = {name: build() for name, build in SCENES.items()}
+
+    def document(self, name):
+        return self.scenes[name].gltf.finish()[0]
+
     def test_every_scene_passes_its_checks(self):
-        for name, build in SCENES.items():
+        for name, scene in self.scenes.items():
             with self.subTest(name):
                 settings = (ROOT / "scenes" / name / "render.json").read_text()
-                self.assertEqual(check.check_scene(build(), settings), [])
+                self.assertEqual(check.check_scene(scene, settings), [])
 
     def test_every_scene_is_documented_and_built_by_cmake(self):
         cmake = (ROOT / "scenes" / "CMakeLists.txt").read_text()
-        for name, build in SCENES.items():
+        for name, scene in self.scenes.items():
             with self.subTest(name):
                 self.assertTrue((ROOT / "scenes" / name / "README.md").is_file())
-                extra = [f for f in build().contents() if f not in ("scene.gltf", "scene.bin")]
+                extra = [f for f in scene.contents() if f not in ("scene.gltf", "scene.bin")]
                 self.assertIn(f"etendue_scene({' '.join([name, *extra])})", cmake)
 
     def test_generating_twice_gives_the_same_bytes(self):
         for name in ("cornell-glass", "sun-and-sky"):
-            self.assertEqual(SCENES[name]().contents(), SCENES[name]().contents())
+            self.assertEqual(self.scenes[name].contents(), SCENES[name]().contents())
+
+    def test_objects_have_names_of_their_own(self):
+        for name in self.scenes:
+            names = [mesh["name"] for mesh in self.document(name)["meshes"]]
+            self.assertEqual(len(names), len(set(names)), name)
 
     def test_cornell_box_has_red_left_and_green_right(self):
-        document, _ = SCENES["cornell-box"]().gltf.finish()
+        document = self.document("cornell-box")
         camera = next(node for node in document["nodes"] if "camera" in node)
         right = rotate(camera["rotation"], (1.0, 0.0, 0.0))
         red, green = (document["accessors"][document["meshes"][document_mesh(document, name)]["primitives"][0]
@@ -51,7 +63,6 @@ class Scenes(unittest.TestCase):
         self.assertGreater(side[1], 0.0)
 
     def test_veach_plates_mirror_the_lights_into_the_camera(self):
-        from scenegen.scenes import veach_mis
         for _, center, _ in veach_mis.PLATES:
             plate = veach_mis._plate((0.0, *center))
             normal = tuple(plate.normals[:3])
@@ -62,7 +73,7 @@ class Scenes(unittest.TestCase):
                 self.assertAlmostEqual(a, b, places=5)
 
     def test_instances_are_ten_thousand_of_fifty_thousand_triangles(self):
-        document, _ = SCENES["instances"]().gltf.finish()
+        document = self.document("instances")
         knot = document_mesh(document, "knot")
         self.assertEqual(sum(node.get("mesh") == knot for node in document["nodes"]), 10_000)
         indices = document["meshes"][knot]["primitives"][0]["indices"]
@@ -147,6 +158,65 @@ class Checks(unittest.TestCase):
         self.binary = bytes(data)
 
 
+class Meshes(unittest.TestCase):
+    def problems(self, body):
+        positions = [body.position(i) for i in range(body.vertex_count)]
+        normals, triangles = check._triples(body.normals), check._triples(body.indices)
+        return check.check_normals(positions, normals, triangles, 1e-5) + check.check_watertight(positions, triangles)
+
+    def test_bodies_are_closed_and_face_outwards(self):
+        bodies = {
+            "box": mesh.box((-1.0, 0.0, 2.0), (1.0, 0.5, 3.0)),
+            "extrusion": mesh.extrusion(((0.0, 1.0), (1.0, -1.0), (0.0, -1.5), (-1.0, -1.0)), 0.5, 2.0),
+            "ring": mesh.ring(1.0, 0.1, 0.5, segments=24, arc_steps=4),
+            "wavy block": mesh.wavy_block((-1.0, -1.0, -2.0), (1.0, 2.0), 8, 12, self.wave),
+            "ball": mesh.revolved(*mesh.sampled_profile(self.meridian, 12), 24),
+        }
+        for name, body in bodies.items():
+            with self.subTest(name):
+                self.assertEqual(self.problems(body), [])
+                self.assertGreater(volume(body), 0.0)
+
+    def test_ring_is_as_high_and_as_wide_as_asked(self):
+        body = mesh.ring(1.0, 0.1, 0.5, segments=24, arc_steps=4)
+        heights = body.positions[1::3]
+        radii = [math.hypot(x, z) for x, _, z in check._triples(body.positions)]
+        for found, expected in ((min(heights), 0.0), (max(heights), 0.5), (min(radii), 0.9), (max(radii), 1.1)):
+            self.assertAlmostEqual(found, expected, places=6)
+
+    def test_wall_is_its_rectangle_without_the_openings(self):
+        openings = [((0.5, 0.0), (1.5, 2.0)), ((2.0, 1.0), (2.5, 1.5))]
+        piece = mesh.wall((0.0, 0.0, 0.0), (4.0, 0.0, 0.0), (0.0, 3.0, 0.0), openings, uv_per_meter=2.0)
+        self.assertAlmostEqual(area(piece), 12.0 - 2.0 - 0.25, places=5)
+        # Whole in texture coordinates too.
+        for i, (x, y, _) in enumerate(check._triples(piece.positions)):
+            self.assertAlmostEqual(piece.uvs[2 * i], 2.0 * x, places=5)
+            self.assertAlmostEqual(piece.uvs[2 * i + 1], -2.0 * y, places=5)
+
+    @staticmethod
+    def wave(x, z):
+        return 0.1 * math.sin(3.0 * x + z), 0.3 * math.cos(3.0 * x + z), 0.1 * math.cos(3.0 * x + z)
+
+    @staticmethod
+    def meridian(t):
+        angle = math.pi * t
+        return max(0.0, math.sin(angle)), -math.cos(angle), math.cos(angle), math.sin(angle)
+
+
+def corners(body):
+    for triangle in check._triples(body.indices):
+        yield [body.position(i) for i in triangle]
+
+
+def area(body):
+    return sum(0.5 * vector.length(vector.cross(vector.sub(b, a), vector.sub(c, a))) for a, b, c in corners(body))
+
+
+def volume(body):
+    """Of a closed body, negative if it is inside out."""
+    return sum(vector.dot(a, vector.cross(b, c)) / 6.0 for a, b, c in corners(body))
+
+
 class Colors(unittest.TestCase):
     def test_perfect_and_half_reflector(self):
         for value in (1.0, 0.5):
@@ -184,6 +254,27 @@ class Images(unittest.TestCase):
         data = images.png(2, 1, bytes([1, 2, 3, 4, 5, 6]))
         start = data.index(b"IDAT") + 4
         self.assertEqual(zlib.decompress(data[start:data.index(b"IEND") - 8]), bytes([0, 1, 2, 3, 4, 5, 6]))
+
+    def test_linear_png_is_encoded(self):
+        data = images.linear_png(2, 1, lambda u, v: (u, 0.0, 1.0))
+        start = data.index(b"IDAT") + 4
+        expected = [0, images.to_srgb_byte(0.25), 0, 255, images.to_srgb_byte(0.75), 0, 255]
+        self.assertEqual(zlib.decompress(data[start:data.index(b"IEND") - 8]), bytes(expected))
+
+    def test_noise_repeats(self):
+        for x, y in ((0.3, 1.7), (3.9, 0.0), (2.0, 2.99)):
+            self.assertAlmostEqual(noise.periodic(x, y, 4, 3), noise.periodic(x + 4.0, y + 3.0, 4, 3))
+
+    def test_noise_is_spread_evenly(self):
+        values = [noise.hashed(i % 50, i // 50) for i in range(2500)]
+        self.assertAlmostEqual(sum(values) / 2500, 0.5, delta=0.02)
+        self.assertTrue(0.0 <= min(values) < 0.01 and 0.99 < max(values) < 1.0)
+
+    def test_checker_begins_with_its_first_grey(self):
+        data = patterns.checker(0.0, 1.0, 2, 2)
+        start = data.index(b"IDAT") + 4
+        rows = zlib.decompress(data[start:data.index(b"IEND") - 8])
+        self.assertEqual(rows, bytes([0, 0, 0, 0, 255, 255, 255, 0, 255, 255, 255, 0, 0, 0]))
 
     def test_exr_has_its_pixels_as_blue_green_red_rows(self):
         pixels = [float(i) for i in range(2 * 2 * 3)]

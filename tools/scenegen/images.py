@@ -112,3 +112,12 @@ def to_srgb_byte(linear):
     """A linear value in [0, 1] through the sRGB transfer function (IEC 61966-2-1), as a byte."""
     encoded = 12.92 * linear if linear <= 0.0031308 else 1.055 * linear ** (1.0 / 2.4) - 0.055
     return round(255.0 * min(max(encoded, 0.0), 1.0))
+
+
+def linear_png(width, height, color):
+    """Bytes of a PNG of `color(u, v)`, linear R, G, B in [0, 1], at the centre of each pixel; v grows downwards."""
+    pixels = bytearray()
+    for y in range(height):
+        for x in range(width):
+            pixels.extend(map(to_srgb_byte, color((x + 0.5) / width, (y + 0.5) / height)))
+    return png(width, height, bytes(pixels))

@@ -97,6 +97,106 @@ def ground(half_size, y=0.0, uv_per_meter=0.0):
     return mesh
 
 
+def rectangle(corner, right, up, uv_per_meter=0.0):
+    """The rectangle of two perpendicular edges from a corner, whose front is where right × up points.
+
+    Texture coordinates, if `uv_per_meter` is not 0, start at the corner and run along the edges, v downwards.
+    """
+    corners = (corner, add(corner, right), add(add(corner, right), up), add(corner, up))
+    mesh = Mesh()
+    u, v = length(right) * uv_per_meter, length(up) * uv_per_meter
+    mesh.add_quad(corners, ((0.0, 0.0), (u, 0.0), (u, -v), (0.0, -v)) if uv_per_meter else None)
+    return mesh
+
+
+def panel(width, height):
+    """A rectangle about the origin that faces -Z, where lights look."""
+    return rectangle((-0.5 * width, -0.5 * height, 0.0), (0.0, height, 0.0), (width, 0.0, 0.0))
+
+
+def wall(corner, right, up, openings, uv_per_meter=0.0):
+    """`rectangle` with rectangular `openings`: (low, high) corners in metres along `right` and `up`, which do not
+    overlap. Each piece has texture coordinates as if the wall were whole."""
+    sizes = (length(right), length(up))
+    axes = (normalize(right), normalize(up))
+    cuts = [sorted({0.0, size, *(corner[k] for opening in openings for corner in opening)})
+            for k, size in enumerate(sizes)]
+    pieces = []
+    for u0, u1 in zip(cuts[0], cuts[0][1:]):
+        for v0, v1 in zip(cuts[1], cuts[1][1:]):
+            if any(low[0] <= u0 < high[0] and low[1] <= v0 < high[1] for low, high in openings):
+                continue
+            start = add(corner, add(scale(axes[0], u0), scale(axes[1], v0)))
+            piece = rectangle(start, scale(axes[0], u1 - u0), scale(axes[1], v1 - v0), uv_per_meter)
+            for i in range(0, len(piece.uvs), 2):
+                piece.uvs[i] += u0 * uv_per_meter
+                piece.uvs[i + 1] -= v0 * uv_per_meter
+            pieces.append(piece)
+    return merged(pieces)
+
+
+def box(low, high, uv_per_meter=0.0):
+    """A closed box with its faces outwards."""
+    (x0, y0, z0), (x1, y1, z1) = low, high
+    x, y, z = (x1 - x0, 0.0, 0.0), (0.0, y1 - y0, 0.0), (0.0, 0.0, z1 - z0)
+    return merged([rectangle(corner, right, up, uv_per_meter) for corner, right, up in (
+        ((x0, y0, z1), x, y), ((x1, y0, z0), scale(x, -1.0), y), ((x1, y0, z1), scale(z, -1.0), y),
+        ((x0, y0, z0), z, y), ((x0, y1, z1), x, scale(z, -1.0)), ((x0, y0, z0), x, z))])
+
+
+def extrusion(outline, low, high):
+    """A closed upright body from y = low to high over a convex outline of points (x, z), counter-clockwise from
+    above."""
+    mesh = Mesh()
+    for (x0, z0), (x1, z1) in zip(outline, [*outline[1:], outline[0]]):
+        mesh.add_quad(((x0, low, z0), (x1, low, z1), (x1, high, z1), (x0, high, z0)))
+    for y, corners in ((high, outline), (low, [outline[0], *outline[:0:-1]])):
+        normal = (0.0, 1.0 if y == high else -1.0, 0.0)
+        first, *others = (mesh.add_vertex((x, y, z), normal) for x, z in corners)
+        for b, c in zip(others, others[1:]):
+            mesh.add_triangle(first, b, c)
+    return mesh
+
+
+def wavy_block(low, high, columns, rows, wave):
+    """A closed box from corner `low` to (x, z) `high` with a top of waves, which is smooth.
+
+    `wave(x, z)` is the height and its derivatives along x and z. The sides and the bottom are flat.
+    """
+    (x0, bottom, z0), (x1, z1) = low, high
+    mesh = Mesh()
+    # From the front to the back, so that column × row points up.
+    for row in range(rows + 1):
+        z = z1 + (z0 - z1) * row / rows
+        for column in range(columns + 1):
+            x = x0 + (x1 - x0) * column / columns
+            height, along_x, along_z = wave(x, z)
+            mesh.add_vertex((x, height, z), normalize((-along_x, 1.0, -along_z)))
+    mesh.add_grid(columns, rows)
+    stride = columns + 1
+    edges = ([*range(stride)], [columns + stride * row for row in range(rows + 1)],
+             [stride * rows + column for column in range(columns, -1, -1)],
+             [stride * row for row in range(rows, -1, -1)])
+    middle = mesh.add_vertex((0.5 * (x0 + x1), bottom, 0.5 * (z0 + z1)), (0.0, -1.0, 0.0))
+    for edge, normal in zip(edges, ((0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.0, 0.0, -1.0), (-1.0, 0.0, 0.0))):
+        _add_skirt(mesh, edge, bottom, normal, middle)
+    return mesh
+
+
+def _add_skirt(mesh, edge, bottom, normal, middle):
+    """A flat side from the vertices `edge` down to `bottom`, and the bottom between it and the vertex `middle`."""
+    first = mesh.vertex_count
+    places = [mesh.position(i) for i in edge]
+    for x, _, z in places:
+        mesh.add_vertex((x, bottom, z), normal)
+    for place in places:
+        mesh.add_vertex(place, normal)
+    mesh.add_grid(len(edge) - 1, 1, first=first)
+    below = [mesh.add_vertex((x, bottom, z), (0.0, -1.0, 0.0)) for x, _, z in places]
+    for a, b in zip(below, below[1:]):
+        mesh.add_triangle(b, a, middle)
+
+
 def sphere(radius, frequency, center=(0.0, 0.0, 0.0)):
     """A geodesic sphere of 20 · frequency² triangles with exact normals: a subdivided icosahedron, pushed outwards."""
     mesh = Mesh()
@@ -181,7 +281,7 @@ def lathe(profile, segments, center=(0.0, 0.0)):
     for (r0, y0), (r1, y1) in zip(profile, profile[1:]):
         slope = math.hypot(r1 - r0, y1 - y0)
         nr, ny = (y1 - y0) / slope, (r0 - r1) / slope
-        _add_band(mesh, (r0, y0), (r1, y1), ((nr, ny), (nr, ny)), segments, center)
+        _add_rings(mesh, ((r0, y0), (r1, y1)), ((nr, ny), (nr, ny)), segments, center)
     return mesh
 
 
@@ -192,21 +292,59 @@ def dome(radius, base, segments, rings, center=(0.0, 0.0)):
     # Exactly on the axis, so that the triangles of the last ring collapse to what add_grid leaves out.
     directions = [(math.cos(a), math.sin(a)) for a in angles[:-1]] + [(0.0, 1.0)]
     for low, high in zip(directions, directions[1:]):
-        _add_band(mesh, (radius * low[0], base + radius * low[1]), (radius * high[0], base + radius * high[1]),
-                  (low, high), segments, center)
+        circles = [(radius * r, base + radius * y) for r, y in (low, high)]
+        _add_rings(mesh, circles, (low, high), segments, center)
     return mesh
 
 
-def _add_band(mesh, low, high, normals, segments, center):
-    """A ring of quadrilaterals between the circles (radius, height) `low` and `high`; normals in (radial, up)."""
+def revolved(points, normals, segments, loop=False):
+    """A smooth surface of revolution about the Y axis, with the given normals.
+
+    `points` are (radius, height) from bottom to top and `normals` (radial, up), with the outside on the right of the
+    way up; with `loop` the profile is closed, and the surface a ring.
+    """
+    mesh = Mesh()
+    _add_rings(mesh, points, normals, segments, loop=loop)
+    return mesh
+
+
+def sampled_profile(curve, steps):
+    """Points and exact normals for `revolved` at steps + 1 places of a curve.
+
+    `curve(t)` for t in [0, 1] is (radius, height) and their derivatives.
+    """
+    points, normals = [], []
+    for i in range(steps + 1):
+        radius, height, radius_rate, height_rate = curve(i / steps)
+        rate = math.hypot(radius_rate, height_rate)
+        points.append((radius, height))
+        normals.append((height_rate / rate, -radius_rate / rate))
+    return points, normals
+
+
+def ring(radius, half_thickness, height, segments, arc_steps):
+    """An upright band about the Y axis that stands on y = 0: straight walls, rims rounded to half circles."""
+    normals = []
+    for i in range(2 * (arc_steps + 1)):
+        # From the outer wall over the upper rim to the inner wall, and back below.
+        angle = math.pi * (i - i // (arc_steps + 1)) / arc_steps
+        normals.append((math.cos(angle), math.sin(angle)))
+    middles = [height - half_thickness] * (arc_steps + 1) + [half_thickness] * (arc_steps + 1)
+    points = [(radius + half_thickness * nr, middle + half_thickness * ny)
+              for middle, (nr, ny) in zip(middles, normals)]
+    return revolved(points, normals, segments, loop=True)
+
+
+def _add_rings(mesh, points, normals, segments, center=(0.0, 0.0), loop=False):
+    """Quadrilaterals between circles (radius, height), one after the other; normals in (radial, up)."""
     first = mesh.vertex_count
-    for (radius, y), (nr, ny) in zip((low, high), normals):
+    for (radius, y), (nr, ny) in zip(points, normals):
         for i in range(segments):
             angle = 2.0 * math.pi * i / segments
             # Angles run from +Z to +X, so that around × up points outwards.
             s, c = math.sin(angle), math.cos(angle)
             mesh.add_vertex((center[0] + radius * s, y, center[1] + radius * c), (nr * s, ny, nr * c))
-    mesh.add_grid(segments, 1, wrap_columns=True, first=first)
+    mesh.add_grid(segments, len(points) - (0 if loop else 1), wrap_columns=True, wrap_rows=loop, first=first)
 
 
 def torus_knot(p, q, radius, reach, tube, along, around, color):

@@ -26,7 +26,7 @@ def animated():
     animation = _Animation(stage.scene.gltf)
 
     def ball(row, column, name, **node):
-        return stage.add(name, BALL, banded, translation=stage.place(row, column, RADIUS + 0.01), **node)
+        return stage.scene.add_object(name, BALL, banded, translation=stage.place(row, column, RADIUS + 0.01), **node)
 
     def path(row, column, offsets):
         x, y, z = stage.place(row, column, RADIUS + 0.01)

@@ -1,6 +1,6 @@
 """Rows of solid spheres that light enters."""
 
-from ..mesh import Mesh
+from ..mesh import extrusion
 from . import textures
 from .stage import COLUMNS, LOWER, UPPER, Stage, parameter
 
@@ -76,10 +76,4 @@ def models():
 def _prism(width, depth, height):
     """An upright wedge: a triangle seen from above, flat towards the viewer and pointed to the left."""
     left, right, back = (-0.5 * width, 0.5 * depth), (0.5 * width, 0.5 * depth), (0.5 * width, -0.5 * depth)
-    mesh = Mesh()
-    for (x0, z0), (x1, z1) in ((left, right), (right, back), (back, left)):
-        mesh.add_quad(((x0, 0.0, z0), (x1, 0.0, z1), (x1, height, z1), (x0, height, z0)))
-    for y, corners in ((height, (left, right, back)), (0.0, (left, back, right))):
-        normal = (0.0, 1.0 if y > 0.0 else -1.0, 0.0)
-        mesh.add_triangle(*(mesh.add_vertex((x, y, z), normal) for x, z in corners))
-    return mesh
+    return extrusion((left, right, back), 0.0, height)

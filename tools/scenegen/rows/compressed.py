@@ -8,6 +8,7 @@ from ..encoder import encode
 from ..gltf import BYTE, FLOAT, SHORT, UNSIGNED_BYTE, UNSIGNED_INT, UNSIGNED_SHORT
 from ..images import webp
 from ..mesh import mapped_sphere
+from ..patterns import checker
 from ..vector import add, normalize
 from . import textures
 from .stage import LOWER, RADIUS, UPPER, Stage
@@ -177,7 +178,7 @@ def _webp_texture(stage):
     """The bands as WebP; who does not know it gets a checker."""
     gltf = stage.scene.gltf
     gltf.use_extension(WEBP)
-    texture = stage.texture("bands, by WebP", textures.gray_checker(0.1, 0.9))
+    texture = stage.texture("bands, by WebP", checker(0.1, 0.9, textures.WIDTH, textures.HEIGHT))
     image = gltf.add_image("bands.webp", textures.color_bands(webp), "image/webp")
     gltf.document["textures"][texture]["extensions"] = {WEBP: {"source": image}}
     return texture

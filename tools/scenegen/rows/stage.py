@@ -4,9 +4,10 @@ import json
 import math
 
 from ..generated_scene import GeneratedScene
-from ..mesh import Mesh, mapped_sphere
+from ..mesh import Mesh, mapped_sphere, panel
+from ..patterns import checker
 from ..vector import look_at
-from .textures import gray_checker
+from .textures import HEIGHT, WIDTH
 
 COLUMNS = 5
 RADIUS, SPACING, STEP_HEIGHT, STEP_DEPTH = 0.45, 1.10, 1.15, 1.20
@@ -35,12 +36,12 @@ class Stage:
         self.scene = GeneratedScene()
         self.overrides = {}
         gltf = self.scene.gltf
-        texture = gltf.add_texture("checker", gray_checker(0.08, 0.55)) if checkered else None
+        texture = gltf.add_texture("checker", checker(0.55, 0.08, WIDTH, HEIGHT)) if checkered else None
         floor = gltf.add_material("floor", base_color=(0.5, 0.5, 0.5))
         wall = gltf.add_material("wall", base_color=(1.0, 1.0, 1.0) if checkered else (0.4, 0.4, 0.4),
                                  base_color_texture=texture)
-        self.add("floor", _treads(), floor)
-        self.add("wall", _walls(), wall)
+        self.scene.add_object("floor", _treads(), floor)
+        self.scene.add_object("wall", _walls(), wall)
         if lit:
             self._add_lamp()
         gltf.add_camera("camera", CAMERA_POSITION, look_at(CAMERA_POSITION, CAMERA_TARGET),
@@ -53,11 +54,6 @@ class Stage:
         """A point over the middle of a place on a step, `height` metres above it."""
         return ((column - 0.5 * (COLUMNS - 1)) * SPACING, row * STEP_HEIGHT + height, -row * STEP_DEPTH)
 
-    def add(self, name, mesh, material, **node):
-        """A mesh in a node, whose index is returned."""
-        self.scene.triangles += mesh.triangle_count
-        return self.scene.gltf.add_node(name, mesh=self.scene.gltf.add_mesh(name, mesh, material), **node)
-
     def add_ball(self, row, column, override=None, **material):
         """A sphere on a step; `material` as of GltfWriter.add_material, `override` as of render.json."""
         # A hair above the step, which it would otherwise touch in a vertex.
@@ -66,8 +62,8 @@ class Stage:
 
     def add_body(self, name, mesh, translation, override=None, **material):
         """A closed mesh with a material of its own."""
-        self.add(name, mesh, self.scene.gltf.add_material(name, **material), translation=translation)
-        self.scene.closed_meshes.add(name)
+        material_index = self.scene.gltf.add_material(name, **material)
+        self.scene.add_object(name, mesh, material_index, closed=True, translation=translation)
         if override is not None:
             self.overrides[name] = override
 
@@ -94,8 +90,9 @@ class Stage:
     def _add_lamp(self):
         lamp = self.scene.gltf.add_material("lamp", base_color=(0.0, 0.0, 0.0), emission=LAMP_RADIANCE)
         width, height = LAMP_SIZE
-        self.add("lamp", _panel(width, height), lamp, translation=LAMP_CENTER,
-                 rotation=look_at(LAMP_CENTER, LAMP_TARGET))
+        self.scene.add_object("lamp", panel(width, height), lamp, translation=LAMP_CENTER,
+                              rotation=look_at(LAMP_CENTER, LAMP_TARGET))
+
 
 def _treads():
     half, edge = 8.0, -0.5 * STEP_DEPTH
@@ -112,12 +109,4 @@ def _walls():
         corners = ((-half, low, z), (half, low, z), (half, high, z), (-half, high, z))
         # The checker repeats after two cells.
         mesh.add_quad(corners, [(0.5 * x / CHECKER_CELL, -0.5 * y / CHECKER_CELL) for x, y, _ in corners])
-    return mesh
-
-
-def _panel(width, height):
-    """A rectangle about the origin that faces -Z, where lights look."""
-    w, h = 0.5 * width, 0.5 * height
-    mesh = Mesh()
-    mesh.add_quad(((-w, -h, 0.0), (-w, h, 0.0), (w, h, 0.0), (w, -h, 0.0)))
     return mesh

@@ -49,11 +49,6 @@ def waves():
     return _image(texel)
 
 
-def gray_checker(dark, light):
-    """Two by two fields of two linear reflectances."""
-    return _image(lambda u, v: [to_srgb_byte(light if (u < 0.5) == (v < 0.5) else dark)] * 3)
-
-
 def ramp(u):
     """0 on the left of a mapped sphere's front to 1 on the right, without a seam behind."""
     return 0.5 - 0.5 * math.cos(2.0 * math.pi * (u - 0.25))

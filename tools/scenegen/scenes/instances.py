@@ -37,10 +37,7 @@ def build():
     scene.triangles = 2 * KNOT_ALONG * KNOT_AROUND + soil.triangle_count
 
     sky = Sky(SUN_ELEVATION, SUN_AZIMUTH, TURBIDITY, UNIT, GROUND_ALBEDO)
-    color, intensity = sky.sun_color_and_intensity()
-    gltf.add_directional_light("sun", color, intensity, look_at(sky.sun_direction, (0.0, 0.0, 0.0)))
-    scene.files["sky.exr"] = sky.environment(SKY_WIDTH)
-    scene.render_json["/environment/image"] = "sky.exr"
+    scene.add_daylight(sky, SKY_WIDTH)
     position = (0.0, 8.5, 45.0)
     gltf.add_camera("camera", position, look_at(position, (0.0, 1.0, 12.0)), yfov=math.radians(38.0),
                     aspect_ratio=16.0 / 9.0)

@@ -3,8 +3,9 @@
 import math
 
 from ..generated_scene import GeneratedScene
-from ..images import exr, latitude_longitude, png, to_srgb_byte
+from ..images import exr, latitude_longitude
 from ..mesh import Mesh, sphere
+from ..patterns import checker
 from ..vector import direction, dot, look_at
 
 COLUMNS = 7
@@ -45,8 +46,8 @@ def build():
             for model, values in (override or {}).items():
                 scene.render_json[f"/materials/{full_name}/{model}"] = {**values, "roughness": roughness}
 
-    checker = gltf.add_texture("checker", _checker())
-    floor = gltf.add_material("floor", base_color_texture=checker)
+    texture = gltf.add_texture("checker", checker(0.07, 0.30, 256, 256))
+    floor = gltf.add_material("floor", base_color_texture=texture)
     gltf.add_node("floor", mesh=gltf.add_mesh("floor", _stairs(), floor))
     position = (0.0, 5.6, 8.4)
     gltf.add_camera("camera", position, look_at(position, (0.0, 1.05, -1.75)), yfov=math.radians(27.0),
@@ -77,14 +78,6 @@ def _stairs():
                       [(-h, v), (h, v), (h, next_v), (-h, next_v)])
         v = next_v
     return mesh
-
-
-def _checker(size=256, cells=2):
-    """Two greys, `cells` × `cells` fields."""
-    dark, light = (bytes([to_srgb_byte(value)] * 3) for value in (0.07, 0.30))
-    cell = size // cells
-    rows = ((light if (x // cell + y // cell) % 2 else dark for x in range(size)) for y in range(size))
-    return png(size, size, b"".join(b"".join(row) for row in rows))
 
 
 def _studio():

@@ -58,10 +58,7 @@ def build():
     _place(gltf, indices)
 
     sky = Sky(SUN_ELEVATION, SUN_AZIMUTH, TURBIDITY, UNIT, GROUND_ALBEDO)
-    color, intensity = sky.sun_color_and_intensity()
-    gltf.add_directional_light("sun", color, intensity, look_at(sky.sun_direction, (0.0, 0.0, 0.0)))
-    scene.files["sky.exr"] = sky.environment(SKY_WIDTH)
-    scene.render_json["/environment/image"] = "sky.exr"
+    scene.add_daylight(sky, SKY_WIDTH)
     position = (6.8, 1.75, 22.5)
     gltf.add_camera("camera", position, look_at(position, (-0.4, 4.1, 0.0)), yfov=math.radians(38.0),
                     aspect_ratio=16.0 / 9.0)

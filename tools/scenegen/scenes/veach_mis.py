@@ -45,30 +45,19 @@ def build():
     for name, center, alpha in PLATES:
         roughness = math.sqrt(alpha)
         material = gltf.add_material(name, base_color=(0.55, 0.56, 0.55), metallic=1.0, roughness=roughness)
-        gltf.add_node(name, mesh=gltf.add_mesh(name, _plate((0.0, *center)), material))
+        scene.add_object(name, _plate((0.0, *center)), material)
         scene.render_json[f"/materials/{name}/conductor"] = {"metal": "Cr", "roughness": roughness}
-
-    room = gltf.add_material("room", base_color=(ROOM_ALBEDO,) * 3)
-    scene.render_json["/materials/room/diffuse/albedo"] = [ROOM_ALBEDO] * 3
-    gltf.add_node("room", mesh=gltf.add_mesh("room", _room(), room))
+    scene.add_object("room", _room(), scene.add_diffuse("room", (ROOM_ALBEDO,) * 3))
 
     for name, x, radius, hue in LIGHTS:
         radiance = RADIANCE_TIMES_RADIUS_SQUARED / radius ** 2
-        _add_light(scene, name, (x, 0.0, 0.0), radius, scale(hue, radiance / luminance(hue)))
-    _add_light(scene, "fill", FILL_CENTER, FILL_RADIUS, (FILL_RADIANCE,) * 3)
+        scene.add_lamp(name, sphere(radius, LIGHT_FREQUENCY), scale(hue, radiance / luminance(hue)), closed=True,
+                       translation=(x, 0.0, 0.0))
+    scene.add_lamp("fill", sphere(FILL_RADIUS, LIGHT_FREQUENCY), (FILL_RADIANCE,) * 3, closed=True,
+                   translation=FILL_CENTER)
 
     gltf.add_camera("camera", CAMERA_POSITION, look_at(CAMERA_POSITION, CAMERA_TARGET), CAMERA_YFOV, 1.5)
-    scene.triangles = 2 * len(PLATES) + 4 + (len(LIGHTS) + 1) * 20 * LIGHT_FREQUENCY ** 2
     return scene
-
-
-def _add_light(scene, name, center, radius, radiance):
-    material = scene.gltf.add_material(name, base_color=(0.0, 0.0, 0.0), emission=radiance)
-    scene.gltf.add_node(name, mesh=scene.gltf.add_mesh(name, sphere(radius, LIGHT_FREQUENCY), material),
-                        translation=center)
-    scene.closed_meshes.add(name)
-    # Black, so that the lights do not show each other.
-    scene.render_json[f"/materials/{name}/diffuse/albedo"] = [0.0, 0.0, 0.0]
 
 
 def _plate(center):
