@@ -35,5 +35,7 @@ struct RegressionScene {
 };
 
 [[nodiscard]] std::span<const RegressionScene> regression_scenes();
+/// Names of scenes that are there to be rendered, not to be compared.
+[[nodiscard]] std::span<const std::string_view> scenes_without_reference();
 
 }  // namespace etendue::test

@@ -12,7 +12,7 @@ sys.path.insert(0, str(ROOT / "tools"))
 
 from scenegen import check, images, mesh, noise, patterns, sky, spectra, vector  # noqa: E402
 from scenegen.gltf import GltfWriter  # noqa: E402
-from scenegen.scenes import SCENES, cornell_box, veach_mis  # noqa: E402
+from scenegen.scenes import SCENES, caustic_mirror, caustic_prism, cornell_box, veach_mis  # noqa: E402
 
 
 def rotate(quaternion, v):
@@ -78,6 +78,17 @@ class Scenes(unittest.TestCase):
         self.assertEqual(sum(node.get("mesh") == knot for node in document["nodes"]), 10_000)
         indices = document["meshes"][knot]["primitives"][0]["indices"]
         self.assertEqual(document["accessors"][indices]["count"], 3 * 50_000)
+
+    def test_all_light_of_the_reflector_meets_its_dish(self):
+        rim = caustic_mirror._dish(1.0)[1]
+        self.assertGreater(rim, caustic_mirror.LAMP_HEIGHT + 0.01)
+
+    def test_light_passes_the_prism_parallel_to_its_base(self):
+        # Snell's law at the face by which it enters: the normal is 30 degrees off the base's direction, and so is the
+        # refracted ray, on its other side.
+        normal = vector.normalize((-math.cos(math.radians(30.0)), 0.0, math.sin(math.radians(30.0))))
+        sine = math.sin(math.acos(-vector.dot(caustic_prism.TO_PRISM, normal)))
+        self.assertAlmostEqual(sine, caustic_prism.INDEX * math.sin(math.radians(30.0)))
 
 
 def document_mesh(document, name):

@@ -1,6 +1,7 @@
 """One module per scene. To add another: a module with `build()` that returns a GeneratedScene, and its line here."""
 
-from . import cornell_box, cornell_glass, furnace, instances, material_grid, sun_and_sky, veach_mis
+from . import (caustic_glass, caustic_mirror, caustic_pool, caustic_prism, caustic_ring, cornell_box, cornell_glass,
+               furnace, instances, material_grid, sun_and_sky, veach_mis)
 
 SCENES = {
     "cornell-box": cornell_box.build,
@@ -10,4 +11,9 @@ SCENES = {
     "material-grid": material_grid.build,
     "sun-and-sky": sun_and_sky.build,
     "instances": instances.build,
+    "caustic-glass": caustic_glass.build,
+    "caustic-ring": caustic_ring.build,
+    "caustic-pool": caustic_pool.build,
+    "caustic-prism": caustic_prism.build,
+    "caustic-mirror": caustic_mirror.build,
 }
