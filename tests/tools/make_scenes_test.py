@@ -44,7 +44,7 @@ class Scenes(unittest.TestCase):
                 self.assertIn(f"etendue_scene({' '.join([name, *extra])})", cmake)
 
     def test_generating_twice_gives_the_same_bytes(self):
-        for name in ("cornell-glass", "sun-and-sky"):
+        for name in ("cornell-glass", "sun-and-sky", "ajar-door", "many-lights"):
             self.assertEqual(self.scenes[name].contents(), SCENES[name]().contents())
 
     def test_objects_have_names_of_their_own(self):
@@ -78,6 +78,12 @@ class Scenes(unittest.TestCase):
         self.assertEqual(sum(node.get("mesh") == knot for node in document["nodes"]), 10_000)
         indices = document["meshes"][knot]["primitives"][0]["indices"]
         self.assertEqual(document["accessors"][indices]["count"], 3 * 50_000)
+
+    def test_many_lights_are_ten_thousand(self):
+        document = self.document("many-lights")
+        translations = [node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"]
+                        for node in document["nodes"] if "extensions" in node]
+        self.assertEqual(sum(document["accessors"][i]["count"] for i in translations), 10_000)
 
     def test_all_light_of_the_reflector_meets_its_dish(self):
         rim = caustic_mirror._dish(1.0)[1]

@@ -1,7 +1,8 @@
 """One module per scene. To add another: a module with `build()` that returns a GeneratedScene, and its line here."""
 
-from . import (caustic_glass, caustic_mirror, caustic_pool, caustic_prism, caustic_ring, cornell_box, cornell_glass,
-               furnace, instances, material_grid, sun_and_sky, veach_mis)
+from . import (ajar_door, caustic_glass, caustic_mirror, caustic_pool, caustic_prism, caustic_ring, cornell_box,
+               cornell_glass, furnace, glossy_interior, instances, many_lights, material_grid, sun_and_sky,
+               veach_bidir, veach_mis)
 
 SCENES = {
     "cornell-box": cornell_box.build,
@@ -16,4 +17,8 @@ SCENES = {
     "caustic-pool": caustic_pool.build,
     "caustic-prism": caustic_prism.build,
     "caustic-mirror": caustic_mirror.build,
+    "veach-bidir": veach_bidir.build,
+    "ajar-door": ajar_door.build,
+    "many-lights": many_lights.build,
+    "glossy-interior": glossy_interior.build,
 }
