@@ -1,8 +1,9 @@
-// Writes nested arrays of floats as C++ initialisers: for the programs that compute tables while the project is built.
+// Writes nested arrays of numbers as C++ initialisers: for the programs that compute tables while the project is built.
 #pragma once
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
@@ -14,6 +15,10 @@ inline void write_value(std::ostream& out, float value) {
     std::array<char, 32> text{};
     std::snprintf(text.data(), text.size(), "%.8ff", static_cast<double>(value));
     out << text.data();
+}
+
+inline void write_value(std::ostream& out, std::uint16_t value) {
+    out << value;
 }
 
 template <typename T, std::size_t N>
