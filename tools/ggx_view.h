@@ -23,9 +23,10 @@ class GgxView {
     }
 
     [[nodiscard]] const Vec3f& wo() const { return wo_; }
-    /// The i-th of a well distributed set of visible normals.
-    [[nodiscard]] Vec3f normal(std::uint32_t i) const { return ggx_.sample_visible_normal(wo_, owen_sobol_2d(i, 1)); }
-    /// The same on one side of the plane of incidence: where both scatter alike, half of them suffices.
+    /// 1 + Lambda(wo)
+    [[nodiscard]] float masking() const { return masking_; }
+    /// The i-th of a well distributed set of visible normals on one side of the plane of incidence: where both scatter
+    /// alike, half of them suffices.
     [[nodiscard]] Vec3f normal_of_one_side(std::uint32_t i) const {
         const Vec2f u = owen_sobol_2d(i, 1);
         return ggx_.sample_visible_normal(wo_, {0.5f * u.x, u.y});

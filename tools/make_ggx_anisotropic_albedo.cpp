@@ -5,135 +5,217 @@
 
 #include "bsdf/ggx_anisotropic_albedo_layout.h"
 #include "ggx_view.h"
-#include "sampling/sobol.h"
 #include "table_writer.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
 #include <memory>
 #include <ostream>
+#include <vector>
 
 namespace {
 
 using namespace etendue;
 using namespace etendue::ggx_anisotropic_layout;
 
-constexpr std::uint32_t kSamples = 2048;
+constexpr std::uint32_t kSamples = 1536;
 
 struct Tables {
-    Table<kReflection> single;
-    Table<kReflection> schlick_share;
-    std::array<std::array<Table<kDielectric>, kEtas>, 2> dielectric;
-    Averages<kReflection> single_average;
-    Averages<kReflection> schlick_average;
-    std::array<std::array<Averages<kDielectric>, kEtas>, 2> dielectric_average;
+    Table<1> reflection;
+    Table<1> schlick_share;
+    Table<kEtasOutside> outside;
+    Table<kEtasInside> inside;
+    Averages reflection_average;
+    Averages schlick_average;
+    std::array<std::array<Averages, kAverageEtas>, 2> interface_average;
 };
 
-struct Albedo {
-    float single;
-    float schlick_share;
+std::uint16_t encode(float value) {
+    return static_cast<std::uint16_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * kLargestValue));
+}
+std::uint16_t encode_missing(float missing) {
+    return encode(std::sqrt(missing));
+}
+
+/// A surface turned so that a direction with azimuth `phi` sees given slopes.
+struct Turned {
+    Ggx ggx;
+    float phi;
+
+    explicit Turned(const Seen& seen) {
+        // Principal axes of the slopes' covariance.
+        const double u = static_cast<double>(seen.along) * static_cast<double>(seen.along);
+        const double v = static_cast<double>(seen.across) * static_cast<double>(seen.across);
+        const double own = static_cast<double>(seen.spread) * static_cast<double>(seen.spread);
+        const double mixed = std::sqrt(u * v * (1.0 - own));
+        const double wide = 0.5 * (u + v) + std::hypot(0.5 * (u - v), mixed);
+        ggx = {static_cast<float>(std::sqrt(wide)), static_cast<float>(std::sqrt(u * v * own / wide))};
+        phi = static_cast<float>(0.5 * std::atan2(2.0 * mixed, u - v));
+    }
 };
 
-/// Mean weight G2 / G1 of light that visible normals reflect, plain and with Schlick's factor.
-Albedo integrate_reflection(const GgxView& view) {
-    double single = 0.0;
+struct Sample {
+    Vec2f u;
+    float weight;  ///< they sum to one
+};
+/// The i-th point of a lattice that suits the periodic azimuth. Nearly smooth surfaces lose light at the few facets
+/// that stand steep, with u.y near 1: most points are there.
+Sample sample_at(std::uint32_t i) {
+    constexpr double kGolden = 0.6180339887498949;
+    const double turns = kGolden * i;
+    const float rest = (static_cast<float>(i) + 0.5f) / kSamples;
+    return {{static_cast<float>(turns - std::floor(turns)), 1.0f - rest * rest}, 2.0f * rest / kSamples};
+}
+
+/// Indices on the other side of an interface, and what is lost of the light that meets it. Laid out for vectors.
+template <std::size_t Etas>
+struct Losses {
+    std::array<float, Etas> eta{};
+    std::array<float, Etas> inverse{};
+    std::array<float, Etas> grazing{};  ///< squared cosine of the refracted direction at grazing incidence
+    std::array<float, Etas> lost{};
+
+    void set(std::size_t i, float relative_eta) {
+        eta[i] = relative_eta;
+        inverse[i] = 1.0f / relative_eta;
+        grazing[i] = (relative_eta - 1.0f) * (relative_eta + 1.0f) * inverse[i] * inverse[i];
+    }
+
+    /// Adds what is lost at the facets that `h` stands for; of what they reflect it is `lost_reflected`.
+    void add(const GgxView& view, const Ggx& ggx, const Vec3f& h, float weight, float lost_reflected) {
+        const Vec3f& wo = view.wo();
+        const float o_h = std::max(1e-6f, dot(wo, h));
+        const float wo_x = wo.x * ggx.alpha_x;
+        const float wo_y = wo.y * ggx.alpha_y;
+        const float h_x = h.x * ggx.alpha_x;
+        const float h_y = h.y * ggx.alpha_y;
+        const float masking = view.masking();
+        for (std::size_t i = 0; i < Etas; ++i) {
+            const float cos2_t = grazing[i] + o_h * o_h * inverse[i] * inverse[i];
+            const float cos_t = std::sqrt(std::max(0.0f, cos2_t));
+            const float parallel = (eta[i] * o_h - cos_t) / (eta[i] * o_h + cos_t);
+            const float perpendicular = (o_h - eta[i] * cos_t) / (o_h + eta[i] * cos_t);
+            const float bare = 0.5f * (parallel * parallel + perpendicular * perpendicular);
+            const float reflected = cos2_t > 0.0f ? bare : 1.0f;
+            const float along_h = o_h * inverse[i] - cos_t;
+            const float z = h.z * along_h - wo.z * inverse[i];
+            const float x = h_x * along_h - wo_x * inverse[i];
+            const float y = h_y * along_h - wo_y * inverse[i];
+            const float below = std::min(z, -1e-15f);
+            const float lambda = 0.5f * (std::sqrt(1.0f + (x * x + y * y) / (below * below)) - 1.0f);
+            const float lost_transmitted = z < 0.0f ? lambda / (masking + lambda) : 1.0f;
+            lost[i] += weight * (reflected * lost_reflected + (1.0f - reflected) * lost_transmitted);
+        }
+    }
+};
+
+/// Fills what the tables hold of one direction.
+void fill_direction(Tables& tables, const Seen& slopes, std::size_t block, std::size_t c) {
+    const float cos_theta = cosine(static_cast<int>(c), slopes.along);
+    const Turned turned(slopes);
+    const GgxView view(turned.ggx, turned.phi, cos_theta);
+    Losses<kEtasOutside> outside;
+    for (int e = 0; e < kEtasOutside; ++e)
+        outside.set(static_cast<std::size_t>(e), eta_at(fraction(e, kEtasOutside), kScaleOutside));
+    Losses<kEtasInside> inside;
+    const float critical = critical_eta(cos_theta, slopes);
+    for (int e = 0; e < kEtasInside; ++e) inside.set(static_cast<std::size_t>(e), 1.0f / inside_eta(e, critical));
+
+    double lost = 0.0;
     double schlick = 0.0;
     for (std::uint32_t i = 0; i < kSamples; ++i) {
-        const Vec3f h = view.normal(i);
-        const float weight = view.weight_reflected(h);
-        single += static_cast<double>(weight);
-        schlick += static_cast<double>(weight * pow5(std::clamp(1.0f - dot(view.wo(), h), 0.0f, 1.0f)));
+        const Sample sample = sample_at(i);
+        const Vec3f h = turned.ggx.sample_visible_normal(view.wo(), sample.u);
+        const float lost_reflected = 1.0f - view.weight_reflected(h);
+        lost += static_cast<double>(sample.weight * lost_reflected);
+        schlick += static_cast<double>(sample.weight * (1.0f - lost_reflected) *
+                                       pow5(std::clamp(1.0f - dot(view.wo(), h), 0.0f, 1.0f)));
+        outside.add(view, turned.ggx, h, sample.weight, lost_reflected);
+        inside.add(view, turned.ggx, h, sample.weight, lost_reflected);
     }
-    return {static_cast<float>(single / kSamples), static_cast<float>(schlick / single)};
+    tables.reflection[block][0][c] = encode_missing(static_cast<float>(lost));
+    tables.schlick_share[block][0][c] = encode(static_cast<float>(schlick / (1.0 - lost)));
+    for (std::size_t e = 0; e < kEtasOutside; ++e) tables.outside[block][e][c] = encode_missing(outside.lost[e]);
+    for (std::size_t e = 0; e < kEtasInside; ++e) tables.inside[block][e][c] = encode_missing(inside.lost[e]);
 }
 
-/// The same normals serve every index of refraction.
-std::array<std::array<double, kEtas>, 2> integrate_dielectric(const GgxView& view) {
-    std::array<std::array<double, kEtas>, 2> sums{};
-    for (std::uint32_t i = 0; i < kSamples; ++i) {
-        const Vec3f h = view.normal(i);
-        const float reflected = view.weight_reflected(h);
-        for (std::size_t side = 0; side < 2; ++side) {
-            for (std::size_t e = 0; e < kEtas; ++e) {
-                const float outside = eta(static_cast<int>(e), kEtas);
-                sums[side][e] +=
-                    static_cast<double>(view.weight_of_interface(h, reflected, side == 0 ? outside : 1.0f / outside));
+void fill_directional(Tables& tables) {
+    for (std::size_t a = 0; a < kAlongs; ++a)
+        for (std::size_t x = 0; x < kAcrosses; ++x)
+            for (std::size_t s = 0; s < kSpreads; ++s) {
+                const Seen slopes{slope(static_cast<int>(a), kAlongs), slope(static_cast<int>(x), kAcrosses),
+                                  spread(static_cast<int>(s))};
+                for (std::size_t c = 0; c < kCosines; ++c) fill_direction(tables, slopes, block_index(a, x, s), c);
+            }
+}
+
+/// A direction, where the tables hold it, and what it counts in an average over a cosine-weighted hemisphere.
+struct Direction {
+    float cos_theta;
+    Seen slopes;
+    Position position;
+    float weight;
+};
+
+/// A quarter of the hemisphere, with most cosines where most is missing (ggx_multiple.h) and most azimuths towards
+/// what sees the narrow alpha.
+std::vector<Direction> directions(float alpha_x, float alpha_y) {
+    constexpr int kRings = 48;
+    constexpr int kAzimuths = 24;
+    const float b2 = 4.0f * alpha_x * alpha_y;
+    const float range = std::log1p(1.0f / b2);
+    std::vector<Direction> result;
+    for (int i = 0; i < kRings; ++i) {
+        const float spread2 = b2 * std::expm1((static_cast<float>(i) + 0.5f) / kRings * range);
+        const float mu = std::sqrt(std::min(1.0f, spread2));
+        const float sine = std::sqrt(1.0f - mu * mu);
+        // d(mu²) of this ring's share of the density
+        const float ring = (mu * mu + b2) * range / kRings;
+        for (int j = 0; j < kAzimuths; ++j) {
+            const float t = (static_cast<float>(j) + 0.5f) / kAzimuths;
+            const float to_narrow = 0.5f * kPi * t * t;
+            const float phi = alpha_x >= alpha_y ? 0.5f * kPi - to_narrow : to_narrow;
+            const Seen slopes = seen({sine * std::cos(phi), sine * std::sin(phi), mu}, alpha_x, alpha_y);
+            result.push_back({mu, slopes, position(slopes, mu), ring * 2.0f * t / kAzimuths});
+        }
+    }
+    return result;
+}
+
+/// Of what the lobes will look up.
+template <typename Function>
+float average(const std::vector<Direction>& over, const Function& f) {
+    double sum = 0.0;
+    for (const Direction& d : over) sum += static_cast<double>(d.weight * f(d));
+    return static_cast<float>(sum);
+}
+
+void fill_averages(Tables& tables) {
+    for (std::size_t i = 0; i < kAverageAlphas; ++i)
+        for (std::size_t j = 0; j <= i; ++j) {
+            const auto over = directions(average_alpha(static_cast<int>(i)), average_alpha(static_cast<int>(j)));
+            const auto both = [i, j](Averages& averages, float value) { averages[i][j] = averages[j][i] = value; };
+            const auto lost = [&](const Direction& d) {
+                return missing_from_root(interpolate(tables.reflection, d.position));
+            };
+            both(tables.reflection_average, std::log(average(over, lost)));
+            both(tables.schlick_average, average(over, [&](const Direction& d) {
+                     return (1.0f - lost(d)) * interpolate(tables.schlick_share, d.position);
+                 }));
+            for (std::size_t e = 0; e < kAverageEtas; ++e) {
+                const float eta = average_eta(static_cast<int>(e));
+                const Cubic place = outside_place(eta);
+                both(tables.interface_average[0][e], std::log(average(over, [&](const Direction& d) {
+                         return missing(tables.outside, d.position, place);
+                     })));
+                both(tables.interface_average[1][e], std::log(average(over, [&](const Direction& d) {
+                         return missing(tables.inside, d.position,
+                                        inside_place(eta, critical_eta(d.cos_theta, d.slopes)));
+                     })));
             }
         }
-    }
-    return sums;
-}
-
-/// Of what the lobes will look up, over a cosine-weighted quarter of the hemisphere.
-template <Sizes S, typename Function>
-float average(const Ggx& ggx, const Function& f) {
-    constexpr std::uint32_t kDirections = 8192;
-    double sum = 0.0;
-    for (std::uint32_t i = 0; i < kDirections; ++i) {
-        const Vec2f u = owen_sobol_2d(i, 2);
-        const float sine = std::sqrt(u.x);
-        const float phi = 0.5f * kPi * u.y;
-        sum += static_cast<double>(f(
-            position<S>(ggx.alpha_x, ggx.alpha_y, sine * std::cos(phi), sine * std::sin(phi), std::sqrt(1.0f - u.x))));
-    }
-    return static_cast<float>(sum / kDirections);
-}
-
-/// Calls `visit(n, s, ggx)` for every pair of alphas of a table.
-template <Sizes S, typename Visit>
-void for_each_surface(const Visit& visit) {
-    for (std::size_t n = 0; n < S.narrows; ++n) {
-        for (std::size_t s = 0; s < S.strengths; ++s) {
-            const float narrow = narrow_alpha<S>(static_cast<int>(n));
-            visit(n, s, Ggx{wide_alpha<S>(narrow, static_cast<int>(s)), narrow});
-        }
-    }
-}
-
-/// Calls `visit(a, c, phi, seen)` for every direction of a table, where `seen` is the alpha that it sees.
-template <Sizes S, typename Visit>
-void for_each_direction(const Ggx& ggx, const Visit& visit) {
-    for (std::size_t a = 0; a < S.angles; ++a) {
-        const float phi = 0.5f * kPi * fraction(static_cast<int>(a), S.angles);
-        const float seen = seen_alpha<S>(ggx.alpha_x, ggx.alpha_y, std::cos(phi), std::sin(phi));
-        for (std::size_t c = 0; c < S.cosines; ++c) visit(a, c, phi, seen);
-    }
-}
-
-void fill_reflection(Tables& tables) {
-    for_each_surface<kReflection>([&](std::size_t n, std::size_t s, const Ggx& ggx) {
-        for_each_direction<kReflection>(ggx, [&](std::size_t a, std::size_t c, float phi, float seen) {
-            const auto node = static_cast<int>(c);
-            tables.single[n][s][a][c] = integrate_reflection({ggx, phi, cosine<kReflection>(node, seen)}).single;
-            tables.schlick_share[n][s][a][c] =
-                integrate_reflection({ggx, phi, share_cosine<kReflection>(node)}).schlick_share;
-        });
-    });
-    for_each_surface<kReflection>([&](std::size_t n, std::size_t s, const Ggx& ggx) {
-        const auto single = [&](const Position& p) { return interpolate<kReflection>(tables.single, p, p.cosine); };
-        tables.single_average[n][s] = average<kReflection>(ggx, single);
-        tables.schlick_average[n][s] = average<kReflection>(ggx, [&](const Position& p) {
-            return single(p) * interpolate<kReflection>(tables.schlick_share, p, p.share_cosine);
-        });
-    });
-}
-
-void fill_dielectric(Tables& tables) {
-    for_each_surface<kDielectric>([&](std::size_t n, std::size_t s, const Ggx& ggx) {
-        for_each_direction<kDielectric>(ggx, [&](std::size_t a, std::size_t c, float phi, float seen) {
-            const auto sums = integrate_dielectric({ggx, phi, cosine<kDielectric>(static_cast<int>(c), seen)});
-            for (std::size_t side = 0; side < 2; ++side)
-                for (std::size_t e = 0; e < kEtas; ++e)
-                    tables.dielectric[side][e][n][s][a][c] = static_cast<float>(sums[side][e] / kSamples);
-        });
-    });
-    for (std::size_t side = 0; side < 2; ++side) {
-        for (std::size_t e = 0; e < kEtas; ++e) {
-            for_each_surface<kDielectric>([&](std::size_t n, std::size_t s, const Ggx& ggx) {
-                tables.dielectric_average[side][e][n][s] = average<kDielectric>(ggx, [&](const Position& p) {
-                    return interpolate<kDielectric>(tables.dielectric[side][e], p, p.cosine);
-                });
-            });
-        }
-    }
 }
 
 }  // namespace
@@ -141,14 +223,15 @@ void fill_dielectric(Tables& tables) {
 int main(int argc, char** argv) {
     return write_table_file(argc, argv, "make_ggx_anisotropic_albedo", [](std::ostream& out) {
         const auto tables = std::make_unique<Tables>();
-        fill_reflection(*tables);
-        fill_dielectric(*tables);
-        write_table(out, "Table<kReflection>", "kSingle", tables->single);
-        write_table(out, "Table<kReflection>", "kSchlickShare", tables->schlick_share);
-        write_table(out, "std::array<std::array<Table<kDielectric>, kEtas>, 2>", "kInterface", tables->dielectric);
-        write_table(out, "Averages<kReflection>", "kSingleAverage", tables->single_average);
-        write_table(out, "Averages<kReflection>", "kSchlickAverage", tables->schlick_average);
-        write_table(out, "std::array<std::array<Averages<kDielectric>, kEtas>, 2>", "kInterfaceAverage",
-                    tables->dielectric_average);
+        fill_directional(*tables);
+        fill_averages(*tables);
+        write_table(out, "Table<1>", "kReflection", tables->reflection);
+        write_table(out, "Table<1>", "kSchlickShare", tables->schlick_share);
+        write_table(out, "Table<kEtasOutside>", "kOutside", tables->outside);
+        write_table(out, "Table<kEtasInside>", "kInside", tables->inside);
+        write_table(out, "Averages", "kReflectionAverage", tables->reflection_average);
+        write_table(out, "Averages", "kSchlickAverage", tables->schlick_average);
+        write_table(out, "std::array<std::array<Averages, kAverageEtas>, 2>", "kInterfaceAverage",
+                    tables->interface_average);
     });
 }

@@ -20,15 +20,14 @@ float mean_alpha(const Ggx& ggx) {
 /// 1 - E(w), for `w` on the side whose other side has the relative index `eta`.
 float missing_of(const Ggx& ggx, const Vec3f& w, float eta) {
     const Vec3f above{w.x, w.y, std::abs(w.z)};
-    const float albedo = ggx.is_isotropic() ? ggx_dielectric_albedo(above.z, ggx.alpha_x, eta)
-                                            : ggx_anisotropic_dielectric_albedo(above, ggx.alpha_x, ggx.alpha_y, eta);
-    return std::clamp(1.0f - albedo, 0.0f, 1.0f);
+    return ggx.is_isotropic() ? std::clamp(1.0f - ggx_dielectric_albedo(above.z, ggx.alpha_x, eta), 0.0f, 1.0f)
+                              : ggx_anisotropic_dielectric_missing(above, ggx.alpha_x, ggx.alpha_y, eta);
 }
 
 /// The same averaged over the hemisphere.
 float missing_average_of(const Ggx& ggx, float eta) {
-    return 1.0f - (ggx.is_isotropic() ? ggx_dielectric_albedo_average(ggx.alpha_x, eta)
-                                      : ggx_anisotropic_dielectric_albedo_average(ggx.alpha_x, ggx.alpha_y, eta));
+    return ggx.is_isotropic() ? 1.0f - ggx_dielectric_albedo_average(ggx.alpha_x, eta)
+                              : ggx_anisotropic_dielectric_missing_average(ggx.alpha_x, ggx.alpha_y, eta);
 }
 
 /// The interface seen from wo's side, mirrored so that wo.z > 0.

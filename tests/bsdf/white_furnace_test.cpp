@@ -171,7 +171,7 @@ TEST(WhiteFurnace, AnisotropicMetal) {
             return MetallicRoughness{
                 .base = Rgb(1.0f), .alpha_x = alpha + (1.0f - alpha) * strength * strength, .alpha_y = alpha};
         };
-        for (const float azimuth : {0.0f, 0.7f, 0.5f * kPi})
+        for (const float azimuth : {0.0f, 0.7f, 1.566f})
             expect_white("strength " + std::to_string(strength) + " azimuth " + std::to_string(azimuth), make, 1.0f,
                          kTolerance, azimuth);
     }
@@ -185,18 +185,42 @@ TEST(WhiteFurnace, AnisotropicPlastic) {
     for (const float azimuth : {0.0f, 0.7f, 0.5f * kPi}) expect_white("plastic", make, 1.0f, 1e-2, azimuth);
 }
 
+/// The weights' mean, from either side and as carried either way: radiance is scaled by the squared indices.
+double unscaled_albedo(const RoughDielectric& lobe, const Vec3f& wo, const std::vector<HaltonPoint>& points,
+                       TransportMode mode) {
+    double sum = 0.0;
+    for (const HaltonPoint& p : points) {
+        const BsdfSample s = lobe.sample(wo, p.u_lobe, p.u, mode);
+        const float scale = mode == TransportMode::Radiance && s.is_transmission ? s.eta * s.eta : 1.0f;
+        sum += static_cast<double>(s.weight.g * scale);
+    }
+    return sum / static_cast<double>(points.size());
+}
+
+// Fine estimates are good to 5e-4. From inside, grooves reach 1% at their critical angle (rough_dielectric.h).
 TEST(WhiteFurnace, AnisotropicDielectric) {
-    for (const float ior : {1.1f, 1.5f, 2.2f})
-        for (const float strength : {0.6f, 1.0f})
-            for (const float azimuth : {0.0f, 0.7f, 0.5f * kPi})
-                for (const float side : {1.0f, -1.0f})
-                    expect_white(
-                        "index " + std::to_string(ior) + " strength " + std::to_string(strength) + " azimuth " +
-                            std::to_string(azimuth) + " side " + std::to_string(side),
-                        [=](float alpha) {
-                            return RoughDielectric::make(ior, alpha + (1.0f - alpha) * strength * strength, alpha);
-                        },
-                        side, 0.05, azimuth);
+    const std::vector<HaltonPoint> coarse = halton(1024);
+    const std::vector<HaltonPoint> fine = halton(32'768);
+    for (const float ior : {1.01f, 1.1f, 1.5f, 9.0f})
+        for (const float wide : {0.4f, 1.0f})
+            for (const float narrow : {0.001f, 0.02f, 0.2f}) {
+                const RoughDielectric lobe = RoughDielectric::make(ior, wide, narrow);
+                // Along and across the grooves and close to that, where what narrow ones look like changes at once.
+                for (const float azimuth : {0.0f, 0.4f, 1.1f, 1.566f})
+                    for (const float cos_theta : {0.02f, 0.12f, 0.5f, -0.02f, -0.12f, -0.5f}) {
+                        const double tolerance = cos_theta > 0.0f ? kTolerance : 1e-2;
+                        const Vec3f in_plane = direction_at(cos_theta);
+                        const Vec3f wo{in_plane.x * std::cos(azimuth), in_plane.x * std::sin(azimuth), in_plane.z};
+                        for (const TransportMode mode : {TransportMode::Importance, TransportMode::Radiance}) {
+                            double deviation = unscaled_albedo(lobe, wo, coarse, mode) - 1.0;
+                            if (std::abs(deviation) > 0.5 * tolerance)
+                                deviation = unscaled_albedo(lobe, wo, fine, mode) - 1.0;
+                            EXPECT_LE(std::abs(deviation), tolerance)
+                                << "index " << ior << " alphas " << wide << " " << narrow << " azimuth " << azimuth
+                                << " cos " << cos_theta << " off by " << deviation;
+                        }
+                    }
+            }
 }
 
 TEST(WhiteFurnace, WhiteUnderFilm) {
