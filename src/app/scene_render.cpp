@@ -151,6 +151,7 @@ void report_dropped(const RenderCounters& counters, const SceneRenderRequest& re
         quoted(request.scene.string()), settings.integrator.type, settings.integrator.max_depth, settings.film.width,
         settings.film.height, first.x, first.y, first.x + 1, first.y + 1, first.sample + 1, settings.seed,
         quoted(working_space));
+    if (request.overrides.min_depth) command += fmt::format(" --min-depth {}", *request.overrides.min_depth);
     if (!settings.camera.empty()) command += " --camera " + quoted(settings.camera);
     if (settings.time_code) command += fmt::format(" --time-code {}", *settings.time_code);
     if (settings.frame) command += fmt::format(" --frames {} --fps {}", *settings.frame, settings.fps);

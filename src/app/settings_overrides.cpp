@@ -20,6 +20,9 @@ namespace {
 const std::map<std::string, Quality> kQualities{
     {"draft", Quality::Draft}, {"preview", Quality::Preview}, {"final", Quality::Final}};
 
+/// Of a path, as --max-depth and --min-depth take it.
+constexpr int kMostEdges = 1 << 20;
+
 const std::map<std::string, LightUnits> kLightUnits(kLightUnitNames.begin(), kLightUnitNames.end());
 
 void apply_quality(Quality quality, RenderSettings& settings) {
@@ -128,7 +131,9 @@ void SettingsOverrides::add_options(CLI::App& command) {
         ->check(CLI::Range(1e-3, 1e9));
     command
         .add_option("--max-depth", max_depth, "Most edges of a path from camera to light; 1 is emission seen directly")
-        ->check(CLI::Range(1, 1 << 20));
+        ->check(CLI::Range(1, kMostEdges));
+    command.add_option("--min-depth", min_depth, "Least edges of a path that is kept (default: 1)")
+        ->check(CLI::Range(1, kMostEdges));
     command
         .add_option_function<std::string>(
             "--light-units", [this](const std::string& text) { light_units = kLightUnits.at(text); },
@@ -162,6 +167,7 @@ void SettingsOverrides::apply(SceneDesc& scene) const {
     };
     set(integrator, settings.integrator.type, "/integrator/type", "--integrator");
     set(max_depth, settings.integrator.max_depth, "/integrator/max_depth", "--max-depth");
+    set(min_depth, settings.integrator.min_depth, "/integrator/min_depth", "--min-depth");
     set(spp, settings.spp, "/spp", "--spp");
     set(crop, settings.film.crop, "/crop", "--crop");
     set(camera, settings.camera, "/camera", "--camera");

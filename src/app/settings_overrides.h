@@ -36,6 +36,7 @@ struct SettingsOverrides {
     std::optional<std::uint32_t> seed;
     std::optional<double> time_seconds;
     std::optional<int> max_depth;
+    std::optional<int> min_depth;
     std::optional<LightUnits> light_units;
     std::optional<std::string> environment;
     std::optional<std::uint64_t> texture_memory;  ///< bytes

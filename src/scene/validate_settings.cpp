@@ -138,7 +138,9 @@ void validate_settings(const SceneDesc& scene, ProblemList& problems) {
     check(integrator.min_depth, 1, kMaxInt, "min_depth", "/integrator/min_depth");
     check(integrator.roulette_depth, 1, kMaxInt, "roulette_depth", "/integrator/roulette_depth");
     if (integrator.min_depth > integrator.max_depth) {
-        problems.error(settings.at("/integrator/max_depth"),
+        // Where either was set last: the command line is read after render.json.
+        const bool is_option = settings.options.contains("/integrator/min_depth");
+        problems.error(settings.at(is_option ? "/integrator/min_depth" : "/integrator/max_depth"),
                        fmt::format("min_depth {} is above max_depth {}: no path would be kept", integrator.min_depth,
                                    integrator.max_depth));
     }

@@ -52,9 +52,10 @@ TEST_F(CommandLine, HelpHasExamplesForEachCommand) {
     }
     const ProgramResult render_help = run({"render", "--help"});
     for (const char* option :
-         {"--integrator", "--spp",     "--size",      "--crop",        "--camera",   "--threads", "--seed",
-          "--time",       "--quality", "--max-depth", "--environment", "--exposure", "--view",    "--working-space",
-          "--half",       "--float",   "--frames",    "--fps",         "--force",    "--quiet",   "--json"})
+         {"--integrator", "--spp",           "--size",    "--crop",      "--camera",      "--threads",
+          "--seed",       "--time",          "--quality", "--max-depth", "--environment", "--exposure",
+          "--view",       "--working-space", "--half",    "--float",     "--frames",      "--fps",
+          "--force",      "--quiet",         "--json",    "--min-depth"})
         EXPECT_NE(render_help.out.find(option), std::string::npos) << option;
     EXPECT_EQ(run({"--version"}).exit_code, 0);
     EXPECT_TRUE(list(work_).empty());
@@ -136,6 +137,9 @@ TEST_F(CommandLine, InvalidScenesAndSettingsEndWithThree) {
     EXPECT_EQ(view.exit_code, 3);
     EXPECT_NE(view.err.find("--view"), std::string::npos) << view.err;
     EXPECT_NE(view.err.find("Un-tone-mapped"), std::string::npos) << "what there is: " << view.err;
+    const ProgramResult depths = run({"render", box, "--min-depth", "4", "--max-depth", "3"});
+    EXPECT_EQ(depths.exit_code, 3);
+    EXPECT_NE(depths.err.find("--min-depth: min_depth 4 is above max_depth 3"), std::string::npos) << depths.err;
     EXPECT_EQ(run({"render", box, "--working-space", "no-such-space"}).exit_code, 3);
     EXPECT_EQ(run({"render", folder_.path().string() + "/nowhere"}).exit_code, 3);
     EXPECT_EQ(run({"inspect", folder_.path().string() + "/nowhere"}).exit_code, 3);

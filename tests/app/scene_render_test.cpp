@@ -73,6 +73,7 @@ TEST(SettingsHash, ChangesWithEverythingThatChangesTheImage) {
     expect_new("seed", [](SettingsOverrides& o) { o.seed = 9; });
     expect_new("time", [](SettingsOverrides& o) { o.time_seconds = 5.0; });
     expect_new("depth", [](SettingsOverrides& o) { o.max_depth = 3; });
+    expect_new("least depth", [](SettingsOverrides& o) { o.min_depth = 2; });
     expect_new("environment", [&](SettingsOverrides& o) { o.environment = (folder / "sky.exr").string(); });
     expect_new("exposure", [](SettingsOverrides& o) { o.exposure = 0.5f; });
     expect_new("small exposure", [](SettingsOverrides& o) { o.exposure = 0.50001f; });

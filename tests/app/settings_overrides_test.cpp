@@ -90,11 +90,29 @@ TEST(SettingsOverrides, EachOptionReachesItsSetting) {
     const TestFolder folder;
     write_file(folder / "sky.exr", "");
     SceneDesc scene = scene_of(640, 360, 100);
-    const SettingsOverrides overrides =
-        parse({"--integrator", "naive",         "--camera",    "side", "--seed",          "4294967295",
-               "--time",       "2.5",           "--max-depth", "3",    "--environment",   (folder / "sky.exr").string(),
-               "--exposure",   "-1.5",          "--view",      "Raw",  "--working-space", "ACEScg",
-               "--float",      "--light-units", "radiometric"});
+    const SettingsOverrides overrides = parse({"--integrator",
+                                               "naive",
+                                               "--camera",
+                                               "side",
+                                               "--seed",
+                                               "4294967295",
+                                               "--time",
+                                               "2.5",
+                                               "--max-depth",
+                                               "3",
+                                               "--environment",
+                                               (folder / "sky.exr").string(),
+                                               "--exposure",
+                                               "-1.5",
+                                               "--view",
+                                               "Raw",
+                                               "--working-space",
+                                               "ACEScg",
+                                               "--float",
+                                               "--light-units",
+                                               "radiometric",
+                                               "--min-depth",
+                                               "2"});
     overrides.apply(scene);
     EXPECT_EQ(scene.settings.integrator.type, "naive");
     EXPECT_EQ(scene.settings.camera, "side");
@@ -102,6 +120,7 @@ TEST(SettingsOverrides, EachOptionReachesItsSetting) {
     EXPECT_EQ(scene.settings.time_limit, 2.5);
     EXPECT_EQ(scene.settings.light_units, LightUnits::Radiometric);
     EXPECT_EQ(scene.settings.integrator.max_depth, 3);
+    EXPECT_EQ(scene.settings.integrator.min_depth, 2);
     EXPECT_TRUE(scene.environment.enabled);
     EXPECT_EQ(scene.environment.image, folder / "sky.exr");
     EXPECT_EQ(scene.settings.color.exposure, -1.5f);
@@ -153,8 +172,9 @@ TEST(SettingsOverrides, NonsenseIsAUsageError) {
                                                        {"--time", "0"},
                                                        {"--time", "-3"},
                                                        {"--max-depth", "0"},
+                                                       {"--min-depth", "0"},
                                                        {"--quality", "best"},
-                                                       {"--integrator", "bdpt"},
+                                                       {"--integrator", "photons"},
                                                        {"--environment", "/no/such/file.exr"},
                                                        {"--light-units", "watts"},
                                                        {"--half", "--float"},
