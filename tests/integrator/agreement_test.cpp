@@ -7,6 +7,7 @@
 #include "render/render.h"
 #include "support/chi2.h"
 
+#include <algorithm>
 #include <atomic>
 #include <ostream>
 #include <string>
@@ -41,8 +42,9 @@ const std::vector<AgreementPair>& pairs() {
     return all;
 }
 
+/// Of the pixels of `part`, which lies within the window that is rendered.
 ImageEstimate estimate(const World& world, const std::string& name, const AgreementCase& agreement,
-                       std::uint32_t first_seed) {
+                       std::uint32_t first_seed, const PixelRect& part) {
     const ThreadPool threads;
     const std::atomic<bool> stop{false};
     std::vector<ImageF> renders;
@@ -57,12 +59,21 @@ ImageEstimate estimate(const World& world, const std::string& name, const Agreem
         options.filter = PixelFilter(FilterShape::Box);
         const auto integrator = make_integrator(name, agreement.lengths);
         const std::vector<float> rgba = render(world, *integrator, options, threads, stop, {}).film.resolve();
-        ImageF image(agreement.window.width(), agreement.window.height(), 3);
-        for (std::size_t p = 0; p < agreement.window.area(); ++p)
-            for (std::size_t c = 0; c < 3; ++c) image.pixels[3 * p + c] = rgba[4 * p + c];
+        ImageF image(part.width(), part.height(), 3);
+        for (int y = part.y0; y < part.y1; ++y)
+            for (int x = part.x0; x < part.x1; ++x) {
+                const int row = y - agreement.window.y0;
+                const auto p = static_cast<std::size_t>(row * agreement.window.width() + x - agreement.window.x0);
+                std::copy_n(&rgba[4 * p], 3, image.pixel(x - part.x0, y - part.y0).begin());
+            }
         renders.push_back(std::move(image));
     }
     return estimate_image(renders);
+}
+
+ImageEstimate estimate(const World& world, const std::string& name, const AgreementCase& agreement,
+                       std::uint32_t first_seed) {
+    return estimate(world, name, agreement, first_seed, agreement.window);
 }
 
 class Agreement : public testing::TestWithParam<AgreementPair> {};
@@ -76,6 +87,34 @@ TEST_P(Agreement, MakesTheImageOfPathTracing) {
         test_agreement(path, other, {.block_size = 8, .significance = sidak_level(kFamilyLevel, pairs().size())});
     EXPECT_TRUE(result.agree()) << result.str();
 }
+
+/// A crop, of `pairs`' rooms, and who renders it.
+class CropAgreement : public testing::TestWithParam<const char*> {};
+
+// All splats of the whole image reach the crop in the one, in the other only what is meant for it: the two differ in
+// their numbers, and for bidirectional path tracing in the densities that weigh strategies.
+TEST_P(CropAgreement, ACropIsThePartOfTheWhole) {
+    constexpr int kCrops = 4;  // of both instances
+    AgreementCase whole{"Room", {}};
+    for (const AgreementCase& agreement : agreement_cases())
+        if (agreement.name == "LampPlastic") whole = agreement;
+    ASSERT_TRUE(whole.make);
+    const World world = agreement_world(whole);
+    const PixelRect crops[] = {{18, 20, 50, 44}, {40, 0, 42, 48}};
+    for (const PixelRect& crop : crops) {
+        AgreementCase cropped = whole;
+        cropped.window = crop;
+        // The narrow one has few samples.
+        cropped.spp = 4 * whole.spp;
+        const BlockAgreement result = test_agreement(
+            estimate(world, GetParam(), whole, 300, crop), estimate(world, GetParam(), cropped, 400),
+            {.block_size = 8, .significance = sidak_level(kFamilyLevel, kCrops), .mean_tolerance = 0.02});
+        EXPECT_TRUE(result.agree()) << result.str();
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Splats, CropAgreement, testing::Values("light", "bdpt"),
+                         [](const auto& param) { return std::string(param.param); });
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Agreement, testing::ValuesIn(pairs()),
                          [](const auto& pair) { return pair.param.integrator + "_" + pair.param.agreement->name; });

@@ -77,7 +77,15 @@ bool same_bytes(const std::vector<float>& a, const std::vector<float>& b) {
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
 }
 
-class Determinism : public testing::TestWithParam<std::tuple<const char*, SampleSequence, bool>> {};
+/// Integrator, numbers, and whether things move.
+using DeterminismCase = std::tuple<const char*, SampleSequence, bool>;
+
+std::string name_of(const testing::TestParamInfo<DeterminismCase>& info) {
+    const auto [integrator, sequence, moves] = info.param;
+    return std::string(integrator) + (sequence == SampleSequence::Sobol ? "Sobol" : "Random") + (moves ? "Moving" : "");
+}
+
+class Determinism : public testing::TestWithParam<DeterminismCase> {};
 
 TEST_P(Determinism, ThreadsAndTileOrderDoNotChangeABit) {
     constexpr int kWidth = 100;
@@ -135,31 +143,48 @@ INSTANTIATE_TEST_SUITE_P(Render, Determinism,
                          testing::Combine(testing::Values("path", "naive", "direct"),
                                           testing::Values(SampleSequence::Sobol, SampleSequence::Random),
                                           testing::Bool()),
-                         [](const auto& param) {
-                             return std::string(std::get<0>(param.param)) +
-                                    (std::get<1>(param.param) == SampleSequence::Sobol ? "Sobol" : "Random") +
-                                    (std::get<2>(param.param) ? "Moving" : "");
-                         });
+                         name_of);
 
-TEST(Render, SplatsDependOnNeitherThreadsNorTileOrder) {
-    constexpr int kWidth = 100;
-    constexpr int kHeight = 70;
-    for (const bool moves : {false, true}) {
-        const World world = compile(busy_scene(kWidth, kHeight, moves));
-        // More than a group of tiles in some passes.
-        RenderOptions options = options_for(kWidth, kHeight, 40);
-        const RenderResult reference = render_now(world, "light", options, 1);
+/// A film, the part of it that is rendered, and samples per pixel.
+struct Sheet {
+    int width;
+    int height;
+    PixelRect window;
+    std::uint32_t spp;
+};
+
+// What falls into other tiles' pixels must not depend on them either.
+class SplatDeterminism : public testing::TestWithParam<DeterminismCase> {};
+
+TEST_P(SplatDeterminism, ThreadsAndTileOrderDoNotChangeABit) {
+    const auto [integrator, sequence, moves] = GetParam();
+    // A crop, and a row with more tiles than a group of splat lists holds in passes of 16 samples.
+    const Sheet sheets[] = {{100, 70, {13, 21, 81, 60}, 24}, {2112, 70, {0, 40, 2112, 41}, 32}};
+    for (const Sheet& sheet : sheets) {
+        const World world = compile(busy_scene(sheet.width, sheet.height, moves));
+        RenderOptions options = options_for(sheet.width, sheet.height, sheet.spp);
+        options.window = sheet.window;
+        options.sequence = sequence;
+        const RenderResult reference = render_now(world, integrator, options, 1);
         const std::vector<float> image = reference.film.resolve();
         EXPECT_GT(*std::ranges::max_element(image), 0.1f);
         for (const int threads : {1, 2, 5})
             for (const std::uint32_t order : {0u, 12345u}) {
                 options.tile_order_seed = order;
-                const RenderResult again = render_now(world, "light", options, threads);
+                const RenderResult again = render_now(world, integrator, options, threads);
                 EXPECT_TRUE(same_bytes(again.film.resolve(), image)) << threads << " threads, tile order " << order;
                 EXPECT_EQ(again.counters.rays(), reference.counters.rays());
             }
+        options.seed = 6;
+        EXPECT_FALSE(same_bytes(render_now(world, integrator, options, 2).film.resolve(), image));
     }
 }
+
+INSTANTIATE_TEST_SUITE_P(Render, SplatDeterminism,
+                         testing::Combine(testing::Values("light", "bdpt"),
+                                          testing::Values(SampleSequence::Sobol, SampleSequence::Random),
+                                          testing::Bool()),
+                         name_of);
 
 TEST(Render, CountsSamplesAndRays) {
     const World world = compile(busy_scene(50, 40));
