@@ -13,8 +13,6 @@ namespace etendue::test {
 
 namespace {
 
-const std::vector<std::string> kUnbounded{"path", "naive"};
-
 /// A body of glTF's material that nothing reflects, of which a quarter of the light passes one metre.
 MaterialDesc tinted_air(int priority = 0, float left = 0.25f) {
     MaterialDesc m;
@@ -55,8 +53,9 @@ SceneDesc empty_in_environment() {
     return scene;
 }
 
+/// Not for `light`, which cannot be connected to smooth boundaries.
 ClosedFormCase exact_case(const std::string& name, SceneDesc scene, double exponent) {
-    ClosedFormCase c{name, std::move(scene), std::pow(0.25, exponent), 1e-4, {.max_depth = 100}, kUnbounded, 16};
+    ClosedFormCase c{name, std::move(scene), std::pow(0.25, exponent), 1e-4, {.max_depth = 100}, kFindAllBounces, 16};
     // Roulette would end some of the paths.
     c.lengths.roulette_depth = 1000;
     c.is_exact = true;
@@ -98,16 +97,20 @@ std::vector<ClosedFormCase> absorption_cases() {
                        0.5 * std::numbers::inv_pi * 2.0 / (1.25 * 1.25) * std::pow(0.25, 1.25 + 1.0),
                        1e-4,
                        {.max_depth = 100},
-                       {"path", "direct"},
+                       kFindDeltaLights,
                        16};
     cases.push_back(lit);
     return cases;
 }
 
-ClosedFormCase lossless(const std::string& name, SceneDesc scene, double tolerance, std::uint32_t spp = 32) {
+/// `is_smooth`: light paths cannot be connected to it.
+ClosedFormCase lossless(const std::string& name, SceneDesc scene, double tolerance, bool is_smooth,
+                        std::uint32_t spp = 32) {
     scene.cameras.clear();
     look(scene, {0.0f, 0.0f, 3.0f}, {0.0f, 0.0f, -1.0f}, 0.4f);
-    return {name, std::move(scene), 1.0, tolerance, {.max_depth = 1000}, kUnbounded, spp};
+    return {name,      std::move(scene),    1.0,
+            tolerance, {.max_depth = 1000}, is_smooth ? kFindAllBounces : light_too(kFindAllBounces),
+            spp};
 }
 
 MaterialDesc dielectric(float ior, float roughness = 0.0f, VolumeDesc volume = {.closed = true}) {
@@ -126,7 +129,7 @@ std::vector<ClosedFormCase> lossless_cases() {
         add(ice, ball({0.1f, 0.0f, 0.1f}, 0.6f), dielectric(1.6f, roughness));
         add(ice, ball({0.1f, 0.1f, 0.2f}, 0.3f), dielectric(1.01f, roughness));
         cases.push_back(lossless(roughness > 0.0f ? "rough_bodies_in_bodies" : "bodies_in_bodies", ice,
-                                 roughness > 0.0f ? 1e-2 : 1e-4));
+                                 roughness > 0.0f ? 1e-2 : 1e-4, roughness == 0.0f));
     }
     for (const int priority : {-1, 0, 1}) {
         SceneDesc overlap = empty_in_environment();
@@ -135,13 +138,13 @@ std::vector<ClosedFormCase> lossless_cases() {
         cases.push_back(lossless("bodies_overlap_with_priority_" + std::string(priority < 0   ? "below"
                                                                                : priority > 0 ? "above"
                                                                                               : "equal"),
-                                 overlap, 1e-4));
+                                 overlap, 1e-4, true));
     }
     for (const float roughness : {0.0f, 0.3f}) {
         SceneDesc prism = empty_in_environment();
         add(prism, ball({0.0f, 0.0f, 0.0f}, 0.9f), dielectric(1.6f, roughness, {.closed = true, .dispersion = 1.0f}));
         cases.push_back(lossless(roughness > 0.0f ? "rough_dispersive_body" : "dispersive_body", prism,
-                                 roughness > 0.0f ? 1e-2 : 1e-4, 128));
+                                 roughness > 0.0f ? 1e-2 : 1e-4, roughness == 0.0f, 128));
     }
 
     VolumeDesc milk{.closed = true,
@@ -151,7 +154,7 @@ std::vector<ClosedFormCase> lossless_cases() {
                     .scatter_anisotropy = 0.4f};
     SceneDesc glass_of_milk = empty_in_environment();
     add(glass_of_milk, ball({0.0f, 0.0f, 0.0f}, 0.9f), dielectric(1.3f, 0.0f, milk));
-    cases.push_back(lossless("milk_in_glass", glass_of_milk, 1e-3));
+    cases.push_back(lossless("milk_in_glass", glass_of_milk, 1e-3, true));
 
     MaterialDesc wax;
     wax.metallic = 0.0f;
@@ -160,7 +163,7 @@ std::vector<ClosedFormCase> lossless_cases() {
     wax.volume = milk;
     SceneDesc candle = empty_in_environment();
     add(candle, ball({0.0f, 0.0f, 0.0f}, 0.9f), wax);
-    cases.push_back(lossless("wax", candle, 5e-3));
+    cases.push_back(lossless("wax", candle, 5e-3, false));
 
     MaterialDesc partly;
     partly.metallic = 0.3f;
@@ -169,7 +172,7 @@ std::vector<ClosedFormCase> lossless_cases() {
     partly.volume.closed = true;
     SceneDesc mixed = empty_in_environment();
     add(mixed, ball({0.0f, 0.0f, 0.0f}, 0.9f), partly);
-    cases.push_back(lossless("partly_metal_body", mixed, 5e-3));
+    cases.push_back(lossless("partly_metal_body", mixed, 5e-3, false));
     return cases;
 }
 

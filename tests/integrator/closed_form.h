@@ -1,8 +1,9 @@
 // Scenes with one known radiance, and what every integrator and sampler should find there.
 //
-// An image of 16 × 16 pixels looks at nearly one point, so that the radiance is the same in all of them, and gives 256
-// independent estimates of it: numbers of different pixels are independent, also those of the Sobol' sampler. A t-test
-// compares their mean with the closed form.
+// An image of 16 × 16 pixels looks at nearly one point, or at more where the radiance is the same in all of it, and
+// gives 256 independent estimates of it: numbers of different pixels are independent, also those of the Sobol' sampler.
+// Splats are not, because one path leaves several; for integrators that make them the means of independent images are
+// the estimates. A t-test compares their mean with the closed form.
 //
 // To add a scene: a case in one of the lists below, or a list of its own that closed_form_test.cpp joins.
 #pragma once
@@ -21,6 +22,23 @@
 
 namespace etendue::test {
 
+/// Who finds what the cases are lit by. `light` is in none of the lists: nearly no light path passes the one point that
+/// most cameras here look at. `light_too` adds it where the radiance is the same over a wider view.
+///
+/// Direct light of what rays can meet. (Not `light`, see above.)
+inline const std::vector<std::string> kFindDirectLight{"path", "direct", "naive", "bdpt"};
+/// Direct light of points, spots and suns: not `naive`, whose rays never meet them.
+inline const std::vector<std::string> kFindDeltaLights{"path", "direct", "bdpt"};
+/// Light that arrives after any number of bounces: not `direct`.
+inline const std::vector<std::string> kFindAllBounces{"path", "naive", "bdpt"};
+/// The same from points, spots and suns.
+inline const std::vector<std::string> kFindAllBouncesOfDeltaLights{"path", "bdpt"};
+
+[[nodiscard]] inline std::vector<std::string> light_too(std::vector<std::string> integrators) {
+    integrators.emplace_back("light");
+    return integrators;
+}
+
 struct ClosedFormCase {
     std::string name;
     SceneDesc scene;
@@ -28,7 +46,7 @@ struct ClosedFormCase {
     double tolerance = 1e-5;  ///< relative: rounding, and the tessellation's difference from the curved surface
     IntegratorOptions lengths{};
     /// Those that can find all the light within `lengths`.
-    std::vector<std::string> integrators{"path", "direct", "naive"};
+    std::vector<std::string> integrators = kFindDirectLight;
     std::uint32_t spp = 64;
     /// Set: the environment is an image of max(0, direction · axis), before the environment's rotation.
     std::optional<Vec3f> environment_axis{};

@@ -13,7 +13,6 @@ namespace {
 constexpr float kAlbedo = 0.6f;
 constexpr double kRho = 0.6;
 constexpr double kPiD = std::numbers::pi;
-const std::vector<std::string> kLightSamplers{"path", "direct"};
 
 /// A large floor at y = 0, seen from above at (x, 0, 0).
 SceneDesc floor_seen_at(float x) {
@@ -84,7 +83,8 @@ std::vector<ClosedFormCase> mesh_light_cases() {
     add_light(several, LightType::Point, 0.5f, {-1.0f, 1.0f, kZ});
     const double several_light =
         2.0 * square_factor + 7.0 * disk_form_factor(0.3, 1.5, 0.0) + 0.5 / (2.0 * std::sqrt(2.0)) / kPiD;
-    cases.push_back({"several_lights", several, kRho * several_light, 1e-4, {}, kLightSamplers});
+    // `naive` would miss the point.
+    cases.push_back({"several_lights", several, kRho * several_light, 1e-4, {}, kFindDeltaLights});
     return cases;
 }
 
@@ -96,7 +96,7 @@ std::vector<ClosedFormCase> punctual_light_cases() {
     SceneDesc point = floor_seen_at(0.75f);
     add_light(point, LightType::Point, 5.0f, {0.0f, 1.0f, kZ});
     const double irradiance = 5.0 / distance / (distance * distance);
-    cases.push_back({"point", point, kRho / kPiD * irradiance, 1e-4, {}, kLightSamplers});
+    cases.push_back({"point", point, kRho / kPiD * irradiance, 1e-4, {}, kFindDeltaLights});
     cases.push_back({"point_by_chance", point, 0.0, 0.0, {}, {"naive"}});
 
     // The floor's point lies at atan(0.75) = 0.6435 from the axis.
@@ -107,16 +107,22 @@ std::vector<ClosedFormCase> punctual_light_cases() {
         light.outer_cone_angle = outer;
         return scene;
     };
-    cases.push_back({"spot_inner", spot(0.7f, 0.9f), kRho / kPiD * irradiance, 1e-4, {}, kLightSamplers});
+    cases.push_back({"spot_inner", spot(0.7f, 0.9f), kRho / kPiD * irradiance, 1e-4, {}, kFindDeltaLights});
     // KHR_lights_punctual: the square of a ramp in the cosine.
     const double ramp = (1.0 / distance - std::cos(0.9)) / (std::cos(0.3) - std::cos(0.9));
     const double on_edge = kRho / kPiD * irradiance * ramp * ramp;
-    cases.push_back({"spot_falloff", spot(0.3f, 0.9f), on_edge, 3e-4, {}, kLightSamplers});
-    cases.push_back({"spot_outside", spot(0.3f, 0.6f), 0.0, 0.0, {}, kLightSamplers});
+    cases.push_back({"spot_falloff", spot(0.3f, 0.9f), on_edge, 3e-4, {}, kFindDeltaLights});
+    cases.push_back({"spot_outside", spot(0.3f, 0.6f), 0.0, 0.0, {}, kFindDeltaLights});
 
     SceneDesc sun = floor_seen_at(0.0f);
     add_light(sun, LightType::Directional, 3.0f, {0.0f, 5.0f, 0.0f}, {0.6f, -0.8f, 0.0f});
-    cases.push_back({"directional", sun, kRho / kPiD * 3.0 * 0.8, 1e-5, {}, kLightSamplers});
+    cases.push_back({"directional", sun, kRho / kPiD * 3.0 * 0.8, 1e-5, {}, kFindDeltaLights});
+
+    SceneDesc sunny_square;
+    add(sunny_square, quad_facing_up({0.0f, 0.0f, 0.0f}, 2.0f), diffuse(kAlbedo));
+    add_light(sunny_square, LightType::Directional, 3.0f, {0.0f, 5.0f, 0.0f}, {0.6f, -0.8f, 0.0f});
+    look(sunny_square, {0.0f, 0.4f, 0.0f}, {0.0f, -1.0f, 0.0f}, 0.7f);
+    cases.push_back({"directional_wide", sunny_square, kRho / kPiD * 3.0 * 0.8, 1e-5, {}, light_too(kFindDeltaLights)});
     return cases;
 }
 
@@ -140,16 +146,16 @@ std::vector<ClosedFormCase> measured_light_cases() {
     add_light(lamp, LightType::Point, 0.5f, {0.0f, 1.0f, kZ}).profile.index = 0;
     lamp.ies_profiles.push_back(lambertian_profile(10.0f));
     const double irradiance = 5.0 * cosine * cosine / (distance * distance);
-    cases.push_back({"ies_lambertian", lamp, kRho / kPiD * irradiance, 2e-4, {}, kLightSamplers});
+    cases.push_back({"ies_lambertian", lamp, kRho / kPiD * irradiance, 2e-4, {}, kFindDeltaLights});
 
     // Beside a lamp of another kind, so that a wrong power shows as noise and a wrong probability as a wrong mean.
     SceneDesc several = lamp;
     add_light(several, LightType::Point, 3.0f, {0.75f, 2.0f, kZ});
-    cases.push_back({"ies_and_point", several, kRho / kPiD * (irradiance + 3.0 / 4.0), 2e-4, {}, kLightSamplers});
+    cases.push_back({"ies_and_point", several, kRho / kPiD * (irradiance + 3.0 / 4.0), 2e-4, {}, kFindDeltaLights});
 
     SceneDesc watts = lamp;
     watts.settings.light_units = LightUnits::Radiometric;
-    cases.push_back({"ies_radiometric", watts, kRho / kPiD * irradiance / 683.002, 2e-4, {}, kLightSamplers});
+    cases.push_back({"ies_radiometric", watts, kRho / kPiD * irradiance / 683.002, 2e-4, {}, kFindDeltaLights});
     return cases;
 }
 

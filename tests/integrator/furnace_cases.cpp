@@ -10,8 +10,6 @@ namespace etendue::test {
 
 namespace {
 
-const std::vector<std::string> kUnbounded{"path", "naive"};
-
 MaterialDesc glowing(float emission, float albedo) {
     MaterialDesc material = emitter(emission);
     material.override_model = DiffuseDesc{Rgb(albedo)};
@@ -26,30 +24,27 @@ SceneDesc furnace(float emission, float albedo) {
 }
 
 std::vector<ClosedFormCase> empty_furnace_cases() {
+    const std::vector<std::string> kAll = light_too(kFindAllBounces);
+    const std::vector<std::string> kOne = light_too(kFindDirectLight);
     std::vector<ClosedFormCase> cases;
     const SceneDesc half = furnace(0.5f, 0.5f);
-    cases.push_back({"furnace", half, 1.0, 1e-5, {.max_depth = 64}, kUnbounded});
-    cases.push_back(
-        {"furnace_roulette_at_once", half, 1.0, 1e-5, {.max_depth = 1000, .roulette_depth = 1}, kUnbounded});
-    cases.push_back(
-        {"furnace_without_roulette", half, 1.0, 1e-5, {.max_depth = 30, .roulette_depth = 1000}, kUnbounded});
-    cases.push_back({"furnace_bright_walls", furnace(0.1f, 0.9f), 1.0, 1e-5, {.max_depth = 400}, kUnbounded});
-    cases.push_back({"furnace_depth_1", half, 0.5, 1e-5, {.max_depth = 1}});
-    cases.push_back({"furnace_depth_2", half, 0.75, 1e-5, {.max_depth = 2}});
-    cases.push_back({"furnace_depth_5", half, 1.0 - std::exp2(-5.0), 1e-5, {.max_depth = 5}, kUnbounded});
+    cases.push_back({"furnace", half, 1.0, 1e-5, {.max_depth = 64}, kAll});
+    cases.push_back({"furnace_roulette_at_once", half, 1.0, 1e-5, {.max_depth = 1000, .roulette_depth = 1}, kAll});
+    cases.push_back({"furnace_without_roulette", half, 1.0, 1e-5, {.max_depth = 30, .roulette_depth = 1000}, kAll});
+    cases.push_back({"furnace_bright_walls", furnace(0.1f, 0.9f), 1.0, 1e-5, {.max_depth = 400}, kAll});
+    cases.push_back({"furnace_depth_1", half, 0.5, 1e-5, {.max_depth = 1}, kOne});
+    cases.push_back({"furnace_depth_2", half, 0.75, 1e-5, {.max_depth = 2}, kOne});
+    cases.push_back({"furnace_depth_5", half, 1.0 - std::exp2(-5.0), 1e-5, {.max_depth = 5}, kAll});
     // Windows of lengths that together are "furnace_depth_5".
-    cases.push_back({"furnace_edges_2", half, 0.25, 1e-5, {.max_depth = 2, .min_depth = 2}});
-    cases.push_back({"furnace_edges_3_to_4", half, 0.1875, 1e-5, {.max_depth = 4, .min_depth = 3}, kUnbounded});
-    cases.push_back({"furnace_edges_5",
-                     half,
-                     std::exp2(-5.0),
-                     1e-5,
-                     {.max_depth = 5, .min_depth = 5, .roulette_depth = 2},
-                     kUnbounded});
+    cases.push_back({"furnace_edges_2", half, 0.25, 1e-5, {.max_depth = 2, .min_depth = 2}, kOne});
+    cases.push_back({"furnace_edges_3_to_4", half, 0.1875, 1e-5, {.max_depth = 4, .min_depth = 3}, kAll});
+    cases.push_back(
+        {"furnace_edges_5", half, std::exp2(-5.0), 1e-5, {.max_depth = 5, .min_depth = 5, .roulette_depth = 2}, kAll});
     return cases;
 }
 
-ClosedFormCase body_case(const std::string& name, const MaterialDesc& material, double tolerance, bool in_environment) {
+ClosedFormCase body_case(const std::string& name, const MaterialDesc& material, double tolerance, bool in_environment,
+                         const std::vector<std::string>& integrators = kFindAllBounces) {
     SceneDesc scene;
     if (in_environment) {
         set_environment(scene);
@@ -63,7 +58,7 @@ ClosedFormCase body_case(const std::string& name, const MaterialDesc& material, 
             1.0,
             tolerance,
             {.max_depth = 1000},
-            kUnbounded,
+            integrators,
             32};
 }
 
@@ -85,14 +80,16 @@ std::vector<ClosedFormCase> lossless_body_cases() {
     MaterialDesc white_plastic = white_metal;
     white_plastic.metallic = 0.0f;
 
+    // Light paths cannot be connected to mirrors and smooth glass.
+    const std::vector<std::string> rough = light_too(kFindAllBounces);
     std::vector<ClosedFormCase> cases;
     for (const bool in_environment : {false, true}) {
         cases.push_back(body_case("mirror", conductor(0.0f), 1e-4, in_environment));
-        cases.push_back(body_case("rough_conductor", conductor(0.5f), kTables, in_environment));
+        cases.push_back(body_case("rough_conductor", conductor(0.5f), kTables, in_environment, rough));
         cases.push_back(body_case("glass", glass(0.0f), 1e-4, in_environment));
-        cases.push_back(body_case("rough_glass", glass(0.5f), kTables, in_environment));
-        cases.push_back(body_case("white_metal", white_metal, kTables, in_environment));
-        cases.push_back(body_case("white_plastic", white_plastic, kTables, in_environment));
+        cases.push_back(body_case("rough_glass", glass(0.5f), kTables, in_environment, rough));
+        cases.push_back(body_case("white_metal", white_metal, kTables, in_environment, rough));
+        cases.push_back(body_case("white_plastic", white_plastic, kTables, in_environment, rough));
     }
     // Roulette that forgets that refraction scales radiance ends paths in glass without need, and exactness with them.
     ClosedFormCase exact = body_case("glass_and_roulette_at_once", glass(0.0f), 1e-4, true);
@@ -116,11 +113,12 @@ std::vector<ClosedFormCase> integrating_sphere_cases() {
     constexpr double kIntensity = 3.0;
     constexpr double kRadius = 2.0;
     // The facet that is looked at, at right angles, is the one through which -Z leaves.
-    const auto sphere_with_light = [](float light_z) {
+    // With the light in the middle all of the sphere is as bright.
+    const auto sphere_with_light = [](float light_z, float half_width) {
         SceneDesc scene;
         add(scene, sphere({0.0f, 0.0f, 0.0f}, 2.0f, 5, Facing::Inwards), diffuse(0.8f));
         add_light(scene, LightType::Point, 3.0f, {0.0f, 0.0f, light_z});
-        look(scene, {0.0f, 0.0f, 1.0f}, {0.0f, 0.0f, -1.0f});
+        look(scene, {0.0f, 0.0f, 1.0f}, {0.0f, 0.0f, -1.0f}, half_width);
         return scene;
     };
     const double mean = kIntensity / (kRadius * kRadius);
@@ -129,30 +127,30 @@ std::vector<ClosedFormCase> integrating_sphere_cases() {
     constexpr double kTessellation = 1e-3;  // the sphere's radius varies by 1.5e-4
     std::vector<ClosedFormCase> cases;
     cases.push_back({"integrating_sphere",
-                     sphere_with_light(0.0f),
+                     sphere_with_light(0.0f, 0.8f),
                      radiance(mean / (1.0 - kRho)),
                      kTessellation,
                      {.max_depth = 400},
-                     {"path"}});
-    const SceneDesc off_centre = sphere_with_light(-0.5f);
+                     light_too(kFindAllBouncesOfDeltaLights)});
+    const SceneDesc off_centre = sphere_with_light(-0.5f, 1e-4f);
     cases.push_back({"integrating_sphere_one_bounce",
                      off_centre,
                      radiance(near),
                      kTessellation,
                      {.max_depth = 2},
-                     {"path", "direct"}});
+                     kFindDeltaLights});
     cases.push_back({"integrating_sphere_two_bounces",
                      off_centre,
                      radiance(near + kRho * mean),
                      kTessellation,
                      {.max_depth = 3},
-                     {"path"}});
+                     kFindAllBouncesOfDeltaLights});
     cases.push_back({"integrating_sphere_off_centre",
                      off_centre,
                      radiance(near + kRho * mean / (1.0 - kRho)),
                      kTessellation,
                      {.max_depth = 400},
-                     {"path"}});
+                     kFindAllBouncesOfDeltaLights});
     return cases;
 }
 

@@ -9,8 +9,6 @@ namespace etendue::test {
 
 namespace {
 
-const std::vector<std::string> kLightSamplers{"path", "direct"};
-
 Mat4f translation(const Vec3f& t) {
     return {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, t.x, t.y, t.z, 1};
 }
@@ -60,7 +58,7 @@ ClosedFormCase passing_shadow() {
     add_light(scene, LightType::Point, 5.0f, {0.0f, 2.0f, 0.013f});
     add(scene, quad_facing_down({0.0f, 1.0f, 0.0f}, 1.0f), black_card(1.0f, AlphaMode::Opaque));
     scene.instances.back().motion = {translation({-2.0f, 0.0f, 0.0f}), translation({2.0f, 0.0f, 0.0f})};
-    return {"passing_shadow", scene, 0.75 * 0.6 * 5.0 / 4.0 / std::numbers::pi, 1e-3, {}, kLightSamplers};
+    return {"passing_shadow", scene, 0.75 * 0.6 * 5.0 / 4.0 / std::numbers::pi, 1e-3, {}, kFindDeltaLights};
 }
 
 /// A disk of radius r rises from height a to b above a floor: the mean of its form factor r² / (r² + h²) is
@@ -77,14 +75,14 @@ ClosedFormCase rising_lamp() {
     return {"rising_lamp", scene, 0.6 * 3.0 * mean, 1e-3};
 }
 
-/// The camera pans over an emitter that is half of what it sees.
-ClosedFormCase moving_camera() {
+/// The camera pans over an emitter that is half of what it sees, also over the width of its view.
+ClosedFormCase moving_camera(const char* name, float half_width, const std::vector<std::string>& integrators) {
     SceneDesc scene;
     add(scene, quad_facing_up({-5.0f, 0.0f, 0.0f}, 10.0f), emitter(2.0f));
-    look(scene, {0.0f, 1.0f, 0.0f}, {0.0f, -1.0f, 0.0f});
+    look(scene, {0.0f, 1.0f, 0.0f}, {0.0f, -1.0f, 0.0f}, half_width);
     CameraDesc& camera = scene.cameras.back();
     for (const float x : {-1.0f, 3.0f}) camera.motion.push_back(camera.to_world * translation({x, 0.0f, 0.0f}));
-    return {"moving_camera", scene, 0.5, 1e-3};
+    return {name, scene, 0.5, 1e-3, {}, integrators};
 }
 
 /// In a furnace everything is as bright as the walls, however it moves.
@@ -93,14 +91,17 @@ ClosedFormCase moving_furnace() {
     set_environment(scene);
     add(scene, sphere({0.0f, 0.0f, 0.0f}, 1.0f, 2, Facing::Outwards), diffuse(1.0f));
     scene.instances.back().motion = {translation({-0.3f, 0.0f, 0.0f}), translation({0.3f, 0.2f, 0.1f})};
-    look(scene, {0.0f, 3.0f, 0.0f}, {0.0f, -1.0f, 0.0f});
-    return {"moving_furnace", scene, 1.0, 1e-4};
+    look(scene, {0.0f, 3.0f, 0.0f}, {0.0f, -1.0f, 0.0f}, 0.3f);
+    return {"moving_furnace", scene, 1.0, 1e-4, {}, light_too(kFindDirectLight)};
 }
 
 }  // namespace
 
 std::vector<ClosedFormCase> motion_cases() {
-    return {passing_emitter(), turning_emitter(), passing_shadow(), rising_lamp(), moving_camera(), moving_furnace()};
+    return {passing_emitter(), turning_emitter(), passing_shadow(), rising_lamp(),
+            moving_camera("moving_camera", 1e-4f, kFindDirectLight),
+            // Pixels differ, so that only means of images are compared.
+            moving_camera("moving_wide_camera", 0.5f, {"light", "bdpt"}), moving_furnace()};
 }
 
 }  // namespace etendue::test

@@ -7,12 +7,12 @@ namespace {
 
 constexpr double kRho = 0.6;
 
-/// A floor that sees nothing but a glowing ceiling without end, so that its radiance is 0.6 · 2.
+/// A floor that sees nothing but a glowing ceiling without end, so that its radiance is 0.6 · 2 everywhere.
 SceneDesc floor_and_ceiling() {
     SceneDesc scene;
     add(scene, quad_facing_up({0.0f, 0.0f, 0.0f}, 10.0f), diffuse(0.6f));
     add(scene, sphere({0.0f, 0.0f, 0.0f}, 8.0f, 2, Facing::Inwards), emitter(2.0f));
-    look(scene, {0.11f, 0.2f, 0.07f}, {0.0f, -1.0f, 0.0f});
+    look(scene, {0.11f, 0.2f, 0.07f}, {0.0f, -1.0f, 0.0f}, 1.0f);
     return scene;
 }
 
@@ -37,22 +37,22 @@ PrimitiveDesc card(float height) {
 std::vector<ClosedFormCase> card_cases() {
     std::vector<ClosedFormCase> cases;
     const double open = kRho * 2.0;
-    cases.push_back({"ceiling", floor_and_ceiling(), open});
+    cases.push_back({"ceiling", floor_and_ceiling(), open, 1e-5, {}, light_too(kFindDirectLight)});
 
     SceneDesc one = floor_and_ceiling();
-    add(one, canopy(1.0f), black_card(0.3f));
-    cases.push_back({"blend_card", one, open * 0.7});
+    add(one, canopy(4.0f), black_card(0.3f));
+    cases.push_back({"blend_card", one, open * 0.7, 1e-5, {}, light_too(kFindDirectLight)});
 
     SceneDesc two = one;
-    add(two, canopy(1.2f), black_card(0.5f));
-    cases.push_back({"two_blend_cards", two, open * 0.7 * 0.5});
+    add(two, canopy(4.8f), black_card(0.5f));
+    cases.push_back({"two_blend_cards", two, open * 0.7 * 0.5, 1e-5, {}, light_too(kFindDirectLight)});
 
     SceneDesc holes = floor_and_ceiling();
-    add(holes, canopy(1.0f), black_card(0.4f, AlphaMode::Mask));
-    cases.push_back({"mask_below_cutoff", holes, open});
+    add(holes, canopy(4.0f), black_card(0.4f, AlphaMode::Mask));
+    cases.push_back({"mask_below_cutoff", holes, open, 1e-5, {}, light_too(kFindDirectLight)});
     SceneDesc solid = floor_and_ceiling();
-    add(solid, canopy(1.0f), black_card(0.6f, AlphaMode::Mask));
-    cases.push_back({"mask_above_cutoff", solid, 0.0});
+    add(solid, canopy(4.0f), black_card(0.6f, AlphaMode::Mask));
+    cases.push_back({"mask_above_cutoff", solid, 0.0, 1e-5, {}, light_too(kFindDirectLight)});
 
     // Lights that only shadow rays find.
     SceneDesc sun;
@@ -60,7 +60,7 @@ std::vector<ClosedFormCase> card_cases() {
     add(sun, canopy(1.0f), black_card(0.3f));
     add_light(sun, LightType::Directional, kPi, {0.0f, 5.0f, 0.0f}, {0.6f, -0.8f, 0.0f});
     look(sun, {0.11f, 0.2f, 0.07f}, {0.0f, -1.0f, 0.0f});
-    cases.push_back({"blend_card_and_sun", sun, kRho * 0.8 * 0.7, 1e-5, {}, {"path", "direct"}});
+    cases.push_back({"blend_card_and_sun", sun, kRho * 0.8 * 0.7, 1e-5, {}, kFindDeltaLights});
 
     SceneDesc seen = glowing_floor();
     add(seen, card(0.5f), black_card(0.3f));
@@ -82,13 +82,14 @@ std::vector<ClosedFormCase> transparent_light_cases() {
     SceneDesc dome;
     add(dome, quad_facing_up({0.0f, 0.0f, 0.0f}, 10.0f), diffuse(0.6f));
     add(dome, sphere({0.0f, 0.0f, 0.0f}, 8.0f, 2, Facing::Inwards), light);
-    look(dome, {0.11f, 0.2f, 0.07f}, {0.0f, -1.0f, 0.0f});
-    cases.push_back({"transparent_light", dome, kRho * 2.0 * 0.6});
+    look(dome, {0.11f, 0.2f, 0.07f}, {0.0f, -1.0f, 0.0f}, 1.0f);
+    cases.push_back({"transparent_light", dome, kRho * 2.0 * 0.6, 1e-5, {}, light_too(kFindDirectLight)});
 
     // Two of them behind each other: the nearer one lets 0.4 of the other through.
     SceneDesc nested = dome;
     add(nested, sphere({0.0f, 0.0f, 0.0f}, 9.0f, 2, Facing::Inwards), light);
-    cases.push_back({"nested_transparent_lights", nested, kRho * 2.0 * (0.6 + 0.4 * 0.6)});
+    cases.push_back(
+        {"nested_transparent_lights", nested, kRho * 2.0 * (0.6 + 0.4 * 0.6), 1e-5, {}, light_too(kFindDirectLight)});
 
     SceneDesc seen;
     add(seen, quad_facing_up({0.0f, 0.0f, 0.0f}, 10.0f), light);
