@@ -18,7 +18,7 @@ void LightWave::trace(const World& world, const TileJob& job, const IntegratorOp
     const SubpathJob subpath_job{world, job, options, Raised{}, samples_, camera_rays_};
     subpaths_.trace(subpath_job, nullptr, counters);
     if (options.min_depth <= 1) connect_lights(subpath_job);
-    connect_vertices(subpath_job);
+    connect_vertices(subpath_job, tile, counters);
     connections_.resolve(world, samples_, {}, tile, counters);
 }
 
@@ -44,7 +44,7 @@ void LightWave::connect_lights(const SubpathJob& job) {
     }
 }
 
-void LightWave::connect_vertices(const SubpathJob& job) {
+void LightWave::connect_vertices(const SubpathJob& job, TileBuffer& tile, RenderCounters& counters) {
     for (const PathVertex& vertex : subpaths_.vertices()) {
         if (!vertex.is_connectible || vertex.next_edges < job.lengths.min_depth) continue;
         const float time = camera_rays_[vertex.slot].time;
@@ -60,6 +60,7 @@ void LightWave::connect_vertices(const SubpathJob& job) {
             ray, vertex.slot,
             {view->pixel, vertex.throughput * scattered * job.wavelength_weight(vertex.slot, vertex.is_dispersed) *
                               vertex.transmittance(view->direction, view->distance) * view->camera.importance_area});
+        connections_.resolve_if_full(job.world, samples_, {}, tile, counters);
     }
 }
 

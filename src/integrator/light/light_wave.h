@@ -20,7 +20,7 @@ class LightWave final : public IntegratorScratch {
   private:
     /// The points of the lights where the subpaths begin.
     void connect_lights(const SubpathJob& job);
-    void connect_vertices(const SubpathJob& job);
+    void connect_vertices(const SubpathJob& job, TileBuffer& tile, RenderCounters& counters);
 
     std::vector<CameraSample> samples_;
     std::vector<Ray> camera_rays_;

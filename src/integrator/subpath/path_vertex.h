@@ -59,10 +59,14 @@ struct PathVertex {
     [[nodiscard]] Vec3f origin(const Vec3f& w) const {
         return surface ? offset_origin(position, geometric_normal, clearance, w) : position;
     }
+    /// What fills the space towards `w`, null in vacuum.
+    [[nodiscard]] const HomogeneousMedium* medium(const Vec3f& w) const {
+        return dot(w, geometric_normal) > 0.0f ? outside : inside;
+    }
     /// Share of light that gets `distance` metres far along `w`.
     [[nodiscard]] Rgb transmittance(const Vec3f& w, float distance) const {
-        const HomogeneousMedium* medium = dot(w, geometric_normal) > 0.0f ? outside : inside;
-        return medium != nullptr ? medium->transmittance(distance) : Rgb(1.0f);
+        const HomogeneousMedium* around = medium(w);
+        return around != nullptr ? around->transmittance(distance) : Rgb(1.0f);
     }
 };
 

@@ -23,9 +23,10 @@
 // By symmetry the same serves the subpath from the eye. Where it starts:
 //
 //   light: D_0 = 1 / P_0, or 0 if nothing can hit the light. For s = 1 the light is sampled anew, with the same P_0.
-//   eye:   D = 0, as no light hits the lens. For t = 1 the lens is sampled anew. There are as many light paths as
-//          camera samples in the window, and camera samples have the density of the whole film: P_1 is divided by that
-//          number, and multiplied by the pixels of the film.
+//   eye:   D = 0, as no light hits the lens. For t = 1 the lens is sampled anew. Each pixel of the window has one
+//   camera
+//          sample and one light path that may fall anywhere: P_1, per area of the film, is multiplied by the film's
+//          pixels over the window's.
 //
 // Lights at infinity have a density per solid angle in place of P_0, and P_1 is that of a point on the disk across the
 // direction, times |cos theta_1|.
@@ -36,9 +37,10 @@
 // the densities of a rough interface tend to. (Probabilities of choosing the delta cancel where they are the same both
 // ways.)
 //
-// Left out of all densities, the same for every strategy of a path: Russian roulette, how far light gets in media, and
-// which wavelength a dispersed path has. Directions' densities are those of the lobes; cosines here belong to the
-// geometric normals, and are 1 in media.
+// Left out of the densities of all strategies alike: Russian roulette, how far light gets in media, whether it passes
+// what is partly transparent, and which wavelength a dispersed path has. That keeps the sum of the weights at one, but
+// not the variance as low as it could be in dense media. Directions' densities are those of the lobes; cosines here
+// belong to the geometric normals, and are 1 in media.
 #pragma once
 
 namespace etendue {

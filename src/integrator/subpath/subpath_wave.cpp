@@ -16,6 +16,12 @@ enum EmissionDimension : std::uint32_t { kLightChoice, kTriangle, kPosition, kDi
 constexpr std::uint32_t kFirstLightDimension = 1u << 29;
 constexpr std::uint32_t kWavelengthDimension = 1u << 30;
 
+/// Edges of the shortest way from a light, or from a surface, to the camera by another vertex: where that scatters in a
+/// medium it adds none.
+int edges_to_connect(const World& world) {
+    return world.has_scattering_bodies() ? 1 : 2;
+}
+
 }  // namespace
 
 std::uint32_t subpath_dimension(SubpathEnd end, int bounce, BounceNumbers which) {
@@ -92,7 +98,7 @@ void SubpathWave::begin_at_lights(const SubpathJob& job) {
         };
         const EmissionNumbers u{pair(kTriangle), pair(kPosition), pair(kDirection)};
         const Emission& emission = emissions_[i] = world.sample_emission(pair(kLightChoice), u, rays_[i].time);
-        if (job.lengths.max_depth < 2 || is_black(emission.weight)) continue;
+        if (job.lengths.max_depth < edges_to_connect(world) || is_black(emission.weight)) continue;
         const EmissionSample& sample = emission.sample;
         SubpathState state;
         state.throughput = emission.weight;
@@ -213,8 +219,7 @@ bool SubpathWave::scatter_at_surface(const SubpathJob& job, std::size_t i, const
         vertex.outside = world.medium(crossing ? crossing->outside : interiors_[i]);
         vertex.inside = world.medium(crossing ? crossing->inside : interiors_[i]);
     }
-    // The last edge of a light's path is the one to the camera.
-    if (end_ == SubpathEnd::AtLight && state.edges + 2 > job.lengths.max_depth) return false;
+    if (end_ == SubpathEnd::AtLight && state.edges + edges_to_connect(world) > job.lengths.max_depth) return false;
     const TransportMode mode = end_ == SubpathEnd::AtEye ? TransportMode::Radiance : TransportMode::Importance;
     const BsdfSample sample = scattering.sample(choices_[i].x, scattering_[i], mode);
     if (is_black(sample.weight)) return false;
