@@ -1,9 +1,11 @@
 // How a surface scatters light at a point: one lobe out of the list below.
 //
-// To add another: bsdf/x.{h,cpp} with a struct that has `evaluate`, `sample` and `has_non_delta` as the others do, its
-// place in the variant, one overload in world/compile_materials.cpp, and its row in the table of tests/bsdf.
+// To add another: bsdf/x.{h,cpp} with a struct that has `evaluate`, `sample` and `has_non_delta` as the others do, and
+// `add_deltas` if some of its samples are deltas, its place in the variant, one overload in
+// world/compile_materials.cpp, and its row in the table of tests/bsdf.
 #pragma once
 
+#include "bsdf/delta_list.h"
 #include "bsdf/dielectric_body.h"
 #include "bsdf/diffuse.h"
 #include "bsdf/layered_surface.h"
@@ -34,6 +36,17 @@ using Bsdf = std::variant<Diffuse, DielectricBody, LayeredSurface, MetallicRough
                                             TransportMode mode) {
     if (const auto* diffuse = std::get_if<Diffuse>(&bsdf)) return diffuse->sample(wo, u_lobe, u, mode);
     return std::visit([&](const auto& lobe) { return lobe.sample(wo, u_lobe, u, mode); }, bsdf);
+}
+
+/// All deltas of the lobe, as radiance: what `sample_bsdf` chooses one of.
+[[nodiscard]] inline DeltaList deltas_of(const Bsdf& bsdf, const Vec3f& wo) {
+    DeltaList deltas;
+    std::visit(
+        [&](const auto& lobe) {
+            if constexpr (requires { lobe.add_deltas(wo, deltas); }) lobe.add_deltas(wo, deltas);
+        },
+        bsdf);
+    return deltas;
 }
 
 /// Density, 1/sr, with which `sample_bsdf` would pick wo if it were given wi: what the walk from the other end does.

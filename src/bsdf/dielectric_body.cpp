@@ -61,4 +61,23 @@ BsdfSample DielectricBody::sample(const Vec3f& wo, float u_lobe, Vec2f u, Transp
     return sample;
 }
 
+void DielectricBody::add_deltas(const Vec3f& wo, DeltaList& deltas) const {
+    if (const auto* smooth = std::get_if<SmoothDielectric>(&interface)) {
+        DeltaList own;
+        smooth->add_deltas(wo, own);
+        for (BsdfSample delta : own) {
+            delta.weight *= interface_share;
+            deltas.add(delta);
+        }
+    }
+    if (interface_share == 1.0f) return;
+    DeltaList own;
+    opaque.add_deltas(facing(wo, wo), own);
+    for (BsdfSample delta : own) {
+        delta.weight *= 1.0f - interface_share;
+        delta.wi = facing(delta.wi, wo);
+        deltas.add(delta);
+    }
+}
+
 }  // namespace etendue

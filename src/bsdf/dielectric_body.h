@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bsdf/bsdf_sample.h"
+#include "bsdf/delta_list.h"
 #include "bsdf/metallic_roughness.h"
 #include "bsdf/rough_dielectric.h"
 #include "bsdf/smooth_dielectric.h"
@@ -19,6 +20,8 @@ struct DielectricBody {
     [[nodiscard]] MetallicRoughness::Value evaluate_parts(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const;
     [[nodiscard]] BsdfValue evaluate(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const;
     [[nodiscard]] BsdfSample sample(const Vec3f& wo, float u_lobe, Vec2f u, TransportMode mode) const;
+    /// As radiance.
+    void add_deltas(const Vec3f& wo, DeltaList& deltas) const;
     [[nodiscard]] bool has_non_delta() const;
 };
 

@@ -74,9 +74,8 @@ class InnerSide {
             sample.reverse_choice_ratio *= Layers(surface_, leaving.wi).p_base() / passed;
             return sample;
         }
-        const auto& interface = std::get<SmoothDielectric>(body_->interface);
-        const InterfaceFresnel::Split split = interface.fresnel(std::min(1.0f, -wo.z), 1.0f / interface.ior, false);
-        const Vec3f mirrored{-leaving.wi.x, -leaving.wi.y, leaving.wi.z};
+        const InterfaceFresnel::Split split = smooth_split(wo);
+        const Vec3f mirrored = other_end(leaving.wi);
         const float weight =
             split.transmitted / (1.0f - split.reflection_share) * kept(leaving.wi, mirrored) / (1.0f - passed);
         return {.wi = mirror_direction(wo),
@@ -85,7 +84,19 @@ class InnerSide {
                 .reverse_choice_ratio = (1.0f - Layers::passed(surface_, mirrored)) / (1.0f - passed)};
     }
 
+    /// Share of all light from `wo` that a smooth interface lets through along `leaving` and the layers send back.
+    [[nodiscard]] float returned(const Vec3f& wo, const Vec3f& leaving) const {
+        return body_->interface_share * smooth_split(wo).transmitted * kept(leaving, other_end(leaving));
+    }
+
   private:
+    [[nodiscard]] InterfaceFresnel::Split smooth_split(const Vec3f& wo) const {
+        const auto& interface = std::get<SmoothDielectric>(body_->interface);
+        return interface.fresnel(std::min(1.0f, -wo.z), 1.0f / interface.ior, false);
+    }
+    /// Where what comes back inside would have left if it were seen from there.
+    [[nodiscard]] static Vec3f other_end(const Vec3f& leaving) { return {-leaving.x, -leaving.y, leaving.z}; }
+
     [[nodiscard]] const RoughDielectric* rough() const { return std::get_if<RoughDielectric>(&body_->interface); }
 
     /// Of light that would leave along `out_o`, or along `out_i` were it seen from its other end.
@@ -219,6 +230,28 @@ BsdfSample LayeredSurface::sample(const Vec3f& wo, float u_lobe, Vec2f u, Transp
     sample.weight = value.f_cos / value.pdf_solid_angle;
     sample.pdf_solid_angle = value.pdf_solid_angle;
     return sample;
+}
+
+void LayeredSurface::add_deltas(const Vec3f& wo, DeltaList& deltas) const {
+    if (wo.z == 0.0f || (wo.z < 0.0f && !is_two_sided())) return;
+    const Layers layers(*this, wo);
+    if (layers.p_coat > 0.0f && coat.is_smooth()) {
+        const Vec3f wi = coat.sample(wo, 0.0f, {});
+        if (wi.z > 0.0f) deltas.add({.wi = wi, .weight = Rgb(coat.smooth_reflectance(wo)), .is_delta = true});
+    }
+    const InnerSide inner(*this);
+    DeltaList below;
+    std::visit([&](const auto& lobe) { lobe.add_deltas(wo, below); }, base);
+    for (BsdfSample delta : below) {
+        const float passed_i = Layers::passed(*this, delta.wi);
+        if (delta.is_transmission && inner.is_seen_from(wo)) {
+            deltas.add({.wi = mirror_direction(wo), .weight = Rgb(inner.returned(wo, delta.wi)), .is_delta = true});
+            delta.weight *= passed_i;
+        } else {
+            delta.weight *= std::min(layers.passed_o, passed_i);
+        }
+        deltas.add(delta);
+    }
 }
 
 }  // namespace etendue

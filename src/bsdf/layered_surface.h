@@ -16,6 +16,7 @@
 
 #include "bsdf/bsdf_sample.h"
 #include "bsdf/clear_coat.h"
+#include "bsdf/delta_list.h"
 #include "bsdf/dielectric_body.h"
 #include "bsdf/metallic_roughness.h"
 #include "bsdf/sheen.h"
@@ -38,6 +39,8 @@ struct LayeredSurface {
 
     [[nodiscard]] BsdfValue evaluate(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const;
     [[nodiscard]] BsdfSample sample(const Vec3f& wo, float u_lobe, Vec2f u, TransportMode mode) const;
+    /// As radiance.
+    void add_deltas(const Vec3f& wo, DeltaList& deltas) const;
     [[nodiscard]] bool has_non_delta() const;
     /// The same for a thin sheet that is seen from its other side, in the frame turned about y: the coat's normal is
     /// the opposite one there.

@@ -201,4 +201,11 @@ BsdfSample MetallicRoughness::sample(const Vec3f& wo, float u_lobe, Vec2f u, Tra
             .is_transmission = wi.z < 0.0f};
 }
 
+void MetallicRoughness::add_deltas(const Vec3f& wo, DeltaList& deltas) const {
+    if (wo.z <= 0.0f || !is_smooth(*this)) return;
+    const Layers layers(*this, wo);
+    deltas.add({.wi = mirror_direction(wo), .weight = layers.fresnel(wo.z), .is_delta = true});
+    deltas.add({.wi = -wo, .weight = layers.transmitted * layers.coupling, .is_delta = true, .is_transmission = true});
+}
+
 }  // namespace etendue

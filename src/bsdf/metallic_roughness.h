@@ -23,6 +23,7 @@
 #pragma once
 
 #include "bsdf/bsdf_sample.h"
+#include "bsdf/delta_list.h"
 #include "bsdf/thin_film.h"
 
 namespace etendue {
@@ -52,6 +53,8 @@ struct MetallicRoughness {
 
     [[nodiscard]] BsdfValue evaluate(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const;
     [[nodiscard]] BsdfSample sample(const Vec3f& wo, float u_lobe, Vec2f u, TransportMode mode) const;
+    /// As radiance.
+    void add_deltas(const Vec3f& wo, DeltaList& deltas) const;
     [[nodiscard]] bool has_non_delta() const;
 };
 

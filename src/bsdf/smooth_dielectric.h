@@ -5,6 +5,7 @@
 #pragma once
 
 #include "bsdf/bsdf_sample.h"
+#include "bsdf/delta_list.h"
 #include "bsdf/interface_fresnel.h"
 
 namespace etendue {
@@ -16,6 +17,8 @@ struct SmoothDielectric {
 
     [[nodiscard]] BsdfValue evaluate(const Vec3f&, const Vec3f&, TransportMode) const { return {}; }
     [[nodiscard]] BsdfSample sample(const Vec3f& wo, float u_lobe, Vec2f u, TransportMode mode) const;
+    /// As radiance.
+    void add_deltas(const Vec3f& wo, DeltaList& deltas) const;
     [[nodiscard]] bool has_non_delta() const { return false; }
 };
 

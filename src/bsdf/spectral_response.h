@@ -27,6 +27,17 @@ class SpectralResponse {
     /// `u` in [0, 1).
     [[nodiscard]] Wavelength sample(float u) const;
 
+    /// Colour of a share that depends on the wavelength, `share(nm)` in [0, 1].
+    template <typename Share>
+    [[nodiscard]] Rgb mean(const Share& share) const {
+        Rgb color;
+        for (int i = 0; i < kStrata; ++i) {
+            const Wavelength w = sample((static_cast<float>(i) + 0.5f) / kStrata);
+            color += w.weight * share(w.nm);
+        }
+        return color / static_cast<float>(kStrata);
+    }
+
     /// Colour of a share that depends on the wavelength, `share(nm)` in [0, 1], over the chance with which it is met
     /// when wavelengths are drawn: what a path weighs that goes on as one of all wavelengths.
     template <typename Share>

@@ -2,7 +2,9 @@
 #pragma once
 
 #include "core/ray.h"
+#include "light/light_sample.h"
 
+#include <cmath>
 #include <limits>
 
 namespace etendue {
@@ -17,6 +19,15 @@ namespace etendue {
     const float distance = length(to_end);
     if (distance > 0.0f) ray.direction = to_end * (1.0f / distance);
     ray.t_max = distance * kBeforeEnd;
+    return ray;
+}
+
+/// From a point to where the light was sampled; the end is clear of the surface there.
+[[nodiscard]] inline Ray shadow_ray(const Vec3f& origin, const LightSample& light) {
+    if (!std::isinf(light.distance)) return connecting_ray(origin, light.end);
+    Ray ray;
+    ray.origin = origin;
+    ray.direction = light.wi;
     return ray;
 }
 

@@ -4,6 +4,7 @@
 #include "integrator/integrator.h"
 #include "integrator/light/light_integrator.h"
 #include "integrator/path/path_integrator.h"
+#include "integrator/whitted/whitted_integrator.h"
 
 #include <algorithm>
 
@@ -36,6 +37,10 @@ std::unique_ptr<const Integrator> make_bdpt(const IntegratorOptions& options) {
     return std::make_unique<BdptIntegrator>(BdptOptions{.lengths = options});
 }
 
+std::unique_ptr<const Integrator> make_whitted(const IntegratorOptions& options) {
+    return std::make_unique<WhittedIntegrator>(options);
+}
+
 std::unique_ptr<const Integrator> make_normals(const IntegratorOptions&) {
     return std::make_unique<DebugIntegrator>(DebugQuantity::Normals);
 }
@@ -50,6 +55,7 @@ constexpr IntegratorEntry kRegistry[] = {
     {"naive", "eye paths that find lights by chance", make_naive},
     {"light", "paths from the lights, connected to the camera", make_light},
     {"bdpt", "eye and light paths, connected in every way, combined by MIS", make_bdpt},
+    {"whitted", "mirrored and refracted rays, direct light, and no more", make_whitted},
     {"normals", "shading normals, for debugging", make_normals},
     {"albedo", "scattered share of light, for debugging", make_albedo},
 };

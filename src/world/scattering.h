@@ -55,6 +55,18 @@ class Scattering {
         return sample;
     }
 
+    /// All deltas, as radiance; wi in world space.
+    [[nodiscard]] DeltaList deltas() const {
+        DeltaList placed;
+        if (!wo_agrees_) return placed;
+        for (BsdfSample delta : deltas_of(*bsdf_, wo_local_)) {
+            const Vec3f wi_local = delta.wi;
+            delta.wi = frame_.to_world(wi_local);
+            if (agrees(delta.wi, wi_local)) placed.add(delta);
+        }
+        return placed;
+    }
+
     /// Density, 1/sr, with which a walk that arrives from `wi` would go on to `wo`.
     [[nodiscard]] float reverse_pdf_solid_angle(const Vec3f& wi) const {
         const Vec3f wi_local = frame_.to_local(wi);

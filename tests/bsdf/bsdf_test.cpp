@@ -3,7 +3,9 @@
 #include "bsdf_settings.h"
 #include "support/chi2.h"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -53,6 +55,42 @@ TEST(Bsdf, ModesDifferInTheirWeightsOnly) {
             }
         }
     }
+}
+
+// Following all deltas is what choosing one of them does on average. Deltas of one direction are told apart by nothing
+// but what they go on as.
+TEST(Bsdf, TheListOfDeltasIsTheMeanOfTheirSamples) {
+    constexpr int kStrata = 128;
+    std::size_t lists = 0;
+    for (const BsdfSetting& setting : all_bsdf_settings()) {
+        if (setting.mode == TransportMode::Importance && is_two_sided_interface(setting.bsdf)) continue;
+        for (const Vec3f& wo : outgoing_directions(setting.bsdf)) {
+            const DeltaList deltas = deltas_of(setting.bsdf, wo);
+            std::vector<Rgb> means(DeltaList::kCapacity);
+            for (int i = 0; i < kStrata * kStrata; ++i) {
+                // The choice among lobes takes `u_lobe`, that of light that leaves a coated body `u.x`.
+                const float u_lobe = (static_cast<float>(i) + 0.5f) / (kStrata * kStrata);
+                const Vec2f u{(static_cast<float>(i % kStrata) + 0.5f) / kStrata, 0.5f};
+                const BsdfSample s = sample_bsdf(setting.bsdf, wo, u_lobe, u, TransportMode::Radiance);
+                if (!s.is_delta || is_black(s.weight)) continue;
+                const auto same = std::find_if(deltas.begin(), deltas.end(), [&](const BsdfSample& d) {
+                    return length(d.wi - s.wi) < 1e-5f && d.is_transmission == s.is_transmission && d.eta == s.eta;
+                });
+                ASSERT_NE(same, deltas.end()) << describe(setting, wo);
+                means[static_cast<std::size_t>(same - deltas.begin())] += s.weight / (kStrata * kStrata);
+            }
+            std::size_t i = 0;
+            for (const BsdfSample& delta : deltas) {
+                EXPECT_TRUE(delta.is_delta);
+                const Rgb difference = delta.weight - means[i];
+                EXPECT_LT(std::max(max_component(difference), -min_component(difference)), 0.003f)
+                    << describe(setting, wo);
+                ++i;
+            }
+            lists += i > 0 ? 1 : 0;
+        }
+    }
+    EXPECT_GT(lists, 100u);
 }
 
 TEST(Bsdf, SamplesFollowTheStatedDensity) {

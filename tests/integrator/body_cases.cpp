@@ -55,7 +55,7 @@ SceneDesc empty_in_environment() {
 
 /// Not for `light`, which cannot be connected to smooth boundaries.
 ClosedFormCase exact_case(const std::string& name, SceneDesc scene, double exponent) {
-    ClosedFormCase c{name, std::move(scene), std::pow(0.25, exponent), 1e-4, {.max_depth = 100}, kFindAllBounces, 16};
+    ClosedFormCase c{name, std::move(scene), std::pow(0.25, exponent), 1e-4, {.max_depth = 100}, kFindAllMirrors, 16};
     // Roulette would end some of the paths.
     c.lengths.roulette_depth = 1000;
     c.is_exact = true;
@@ -103,14 +103,11 @@ std::vector<ClosedFormCase> absorption_cases() {
     return cases;
 }
 
-/// `is_smooth`: light paths cannot be connected to it.
-ClosedFormCase lossless(const std::string& name, SceneDesc scene, double tolerance, bool is_smooth,
-                        std::uint32_t spp = 32) {
+ClosedFormCase lossless(const std::string& name, SceneDesc scene, double tolerance,
+                        const std::vector<std::string>& integrators, std::uint32_t spp = 32) {
     scene.cameras.clear();
     look(scene, {0.0f, 0.0f, 3.0f}, {0.0f, 0.0f, -1.0f}, 0.4f);
-    return {name,      std::move(scene),    1.0,
-            tolerance, {.max_depth = 1000}, is_smooth ? kFindAllBounces : light_too(kFindAllBounces),
-            spp};
+    return {name, std::move(scene), 1.0, tolerance, {.max_depth = 1000}, integrators, spp};
 }
 
 MaterialDesc dielectric(float ior, float roughness = 0.0f, VolumeDesc volume = {.closed = true}) {
@@ -120,6 +117,8 @@ MaterialDesc dielectric(float ior, float roughness = 0.0f, VolumeDesc volume = {
 }
 
 std::vector<ClosedFormCase> lossless_cases() {
+    // Light paths cannot be connected to smooth boundaries.
+    const std::vector<std::string> rough = light_too(kFindAllBounces);
     std::vector<ClosedFormCase> cases;
     const auto ball = [](const Vec3f& center, float radius) { return sphere(center, radius, 3, Facing::Outwards); };
 
@@ -129,7 +128,7 @@ std::vector<ClosedFormCase> lossless_cases() {
         add(ice, ball({0.1f, 0.0f, 0.1f}, 0.6f), dielectric(1.6f, roughness));
         add(ice, ball({0.1f, 0.1f, 0.2f}, 0.3f), dielectric(1.01f, roughness));
         cases.push_back(lossless(roughness > 0.0f ? "rough_bodies_in_bodies" : "bodies_in_bodies", ice,
-                                 roughness > 0.0f ? 1e-2 : 1e-4, roughness == 0.0f));
+                                 roughness > 0.0f ? 1e-2 : 1e-4, roughness > 0.0f ? rough : kFindAllMirrors));
     }
     for (const int priority : {-1, 0, 1}) {
         SceneDesc overlap = empty_in_environment();
@@ -138,13 +137,13 @@ std::vector<ClosedFormCase> lossless_cases() {
         cases.push_back(lossless("bodies_overlap_with_priority_" + std::string(priority < 0   ? "below"
                                                                                : priority > 0 ? "above"
                                                                                               : "equal"),
-                                 overlap, 1e-4, true));
+                                 overlap, 1e-4, kFindAllMirrors));
     }
     for (const float roughness : {0.0f, 0.3f}) {
         SceneDesc prism = empty_in_environment();
         add(prism, ball({0.0f, 0.0f, 0.0f}, 0.9f), dielectric(1.6f, roughness, {.closed = true, .dispersion = 1.0f}));
         cases.push_back(lossless(roughness > 0.0f ? "rough_dispersive_body" : "dispersive_body", prism,
-                                 roughness > 0.0f ? 1e-2 : 1e-4, roughness == 0.0f, 128));
+                                 roughness > 0.0f ? 1e-2 : 1e-4, roughness > 0.0f ? rough : kFindAllMirrors, 128));
     }
 
     VolumeDesc milk{.closed = true,
@@ -154,7 +153,7 @@ std::vector<ClosedFormCase> lossless_cases() {
                     .scatter_anisotropy = 0.4f};
     SceneDesc glass_of_milk = empty_in_environment();
     add(glass_of_milk, ball({0.0f, 0.0f, 0.0f}, 0.9f), dielectric(1.3f, 0.0f, milk));
-    cases.push_back(lossless("milk_in_glass", glass_of_milk, 1e-3, true));
+    cases.push_back(lossless("milk_in_glass", glass_of_milk, 1e-3, kFindAllBounces));
 
     MaterialDesc wax;
     wax.metallic = 0.0f;
@@ -163,7 +162,7 @@ std::vector<ClosedFormCase> lossless_cases() {
     wax.volume = milk;
     SceneDesc candle = empty_in_environment();
     add(candle, ball({0.0f, 0.0f, 0.0f}, 0.9f), wax);
-    cases.push_back(lossless("wax", candle, 5e-3, false));
+    cases.push_back(lossless("wax", candle, 5e-3, rough));
 
     MaterialDesc partly;
     partly.metallic = 0.3f;
@@ -172,7 +171,7 @@ std::vector<ClosedFormCase> lossless_cases() {
     partly.volume.closed = true;
     SceneDesc mixed = empty_in_environment();
     add(mixed, ball({0.0f, 0.0f, 0.0f}, 0.9f), partly);
-    cases.push_back(lossless("partly_metal_body", mixed, 5e-3, false));
+    cases.push_back(lossless("partly_metal_body", mixed, 5e-3, rough));
     return cases;
 }
 

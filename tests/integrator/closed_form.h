@@ -26,12 +26,14 @@ namespace etendue::test {
 /// most cameras here look at. `light_too` adds it where the radiance is the same over a wider view.
 ///
 /// Direct light of what rays can meet. (Not `light`, see above.)
-inline const std::vector<std::string> kFindDirectLight{"path", "direct", "naive", "bdpt"};
+inline const std::vector<std::string> kFindDirectLight{"path", "direct", "naive", "bdpt", "whitted"};
 /// Direct light of points, spots and suns: not `naive`, whose rays never meet them.
-inline const std::vector<std::string> kFindDeltaLights{"path", "direct", "bdpt"};
-/// Light that arrives after any number of bounces: not `direct`.
+inline const std::vector<std::string> kFindDeltaLights{"path", "direct", "bdpt", "whitted"};
+/// Light that arrives after any number of bounces: not `direct` and `whitted`.
 inline const std::vector<std::string> kFindAllBounces{"path", "naive", "bdpt"};
-/// The same from points, spots and suns.
+/// The same where all bounces are mirrors' and smooth glass's.
+inline const std::vector<std::string> kFindAllMirrors{"path", "naive", "bdpt", "whitted"};
+/// All bounces of the light of points, spots and suns.
 inline const std::vector<std::string> kFindAllBouncesOfDeltaLights{"path", "bdpt"};
 
 [[nodiscard]] inline std::vector<std::string> light_too(std::vector<std::string> integrators) {

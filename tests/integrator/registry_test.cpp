@@ -18,7 +18,7 @@ TEST(IntegratorRegistry, HoldsWhatTheDocumentationNames) {
         ASSERT_NE(integrator, nullptr);
         EXPECT_NE(integrator->make_scratch(), nullptr);
     }
-    for (const char* name : {"path", "direct", "naive", "light", "bdpt", "normals", "albedo"})
+    for (const char* name : {"path", "direct", "naive", "light", "bdpt", "whitted", "normals", "albedo"})
         EXPECT_TRUE(names.contains(name)) << name;
 }
 

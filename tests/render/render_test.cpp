@@ -140,7 +140,7 @@ TEST_P(Determinism, ACropIsThePartOfTheWholeBitForBit) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Render, Determinism,
-                         testing::Combine(testing::Values("path", "naive", "direct"),
+                         testing::Combine(testing::Values("path", "naive", "direct", "whitted"),
                                           testing::Values(SampleSequence::Sobol, SampleSequence::Random),
                                           testing::Bool()),
                          name_of);

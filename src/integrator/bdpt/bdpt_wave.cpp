@@ -195,13 +195,7 @@ void BdptWave::connect_to_light(const Context& context, const PathVertex& vertex
         light.is_delta ? 0.0 : raised(static_cast<double>(value.pdf_solid_angle / light.pdf_solid_angle));
     const float share = weight(context.options, fewer_from_light, fewer_from_eye);
     const float density = light.is_delta ? chosen.probability : light.pdf_solid_angle;
-    Ray ray;
-    if (at_infinity) {
-        ray.origin = vertex.origin(light.wi);
-        ray.direction = light.wi;
-    } else {
-        ray = connecting_ray(vertex.origin(light.wi), light.end);
-    }
+    Ray ray = shadow_ray(vertex.origin(light.wi), light);
     ray.time = context.camera_rays[vertex.slot].time;
     ray.alpha_key = context.connection_key(SubpathEnd::AtEye, vertex.index, vertex.slot);
     connections_.to_sample(ray, vertex.slot,

@@ -36,15 +36,6 @@ std::uint32_t body_dimension(int depth, std::uint32_t which) {
     return kFirst + static_cast<std::uint32_t>(depth) * kBodyDimensions + which;
 }
 
-/// From a point to where the light was sampled; the end is clear of the surface there.
-Ray shadow_ray(const Vec3f& origin, const LightSample& light) {
-    if (!std::isinf(light.distance)) return connecting_ray(origin, light.end);
-    Ray ray;
-    ray.origin = origin;
-    ray.direction = light.wi;
-    return ray;
-}
-
 /// Weight of a light sample that the scattering at hand would have found with `pdf_solid_angle`.
 float light_sample_scale(const ChosenLight& chosen, float pdf_solid_angle) {
     const LightSample& light = chosen.sample;

@@ -1,0 +1,33 @@
+#include "integrator/whitted/whitted_integrator.h"
+
+#include "integrator/whitted/whitted_wave.h"
+
+#include <algorithm>
+
+namespace etendue {
+
+std::vector<std::string> WhittedIntegrator::unreachable_light(const World& world) const {
+    std::vector<std::string> sentences{
+        "light that surfaces which scatter receive from other surfaces (indirect light, glossy reflections, caustics) "
+        "is left out; 'path' finds it"};
+    if (world.has_scattering_bodies())
+        sentences.emplace_back("light that scatters within bodies is left out; 'path' finds it");
+    if (world.has_motion())
+        sentences.emplace_back(
+            "what glows and moves while the shutter is open is seen but lights no surface; 'path' finds that light");
+    return sentences;
+}
+
+std::unique_ptr<IntegratorScratch> WhittedIntegrator::make_scratch() const {
+    return std::make_unique<WhittedWave>();
+}
+
+void WhittedIntegrator::render_tile(const World& world, const TileJob& job, IntegratorScratch& scratch,
+                                    TileBuffer& tile, RenderCounters& counters) const {
+    auto& wave = static_cast<WhittedWave&>(scratch);
+    const std::size_t total = camera_sample_count(job);
+    for (std::size_t first = 0; first < total; first += WhittedWave::kCapacity)
+        wave.trace(world, job, lengths_, first, std::min(WhittedWave::kCapacity, total - first), tile, counters);
+}
+
+}  // namespace etendue

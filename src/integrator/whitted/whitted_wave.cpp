@@ -1,0 +1,232 @@
+#include "integrator/whitted/whitted_wave.h"
+
+#include "integrator/connecting_ray.h"
+#include "integrator/scattered_cone.h"
+#include "integrator/walk.h"
+#include "world/scattering.h"
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+namespace etendue {
+
+namespace {
+
+/// Pairs of dimensions of one branch; its seed sets it apart from the others.
+enum BranchDimension : std::uint32_t {
+    kLightChoice = kFirstFreeDimension,
+    kLightTriangle,
+    kLightDirection,
+    kWavelength,
+    kAlpha,
+    kEnd
+};
+
+/// Branches that would contribute less live on with as much less chance, with this contribution: trees stay small, and
+/// what they show on average is what they would show in full.
+constexpr float kSmallestContribution = 1.0f / 1024.0f;
+
+/// Chance with which a branch is followed.
+float survival(const WhittedBranch& branch) {
+    const float contribution = max_component(branch.throughput) * branch.eta_scale;
+    return std::min(most_survival(branch.rays), contribution / kSmallestContribution);
+}
+
+}  // namespace
+
+void WhittedWave::trace(const World& world, const TileJob& job, const IntegratorOptions& lengths, std::size_t first,
+                        std::size_t count, TileBuffer& tile, RenderCounters& counters) {
+    samples_.resize(count);
+    rays_.resize(count);
+    generate_camera_rays(world, job, first, samples_, rays_);
+    radiance_.assign(count, Rgb());
+    alpha_.assign(count, 1.0f);
+    waiting_.assign(count, {});
+    for (std::size_t i = 0; i < count; ++i) {
+        WhittedBranch& branch = waiting_[i];
+        branch.ray = rays_[i];
+        branch.slot = static_cast<std::uint32_t>(i);
+        branch.seed = samples_[i].key.pixel_seed;
+        if (world.has_textures()) branch.cone = camera_cone(world, job, branch.ray);
+        if (world.has_bodies()) branch.interior = world.camera_interior();
+    }
+    const Context context{world, job, lengths};
+    while (!waiting_.empty()) trace_batch(context, counters);
+    for (std::size_t i = 0; i < count; ++i) accumulate(job, samples_[i], radiance_[i], alpha_[i], tile, counters);
+}
+
+void WhittedWave::trace_batch(const Context& context, RenderCounters& counters) {
+    const std::size_t count = std::min(kCapacity, waiting_.size());
+    const auto youngest = waiting_.end() - static_cast<std::ptrdiff_t>(count);
+    batch_.assign(youngest, waiting_.end());
+    waiting_.erase(youngest, waiting_.end());
+    rays_.resize(count);
+    hits_.resize(count);
+    seeds_.resize(count);
+    indices_.resize(count);
+    bool are_camera_rays = true;
+    for (std::size_t i = 0; i < count; ++i) {
+        rays_[i] = batch_[i].ray;
+        seeds_[i] = batch_[i].seed;
+        indices_[i] = samples_[batch_[i].slot].key.index;
+        are_camera_rays = are_camera_rays && batch_[i].rays == 1;
+        (batch_[i].rays == 1 ? counters.camera_rays : counters.bounce_rays) += 1;
+    }
+    context.world.intersect(rays_, hits_, are_camera_rays ? Coherence::Coherent : Coherence::Incoherent);
+    light_choice_.draw(context.job.sequence, seeds_, indices_, kLightChoice);
+    light_triangle_.draw(context.job.sequence, seeds_, indices_, kLightTriangle);
+    light_direction_.draw(context.job.sequence, seeds_, indices_, kLightDirection);
+    shadow_rays_.clear();
+    contributions_.clear();
+    lit_slots_.clear();
+    for (std::size_t i = 0; i < count; ++i) shade(context, i);
+    add_unoccluded(context.world, counters);
+}
+
+void WhittedWave::shade(const Context& context, std::size_t i) {
+    const World& world = context.world;
+    const Hit& hit = hits_[i];
+    WhittedBranch& branch = batch_[i];
+    if (!hit.valid()) {
+        add_environment(context, branch);
+        return;
+    }
+    if (world.has_bodies()) {
+        // What scatters on the way is lost like what is absorbed.
+        branch.throughput *= transmittance(world, branch.interior, hit.t);
+        if (is_black(branch.throughput)) return;
+    }
+    const SurfacePoint point = world.surface_point(hit, branch.ray, branch.cone);
+    const bool is_wanted = branch.edges >= context.lengths.min_depth;
+    if (point.material->emits && is_wanted)
+        radiance_[branch.slot] += branch.throughput * world.emission(point, -branch.ray.direction);
+    std::optional<Crossing> crossing;
+    if (world.has_bodies() && world.is_boundary(point)) {
+        crossing = world.crossing(point, branch.interior);
+        if (crossing->is_hidden) {
+            WhittedBranch next = grow(context, i, 0);
+            next.ray.direction = branch.ray.direction;
+            next.ray.origin =
+                offset_origin(point.position, point.geometric_normal, point.clearance, next.ray.direction);
+            next.cone = branch.cone.at(hit.t);
+            next.interior = beyond(*crossing, point, next.ray.direction);
+            push(next);
+            return;
+        }
+    }
+    if (point.material->unlit) {
+        if (is_wanted) radiance_[branch.slot] += branch.throughput * world.unlit_color(point);
+        return;
+    }
+    if (branch.edges < context.lengths.max_depth) scatter(context, i, point, crossing);
+}
+
+void WhittedWave::scatter(const Context& context, std::size_t i, const SurfacePoint& point,
+                          const std::optional<Crossing>& crossing) {
+    const World& world = context.world;
+    const WhittedBranch& branch = batch_[i];
+    const Vec3f wo = -branch.ray.direction;
+    // Where the index depends on the wavelength, a branch of all of them takes one to go on with.
+    Wavelength wavelength{branch.wavelength_nm, Rgb(1.0f)};
+    const bool chooses_wavelength = crossing && crossing->disperses() && branch.wavelength_nm == 0.0f;
+    if (chooses_wavelength)
+        wavelength = world.spectral_response().sample(sample_2d(context.job.sequence, key(i), kWavelength).x);
+    Bsdf storage;
+    const Bsdf& bsdf = world.bsdf(point, wo, crossing ? crossing->relative_ior(wavelength.nm) : 0.0f, storage);
+    const Scattering scattering(bsdf, point.shading, point.geometric_normal, wo);
+    if (scattering.has_non_delta() && world.has_lights() && branch.edges + 1 >= context.lengths.min_depth)
+        queue_direct_light(context, i, point, scattering, crossing, wavelength.weight);
+
+    std::uint32_t child = 0;
+    for (const BsdfSample& delta : scattering.deltas()) {
+        WhittedBranch next = grow(context, i, child++);
+        const auto* mirror =
+            chooses_wavelength && !delta.is_transmission ? std::get_if<SmoothDielectric>(&bsdf) : nullptr;
+        if (mirror != nullptr && mirror->fresnel.is_bare()) {
+            // All wavelengths go where a mirror sends them, each with its own share: the branch need not choose.
+            const float cos_o = scattering.wo_local().z;
+            next.throughput *= world.spectral_response().mean([&](float nm) {
+                const float ior = crossing->relative_ior(nm);
+                return mirror->fresnel(std::min(1.0f, std::abs(cos_o)), cos_o > 0.0f ? ior : 1.0f / ior, cos_o > 0.0f)
+                    .reflected.r;
+            });
+        } else {
+            next.throughput *= delta.weight * wavelength.weight;
+            next.wavelength_nm = wavelength.nm;
+        }
+        if (delta.is_transmission) next.eta_scale *= delta.eta * delta.eta;
+        if (world.has_textures())
+            next.cone = scattered_cone(world, point, branch.ray.direction, branch.cone.at(hits_[i].t), delta);
+        next.edges = branch.edges + 1;
+        next.ray.origin = offset_origin(point.position, point.geometric_normal, point.clearance, delta.wi);
+        next.ray.direction = delta.wi;
+        if (crossing) next.interior = beyond(*crossing, point, delta.wi);
+        push(next);
+    }
+}
+
+WhittedBranch WhittedWave::grow(const Context& context, std::size_t i, std::uint32_t child) const {
+    WhittedBranch next = batch_[i];
+    next.seed = hash_combine(hash_combine(batch_[i].seed, kEnd), child);
+    ++next.rays;
+    next.ray = {};
+    next.ray.time = batch_[i].ray.time;
+    if (context.world.has_transparency()) next.ray.alpha_key = sample_bits({next.seed, indices_[i]}, kAlpha);
+    return next;
+}
+
+void WhittedWave::push(WhittedBranch branch) {
+    const float chance = survival(branch);
+    if (chance < 1.0f) {
+        const SampleKey key{branch.seed, samples_[branch.slot].key.index};
+        if (to_unit_float(sample_bits(key, kEnd)) >= chance) return;
+        branch.throughput *= 1.0f / chance;
+    }
+    waiting_.push_back(branch);
+}
+
+void WhittedWave::queue_direct_light(const Context& context, std::size_t i, const SurfacePoint& point,
+                                     const Scattering& scattering, const std::optional<Crossing>& crossing,
+                                     const Rgb& factor) {
+    const World& world = context.world;
+    const WhittedBranch& branch = batch_[i];
+    const ChosenLight chosen =
+        world.sample_light(point.position, {light_choice_[i], light_triangle_[i], light_direction_[i]});
+    const LightSample& light = chosen.sample;
+    if (is_black(light.radiance)) return;
+    const BsdfValue value = scattering.evaluate(light.wi, TransportMode::Radiance);
+    const float density = light.is_delta ? chosen.probability : light.pdf_solid_angle;
+    Rgb contribution = branch.throughput * factor * value.f_cos * light.radiance / density;
+    if (world.has_bodies())
+        contribution *=
+            transmittance(world, crossing ? beyond(*crossing, point, light.wi) : branch.interior, light.distance);
+    if (is_black(contribution)) return;
+    Ray ray = shadow_ray(offset_origin(point.position, point.geometric_normal, point.clearance, light.wi), light);
+    ray.time = branch.ray.time;
+    if (world.has_transparency()) ray.alpha_key = ~sample_bits(key(i), kAlpha);  // another key than those of branches
+    shadow_rays_.push_back(ray);
+    contributions_.push_back(contribution);
+    lit_slots_.push_back(branch.slot);
+}
+
+void WhittedWave::add_environment(const Context& context, const WhittedBranch& branch) {
+    const World& world = context.world;
+    if (branch.rays == 1 && !(world.has_environment() && world.environment_visible_to_camera())) {
+        alpha_[branch.slot] = 0.0f;
+        return;
+    }
+    if (world.has_environment() && branch.edges >= context.lengths.min_depth)
+        radiance_[branch.slot] += branch.throughput * world.environment_radiance(branch.ray.direction);
+}
+
+void WhittedWave::add_unoccluded(const World& world, RenderCounters& counters) {
+    if (shadow_rays_.empty()) return;
+    occluded_.resize(shadow_rays_.size());
+    world.occluded(shadow_rays_, occluded_);
+    counters.shadow_rays += shadow_rays_.size();
+    for (std::size_t i = 0; i < shadow_rays_.size(); ++i)
+        if (occluded_[i] == 0) radiance_[lit_slots_[i]] += contributions_[i];
+}
+
+}  // namespace etendue
