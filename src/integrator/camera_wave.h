@@ -4,6 +4,7 @@
 #include "core/ray.h"
 #include "integrator/integrator.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -40,5 +41,15 @@ void generate_camera_rays(const World& world, const TileJob& job, std::size_t fi
 /// Adds `radiance` to the sample's pixel; drops, counts and locates what is not finite or negative.
 void accumulate(const TileJob& job, const CameraSample& sample, const Rgb& radiance, float alpha, TileBuffer& tile,
                 RenderCounters& counters);
+
+/// Traces all samples of the job, as many at a time as a `Wave`, which `scratch` is, holds.
+template <typename Wave, typename Options>
+void trace_in_waves(const World& world, const TileJob& job, const Options& options, IntegratorScratch& scratch,
+                    TileBuffer& tile, RenderCounters& counters) {
+    auto& wave = static_cast<Wave&>(scratch);
+    const std::size_t total = camera_sample_count(job);
+    for (std::size_t first = 0; first < total; first += Wave::kCapacity)
+        wave.trace(world, job, options, first, std::min(Wave::kCapacity, total - first), tile, counters);
+}
 
 }  // namespace etendue

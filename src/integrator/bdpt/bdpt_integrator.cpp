@@ -2,8 +2,6 @@
 
 #include "integrator/bdpt/bdpt_wave.h"
 
-#include <algorithm>
-
 namespace etendue {
 
 std::vector<std::string> BdptIntegrator::unreachable_light(const World& world) const {
@@ -20,10 +18,7 @@ std::unique_ptr<IntegratorScratch> BdptIntegrator::make_scratch() const {
 
 void BdptIntegrator::render_tile(const World& world, const TileJob& job, IntegratorScratch& scratch, TileBuffer& tile,
                                  RenderCounters& counters) const {
-    auto& wave = static_cast<BdptWave&>(scratch);
-    const std::size_t total = camera_sample_count(job);
-    for (std::size_t first = 0; first < total; first += BdptWave::kCapacity)
-        wave.trace(world, job, options_, first, std::min(BdptWave::kCapacity, total - first), tile, counters);
+    trace_in_waves<BdptWave>(world, job, options_, scratch, tile, counters);
 }
 
 }  // namespace etendue

@@ -2,8 +2,6 @@
 
 #include "integrator/light/light_wave.h"
 
-#include <algorithm>
-
 namespace etendue {
 
 std::vector<std::string> LightIntegrator::unreachable_light(const World& world) const {
@@ -25,10 +23,7 @@ std::unique_ptr<IntegratorScratch> LightIntegrator::make_scratch() const {
 
 void LightIntegrator::render_tile(const World& world, const TileJob& job, IntegratorScratch& scratch, TileBuffer& tile,
                                   RenderCounters& counters) const {
-    auto& wave = static_cast<LightWave&>(scratch);
-    const std::size_t total = camera_sample_count(job);
-    for (std::size_t first = 0; first < total; first += LightWave::kCapacity)
-        wave.trace(world, job, options_, first, std::min(LightWave::kCapacity, total - first), tile, counters);
+    trace_in_waves<LightWave>(world, job, options_, scratch, tile, counters);
 }
 
 }  // namespace etendue

@@ -2,8 +2,6 @@
 
 #include "integrator/path/path_wave.h"
 
-#include <algorithm>
-
 namespace etendue {
 
 std::vector<std::string> PathIntegrator::unreachable_light(const World& world) const {
@@ -25,10 +23,7 @@ std::unique_ptr<IntegratorScratch> PathIntegrator::make_scratch() const {
 
 void PathIntegrator::render_tile(const World& world, const TileJob& job, IntegratorScratch& scratch, TileBuffer& tile,
                                  RenderCounters& counters) const {
-    auto& wave = static_cast<PathWave&>(scratch);
-    const std::size_t total = camera_sample_count(job);
-    for (std::size_t first = 0; first < total; first += PathWave::kCapacity)
-        wave.trace(world, job, options_, first, std::min(PathWave::kCapacity, total - first), tile, counters);
+    trace_in_waves<PathWave>(world, job, options_, scratch, tile, counters);
 }
 
 }  // namespace etendue

@@ -2,8 +2,6 @@
 
 #include "integrator/whitted/whitted_wave.h"
 
-#include <algorithm>
-
 namespace etendue {
 
 std::vector<std::string> WhittedIntegrator::unreachable_light(const World& world) const {
@@ -24,10 +22,7 @@ std::unique_ptr<IntegratorScratch> WhittedIntegrator::make_scratch() const {
 
 void WhittedIntegrator::render_tile(const World& world, const TileJob& job, IntegratorScratch& scratch,
                                     TileBuffer& tile, RenderCounters& counters) const {
-    auto& wave = static_cast<WhittedWave&>(scratch);
-    const std::size_t total = camera_sample_count(job);
-    for (std::size_t first = 0; first < total; first += WhittedWave::kCapacity)
-        wave.trace(world, job, lengths_, first, std::min(WhittedWave::kCapacity, total - first), tile, counters);
+    trace_in_waves<WhittedWave>(world, job, lengths_, scratch, tile, counters);
 }
 
 }  // namespace etendue
