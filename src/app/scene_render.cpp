@@ -152,6 +152,9 @@ void report_dropped(const RenderCounters& counters, const SceneRenderRequest& re
         settings.film.height, first.x, first.y, first.x + 1, first.y + 1, first.sample + 1, settings.seed,
         quoted(working_space));
     if (request.overrides.min_depth) command += fmt::format(" --min-depth {}", *request.overrides.min_depth);
+    if (const auto& strategy = settings.integrator.strategy)
+        command += fmt::format(" --strategy {},{}{}", (*strategy)[0], (*strategy)[1],
+                               settings.integrator.weighted ? "" : " --unweighted");
     if (!settings.camera.empty()) command += " --camera " + quoted(settings.camera);
     if (settings.time_code) command += fmt::format(" --time-code {}", *settings.time_code);
     if (settings.frame) command += fmt::format(" --frames {} --fps {}", *settings.frame, settings.fps);
@@ -192,8 +195,16 @@ std::unique_ptr<const Integrator> create_integrator(const RenderSettings& settin
             throw SceneError(settings.at("/integrator/min_depth"),
                              fmt::format("min_depth is {}, but the paths of '{}' have at most {} edges", s.min_depth,
                                          s.type, entry.longest_path));
+        if (entry.name == s.type && s.strategy && !entry.has_strategies)
+            throw SceneError(settings.at("/integrator/strategy"),
+                             fmt::format("'{}' has no strategies; 'bdpt' does", s.type));
     }
-    auto integrator = make_integrator(s.type, {s.max_depth, s.min_depth, s.roulette_depth});
+    IntegratorOptions options{
+        .lengths = {s.max_depth, s.min_depth, s.roulette_depth},
+        .heuristic = s.heuristic == HeuristicType::Balance ? Heuristic::Balance : Heuristic::Power,
+        .weighted = s.weighted};
+    if (s.strategy) options.strategy = Strategy{(*s.strategy)[0], (*s.strategy)[1]};
+    auto integrator = make_integrator(s.type, options);
     if (integrator) return integrator;
     throw SceneError(settings.at("/integrator/type"),
                      fmt::format("no integrator is named '{}'; {}", s.type, name_hint(s.type, names)));

@@ -23,6 +23,9 @@ const std::map<std::string, Quality> kQualities{
 /// Of a path, as --max-depth and --min-depth take it.
 constexpr int kMostEdges = 1 << 20;
 
+const std::map<std::string, HeuristicType> kHeuristics{{"power", HeuristicType::Power},
+                                                       {"balance", HeuristicType::Balance}};
+
 const std::map<std::string, LightUnits> kLightUnits(kLightUnitNames.begin(), kLightUnitNames.end());
 
 void apply_quality(Quality quality, RenderSettings& settings) {
@@ -48,6 +51,15 @@ std::array<int, 2> parse_size(const std::string& text) {
         size[0] > 65536 || size[1] > 65536)
         throw CLI::ValidationError("--size", "'" + text + "' is not WIDTHxHEIGHT with 1 to 65536 pixels each");
     return size;
+}
+
+/// "2,3" to s and t.
+std::array<int, 2> parse_strategy(const std::string& text) {
+    std::array<int, 2> st{};
+    char rest = 0;
+    if (std::sscanf(text.c_str(), "%d,%d%c", &st[0], &st[1], &rest) != 2 || st[0] < 0 || st[1] < 0)
+        throw CLI::ValidationError("--strategy", "'" + text + "' is not S,T, the vertices from the light and the eye");
+    return st;
 }
 
 std::uint64_t parse_texture_memory(const std::string& text) {
@@ -136,6 +148,16 @@ void SettingsOverrides::add_options(CLI::App& command) {
         ->check(CLI::Range(1, kMostEdges));
     command
         .add_option_function<std::string>(
+            "--heuristic", [this](const std::string& text) { heuristic = kHeuristics.at(text); },
+            "How bdpt weighs its strategies: power (default) or balance")
+        ->check(CLI::IsMember(kHeuristics));
+    command.add_option_function<std::string>(
+        "--strategy", [this](const std::string& text) { strategy = parse_strategy(text); },
+        "Of bdpt, only paths with S vertices from the light and T from the eye, those on light and lens included: S,T");
+    command.add_flag_callback(
+        "--unweighted", [this] { weighted = false; }, "That strategy as if no other made its paths");
+    command
+        .add_option_function<std::string>(
             "--light-units", [this](const std::string& text) { light_units = kLightUnits.at(text); },
             "photometric: candela, lux and emission one to one, the image is in cd/m2 (default); radiometric: emission "
             "is in watts, candela and lux are divided by 683.002 lm/W")
@@ -168,6 +190,9 @@ void SettingsOverrides::apply(SceneDesc& scene) const {
     set(integrator, settings.integrator.type, "/integrator/type", "--integrator");
     set(max_depth, settings.integrator.max_depth, "/integrator/max_depth", "--max-depth");
     set(min_depth, settings.integrator.min_depth, "/integrator/min_depth", "--min-depth");
+    set(heuristic, settings.integrator.heuristic, "/integrator/heuristic", "--heuristic");
+    set(strategy, settings.integrator.strategy, "/integrator/strategy", "--strategy");
+    set(weighted, settings.integrator.weighted, "/integrator/weighted", "--unweighted");
     set(spp, settings.spp, "/spp", "--spp");
     set(crop, settings.film.crop, "/crop", "--crop");
     set(camera, settings.camera, "/camera", "--camera");

@@ -37,6 +37,9 @@ struct SettingsOverrides {
     std::optional<double> time_seconds;
     std::optional<int> max_depth;
     std::optional<int> min_depth;
+    std::optional<HeuristicType> heuristic;
+    std::optional<std::array<int, 2>> strategy;
+    std::optional<bool> weighted;
     std::optional<LightUnits> light_units;
     std::optional<std::string> environment;
     std::optional<std::uint64_t> texture_memory;  ///< bytes

@@ -6,6 +6,8 @@
 #include "film/dropped_sample.h"
 #include "film/film.h"
 #include "film/pixel_filter.h"
+#include "integrator/heuristic.h"
+#include "integrator/strategy.h"
 #include "sampling/sampler.h"
 #include "world/world.h"
 
@@ -13,6 +15,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -49,11 +52,19 @@ struct RenderCounters {
     void add(const RenderCounters& other);
 };
 
-/// Path lengths are in edges: 1 is a light seen directly, 2 is direct light on a surface.
-struct IntegratorOptions {
+/// In edges: 1 is a light seen directly, 2 is direct light on a surface.
+struct PathLengths {
     int max_depth = 32;
     int min_depth = 1;
     int roulette_depth = 5;
+};
+
+/// What can be asked of integrators; each takes what concerns it.
+struct IntegratorOptions {
+    PathLengths lengths{};
+    Heuristic heuristic = Heuristic::Power;  ///< of those that have strategies
+    std::optional<Strategy> strategy{};      ///< this one alone; it exists
+    bool weighted = true;                    ///< false: the strategy is all there is, as if no other made its paths
 };
 
 /// Memory that a thread keeps from tile to tile; each integrator has its own kind.
@@ -86,6 +97,7 @@ struct IntegratorEntry {
     std::string_view summary;  ///< for --help
     std::unique_ptr<const Integrator> (*make)(const IntegratorOptions&);
     int longest_path = std::numeric_limits<int>::max();  ///< edges
+    bool has_strategies = false;                         ///< it looks at the options for them
 };
 
 [[nodiscard]] std::span<const IntegratorEntry> integrator_registry();

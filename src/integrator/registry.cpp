@@ -16,29 +16,32 @@ namespace {
 constexpr int kDirectPath = 2;
 
 std::unique_ptr<const Integrator> make_path(const IntegratorOptions& options) {
-    return std::make_unique<PathIntegrator>(PathOptions{.lengths = options});
+    return std::make_unique<PathIntegrator>(PathOptions{.lengths = options.lengths});
 }
 
 std::unique_ptr<const Integrator> make_direct(const IntegratorOptions& options) {
-    IntegratorOptions one_bounce = options;
-    one_bounce.max_depth = std::min(options.max_depth, kDirectPath);
+    PathLengths one_bounce = options.lengths;
+    one_bounce.max_depth = std::min(one_bounce.max_depth, kDirectPath);
     return std::make_unique<PathIntegrator>(PathOptions{.lengths = one_bounce});
 }
 
 std::unique_ptr<const Integrator> make_naive(const IntegratorOptions& options) {
-    return std::make_unique<PathIntegrator>(PathOptions{.lengths = options, .sample_lights = false});
+    return std::make_unique<PathIntegrator>(PathOptions{.lengths = options.lengths, .sample_lights = false});
 }
 
 std::unique_ptr<const Integrator> make_light(const IntegratorOptions& options) {
-    return std::make_unique<LightIntegrator>(options);
+    return std::make_unique<LightIntegrator>(options.lengths);
 }
 
 std::unique_ptr<const Integrator> make_bdpt(const IntegratorOptions& options) {
-    return std::make_unique<BdptIntegrator>(BdptOptions{.lengths = options});
+    return std::make_unique<BdptIntegrator>(BdptOptions{.lengths = options.lengths,
+                                                        .heuristic = options.heuristic,
+                                                        .only = options.strategy,
+                                                        .weighted = options.weighted});
 }
 
 std::unique_ptr<const Integrator> make_whitted(const IntegratorOptions& options) {
-    return std::make_unique<WhittedIntegrator>(options);
+    return std::make_unique<WhittedIntegrator>(options.lengths);
 }
 
 std::unique_ptr<const Integrator> make_normals(const IntegratorOptions&) {
@@ -54,7 +57,10 @@ constexpr IntegratorEntry kRegistry[] = {
     {"direct", "path, one bounce only", make_direct, kDirectPath},
     {"naive", "eye paths that find lights by chance", make_naive},
     {"light", "paths from the lights, connected to the camera", make_light},
-    {"bdpt", "eye and light paths, connected in every way, combined by MIS", make_bdpt},
+    {.name = "bdpt",
+     .summary = "eye and light paths, connected in every way, combined by MIS",
+     .make = make_bdpt,
+     .has_strategies = true},
     {"whitted", "mirrored and refracted rays, direct light, and no more", make_whitted},
     {"normals", "shading normals, for debugging", make_normals},
     {"albedo", "scattered share of light, for debugging", make_albedo},

@@ -245,8 +245,13 @@ void dump_cameras_and_lights(const SceneDesc& scene, Out out) {
 }
 
 void dump_settings(const RenderSettings& s, Out out) {
-    fmt::format_to(out, "integrator {}: max depth {}, min depth {}, roulette depth {}\n", s.integrator.type,
-                   s.integrator.max_depth, s.integrator.min_depth, s.integrator.roulette_depth);
+    fmt::format_to(out, "integrator {}: max depth {}, min depth {}, roulette depth {}, {} heuristic", s.integrator.type,
+                   s.integrator.max_depth, s.integrator.min_depth, s.integrator.roulette_depth,
+                   s.integrator.heuristic == HeuristicType::Power ? "power" : "balance");
+    if (s.integrator.strategy)
+        fmt::format_to(out, ", {} strategy {},{} only", s.integrator.weighted ? "weighted" : "unweighted",
+                       (*s.integrator.strategy)[0], (*s.integrator.strategy)[1]);
+    fmt::format_to(out, "\n");
     fmt::format_to(out, "sampling: {}, {} spp, seed {}, time limit {:g}\n",
                    s.sampler == SamplerType::Sobol ? "sobol" : "random", s.spp, s.seed, s.time_limit);
     fmt::format_to(out, "film: {} x {}, filter {} radius {:g}\n", s.film.width, s.film.height, text(s.film.filter),

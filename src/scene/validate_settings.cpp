@@ -144,6 +144,19 @@ void validate_settings(const SceneDesc& scene, ProblemList& problems) {
                        fmt::format("min_depth {} is above max_depth {}: no path would be kept", integrator.min_depth,
                                    integrator.max_depth));
     }
+    if (integrator.strategy) {
+        const auto [s, t] = *integrator.strategy;
+        // No light hits the lens, and lights that the camera sees are (0, 2)'s alone.
+        if (s < 0 || t < 1 || s + t < 2 || (s == 1 && t == 1))
+            problems.error(settings.at("/integrator/strategy"),
+                           fmt::format("there is no strategy {},{}: s >= 0 vertices from the light and t >= 1 from the "
+                                       "eye make a path of s + t - 1 >= 1 edges, and 0,2 alone those of one edge",
+                                       s, t));
+    }
+    if (!integrator.weighted && !integrator.strategy)
+        problems.error(settings.at("/integrator/weighted"),
+                       "strategies without weights sum to more than the image; one of them can be shown without "
+                       "weights: name it as strategy");
     check(settings.spp, 1, kMaxSpp, "spp", "/spp");
     check(settings.time_limit, 0.0, kInfinity, "time", "/time");
     check(static_cast<double>(settings.color.exposure), -kMaxExposure, kMaxExposure, "exposure", "/color/exposure");

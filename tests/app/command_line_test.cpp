@@ -140,6 +140,9 @@ TEST_F(CommandLine, InvalidScenesAndSettingsEndWithThree) {
     const ProgramResult depths = run({"render", box, "--min-depth", "4", "--max-depth", "3"});
     EXPECT_EQ(depths.exit_code, 3);
     EXPECT_NE(depths.err.find("--min-depth: min_depth 4 is above max_depth 3"), std::string::npos) << depths.err;
+    const ProgramResult strategy = run({"render", box, "--integrator", "path", "--strategy", "1,2"});
+    EXPECT_EQ(strategy.exit_code, 3);
+    EXPECT_NE(strategy.err.find("--strategy: 'path' has no strategies"), std::string::npos) << strategy.err;
     EXPECT_EQ(run({"render", box, "--working-space", "no-such-space"}).exit_code, 3);
     EXPECT_EQ(run({"render", folder_.path().string() + "/nowhere"}).exit_code, 3);
     EXPECT_EQ(run({"inspect", folder_.path().string() + "/nowhere"}).exit_code, 3);

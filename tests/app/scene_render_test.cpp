@@ -50,6 +50,14 @@ TEST(CreateIntegrator, RefusesPathsThatAreNeverTraced) {
     EXPECT_NE(create_integrator(settings), nullptr);
 }
 
+TEST(CreateIntegrator, OnlyThoseWithStrategiesShowOne) {
+    RenderSettings settings;
+    settings.integrator = {.type = "path", .strategy = {{1, 2}}};
+    EXPECT_THROW((void)create_integrator(settings), SceneError);
+    settings.integrator.type = "bdpt";
+    EXPECT_NE(create_integrator(settings), nullptr);
+}
+
 TEST(SettingsHash, ChangesWithEverythingThatChangesTheImage) {
     const TestFolder folder;
     write_scene(folder.path());
@@ -74,6 +82,12 @@ TEST(SettingsHash, ChangesWithEverythingThatChangesTheImage) {
     expect_new("time", [](SettingsOverrides& o) { o.time_seconds = 5.0; });
     expect_new("depth", [](SettingsOverrides& o) { o.max_depth = 3; });
     expect_new("least depth", [](SettingsOverrides& o) { o.min_depth = 2; });
+    expect_new("heuristic", [](SettingsOverrides& o) { o.heuristic = HeuristicType::Balance; });
+    expect_new("strategy", [](SettingsOverrides& o) { o.strategy = {2, 1}; });
+    expect_new("unweighted", [](SettingsOverrides& o) {
+        o.strategy = {2, 1};
+        o.weighted = false;
+    });
     expect_new("environment", [&](SettingsOverrides& o) { o.environment = (folder / "sky.exr").string(); });
     expect_new("exposure", [](SettingsOverrides& o) { o.exposure = 0.5f; });
     expect_new("small exposure", [](SettingsOverrides& o) { o.exposure = 0.50001f; });

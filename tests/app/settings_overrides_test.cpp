@@ -132,6 +132,18 @@ TEST(SettingsOverrides, EachOptionReachesItsSetting) {
     EXPECT_EQ(scene.inputs.back(), folder / "sky.exr");
 }
 
+TEST(SettingsOverrides, StrategiesOfBidirectionalPathTracing) {
+    SceneDesc scene = scene_of(640, 360, 100);
+    parse({"--strategy", "2,3", "--unweighted", "--heuristic", "balance"}).apply(scene);
+    const IntegratorSettings& integrator = scene.settings.integrator;
+    EXPECT_EQ(integrator.strategy, (std::array<int, 2>{2, 3}));
+    EXPECT_FALSE(integrator.weighted);
+    EXPECT_EQ(integrator.heuristic, HeuristicType::Balance);
+    for (const char* text : {"2", "2,", "2,3,4", "-1,3", "a,b", "2x3"})
+        EXPECT_THROW((void)parse({"--strategy", text}), CLI::ValidationError) << text;
+    EXPECT_THROW((void)parse({"--heuristic", "cutoff"}), CLI::ValidationError);
+}
+
 TEST(SettingsOverrides, FramesAreOneARangeOrEveryNth) {
     const auto frames = [](const std::string& text) {
         const FrameRange range = parse({"--frames", text}).frames.value();

@@ -120,7 +120,8 @@ int main(int argc, char** argv) {
     overrides.size = {{arguments.width, arguments.height}};
     PreparedScene prepared = prepare_scene(arguments.scene, overrides);
     const IntegratorSettings lengths = prepared.scene.settings.integrator;
-    const auto integrator = make_integrator("path", {lengths.max_depth, lengths.min_depth, lengths.roulette_depth});
+    const auto integrator =
+        make_integrator("path", {.lengths = {lengths.max_depth, lengths.min_depth, lengths.roulette_depth}});
 
     RenderOptions options;
     options.full_width = arguments.width;

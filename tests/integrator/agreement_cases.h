@@ -19,7 +19,7 @@ inline constexpr int kAgreementHeight = 48;
 struct AgreementCase {
     std::string name;
     std::function<void(SceneDesc&)> make;
-    IntegratorOptions lengths{.max_depth = 6};
+    PathLengths lengths{.max_depth = 6};
     PixelRect window{0, 0, kAgreementWidth, kAgreementHeight};
     std::uint32_t spp = 64;
     std::vector<std::string> integrators{"light", "bdpt"};  ///< to compare with `path`

@@ -57,7 +57,7 @@ ImageEstimate estimate(const World& world, const std::string& name, const Agreem
         options.seed = first_seed + i;
         // A splat falls into one pixel, so that those of a block are independent, as the test assumes.
         options.filter = PixelFilter(FilterShape::Box);
-        const auto integrator = make_integrator(name, agreement.lengths);
+        const auto integrator = make_integrator(name, {.lengths = agreement.lengths});
         const std::vector<float> rgba = render(world, *integrator, options, threads, stop, {}).film.resolve();
         ImageF image(part.width(), part.height(), 3);
         for (int y = part.y0; y < part.y1; ++y)

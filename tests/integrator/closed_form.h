@@ -46,7 +46,7 @@ struct ClosedFormCase {
     SceneDesc scene;
     double radiance = 0.0;    ///< what the camera sees, the same in all channels
     double tolerance = 1e-5;  ///< relative: rounding, and the tessellation's difference from the curved surface
-    IntegratorOptions lengths{};
+    PathLengths lengths{};
     /// Those that can find all the light within `lengths`.
     std::vector<std::string> integrators = kFindDirectLight;
     std::uint32_t spp = 64;

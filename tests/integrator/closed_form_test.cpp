@@ -69,7 +69,7 @@ constexpr std::uint32_t kSplatRenders = 16;
 
 TEST_P(ClosedForm, RadianceIsTheKnownOne) {
     const ClosedFormCase& scene = *GetParam().scene;
-    const auto integrator = make_integrator(GetParam().integrator, scene.lengths);
+    const auto integrator = make_integrator(GetParam().integrator, {.lengths = scene.lengths});
     ASSERT_NE(integrator, nullptr);
     SceneDesc desc = scene.scene;
     std::optional<CosineImage> image;

@@ -60,7 +60,7 @@ ImageF image_of(const World& world, const std::string& integrator, int shortest,
     options.seed = seed;
     options.filter = PixelFilter(FilterShape::Box);
     // No roulette: it is a matter of chance like the rest, but has tests of its own.
-    const auto made = make_integrator(integrator, {longest, shortest, kLongest + 1});
+    const auto made = make_integrator(integrator, {.lengths = {longest, shortest, kLongest + 1}});
     const std::vector<float> rgba = render(world, *made, options, threads, stop, {}).film.resolve();
     ImageF image(kWidth, kHeight, 3);
     for (std::size_t p = 0; p < rgba.size() / 4; ++p) std::copy_n(&rgba[4 * p], 3, &image.pixels[3 * p]);

@@ -42,8 +42,8 @@ ImageEstimate render_estimate(const RegressionScene& scene, const Sampling& samp
     desc.settings.film.width = scene.width;
     desc.settings.film.height = scene.height;
     const IntegratorSettings lengths = desc.settings.integrator;
-    const auto integrator =
-        make_integrator(sampling.integrator, {lengths.max_depth, lengths.min_depth, lengths.roulette_depth});
+    const auto integrator = make_integrator(
+        sampling.integrator, {.lengths = {lengths.max_depth, lengths.min_depth, lengths.roulette_depth}});
     if (!integrator) throw IoError(fmt::format("no integrator is named '{}'", sampling.integrator));
 
     const ThreadPool threads;

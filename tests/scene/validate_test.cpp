@@ -134,6 +134,19 @@ const Defect kDefects[] = {
          s.settings.film.crop = {{10, 0, 10, 10}};
      }},
     {"DepthsSwapped", "min_depth", [](SceneDesc& s) { s.settings.integrator.min_depth = 99; }},
+    {"StrategyHitsTheLens", "strategy 3,0",
+     [](SceneDesc& s) {
+         s.settings.integrator.strategy = {{3, 0}};
+     }},
+    {"StrategyWithoutEdges", "strategy 0,1",
+     [](SceneDesc& s) {
+         s.settings.integrator.strategy = {{0, 1}};
+     }},
+    {"StrategyOfOneEdge", "strategy 1,1",
+     [](SceneDesc& s) {
+         s.settings.integrator.strategy = {{1, 1}};
+     }},
+    {"UnweightedSum", "without weights", [](SceneDesc& s) { s.settings.integrator.weighted = false; }},
 };
 
 INSTANTIATE_TEST_SUITE_P(All, ValidateDefect, testing::ValuesIn(kDefects),

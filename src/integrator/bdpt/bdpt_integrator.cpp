@@ -2,14 +2,21 @@
 
 #include "integrator/bdpt/bdpt_wave.h"
 
+#include <fmt/format.h>
+
 namespace etendue {
 
 std::vector<std::string> BdptIntegrator::unreachable_light(const World& world) const {
+    std::vector<std::string> sentences;
+    if (options_.only && !world.has_bodies() && options_.only->edges() > options_.lengths.max_depth)
+        sentences.push_back(fmt::format(
+            "the image stays black: strategy {},{} makes paths of {} edges, and the longest that are kept have {}",
+            options_.only->s, options_.only->t, options_.only->edges(), options_.lengths.max_depth));
     if (world.has_delta_lights() && world.has_specular_surfaces())
-        return {
+        sentences.emplace_back(
             "what point, spot and directional lights send through smooth glass or by way of mirrors cannot be found "
-            "where the eye sees it in a mirror or through smooth glass, too"};
-    return {};
+            "where the eye sees it in a mirror or through smooth glass, too");
+    return sentences;
 }
 
 std::unique_ptr<IntegratorScratch> BdptIntegrator::make_scratch() const {

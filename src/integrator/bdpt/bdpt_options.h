@@ -1,20 +1,14 @@
 // How bidirectional path tracing is asked for.
 #pragma once
 
+#include "integrator/heuristic.h"
 #include "integrator/integrator.h"
-#include "integrator/subpath/subpath_densities.h"
+#include "integrator/strategy.h"
 
 #include <optional>
 #include <span>
 
 namespace etendue {
-
-/// One way to make a path: `s` vertices from the light, `t` from the eye, those on the light and on the lens included.
-struct Strategy {
-    int s = 0;
-    int t = 0;
-    friend bool operator==(const Strategy&, const Strategy&) = default;
-};
 
 struct CompletePath;
 
@@ -28,7 +22,7 @@ class WeightObserver {
 };
 
 struct BdptOptions {
-    IntegratorOptions lengths;
+    PathLengths lengths;
     Heuristic heuristic = Heuristic::Power;
     std::optional<Strategy> only{};      ///< this strategy alone
     bool weighted = true;                ///< false: it is all there is, as if no other could make its paths

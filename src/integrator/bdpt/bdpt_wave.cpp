@@ -14,7 +14,7 @@ namespace {
 /// Paths of one edge, a light that the camera sees, have no strategy but one.
 constexpr int kDirectlySeen = 1;
 
-bool is_wanted(const IntegratorOptions& lengths, int edges) {
+bool is_wanted(const PathLengths& lengths, int edges) {
     return edges >= lengths.min_depth && edges <= lengths.max_depth;
 }
 

@@ -6,7 +6,7 @@
 
 namespace etendue {
 
-void LightWave::trace(const World& world, const TileJob& job, const IntegratorOptions& options, std::size_t first,
+void LightWave::trace(const World& world, const TileJob& job, const PathLengths& options, std::size_t first,
                       std::size_t count, TileBuffer& tile, RenderCounters& counters) {
     // Their keys and times; a light path is made for each.
     samples_.resize(count);

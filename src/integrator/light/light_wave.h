@@ -14,8 +14,8 @@ class LightWave final : public IntegratorScratch {
     static constexpr std::size_t kCapacity = 2048;
 
     /// Traces one subpath for each of the samples [first, first + count) of the job, count <= kCapacity.
-    void trace(const World& world, const TileJob& job, const IntegratorOptions& options, std::size_t first,
-               std::size_t count, TileBuffer& tile, RenderCounters& counters);
+    void trace(const World& world, const TileJob& job, const PathLengths& options, std::size_t first, std::size_t count,
+               TileBuffer& tile, RenderCounters& counters);
 
   private:
     /// The points of the lights where the subpaths begin.

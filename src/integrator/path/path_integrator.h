@@ -10,7 +10,7 @@
 namespace etendue {
 
 struct PathOptions {
-    IntegratorOptions lengths;
+    PathLengths lengths;
     bool sample_lights = true;
 };
 

@@ -43,21 +43,9 @@
 // belong to the geometric normals, and are 1 in media.
 #pragma once
 
+#include "integrator/heuristic.h"
+
 namespace etendue {
-
-enum class Heuristic {
-    Power,    ///< exponent 2 (Veach 1997, section 9.2.4)
-    Balance,  ///< exponent 1
-};
-
-/// A density, or a ratio of them, as the heuristic wants it.
-struct Raised {
-    Heuristic heuristic = Heuristic::Power;
-
-    [[nodiscard]] double operator()(double ratio) const {
-        return heuristic == Heuristic::Power ? ratio * ratio : ratio;
-    }
-};
 
 /// a and b of a vertex, raised.
 struct SubpathDensities {

@@ -37,7 +37,7 @@ enum class BounceNumbers : std::uint32_t {
 struct SubpathJob {
     const World& world;
     const TileJob& job;
-    const IntegratorOptions& lengths;
+    const PathLengths& lengths;
     Raised raised;
     std::span<const CameraSample> samples;
     std::span<const Ray> camera_rays;  ///< of the samples

@@ -14,7 +14,7 @@ namespace etendue {
 class WhittedIntegrator final : public Integrator {
   public:
     /// Branches end by how little they contribute; `roulette_depth` is not used.
-    explicit WhittedIntegrator(const IntegratorOptions& lengths) : lengths_(lengths) {}
+    explicit WhittedIntegrator(const PathLengths& lengths) : lengths_(lengths) {}
 
     [[nodiscard]] std::unique_ptr<IntegratorScratch> make_scratch() const override;
     [[nodiscard]] std::vector<std::string> unreachable_light(const World& world) const override;
@@ -22,7 +22,7 @@ class WhittedIntegrator final : public Integrator {
                      RenderCounters& counters) const override;
 
   private:
-    IntegratorOptions lengths_;
+    PathLengths lengths_;
 };
 
 }  // namespace etendue

@@ -35,7 +35,7 @@ float survival(const WhittedBranch& branch) {
 
 }  // namespace
 
-void WhittedWave::trace(const World& world, const TileJob& job, const IntegratorOptions& lengths, std::size_t first,
+void WhittedWave::trace(const World& world, const TileJob& job, const PathLengths& lengths, std::size_t first,
                         std::size_t count, TileBuffer& tile, RenderCounters& counters) {
     samples_.resize(count);
     rays_.resize(count);

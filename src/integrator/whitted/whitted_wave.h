@@ -38,14 +38,14 @@ class WhittedWave final : public IntegratorScratch {
     static constexpr std::size_t kCapacity = 2048;
 
     /// Traces samples [first, first + count) of the job, count <= kCapacity.
-    void trace(const World& world, const TileJob& job, const IntegratorOptions& lengths, std::size_t first,
-               std::size_t count, TileBuffer& tile, RenderCounters& counters);
+    void trace(const World& world, const TileJob& job, const PathLengths& lengths, std::size_t first, std::size_t count,
+               TileBuffer& tile, RenderCounters& counters);
 
   private:
     struct Context {
         const World& world;
         const TileJob& job;
-        const IntegratorOptions& lengths;
+        const PathLengths& lengths;
     };
 
     /// Takes the youngest branches, at most kCapacity, and replaces them by those that grow from them. What waits is so

@@ -28,6 +28,10 @@ constexpr std::array<std::pair<std::string_view, SamplerType>, 2> kSamplers{{
     {"sobol", SamplerType::Sobol},
     {"random", SamplerType::Random},
 }};
+constexpr std::array<std::pair<std::string_view, HeuristicType>, 2> kHeuristics{{
+    {"power", HeuristicType::Power},
+    {"balance", HeuristicType::Balance},
+}};
 constexpr std::array<std::pair<std::string_view, PixelFilterType>, 4> kFilters{{
     {"blackman-harris", PixelFilterType::BlackmanHarris},
     {"box", PixelFilterType::Box},
@@ -50,6 +54,10 @@ void read_integrator(const Json& value, const SourceLocation& where, ProblemList
     object.integer("max_depth", 1, kMaxInt, out.max_depth);
     object.integer("min_depth", 1, kMaxInt, out.min_depth);
     object.integer("roulette_depth", 1, kMaxInt, out.roulette_depth);
+    object.choice("heuristic", kHeuristics, out.heuristic);
+    std::array<int, 2> strategy{};
+    if (object.integers("strategy", 0, kMaxInt, strategy)) out.strategy = strategy;
+    object.boolean("weighted", out.weighted);
     object.finish();
 }
 

@@ -64,7 +64,7 @@ void add_sky(SceneDesc& scene) {
 struct Room {
     const char* name;
     std::function<void(SceneDesc&)> make;
-    IntegratorOptions lengths;
+    PathLengths lengths;
 };
 
 void PrintTo(const Room& room, std::ostream* out) {
@@ -77,8 +77,8 @@ TEST_P(WhittedRooms, ShowWhatPathTracingShows) {
     SceneDesc scene = empty_scene();
     GetParam().make(scene);
     const World world = compile(std::move(scene));
-    const TileResult path = render_tile(world, *make_integrator("path", GetParam().lengths), 4096);
-    const TileResult whitted = render_tile(world, *make_integrator("whitted", GetParam().lengths), 1024);
+    const TileResult path = render_tile(world, *make_integrator("path", {.lengths = GetParam().lengths}), 4096);
+    const TileResult whitted = render_tile(world, *make_integrator("whitted", {.lengths = GetParam().lengths}), 1024);
     const double difference = static_cast<double>(whitted.mean.g) - static_cast<double>(path.mean.g);
     EXPECT_GT(path.mean.g, 0.001f);
     EXPECT_LT(std::abs(difference), kFiveSigma * std::hypot(path.error, whitted.error) + 1e-5)

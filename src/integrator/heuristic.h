@@ -1,0 +1,20 @@
+// How multiple importance sampling weighs strategies against each other.
+#pragma once
+
+namespace etendue {
+
+enum class Heuristic {
+    Power,    ///< exponent 2 (Veach 1997, section 9.2.4)
+    Balance,  ///< exponent 1
+};
+
+/// A density, or a ratio of them, as the heuristic wants it.
+struct Raised {
+    Heuristic heuristic = Heuristic::Power;
+
+    [[nodiscard]] double operator()(double ratio) const {
+        return heuristic == Heuristic::Power ? ratio * ratio : ratio;
+    }
+};
+
+}  // namespace etendue
