@@ -2,11 +2,8 @@
 
 #include "render/tiles.h"
 
-#include <algorithm>
 #include <chrono>
-#include <memory>
 #include <mutex>
-#include <vector>
 
 #include <sys/resource.h>
 
@@ -19,13 +16,6 @@ using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
-
-/// What one thread keeps between tiles.
-struct Worker {
-    std::unique_ptr<IntegratorScratch> scratch;
-    TileBuffer tile;
-    RenderCounters counters;
-};
 
 /// Counts finished tiles and tells the callback now and then.
 class ProgressReporter {
@@ -88,71 +78,35 @@ double process_cpu_seconds() {
 
 RenderResult render(const World& world, const Integrator& integrator, const RenderOptions& options,
                     const ThreadPool& threads, const std::atomic<bool>& stop, const ProgressCallback& progress) {
-    RenderResult result{.film = Film(options.full_width, options.full_height, options.window), .counters = {}};
-    const std::vector<PixelRect> tiles = make_tiles(options.window);
-    const bool makes_splats = integrator.makes_splats();
-    std::vector<std::vector<Splat>> splats;  // of each tile of a group
-    std::vector<Worker> workers(static_cast<std::size_t>(threads.thread_count()));
-    for (Worker& worker : workers) worker.scratch = integrator.make_scratch();
-
+    ProgressiveRender rendering(world, integrator, options, threads);
     const Clock::time_point start = Clock::now();
     const double cpu_start = process_cpu_seconds();
     ProgressReporter reporter(progress, options.window.area() * static_cast<std::uint64_t>(options.spp), start);
-
-    while (result.spp_done < options.spp) {
-        std::uint32_t count = pass_size(result.spp_done, options.spp);
+    HaltReason halt_reason = HaltReason::SamplesDone;
+    while (rendering.spp_done() < options.spp) {
+        std::uint32_t count = pass_size(rendering.spp_done(), options.spp);
         if (options.time_limit_seconds > 0.0) {
             const double seconds = seconds_since(start);
             if (seconds >= options.time_limit_seconds) {
-                result.halt_reason = HaltReason::TimeLimit;
+                halt_reason = HaltReason::TimeLimit;
                 break;
             }
-            count = fit_pass(count, result.spp_done, seconds, options.time_limit_seconds);
+            count = fit_pass(count, rendering.spp_done(), seconds, options.time_limit_seconds);
         }
-        // Splats are added in the order of the tiles, whatever the order in which these are rendered.
-        const std::size_t group_size = makes_splats ? splat_group_size(count) : tiles.size();
-        for (std::size_t first = 0; first < tiles.size() && !stop.load(); first += group_size) {
-            const std::size_t group = std::min(group_size, tiles.size() - first);
-            const std::vector<std::size_t> order = make_order(group, options.tile_order_seed);
-            if (makes_splats) splats.resize(group);
-            std::atomic<std::uint64_t> light_paths = 0;
-            threads.parallel_for(group, [&](std::size_t index, int slot) {
-                if (stop.load(std::memory_order_relaxed)) return;
-                Worker& worker = workers[static_cast<std::size_t>(slot)];
-                const TileJob job{tiles[first + order[index]],
-                                  options.window,
-                                  options.full_width,
-                                  options.full_height,
-                                  result.spp_done,
-                                  count,
-                                  options.seed,
-                                  options.sequence,
-                                  &options.filter};
-                const std::uint64_t rays_before = worker.counters.rays();
-                worker.tile.reset(job.rect);
-                integrator.render_tile(world, job, *worker.scratch, worker.tile, worker.counters);
-                result.film.add(worker.tile);
-                const std::uint64_t samples = job.rect.area() * count;
-                if (makes_splats) {
-                    splats[order[index]].swap(worker.tile.splats());
-                    light_paths += samples;
-                }
-                reporter.tile_done(samples, worker.counters.rays() - rays_before);
-            });
-            if (makes_splats) result.film.add_splats(splats, light_paths, options.filter, threads);
-            for (std::vector<Splat>& list : splats) list.clear();
-        }
-        if (stop.load()) {
-            result.halt_reason = HaltReason::Interrupted;
+        const bool done = rendering.add_samples(
+            count, stop, [&](std::uint64_t samples, std::uint64_t rays) { reporter.tile_done(samples, rays); });
+        if (!done) {
+            halt_reason = HaltReason::Interrupted;
             break;
         }
-        result.spp_done += count;
     }
     reporter.finish();
-    for (const Worker& worker : workers) result.counters.add(worker.counters);
-    result.wall_seconds = seconds_since(start);
-    result.cpu_seconds = process_cpu_seconds() - cpu_start;
-    return result;
+    return {.counters = rendering.counters(),
+            .halt_reason = halt_reason,
+            .spp_done = rendering.spp_done(),
+            .wall_seconds = seconds_since(start),
+            .cpu_seconds = process_cpu_seconds() - cpu_start,
+            .film = rendering.take_film()};
 }
 
 }  // namespace etendue

@@ -3,8 +3,8 @@
 
 #include "core/parallel.h"
 #include "film/film.h"
-#include "film/pixel_filter.h"
 #include "integrator/integrator.h"
+#include "render/progressive_render.h"
 #include "world/world.h"
 
 #include <atomic>
@@ -14,17 +14,9 @@
 
 namespace etendue {
 
-struct RenderOptions {
-    int full_width = 1024;
-    int full_height = 576;
-    PixelRect window{0, 0, 1024, 576};  ///< inside the full image, not empty
+struct RenderOptions : SamplingOptions {
     std::uint32_t spp = 64;
-    std::uint32_t seed = 0;
-    SampleSequence sequence = SampleSequence::Sobol;
-    PixelFilter filter{FilterShape::BlackmanHarris};
     double time_limit_seconds = 0.0;  ///< no pass starts after this; 0 for no limit
-    /// Not 0: tiles are taken in an order shuffled by this number. The image does not depend on it; tests show that.
-    std::uint32_t tile_order_seed = 0;
 };
 
 /// How far a render is.
@@ -46,12 +38,12 @@ enum class HaltReason {
 [[nodiscard]] const char* halt_reason_name(HaltReason reason);
 
 struct RenderResult {
-    Film film;
     RenderCounters counters;
     HaltReason halt_reason = HaltReason::SamplesDone;
     std::uint32_t spp_done = 0;  ///< complete passes; single tiles may have more
     double wall_seconds = 0.0;
     double cpu_seconds = 0.0;  ///< of all threads
+    Film film;
 };
 
 /// Renders `world`. The image is bit-identical for every thread count and tile order. `stop` is looked at before every
