@@ -56,7 +56,11 @@ std::vector<ImageJob> image_jobs(const std::filesystem::path& scene, const std::
 
 ImageResult run_job(const ImageJob& job, const ImageJobOptions& options, const ThreadPool& threads) {
     ImageResult result{job, ImageOutcome::UpToDate, {}, {}};
-    SceneRenderRequest request{job.scene, job.output, options.overrides, options.quiet, options.title};
+    SceneRenderRequest request{.scene = job.scene,
+                               .output = job.output,
+                               .overrides = options.overrides,
+                               .quiet = options.quiet,
+                               .title = options.title};
     request.overrides.moment.frame = job.frame;
     PreparedScene prepared = prepare_scene(job.scene, request.overrides);
     const std::string hash = settings_hash(prepared.scene, request.overrides.depth);

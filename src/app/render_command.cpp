@@ -74,6 +74,9 @@ ExitCode run_render(const RenderArguments& arguments) {
     const std::filesystem::path output =
         arguments.output.empty() ? std::filesystem::path(name + ".exr") : arguments.request.output;
     const std::vector<ImageJob> jobs = image_jobs(arguments.scene, output, name, arguments.request.overrides);
+    if (jobs.front().frame && !arguments.request.strategies.output.empty())
+        throw SceneError({"--strategies-image", {}},
+                         "it shows one image, and this is a sequence of frames: name the moment with --time-code");
     return jobs.front().frame ? render_frames(arguments, jobs, threads) : render_image(arguments, threads);
 }
 
@@ -90,6 +93,19 @@ void add_render_command(CLI::App& app, Action& action) {
     arguments->request.overrides.add_options(*command);
     command->add_option("--threads", arguments->threads, "Threads to use (default: one per processor)")
         ->check(CLI::Range(1, 4096));
+    auto* strategies = command->add_option_function<std::string>(
+        "--strategies-image", [arguments](const std::string& path) { arguments->request.strategies.output = path; },
+        "Also write the images of all strategies of bdpt, one by one: an EXR with a part for each and a labelled PNG");
+    command
+        ->add_option("--strategies-depth", arguments->request.strategies.longest,
+                     "Longest paths whose strategies are shown (default: 8, or --max-depth if that is less)")
+        ->check(CLI::Range(1, 64))
+        ->needs(strategies);
+    command
+        ->add_flag_callback(
+            "--strategies-unweighted", [arguments] { arguments->request.strategies.weighted = false; },
+            "Show each as if it were the only one")
+        ->needs(strategies);
     command->add_flag("--force", arguments->force, "Of a sequence, render again what is up to date");
     command->add_flag("--quiet", arguments->request.quiet, "No progress, notes or warnings; errors only");
     command->add_flag("--json", arguments->json, "Print the statistics as JSON on stdout; of a sequence, an array");
@@ -103,15 +119,19 @@ void add_render_command(CLI::App& app, Action& action) {
         "  etendue render model.glb --environment studio.hdr --size 800x600 --spp 256 --exposure 0.5\n"
         "  etendue render fox.glb --time-code 0.35 --animation Run\n"
         "  etendue render fox.glb --frames 0:23 --fps 30 -o run/fox.####.exr --shutter 0:0.0167\n"
+        "  etendue render scenes/caustic-glass --integrator bdpt --strategies-image pyramid.exr --strategies-depth 5\n"
         "  etendue render scenes/veach-mis --crop 100,100,200,200 --time 60 --json --quiet");
     command->callback([arguments, &action] {
         action = [arguments] {
             arguments->request.scene = arguments->scene;
             arguments->request.output = arguments->output;
-            if (!arguments->output.empty() && arguments->request.output.extension() != ".exr") {
-                log_error("error: --output '{}' must end in .exr", arguments->output);
-                return ExitCode::UsageError;
-            }
+            const std::filesystem::path& pyramid = arguments->request.strategies.output;
+            for (const auto& [option, path] :
+                 {std::pair{"--output", arguments->request.output}, std::pair{"--strategies-image", pyramid}})
+                if (!path.empty() && path.extension() != ".exr") {
+                    log_error("error: {} '{}' must end in .exr", option, path.string());
+                    return ExitCode::UsageError;
+                }
             return run_render(*arguments);
         };
     });

@@ -14,6 +14,7 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -186,6 +187,23 @@ void check_writable(const OutputPaths& paths) {
 
 }  // namespace
 
+IntegratorOptions integrator_options(const RenderSettings& settings) {
+    const IntegratorSettings& s = settings.integrator;
+    IntegratorOptions options{
+        .lengths = {s.max_depth, s.min_depth, s.roulette_depth},
+        .heuristic = s.heuristic == HeuristicType::Balance ? Heuristic::Balance : Heuristic::Power,
+        .weighted = s.weighted};
+    if (s.strategy) options.strategy = Strategy{(*s.strategy)[0], (*s.strategy)[1]};
+    return options;
+}
+
+void require_strategies(const RenderSettings& settings, const SourceLocation& asked_for) {
+    const std::string& type = settings.integrator.type;
+    for (const IntegratorEntry& entry : integrator_registry())
+        if (entry.name == type && !entry.has_strategies)
+            throw SceneError(asked_for, fmt::format("'{}' has no strategies; 'bdpt' does", type));
+}
+
 std::unique_ptr<const Integrator> create_integrator(const RenderSettings& settings) {
     const IntegratorSettings& s = settings.integrator;
     std::vector<std::string_view> names;
@@ -195,16 +213,9 @@ std::unique_ptr<const Integrator> create_integrator(const RenderSettings& settin
             throw SceneError(settings.at("/integrator/min_depth"),
                              fmt::format("min_depth is {}, but the paths of '{}' have at most {} edges", s.min_depth,
                                          s.type, entry.longest_path));
-        if (entry.name == s.type && s.strategy && !entry.has_strategies)
-            throw SceneError(settings.at("/integrator/strategy"),
-                             fmt::format("'{}' has no strategies; 'bdpt' does", s.type));
     }
-    IntegratorOptions options{
-        .lengths = {s.max_depth, s.min_depth, s.roulette_depth},
-        .heuristic = s.heuristic == HeuristicType::Balance ? Heuristic::Balance : Heuristic::Power,
-        .weighted = s.weighted};
-    if (s.strategy) options.strategy = Strategy{(*s.strategy)[0], (*s.strategy)[1]};
-    auto integrator = make_integrator(s.type, options);
+    if (s.strategy) require_strategies(settings, settings.at("/integrator/strategy"));
+    auto integrator = make_integrator(s.type, integrator_options(settings));
     if (integrator) return integrator;
     throw SceneError(settings.at("/integrator/type"),
                      fmt::format("no integrator is named '{}'; {}", s.type, name_hint(s.type, names)));
@@ -270,6 +281,11 @@ SceneRenderResult render_scene(PreparedScene prepared, const SceneRenderRequest&
     const OutputPaths paths =
         OutputPaths::beside(request.output.empty() ? std::filesystem::path(scene.name + ".exr") : request.output);
     check_writable(paths);
+    const bool shows_strategies = !request.strategies.output.empty();
+    if (shows_strategies) {
+        check_writable(OutputPaths::beside(request.strategies.output));
+        require_strategies(scene.settings, {"--strategies-image", {}});
+    }
     const RenderOptions options = make_render_options(scene.settings);
     const auto integrator = create_integrator(scene.settings);
     // Before names are resolved: batch compares it with that of a scene that was only prepared.
@@ -310,9 +326,11 @@ SceneRenderResult render_scene(PreparedScene prepared, const SceneRenderRequest&
     if (!request.quiet)
         for (const std::string& missing : integrator->unreachable_light(world)) log_warning("note: {}", missing);
 
-    ProgressDisplay display(request.title.empty() ? name : request.title, request.quiet);
+    const std::string title = request.title.empty() ? name : request.title;
+    std::optional<ProgressDisplay> display(std::in_place, title, request.quiet);
     const RenderResult rendered = render(world, *integrator, options, threads, interrupt_requested(),
-                                         [&](const RenderProgress& progress) { display.update(progress); });
+                                         [&](const RenderProgress& progress) { display->update(progress); });
+    display.reset();
     fill_render_statistics(rendered, statistics);
     report_dropped(rendered.counters, request, settings, working_space);
     fill_texture_statistics(world, statistics);
@@ -326,6 +344,9 @@ SceneRenderResult render_scene(PreparedScene prepared, const SceneRenderRequest&
     const OutputFrame frame = make_frame(rendered, world.camera(), name, settings, working_space);
     ExrDriver(paths.exr, colors, request.overrides.depth).write(frame);
     PreviewDriver(paths.png, colors).write(frame);
+    if (shows_strategies && !result.interrupted)
+        write_strategies_image(request.strategies, world, integrator_options(settings), options, frame, colors,
+                               request.overrides.depth, threads, title, request.quiet);
     statistics.write = write_timer.elapsed();
     statistics.peak_memory_bytes = peak_memory_bytes();
     write_text(paths.json, to_json(statistics));

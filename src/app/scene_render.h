@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/settings_overrides.h"
+#include "app/strategies_image.h"
 #include "color/color_config.h"
 #include "core/parallel.h"
 #include "integrator/integrator.h"
@@ -17,6 +18,7 @@ struct SceneRenderRequest {
     std::filesystem::path scene;  ///< scene directory or file, for messages
     std::filesystem::path
         output;  ///< the EXR; PNG and JSON stand beside it under the same name. Empty for NAME.exr here.
+    StrategiesRequest strategies{};
     SettingsOverrides overrides;
     bool quiet = false;
     std::string title;  ///< before the progress bar
@@ -51,6 +53,12 @@ struct PreparedScene {
 /// with the scene or its settings, IoError when a file cannot be written.
 [[nodiscard]] SceneRenderResult render_scene(PreparedScene prepared, const SceneRenderRequest& request,
                                              const ThreadPool& threads);
+
+/// What the settings ask of the integrator.
+[[nodiscard]] IntegratorOptions integrator_options(const RenderSettings& settings);
+
+/// Throws SceneError that blames `asked_for` if the integrator that the settings ask for has no strategies.
+void require_strategies(const RenderSettings& settings, const SourceLocation& asked_for);
 
 /// The integrator that the settings ask for. Throws SceneError with the nearest name if there is none of that name.
 [[nodiscard]] std::unique_ptr<const Integrator> create_integrator(const RenderSettings& settings);

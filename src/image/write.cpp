@@ -6,9 +6,12 @@
 #include "image/write_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <cstdint>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -16,6 +19,8 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 namespace etendue {
 
@@ -144,24 +149,85 @@ void check_shape(const std::filesystem::path& path, const ImageF& image, const I
     }
 }
 
-}  // namespace
+// The specifications of all parts; one image has no name.
+std::vector<OIIO::ImageSpec> make_specs(std::span<const ImagePart> parts, const ImageWriteOptions& options) {
+    std::vector<OIIO::ImageSpec> specs;
+    for (const ImagePart& part : parts) {
+        specs.push_back(make_spec(*part.image, options));
+        if (!part.name.empty()) specs.back().attribute("oiio:subimagename", part.name);
+    }
+    return specs;
+}
 
-void write_image(const std::filesystem::path& path, const ImageF& image, const ImageWriteOptions& options) {
-    check_shape(path, image, options);
+bool write_parts(OIIO::ImageOutput& output, const std::string& name, std::span<const ImagePart> parts,
+                 const ImageWriteOptions& options) {
+    const std::vector<OIIO::ImageSpec> specs = make_specs(parts, options);
+    const bool opened = specs.size() == 1 ? output.open(name, specs.front())
+                                          : output.open(name, static_cast<int>(specs.size()), specs.data());
+    if (!opened) return false;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        if (i > 0 && !output.open(name, specs[i], OIIO::ImageOutput::AppendSubimage)) return false;
+        if (!write_pixels(output, *parts[i].image, options.depth)) return false;
+    }
+    return output.close();
+}
+
+// A file in memory that is opened by a name: OpenImageIO 2.4 writes EXR files of several parts to nothing else.
+class MemoryFile {
+  public:
+    MemoryFile() : fd_(memfd_create("etendue", MFD_CLOEXEC)) {}
+    ~MemoryFile() {
+        if (fd_ >= 0) close(fd_);
+    }
+    MemoryFile(const MemoryFile&) = delete;
+    MemoryFile& operator=(const MemoryFile&) = delete;
+
+    [[nodiscard]] std::string name() const { return fmt::format("/proc/self/fd/{}", fd_); }
+    [[nodiscard]] std::vector<unsigned char> bytes() const {
+        std::ifstream file(name(), std::ios::binary);
+        return {std::istreambuf_iterator<char>(file), {}};
+    }
+
+  private:
+    int fd_;
+};
+
+// Encoded in memory first, so that every byte that reaches the disk is written and checked in one place.
+std::vector<unsigned char> encode(const std::filesystem::path& path, std::span<const ImagePart> parts,
+                                  const ImageWriteOptions& options) {
+    for (const ImagePart& part : parts) check_shape(path, *part.image, options);
     const std::string format = output_format(path, options.depth);
     configure_image_library();
-    // Encoded in memory first, so that every byte that reaches the disk is written and checked in one place.
     std::vector<unsigned char> encoded;
     OIIO::Filesystem::IOVecOutput memory(encoded);
+    const MemoryFile file;
+    const bool multi_part = parts.size() > 1;
+    const std::string name = multi_part ? file.name() : "memory." + path.extension().string();
     const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
     if (!output) throw IoError(fmt::format("cannot write {}: {}", path.string(), OIIO::geterror()));
     output->threads(1);
-    OIIO::ImageSpec spec = make_spec(image, options);
-    const bool good = output->set_ioproxy(&memory) && output->open("memory." + path.extension().string(), spec) &&
-                      write_pixels(*output, image, options.depth) && output->close();
-    if (!good) throw IoError(fmt::format("cannot write {}: {}", path.string(), output->geterror()));
+    if (!(multi_part || output->set_ioproxy(&memory)) || !write_parts(*output, name, parts, options))
+        throw IoError(fmt::format("cannot write {}: {}", path.string(), output->geterror()));
+    if (multi_part) encoded = file.bytes();
     if (format == "openexr") rename_exr_attribute(encoded, kColorSpaceStandIn, kColorSpace);
-    write_bytes(path, std::as_bytes(std::span(encoded)));
+    return encoded;
+}
+
+}  // namespace
+
+void write_image_parts(const std::filesystem::path& path, std::span<const ImagePart> parts,
+                       const ImageWriteOptions& options) {
+    write_bytes(path, std::as_bytes(std::span<const unsigned char>(encode(path, parts, options))));
+}
+
+void write_image(const std::filesystem::path& path, const ImageF& image, const ImageWriteOptions& options) {
+    write_image_parts(path, std::array{ImagePart{{}, &image}}, options);
+}
+
+std::vector<unsigned char> encode_png(const ImageF& image) {
+    ImageWriteOptions options;
+    options.depth = PixelDepth::UInt8;
+    return encode("image.png", std::array{ImagePart{{}, &image}}, options);
 }
 
 }  // namespace etendue

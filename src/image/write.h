@@ -6,6 +6,7 @@
 #include "image/image.h"
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -38,6 +39,19 @@ struct ImageWriteOptions {
 /// ±65504. Creates no directory; a path that exists and is no regular file (/dev/stdout) is written in place. Throws
 /// IoError with the path and the reason; no partial file is left.
 void write_image(const std::filesystem::path& path, const ImageF& image, const ImageWriteOptions& options);
+
+/// One image of a file that holds several.
+struct ImagePart {
+    std::string name;  ///< unlike all others
+    const ImageF* image = nullptr;
+};
+
+/// Writes `parts`, at least one, as a multi-part EXR in the same way; `options` are those of all.
+void write_image_parts(const std::filesystem::path& path, std::span<const ImagePart> parts,
+                       const ImageWriteOptions& options);
+
+/// The bytes of a PNG file of `image`, whose values lie in [0, 1] and are encoded for display. Throws IoError.
+[[nodiscard]] std::vector<unsigned char> encode_png(const ImageF& image);
 
 /// Writes `text` the same careful way. Throws IoError.
 void write_text(const std::filesystem::path& path, const std::string& text);

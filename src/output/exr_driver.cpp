@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "output/software_name.h"
 
+#include <array>
 #include <string>
 #include <utility>
 #include <vector>
@@ -58,6 +59,10 @@ ExrDriver::ExrDriver(std::filesystem::path path, ColorConfig config, PixelDepth 
     : path_(std::move(path)), config_(std::move(config)), depth_(depth) {}
 
 void ExrDriver::write(const OutputFrame& frame) {
+    write_parts(frame, std::array{ImagePart{{}, &frame.pixels}});
+}
+
+void ExrDriver::write_parts(const OutputFrame& frame, std::span<const ImagePart> parts) {
     ImageWriteOptions options;
     options.depth = depth_;
     options.attributes = make_attributes(frame, config_);
@@ -65,7 +70,7 @@ void ExrDriver::write(const OutputFrame& frame) {
     options.offset_y = frame.crop_y;
     options.full_width = frame.full_width;
     options.full_height = frame.full_height;
-    write_image(path_, frame.pixels, options);
+    write_image_parts(path_, parts, options);
 }
 
 }  // namespace etendue

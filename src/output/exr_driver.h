@@ -6,6 +6,7 @@
 #include "output/output_driver.h"
 
 #include <filesystem>
+#include <span>
 
 namespace etendue {
 
@@ -17,6 +18,8 @@ class ExrDriver final : public OutputDriver {
     ExrDriver(std::filesystem::path path, ColorConfig config, PixelDepth depth = PixelDepth::Half);
 
     void write(const OutputFrame& frame) override;
+    /// `parts`, of the frame's size, in place of its pixels: a multi-part file, unless it is one.
+    void write_parts(const OutputFrame& frame, std::span<const ImagePart> parts);
 
   private:
     std::filesystem::path path_;

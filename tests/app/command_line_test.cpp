@@ -197,6 +197,27 @@ TEST_F(CommandLine, LightThatCannotBeFoundIsSaid) {
 }
 
 /// Outputs that cannot be written are found before anything is rendered.
+TEST_F(CommandLine, StrategiesAreShownOneByOne) {
+    const std::string box = scene("box");
+    const ProgramResult result =
+        run({"render", box, "--integrator", "bdpt", "--spp", "1", "--strategies-image", "all.exr", "-o", "image.exr"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(result.err.find("--strategies-depth"), std::string::npos) << "longer paths are left out: " << result.err;
+    EXPECT_EQ(list(work_), (Names{"all.exr", "all.png", "image.exr", "image.json", "image.png"}));
+    const ProgramResult few = run({"render", box, "--integrator", "bdpt", "--spp", "1", "--max-depth", "2",
+                                   "--strategies-image", "few.exr", "--strategies-unweighted", "-o", "image.exr"});
+    EXPECT_EQ(few.exit_code, 0) << few.err;
+    EXPECT_EQ(few.err.find("note"), std::string::npos) << few.err;
+    const std::string bytes = read_file(work_ / "few.exr");
+    for (const char* part : {"s0t2", "s0t3", "s1t2", "s2t1"}) EXPECT_NE(bytes.find(part), std::string::npos) << part;
+    EXPECT_EQ(bytes.find("s0t4"), std::string::npos);
+    EXPECT_EQ(run({"render", box, "--integrator", "bdpt", "--strategies-image", "all.png"}).exit_code, 2);
+    EXPECT_EQ(run({"render", box, "--strategies-depth", "3"}).exit_code, 2);
+    const ProgramResult path = run({"render", box, "--integrator", "path", "--strategies-image", "path.exr"});
+    EXPECT_EQ(path.exit_code, 3);
+    EXPECT_NE(path.err.find("--strategies-image: 'path' has no strategies"), std::string::npos) << path.err;
+}
+
 TEST_F(CommandLine, WhatCannotBeWrittenEndsWithOneAtOnce) {
     fs::create_directories(folder_ / "directory.exr");
     for (const std::string& output : {std::string("no/such/folder/image.exr"), (folder_ / "directory.exr").string()}) {

@@ -24,6 +24,19 @@ TEST(RenameExrAttribute, RenamesInPlace) {
     EXPECT_EQ(bytes, expected);
 }
 
+TEST(RenameExrAttribute, RenamesInEveryPart) {
+    // Two headers, each ended by an empty name, and an empty header after them.
+    const std::string header("first\0int\0\x04\0\0\0abcd\0", 19);
+    const std::string text =
+        std::string("\x76\x2f\x31\x01\x02\x10\0\0", 8) + header + header + std::string("\0first", 6);
+    std::vector<std::uint8_t> bytes(text.begin(), text.end());
+    ASSERT_TRUE(rename_exr_attribute(bytes, "first", "fifth"));
+    const std::string renamed(bytes.begin(), bytes.end());
+    EXPECT_EQ(renamed.substr(8, 5), "fifth");
+    EXPECT_EQ(renamed.substr(8 + header.size(), 5), "fifth");
+    EXPECT_EQ(renamed.substr(renamed.size() - 5), "first") << "pixels are no header";
+}
+
 TEST(RenameExrAttribute, LeavesEverythingElseAlone) {
     auto bytes = make_header();
     EXPECT_FALSE(rename_exr_attribute(bytes, "abc", "xyz")) << "a value is no name";

@@ -133,6 +133,27 @@ TEST(WriteImage, ExrTakesAnyChannelNames) {
     EXPECT_EQ(read_image_float(folder / "a.exr").pixels, image.pixels);
 }
 
+TEST(WriteImage, ExrOfSeveralParts) {
+    const TemporaryFolder folder;
+    const ImageF first = make_gradient(5, 3, 3);
+    const ImageF second = make_gradient(5, 3, 4);
+    write_image_parts(folder / "a.exr", std::vector<ImagePart>{{"one", &first}, {"two", &second}},
+                      {.depth = PixelDepth::Float, .attributes = {{"oiio:ColorSpace", std::string("ACEScg")}}});
+    EXPECT_EQ(folder.file_count(), 1u) << "no temporary file stays";
+    const auto input = OIIO::ImageInput::open((folder / "a.exr").string());
+    ASSERT_TRUE(input) << OIIO::geterror();
+    for (int part = 0; part < 2; ++part) {
+        ASSERT_TRUE(input->seek_subimage(part, 0));
+        EXPECT_EQ(input->spec().get_string_attribute("name"), part == 0 ? "one" : "two");
+        EXPECT_EQ(input->spec().get_string_attribute("oiio:ColorSpace"), "ACEScg");
+        const ImageF& image = part == 0 ? first : second;
+        std::vector<float> pixels(image.pixels.size());
+        ASSERT_TRUE(input->read_image(part, 0, 0, image.channels, OIIO::TypeDesc::FLOAT, pixels.data()));
+        EXPECT_EQ(pixels, image.pixels);
+    }
+    EXPECT_FALSE(input->seek_subimage(2, 0));
+}
+
 TEST(WriteImage, PngRoundsToNearestAndClamps) {
     const TemporaryFolder folder;
     ImageF image(4, 1, 4);

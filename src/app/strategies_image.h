@@ -1,0 +1,37 @@
+// The pyramid of all strategies of a scene, in files.
+#pragma once
+
+#include "color/color_config.h"
+#include "core/parallel.h"
+#include "image/write.h"
+#include "integrator/integrator.h"
+#include "output/output_frame.h"
+#include "render/render.h"
+#include "render/strategy_pyramid.h"
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+namespace etendue {
+
+struct StrategiesRequest {
+    /// The longest paths whose strategies are shown if none are asked for: the sheet of images grows as their square.
+    static constexpr int kLongest = 8;
+
+    std::filesystem::path output{};  ///< the EXR, a PNG goes beside it; empty for none
+    int longest = 0;                 ///< edges; 0 for the smaller of kLongest and the integrator's longest
+    bool weighted = true;
+};
+
+/// Renders every strategy of bidirectional path tracing and writes an EXR with a part for each, named "s0t2" and so on,
+/// and a PNG with all of them labelled (s,t), a row for each length of path. `frame` says what is to be said of the
+/// image. Nothing is written if it is interrupted.
+void write_strategies_image(const StrategiesRequest& request, const World& world, const IntegratorOptions& integrator,
+                            const RenderOptions& options, OutputFrame frame, const ColorConfig& colors,
+                            PixelDepth depth, const ThreadPool& threads, const std::string& title, bool quiet);
+
+/// "(s,t)"
+[[nodiscard]] std::string strategy_label(const Strategy& strategy);
+
+}  // namespace etendue

@@ -1,0 +1,29 @@
+// The images of all strategies of bidirectional path tracing, one by one: the pyramid of Veach 1997, figure 10.4.
+#pragma once
+
+#include "integrator/integrator.h"
+#include "render/render.h"
+
+#include <span>
+#include <vector>
+
+namespace etendue {
+
+/// All strategies that make paths of `shortest` to `longest` edges (without vertices in media), by length, then by the
+/// vertices from the light.
+[[nodiscard]] std::vector<Strategy> strategies_between(int shortest, int longest);
+
+struct StrategyImage {
+    Strategy strategy;
+    std::vector<float> rgba;  ///< of the window, row by row
+};
+
+/// Renders each of `strategies` by itself, with the same random numbers: weighted ones add up to the image of `bdpt`.
+/// `progress` is told of all of them as of one render. Once `stop` is true, those are returned that are finished.
+[[nodiscard]] std::vector<StrategyImage> render_strategies(const World& world, const IntegratorOptions& integrator,
+                                                           std::span<const Strategy> strategies,
+                                                           const RenderOptions& options, const ThreadPool& threads,
+                                                           const std::atomic<bool>& stop,
+                                                           const ProgressCallback& progress);
+
+}  // namespace etendue

@@ -1,0 +1,83 @@
+#include "render/strategy_pyramid.h"
+
+#include "world/test_scene.h"
+
+#include <atomic>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace etendue::test {
+
+namespace {
+
+TEST(StrategiesBetween, AreAllThatExist) {
+    const std::vector<Strategy> seen = strategies_between(1, 1);
+    EXPECT_EQ(seen, (std::vector<Strategy>{{0, 2}})) << "a light that the camera sees";
+    EXPECT_EQ(strategies_between(2, 3),
+              (std::vector<Strategy>{{0, 3}, {1, 2}, {2, 1}, {0, 4}, {1, 3}, {2, 2}, {3, 1}}));
+    for (const Strategy& strategy : strategies_between(1, 9)) EXPECT_TRUE(strategy.exists());
+    for (const Strategy& strategy : {Strategy{1, 1}, Strategy{0, 1}, Strategy{3, 0}, Strategy{-1, 4}})
+        EXPECT_FALSE(strategy.exists()) << strategy.s << "," << strategy.t;
+}
+
+/// A floor under a lamp that the camera sees.
+World lamp_above_floor() {
+    SceneDesc scene = empty_scene();
+    add_object(scene, quad({0, -0.6f, -3}, {1.2f, 0, 0}, {0, 0, -1.2f}), add_material(scene, diffuse(Rgb(0.7f))));
+    add_object(scene, quad({0, 0.6f, -3}, {0.4f, 0, 0}, {0, 0, 0.4f}), add_material(scene, emissive(Rgb(6.0f))));
+    return compile(std::move(scene));
+}
+
+TEST(RenderStrategies, WeightedOnesAddUpToTheImage) {
+    const ThreadPool threads(2);
+    const World world = lamp_above_floor();
+    RenderOptions options;
+    options.full_width = 24;
+    options.full_height = 16;
+    options.window = {0, 0, 24, 16};
+    options.spp = 4;
+    const IntegratorOptions integrator{.lengths = {.max_depth = 4}};
+    const std::atomic<bool> stop{false};
+    const std::vector<Strategy> strategies = strategies_between(1, 4);
+    double last_fraction = 0.0;
+    const std::vector<StrategyImage> images =
+        render_strategies(world, integrator, strategies, options, threads, stop, [&](const RenderProgress& progress) {
+            EXPECT_GE(progress.fraction, last_fraction);
+            last_fraction = progress.fraction;
+        });
+    EXPECT_EQ(last_fraction, 1.0);
+    ASSERT_EQ(images.size(), strategies.size());
+    const std::vector<float> whole =
+        render(world, *make_integrator("bdpt", integrator), options, threads, stop, {}).film.resolve();
+    double total = 0.0;
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+        if (i % 4 == 3) continue;  // alpha
+        double sum = 0.0;
+        for (const StrategyImage& image : images) sum += static_cast<double>(image.rgba[i]);
+        EXPECT_NEAR(sum, static_cast<double>(whole[i]), 1e-4 * (1.0 + sum)) << i;
+        total += sum;
+    }
+    EXPECT_GT(total, 1.0);
+}
+
+TEST(RenderStrategies, AStopLeavesThoseThatAreFinished) {
+    const ThreadPool threads(1);
+    const World world = lamp_above_floor();
+    RenderOptions options;
+    options.full_width = 8;
+    options.full_height = 8;
+    options.window = {0, 0, 8, 8};
+    options.spp = 1;
+    std::atomic<bool> stop{false};
+    const auto images = render_strategies(world, {}, strategies_between(1, 3), options, threads, stop,
+                                          [&](const RenderProgress& progress) { stop = progress.fraction > 0.3; });
+    EXPECT_GE(images.size(), 1u);
+    EXPECT_LT(images.size(), 8u);
+}
+
+}  // namespace
+
+}  // namespace etendue::test
