@@ -15,12 +15,17 @@ namespace etendue {
 
 namespace {
 
-/// The blocks, then the whole image if it is more than one block.
-std::vector<PixelRect> regions(const ImageF& image, int block_size) {
+std::vector<PixelRect> blocks(const ImageF& image, int block_size) {
     std::vector<PixelRect> result;
     for (int y = 0; y < image.height; y += block_size)
         for (int x = 0; x < image.width; x += block_size)
             result.push_back({x, y, std::min(x + block_size, image.width), std::min(y + block_size, image.height)});
+    return result;
+}
+
+/// The blocks, then the whole image if it is more than one block.
+std::vector<PixelRect> regions(const ImageF& image, int block_size) {
+    std::vector<PixelRect> result = blocks(image, block_size);
     if (result.size() > 1) result.push_back({0, 0, image.width, image.height});
     return result;
 }
@@ -41,6 +46,50 @@ Moments moments(const ImageEstimate& image, const PixelRect& region, int channel
     }
     const auto pixels = static_cast<double>(region.area());
     return {sum.mean / pixels, sum.variance / (pixels * pixels)};
+}
+
+double mean_of(const ImageF& image, const PixelRect& region, int channel) {
+    double sum = 0.0;
+    for (int y = region.y0; y < region.y1; ++y)
+        for (int x = region.x0; x < region.x1; ++x)
+            sum += static_cast<double>(image.pixel(x, y)[static_cast<std::size_t>(channel)]);
+    return sum / static_cast<double>(region.area());
+}
+
+/// Of the mean of the region's means in all renders, from how much these differ.
+double variance_of_means(std::span<const ImageF> renders, const PixelRect& region, int channel) {
+    const auto count = static_cast<double>(renders.size());
+    double sum = 0.0;
+    double squares = 0.0;
+    for (const ImageF& render : renders) sum += mean_of(render, region, channel);
+    for (const ImageF& render : renders) {
+        const double deviation = mean_of(render, region, channel) - sum / count;
+        squares += deviation * deviation;
+    }
+    return squares / (count - 1.0) / count;
+}
+
+/// False if few of the values of a region make up its mean.
+bool has_many_values(std::span<const ImageF> renders, const PixelRect& region, int channel) {
+    constexpr double kMany = 100.0;
+    constexpr double kMost = 0.25;  // of all
+    double sum = 0.0;
+    double squares = 0.0;
+    for (const ImageF& render : renders)
+        for (int y = region.y0; y < region.y1; ++y)
+            for (int x = region.x0; x < region.x1; ++x) {
+                const auto value = static_cast<double>(render.pixel(x, y)[static_cast<std::size_t>(channel)]);
+                sum += value;
+                squares += value * value;
+            }
+    const double all = static_cast<double>(region.area()) * static_cast<double>(renders.size());
+    return squares == 0.0 || sum * sum >= std::min(kMany, kMost * all) * squares;
+}
+
+void require_estimates(const ImageEstimate& a, const ImageEstimate& b) {
+    require_same_shape(a.mean, b.mean, "images");
+    require_same_shape(a.mean, a.variance, "an image and its variance");
+    require_same_shape(b.mean, b.variance, "an image and its variance");
 }
 
 BlockDifference compare(const ImageEstimate& a, const ImageEstimate& b, const PixelRect& region, int channel,
@@ -96,10 +145,74 @@ ImageEstimate estimate_image(std::span<const ImageF> renders) {
     return result;
 }
 
+std::optional<int> testable_block_size(std::span<const ImageF> renders, int least) {
+    const ImageF& first = renders.front();
+    for (int size = least;; size *= 2) {
+        const bool all = std::ranges::all_of(blocks(first, size), [&](const PixelRect& block) {
+            for (int channel = 0; channel < first.channels; ++channel)
+                if (!has_many_values(renders, block, channel)) return false;
+            return true;
+        });
+        if (all) return size;
+        if (size >= std::max(first.width, first.height)) return std::nullopt;
+    }
+}
+
+double relative_variance(const ImageEstimate& estimate, int block_size) {
+    double sum = 0.0;
+    for (const PixelRect& block : blocks(estimate.mean, block_size))
+        for (int channel = 0; channel < estimate.mean.channels; ++channel) {
+            const double mean = mean_of(estimate.mean, block, channel);
+            const double variance = mean_of(estimate.variance, block, channel);
+            sum += variance * static_cast<double>(block.area()) / (mean * mean + kMetricEpsilon);
+        }
+    return sum / static_cast<double>(estimate.mean.pixels.size());
+}
+
+double widen_for_correlation(ImageEstimate& estimate, std::span<const ImageF> renders, int block_size) {
+    if (renders.size() < 2) throw std::invalid_argument("a variance needs at least two renders");
+    for (const ImageF& render : renders) require_same_shape(render, estimate.mean, "renders and their estimate");
+    double sum = 0.0;
+    double count = 0.0;
+    for (const PixelRect& block : blocks(estimate.mean, block_size))
+        for (int channel = 0; channel < estimate.mean.channels; ++channel) {
+            const double independent = moments(estimate, block, channel).variance;
+            if (!(independent > 0.0)) continue;
+            sum += variance_of_means(renders, block, channel) / independent;
+            count += 1.0;
+        }
+    const double factor = count > 0.0 ? std::max(1.0, sum / count) : 1.0;
+    for (float& variance : estimate.variance.pixels) variance *= static_cast<float>(factor);
+    return factor;
+}
+
+ImageF agreement_map(const ImageEstimate& a, const ImageEstimate& b, const AgreementOptions& options) {
+    require_estimates(a, b);
+    ImageF map(a.mean.width, a.mean.height, 1);
+    for (const PixelRect& block : blocks(a.mean, options.block_size)) {
+        double largest = 0.0;
+        for (int channel = 0; channel < a.mean.channels; ++channel)
+            largest = std::max(largest, std::abs(compare(a, b, block, channel, options.block_tolerance).z));
+        for (int y = block.y0; y < block.y1; ++y)
+            for (int x = block.x0; x < block.x1; ++x) map.pixel(x, y)[0] = static_cast<float>(largest);
+    }
+    return map;
+}
+
+double critical_z(double significance, std::size_t tests) {
+    // Of one test: 1 - (1 - significance)^(1 / tests).
+    const double p = -std::expm1(std::log1p(-significance) / static_cast<double>(tests));
+    double low = 0.0;
+    double high = 40.0;  // erfc underflows before
+    for (int i = 0; i < 60; ++i) {
+        const double middle = 0.5 * (low + high);
+        (std::erfc(middle / std::numbers::sqrt2) > p ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
+}
+
 BlockAgreement test_agreement(const ImageEstimate& a, const ImageEstimate& b, const AgreementOptions& options) {
-    require_same_shape(a.mean, b.mean, "images");
-    require_same_shape(a.mean, a.variance, "an image and its variance");
-    require_same_shape(b.mean, b.variance, "an image and its variance");
+    require_estimates(a, b);
     BlockAgreement result;
     for (const PixelRect& region : regions(a.mean, options.block_size)) {
         for (int channel = 0; channel < a.mean.channels; ++channel) {

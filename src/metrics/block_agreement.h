@@ -2,12 +2,14 @@
 // several independent renders: samples within a pixel of a low-discrepancy sampler are not independent, whole renders
 // with different seeds are. Samples of different pixels are independent too (every pixel has numbers of its own, and
 // pixel filters are importance-sampled, so that no sample counts for two pixels): so the variance of a block's mean is
-// the sum of its pixels' over their squared number, and it is known much better than any pixel's.
+// the sum of its pixels' over their squared number, and it is known much better than any pixel's. Splats are not so:
+// each counts for all pixels that its filter reaches, unless that is a box. `widen_for_correlation` makes up for it.
 #pragma once
 
 #include "image/image.h"
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,16 +22,32 @@ struct ImageEstimate {
     ImageF variance;
 };
 
-/// From at least two independent renders of one shape, which differ in nothing but their seed. Throws
-/// std::invalid_argument if they are too few or differ in shape.
-[[nodiscard]] ImageEstimate estimate_image(std::span<const ImageF> renders);
-
 struct AgreementOptions {
     int block_size = 16;         ///< pixels, side of the square blocks; the last ones of a row or column may be smaller
     double significance = 0.01;  ///< probability that any block fails although both images are right
     double mean_tolerance = 0.01;  ///< most relative difference between the means of the whole images
     double block_tolerance = 0.0;  ///< relative; smaller differences of a block count as none: what rounding explains
 };
+
+/// From at least two independent renders of one shape, which differ in nothing but their seed. Throws
+/// std::invalid_argument if they are too few or differ in shape.
+[[nodiscard]] ImageEstimate estimate_image(std::span<const ImageF> renders);
+
+/// Mean over pixels and channels of variance / (m² + kMetricEpsilon), m being the mean of the pixel's block: of its own
+/// mean a pixel with a firefly would have no more than another. Of the mean of the renders, as the variances are.
+[[nodiscard]] double relative_variance(const ImageEstimate& estimate, int block_size = AgreementOptions{}.block_size);
+
+/// Multiplies the variances of `estimate`, which `renders` made, by the mean over blocks and channels of how much more
+/// the means of blocks vary from render to render than independent pixels' would; never by less than 1. Returns the
+/// factor. Throws std::invalid_argument as `estimate_image`.
+double widen_for_correlation(ImageEstimate& estimate, std::span<const ImageF> renders, int block_size);
+
+/// The side of the smallest blocks, `least` pixels times a power of two, whose means are near enough to normally
+/// distributed to be tested: where a few pixels make the mean of a block, as where light is found by chance, others
+/// like them are missing from the blocks next to it, and neither variance is known. Every block has 100 values or more
+/// that count (Kish 1965: (sum x)² / sum x², over its pixels in all renders), or a quarter of all. The last size is
+/// that of the whole image; nothing if not even that will do.
+[[nodiscard]] std::optional<int> testable_block_size(std::span<const ImageF> renders, int least);
 
 /// A block, or the whole image, and how it differs.
 struct BlockDifference {
@@ -62,5 +80,12 @@ struct BlockAgreement {
 /// std::invalid_argument if the shapes differ. Values that are not finite do not agree.
 [[nodiscard]] BlockAgreement test_agreement(const ImageEstimate& a, const ImageEstimate& b,
                                             const AgreementOptions& options = {});
+
+/// One channel: of each pixel the largest |z| over the channels of its block. Throws as `test_agreement`.
+[[nodiscard]] ImageF agreement_map(const ImageEstimate& a, const ImageEstimate& b,
+                                   const AgreementOptions& options = {});
+
+/// The |z| that one of `tests` > 0 standard normal numbers exceeds with probability `significance` in (0, 1).
+[[nodiscard]] double critical_z(double significance, std::size_t tests);
 
 }  // namespace etendue

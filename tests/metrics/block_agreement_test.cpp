@@ -149,5 +149,54 @@ TEST(BlockAgreement, RefusesImagesOfDifferentShape) {
                  std::invalid_argument);
 }
 
+/// Noise in which every value is the mean of the `reach` × `reach` ones around it.
+std::vector<ImageF> blurred_noise(int reach) {
+    std::mt19937 generator(3);
+    std::exponential_distribution<float> noise(1.0f);
+    std::vector<ImageF> renders(8, ImageF(96, 96, 1));
+    for (ImageF& render : renders) {
+        ImageF sharp(render.width + reach, render.height + reach, 1);
+        for (float& value : sharp.pixels) value = noise(generator);
+        for (int y = 0; y < render.height; ++y)
+            for (int x = 0; x < render.width; ++x)
+                for (int v = 0; v < reach; ++v)
+                    for (int u = 0; u < reach; ++u)
+                        render.pixel(x, y)[0] += sharp.pixel(x + u, y + v)[0] / static_cast<float>(reach * reach);
+    }
+    return renders;
+}
+
+// The variance of a block of 16 × 16 means of 3 × 3 values is 9 times that of independent ones, less at its edges: each
+// value lies within the block for (1 - 2 / (3 · 16))² of ... its neighbours, and 36 blocks of 8 renders tell it within
+// 9%.
+TEST(WidenForCorrelation, FindsHowMuchBlocksVaryMore) {
+    const std::vector<ImageF> independent = blurred_noise(1);
+    ImageEstimate estimate = estimate_image(independent);
+    EXPECT_NEAR(widen_for_correlation(estimate, independent, 16), 1.0, 0.3);
+    const std::vector<ImageF> blurred = blurred_noise(3);
+    estimate = estimate_image(blurred);
+    const float before = estimate.variance.pixels[5];
+    const double factor = widen_for_correlation(estimate, blurred, 16);
+    EXPECT_NEAR(factor, 9.0 * std::pow(1.0 - 8.0 / (9.0 * 16.0), 2), 2.0);
+    EXPECT_FLOAT_EQ(estimate.variance.pixels[5], before * static_cast<float>(factor));
+}
+
+TEST(AgreementMap, ShowsTheLargestZOfEachBlock) {
+    ImageEstimate a = constant_estimate(8, 4, 1.0f, 0.16f);
+    const ImageEstimate b = constant_estimate(8, 4, 1.0f, 0.09f);
+    for (int y = 0; y < 4; ++y)
+        for (int x = 4; x < 8; ++x) a.mean.pixel(x, y)[0] = 1.25f;
+    const ImageF map = agreement_map(a, b, {.block_size = 4});
+    EXPECT_EQ(map.pixel(0, 0)[0], 0.0f);
+    EXPECT_NEAR(map.pixel(7, 3)[0], 2.0, 1e-5);
+}
+
+TEST(CriticalZ, IsThatOfTheNormalDistribution) {
+    EXPECT_NEAR(critical_z(0.05, 1), 1.959964, 1e-6);
+    EXPECT_NEAR(critical_z(0.01, 1), 2.575829, 1e-6);
+    // 1 - 0.99^(1/1000) of one test.
+    EXPECT_NEAR(std::erfc(critical_z(0.01, 1000) / std::sqrt(2.0)), 1.005028e-5, 1e-10);
+}
+
 }  // namespace
 }  // namespace etendue
