@@ -1,0 +1,200 @@
+#include "report/comparison_report.h"
+
+#include <cmath>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+namespace etendue {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kFormat = 1;
+constexpr std::array kChannels{"R", "G", "B"};
+
+/// JSON has no NaN and no infinity.
+Json number(double value) {
+    return std::isfinite(value) ? Json(value) : Json();
+}
+
+Json window(const PixelRect& rect) {
+    return {rect.x0, rect.y0, rect.x1, rect.y1};
+}
+
+Json color(const std::array<double, 3>& rgb) {
+    return {number(rgb[0]), number(rgb[1]), number(rgb[2])};
+}
+
+Json range(const SeedValues& values) {
+    return {{"mean", number(values.mean())}, {"min", number(values.least())}, {"max", number(values.largest())}};
+}
+
+Json spread(const SeedValues& values) {
+    Json single = Json::array();
+    for (const double value : values.values) single.push_back(number(value));
+    return {{"mean", number(values.mean())}, {"deviation", number(values.deviation())}, {"values", std::move(single)}};
+}
+
+template <typename Value, typename Write>
+Json object(const std::map<std::string, Value>& members, const Write& write) {
+    Json json = Json::object();
+    for (const auto& [name, value] : members) json[name] = write(value);
+    return json;
+}
+
+Json to_json(const ConvergenceStep& step) {
+    return {{"spp", step.spp},
+            {"seconds", number(step.seconds)},
+            {"cpu_seconds", number(step.cpu_seconds)},
+            {"errors", object(step.errors, range)}};
+}
+
+Json to_json(const VariantReport& variant) {
+    Json convergence = Json::array();
+    for (const ConvergenceStep& step : variant.convergence) convergence.push_back(to_json(step));
+    return {{"name", variant.name},
+            {"options", variant.options},
+            {"command", variant.command},
+            {"cannot_find", variant.cannot_find},
+            {"spp", variant.spp},
+            {"seconds", range(variant.seconds)},
+            {"cpu_seconds", range(variant.cpu_seconds)},
+            {"samples_per_cpu_second", number(variant.samples_per_cpu_second)},
+            {"rays", variant.rays},
+            {"rays_per_second", number(variant.rays_per_second)},
+            {"mean", color(variant.mean)},
+            {"dropped_samples", variant.dropped_samples},
+            {"errors", object(variant.errors, spread)},
+            {"variance", number(variant.variance)},
+            {"efficiency", number(variant.efficiency)},
+            {"convergence", std::move(convergence)},
+            {"slopes", object(variant.slopes, [](const ConvergenceSlope& slope) {
+                 return Json{{"spp", number(slope.spp)}, {"seconds", number(slope.seconds)}};
+             })}};
+}
+
+Json to_json(const std::optional<ReachedError>& reached) {
+    if (!reached) return {};
+    return {{"seconds", number(reached->seconds)}, {"extrapolated", reached->extrapolated}};
+}
+
+Json to_json(const BlockAgreement& agreement, const AgreementOptions& options) {
+    const BlockDifference& worst = agreement.worst;
+    return {{"agree", agreement.agree()},
+            {"blocks_agree", agreement.blocks_agree},
+            {"means_agree", agreement.means_agree},
+            {"block_size", options.block_size},
+            {"tests", agreement.tests},
+            {"p_value", number(agreement.p_value)},
+            {"significance", options.significance},
+            {"mean_difference", number(agreement.mean_difference)},
+            {"mean_tolerance", options.mean_tolerance},
+            {"worst",
+             {{"x", worst.x},
+              {"y", worst.y},
+              {"width", worst.width},
+              {"height", worst.height},
+              {"channel", kChannels.at(static_cast<std::size_t>(worst.channel))},
+              {"mean_a", number(worst.mean_a)},
+              {"mean_b", number(worst.mean_b)},
+              {"z", number(worst.z)}}},
+            {"text", agreement.str()}};
+}
+
+Json to_json(const PairReport& pair) {
+    return {{"a", pair.a},
+            {"b", pair.b},
+            {"ratios", object(pair.ratios, number)},
+            {"time_to_reach",
+             {{"metric", "relmse"},
+              {"a_reaches_b", to_json(pair.a_reaches_b)},
+              {"b_reaches_a", to_json(pair.b_reaches_a)}}},
+            {"comparable", pair.comparable},
+            {"agreement", pair.agreement ? to_json(*pair.agreement, pair.agreement_options) : Json()}};
+}
+
+Json to_json(const RegionReport& region) {
+    Json variants = Json::array();
+    for (const RegionVariant& variant : region.variants)
+        variants.push_back({{"name", variant.name},
+                            {"mean", color(variant.mean)},
+                            {"mean_error", number(variant.mean_error.mean())},
+                            {"mean_error_deviation", number(variant.mean_error.deviation())},
+                            {"errors", object(variant.errors, spread)},
+                            {"relmse_seconds", number(variant.rel_mse_seconds)}});
+    return {
+        {"name", region.name},    {"found", region.found},  {"x0", region.pixels.x0},         {"y0", region.pixels.y0},
+        {"x1", region.pixels.x1}, {"y1", region.pixels.y1}, {"variants", std::move(variants)}};
+}
+
+Json to_json(const StrategiesReport& report) {
+    Json rows = Json::array();
+    for (const StrategyReport& strategy : report.strategies) {
+        const int edges = strategy.s + strategy.t - 1;
+        if (rows.empty() || rows.back()["edges"] != edges)
+            rows.push_back({{"edges", edges}, {"images", Json::array()}});
+        rows.back()["images"].push_back({{"s", strategy.s},
+                                         {"t", strategy.t},
+                                         {"weighted_mean", number(strategy.weighted_mean)},
+                                         {"unweighted_mean", number(strategy.unweighted_mean)}});
+    }
+    return {{"variant", report.variant}, {"spp", report.spp}, {"longest", report.longest}, {"rows", std::move(rows)}};
+}
+
+Json to_json(const ReferenceReport& reference) {
+    Json json{{"kind", reference.kind}, {"text", reference.text}, {"noise_relmse", number(reference.noise_rel_mse)}};
+    if (!reference.weights.empty()) json["weights"] = object(reference.weights, number);
+    return json;
+}
+
+Json to_json(const ReportedMetric& metric) {
+    return {{"key", metric.key}, {"name", metric.name}, {"formula", metric.formula}};
+}
+
+template <typename Value>
+Json array(const std::vector<Value>& values) {
+    Json json = Json::array();
+    for (const Value& value : values) json.push_back(to_json(value));
+    return json;
+}
+
+}  // namespace
+
+std::string to_json(const ComparisonReport& report) {
+    Json json{{"format", kFormat},
+              {"program", report.program},
+              {"created", report.created},
+              {"command", report.command},
+              {"scene",
+               {{"name", report.scene},
+                {"path", report.scene_path},
+                {"width", report.width},
+                {"height", report.height},
+                {"crop", report.crop ? window(*report.crop) : Json()},
+                {"working_space", report.working_space},
+                {"display", report.display},
+                {"view", report.view},
+                {"exposure", report.exposure}}},
+              {"machine", {{"threads", report.threads}, {"isa", report.isa}, {"libraries", report.libraries}}},
+              {"settings",
+               {{"seconds", report.seconds ? Json(*report.seconds) : Json()},
+                {"spp", report.spp ? Json(*report.spp) : Json()},
+                {"seeds", report.seeds},
+                {"first_seed", report.first_seed}}},
+              {"reference", to_json(report.reference)},
+              {"metrics", array(report.metrics)},
+              {"maps", object(report.maps,
+                              [](const MapScale& scale) {
+                                  return Json{{"low", number(scale.low)}, {"high", number(scale.high)}};
+                              })},
+              {"notes", report.notes},
+              {"variants", array(report.variants)},
+              {"pairs", array(report.pairs)},
+              {"regions", array(report.regions)}};
+    if (report.strategies) json["strategies"] = to_json(*report.strategies);
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace etendue

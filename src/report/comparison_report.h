@@ -1,0 +1,177 @@
+// What `etendue compare` has measured: variants of rendering one scene, against a reference and against each other.
+//
+// A plain description, in the order of the report. Numbers that are not known are NaN, and null in JSON.
+#pragma once
+
+#include "core/pixel_rect.h"
+#include "metrics/block_agreement.h"
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace etendue {
+
+inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+/// A number of each of several renders that differ in their seeds.
+struct SeedValues {
+    std::vector<double> values{};
+
+    [[nodiscard]] double mean() const;
+    /// Standard deviation of one of them; unknown of fewer than two.
+    [[nodiscard]] double deviation() const;
+    [[nodiscard]] double least() const;
+    [[nodiscard]] double largest() const;
+};
+
+/// By the key of the metric: "relmse".
+using ErrorsByMetric = std::map<std::string, SeedValues>;
+
+/// A metric as the report explains it.
+struct ReportedMetric {
+    std::string key{};
+    std::string name{};
+    std::string formula{};  ///< with its constants
+};
+
+/// Where all seeds of a variant were looked at.
+struct ConvergenceStep {
+    std::uint32_t spp = 0;
+    double seconds = 0.0;  ///< mean over the seeds
+    double cpu_seconds = 0.0;
+    ErrorsByMetric errors{};
+};
+
+/// Exponents of the error against samples and against seconds, fitted to its means over the seeds.
+struct ConvergenceSlope {
+    double spp = kUnknown;
+    double seconds = kUnknown;
+};
+
+struct VariantReport {
+    std::string name{};
+    std::string options{};                   ///< that make it what it is
+    std::string command{};                   ///< that renders its first image
+    std::vector<std::string> cannot_find{};  ///< sentences
+    std::uint32_t spp = 0;
+    SeedValues seconds{};
+    SeedValues cpu_seconds{};
+    double samples_per_cpu_second = 0.0;
+    std::uint64_t rays = 0;  ///< of one render, on average
+    double rays_per_second = 0.0;
+    std::array<double, 3> mean{};  ///< R, G, B of all renders
+    std::uint64_t dropped_samples = 0;
+    ErrorsByMetric errors{};       ///< of the last images; empty without a reference
+    double variance = kUnknown;    ///< of one render, as relative_variance of metrics/ defines it
+    double efficiency = kUnknown;  ///< 1 / (variance × seconds)
+    std::vector<ConvergenceStep> convergence{};
+    std::map<std::string, ConvergenceSlope> slopes{};  ///< by metric
+};
+
+/// How long one variant takes to come to another's error.
+struct ReachedError {
+    double seconds = 0.0;
+    bool extrapolated = false;  ///< along the fitted slope, beyond what was rendered
+};
+
+struct PairReport {
+    std::string a{};
+    std::string b{};
+    std::map<std::string, double>
+        ratios{};  ///< a's over b's: metrics, "relmse_seconds", "rays_per_second", "efficiency"
+    std::optional<ReachedError> a_reaches_b{};
+    std::optional<ReachedError> b_reaches_a{};
+    bool comparable = true;  ///< both find all light of the scene
+    std::optional<BlockAgreement> agreement{};
+    AgreementOptions agreement_options{};
+};
+
+/// One variant within a part of the image.
+struct RegionVariant {
+    std::string name{};
+    std::array<double, 3> mean{};
+    SeedValues mean_error{};  ///< of the region's mean luminance, relative
+    ErrorsByMetric errors{};
+    double rel_mse_seconds = kUnknown;
+};
+
+struct RegionReport {
+    std::string name{};
+    bool found = false;  ///< by the program, where variants differ most; else named by the user
+    PixelRect pixels{};
+    std::vector<RegionVariant> variants{};
+};
+
+/// The image of one strategy.
+struct StrategyReport {
+    int s = 0;
+    int t = 0;
+    double weighted_mean = 0.0;  ///< luminance
+    double unweighted_mean = 0.0;
+};
+
+struct StrategiesReport {
+    std::string variant{};
+    std::uint32_t spp = 0;
+    int longest = 0;                           ///< edges
+    std::vector<StrategyReport> strategies{};  ///< by length, then by s
+};
+
+struct ReferenceReport {
+    std::string kind{};                       ///< "file", "integrator", "pooled", or "none"
+    std::string text{};                       ///< a sentence
+    std::map<std::string, double> weights{};  ///< of variants in a pooled one
+    double noise_rel_mse = kUnknown;          ///< what of the measured relMSE is the reference's own noise
+};
+
+/// What the first and the last colour of a kind of maps stand for.
+struct MapScale {
+    double low = 0.0;
+    double high = 1.0;
+};
+
+struct ComparisonReport {
+    std::string program{};
+    std::string created{};  ///< ISO 8601, UTC
+    std::string command{};
+    std::string scene{};
+    std::string scene_path{};
+    int width = 0;  ///< of the whole image
+    int height = 0;
+    std::optional<PixelRect> crop{};
+    std::string working_space{};
+    std::string display{};
+    std::string view{};
+    double exposure = 0.0;
+    int threads = 0;
+    std::string isa{};
+    std::map<std::string, std::string> libraries{};
+    std::optional<double> seconds{};     ///< of each render, if times are equal
+    std::optional<std::uint32_t> spp{};  ///< if samples are
+    int seeds = 0;
+    std::uint32_t first_seed = 0;
+    ReferenceReport reference;
+    std::vector<ReportedMetric> metrics{};
+    std::map<std::string, MapScale> maps{};  ///< by the beginning of their images' keys: "error/relmse", "z"
+    std::vector<std::string> notes{};
+    std::vector<VariantReport> variants{};
+    std::vector<PairReport> pairs{};
+    std::vector<RegionReport> regions{};
+    std::optional<StrategiesReport> strategies{};
+};
+
+/// docs/compare.md describes it.
+[[nodiscard]] std::string to_json(const ComparisonReport& report);
+
+/// PNG files by the keys under which the page looks for them.
+using ReportImages = std::map<std::string, std::vector<unsigned char>>;
+
+/// One HTML file that shows the report and needs nothing else.
+[[nodiscard]] std::string make_page(const ComparisonReport& report, const ReportImages& images);
+
+}  // namespace etendue
