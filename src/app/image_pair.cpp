@@ -139,6 +139,15 @@ ImageF rgb_in(const ImageF& image, const PixelRect& data, const PixelRect& windo
     return rgb;
 }
 
+void convert(ImageF& rgb, const ColorMatrix& matrix) {
+    for (std::size_t i = 0; i + 2 < rgb.pixels.size(); i += 3) {
+        const Rgb c = matrix({rgb.pixels[i], rgb.pixels[i + 1], rgb.pixels[i + 2]});
+        rgb.pixels[i] = c.r;
+        rgb.pixels[i + 1] = c.g;
+        rgb.pixels[i + 2] = c.b;
+    }
+}
+
 }  // namespace
 
 ImagePair read_image_pair(const fs::path& image, const fs::path& reference, const ColorConfig& colors) {
@@ -168,6 +177,28 @@ ImagePair read_image_pair(const fs::path& image, const fs::path& reference, cons
     return pair;
 }
 
+ImageF read_scene_linear(const fs::path& path, int full_width, int full_height, const PixelRect& window,
+                         const std::string& working_space, const ColorConfig& colors) {
+    const ImageInfo info = read_info(path);
+    const ComparedFile file = describe_file(path, info, colors);
+    const SourceLocation where{path.string(), ""};
+    if (!info.is_float) throw SceneError(where, "it holds integers encoded for a display; give an EXR or HDR file");
+    if (file.display != PixelRect{0, 0, full_width, full_height})
+        throw SceneError(where, fmt::format("it is {} pixels large, the scene is rendered at {}x{}",
+                                            size_text(file.display), full_width, full_height));
+    if (intersection(file.data, window) != window)
+        throw SceneError(
+            where, fmt::format("it has the pixels {},{},{},{} only, not all of {},{},{},{}", file.data.x0, file.data.y0,
+                               file.data.x1, file.data.y1, window.x0, window.y0, window.x1, window.y1));
+    ImageF rgb = rgb_in(read_pixels(path), file.data, window);
+    if (file.color_space.empty() || file.color_space == working_space) return rgb;
+    if (!knows_linear_space(file.color_space, colors))
+        throw SceneError(
+            where, fmt::format("it is in '{}', which is no linear space of the OpenColorIO config", file.color_space));
+    convert(rgb, colors.matrix(file.color_space, working_space));
+    return rgb;
+}
+
 bool knows_linear_space(const std::string& color_space, const ColorConfig& colors) {
     try {
         (void)colors.matrix(color_space, kGltfColorSpace);
@@ -183,13 +214,7 @@ ImageF to_linear_rec709(const ImageF& image, bool is_encoded, const std::string&
     if (is_encoded) {
         for (float& value : linear.pixels) value = linear_from_srgb(value);
     } else if (!color_space.empty() && knows_linear_space(color_space, colors)) {
-        const ColorMatrix matrix = colors.matrix(color_space, kGltfColorSpace);
-        for (std::size_t i = 0; i + 2 < linear.pixels.size(); i += 3) {
-            const Rgb c = matrix({linear.pixels[i], linear.pixels[i + 1], linear.pixels[i + 2]});
-            linear.pixels[i] = c.r;
-            linear.pixels[i + 1] = c.g;
-            linear.pixels[i + 2] = c.b;
-        }
+        convert(linear, colors.matrix(color_space, kGltfColorSpace));
     }
     return linear;
 }

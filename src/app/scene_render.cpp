@@ -12,6 +12,7 @@
 #include "render/render.h"
 #include "world/compile.h"
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -57,21 +58,6 @@ FilterShape to_filter_shape(PixelFilterType type) {
             return FilterShape::Mitchell;
     }
     return FilterShape::BlackmanHarris;
-}
-
-RenderOptions make_render_options(const RenderSettings& settings) {
-    const FilmSettings& film = settings.film;
-    RenderOptions options;
-    options.full_width = film.width;
-    options.full_height = film.height;
-    options.window = film.crop ? PixelRect{(*film.crop)[0], (*film.crop)[1], (*film.crop)[2], (*film.crop)[3]}
-                               : PixelRect{0, 0, film.width, film.height};
-    options.spp = static_cast<std::uint32_t>(settings.spp);
-    options.seed = settings.seed;
-    options.sequence = settings.sampler == SamplerType::Random ? SampleSequence::Random : SampleSequence::Sobol;
-    options.filter = PixelFilter(to_filter_shape(film.filter), film.filter_radius);
-    options.time_limit_seconds = settings.time_limit;
-    return options;
 }
 
 void report_problems(const ProblemList& problems, std::size_t& reported, bool quiet) {
@@ -134,13 +120,6 @@ void fill_texture_statistics(const World& world, RenderStatistics& s) {
                   from.first_texture_failure);
 }
 
-/// For a shell.
-std::string quoted(const std::string& text) {
-    std::string result = "'";
-    for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return result + "'";
-}
-
 /// Says where samples were dropped, with a command that renders just the first of those pixels.
 void report_dropped(const RenderCounters& counters, const SceneRenderRequest& request, const RenderSettings& settings,
                     const std::string& working_space) {
@@ -187,6 +166,27 @@ void check_writable(const OutputPaths& paths) {
 
 }  // namespace
 
+std::string quoted(const std::string& text) {
+    std::string result = "'";
+    for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return result + "'";
+}
+
+RenderOptions make_render_options(const RenderSettings& settings) {
+    const FilmSettings& film = settings.film;
+    RenderOptions options;
+    options.full_width = film.width;
+    options.full_height = film.height;
+    options.window = film.crop ? PixelRect{(*film.crop)[0], (*film.crop)[1], (*film.crop)[2], (*film.crop)[3]}
+                               : PixelRect{0, 0, film.width, film.height};
+    options.spp = static_cast<std::uint32_t>(settings.spp);
+    options.seed = settings.seed;
+    options.sequence = settings.sampler == SamplerType::Random ? SampleSequence::Random : SampleSequence::Sobol;
+    options.filter = PixelFilter(to_filter_shape(film.filter), film.filter_radius);
+    options.time_limit_seconds = settings.time_limit;
+    return options;
+}
+
 IntegratorOptions integrator_options(const RenderSettings& settings) {
     const IntegratorSettings& s = settings.integrator;
     IntegratorOptions options{
@@ -197,11 +197,15 @@ IntegratorOptions integrator_options(const RenderSettings& settings) {
     return options;
 }
 
+bool has_strategies(const std::string& integrator) {
+    return std::ranges::any_of(integrator_registry(), [&](const IntegratorEntry& entry) {
+        return entry.name == integrator && entry.has_strategies;
+    });
+}
+
 void require_strategies(const RenderSettings& settings, const SourceLocation& asked_for) {
     const std::string& type = settings.integrator.type;
-    for (const IntegratorEntry& entry : integrator_registry())
-        if (entry.name == type && !entry.has_strategies)
-            throw SceneError(asked_for, fmt::format("'{}' has no strategies; 'bdpt' does", type));
+    if (!has_strategies(type)) throw SceneError(asked_for, fmt::format("'{}' has no strategies; 'bdpt' does", type));
 }
 
 std::unique_ptr<const Integrator> create_integrator(const RenderSettings& settings) {
@@ -214,11 +218,12 @@ std::unique_ptr<const Integrator> create_integrator(const RenderSettings& settin
                              fmt::format("min_depth is {}, but the paths of '{}' have at most {} edges", s.min_depth,
                                          s.type, entry.longest_path));
     }
-    if (s.strategy) require_strategies(settings, settings.at("/integrator/strategy"));
     auto integrator = make_integrator(s.type, integrator_options(settings));
-    if (integrator) return integrator;
-    throw SceneError(settings.at("/integrator/type"),
-                     fmt::format("no integrator is named '{}'; {}", s.type, name_hint(s.type, names)));
+    if (!integrator)
+        throw SceneError(settings.at("/integrator/type"),
+                         fmt::format("no integrator is named '{}'; {}", s.type, name_hint(s.type, names)));
+    if (s.strategy) require_strategies(settings, settings.at("/integrator/strategy"));
+    return integrator;
 }
 
 std::string resolve_colors(RenderSettings& settings, const ColorConfig& colors) {

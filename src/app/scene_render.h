@@ -54,8 +54,17 @@ struct PreparedScene {
 [[nodiscard]] SceneRenderResult render_scene(PreparedScene prepared, const SceneRenderRequest& request,
                                              const ThreadPool& threads);
 
+/// `text` as one word of a shell's command line.
+[[nodiscard]] std::string quoted(const std::string& text);
+
+/// What the settings ask of the film and the sampler.
+[[nodiscard]] RenderOptions make_render_options(const RenderSettings& settings);
+
 /// What the settings ask of the integrator.
 [[nodiscard]] IntegratorOptions integrator_options(const RenderSettings& settings);
+
+/// True if the integrator of this name has strategies.
+[[nodiscard]] bool has_strategies(const std::string& integrator);
 
 /// Throws SceneError that blames `asked_for` if the integrator that the settings ask for has no strategies.
 void require_strategies(const RenderSettings& settings, const SourceLocation& asked_for);

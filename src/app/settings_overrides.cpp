@@ -95,13 +95,13 @@ Shutter parse_shutter(const std::string& text) {
     return shutter;
 }
 
+}  // namespace
+
 std::vector<std::string> integrator_names() {
     std::vector<std::string> names;
     for (const IntegratorEntry& entry : integrator_registry()) names.emplace_back(entry.name);
     return names;
 }
-
-}  // namespace
 
 std::array<int, 4> parse_pixel_window(const std::string& option, const std::string& text) {
     std::array<int, 4> c{};

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -55,6 +56,9 @@ struct SettingsOverrides {
     /// does not exist.
     void apply(SceneDesc& scene) const;
 };
+
+/// Of the registry, in its order.
+[[nodiscard]] std::vector<std::string> integrator_names();
 
 /// "100,100,200,200" to x0, y0, x1, y1. Throws the error that CLI11 shows for `option` unless 0 <= x0 < x1 and
 /// 0 <= y0 < y1.

@@ -1,0 +1,59 @@
+// Rendering variants with several seeds each, and keeping what their images were on the way.
+#pragma once
+
+#include "app/comparison_variants.h"
+#include "app/image_store.h"
+#include "core/parallel.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace etendue {
+
+/// What each render takes: one of the two is set.
+struct RenderBudget {
+    std::optional<double> seconds{};
+    std::optional<std::uint32_t> spp{};
+};
+
+/// An image on the way.
+struct Checkpoint {
+    std::uint32_t spp = 0;
+    double seconds = 0.0;  ///< of rendering alone
+    double cpu_seconds = 0.0;
+    std::size_t image = 0;  ///< in the store
+};
+
+/// One render with one seed.
+struct SeedRender {
+    std::vector<Checkpoint> checkpoints;  ///< the last is the finished image
+    RenderCounters counters;
+};
+
+struct VariantRenders {
+    std::vector<SeedRender> seeds;
+};
+
+struct RendersRequest {
+    RenderBudget budget{};
+    int seeds = 1;
+    std::uint32_t first_seed = 0;
+    bool quiet = false;
+};
+
+/// Renders every variant with `seeds` seeds, one variant after the other for each seed, so that what else the machine
+/// does falls on all alike. The first seed of a variant takes as many samples as fit into the time, the others as many
+/// as the first. Images are kept after 1, 2, 3, 4, 6, 8, ... samples, a factor of sqrt(2) apart. Once an interrupt is
+/// requested, the seeds are returned that all variants have.
+[[nodiscard]] std::vector<VariantRenders> render_variants(std::span<const Variant> variants,
+                                                          const RendersRequest& request, ImageStore& store,
+                                                          const ThreadPool& threads);
+
+/// One image of `variant`, R, G and B, with a seed of its own; nothing if it is interrupted.
+[[nodiscard]] std::optional<ImageF> render_reference(const Variant& variant, double seconds, std::uint32_t seed,
+                                                     const ThreadPool& threads, bool quiet);
+
+}  // namespace etendue
