@@ -1,5 +1,7 @@
 #include "film/pixel_filter.h"
 
+#include "core/trigonometry.h"
+
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -36,10 +38,10 @@ float mitchell(float x) {
 float shape_value(FilterShape shape, float t) {
     switch (shape) {
         case FilterShape::BlackmanHarris: {
-            // Harris, "On the Use of Windows for Harmonic Analysis" (1978), the 4-term window.
-            const float phase = kPi * (t + 1.0f);
-            return 0.35875f - 0.48829f * std::cos(phase) + 0.14128f * std::cos(2.0f * phase) -
-                   0.01168f * std::cos(3.0f * phase);
+            // Harris, "On the Use of Windows for Harmonic Analysis" (1978), the 4-term window; the cosines of multiples
+            // of an angle are polynomials of its own (Chebyshev's).
+            const float c = sin_cos_turns(0.5f * (t + 1.0f)).cos;
+            return 0.35875f - 0.48829f * c + 0.14128f * (2.0f * c * c - 1.0f) - 0.01168f * (4.0f * c * c - 3.0f) * c;
         }
         case FilterShape::Box:
             return 1.0f;
