@@ -77,17 +77,20 @@ void BdptWave::trace(const World& world, const TileJob& job, const BdptOptions& 
     if (world.has_lights()) {
         const auto resolve_if_full = [&] { connections_.resolve_if_full(world, samples_, radiance_, tile, counters); };
         light_.trace(context, nullptr, counters);
-        for (const PathVertex& vertex : eye_.vertices()) {
-            if (!vertex.is_connectible) continue;
-            connect_to_light(context, vertex);
+        to_light_.collect(context, SubpathEnd::AtEye, eye_.vertices());
+        for (std::size_t v = 0; v < to_light_.size(); ++v) {
+            const PathVertex& vertex = to_light_[v];
+            const auto [light, triangle, direction] = to_light_.numbers(v);
+            connect_to_light(context, vertex, {light, triangle, direction});
             for (std::uint32_t i = light_.last_vertex(vertex.slot); i != PathVertex::kNoVertex;
                  i = light_.vertices()[i].previous)
                 if (light_.vertices()[i].is_connectible) connect(context, vertex, light_.vertices()[i]);
             resolve_if_full();
         }
-        for (const PathVertex& vertex : light_.vertices()) {
-            if (!vertex.is_connectible) continue;
-            connect_to_camera(context, vertex);
+        to_camera_.collect(context, SubpathEnd::AtLight, light_.vertices());
+        for (std::size_t v = 0; v < to_camera_.size(); ++v) {
+            const auto [lens] = to_camera_.numbers(v);
+            connect_to_camera(context, to_camera_[v], lens);
             resolve_if_full();
         }
         connections_.resolve(world, samples_, radiance_, tile, counters);
@@ -187,16 +190,11 @@ void BdptWave::on_escape(const SubpathState& state, const Vec3f& direction) {
         {.light = world.environment(), .direction = -direction, .is_reached_directly = state.is_direct});
 }
 
-void BdptWave::connect_to_light(const Context& context, const PathVertex& vertex) {
+void BdptWave::connect_to_light(const Context& context, const PathVertex& vertex, const LightNumbers& numbers) {
     if (!is_wanted(context.lengths, vertex.next_edges) || !is_wanted(context.options, {.s = 1, .t = vertex.index + 1}))
         return;
     const World& world = context.world;
-    const auto numbers = [&](BounceNumbers which) {
-        return context.numbers(SubpathEnd::AtEye, vertex.index, which, vertex.slot);
-    };
-    const ChosenLight chosen =
-        world.sample_light(vertex.position, {numbers(BounceNumbers::LightChoice), numbers(BounceNumbers::LightTriangle),
-                                             numbers(BounceNumbers::LightDirection)});
+    const ChosenLight chosen = world.sample_light(vertex.position, numbers);
     const LightSample& light = chosen.sample;
     if (is_black(light.radiance)) return;
     const PathVertex::Value value = vertex.evaluate(light.wi, TransportMode::Radiance);
@@ -229,11 +227,10 @@ void BdptWave::connect_to_light(const Context& context, const PathVertex& vertex
               nullptr, &vertex, camera_of(context, vertex));
 }
 
-void BdptWave::connect_to_camera(const Context& context, const PathVertex& vertex) {
+void BdptWave::connect_to_camera(const Context& context, const PathVertex& vertex, Vec2f lens) {
     if (!is_wanted(context.lengths, vertex.next_edges) || !is_wanted(context.options, {.s = vertex.index + 1, .t = 1}))
         return;
     const float time = context.camera_rays[vertex.slot].time;
-    const Vec2f lens = context.numbers(SubpathEnd::AtLight, vertex.index, BounceNumbers::LightChoice, vertex.slot);
     const auto view = view_from_camera(context.world, context.job, vertex.position, lens, time);
     if (!view) return;
     const PathVertex::Value value = vertex.evaluate(view->direction, TransportMode::Importance);

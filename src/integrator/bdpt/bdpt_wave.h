@@ -3,6 +3,7 @@
 
 #include "integrator/bdpt/bdpt_options.h"
 #include "integrator/bdpt/reference_weights.h"
+#include "integrator/subpath/connectible_vertices.h"
 #include "integrator/subpath/connections.h"
 #include "integrator/subpath/subpath_wave.h"
 
@@ -34,9 +35,9 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
     void add(const SubpathState& state, const Rgb& light, double fewer_from_eye, const PathLightEnd& end);
 
     /// s = 1: to a point on a light that is sampled for the vertex.
-    void connect_to_light(const Context& context, const PathVertex& vertex);
+    void connect_to_light(const Context& context, const PathVertex& vertex, const LightNumbers& numbers);
     /// t = 1: to a point on the lens that is sampled for the vertex.
-    void connect_to_camera(const Context& context, const PathVertex& vertex);
+    void connect_to_camera(const Context& context, const PathVertex& vertex, Vec2f lens);
     /// s > 1, t > 1.
     void connect(const Context& context, const PathVertex& eye, const PathVertex& light);
 
@@ -57,6 +58,8 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
     std::vector<float> alpha_;
     SubpathWave eye_{SubpathEnd::AtEye};
     SubpathWave light_{SubpathEnd::AtLight};
+    VerticesToLight to_light_;
+    VerticesToCamera to_camera_;
     Connections connections_;
     const Context* context_ = nullptr;  ///< of the call of `trace` under way, for what eye subpaths find
 };

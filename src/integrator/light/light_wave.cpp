@@ -24,12 +24,14 @@ void LightWave::trace(const World& world, const TileJob& job, const PathLengths&
 
 void LightWave::connect_lights(const SubpathJob& job) {
     const World& world = job.world;
+    keys_.clear();
+    for (const CameraSample& sample : samples_) keys_.push_back(sample.key);
+    lens_.draw(job.job.sequence, keys_, subpath_dimension(SubpathEnd::AtLight, 0, BounceNumbers::LightChoice));
     for (std::uint32_t slot = 0; slot < samples_.size(); ++slot) {
         const Emission& emission = subpaths_.emissions()[slot];
         if (is_black(emission.sample.radiance)) continue;
         const float time = camera_rays_[slot].time;
-        const auto view = view_from_camera(world, job.job, emission.sample.position,
-                                           job.numbers(SubpathEnd::AtLight, 0, BounceNumbers::LightChoice, slot), time);
+        const auto view = view_from_camera(world, job.job, emission.sample.position, lens_[slot], time);
         if (!view) continue;
         const Rgb radiance = world.surface_emission(emission, view->direction);
         if (is_black(radiance)) continue;
@@ -45,10 +47,12 @@ void LightWave::connect_lights(const SubpathJob& job) {
 }
 
 void LightWave::connect_vertices(const SubpathJob& job, TileBuffer& tile, RenderCounters& counters) {
-    for (const PathVertex& vertex : subpaths_.vertices()) {
-        if (!vertex.is_connectible || vertex.next_edges < job.lengths.min_depth) continue;
+    to_camera_.collect(job, SubpathEnd::AtLight, subpaths_.vertices());
+    for (std::size_t i = 0; i < to_camera_.size(); ++i) {
+        const PathVertex& vertex = to_camera_[i];
+        if (vertex.next_edges < job.lengths.min_depth) continue;
         const float time = camera_rays_[vertex.slot].time;
-        const Vec2f lens = job.numbers(SubpathEnd::AtLight, vertex.index, BounceNumbers::LightChoice, vertex.slot);
+        const auto [lens] = to_camera_.numbers(i);
         const auto view = view_from_camera(job.world, job.job, vertex.position, lens, time);
         if (!view) continue;
         const Rgb scattered = vertex.evaluate(view->direction, TransportMode::Importance).f_cos;

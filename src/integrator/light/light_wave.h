@@ -1,6 +1,7 @@
 // A wave of light subpaths, all of whose vertices are shown to the camera.
 #pragma once
 
+#include "integrator/subpath/connectible_vertices.h"
 #include "integrator/subpath/connections.h"
 #include "integrator/subpath/subpath_wave.h"
 
@@ -25,6 +26,9 @@ class LightWave final : public IntegratorScratch {
     std::vector<CameraSample> samples_;
     std::vector<Ray> camera_rays_;
     SubpathWave subpaths_{SubpathEnd::AtLight};
+    VerticesToCamera to_camera_;
+    SampleKeys keys_;
+    NumberPairs lens_;  ///< for the points of the lights
     Connections connections_;
 };
 

@@ -10,14 +10,44 @@
 
 namespace etendue {
 
+/// Keys of many samples, as the samplers want them.
+class SampleKeys {
+  public:
+    void clear() {
+        pixel_seeds_.clear();
+        indices_.clear();
+    }
+    void push_back(SampleKey key) {
+        pixel_seeds_.push_back(key.pixel_seed);
+        indices_.push_back(key.index);
+    }
+    [[nodiscard]] std::size_t size() const { return indices_.size(); }
+    [[nodiscard]] SampleKey operator[](std::size_t i) const { return {pixel_seeds_[i], indices_[i]}; }
+    [[nodiscard]] std::span<const std::uint32_t> pixel_seeds() const { return pixel_seeds_; }
+    [[nodiscard]] std::span<const std::uint32_t> indices() const { return indices_; }
+
+  private:
+    std::vector<std::uint32_t> pixel_seeds_;
+    std::vector<std::uint32_t> indices_;
+};
+
 class NumberPairs {
   public:
-    /// One pair of `dimension` for each key (`pixel_seeds[i]`, `indices[i]`).
-    void draw(SampleSequence sequence, std::span<const std::uint32_t> pixel_seeds,
-              std::span<const std::uint32_t> indices, std::uint32_t dimension) {
-        x_.resize(pixel_seeds.size());
-        y_.resize(pixel_seeds.size());
-        sample_2d(sequence, pixel_seeds, indices, dimension, x_, y_);
+    /// One pair of `dimension` for each key.
+    void draw(SampleSequence sequence, const SampleKeys& keys, std::uint32_t dimension) {
+        resize(keys.size());
+        draw(sequence, keys, dimension, 0, keys.size());
+    }
+    /// Of keys [first, end) only; the others keep theirs.
+    void draw(SampleSequence sequence, const SampleKeys& keys, std::uint32_t dimension, std::size_t first,
+              std::size_t end) {
+        const auto part = [&](auto all) { return all.subspan(first, end - first); };
+        sample_2d(sequence, part(keys.pixel_seeds()), part(keys.indices()), dimension, part(std::span(x_)),
+                  part(std::span(y_)));
+    }
+    void resize(std::size_t count) {
+        x_.resize(count);
+        y_.resize(count);
     }
     [[nodiscard]] Vec2f operator[](std::size_t i) const { return {x_[i], y_[i]}; }
 

@@ -35,10 +35,6 @@ Wavelength SubpathJob::wavelength(std::uint32_t slot) const {
     return world.spectral_response().sample(sample_2d(job.sequence, samples[slot].key, kWavelengthDimension).x);
 }
 
-Vec2f SubpathJob::numbers(SubpathEnd end, int index, BounceNumbers which, std::uint32_t slot) const {
-    return sample_2d(job.sequence, samples[slot].key, subpath_dimension(end, index, which));
-}
-
 std::uint32_t SubpathJob::connection_key(SubpathEnd end, int index, std::uint32_t slot) const {
     if (!world.has_transparency()) return 0;
     // Another one than that of the subpath's own ray.
@@ -67,8 +63,7 @@ void SubpathWave::trace(const SubpathJob& job, LightFinder* finder, RenderCounte
         for (std::size_t i = 0; i < states_.size(); ++i) {
             if (!advance(job, finder, i)) continue;
             if (job.world.has_transparency())
-                rays_[i].alpha_key = sample_bits({pixel_seeds_[i], sample_indices_[i]},
-                                                 subpath_dimension(end_, bounce_, BounceNumbers::Alpha));
+                rays_[i].alpha_key = sample_bits(keys_[i], subpath_dimension(end_, bounce_, BounceNumbers::Alpha));
             states_[kept] = states_[i];
             rays_[kept] = rays_[i];
             if (!interiors_.empty()) interiors_[kept] = interiors_[i];
@@ -90,14 +85,19 @@ void SubpathWave::begin_at_eye(const SubpathJob& job) {
 void SubpathWave::begin_at_lights(const SubpathJob& job) {
     const World& world = job.world;
     emissions_.resize(job.samples.size());
+    keys_.clear();
+    for (const CameraSample& sample : job.samples) keys_.push_back(sample.key);
+    const auto draw = [&](std::uint32_t which, NumberPairs& numbers) {
+        numbers.draw(job.job.sequence, keys_, kFirstLightDimension + which);
+    };
+    draw(kLightChoice, light_choice_);
+    draw(kTriangle, triangle_);
+    draw(kPosition, position_);
+    draw(kDirection, direction_);
     std::size_t kept = 0;
     for (std::size_t i = 0; i < job.samples.size(); ++i) {
-        const SampleKey key = job.samples[i].key;
-        const auto pair = [&](std::uint32_t which) {
-            return sample_2d(job.job.sequence, key, kFirstLightDimension + which);
-        };
-        const EmissionNumbers u{pair(kTriangle), pair(kPosition), pair(kDirection)};
-        const Emission& emission = emissions_[i] = world.sample_emission(pair(kLightChoice), u, rays_[i].time);
+        const EmissionNumbers u{triangle_[i], position_[i], direction_[i]};
+        const Emission& emission = emissions_[i] = world.sample_emission(light_choice_[i], u, rays_[i].time);
         if (job.lengths.max_depth < edges_to_connect(world) || is_black(emission.weight)) continue;
         const EmissionSample& sample = emission.sample;
         SubpathState state;
@@ -117,7 +117,7 @@ void SubpathWave::begin_at_lights(const SubpathJob& job) {
                            .is_from_infinity = at_infinity};
         states_[kept] = state;
         rays_[kept] = emission.ray;
-        rays_[kept].alpha_key = sample_bits(key, kFirstLightDimension);
+        rays_[kept].alpha_key = sample_bits(keys_[i], kFirstLightDimension);
         if (world.has_bodies()) interiors_.push_back(world.light_interior(emission.light));
         ++kept;
     }
@@ -126,15 +126,10 @@ void SubpathWave::begin_at_lights(const SubpathJob& job) {
 }
 
 void SubpathWave::draw_numbers(const SubpathJob& job) {
-    pixel_seeds_.resize(states_.size());
-    sample_indices_.resize(states_.size());
-    for (std::size_t i = 0; i < states_.size(); ++i) {
-        const SampleKey key = job.samples[states_[i].slot].key;
-        pixel_seeds_[i] = key.pixel_seed;
-        sample_indices_[i] = key.index;
-    }
+    keys_.clear();
+    for (const SubpathState& state : states_) keys_.push_back(job.samples[state.slot].key);
     const auto draw = [&](BounceNumbers which, NumberPairs& numbers) {
-        numbers.draw(job.job.sequence, pixel_seeds_, sample_indices_, subpath_dimension(end_, bounce_, which));
+        numbers.draw(job.job.sequence, keys_, subpath_dimension(end_, bounce_, which));
     };
     draw(BounceNumbers::Scattering, scattering_);
     draw(BounceNumbers::Choices, choices_);

@@ -52,8 +52,6 @@ struct SubpathJob {
     [[nodiscard]] Rgb wavelength_weight(std::uint32_t slot, bool is_dispersed) const {
         return is_dispersed ? wavelength(slot).weight : Rgb(1.0f);
     }
-    /// Random numbers of the connections of a vertex; index 0 is the point on the light.
-    [[nodiscard]] Vec2f numbers(SubpathEnd end, int index, BounceNumbers which, std::uint32_t slot) const;
     /// Key of rays that connect a vertex; 0 if nothing is transparent.
     [[nodiscard]] std::uint32_t connection_key(SubpathEnd end, int index, std::uint32_t slot) const;
 };
@@ -122,10 +120,10 @@ class SubpathWave {
     std::vector<Ray> rays_;
     std::vector<Hit> hits_;
     std::vector<Interior> interiors_;  ///< only if the World has bodies
-    std::vector<std::uint32_t> pixel_seeds_;
-    std::vector<std::uint32_t> sample_indices_;
+    SampleKeys keys_;
     NumberPairs scattering_, choices_, medium_;
     // By slot.
+    NumberPairs light_choice_, triangle_, position_, direction_;  ///< of where subpaths from lights begin
     std::vector<Emission> emissions_;
     std::vector<std::uint32_t> last_vertex_;
     std::vector<PathVertex> vertices_;

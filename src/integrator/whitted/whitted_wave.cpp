@@ -63,20 +63,18 @@ void WhittedWave::trace_batch(const Context& context, RenderCounters& counters) 
     waiting_.erase(youngest, waiting_.end());
     rays_.resize(count);
     hits_.resize(count);
-    seeds_.resize(count);
-    indices_.resize(count);
+    keys_.clear();
     bool are_camera_rays = true;
     for (std::size_t i = 0; i < count; ++i) {
         rays_[i] = batch_[i].ray;
-        seeds_[i] = batch_[i].seed;
-        indices_[i] = samples_[batch_[i].slot].key.index;
+        keys_.push_back({batch_[i].seed, samples_[batch_[i].slot].key.index});
         are_camera_rays = are_camera_rays && batch_[i].rays == 1;
         (batch_[i].rays == 1 ? counters.camera_rays : counters.bounce_rays) += 1;
     }
     context.world.intersect(rays_, hits_, are_camera_rays ? Coherence::Coherent : Coherence::Incoherent);
-    light_choice_.draw(context.job.sequence, seeds_, indices_, kLightChoice);
-    light_triangle_.draw(context.job.sequence, seeds_, indices_, kLightTriangle);
-    light_direction_.draw(context.job.sequence, seeds_, indices_, kLightDirection);
+    light_choice_.draw(context.job.sequence, keys_, kLightChoice);
+    light_triangle_.draw(context.job.sequence, keys_, kLightTriangle);
+    light_direction_.draw(context.job.sequence, keys_, kLightDirection);
     shadow_rays_.clear();
     contributions_.clear();
     lit_slots_.clear();
@@ -131,7 +129,7 @@ void WhittedWave::scatter(const Context& context, std::size_t i, const SurfacePo
     Wavelength wavelength{branch.wavelength_nm, Rgb(1.0f)};
     const bool chooses_wavelength = crossing && crossing->disperses() && branch.wavelength_nm == 0.0f;
     if (chooses_wavelength)
-        wavelength = world.spectral_response().sample(sample_2d(context.job.sequence, key(i), kWavelength).x);
+        wavelength = world.spectral_response().sample(sample_2d(context.job.sequence, keys_[i], kWavelength).x);
     Bsdf storage;
     const Bsdf& bsdf = world.bsdf(point, wo, crossing ? crossing->relative_ior(wavelength.nm) : 0.0f, storage);
     const Scattering scattering(bsdf, point.shading, point.geometric_normal, wo);
@@ -172,7 +170,7 @@ WhittedBranch WhittedWave::grow(const Context& context, std::size_t i, std::uint
     ++next.rays;
     next.ray = {};
     next.ray.time = batch_[i].ray.time;
-    if (context.world.has_transparency()) next.ray.alpha_key = sample_bits({next.seed, indices_[i]}, kAlpha);
+    if (context.world.has_transparency()) next.ray.alpha_key = sample_bits({next.seed, keys_[i].index}, kAlpha);
     return next;
 }
 
@@ -204,7 +202,7 @@ void WhittedWave::queue_direct_light(const Context& context, std::size_t i, cons
     if (is_black(contribution)) return;
     Ray ray = shadow_ray(offset_origin(point.position, point.geometric_normal, point.clearance, light.wi), light);
     ray.time = branch.ray.time;
-    if (world.has_transparency()) ray.alpha_key = ~sample_bits(key(i), kAlpha);  // another key than those of branches
+    if (world.has_transparency()) ray.alpha_key = ~sample_bits(keys_[i], kAlpha);  // another key than those of branches
     shadow_rays_.push_back(ray);
     contributions_.push_back(contribution);
     lit_slots_.push_back(branch.slot);

@@ -64,15 +64,12 @@ class WhittedWave final : public IntegratorScratch {
     /// Keeps `branch` for a later batch, unless it ends here.
     void push(WhittedBranch branch);
 
-    [[nodiscard]] SampleKey key(std::size_t i) const { return {seeds_[i], indices_[i]}; }
-
     std::vector<WhittedBranch> waiting_;
     // By branch of the batch.
     std::vector<WhittedBranch> batch_;
     std::vector<Ray> rays_;
     std::vector<Hit> hits_;
-    std::vector<std::uint32_t> seeds_;
-    std::vector<std::uint32_t> indices_;
+    SampleKeys keys_;
     NumberPairs light_choice_, light_triangle_, light_direction_;
     // By shadow ray.
     std::vector<Ray> shadow_rays_;

@@ -1,0 +1,61 @@
+// The vertices of a wave that can be connected, with random numbers for the connections of all of them.
+#pragma once
+
+#include "integrator/subpath/number_pairs.h"
+#include "integrator/subpath/subpath_wave.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace etendue {
+
+/// `Kinds` are the numbers that the connections need.
+template <BounceNumbers... Kinds>
+class ConnectibleVertices {
+  public:
+    /// Those of `vertices`, which belong to subpaths from `end`, in their order.
+    void collect(const SubpathJob& job, SubpathEnd end, std::span<const PathVertex> vertices) {
+        vertices_.clear();
+        keys_.clear();
+        for (const PathVertex& vertex : vertices) {
+            if (!vertex.is_connectible) continue;
+            vertices_.push_back(&vertex);
+            keys_.push_back(job.samples[vertex.slot].key);
+        }
+        for (NumberPairs& pairs : numbers_) pairs.resize(vertices_.size());
+        // Vertices come bounce by bounce: long runs of them have one index, and with it one dimension.
+        for (std::size_t first = 0, next = 0; first < vertices_.size(); first = next) {
+            const int index = vertices_[first]->index;
+            while (next < vertices_.size() && vertices_[next]->index == index) ++next;
+            for (std::size_t kind = 0; kind < kKinds.size(); ++kind)
+                numbers_[kind].draw(job.job.sequence, keys_, subpath_dimension(end, index, kKinds[kind]), first, next);
+        }
+    }
+
+    [[nodiscard]] std::size_t size() const { return vertices_.size(); }
+    [[nodiscard]] const PathVertex& operator[](std::size_t i) const { return *vertices_[i]; }
+    /// Of vertex `i`, in the order of `Kinds`.
+    [[nodiscard]] std::array<Vec2f, sizeof...(Kinds)> numbers(std::size_t i) const {
+        std::array<Vec2f, sizeof...(Kinds)> pairs;
+        for (std::size_t kind = 0; kind < pairs.size(); ++kind) pairs[kind] = numbers_[kind][i];
+        return pairs;
+    }
+
+  private:
+    static constexpr std::array kKinds{Kinds...};
+
+    std::vector<const PathVertex*> vertices_;
+    SampleKeys keys_;
+    std::array<NumberPairs, sizeof...(Kinds)> numbers_;
+};
+
+/// To a point on the lens.
+using VerticesToCamera = ConnectibleVertices<BounceNumbers::LightChoice>;
+/// To a point on a light.
+using VerticesToLight =
+    ConnectibleVertices<BounceNumbers::LightChoice, BounceNumbers::LightTriangle, BounceNumbers::LightDirection>;
+
+}  // namespace etendue
