@@ -4,7 +4,7 @@
 
 namespace etendue {
 
-float reverse_pdf_solid_angle(const Bsdf& bsdf, const Vec3f& wo, const Vec3f& wi) {
+float reverse_pdf_of_lobe(const Bsdf& bsdf, const Vec3f& wo, const Vec3f& wi) {
     // Densities are the same in both modes.
     constexpr TransportMode kAny = TransportMode::Importance;
     if (wi.z > 0.0f || is_two_sided_interface(bsdf)) return evaluate_bsdf(bsdf, wi, wo, kAny).pdf_solid_angle;

@@ -50,7 +50,12 @@ using Bsdf = std::variant<Diffuse, DielectricBody, LayeredSurface, MetallicRough
 }
 
 /// Density, 1/sr, with which `sample_bsdf` would pick wo if it were given wi: what the walk from the other end does.
-[[nodiscard]] float reverse_pdf_solid_angle(const Bsdf& bsdf, const Vec3f& wo, const Vec3f& wi);
+[[nodiscard]] float reverse_pdf_of_lobe(const Bsdf& bsdf, const Vec3f& wo, const Vec3f& wi);
+[[nodiscard]] inline float reverse_pdf_solid_angle(const Bsdf& bsdf, const Vec3f& wo, const Vec3f& wi) {
+    // As in `evaluate_bsdf`.
+    if (std::holds_alternative<Diffuse>(bsdf) && wi.z > 0.0f) return cosine_hemisphere_pdf_solid_angle(wo);
+    return reverse_pdf_of_lobe(bsdf, wo, wi);
+}
 
 /// False if everything the lobe does is a delta, so that connecting to it or sampling a light from it is useless.
 [[nodiscard]] inline bool has_non_delta(const Bsdf& bsdf) {
@@ -63,6 +68,14 @@ using Bsdf = std::variant<Diffuse, DielectricBody, LayeredSurface, MetallicRough
     if (const auto* layered = std::get_if<LayeredSurface>(&bsdf)) return layered->is_two_sided();
     return std::holds_alternative<SmoothDielectric>(bsdf) || std::holds_alternative<RoughDielectric>(bsdf) ||
            std::holds_alternative<DielectricBody>(bsdf);
+}
+
+/// True if the lobe scatters nothing across its surface: quick to ask, and may be false where it does not either.
+[[nodiscard]] inline bool only_reflects(const Bsdf& bsdf) {
+    if (const auto* base = std::get_if<MetallicRoughness>(&bsdf))
+        return base->transmission == 0.0f && base->diffuse_transmission == 0.0f;
+    return std::holds_alternative<Diffuse>(bsdf) || std::holds_alternative<RoughDiffuse>(bsdf) ||
+           std::holds_alternative<RoughConductor>(bsdf) || std::holds_alternative<SmoothConductor>(bsdf);
 }
 
 /// Share of the light from `wo` that is scattered, by the lobe's own samples: an unbiased estimate from `count` of

@@ -43,6 +43,21 @@ class Scattering {
         return value;
     }
 
+    struct TwoWayValue {
+        Rgb f_cos;
+        float pdf_solid_angle = 0.0f;          ///< of wi, given wo
+        float reverse_pdf_solid_angle = 0.0f;  ///< of wo, given wi
+    };
+    /// `evaluate` and `reverse_pdf_solid_angle` in one; all zero where f is.
+    [[nodiscard]] TwoWayValue evaluate_both_ways(const Vec3f& wi, TransportMode mode) const {
+        const Vec3f wi_local = frame_.to_local(wi);
+        if (!wo_agrees_ || !agrees(wi, wi_local)) return {};
+        const BsdfValue value = evaluate_bsdf(*bsdf_, wo_local_, wi_local, mode);
+        if (is_black(value.f_cos)) return {};
+        return {mode == TransportMode::Importance ? value.f_cos * adjoint_factor(wi, wi_local) : value.f_cos,
+                value.pdf_solid_angle, etendue::reverse_pdf_solid_angle(*bsdf_, wo_local_, wi_local)};
+    }
+
     /// wi of the result is in world space.
     [[nodiscard]] BsdfSample sample(float u_lobe, Vec2f u, TransportMode mode) const {
         if (!wo_agrees_) return {};
@@ -80,6 +95,11 @@ class Scattering {
         if (!sample.is_transmission) return sample.reverse_choice_ratio;
         const float cos_i = std::abs(frame_.to_local(sample.wi).z);
         return sample.reverse_choice_ratio * std::abs(wo_local_.z) / (sample.eta * sample.eta * std::max(cos_i, 1e-6f));
+    }
+
+    /// False if nothing goes on towards `towards`, of any length; quick to ask.
+    [[nodiscard]] bool may_scatter(const Vec3f& towards) const {
+        return wo_agrees_ && (!only_reflects(*bsdf_) || dot(towards, geometric_normal_) > 0.0f);
     }
 
     /// The same surface for a walk that arrives from `w`. (Of thin sheets under a coat with a normal of its own,

@@ -197,7 +197,7 @@ void BdptWave::connect_to_light(const Context& context, const PathVertex& vertex
     const ChosenLight chosen = world.sample_light(vertex.position, numbers);
     const LightSample& light = chosen.sample;
     if (is_black(light.radiance)) return;
-    const PathVertex::Value value = vertex.evaluate(light.wi, TransportMode::Radiance);
+    const Scattering::TwoWayValue value = vertex.evaluate_both_ways(light.wi, TransportMode::Radiance);
     if (is_black(value.f_cos)) return;
     const Raised& raised = context.raised;
     const bool at_infinity = std::isinf(light.distance);
@@ -205,8 +205,7 @@ void BdptWave::connect_to_light(const Context& context, const PathVertex& vertex
     const double from_light =
         static_cast<double>(at_infinity ? arriving : arriving / (light.distance * light.distance));
     const double fewer_from_eye =
-        raised(from_light) *
-        vertex.densities.fewer(raised, static_cast<double>(vertex.reverse_pdf_solid_angle(light.wi)));
+        raised(from_light) * vertex.densities.fewer(raised, static_cast<double>(value.reverse_pdf_solid_angle));
     const double fewer_from_light =
         light.is_delta ? 0.0 : raised(static_cast<double>(value.pdf_solid_angle / light.pdf_solid_angle));
     const float share = weight(context.options, fewer_from_light, fewer_from_eye);
@@ -233,14 +232,13 @@ void BdptWave::connect_to_camera(const Context& context, const PathVertex& verte
     const float time = context.camera_rays[vertex.slot].time;
     const auto view = view_from_camera(context.world, context.job, vertex.position, lens, time);
     if (!view) return;
-    const PathVertex::Value value = vertex.evaluate(view->direction, TransportMode::Importance);
+    const Scattering::TwoWayValue value = vertex.evaluate_both_ways(view->direction, TransportMode::Importance);
     if (is_black(value.f_cos)) return;
     const Raised& raised = context.raised;
     const double from_eye = context.samples_per_light_path() *
                             static_cast<double>(view->camera.importance_area * vertex.cosine(view->direction));
     const double fewer =
-        raised(from_eye) *
-        vertex.densities.fewer(raised, static_cast<double>(vertex.reverse_pdf_solid_angle(view->direction)));
+        raised(from_eye) * vertex.densities.fewer(raised, static_cast<double>(value.reverse_pdf_solid_angle));
     const float share = weight(context.options, fewer, 0.0);
     Ray ray = connecting_ray(vertex.origin(view->direction), view->camera.lens);
     ray.time = time;
@@ -260,23 +258,24 @@ void BdptWave::connect(const Context& context, const PathVertex& eye, const Path
         !is_wanted(context.options, {.s = light.index + 1, .t = eye.index + 1}))
         return;
     const Vec3f to_light = light.position - eye.position;
+    if (!eye.may_scatter(to_light) || !light.may_scatter(-to_light)) return;
     const float squared = length_squared(to_light);
     if (!(squared > 0.0f)) return;
     const float distance = std::sqrt(squared);
     const Vec3f w = to_light * (1.0f / distance);
     // Between different media lies a boundary, which no connection passes.
     if (eye.medium(w) != light.medium(-w)) return;
-    const PathVertex::Value at_eye = eye.evaluate(w, TransportMode::Radiance);
+    const Scattering::TwoWayValue at_eye = eye.evaluate_both_ways(w, TransportMode::Radiance);
     if (is_black(at_eye.f_cos)) return;
-    const PathVertex::Value at_light = light.evaluate(-w, TransportMode::Importance);
+    const Scattering::TwoWayValue at_light = light.evaluate_both_ways(-w, TransportMode::Importance);
     if (is_black(at_light.f_cos)) return;
     const Raised& raised = context.raised;
     const double from_eye = static_cast<double>(at_eye.pdf_solid_angle * light.cosine(w) / squared);
     const double from_light = static_cast<double>(at_light.pdf_solid_angle * eye.cosine(w) / squared);
     const double fewer_from_light =
-        raised(from_eye) * light.densities.fewer(raised, static_cast<double>(light.reverse_pdf_solid_angle(-w)));
+        raised(from_eye) * light.densities.fewer(raised, static_cast<double>(at_light.reverse_pdf_solid_angle));
     const double fewer_from_eye =
-        raised(from_light) * eye.densities.fewer(raised, static_cast<double>(eye.reverse_pdf_solid_angle(w)));
+        raised(from_light) * eye.densities.fewer(raised, static_cast<double>(at_eye.reverse_pdf_solid_angle));
     const float share = weight(context.options, fewer_from_light, fewer_from_eye);
     Ray ray = connecting_ray(eye.origin(w), light.origin(-w));
     ray.time = context.camera_rays[eye.slot].time;

@@ -55,7 +55,7 @@ void LightWave::connect_vertices(const SubpathJob& job, TileBuffer& tile, Render
         const auto [lens] = to_camera_.numbers(i);
         const auto view = view_from_camera(job.world, job.job, vertex.position, lens, time);
         if (!view) continue;
-        const Rgb scattered = vertex.evaluate(view->direction, TransportMode::Importance).f_cos;
+        const Rgb scattered = vertex.evaluate(view->direction, TransportMode::Importance);
         if (is_black(scattered)) continue;
         Ray ray = connecting_ray(vertex.origin(view->direction), view->camera.lens);
         ray.time = time;

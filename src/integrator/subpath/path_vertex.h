@@ -37,22 +37,19 @@ struct PathVertex {
     bool is_left_by_delta = false;       ///< the subpath went on by one
     float delta_reverse_ratio = 1.0f;    ///< of that one, Scattering::reverse_density_ratio
 
-    /// f |cos theta| towards `w`, with the density of going there and, on request, of coming back.
-    struct Value {
-        Rgb f_cos;
-        float pdf_solid_angle;
-    };
-    [[nodiscard]] Value evaluate(const Vec3f& w, TransportMode mode) const {
-        if (surface) {
-            const BsdfValue value = surface->evaluate(w, mode);
-            return {value.f_cos, value.pdf_solid_angle};
-        }
+    /// f |cos theta| towards `w`.
+    [[nodiscard]] Rgb evaluate(const Vec3f& w, TransportMode mode) const {
+        return surface ? surface->evaluate(w, mode).f_cos : Rgb(outside->phase.pdf_solid_angle(wo, w));
+    }
+    /// The same with the densities of going there and of coming back.
+    [[nodiscard]] Scattering::TwoWayValue evaluate_both_ways(const Vec3f& w, TransportMode mode) const {
+        if (surface) return surface->evaluate_both_ways(w, mode);
+        // Forwards and backwards a phase function has one density.
         const float phase = outside->phase.pdf_solid_angle(wo, w);
-        return {Rgb(phase), phase};
+        return {Rgb(phase), phase, phase};
     }
-    [[nodiscard]] float reverse_pdf_solid_angle(const Vec3f& w) const {
-        return surface ? surface->reverse_pdf_solid_angle(w) : outside->phase.pdf_solid_angle(wo, w);
-    }
+    /// False if nothing is scattered towards `towards`, of any length; quick to ask.
+    [[nodiscard]] bool may_scatter(const Vec3f& towards) const { return !surface || surface->may_scatter(towards); }
     /// Cosine between `w` and the geometric normal; 1 in a medium.
     [[nodiscard]] float cosine(const Vec3f& w) const { return surface ? abs_dot(w, geometric_normal) : 1.0f; }
     /// Where a ray along `w` starts.
