@@ -71,12 +71,14 @@ void BdptWave::trace(const World& world, const TileJob& job, const BdptOptions& 
     radiance_.assign(count, Rgb());
     alpha_.assign(count, 1.0f);
     const Context context{{world, job, options.lengths, Raised{options.heuristic}, samples_, camera_rays_}, options};
+    // Both subpaths of a path share the edges that roulette spares.
+    const int roulette_depth_at_light = options.lengths.roulette_depth / 2;
     context_ = &context;
-    eye_.trace(context, this, counters);
+    eye_.trace(context, options.lengths.roulette_depth - roulette_depth_at_light, this, counters);
     context_ = nullptr;
     if (world.has_lights()) {
         const auto resolve_if_full = [&] { connections_.resolve_if_full(world, samples_, radiance_, tile, counters); };
-        light_.trace(context, nullptr, counters);
+        light_.trace(context, roulette_depth_at_light, nullptr, counters);
         to_light_.collect(context, SubpathEnd::AtEye, eye_.vertices());
         for (std::size_t v = 0; v < to_light_.size(); ++v) {
             const PathVertex& vertex = to_light_[v];

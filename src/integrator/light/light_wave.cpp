@@ -16,7 +16,7 @@ void LightWave::trace(const World& world, const TileJob& job, const PathLengths&
     for (const CameraSample& sample : samples_) accumulate(job, sample, Rgb(), 1.0f, tile, counters);
     if (!world.has_lights()) return;
     const SubpathJob subpath_job{world, job, options, Raised{}, samples_, camera_rays_};
-    subpaths_.trace(subpath_job, nullptr, counters);
+    subpaths_.trace(subpath_job, options.roulette_depth, nullptr, counters);
     if (options.min_depth <= 1) connect_lights(subpath_job);
     connect_vertices(subpath_job, tile, counters);
     connections_.resolve(world, samples_, {}, tile, counters);

@@ -41,7 +41,9 @@ std::uint32_t SubpathJob::connection_key(SubpathEnd end, int index, std::uint32_
     return ~sample_bits(samples[slot].key, subpath_dimension(end, index, BounceNumbers::Alpha));
 }
 
-void SubpathWave::trace(const SubpathJob& job, LightFinder* finder, RenderCounters& counters) {
+void SubpathWave::trace(const SubpathJob& job, int roulette_depth, LightFinder* finder, RenderCounters& counters) {
+    // In bodies nothing but roulette bounds a walk: neither media nor hidden boundaries add edges.
+    roulette_depth_ = job.world.has_bodies() ? std::min(roulette_depth, kLongPath) : roulette_depth;
     const std::size_t count = job.samples.size();
     states_.assign(count, {});
     rays_.assign(job.camera_rays.begin(), job.camera_rays.end());
@@ -144,7 +146,7 @@ bool SubpathWave::advance(const SubpathJob& job, LightFinder* finder, std::size_
         if (finder != nullptr) finder->on_escape(state, ray.direction);
         return false;
     }
-    if (world.has_bodies() && scatter_in_medium(job, i)) return survives(job, i);
+    if (world.has_bodies() && scatter_in_medium(job, i)) return survives(i);
     const SurfacePoint point = world.surface_point(hits_[i]);
     const SubpathDensities arrived = arrive(job, i, point.position, abs_dot(ray.direction, point.geometric_normal));
     if (finder != nullptr && point.material->emits) finder->on_emitter(state, point, ray.direction, arrived);
@@ -157,7 +159,7 @@ bool SubpathWave::advance(const SubpathJob& job, LightFinder* finder, std::size_
             state.is_direct = false;
             interiors_[i] = beyond(*crossing, point, ray.direction);
             ray.origin = offset_origin(point.position, point.geometric_normal, point.clearance, ray.direction);
-            return survives(job, i);
+            return survives(i);
         }
     }
     if (point.material->unlit) {
@@ -165,7 +167,7 @@ bool SubpathWave::advance(const SubpathJob& job, LightFinder* finder, std::size_
         return false;
     }
     if (state.edges >= job.lengths.max_depth) return false;
-    return scatter_at_surface(job, i, point, crossing, arrived) && survives(job, i);
+    return scatter_at_surface(job, i, point, crossing, arrived) && survives(i);
 }
 
 SubpathDensities SubpathWave::arrive(const SubpathJob& job, std::size_t i, const Vec3f& position, float cosine) const {
@@ -265,11 +267,8 @@ bool SubpathWave::scatter_in_medium(const SubpathJob& job, std::size_t i) {
     return true;
 }
 
-bool SubpathWave::survives(const SubpathJob& job, std::size_t i) {
-    // In bodies nothing but roulette bounds a walk: neither media nor hidden boundaries add edges.
-    const int first =
-        job.world.has_bodies() ? std::min(job.lengths.roulette_depth, kLongPath) : job.lengths.roulette_depth;
-    if (bounce_ < first) return true;
+bool SubpathWave::survives(std::size_t i) {
+    if (bounce_ < roulette_depth_) return true;
     SubpathState& state = states_[i];
     const float survival = std::min(most_survival(bounce_), max_component(state.throughput) * state.roulette_scale);
     if (choices_[i].y >= survival) return false;

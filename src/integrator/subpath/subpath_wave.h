@@ -88,8 +88,9 @@ class SubpathWave {
   public:
     explicit SubpathWave(SubpathEnd end) : end_(end) {}
 
-    /// Traces the subpath of each sample. Vertices of former calls are gone. `finder` may be null for lights.
-    void trace(const SubpathJob& job, LightFinder* finder, RenderCounters& counters);
+    /// Traces the subpath of each sample. From `roulette_depth` edges on Russian roulette may end it. Vertices of
+    /// former calls are gone. `finder` may be null for lights.
+    void trace(const SubpathJob& job, int roulette_depth, LightFinder* finder, RenderCounters& counters);
 
     /// Where the subpaths from lights began, by slot.
     [[nodiscard]] std::span<const Emission> emissions() const { return emissions_; }
@@ -109,12 +110,13 @@ class SubpathWave {
                             const std::optional<Crossing>& crossing, const SubpathDensities& arrived);
     [[nodiscard]] SubpathDensities arrive(const SubpathJob& job, std::size_t i, const Vec3f& position,
                                           float cosine) const;
-    [[nodiscard]] bool survives(const SubpathJob& job, std::size_t i);
+    [[nodiscard]] bool survives(std::size_t i);
     /// The next vertex, with what the state knows of it.
     PathVertex& store(SubpathState& state);
 
     SubpathEnd end_;
     int bounce_ = 0;
+    int roulette_depth_ = 1;
     // By active subpath; those that end are squeezed out after every bounce.
     std::vector<SubpathState> states_;
     std::vector<Ray> rays_;
