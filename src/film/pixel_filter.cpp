@@ -1,7 +1,5 @@
 #include "film/pixel_filter.h"
 
-#include "core/trigonometry.h"
-
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -38,10 +36,10 @@ float mitchell(float x) {
 float shape_value(FilterShape shape, float t) {
     switch (shape) {
         case FilterShape::BlackmanHarris: {
-            // Harris, "On the Use of Windows for Harmonic Analysis" (1978), the 4-term window; the cosines of multiples
-            // of an angle are polynomials of its own (Chebyshev's).
-            const float c = sin_cos_turns(0.5f * (t + 1.0f)).cos;
-            return 0.35875f - 0.48829f * c + 0.14128f * (2.0f * c * c - 1.0f) - 0.01168f * (4.0f * c * c - 3.0f) * c;
+            // Harris, "On the Use of Windows for Harmonic Analysis" (1978), the 4-term window.
+            const float phase = kPi * (t + 1.0f);
+            return 0.35875f - 0.48829f * std::cos(phase) + 0.14128f * std::cos(2.0f * phase) -
+                   0.01168f * std::cos(3.0f * phase);
         }
         case FilterShape::Box:
             return 1.0f;
@@ -56,7 +54,7 @@ float shape_value(FilterShape shape, float t) {
 }  // namespace
 
 PixelFilter::PixelFilter(FilterShape shape, float radius)
-    : shape_(shape), radius_(radius > 0.0f ? radius : default_radius(shape)), edges_(kCells + 1) {
+    : radius_(radius > 0.0f ? radius : default_radius(shape)), edges_(kCells + 1), values_(kValues + 1) {
     // The distribution function on a grid much finer than the cells, then its inverse at equal steps.
     constexpr std::size_t kSteps = 64 * kCells;
     std::vector<double> cdf(kSteps + 1, 0.0);
@@ -64,7 +62,7 @@ PixelFilter::PixelFilter(FilterShape shape, float radius)
     positive_radius_ = radius_;
     for (std::size_t i = 0; i < kSteps; ++i) {
         const float t = 2.0f * (static_cast<float>(i) + 0.5f) / kSteps - 1.0f;
-        const auto value = static_cast<double>(shape_value(shape_, t));
+        const auto value = static_cast<double>(shape_value(shape, t));
         cdf[i + 1] = cdf[i] + std::abs(value);
         integral += value;
         if (value < 0.0) positive_radius_ = std::min(positive_radius_, std::abs(t) * radius_);
@@ -79,12 +77,10 @@ PixelFilter::PixelFilter(FilterShape shape, float radius)
         edges_[cell] = static_cast<float>(t) * radius_;
     }
     weight_ = static_cast<float>(cdf.back() / integral);
-    normalization_ = static_cast<float>(kSteps / (integral * 2.0 * static_cast<double>(radius_)));
-}
-
-float PixelFilter::evaluate(float x) const {
-    if (std::abs(x) > radius_) return 0.0f;
-    return shape_value(shape_, x / radius_) * normalization_;
+    const auto normalization = static_cast<float>(kSteps / (integral * 2.0 * static_cast<double>(radius_)));
+    for (std::size_t i = 0; i <= kValues; ++i)
+        values_[i] = shape_value(shape, static_cast<float>(i) / static_cast<float>(kValues)) * normalization;
+    steps_per_pixel_ = static_cast<float>(kValues) / radius_;
 }
 
 }  // namespace etendue
