@@ -1,5 +1,7 @@
 #include "integrator/camera_wave.h"
 
+#include <array>
+
 namespace etendue {
 
 namespace {
@@ -9,28 +11,67 @@ Vec2i pixel_position(const TileJob& job, std::uint32_t pixel) {
     return {job.rect.x0 + static_cast<int>(pixel % width), job.rect.y0 + static_cast<int>(pixel / width)};
 }
 
+/// Random numbers of a few camera rays, drawn together.
+class CameraNumbers {
+  public:
+    static constexpr std::size_t kCapacity = 64;
+
+    /// One pair of `dimension` for each of the samples, at most kCapacity.
+    void draw(SampleSequence sequence, std::span<const CameraSample> samples, std::uint32_t dimension) {
+        for (std::size_t i = 0; i < samples.size(); ++i) {
+            pixel_seeds_[i] = samples[i].key.pixel_seed;
+            indices_[i] = samples[i].key.index;
+        }
+        const auto part = [&](auto& all) { return std::span(all).first(samples.size()); };
+        sample_2d(sequence, part(pixel_seeds_), part(indices_), dimension, part(x_), part(y_));
+    }
+    [[nodiscard]] Vec2f operator[](std::size_t i) const { return {x_[i], y_[i]}; }
+
+  private:
+    std::array<std::uint32_t, kCapacity> pixel_seeds_;
+    std::array<std::uint32_t, kCapacity> indices_;
+    std::array<float, kCapacity> x_;
+    std::array<float, kCapacity> y_;
+};
+
+/// At most CameraNumbers::kCapacity samples, whose keys and pixels are known.
+void generate_few(const World& world, const TileJob& job, std::span<CameraSample> samples, std::span<Ray> rays) {
+    const Vec2f to_film{1.0f / static_cast<float>(job.full_width), 1.0f / static_cast<float>(job.full_height)};
+    CameraNumbers film;
+    CameraNumbers lens;
+    CameraNumbers time;
+    film.draw(job.sequence, samples, kFilmDimension);
+    lens.draw(job.sequence, samples, kLensDimension);
+    if (world.has_motion()) time.draw(job.sequence, samples, kTimeDimension);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        CameraSample& sample = samples[i];
+        const PixelFilter::Sample filtered = job.filter->sample(film[i]);
+        sample.weight = filtered.weight;
+        sample.lens = lens[i];
+        const Vec2i position = pixel_position(job, sample.pixel);
+        const Vec2f on_film{(static_cast<float>(position.x) + 0.5f + filtered.offset.x) * to_film.x,
+                            (static_cast<float>(position.y) + 0.5f + filtered.offset.y) * to_film.y};
+        rays[i] = world.generate_ray(on_film, sample.lens, world.has_motion() ? time[i].x : 0.0f);
+        rays[i].alpha_key = sample_bits(sample.key, kCameraAlphaDimension);
+    }
+}
+
 }  // namespace
 
 void generate_camera_rays(const World& world, const TileJob& job, std::size_t first, std::span<CameraSample> samples,
                           std::span<Ray> rays) {
     const std::size_t area = job.rect.area();
-    const Vec2f to_film{1.0f / static_cast<float>(job.full_width), 1.0f / static_cast<float>(job.full_height)};
     for (std::size_t i = 0; i < rays.size(); ++i) {
-        const auto pixel = static_cast<std::uint32_t>((first + i) % area);
-        const auto index = job.first_sample + static_cast<std::uint32_t>((first + i) / area);
-        const Vec2i position = pixel_position(job, pixel);
         CameraSample& sample = samples[i];
-        sample.pixel = pixel;
+        sample.pixel = static_cast<std::uint32_t>((first + i) % area);
+        const Vec2i position = pixel_position(job, sample.pixel);
         sample.key = {
             make_pixel_seed(job.seed, static_cast<std::uint32_t>(position.x), static_cast<std::uint32_t>(position.y)),
-            index};
-        const PixelFilter::Sample filtered = job.filter->sample(sample_2d(job.sequence, sample.key, kFilmDimension));
-        sample.weight = filtered.weight;
-        const Vec2f film{(static_cast<float>(position.x) + 0.5f + filtered.offset.x) * to_film.x,
-                         (static_cast<float>(position.y) + 0.5f + filtered.offset.y) * to_film.y};
-        const float time = world.has_motion() ? sample_2d(job.sequence, sample.key, kTimeDimension).x : 0.0f;
-        rays[i] = world.generate_ray(film, sample_2d(job.sequence, sample.key, kLensDimension), time);
-        rays[i].alpha_key = sample_bits(sample.key, kCameraAlphaDimension);
+            job.first_sample + static_cast<std::uint32_t>((first + i) / area)};
+    }
+    for (std::size_t begin = 0; begin < rays.size(); begin += CameraNumbers::kCapacity) {
+        const std::size_t count = std::min(CameraNumbers::kCapacity, rays.size() - begin);
+        generate_few(world, job, samples.subspan(begin, count), rays.subspan(begin, count));
     }
 }
 

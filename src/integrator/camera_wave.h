@@ -27,6 +27,7 @@ struct CameraSample {
     SampleKey key;
     std::uint32_t pixel = 0;  ///< index in the tile, row by row
     float weight = 1.0f;      ///< of the pixel filter
+    Vec2f lens{0.0f, 0.0f};   ///< chooses the point on the lens, in [0, 1)²
 };
 
 /// Samples are numbered sample by sample over the whole tile: neighbours in a wave are neighbours in the image.

@@ -126,8 +126,7 @@ PathLightEnd BdptWave::light_end(std::uint32_t slot) const {
 CameraConnection BdptWave::camera_of(const SubpathJob& job, const PathVertex& eye) const {
     const PathVertex* first = &eye;
     while (first->previous != PathVertex::kNoVertex) first = &eye_.vertices()[first->previous];
-    const Vec2f lens = sample_2d(job.job.sequence, job.samples[eye.slot].key, kLensDimension);
-    return job.world.connect_to_camera(first->position, lens, job.camera_rays[eye.slot].time);
+    return job.world.connect_to_camera(first->position, job.samples[eye.slot].lens, job.camera_rays[eye.slot].time);
 }
 
 void BdptWave::add(const SubpathState& state, const Rgb& light, double fewer_from_eye, const PathLightEnd& end) {

@@ -176,8 +176,7 @@ SubpathDensities SubpathWave::arrive(const SubpathJob& job, std::size_t i, const
     if (end_ == SubpathEnd::AtEye && state.index == 1) {
         // The lens and the film say how densely camera rays fall here.
         const CameraSample& sample = job.samples[state.slot];
-        const Vec2f lens = sample_2d(job.job.sequence, sample.key, kLensDimension);
-        const CameraConnection camera = job.world.connect_to_camera(position, lens, rays_[i].time);
+        const CameraConnection camera = job.world.connect_to_camera(position, sample.lens, rays_[i].time);
         DepartingDensities departing = state.departing;
         departing.pdf_forward = job.samples_per_light_path() * static_cast<double>(camera.importance_area);
         departing.is_from_infinity = true;  // per area already
