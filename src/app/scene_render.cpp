@@ -192,7 +192,8 @@ IntegratorOptions integrator_options(const RenderSettings& settings) {
     IntegratorOptions options{
         .lengths = {s.max_depth, s.min_depth, s.roulette_depth},
         .heuristic = s.heuristic == HeuristicType::Balance ? Heuristic::Balance : Heuristic::Power,
-        .weighted = s.weighted};
+        .weighted = s.weighted,
+        .cached_connections = s.cached_connections};
     if (s.strategy) options.strategy = Strategy{(*s.strategy)[0], (*s.strategy)[1]};
     return options;
 }

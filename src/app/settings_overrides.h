@@ -41,6 +41,7 @@ struct SettingsOverrides {
     std::optional<HeuristicType> heuristic;
     std::optional<std::array<int, 2>> strategy;
     std::optional<bool> weighted;
+    std::optional<int> cached_connections;
     std::optional<LightUnits> light_units;
     std::optional<std::string> environment;
     std::optional<std::uint64_t> texture_memory;  ///< bytes

@@ -37,7 +37,8 @@ std::unique_ptr<const Integrator> make_bdpt(const IntegratorOptions& options) {
     return std::make_unique<BdptIntegrator>(BdptOptions{.lengths = options.lengths,
                                                         .heuristic = options.heuristic,
                                                         .only = options.strategy,
-                                                        .weighted = options.weighted});
+                                                        .weighted = options.weighted,
+                                                        .cached_connections = options.cached_connections});
 }
 
 std::unique_ptr<const Integrator> make_whitted(const IntegratorOptions& options) {

@@ -251,6 +251,8 @@ void dump_settings(const RenderSettings& s, Out out) {
     if (s.integrator.strategy)
         fmt::format_to(out, ", {} strategy {},{} only", s.integrator.weighted ? "weighted" : "unweighted",
                        (*s.integrator.strategy)[0], (*s.integrator.strategy)[1]);
+    if (const int count = s.integrator.cached_connections; count > 0)
+        fmt::format_to(out, ", connections cache:{}", count);
     fmt::format_to(out, "\n");
     fmt::format_to(out, "sampling: {}, {} spp, seed {}, time limit {:g}\n",
                    s.sampler == SamplerType::Sobol ? "sobol" : "random", s.spp, s.seed, s.time_limit);

@@ -10,6 +10,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace etendue {
 
@@ -25,7 +26,14 @@ struct IntegratorSettings {
     HeuristicType heuristic = HeuristicType::Power;
     std::optional<std::array<int, 2>> strategy{};
     bool weighted = true;
+    /// And how many light vertices of all samples an eye vertex is connected to; 0: all of its own sample.
+    int cached_connections = 0;
 };
+
+inline constexpr int kMostCachedConnections = 999;
+inline constexpr std::string_view kConnectionsForm = "pairwise or cache:N, N from 1 to 999";
+/// `IntegratorSettings::cached_connections` in that form; nothing if `text` is not.
+[[nodiscard]] std::optional<int> parse_connections(std::string_view text);
 
 enum class SamplerType { Sobol, Random };
 enum class PixelFilterType { BlackmanHarris, Box, Gaussian, Mitchell };

@@ -144,6 +144,7 @@ void validate_settings(const SceneDesc& scene, ProblemList& problems) {
                        fmt::format("min_depth {} is above max_depth {}: no path would be kept", integrator.min_depth,
                                    integrator.max_depth));
     }
+    check(integrator.cached_connections, 0, kMostCachedConnections, "connections", "/integrator/connections");
     if (integrator.strategy) {
         const auto [s, t] = *integrator.strategy;
         // No light hits the lens, and lights that the camera sees are (0, 2)'s alone.

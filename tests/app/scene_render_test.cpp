@@ -88,6 +88,7 @@ TEST(SettingsHash, ChangesWithEverythingThatChangesTheImage) {
         o.strategy = {2, 1};
         o.weighted = false;
     });
+    expect_new("connections", [](SettingsOverrides& o) { o.cached_connections = 2; });
     expect_new("environment", [&](SettingsOverrides& o) { o.environment = (folder / "sky.exr").string(); });
     expect_new("exposure", [](SettingsOverrides& o) { o.exposure = 0.5f; });
     expect_new("small exposure", [](SettingsOverrides& o) { o.exposure = 0.50001f; });

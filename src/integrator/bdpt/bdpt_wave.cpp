@@ -11,6 +11,9 @@ namespace etendue {
 
 namespace {
 
+/// Of the choice from the cache for the eye vertex of index 0; far from those of subpaths.
+constexpr std::uint32_t kCacheDimension = 3u << 29;
+
 /// Paths of one edge, a light that the camera sees, have no strategy but one.
 constexpr int kDirectlySeen = 1;
 
@@ -79,14 +82,16 @@ void BdptWave::trace(const World& world, const TileJob& job, const BdptOptions& 
     if (world.has_lights()) {
         const auto resolve_if_full = [&] { connections_.resolve_if_full(world, samples_, radiance_, tile, counters); };
         light_.trace(context, roulette_depth_at_light, nullptr, counters);
+        cache_.clear();
+        for (const PathVertex& vertex : light_.vertices())
+            if (vertex.is_connectible && context.is_shared(vertex)) cache_.push_back(&vertex);
         to_light_.collect(context, SubpathEnd::AtEye, eye_.vertices());
         for (std::size_t v = 0; v < to_light_.size(); ++v) {
             const PathVertex& vertex = to_light_[v];
             const auto [light, triangle, direction] = to_light_.numbers(v);
             connect_to_light(context, vertex, {light, triangle, direction});
-            for (std::uint32_t i = light_.last_vertex(vertex.slot); i != PathVertex::kNoVertex;
-                 i = light_.vertices()[i].previous)
-                if (light_.vertices()[i].is_connectible) connect(context, vertex, light_.vertices()[i]);
+            connect_to_own(context, vertex);
+            if (context.is_shared(vertex)) connect_to_cache(context, vertex, options.cached_connections);
             resolve_if_full();
         }
         to_camera_.collect(context, SubpathEnd::AtLight, light_.vertices());
@@ -254,7 +259,30 @@ void BdptWave::connect_to_camera(const Context& context, const PathVertex& verte
               &vertex, nullptr, view->camera);
 }
 
-void BdptWave::connect(const Context& context, const PathVertex& eye, const PathVertex& light) {
+void BdptWave::connect_to_own(const Context& context, const PathVertex& eye) {
+    const bool has_cache = context.is_shared(eye);
+    for (std::uint32_t i = light_.last_vertex(eye.slot); i != PathVertex::kNoVertex;) {
+        const PathVertex& light = light_.vertices()[i];
+        if (light.is_connectible && !(has_cache && context.is_shared(light))) connect(context, eye, light, 1.0f);
+        i = light.previous;
+    }
+}
+
+void BdptWave::connect_to_cache(const Context& context, const PathVertex& eye, int count) {
+    if (cache_.empty()) return;
+    const auto size = static_cast<float>(cache_.size());
+    const float step = size / static_cast<float>(count);
+    const float scale = step / static_cast<float>(samples_.size());
+    // One number for all, and equal steps from one to the next: each is as likely as any other to be drawn.
+    const SampleKey key = samples_[eye.slot].key;
+    const float u = sample_2d(context.job.sequence, key, kCacheDimension + static_cast<std::uint32_t>(eye.index)).x;
+    for (int i = 0; i < count; ++i) {
+        const auto drawn = static_cast<std::size_t>((static_cast<float>(i) + u) * step);
+        connect(context, eye, *cache_[std::min(drawn, cache_.size() - 1)], scale);
+    }
+}
+
+void BdptWave::connect(const Context& context, const PathVertex& eye, const PathVertex& light, float scale) {
     if (!is_wanted(context.lengths, eye.next_edges + light.next_edges - 1) ||
         !is_wanted(context.options, {.s = light.index + 1, .t = eye.index + 1}))
         return;
@@ -285,7 +313,7 @@ void BdptWave::connect(const Context& context, const PathVertex& eye, const Path
     connections_.to_sample(
         ray, eye.slot,
         eye.throughput * at_eye.f_cos * at_light.f_cos * light.throughput * eye.transmittance(w, distance) *
-            context.wavelength_weight(eye.slot, eye.is_dispersed || light.is_dispersed) * (share / squared));
+            context.wavelength_weight(eye.slot, eye.is_dispersed || light.is_dispersed) * (scale * share / squared));
     if (is_checked(samples_[eye.slot], context.options))
         check(context, context.options, static_cast<std::size_t>(light.index) + 1, share, light_end(light.slot), &light,
               &eye, camera_of(context, eye));

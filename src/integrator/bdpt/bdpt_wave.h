@@ -25,6 +25,12 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
   private:
     struct Context : SubpathJob {
         const BdptOptions& options;
+
+        /// True if the vertex may be connected to those of other samples: each sample has a time and a wavelength of
+        /// its own.
+        [[nodiscard]] bool is_shared(const PathVertex& vertex) const {
+            return options.cached_connections > 0 && !world.has_motion() && !vertex.is_dispersed;
+        }
     };
 
     // s = 0: subpaths from the eye that meet a light.
@@ -38,8 +44,12 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
     void connect_to_light(const Context& context, const PathVertex& vertex, const LightNumbers& numbers);
     /// t = 1: to a point on the lens that is sampled for the vertex.
     void connect_to_camera(const Context& context, const PathVertex& vertex, Vec2f lens);
-    /// s > 1, t > 1.
-    void connect(const Context& context, const PathVertex& eye, const PathVertex& light);
+    /// s > 1, t > 1: to all of the sample's own light subpath that the cache does not have.
+    void connect_to_own(const Context& context, const PathVertex& eye);
+    /// To `count` vertices drawn from the cache, in place of all that it has of an average light subpath.
+    void connect_to_cache(const Context& context, const PathVertex& eye, int count);
+    /// `scale` is how many connections this one stands for.
+    void connect(const Context& context, const PathVertex& eye, const PathVertex& light, float scale);
 
     /// Of a strategy, from the ratios of those with fewer vertices on one side.
     [[nodiscard]] static float weight(const BdptOptions& options, double fewer_from_light, double fewer_from_eye);
@@ -60,6 +70,8 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
     SubpathWave light_{SubpathEnd::AtLight};
     VerticesToLight to_light_;
     VerticesToCamera to_camera_;
+    /// Light vertices that eye vertices of any sample may be connected to, if options ask for that.
+    std::vector<const PathVertex*> cache_;
     Connections connections_;
     const Context* context_ = nullptr;  ///< of the call of `trace` under way, for what eye subpaths find
 };

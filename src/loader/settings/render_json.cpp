@@ -58,6 +58,13 @@ void read_integrator(const Json& value, const SourceLocation& where, ProblemList
     std::array<int, 2> strategy{};
     if (object.integers("strategy", 0, kMaxInt, strategy)) out.strategy = strategy;
     object.boolean("weighted", out.weighted);
+    std::string connections;
+    if (object.text("connections", connections)) {
+        if (const auto count = parse_connections(connections))
+            out.cached_connections = *count;
+        else
+            problems.error(object.at("connections"), fmt::format("'{}' is not {}", connections, kConnectionsForm));
+    }
     object.finish();
 }
 

@@ -1,0 +1,142 @@
+// Connections to light vertices of all samples of a wave: they make the image that those within each sample make.
+#include "integrator/bdpt/reference_weights.h"
+#include "integrator/bdpt/render_bdpt.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace etendue::test {
+
+namespace {
+
+/// Pixels share light vertices, so that only images with other seeds are independent.
+MeanEstimate estimate(const World& world, const BdptOptions& options, std::uint32_t first_seed) {
+    constexpr std::uint32_t kSeeds = 8;
+    constexpr std::uint32_t kSpp = 16;
+    std::vector<double> means;
+    for (std::uint32_t i = 0; i < kSeeds; ++i)
+        means.push_back(mean_of(render_bdpt(world, options, kSpp, first_seed + i)));
+    return MeanEstimate(means);
+}
+
+/// Seeds are fixed. At most four standard errors apart, which are at most 2% together.
+void expect_same_mean(const World& world, BdptOptions options, const std::string& what) {
+    options.cached_connections = 0;
+    const MeanEstimate pairwise = estimate(world, options, 100);
+    for (const int count : {1, 3}) {
+        options.cached_connections = count;
+        const MeanEstimate cached = estimate(world, options, 200);
+        const double error = std::hypot(pairwise.error, cached.error);
+        EXPECT_LE(error, 0.02 * pairwise.mean) << what;
+        EXPECT_NEAR(cached.mean, pairwise.mean, 4.0 * error) << what << ", cache:" << count;
+    }
+}
+
+class CachedConnections : public testing::TestWithParam<const char*> {};
+
+TEST_P(CachedConnections, MakeTheSameImage) {
+    const AgreementCase& agreement = agreement_case(GetParam());
+    expect_same_mean(agreement_world(agreement), {.lengths = agreement.lengths}, agreement.name);
+}
+
+INSTANTIATE_TEST_SUITE_P(Rooms, CachedConnections,
+                         testing::Values("LampDiffuse", "LampPlastic", "LampRoughGlass", "LampPrism", "LampInFog",
+                                         "LongPathsAndRoulette", "SecondBounceOnly"),
+                         [](const auto& param) { return std::string(param.param); });
+
+// Of the strategies only those with vertices in between are concerned; each is right alone.
+TEST(CachedConnectionsOfAStrategy, MakeItsImage) {
+    constexpr int kEdges = 4;
+    const World world = agreement_world(agreement_case("LampDiffuse"));
+    for (int s = 2; s < kEdges; ++s) {
+        BdptOptions options{.lengths = {.max_depth = kEdges, .min_depth = kEdges}};
+        options.only = Strategy{s, kEdges + 1 - s};
+        expect_same_mean(world, options, "s = " + std::to_string(s));
+    }
+}
+
+// The same random numbers, whatever else is asked for.
+TEST(CachedConnectionsOfAStrategy, AddUpToTheWhole) {
+    constexpr int kEdges = 4;
+    const World world = agreement_world(agreement_case("LampPlastic"));
+    BdptOptions options{.lengths = {.max_depth = kEdges, .min_depth = kEdges}, .cached_connections = 2};
+    const double whole = mean_of(render_bdpt(world, options, 16, 7));
+    double sum = 0.0;
+    for (int s = 0; s <= kEdges; ++s) {
+        options.only = Strategy{s, kEdges + 1 - s};
+        sum += mean_of(render_bdpt(world, options, 16, 7));
+    }
+    EXPECT_NEAR(sum / whole, 1.0, 1e-5);
+}
+
+TEST(CachedConnectionsOfThreads, AreTheSame) {
+    const World world = agreement_world(agreement_case("LampPrism"));
+    const BdptOptions options{.lengths = {.max_depth = 6}, .cached_connections = 2};
+    const std::vector<float> one = render_bdpt(world, options, 8, 3, 1);
+    EXPECT_EQ(one, render_bdpt(world, options, 8, 3, 3));
+    BdptOptions pairwise = options;
+    pairwise.cached_connections = 0;
+    EXPECT_NE(one, render_bdpt(world, pairwise, 8, 3, 1));
+}
+
+/// Looks at which vertices make a path, and at its weight.
+class PathObserver final : public WeightObserver {
+  public:
+    void on_weight(const CompletePath& path, double weight, std::span<const double> reference) override {
+        const auto is_of_first = [&](const PathVertex* vertex) { return vertex->slot == path.inner.front()->slot; };
+        const auto is_dispersed = [](const PathVertex* vertex) { return vertex->is_dispersed; };
+        const bool is_mixed = !std::ranges::all_of(path.inner, is_of_first);
+        const bool is_of_one_wavelength = std::ranges::any_of(path.inner, is_dispersed);
+        mixed += is_mixed ? 1 : 0;
+        dispersed += is_of_one_wavelength ? 1 : 0;
+        mixed_wavelengths += is_mixed && is_of_one_wavelength ? 1 : 0;
+        wrong_weights += is_mixed && std::abs(weight - reference[path.s]) > 0.01 ? 1 : 0;
+    }
+    int mixed = 0;  ///< paths of vertices of two samples
+    int dispersed = 0;
+    int mixed_wavelengths = 0;
+    int wrong_weights = 0;
+};
+
+// Each sample has a wavelength of its own, and no weight knows which samples a path is made of.
+TEST(CachedConnectionsObserved, MixNoWavelengthsAndKeepTheWeights) {
+    const World world = agreement_world(agreement_case("LampPrism"));
+    PathObserver observer;
+    BdptOptions options{.lengths = {.max_depth = 6}, .cached_connections = 2};
+    options.observer = &observer;
+    (void)render_bdpt(world, options, 2, 5, 1);
+    EXPECT_GT(observer.mixed, 1000);
+    EXPECT_GT(observer.dispersed, 1000);
+    EXPECT_EQ(observer.mixed_wavelengths, 0);
+    // Single precision costs the reference, which has nothing but positions, some where edges are short.
+    EXPECT_LE(observer.wrong_weights, observer.mixed / 1000);
+}
+
+// Each sample has a time of its own: where something moves, vertices of others are elsewhere by then.
+TEST(CachedConnectionsInMotion, AreThoseOfEachSample) {
+    AgreementCase moving = agreement_case("LampDiffuse");
+    moving.make = [make = moving.make](SceneDesc& scene) {
+        make(scene);
+        Mat4f aside;
+        aside.setTranslation(Vec3f(0.05f, 0.0f, 0.0f));
+        scene.instances.front().motion = {Mat4f(), aside};
+    };
+    const World world = agreement_world(moving);
+    ASSERT_TRUE(world.has_motion());
+    BdptOptions options{.lengths = {.max_depth = 6}};
+    const std::vector<float> pairwise = render_bdpt(world, options, 8, 3);
+    options.cached_connections = 4;
+    EXPECT_EQ(pairwise, render_bdpt(world, options, 8, 3));
+}
+
+}  // namespace
+
+}  // namespace etendue::test
