@@ -157,11 +157,11 @@ void SettingsOverrides::add_options(CLI::App& command) {
     command.add_flag_callback(
         "--unweighted", [this] { weighted = false; }, "That strategy as if no other made its paths");
     command.add_option_function<std::string>(
-        "--connections",
+        "--bdpt-connections",
         [this](const std::string& text) {
             cached_connections = parse_connections(text);
             if (!cached_connections)
-                throw CLI::ValidationError("--connections", fmt::format("'{}' is not {}", text, kConnectionsForm));
+                throw CLI::ValidationError("--bdpt-connections", fmt::format("'{}' is not {}", text, kConnectionsForm));
         },
         "What bdpt connects an eye vertex to: all light vertices of its own sample (pairwise, default) or N drawn from "
         "those of many samples (cache:N)");
@@ -202,7 +202,7 @@ void SettingsOverrides::apply(SceneDesc& scene) const {
     set(heuristic, settings.integrator.heuristic, "/integrator/heuristic", "--heuristic");
     set(strategy, settings.integrator.strategy, "/integrator/strategy", "--strategy");
     set(weighted, settings.integrator.weighted, "/integrator/weighted", "--unweighted");
-    set(cached_connections, settings.integrator.cached_connections, "/integrator/connections", "--connections");
+    set(cached_connections, settings.integrator.cached_connections, "/integrator/connections", "--bdpt-connections");
     set(spp, settings.spp, "/spp", "--spp");
     set(crop, settings.film.crop, "/crop", "--crop");
     set(camera, settings.camera, "/camera", "--camera");

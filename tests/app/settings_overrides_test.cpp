@@ -145,11 +145,11 @@ TEST(SettingsOverrides, StrategiesOfBidirectionalPathTracing) {
 }
 
 TEST(SettingsOverrides, ConnectionsArePairwiseOrToACache) {
-    EXPECT_EQ(parse({"--connections", "pairwise"}).cached_connections, 0);
-    EXPECT_EQ(parse({"--connections", "cache:1"}).cached_connections, 1);
-    EXPECT_EQ(parse({"--connections", "cache:999"}).cached_connections, 999);
+    EXPECT_EQ(parse({"--bdpt-connections", "pairwise"}).cached_connections, 0);
+    EXPECT_EQ(parse({"--bdpt-connections", "cache:1"}).cached_connections, 1);
+    EXPECT_EQ(parse({"--bdpt-connections", "cache:999"}).cached_connections, 999);
     for (const char* text : {"", "cache", "cache:", "cache:0", "cache:-1", "cache:1000", "cache:2x", "cache: 2", "all"})
-        EXPECT_THROW((void)parse({"--connections", text}), CLI::ValidationError) << text;
+        EXPECT_THROW((void)parse({"--bdpt-connections", text}), CLI::ValidationError) << text;
 }
 
 TEST(SettingsOverrides, FramesAreOneARangeOrEveryNth) {
