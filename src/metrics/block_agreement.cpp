@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -96,12 +98,13 @@ BlockDifference compare(const ImageEstimate& a, const ImageEstimate& b, const Pi
                         double tolerance) {
     const Moments of_a = moments(a, region, channel);
     const Moments of_b = moments(b, region, channel);
-    BlockDifference result{region.x0, region.y0, region.width(), region.height(), channel, of_a.mean, of_b.mean, 0.0};
+    BlockDifference result{region.x0, region.y0, region.width(), region.height(), channel, of_a.mean, of_b.mean};
+    result.error = std::sqrt(of_a.variance + of_b.variance);
     const double difference = of_a.mean - of_b.mean;
     const double excess = std::abs(difference) - tolerance * std::max(std::abs(of_a.mean), std::abs(of_b.mean));
     // Written so that what is not a number does not pass.
     if (excess <= 0.0) return result;
-    result.z = std::copysign(excess / std::sqrt(of_a.variance + of_b.variance), difference);
+    result.z = std::copysign(excess / result.error, difference);
     if (std::isnan(result.z)) result.z = std::numeric_limits<double>::infinity();
     return result;
 }
@@ -119,6 +122,18 @@ double mean_difference(const ImageEstimate& a, const ImageEstimate& b) {
         if (!(relative <= largest)) largest = relative;
     }
     return largest;
+}
+
+/// 0 where both means are 0.
+double relative_error(const BlockDifference& difference) {
+    const double mean = std::max(std::abs(difference.mean_a), std::abs(difference.mean_b));
+    return mean > 0.0 ? difference.error / mean : 0.0;
+}
+
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
 }
 
 }  // namespace
@@ -211,14 +226,26 @@ double critical_z(double significance, std::size_t tests) {
     return 0.5 * (low + high);
 }
 
+double mean_error(const ImageEstimate& image) {
+    const PixelRect whole{0, 0, image.mean.width, image.mean.height};
+    double largest = 0.0;
+    for (int channel = 0; channel < image.mean.channels; ++channel) {
+        const Moments m = moments(image, whole, channel);
+        if (m.mean != 0.0) largest = std::max(largest, std::sqrt(m.variance) / std::abs(m.mean));
+    }
+    return largest;
+}
+
 BlockAgreement test_agreement(const ImageEstimate& a, const ImageEstimate& b, const AgreementOptions& options) {
     require_estimates(a, b);
     BlockAgreement result;
+    std::vector<double> block_errors;
     for (const PixelRect& region : regions(a.mean, options.block_size)) {
         for (int channel = 0; channel < a.mean.channels; ++channel) {
             const BlockDifference difference = compare(a, b, region, channel, options.block_tolerance);
             if (result.tests == 0 || std::abs(difference.z) > std::abs(result.worst.z)) result.worst = difference;
             ++result.tests;
+            block_errors.push_back(relative_error(difference));
         }
     }
     const double p = std::erfc(std::abs(result.worst.z) / std::numbers::sqrt2);
@@ -226,6 +253,11 @@ BlockAgreement test_agreement(const ImageEstimate& a, const ImageEstimate& b, co
     result.p_value = p < 1.0 ? -std::expm1(static_cast<double>(result.tests) * std::log1p(-p)) : 1.0;
     result.blocks_agree = result.p_value >= options.significance;
     result.mean_difference = mean_difference(a, b);
+    // The last ones are of the whole image, which may be the only block.
+    const auto channels = static_cast<std::size_t>(a.mean.channels);
+    result.mean_error = *std::max_element(block_errors.end() - a.mean.channels, block_errors.end());
+    if (result.tests > channels) block_errors.resize(result.tests - channels);
+    result.block_error = median(std::move(block_errors));
     result.means_agree = result.mean_difference <= options.mean_tolerance;
     return result;
 }

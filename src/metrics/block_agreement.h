@@ -33,6 +33,9 @@ struct AgreementOptions {
 /// std::invalid_argument if they are too few or differ in shape.
 [[nodiscard]] ImageEstimate estimate_image(std::span<const ImageF> renders);
 
+/// Relative standard error of the mean of the image, the largest over the channels; 0 where that is 0.
+[[nodiscard]] double mean_error(const ImageEstimate& image);
+
 /// Mean over pixels and channels of variance / (m² + kMetricEpsilon), m being the mean of the pixel's block: of its own
 /// mean a pixel with a firefly would have no more than another. Of the mean of the renders, as the variances are.
 [[nodiscard]] double relative_variance(const ImageEstimate& estimate, int block_size = AgreementOptions{}.block_size);
@@ -58,7 +61,8 @@ struct BlockDifference {
     int channel = 0;
     double mean_a = 0.0;
     double mean_b = 0.0;
-    double z = 0.0;  ///< (mean_a - mean_b) / standard error; beyond the tolerance, else 0
+    double error = 0.0;  ///< standard error of mean_a - mean_b
+    double z = 0.0;      ///< (mean_a - mean_b) / error; beyond the tolerance, else 0
 };
 
 struct BlockAgreement {
@@ -69,6 +73,10 @@ struct BlockAgreement {
     BlockDifference worst;
     /// Largest relative difference of the images' means over the channels.
     double mean_difference = 0.0;
+    /// What the test can see: its standard errors, relative to what they are of. Of the images' means the largest over
+    /// the channels, of the blocks and their channels the median.
+    double mean_error = 0.0;
+    double block_error = 0.0;
 
     [[nodiscard]] bool agree() const { return blocks_agree && means_agree; }
     /// For a failure message.

@@ -53,6 +53,14 @@ TEST(EstimateImage, RefusesTooFewAndDifferentRenders) {
     EXPECT_THROW((void)estimate_image(std::vector<ImageF>{ImageF(1, 1, 1), ImageF(2, 1, 1)}), std::invalid_argument);
 }
 
+TEST(EstimateImage, KnowsTheErrorOfItsMean) {
+    ImageEstimate e{ImageF(2, 1, 2), ImageF(2, 1, 2)};
+    e.mean.pixels = {1.0f, 2.0f, 3.0f, 2.0f};
+    e.variance.pixels = {0.0f, 0.04f, 0.16f, 0.05f};
+    EXPECT_NEAR(mean_error(e), 0.1, 1e-6);
+    EXPECT_EQ(mean_error(constant_estimate(2, 2, 0.0f, 0.0f)), 0.0);
+}
+
 TEST(BlockAgreement, ComputesZFromBothVariances) {
     // 16 pixels a block: variances 0.16 / 16 and 0.09 / 16 · … make a standard error of 0.125.
     const ImageEstimate a = constant_estimate(4, 4, 1.25f, 0.16f);
@@ -63,6 +71,18 @@ TEST(BlockAgreement, ComputesZFromBothVariances) {
     EXPECT_NEAR(result.p_value, 0.0455002639, 1e-7);
     EXPECT_NEAR(result.mean_difference, 0.2, 1e-6);
     EXPECT_TRUE(result.agree());
+}
+
+TEST(BlockAgreement, SaysWhatItCouldSee) {
+    ImageEstimate a = constant_estimate(12, 4, 1.0f, 0.16f);
+    const ImageEstimate b = constant_estimate(12, 4, 1.0f, 0.0f);
+    // Three blocks, of which one has no noise.
+    for (int y = 0; y < 4; ++y)
+        for (int x = 0; x < 4; ++x) a.variance.pixel(x, y)[0] = 0.0f;
+    const BlockAgreement result = test_agreement(a, b, {.block_size = 4});
+    EXPECT_NEAR(result.block_error, 0.1, 1e-6);
+    EXPECT_NEAR(result.mean_error, std::sqrt(32.0 * 0.16) / 48.0, 1e-6);
+    EXPECT_NEAR(test_agreement(a, b, {.block_size = 16}).block_error, result.mean_error, 1e-6);
 }
 
 TEST(BlockAgreement, CorrectsForTheNumberOfBlocks) {
