@@ -1,73 +1,13 @@
 #include "integrator/agreement_cases.h"
 
+#include "integrator/agreement_room.h"
 #include "world/test_scene.h"
 
-#include <cmath>
 #include <utility>
 
 namespace etendue::test {
 
 namespace {
-
-MaterialDesc gltf_plastic() {
-    MaterialDesc m;
-    m.base_color = {0.7f, 0.3f, 0.2f};
-    m.metallic = 0.0f;
-    m.roughness = 0.5f;
-    return m;
-}
-
-MaterialDesc conductor(float roughness) {
-    MaterialDesc m;
-    m.override_model = ConductorDesc{"Cu", roughness};
-    return m;
-}
-
-MaterialDesc glass(float roughness, float dispersion = 0.0f, const Rgb& attenuation = Rgb(1.0f)) {
-    MaterialDesc m;
-    DielectricDesc desc{.ior = 1.5f, .roughness = roughness};
-    desc.volume.dispersion = dispersion;
-    desc.volume.attenuation_color = attenuation;
-    desc.volume.attenuation_distance = 0.3f;
-    m.override_model = desc;
-    return m;
-}
-
-/// A floor and a wall behind it.
-void add_room(SceneDesc& scene) {
-    const auto gray = add_material(scene, diffuse({0.6f, 0.5f, 0.4f}));
-    add_object(scene, quad({0, -0.7f, -3}, {1.6f, 0, 0}, {0, 0, -1.6f}), gray);
-    add_object(scene, quad({0, 0.5f, -4.4f}, {1.6f, 0, 0}, {0, 1.4f, 0}), gray);
-}
-
-void add_ball(SceneDesc& scene, MaterialDesc material) {
-    add_object(scene, sphere({0.2f, -0.25f, -3.0f}, 0.4f, 12), add_material(scene, std::move(material)));
-}
-
-/// Throws a shadow, and is out of focus for a lens.
-void add_occluder(SceneDesc& scene) {
-    add_object(scene, quad({-0.5f, 0.1f, -2.2f}, {0.15f, 0.05f, 0}, {0, 0.2f, 0.1f}),
-               add_material(scene, diffuse({0.2f, 0.4f, 0.7f})));
-}
-
-void add_lamp(SceneDesc& scene, bool two_sided = false) {
-    MaterialDesc lamp = emissive(Rgb(6.0f));
-    lamp.double_sided = two_sided;
-    add_object(scene, quad({0, 1.3f, -3}, {0.5f, 0, 0}, {0, 0, 0.5f}), add_material(scene, lamp));
-}
-
-LightDesc light(LightType type, float intensity, const Mat4f& to_world) {
-    LightDesc desc;
-    desc.type = type;
-    desc.intensity = intensity;
-    desc.to_world = to_world;
-    return desc;
-}
-
-/// About +X, so that -Z points down.
-Mat4f looking_down(float angle) {
-    return {1, 0, 0, 0, 0, std::cos(angle), -std::sin(angle), 0, 0, std::sin(angle), std::cos(angle), 0, 0, 0, 0, 1};
-}
 
 std::function<void(SceneDesc&)> under_lamp(const MaterialDesc& material) {
     return [=](SceneDesc& scene) {
@@ -83,17 +23,7 @@ std::function<void(SceneDesc&)> under(const LightDesc& desc, const MaterialDesc&
     };
 }
 
-void add_environment(SceneDesc& scene) {
-    scene.environment.enabled = true;
-    scene.environment.color = {0.5f, 0.6f, 0.9f};
-    scene.environment.visible_to_camera = false;
-}
-
 std::vector<AgreementCase> all_cases() {
-    const LightDesc point = light(LightType::Point, 4.0f, translation({0.6f, 0.9f, -2.4f}));
-    LightDesc spot = light(LightType::Spot, 9.0f, looking_down(1.2f) * translation({0.3f, 1.2f, -2.2f}));
-    spot.inner_cone_angle = 0.3f;
-    const LightDesc sun = light(LightType::Directional, 3.0f, looking_down(0.9f));
     MaterialDesc wax;
     wax.override_model = SubsurfaceDesc{.albedo = {0.8f, 0.6f, 0.4f}, .radius = Rgb(0.15f)};
     MaterialDesc coated = gltf_plastic();
@@ -118,9 +48,9 @@ std::vector<AgreementCase> all_cases() {
         {"LampPrism", under_lamp(glass(0.6f, 4.0f))},
         {"LampLayers", under_lamp(coated)},
         {"LampWax", under_lamp(wax), {.max_depth = 4}},
-        {"PointPlastic", under(point)},
-        {"SpotConductor", under(spot, conductor(0.6f))},
-        {"SunRoughGlass", under(sun, glass(0.6f))},
+        {"PointPlastic", under(point_light())},
+        {"SpotConductor", under(spot_light(), conductor(0.6f))},
+        {"SunRoughGlass", under(sun_light(), glass(0.6f))},
     };
     cases.push_back(
         {"TwoSidedLamp", [](SceneDesc& scene) {
@@ -136,7 +66,7 @@ std::vector<AgreementCase> all_cases() {
         {"SheetAndLeaf", [=](SceneDesc& scene) {
              add_object(scene, quad({0.3f, 0, -2.6f}, {0.5f, 0, 0.2f}, {0, 0.5f, 0}), add_material(scene, sheet));
              add_object(scene, quad({-0.6f, 0, -2.9f}, {0.4f, 0, 0}, {0, 0.4f, 0.2f}), add_material(scene, leaf));
-             scene.lights.push_back(point);
+             scene.lights.push_back(point_light());
          }});
     cases.push_back(
         {"VeilMirroredThinLens", [=](SceneDesc& scene) {
@@ -173,7 +103,7 @@ std::vector<AgreementCase> all_cases() {
     // The caustic on the floor and the shadow around it; the glass itself, which light paths cannot show, is outside.
     cases.push_back({"CausticCrop", under_lamp(glass(0.0f)), {.max_depth = 6}, {28, 38, 60, 48}, 512});
     // What the eye sees in mirrors and through smooth glass, which light tracing cannot.
-    const std::vector<std::string> bdpt{"bdpt"};
+    const std::vector<std::string> bdpt{"path", "bdpt"};
     const PixelRect all{0, 0, kAgreementWidth, kAgreementHeight};
     cases.push_back({"Mirror", under_lamp(conductor(0.0f)), {.max_depth = 6}, all, 64, bdpt});
     cases.push_back({"SmoothGlass", under_lamp(glass(0.0f)), {.max_depth = 6}, all, 256, bdpt});

@@ -22,7 +22,7 @@ struct AgreementCase {
     PathLengths lengths{.max_depth = 6};
     PixelRect window{0, 0, kAgreementWidth, kAgreementHeight};
     std::uint32_t spp = 64;
-    std::vector<std::string> integrators{"light", "bdpt"};  ///< to compare with `path`
+    std::vector<std::string> integrators{"path", "light", "bdpt"};  ///< each finds all light of the room
 };
 
 [[nodiscard]] const std::vector<AgreementCase>& agreement_cases();

@@ -1,0 +1,45 @@
+#include "integrator/agreement_render.h"
+
+#include "render/render.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace etendue::test {
+
+ImageEstimate estimate(const World& world, const Integrator& integrator, const AgreementCase& agreement,
+                       const AgreementRenders& renders, const ThreadPool& threads, const PixelRect& part) {
+    const std::atomic<bool> stop{false};
+    RenderOptions options;
+    options.full_width = kAgreementWidth;
+    options.full_height = kAgreementHeight;
+    options.window = agreement.window;
+    options.spp = agreement.spp;
+    // A splat falls into one pixel, so that those of a block are independent, as the test assumes.
+    options.filter = PixelFilter(FilterShape::Box);
+    std::vector<ImageF> images;
+    for (std::uint32_t i = 0; i < renders.seeds; ++i) {
+        options.seed = renders.first_seed + i;
+        const std::vector<float> rgba = render(world, integrator, options, threads, stop, {}).film.resolve();
+        ImageF image(part.width(), part.height(), 3);
+        for (int y = part.y0; y < part.y1; ++y)
+            for (int x = part.x0; x < part.x1; ++x) {
+                const int row = y - agreement.window.y0;
+                const auto p = static_cast<std::size_t>(row * agreement.window.width() + x - agreement.window.x0);
+                std::copy_n(&rgba[4 * p], 3, image.pixel(x - part.x0, y - part.y0).begin());
+            }
+        images.push_back(std::move(image));
+    }
+    return estimate_image(images);
+}
+
+ImageEstimate estimate(const World& world, const std::string& integrator, const AgreementCase& agreement,
+                       const AgreementRenders& renders, const ThreadPool& threads) {
+    return estimate(world, *make_integrator(integrator, {.lengths = agreement.lengths}), agreement, renders, threads,
+                    agreement.window);
+}
+
+}  // namespace etendue::test

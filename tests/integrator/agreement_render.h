@@ -1,0 +1,25 @@
+// Renders of rooms of agreement, with their variance.
+#pragma once
+
+#include "core/parallel.h"
+#include "integrator/agreement_cases.h"
+#include "integrator/integrator.h"
+#include "metrics/block_agreement.h"
+
+#include <cstdint>
+#include <string>
+
+namespace etendue::test {
+
+struct AgreementRenders {
+    std::uint32_t seeds = 6;
+    std::uint32_t first_seed = 0;
+};
+
+/// Of the pixels of `part`, which lies within the window that is rendered.
+[[nodiscard]] ImageEstimate estimate(const World& world, const Integrator& integrator, const AgreementCase& agreement,
+                                     const AgreementRenders& renders, const ThreadPool& threads, const PixelRect& part);
+[[nodiscard]] ImageEstimate estimate(const World& world, const std::string& integrator, const AgreementCase& agreement,
+                                     const AgreementRenders& renders, const ThreadPool& threads);
+
+}  // namespace etendue::test
