@@ -100,6 +100,19 @@ std::vector<AgreementCase> all_cases() {
                          scene.cameras[0].type = CameraType::Orthographic;
                          scene.cameras[0].ymag = 1.2f;
                      }});
+    // Something before the lens whose blur light paths must find in the crop, as eye paths do.
+    cases.push_back({"OutOfFocusBeforeLensCrop",
+                     [](SceneDesc& scene) {
+                         add_ball(scene, gltf_plastic());
+                         add_lamp(scene);
+                         add_object(scene, quad({0.05f, -0.08f, -0.8f}, {0.1f, 0.02f, 0}, {0, 0.05f, 0.02f}),
+                                    add_material(scene, diffuse({0.8f, 0.7f, 0.2f})));
+                         scene.cameras[0].lens_radius = 0.1f;
+                         scene.cameras[0].focus_distance = 3.0f;
+                     },
+                     {.max_depth = 6},
+                     {11, 13, 57, 45},
+                     128});
     // The caustic on the floor and the shadow around it; the glass itself, which light paths cannot show, is outside.
     cases.push_back({"CausticCrop", under_lamp(glass(0.0f)), {.max_depth = 6}, {28, 38, 60, 48}, 512});
     // What the eye sees in mirrors and through smooth glass, which light tracing cannot.
