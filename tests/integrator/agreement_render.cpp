@@ -1,7 +1,5 @@
 #include "integrator/agreement_render.h"
 
-#include "render/render.h"
-
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
@@ -10,9 +8,7 @@
 
 namespace etendue::test {
 
-ImageEstimate estimate(const World& world, const Integrator& integrator, const AgreementCase& agreement,
-                       const AgreementRenders& renders, const ThreadPool& threads, const PixelRect& part) {
-    const std::atomic<bool> stop{false};
+RenderOptions render_options(const AgreementCase& agreement) {
     RenderOptions options;
     options.full_width = kAgreementWidth;
     options.full_height = kAgreementHeight;
@@ -20,6 +16,13 @@ ImageEstimate estimate(const World& world, const Integrator& integrator, const A
     options.spp = agreement.spp;
     // A splat falls into one pixel, so that those of a block are independent, as the test assumes.
     options.filter = PixelFilter(FilterShape::Box);
+    return options;
+}
+
+ImageEstimate estimate(const World& world, const Integrator& integrator, const AgreementCase& agreement,
+                       const AgreementRenders& renders, const ThreadPool& threads, const PixelRect& part) {
+    const std::atomic<bool> stop{false};
+    RenderOptions options = render_options(agreement);
     std::vector<ImageF> images;
     for (std::uint32_t i = 0; i < renders.seeds; ++i) {
         options.seed = renders.first_seed + i;

@@ -5,6 +5,7 @@
 #include "integrator/agreement_cases.h"
 #include "integrator/integrator.h"
 #include "metrics/block_agreement.h"
+#include "render/render.h"
 
 #include <cstdint>
 #include <string>
@@ -15,6 +16,9 @@ struct AgreementRenders {
     std::uint32_t seeds = 6;
     std::uint32_t first_seed = 0;
 };
+
+/// What all renders of the room have in common.
+[[nodiscard]] RenderOptions render_options(const AgreementCase& agreement);
 
 /// Of the pixels of `part`, which lies within the window that is rendered.
 [[nodiscard]] ImageEstimate estimate(const World& world, const Integrator& integrator, const AgreementCase& agreement,

@@ -118,10 +118,14 @@ Handle<TextureDesc> add_texture(SceneDesc& scene, const std::filesystem::path& p
     for (std::size_t i = 0; i < texels.size(); ++i)
         for (std::size_t c = 0; c < 4; ++c) image.pixels[i * 4 + c] = static_cast<float>(texels[i][c]) / 255.0f;
     write_image(png, image, {.depth = PixelDepth::UInt8});
+    return add_texture(scene, png, image.width, image.height);
+}
+
+Handle<TextureDesc> add_texture(SceneDesc& scene, const std::filesystem::path& image, int width, int height) {
     ImageDesc& desc = scene.images.emplace_back();
-    desc.path = png;
-    desc.width = image.width;
-    desc.height = image.height;
+    desc.path = image;
+    desc.width = width;
+    desc.height = height;
     TextureDesc& texture = scene.textures.emplace_back();
     texture.image.index = static_cast<std::int32_t>(scene.images.size() - 1);
     return {static_cast<std::int32_t>(scene.textures.size() - 1)};

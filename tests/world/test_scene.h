@@ -44,6 +44,9 @@ void add_object(SceneDesc& scene, PrimitiveDesc primitive, Handle<MaterialDesc> 
 Handle<TextureDesc> add_texture(SceneDesc& scene, const std::filesystem::path& png, int width,
                                 const std::vector<std::array<int, 4>>& texels);
 
+/// Adds the image of this size in a file as a texture.
+Handle<TextureDesc> add_texture(SceneDesc& scene, const std::filesystem::path& image, int width, int height);
+
 /// Validates and compiles in Linear Rec.709, so that colours come out as they went in.
 [[nodiscard]] World compile(SceneDesc scene);
 [[nodiscard]] World compile(SceneDesc scene, const std::string& working_space, ProblemList& problems);
