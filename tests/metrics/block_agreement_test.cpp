@@ -201,6 +201,31 @@ TEST(WidenForCorrelation, FindsHowMuchBlocksVaryMore) {
     EXPECT_FLOAT_EQ(estimate.variance.pixels[5], before * static_cast<float>(factor));
 }
 
+TEST(TestableBlockSize, GrowsUntilManyValuesCount) {
+    // Flat but for bright pixels that are the light of their surroundings, as where it is found by chance.
+    const auto render = [](int spacing) {
+        ImageF image(64, 64, 1);
+        image.pixels.assign(image.pixels.size(), 0.01f);
+        for (int y = 0; y < 64; y += spacing)
+            for (int x = 0; x < 64; x += spacing) image.pixel(x, y)[0] = 100.0f;
+        return image;
+    };
+    EXPECT_EQ(testable_block_size(std::vector<ImageF>(2, render(1)), 16), 16);
+    // 8 of them in 16 × 16 pixels of two renders, 32 in 32 × 32, 128 in 64 × 64.
+    EXPECT_EQ(testable_block_size(std::vector<ImageF>(2, render(8)), 16), 64);
+    EXPECT_FALSE(testable_block_size(std::vector<ImageF>(2, render(32)), 16));
+    EXPECT_EQ(testable_block_size(std::vector<ImageF>(2, ImageF(64, 64, 1)), 16), 16) << "black";
+}
+
+TEST(RelativeVariance, IsRelativeToTheBlocksMean) {
+    EXPECT_NEAR(relative_variance(constant_estimate(16, 16, 2.0f, 0.5f)), 0.5 / 4.01, 1e-6);
+    // One bright pixel of 256, with the variance of a firefly: its own mean would hide it.
+    ImageEstimate firefly = constant_estimate(16, 16, 0.0f, 0.0f);
+    firefly.mean.pixel(3, 3)[0] = 256.0f;
+    firefly.variance.pixel(3, 3)[0] = 65536.0f;
+    EXPECT_NEAR(relative_variance(firefly), 65536.0 / 256.0 / 1.01, 1e-2);
+}
+
 TEST(AgreementMap, ShowsTheLargestZOfEachBlock) {
     ImageEstimate a = constant_estimate(8, 4, 1.0f, 0.16f);
     const ImageEstimate b = constant_estimate(8, 4, 1.0f, 0.09f);

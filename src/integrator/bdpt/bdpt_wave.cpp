@@ -83,8 +83,9 @@ void BdptWave::trace(const World& world, const TileJob& job, const BdptOptions& 
         const auto resolve_if_full = [&] { connections_.resolve_if_full(world, samples_, radiance_, tile, counters); };
         light_.trace(context, roulette_depth_at_light, nullptr, counters);
         cache_.clear();
-        for (const PathVertex& vertex : light_.vertices())
-            if (vertex.is_connectible && context.is_shared(vertex)) cache_.push_back(&vertex);
+        if (options.cached_connections > 0)
+            for (const PathVertex& vertex : light_.vertices())
+                if (vertex.is_connectible && context.is_shared(vertex)) cache_.push_back(&vertex);
         to_light_.collect(context, SubpathEnd::AtEye, eye_.vertices());
         for (std::size_t v = 0; v < to_light_.size(); ++v) {
             const PathVertex& vertex = to_light_[v];
