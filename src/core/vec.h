@@ -34,11 +34,11 @@ inline constexpr float kInvPi = 0.31830988618379067154f;
     return std::sqrt(length_squared(v));
 }
 
-/// `v` scaled to length 1; undefined for a zero vector.
 /// Largest absolute value of the components.
 [[nodiscard]] inline float max_abs(const Vec3f& v) {
     return std::max(std::abs(v.x), std::max(std::abs(v.y), std::abs(v.z)));
 }
+/// `v` scaled to length 1; undefined for a zero vector.
 [[nodiscard]] inline Vec3f normalize(const Vec3f& v) {
     return v * (1.0f / length(v));
 }

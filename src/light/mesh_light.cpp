@@ -15,17 +15,18 @@ MeshLight::MeshLight(std::vector<LightTriangle> triangles, Rgb radiance, Rgb mea
       radiance_(radiance),
       mean_radiance_(mean_radiance),
       two_sided_(two_sided),
-      front_sign_(mirrored ? -1.0f : 1.0f),
-      is_uniform_(is_uniform),
-      position_error_(position_error) {
+      is_uniform_(is_uniform) {
     std::vector<double> areas;
     areas.reserve(triangles_.size());
+    fronts_.reserve(triangles_.size());
     double total = 0.0;
     for (const LightTriangle& t : triangles_) {
         // In double: squares of small triangles' areas are below what single precision holds.
         const Imath::V3d edge1(t.edge1);
         areas.push_back(0.5 * edge1.cross(Imath::V3d(t.edge2)).length());
         total += areas.back();
+        const Vec3f normal = triangle_normal(t.edge1, t.edge2) * (mirrored ? -1.0f : 1.0f);
+        fronts_.push_back({normal, clearance(normal, position_error)});
     }
     area_ = static_cast<float>(total);
     by_area_ = AliasTable(areas);
@@ -42,11 +43,12 @@ LightSample MeshLight::sample(const Vec3f& point, Vec2f u_triangle, Vec2f u) con
     LightSample sample;
     sample.distance = std::sqrt(squared);
     sample.wi = to_light * (1.0f / sample.distance);
-    const Vec3f normal = triangle_normal(t.edge1, t.edge2) * front_sign_;
-    sample.end = offset_origin(on_light, normal, clearance(normal, position_error_), -sample.wi);
-    sample.cos_light = -dot(sample.wi, normal);
+    const Front& front = fronts_[choice.index];
+    sample.cos_light = -dot(sample.wi, front.normal);
     sample.pdf_solid_angle = pdf_solid_angle(sample.distance, sample.cos_light);
-    if (sample.pdf_solid_angle > 0.0f) sample.radiance = radiance_;
+    if (!(sample.pdf_solid_angle > 0.0f)) return sample;
+    sample.end = offset_origin(on_light, front.normal, front.clearance, -sample.wi);
+    sample.radiance = radiance_;
     sample.triangle = choice.index;
     sample.barycentric = b;
     return sample;
@@ -56,7 +58,7 @@ EmissionSample MeshLight::sample_emission(const EmissionNumbers& u, const SceneS
     const AliasTable::Choice choice = by_area_.sample(u.triangle);
     const LightTriangle& t = triangles_[choice.index];
     const Vec2f b = square_to_triangle(u.position);
-    Vec3f normal = triangle_normal(t.edge1, t.edge2) * front_sign_;
+    Vec3f normal = fronts_[choice.index].normal;
     Vec2f u_direction = u.direction;
     if (two_sided_) {
         const bool back = u_direction.x >= 0.5f;
@@ -67,7 +69,7 @@ EmissionSample MeshLight::sample_emission(const EmissionNumbers& u, const SceneS
     EmissionSample sample;
     sample.direction = Frame::from_normal(normal).to_world(local);
     sample.position = t.p0 + t.edge1 * b.x + t.edge2 * b.y;
-    sample.offset = normal * clearance(normal, position_error_);
+    sample.offset = normal * fronts_[choice.index].clearance;
     sample.cos_theta = local.z;
     sample.pdf_position_area = 1.0f / area_;
     sample.pdf_direction_solid_angle = cosine_hemisphere_pdf_solid_angle(local) * (two_sided_ ? 0.5f : 1.0f);
