@@ -24,10 +24,11 @@ constexpr std::uint32_t kSamples = 4096;
 struct Tables {
     Slice single;
     ShareSlice schlick_share;
-    std::array<std::array<Slice, kEtas>, 2> dielectric;
+    std::array<Slice, kEtasOutside> outside;
+    std::array<Slice, kEtasInside> inside;
     Averages single_average;
     Averages schlick_average;
-    std::array<std::array<Averages, kEtas>, 2> dielectric_average;
+    std::array<std::array<Averages, kAverageEtas>, 2> dielectric_average;
 };
 
 float schlick_share(const GgxView& view) {
@@ -44,23 +45,26 @@ float schlick_share(const GgxView& view) {
 
 struct Directional {
     double single = 0.0;
-    std::array<std::array<double, kEtas>, 2> dielectric{};
+    std::array<double, kEtasOutside> outside{};
+    std::array<double, kEtasInside> inside{};
 };
 
 /// The same normals serve every index of refraction.
-Directional integrate(const GgxView& view) {
+Directional integrate(float alpha, float cos_theta) {
+    const GgxView view(Ggx::isotropic(alpha), 0.0f, cos_theta);
+    std::array<float, kEtasOutside> outside{};
+    std::array<float, kEtasInside> inside{};
+    for (int e = 0; e < kEtasOutside; ++e) outside[static_cast<std::size_t>(e)] = outside_eta(e, cos_theta, alpha);
+    for (int e = 0; e < kEtasInside; ++e) inside[static_cast<std::size_t>(e)] = 1.0f / inside_eta(e, cos_theta, alpha);
     Directional sum;
     for (std::uint32_t i = 0; i < kSamples; ++i) {
         const Vec3f h = view.normal_of_one_side(i);
         const float reflected = view.weight_reflected(h);
         sum.single += static_cast<double>(reflected);
-        for (std::size_t side = 0; side < 2; ++side) {
-            for (std::size_t e = 0; e < kEtas; ++e) {
-                const float outside = eta(static_cast<int>(e), kEtas);
-                sum.dielectric[side][e] +=
-                    static_cast<double>(view.weight_of_interface(h, reflected, side == 0 ? outside : 1.0f / outside));
-            }
-        }
+        for (std::size_t e = 0; e < kEtasOutside; ++e)
+            sum.outside[e] += static_cast<double>(view.weight_of_interface(h, reflected, outside[e]));
+        for (std::size_t e = 0; e < kEtasInside; ++e)
+            sum.inside[e] += static_cast<double>(view.weight_of_interface(h, reflected, inside[e]));
     }
     return sum;
 }
@@ -69,12 +73,12 @@ void fill_directional(Tables& tables) {
     for (std::size_t a = 0; a < kAlphas; ++a) {
         const float row_alpha = alpha(static_cast<int>(a), kAlphas);
         for (std::size_t c = 0; c < kCosines; ++c) {
-            const Directional sum =
-                integrate({Ggx::isotropic(row_alpha), 0.0f, cosine(static_cast<float>(c), row_alpha)});
+            const Directional sum = integrate(row_alpha, cosine(static_cast<float>(c), row_alpha));
             tables.single[a][c] = static_cast<float>(sum.single / kSamples);
-            for (std::size_t side = 0; side < 2; ++side)
-                for (std::size_t e = 0; e < kEtas; ++e)
-                    tables.dielectric[side][e][a][c] = static_cast<float>(sum.dielectric[side][e] / kSamples);
+            for (std::size_t e = 0; e < kEtasOutside; ++e)
+                tables.outside[e][a][c] = static_cast<float>(sum.outside[e] / kSamples);
+            for (std::size_t e = 0; e < kEtasInside; ++e)
+                tables.inside[e][a][c] = static_cast<float>(sum.inside[e] / kSamples);
         }
     }
     for (std::size_t a = 0; a < kShareAlphas; ++a)
@@ -113,10 +117,17 @@ void fill_averages(Tables& tables) {
         };
         tables.single_average[i] = average(row_alpha, single);
         tables.schlick_average[i] = average(row_alpha, schlick);
-        for (std::size_t side = 0; side < 2; ++side)
-            for (std::size_t e = 0; e < kEtas; ++e)
-                tables.dielectric_average[side][e][i] =
-                    average(row_alpha, [&](float, Place c) { return interpolate(tables.dielectric[side][e], a, c); });
+        for (std::size_t e = 0; e < kAverageEtas; ++e) {
+            const float eta = average_eta(static_cast<int>(e));
+            tables.dielectric_average[0][e][i] = average(row_alpha, [&](float mu, Place c) {
+                const Place place_e = place(outside_coordinate(eta, mu, row_alpha), kEtasOutside);
+                return interpolate(tables.outside, place_e, a, c);
+            });
+            tables.dielectric_average[1][e][i] = average(row_alpha, [&](float mu, Place c) {
+                const Place place_e = place(inside_coordinate(eta, mu, row_alpha), kEtasInside);
+                return interpolate(tables.inside, place_e, a, c);
+            });
+        }
     }
 }
 
@@ -129,10 +140,11 @@ int main(int argc, char** argv) {
         fill_averages(*tables);
         write_table(out, "Slice", "kSingle", tables->single);
         write_table(out, "ShareSlice", "kSchlickShare", tables->schlick_share);
-        write_table(out, "std::array<std::array<Slice, kEtas>, 2>", "kDielectric", tables->dielectric);
+        write_table(out, "std::array<Slice, kEtasOutside>", "kOutside", tables->outside);
+        write_table(out, "std::array<Slice, kEtasInside>", "kInside", tables->inside);
         write_table(out, "Averages", "kSingleAverage", tables->single_average);
         write_table(out, "Averages", "kSchlickAverage", tables->schlick_average);
-        write_table(out, "std::array<std::array<Averages, kEtas>, 2>", "kDielectricAverage",
+        write_table(out, "std::array<std::array<Averages, kAverageEtas>, 2>", "kDielectricAverage",
                     tables->dielectric_average);
     });
 }

@@ -9,10 +9,12 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <memory>
 #include <ostream>
+#include <thread>
 #include <vector>
 
 namespace {
@@ -20,7 +22,7 @@ namespace {
 using namespace etendue;
 using namespace etendue::ggx_anisotropic_layout;
 
-constexpr std::uint32_t kSamples = 1536;
+constexpr std::uint32_t kSamples = 4096;
 
 struct Tables {
     Table<1> reflection;
@@ -95,17 +97,24 @@ struct Losses {
         for (std::size_t i = 0; i < Etas; ++i) {
             const float cos2_t = grazing[i] + o_h * o_h * inverse[i] * inverse[i];
             const float cos_t = std::sqrt(std::max(0.0f, cos2_t));
-            const float parallel = (eta[i] * o_h - cos_t) / (eta[i] * o_h + cos_t);
-            const float perpendicular = (o_h - eta[i] * cos_t) / (o_h + eta[i] * cos_t);
-            const float bare = 0.5f * (parallel * parallel + perpendicular * perpendicular);
+            // Both halves of the reflectance over one denominator: divisions take most of the time.
+            const float parallel = eta[i] * o_h + cos_t;
+            const float perpendicular = o_h + eta[i] * cos_t;
+            const float p = (eta[i] * o_h - cos_t) * perpendicular;
+            const float s = (o_h - eta[i] * cos_t) * parallel;
+            const float both = parallel * perpendicular;
+            const float bare = 0.5f * (p * p + s * s) / (both * both);
             const float reflected = cos2_t > 0.0f ? bare : 1.0f;
             const float along_h = o_h * inverse[i] - cos_t;
             const float z = h.z * along_h - wo.z * inverse[i];
             const float x = h_x * along_h - wo_x * inverse[i];
             const float y = h_y * along_h - wo_y * inverse[i];
-            const float below = std::min(z, -1e-15f);
-            const float lambda = 0.5f * (std::sqrt(1.0f + (x * x + y * y) / (below * below)) - 1.0f);
-            const float lost_transmitted = z < 0.0f ? lambda / (masking + lambda) : 1.0f;
+            // Lambda / (masking + Lambda), with the square root's difference to one taken as a product.
+            const float below = std::max(-z, 1e-15f);
+            const float slope2 = x * x + y * y;
+            const float sum = below + std::sqrt(below * below + slope2);
+            const float lost_below = slope2 / (2.0f * masking * below * sum + slope2);
+            const float lost_transmitted = z < 0.0f ? lost_below : 1.0f;
             lost[i] += weight * (reflected * lost_reflected + (1.0f - reflected) * lost_transmitted);
         }
     }
@@ -117,11 +126,10 @@ void fill_direction(Tables& tables, const Seen& slopes, std::size_t block, std::
     const Turned turned(slopes);
     const GgxView view(turned.ggx, turned.phi, cos_theta);
     Losses<kEtasOutside> outside;
-    for (int e = 0; e < kEtasOutside; ++e)
-        outside.set(static_cast<std::size_t>(e), eta_at(fraction(e, kEtasOutside), kScaleOutside));
+    for (int e = 0; e < kEtasOutside; ++e) outside.set(static_cast<std::size_t>(e), outside_eta(e, cos_theta, slopes));
     Losses<kEtasInside> inside;
-    const float critical = critical_eta(cos_theta, slopes);
-    for (int e = 0; e < kEtasInside; ++e) inside.set(static_cast<std::size_t>(e), 1.0f / inside_eta(e, critical));
+    for (int e = 0; e < kEtasInside; ++e)
+        inside.set(static_cast<std::size_t>(e), 1.0f / inside_eta(e, cos_theta, slopes));
 
     double lost = 0.0;
     double schlick = 0.0;
@@ -142,13 +150,20 @@ void fill_direction(Tables& tables, const Seen& slopes, std::size_t block, std::
 }
 
 void fill_directional(Tables& tables) {
-    for (std::size_t a = 0; a < kAlongs; ++a)
+    const auto fill_along = [&tables](std::size_t a) {
         for (std::size_t x = 0; x < kAcrosses; ++x)
             for (std::size_t s = 0; s < kSpreads; ++s) {
-                const Seen slopes{slope(static_cast<int>(a), kAlongs), slope(static_cast<int>(x), kAcrosses),
+                const Seen slopes{slope(static_cast<int>(a), kAlongNodes), slope(static_cast<int>(x), kAcrossNodes),
                                   spread(static_cast<int>(s))};
                 for (std::size_t c = 0; c < kCosines; ++c) fill_direction(tables, slopes, block_index(a, x, s), c);
             }
+    };
+    std::atomic<std::size_t> next{0};
+    std::vector<std::jthread> threads;
+    for (unsigned i = 0; i < std::max(1u, std::thread::hardware_concurrency()); ++i)
+        threads.emplace_back([&] {
+            for (std::size_t a = next++; a < kAlongs; a = next++) fill_along(a);
+        });
 }
 
 /// A direction, where the tables hold it, and what it counts in an average over a cosine-weighted hemisphere.
@@ -162,8 +177,8 @@ struct Direction {
 /// A quarter of the hemisphere, with most cosines where most is missing (ggx_multiple.h) and most azimuths towards
 /// what sees the narrow alpha.
 std::vector<Direction> directions(float alpha_x, float alpha_y) {
-    constexpr int kRings = 48;
-    constexpr int kAzimuths = 24;
+    constexpr int kRings = 64;
+    constexpr int kAzimuths = 32;
     const float b2 = 4.0f * alpha_x * alpha_y;
     const float range = std::log1p(1.0f / b2);
     std::vector<Direction> result;
@@ -206,13 +221,11 @@ void fill_averages(Tables& tables) {
                  }));
             for (std::size_t e = 0; e < kAverageEtas; ++e) {
                 const float eta = average_eta(static_cast<int>(e));
-                const Cubic place = outside_place(eta);
                 both(tables.interface_average[0][e], std::log(average(over, [&](const Direction& d) {
-                         return missing(tables.outside, d.position, place);
+                         return missing(tables.outside, d.position, outside_place(eta, d.cos_theta, d.slopes));
                      })));
                 both(tables.interface_average[1][e], std::log(average(over, [&](const Direction& d) {
-                         return missing(tables.inside, d.position,
-                                        inside_place(eta, critical_eta(d.cos_theta, d.slopes)));
+                         return missing(tables.inside, d.position, inside_place(eta, d.cos_theta, d.slopes));
                      })));
             }
         }

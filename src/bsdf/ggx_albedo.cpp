@@ -11,18 +11,8 @@ namespace {
 using namespace ggx_albedo_layout;
 
 // kSingle: Slice; kSchlickShare: ShareSlice; kSingleAverage, kSchlickAverage: Averages;
-// kDielectric, kDielectricAverage: [side][eta] of them, side 0 outside (eta >= 1).
+// kOutside, kInside: [eta] of Slice; kDielectricAverage: [side][eta] of Averages, side 0 outside (eta >= 1).
 #include "bsdf/ggx_albedo_tables.inc"
-
-struct DielectricPlace {
-    std::size_t side;
-    Place eta;
-};
-
-DielectricPlace dielectric_place(float eta) {
-    const bool outside = eta >= 1.0f;
-    return {outside ? std::size_t{0} : std::size_t{1}, place(eta_coordinate(outside ? eta : 1.0f / eta, kEtas), kEtas)};
-}
 
 }  // namespace
 
@@ -42,16 +32,17 @@ GgxAlbedo ggx_albedo_average(float alpha) {
 float ggx_dielectric_albedo(float cos_theta, float alpha, float eta) {
     const Place a = place(alpha_coordinate(alpha, kAlphas), kAlphas);
     const Place c = place(cosine_coordinate(cos_theta, alpha), kCosines);
-    const DielectricPlace d = dielectric_place(eta);
-    const auto& slices = kDielectric[d.side];
-    return mix(interpolate(slices[d.eta.index], a, c), interpolate(slices[d.eta.index + 1], a, c), d.eta.t);
+    return eta >= 1.0f
+               ? interpolate(kOutside, place(outside_coordinate(eta, cos_theta, alpha), kEtasOutside), a, c)
+               : interpolate(kInside, place(inside_coordinate(1.0f / eta, cos_theta, alpha), kEtasInside), a, c);
 }
 
 float ggx_dielectric_albedo_average(float alpha, float eta) {
     const Place a = place(alpha_coordinate(alpha, kAverageAlphas), kAverageAlphas);
-    const DielectricPlace d = dielectric_place(eta);
-    const auto& averages = kDielectricAverage[d.side];
-    return mix(interpolate(averages[d.eta.index], a), interpolate(averages[d.eta.index + 1], a), d.eta.t);
+    const bool outside = eta >= 1.0f;
+    const Place e = place(average_eta_coordinate(outside ? eta : 1.0f / eta), kAverageEtas);
+    const auto& averages = kDielectricAverage[outside ? 0 : 1];
+    return mix(interpolate(averages[e.index], a), interpolate(averages[e.index + 1], a), e.t);
 }
 
 }  // namespace etendue

@@ -2,11 +2,13 @@
 // the tables and the code that reads them.
 //
 // The albedo falls where cos theta comes near alpha, so the cosine's coordinate is sqrt(mu (1 + a) / (mu + a)) with
-// a = 4 alpha: the fall then has the same place for every alpha, and interpolating between two alphas does not blur it.
-// Schlick's albedo is stored as a share of the former, which varies with mu alone and has the coordinate sqrt(mu).
-// Indices have the coordinate cbrt((eta - 1) / (eta + 1)). The cosine of the critical angle moves as the square root of
-// that fraction; the cube root sets the nodes closer where the angle is grazing, as there it is where the albedo falls.
+// a about 4 alpha: the fall then has the same place for every alpha, and interpolating between two alphas does not blur
+// it. Schlick's albedo is stored as a share of the former, which varies with mu alone and has the coordinate sqrt(mu).
+// Indices are placed as ggx_albedo_indices.h says. Seen from inside, level facets begin to reflect totally at the
+// critical index of the direction; it is on a node, so that interpolation between two alphas does not blur the bend.
 #pragma once
+
+#include "bsdf/ggx_albedo_indices.h"
 
 #include <algorithm>
 #include <array>
@@ -15,19 +17,24 @@
 
 namespace etendue::ggx_albedo_layout {
 
+using namespace ggx_albedo_indices;
+
 inline constexpr int kCosines = 48;
-inline constexpr int kAlphas = 40;       ///< alpha = t², t in [0, 1]: uniform in perceptual roughness
+inline constexpr int kAlphas = 38;       ///< alpha = t², t in [0, 1]: uniform in perceptual roughness
 inline constexpr int kShareAlphas = 64;  ///< the same for Schlick's share, which grazing angles bend more
 /// The same for the averages. They are not piecewise linear in t, but have kinks at the nodes of the albedos.
 inline constexpr int kAverageAlphas = 10 * (kAlphas - 1) + 1;
-inline constexpr int kEtas = 42;  ///< from eta = 1 to 9, for each side
+inline constexpr int kEtasOutside = 30;   ///< from eta = 1 to 9
+inline constexpr int kEtasInside = 48;    ///< from eta = 1 to 1/9
+inline constexpr int kCriticalNode = 18;  ///< of the inside's
+inline constexpr int kAverageEtas = 64;   ///< for each side
 
 using Slice = std::array<std::array<float, kCosines>, kAlphas>;  ///< [alpha][cosine]
 using ShareSlice = std::array<std::array<float, kCosines>, kShareAlphas>;
 using Averages = std::array<float, kAverageAlphas>;
 
 inline constexpr float kSmallestAlpha = 1e-4f;
-inline constexpr float kLargestR0Root = 0.8f;  ///< (9 - 1) / (9 + 1)
+inline constexpr float kAverageScale = 0.003f;  ///< of the averages' indices
 
 /// Position of `node` out of `count` in [0, 1].
 [[nodiscard]] inline float fraction(int node, int count) {
@@ -42,14 +49,19 @@ inline constexpr float kLargestR0Root = 0.8f;  ///< (9 - 1) / (9 + 1)
     return std::sqrt(a) * static_cast<float>(count - 1);
 }
 
+/// Where the albedo falls, and a little above for alphas near 0: nodes are left for what nearly smooth surfaces lose
+/// near the critical angle.
+[[nodiscard]] inline float fall(float alpha_of_row) {
+    return 4.0f * alpha_of_row + 0.006f;
+}
 /// `coordinate` in [0, kCosines - 1].
 [[nodiscard]] inline float cosine(float coordinate, float alpha_of_row) {
-    const float a = 4.0f * alpha_of_row;
+    const float a = fall(alpha_of_row);
     const float t = coordinate / (kCosines - 1);
     return std::min(1.0f, t * t * a / (a + (1.0f - t) * (1.0f + t)));
 }
 [[nodiscard]] inline float cosine_coordinate(float cos_theta, float alpha_of_row) {
-    const float a = 4.0f * std::max(alpha_of_row, kSmallestAlpha);
+    const float a = fall(alpha_of_row);
     return std::sqrt(cos_theta * (1.0f + a) / (cos_theta + a)) * (kCosines - 1);
 }
 
@@ -61,15 +73,47 @@ inline constexpr float kLargestR0Root = 0.8f;  ///< (9 - 1) / (9 + 1)
     return std::sqrt(cos_theta) * (kCosines - 1);
 }
 
-[[nodiscard]] inline float eta(int node, int count) {
-    const float t = fraction(node, count);
-    const float root = kLargestR0Root * t * t * t;
-    return (1.0f + root) / (1.0f - root);
+// ---- Indices, all of the denser side over the other
+
+[[nodiscard]] inline float outside_eta(int node, float cos_theta, float alpha_of_row) {
+    const float scale = index_scale(cos_theta, alpha_of_row);
+    return eta_of(at_log_fraction(fraction(node, kEtasOutside), 0.0f, kLargestRoot, scale));
 }
-/// For eta >= 1.
-[[nodiscard]] inline float eta_coordinate(float e, int count) {
-    return std::cbrt((e - 1.0f) / (e + 1.0f) / kLargestR0Root) * static_cast<float>(count - 1);
+[[nodiscard]] inline float outside_coordinate(float eta, float cos_theta, float alpha) {
+    const float scale = index_scale(cos_theta, alpha);
+    return (kEtasOutside - 1) * log_fraction(r0_root(eta), 0.0f, kLargestRoot, scale);
 }
+
+/// Root of the critical index. Towards normal incidence it would run to infinity: it is held back there, where facets
+/// that are level enough to share it lose nothing.
+[[nodiscard]] inline float level_root(float cos_theta) {
+    const float cos2 = cos_theta * cos_theta;
+    return critical_root(1.0f - cos2 + 0.15f * cos2 * cos2);
+}
+[[nodiscard]] inline float inside_eta(int node, float cos_theta, float alpha_of_row) {
+    const float scale = index_scale(cos_theta, alpha_of_row);
+    const float level = level_root(cos_theta);
+    return eta_of(node < kCriticalNode ? at_log_fraction(fraction(node, kCriticalNode + 1), 0.0f, level, scale)
+                                       : at_log_fraction(fraction(node - kCriticalNode, kEtasInside - kCriticalNode),
+                                                         level, kLargestRoot, scale));
+}
+[[nodiscard]] inline float inside_coordinate(float eta, float cos_theta, float alpha) {
+    const float scale = index_scale(cos_theta, alpha);
+    const float level = level_root(cos_theta);
+    const float root = r0_root(eta);
+    if (root < level) return kCriticalNode * log_fraction(root, 0.0f, level, scale);
+    return kCriticalNode + (kEtasInside - 1 - kCriticalNode) * log_fraction(root, level, kLargestRoot, scale);
+}
+
+/// For either side.
+[[nodiscard]] inline float average_eta(int node) {
+    return eta_of(at_log_fraction(fraction(node, kAverageEtas), 0.0f, kLargestRoot, kAverageScale));
+}
+[[nodiscard]] inline float average_eta_coordinate(float eta) {
+    return (kAverageEtas - 1) * log_fraction(r0_root(eta), 0.0f, kLargestRoot, kAverageScale);
+}
+
+// ---- Interpolation
 
 /// Between nodes `index` and `index + 1`, at `t` in [0, 1].
 struct Place {
@@ -92,6 +136,10 @@ template <std::size_t Alphas>
     const auto& low = slice[a.index];
     const auto& high = slice[a.index + 1];
     return mix(mix(low[c.index], low[c.index + 1], c.t), mix(high[c.index], high[c.index + 1], c.t), a.t);
+}
+template <std::size_t Etas>
+[[nodiscard]] float interpolate(const std::array<Slice, Etas>& slices, Place e, Place a, Place c) {
+    return mix(interpolate(slices[e.index], a, c), interpolate(slices[e.index + 1], a, c), e.t);
 }
 [[nodiscard]] inline float interpolate(const Averages& averages, Place a) {
     return mix(averages[a.index], averages[a.index + 1], a.t);

@@ -29,8 +29,8 @@ GgxAlbedo ggx_anisotropic_albedo_average(float alpha_x, float alpha_y) {
 float ggx_anisotropic_dielectric_missing(const Vec3f& w, float alpha_x, float alpha_y, float eta) {
     const Seen slopes = seen(w, alpha_x, alpha_y);
     const Position p = position(slopes, w.z);
-    return eta >= 1.0f ? missing(kOutside, p, outside_place(eta))
-                       : missing(kInside, p, inside_place(1.0f / eta, critical_eta(w.z, slopes)));
+    return eta >= 1.0f ? missing(kOutside, p, outside_place(eta, w.z, slopes))
+                       : missing(kInside, p, inside_place(1.0f / eta, w.z, slopes));
 }
 
 float ggx_anisotropic_dielectric_missing_average(float alpha_x, float alpha_y, float eta) {

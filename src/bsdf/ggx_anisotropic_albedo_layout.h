@@ -8,15 +8,17 @@
 // elsewhere, interfaces of almost equal indices edge-on, and the critical index varies near normal incidence: the rest
 // of the coordinate is for those.
 //
-// From inside, grooves reflect totally what runs along them at more than the critical angle, whatever their facets'
-// slopes: the albedo has a kink there, as sharp as the narrower alpha. The index's coordinate puts it on a node.
+// Indices are placed as ggx_albedo_indices.h says. Seen from inside, the albedo of grooves bends twice, as sharply as
+// the narrower alpha is small: at the index from which on upright facets, as steep as there are, reflect totally, and
+// where the last facets do, as they are met at less than the critical angle by nothing that runs so closely along the
+// grooves. Nearly level facets have one such place, the critical index itself. The coordinate puts both on nodes.
 //
 // Tabulated is the root of what is missing to one: it is small on nearly smooth surfaces, and lobes divide by its
 // average.
 #pragma once
 
 #include "bsdf/ggx.h"
-#include "bsdf/ggx_albedo.h"
+#include "bsdf/ggx_albedo_indices.h"
 #include "core/vec.h"
 
 #include <algorithm>
@@ -27,15 +29,18 @@
 
 namespace etendue::ggx_anisotropic_layout {
 
-inline constexpr int kCosines = 24;
-inline constexpr int kAlongs = 20;
-inline constexpr int kAcrosses = 18;
-inline constexpr int kSpreads = 7;
-inline constexpr int kEtasOutside = 16;  ///< from 1 to 9
-inline constexpr int kKinkNode = 21;     ///< of the inside's indices: the critical one
-inline constexpr int kEtasInside = 27;   ///< indices above it are taken for 1 / eta
-inline constexpr int kAverageAlphas = 18;
-inline constexpr int kAverageEtas = 20;  ///< for each side
+using namespace ggx_albedo_indices;
+
+inline constexpr int kCosines = 18;
+inline constexpr int kAlongs = 26;
+inline constexpr int kAcrosses = 19;
+inline constexpr int kSpreads = 10;
+inline constexpr int kEtasOutside = 22;  ///< from eta = 1 to 9
+inline constexpr int kEtasInside = 41;   ///< from eta = 1 to 1/9
+inline constexpr int kFirstBend = 13;    ///< nodes of the inside's
+inline constexpr int kLastBend = 31;
+inline constexpr int kAverageAlphas = 24;
+inline constexpr int kAverageEtas = 44;  ///< for each side
 
 template <std::size_t Etas>
 using Block = std::array<std::array<std::uint16_t, kCosines>, Etas>;
@@ -71,18 +76,40 @@ struct Seen {
     return {along, across, std::min(1.0f, alpha_x * alpha_y / (along * across))};
 }
 
+/// Nodes of a slope: even in x + (x² - x) `squared`, where x is the slope's fourth root. What narrow grooves lose from
+/// their own direction varies most near 0; what wide ones do needs more nodes near 1 than the root alone gives.
+struct SlopeNodes {
+    int count;
+    float squared;
+};
+inline constexpr SlopeNodes kAlongNodes{kAlongs, 0.2f};
+inline constexpr SlopeNodes kAcrossNodes{kAcrosses, 0.6f};
 inline constexpr float kRootOfSmallest = 0.177827941f;  ///< fourth root of kSmoothAlpha
-/// `along` or `across` at a node. What narrow grooves lose from their own direction varies most near 0.
-[[nodiscard]] inline float slope(int node, int count) {
-    const float root = kRootOfSmallest + (1.0f - kRootOfSmallest) * fraction(node, count);
+
+[[nodiscard]] constexpr float slope_measure(float fourth_root, float squared) {
+    return fourth_root * (1.0f - squared + squared * fourth_root);
+}
+/// `along` or `across` at a node.
+[[nodiscard]] inline float slope(int node, SlopeNodes nodes) {
+    const float smallest = slope_measure(kRootOfSmallest, nodes.squared);
+    const float measure = smallest + (1.0f - smallest) * fraction(node, nodes.count);
+    const float b = 1.0f - nodes.squared;
+    const float root = 2.0f * measure / (b + std::sqrt(b * b + 4.0f * nodes.squared * measure));
     return root * root * root * root;
 }
+[[nodiscard]] inline float slope_coordinate(float slope_seen, SlopeNodes nodes) {
+    const float smallest = slope_measure(kRootOfSmallest, nodes.squared);
+    const float measure = slope_measure(std::sqrt(std::sqrt(slope_seen)), nodes.squared);
+    return (measure - smallest) * (static_cast<float>(nodes.count - 1) / (1.0f - smallest));
+}
+
+inline constexpr float kHalfSpread = 0.5f;  ///< sets how much closer the nodes of `spread` are near 0
 [[nodiscard]] inline float spread(int node) {
     const float t = fraction(node, kSpreads);
-    return t * t;
+    return kHalfSpread * t / (1.0f + kHalfSpread - t);
 }
 [[nodiscard]] inline float spread_coordinate(float spread) {
-    return std::sqrt(spread) * (kSpreads - 1);
+    return spread * (1.0f + kHalfSpread) / (spread + kHalfSpread) * (kSpreads - 1);
 }
 
 // ---- Cosines
@@ -106,59 +133,65 @@ inline constexpr float kRootOfSmallest = 0.177827941f;  ///< fourth root of kSmo
     return high;
 }
 
-// ---- Indices
+// ---- Indices, all of the denser side over the other
 
-/// Even in the logarithm of (eta - 1) / (eta + 1) + `scale`, from 0 at eta = 1 to 1 at kMaxTabulatedEta.
-inline constexpr float kLargestR0Root = (kMaxTabulatedEta - 1.0f) / (kMaxTabulatedEta + 1.0f);
-inline constexpr float kScaleOutside = 0.005f;
-inline constexpr float kScaleInside = 0.006f;
-[[nodiscard]] inline float eta_fraction(float eta, float scale) {
-    return std::log(1.0f + (eta - 1.0f) / ((eta + 1.0f) * scale)) / std::log(1.0f + kLargestR0Root / scale);
+[[nodiscard]] inline float outside_eta(int node, float cos_theta, const Seen& slopes) {
+    const float scale = index_scale(cos_theta, slopes.along);
+    return eta_of(at_log_fraction(fraction(node, kEtasOutside), 0.0f, kLargestRoot, scale));
 }
-[[nodiscard]] inline float eta_at(float fraction, float scale) {
-    const float root = scale * std::expm1(fraction * std::log(1.0f + kLargestR0Root / scale));
-    return (1.0f + root) / (1.0f - root);
+[[nodiscard]] inline float outside_coordinate(float eta, float cos_theta, const Seen& slopes) {
+    const float scale = index_scale(cos_theta, slopes.along);
+    return (kEtasOutside - 1) * log_fraction(r0_root(eta), 0.0f, kLargestRoot, scale);
 }
 
-/// The index from which on the grooves reflect totally, at most kMaxTabulatedEta. Where even the wider alpha is small
-/// there are no grooves to speak of, and facets are level.
-[[nodiscard]] inline float critical_eta(float cos_theta, const Seen& slopes) {
-    constexpr float kWide2 = 0.0002f;  // squared alpha from which on grooves count
+/// Roots of the indices at which the albedo bends, seen from inside.
+struct Bends {
+    float first;
+    float last;
+};
+/// Upright facets face along the wide alpha, and grooves run along the narrow one.
+[[nodiscard]] inline Bends bends(float cos_theta, const Seen& slopes) {
+    constexpr float kWide4 = 0.12f * 0.12f;  // (alpha_x² + alpha_y²)² from which on upright facets count
     const float along2 = slopes.along * slopes.along;
-    const float across2 = slopes.across * slopes.across;
-    const float both4 = (along2 + across2) * (along2 + across2);
-    const float grooves = both4 / (both4 + kWide2 * kWide2);
-    const float beside = across2 + kWide2 * (1.0f - grooves);
-    const float sine2 = (1.0f - cos_theta * cos_theta) * beside / (beside + along2 * grooves);
+    const float wide2 = along2 + slopes.across * slopes.across;
+    const float upright = wide2 * wide2 / (wide2 * wide2 + kWide4);
     const float cos2 = cos_theta * cos_theta;
-    // Towards normal incidence it would change from node to node, without being sharp.
-    const float limited = sine2 + 0.04f * cos2 * cos2;
-    return limited * (kMaxTabulatedEta * kMaxTabulatedEta) > 1.0f ? 1.0f / std::sqrt(limited) : kMaxTabulatedEta;
+    const float sine2 = 1.0f - cos2;
+    // Squared components of the direction along the wide alpha, were the other 0, and along the grooves.
+    const float to_upright = sine2 * along2 / wide2;
+    const float to_grooves = sine2 - to_upright;
+    const float first = critical_root(1.0f - cos2 + (cos2 - to_upright) * upright);
+    // It reaches the largest index at normal incidence rather than before, where it would stop at once.
+    constexpr float kSmallestSine2 = 1.0f / (kMaxTabulatedEta * kMaxTabulatedEta);
+    const float last = critical_root(to_grooves + kSmallestSine2 * cos2 * cos2);
+    return {std::min(first, last), last};
 }
 
-// Below the critical index e the coordinate's steps shrink towards it as a root does, and far from it they are even.
-inline constexpr float kEven = 0.5f;
-/// `eta` and `critical` >= 1.
-[[nodiscard]] inline float inside_coordinate(float eta, float critical) {
-    const float z = eta_fraction(eta, kScaleInside);
-    const float kink = eta_fraction(critical, kScaleInside);
-    if (z < kink) {
-        const float below = 1.0f - z / kink;
-        return kKinkNode * (1.0f - std::sqrt(below * (below + kEven) / (1.0f + kEven)));
-    }
-    const float above = kink < 1.0f ? std::sqrt((z - kink) / (1.0f - kink)) : 0.0f;
-    return kKinkNode + (kEtasInside - 1 - kKinkNode) * above;
+// Up to either bend the steps shrink as a root does, and from the last one on they grow as a square does, and more.
+inline constexpr float kEvenToFirst = 3.0f;
+inline constexpr float kEvenToLast = 1.2f;
+/// Both in [0, 1]; the inverse of each other. The larger `even`, the more like a root at 1.
+[[nodiscard]] inline float shrink(float t, float even) {
+    const float rest = 1.0f - t;
+    return 1.0f - std::sqrt(std::max(0.0f, rest * (rest + even) / (1.0f + even)));
 }
-/// eta >= 1 at a node.
-[[nodiscard]] inline float inside_eta(int node, float critical) {
-    const float kink = eta_fraction(critical, kScaleInside);
-    if (node < kKinkNode) {
-        const float u = 1.0f - static_cast<float>(node) / kKinkNode;
-        const float below = 0.5f * (std::sqrt(kEven * kEven + 4.0f * (1.0f + kEven) * u * u) - kEven);
-        return eta_at(kink * (1.0f - below), kScaleInside);
+[[nodiscard]] inline float unshrink(float t, float even) {
+    const float rest = 1.0f - t;
+    return 1.0f - 0.5f * (std::sqrt(even * even + 4.0f * (1.0f + even) * rest * rest) - even);
+}
+
+[[nodiscard]] inline float inside_eta(int node, float cos_theta, const Seen& slopes) {
+    const float scale = index_scale(cos_theta, slopes.along);
+    const Bends at = bends(cos_theta, slopes);
+    if (node < kFirstBend)
+        return eta_of(at_log_fraction(unshrink(fraction(node, kFirstBend + 1), kEvenToFirst), 0.0f, at.first, scale));
+    if (node < kLastBend) {
+        const float t = fraction(node - kFirstBend, kLastBend - kFirstBend + 1);
+        return eta_of(at_log_fraction(unshrink(t, kEvenToLast), at.first, at.last, scale));
     }
-    const float above = static_cast<float>(node - kKinkNode) / (kEtasInside - 1 - kKinkNode);
-    return eta_at(kink + (1.0f - kink) * above * above, kScaleInside);
+    const float t = fraction(node - kLastBend, kEtasInside - kLastBend);
+    const float root = 2.0f * t / (3.0f - t);
+    return eta_of(at_log_fraction(root * root, at.last, kLargestRoot, scale));
 }
 
 // ---- Interpolation
@@ -168,20 +201,19 @@ struct Linear {
     std::size_t index;
     float t;
 };
-[[nodiscard]] inline Linear linear(float coordinate, int count) {
-    const float clamped = std::clamp(coordinate, 0.0f, static_cast<float>(count - 1));
-    const int index = std::min(static_cast<int>(clamped), count - 2);
-    return {static_cast<std::size_t>(index), clamped - static_cast<float>(index)};
-}
-
-/// Even in the slope between two nodes.
-[[nodiscard]] inline Linear slope_place(float slope_seen, int count) {
-    const float coordinate = (std::sqrt(std::sqrt(slope_seen)) - kRootOfSmallest) *
-                             (static_cast<float>(count - 1) / (1.0f - kRootOfSmallest));
+/// Between nodes of a quantity, and even in the quantity itself. `node(i)` is its value at the i-th.
+template <typename Node>
+[[nodiscard]] Linear even_between(float value, float coordinate, int count, const Node& node) {
     const int index = std::clamp(static_cast<int>(coordinate), 0, count - 2);
-    const float low = slope(index, count);
-    const float t = (slope_seen - low) / (slope(index + 1, count) - low);
-    return {static_cast<std::size_t>(index), std::clamp(t, 0.0f, 1.0f)};
+    const float low = node(index);
+    return {static_cast<std::size_t>(index), std::clamp((value - low) / (node(index + 1) - low), 0.0f, 1.0f)};
+}
+[[nodiscard]] inline Linear slope_place(float slope_seen, SlopeNodes nodes) {
+    return even_between(slope_seen, slope_coordinate(slope_seen, nodes), nodes.count,
+                        [nodes](int i) { return slope(i, nodes); });
+}
+[[nodiscard]] inline Linear spread_place(float spread_seen) {
+    return even_between(spread_seen, spread_coordinate(spread_seen), kSpreads, [](int i) { return spread(i); });
 }
 
 /// Weights of four nodes from `first` on: the cubic through them.
@@ -207,18 +239,27 @@ struct Position {
     Cubic cosine;
 };
 [[nodiscard]] inline Position position(const Seen& slopes, float cos_theta) {
-    return {slope_place(slopes.along, kAlongs), slope_place(slopes.across, kAcrosses),
-            linear(spread_coordinate(slopes.spread), kSpreads),
-            cubic(cosine_coordinate(cos_theta, slopes.along), 0, kCosines - 1)};
+    return {slope_place(slopes.along, kAlongNodes), slope_place(slopes.across, kAcrossNodes),
+            spread_place(slopes.spread), cubic(cosine_coordinate(cos_theta, slopes.along), 0, kCosines - 1)};
 }
 
-[[nodiscard]] inline Cubic outside_place(float eta) {
-    return cubic(eta_fraction(eta, kScaleOutside) * (kEtasOutside - 1), 0, kEtasOutside - 1);
+[[nodiscard]] inline Cubic outside_place(float eta, float cos_theta, const Seen& slopes) {
+    return cubic(outside_coordinate(eta, cos_theta, slopes), 0, kEtasOutside - 1);
 }
-/// The kink is on a node, and no cubic runs across it.
-[[nodiscard]] inline Cubic inside_place(float eta, float critical) {
-    const float coordinate = inside_coordinate(eta, critical);
-    return coordinate < kKinkNode ? cubic(coordinate, 0, kKinkNode) : cubic(coordinate, kKinkNode, kEtasInside - 1);
+/// No cubic runs across a bend. `eta` >= 1.
+[[nodiscard]] inline Cubic inside_place(float eta, float cos_theta, const Seen& slopes) {
+    const float scale = index_scale(cos_theta, slopes.along);
+    const Bends at = bends(cos_theta, slopes);
+    const float root = r0_root(eta);
+    if (root < at.first)
+        return cubic(kFirstBend * shrink(log_fraction(root, 0.0f, at.first, scale), kEvenToFirst), 0, kFirstBend);
+    if (root < at.last)
+        return cubic(
+            kFirstBend + (kLastBend - kFirstBend) * shrink(log_fraction(root, at.first, at.last, scale), kEvenToLast),
+            kFirstBend, kLastBend);
+    const float beyond = std::sqrt(log_fraction(root, at.last, kLargestRoot, scale));
+    return cubic(kLastBend + (kEtasInside - 1 - kLastBend) * (3.0f * beyond / (2.0f + beyond)), kLastBend,
+                 kEtasInside - 1);
 }
 
 /// In [0, 1] up to overshoot. `weights` are those of the indices from node `first_eta` on.
@@ -245,9 +286,9 @@ template <std::size_t Etas, std::size_t Rows>
 [[nodiscard]] inline float interpolate(const Table<1>& table, const Position& p) {
     return interpolate(table, p, 0, std::array{1.0f});
 }
-/// What is missing, from its tabulated root.
+/// What is missing, from its tabulated root: never all, though edge-on it comes so close that cubics overshoot.
 [[nodiscard]] inline float missing_from_root(float root) {
-    const float clamped = std::clamp(root, 0.0f, 1.0f);
+    const float clamped = std::clamp(root, 0.0f, 0.9999f);
     return clamped * clamped;
 }
 template <std::size_t Etas>
@@ -265,12 +306,14 @@ template <std::size_t Etas>
     const float coordinate = (1.0f - std::log(alpha) / std::log(kSmoothAlpha)) * (kAverageAlphas - 1);
     return cubic(coordinate, 0, kAverageAlphas - 1);
 }
+inline constexpr float kAverageScale = 0.0003f;
 /// eta >= 1, for either side.
 [[nodiscard]] inline float average_eta(int node) {
-    return eta_at(fraction(node, kAverageEtas), kScaleInside);
+    return eta_of(at_log_fraction(fraction(node, kAverageEtas), 0.0f, kLargestRoot, kAverageScale));
 }
 [[nodiscard]] inline Cubic average_eta_place(float eta) {
-    return cubic(eta_fraction(eta, kScaleInside) * (kAverageEtas - 1), 0, kAverageEtas - 1);
+    return cubic((kAverageEtas - 1) * log_fraction(r0_root(eta), 0.0f, kLargestRoot, kAverageScale), 0,
+                 kAverageEtas - 1);
 }
 [[nodiscard]] inline float interpolate(const Averages& averages, const Cubic& x, const Cubic& y) {
     float sum = 0.0f;
