@@ -6,6 +6,7 @@
 #include "support/random.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -88,24 +89,32 @@ float log_uniform(Random& random, float low, float high) {
     return low * std::pow(high / low, random.next());
 }
 
-/// Alphas and directions of all kinds, also grooves: one alpha near 0, the other 1, seen from anywhere, with indices
-/// close to what makes them reflect totally.
+/// Alphas and directions of all kinds. A third are grooves, one alpha above 0.7 and the other below 0.15; half have an
+/// index close to that at which the grooves, or level facets, begin to reflect totally; half the cosines are grazing.
 std::vector<View> views(int count) {
+    constexpr std::array kCommonIndices{1.002f, 1.01f, 1.1f, 1.5f, 2.4f};
     Random random(7);
     std::vector<View> result;
     for (int i = 0; i < count; ++i) {
+        const bool grooves = i % 3 == 0;
         View v{};
-        v.alpha_x = i % 3 == 0 ? 1.0f : log_uniform(random, kSmoothAlpha, 1.0f);
-        v.alpha_y = i % 4 == 0 ? kSmoothAlpha : log_uniform(random, kSmoothAlpha, 1.0f);
-        if (i % 2 == 0) std::swap(v.alpha_x, v.alpha_y);
+        v.alpha_x = i % 4 == 0 ? 1.0f : log_uniform(random, grooves ? 0.7f : kSmoothAlpha, 1.0f);
+        v.alpha_y = i % 5 == 0 ? kSmoothAlpha : log_uniform(random, kSmoothAlpha, grooves ? 0.15f : 1.0f);
         const float phi = i % 5 < 2 ? std::atan(log_uniform(random, 1e-3f, 1e3f)) : 0.5f * kPi * random.next();
         const float t = random.next();
-        const float cos_theta = 0.02f + 0.98f * t * t;
+        const float cos_theta = i % 2 == 0 ? log_uniform(random, 0.02f, 1.0f) : 0.02f + 0.98f * t * t;
         const float sine = std::sqrt(1.0f - cos_theta * cos_theta);
         v.w = {sine * std::cos(phi), sine * std::sin(phi), cos_theta};
-        v.eta = 1.0f + log_uniform(random, 0.01f, 8.0f);
-        const float critical = (0.99f + 0.02f * random.next()) / (v.alpha_x < v.alpha_y ? v.w.x : v.w.y);
-        if (i % 7 == 0 && critical > 1.01f && critical < 9.0f) v.eta = critical;
+        v.eta = 1.0f + log_uniform(random, 0.002f, 8.0f);
+        if (i % 7 == 0) v.eta = kCommonIndices[static_cast<std::size_t>(i) % kCommonIndices.size()];
+        const float along_grooves = v.alpha_x < v.alpha_y ? v.w.x : v.w.y;
+        const float off = 1.0f + (random.next() < 0.5f ? -1.0f : 1.0f) * log_uniform(random, 1e-3f, 0.3f);
+        const float critical = i % 8 < 3 ? off / along_grooves : i % 8 == 3 ? 1.0f + off * (1.0f / sine - 1.0f) : 0.0f;
+        if (critical >= 1.002f && critical <= 9.0f) v.eta = critical;
+        if (random.next() < 0.5f) {
+            std::swap(v.alpha_x, v.alpha_y);
+            std::swap(v.w.x, v.w.y);
+        }
         result.push_back(v);
     }
     return result;
@@ -128,9 +137,9 @@ struct Worst {
 
 /// The furnace's error is that of what is missing. A coarse estimate that differs much is repeated with more samples.
 TEST(GgxAnisotropicAlbedo, TablesAgreeWithASecondImplementation) {
-    constexpr int kViews = 4000;
+    constexpr int kViews = 10'000;
     constexpr int kCoarse = 1024;
-    constexpr int kFine = 32'768;
+    constexpr int kFine = 65'536;
     Worst mirror;
     Worst outside;
     Worst inside;
@@ -150,9 +159,9 @@ TEST(GgxAnisotropicAlbedo, TablesAgreeWithASecondImplementation) {
     }
     EXPECT_LE(std::abs(mirror.error), 5e-3) << mirror.where;
     EXPECT_LE(std::abs(outside.error), 5e-3) << outside.where;
-    // Grooves near their critical angle (the header of rough_dielectric.h).
-    EXPECT_LE(std::abs(inside.error), 1e-2) << inside.where;
-    EXPECT_LE(inside.beyond, kViews / 200);
+    // A few in ten thousand, all edge-on or of indices below 1.01, are beyond 0.5%.
+    EXPECT_LE(std::abs(inside.error), 6e-3) << inside.where;
+    EXPECT_LE(inside.beyond, kViews / 2000);
 }
 
 TEST(GgxAnisotropicAlbedo, AveragesAreThoseOfTheTables) {
@@ -162,7 +171,7 @@ TEST(GgxAnisotropicAlbedo, AveragesAreThoseOfTheTables) {
     for (int i = 0; i < 60; ++i) {
         const float alpha_x = i % 4 == 0 ? 1.0f : log_uniform(random, 0.01f, 1.0f);
         const float alpha_y = log_uniform(random, i % 2 == 0 ? 0.01f : kSmoothAlpha, 1.0f);
-        const float eta = 1.0f + log_uniform(random, 0.01f, 8.0f);
+        const float eta = 1.0f + log_uniform(random, 0.002f, 8.0f);
         double mirror = 0.0;
         double outside = 0.0;
         double inside = 0.0;
