@@ -1,7 +1,7 @@
 // Windows of path lengths add up: what paths of 1, 2, ... edges show, each rendered alone, is what all of them show
 // together.
 #include "metrics/block_agreement.h"
-#include "render/render.h"
+#include "render/whole_image.h"
 #include "support/chi2.h"
 #include "world/test_scene.h"
 
@@ -52,12 +52,7 @@ World corner() {
 ImageF image_of(const World& world, const std::string& integrator, int shortest, int longest, std::uint32_t seed) {
     const ThreadPool threads;
     const std::atomic<bool> stop{false};
-    RenderOptions options;
-    options.full_width = kWidth;
-    options.full_height = kHeight;
-    options.window = {0, 0, kWidth, kHeight};
-    options.spp = 32;
-    options.seed = seed;
+    RenderOptions options = whole_image(kWidth, kHeight, 32, seed);
     options.filter = PixelFilter(FilterShape::Box);
     // No roulette: it is a matter of chance like the rest, but has tests of its own.
     const auto made = make_integrator(integrator, {.lengths = {longest, shortest, kLongest + 1}});

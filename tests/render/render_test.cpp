@@ -1,6 +1,7 @@
 // Scheduling: what an image must not depend on, and how a render stops.
 #include "render/render.h"
 
+#include "render/whole_image.h"
 #include "world/test_scene.h"
 
 #include <algorithm>
@@ -57,13 +58,7 @@ SceneDesc busy_scene(int width, int height, bool moves = false) {
 }
 
 RenderOptions options_for(int width, int height, std::uint32_t spp) {
-    RenderOptions options;
-    options.full_width = width;
-    options.full_height = height;
-    options.window = {0, 0, width, height};
-    options.spp = spp;
-    options.seed = 5;
-    return options;
+    return whole_image(width, height, spp, 5);
 }
 
 RenderResult render_now(const World& world, const char* integrator, const RenderOptions& options, int threads,

@@ -3,7 +3,7 @@
 
 #include "integrator/agreement_cases.h"
 #include "integrator/bdpt/bdpt_integrator.h"
-#include "render/render.h"
+#include "render/whole_image.h"
 
 #include <algorithm>
 #include <atomic>
@@ -29,13 +29,9 @@ namespace etendue::test {
                                                     std::uint32_t seed, int threads = 0) {
     const ThreadPool pool(threads);
     const std::atomic<bool> stop{false};
-    RenderOptions render_options;
-    render_options.full_width = kAgreementWidth;
-    render_options.full_height = kAgreementHeight;
-    render_options.window = {0, 0, kAgreementWidth, kAgreementHeight};
-    render_options.spp = spp;
-    render_options.seed = seed;
-    return render(world, BdptIntegrator(options), render_options, pool, stop, {}).film.resolve();
+    return render(world, BdptIntegrator(options), whole_image(kAgreementWidth, kAgreementHeight, spp, seed), pool, stop,
+                  {})
+        .film.resolve();
 }
 
 /// Of all channels and pixels, alpha left out.
@@ -43,7 +39,8 @@ namespace etendue::test {
     double sum = 0.0;
     for (std::size_t i = 0; i < rgba.size(); ++i)
         if (i % 4 != 3) sum += static_cast<double>(rgba[i]);
-    return sum / static_cast<double>(rgba.size() / 4 * 3);
+    const std::size_t count = rgba.size() / 4 * 3;
+    return sum / static_cast<double>(count);
 }
 
 /// A mean and its standard error, from independent values.
