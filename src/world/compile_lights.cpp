@@ -12,10 +12,6 @@ namespace etendue {
 
 namespace {
 
-/// Emissive triangles that get an entry in a light's table, all instances together: at 48 bytes each, 768 MiB. What is
-/// beyond is found by chance only, which is slower but not wrong.
-constexpr std::size_t kMaxLightTriangles = std::size_t{1} << 24;
-
 /// The tables of the scene's profiles; lamps share them.
 std::vector<std::shared_ptr<const IesProfile>> compile_profiles(const SceneDesc& scene) {
     std::vector<std::shared_ptr<const IesProfile>> profiles;
@@ -74,7 +70,7 @@ Rgb mean_emission(const WorldData& data, const Material& material) {
     return mean;
 }
 
-void compile_mesh_lights(WorldData& data, ProblemList& problems) {
+void compile_mesh_lights(std::size_t most_triangles, WorldData& data, ProblemList& problems) {
     std::size_t triangle_count = 0;
     std::size_t skipped = 0;
     std::size_t moving = 0;
@@ -89,7 +85,7 @@ void compile_mesh_lights(WorldData& data, ProblemList& problems) {
                 ++moving;
                 continue;
             }
-            if (triangle_count + geometry.triangles.size() > kMaxLightTriangles) {
+            if (triangle_count + geometry.triangles.size() > most_triangles) {
                 skipped += geometry.triangles.size();
                 continue;
             }
@@ -105,19 +101,21 @@ void compile_mesh_lights(WorldData& data, ProblemList& problems) {
             data.emitter_of_light.push_back({static_cast<std::uint32_t>(i), index});
         }
     }
+    data.has_unsampled_emitters = moving > 0 || skipped > 0;
     if (moving > 0)
         problems.note({}, std::to_string(moving) +
                               " emissive surfaces move while the shutter is open and will be found "
                               "by chance only: small ones give noise");
     if (skipped > 0)
         problems.warning({}, std::to_string(skipped) + " emissive triangles are beyond the limit of " +
-                                 std::to_string(kMaxLightTriangles) +
+                                 std::to_string(most_triangles) +
                                  " for light sampling and will be found by chance only: expect noise");
 }
 
 }  // namespace
 
-void compile_lights(const SceneDesc& scene, const ThreadPool& threads, WorldData& data, ProblemList& problems) {
+void compile_lights(const SceneDesc& scene, const ThreadPool& threads, WorldData& data, ProblemList& problems,
+                    std::size_t most_triangles) {
     const auto profiles = compile_profiles(scene);
     const float scale = scene.settings.light_units == LightUnits::Radiometric ? 1.0f / kLumensPerWatt : 1.0f;
     for (const LightDesc& desc : scene.lights) {
@@ -125,7 +123,7 @@ void compile_lights(const SceneDesc& scene, const ThreadPool& threads, WorldData
         data.lights.push_back(compile_punctual(desc, profiles, scale, data.from_rec709));
         data.emitter_of_light.emplace_back();
     }
-    compile_mesh_lights(data, problems);
+    compile_mesh_lights(most_triangles, data, problems);
     if (scene.environment.enabled) {
         data.environment = static_cast<std::uint32_t>(data.lights.size());
         data.environment_visible = scene.environment.visible_to_camera;

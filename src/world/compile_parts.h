@@ -8,6 +8,7 @@
 #include "scene/scene_desc.h"
 #include "world/world.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -59,8 +60,14 @@ void compile_bodies(WorldData& data);
 [[nodiscard]] Light compile_environment(const SceneDesc& scene, const ColorMatrix& from_rec709,
                                         const ThreadPool& threads);
 
-/// Punctual lights, emissive meshes and the environment. Needs materials, textures and geometry in `data`.
-void compile_lights(const SceneDesc& scene, const ThreadPool& threads, WorldData& data, ProblemList& problems);
+/// Emissive triangles that get an entry in a light's table, all instances together: at 48 bytes each, 768 MiB. What is
+/// beyond is found by chance only, which is slower but not wrong.
+inline constexpr std::size_t kMaxLightTriangles = std::size_t{1} << 24;
+
+/// Punctual lights, emissive meshes of at most `most_triangles` and the environment. Needs materials, textures and
+/// geometry in `data`.
+void compile_lights(const SceneDesc& scene, const ThreadPool& threads, WorldData& data, ProblemList& problems,
+                    std::size_t most_triangles = kMaxLightTriangles);
 
 /// Throws SceneError if the camera that the settings name does not exist.
 [[nodiscard]] Camera compile_camera(const SceneDesc& scene);

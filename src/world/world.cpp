@@ -83,8 +83,12 @@ World::World(WorldData data)
             return around != nullptr && around->scatters();
         });
     }
-    has_specular_surfaces_ = std::any_of(data_->geometries.begin(), data_->geometries.end(),
-                                         [&](const Geometry& g) { return is_specular(data_->materials[g.material]); });
+    const auto has_surface = [&](const auto& is_such) {
+        return std::any_of(data_->geometries.begin(), data_->geometries.end(),
+                           [&](const Geometry& g) { return is_such(data_->materials[g.material]); });
+    };
+    has_specular_surfaces_ = has_surface(is_specular);
+    has_unlit_surfaces_ = has_surface([](const Material& material) { return material.unlit; });
 }
 
 World::~World() = default;

@@ -90,6 +90,7 @@ struct WorldData {
     std::vector<Light> lights;
     std::vector<Emitter> emitter_of_light;     ///< of each light; kNone for those without a surface
     std::vector<std::uint32_t> light_of_slot;  ///< light index of (instance, geometry), kNone if it is not sampled
+    bool has_unsampled_emitters = false;       ///< some surface that emits is none of `lights`
     std::uint32_t environment = kNone;         ///< index into `lights`
     bool environment_visible = true;           ///< to camera rays
     Camera camera;
@@ -191,6 +192,11 @@ class World {
     [[nodiscard]] bool has_delta_lights() const { return has_delta_lights_; }
     /// True if some surface mirrors or refracts without any roughness.
     [[nodiscard]] bool has_specular_surfaces() const { return has_specular_surfaces_; }
+    /// True if some surface shows its colour to the eye and neither scatters nor emits light.
+    [[nodiscard]] bool has_unlit_surfaces() const { return has_unlit_surfaces_; }
+    /// True if some surface that emits is met by chance only: it moves while the shutter is open, or is beyond the most
+    /// triangles that are sampled.
+    [[nodiscard]] bool has_unsampled_emitters() const { return data_->has_unsampled_emitters; }
     /// Light arriving at `point` from a light chosen by power.
     [[nodiscard]] ChosenLight sample_light(const Vec3f& point, const LightNumbers& u) const;
     /// A ray that leaves a light, chosen as `sample_light` does with `u_light` in [0, 1)²; it has that time.
@@ -258,6 +264,7 @@ class World {
     bool has_transparency_ = false;
     bool has_delta_lights_ = false;
     bool has_specular_surfaces_ = false;
+    bool has_unlit_surfaces_ = false;
     bool has_scattering_bodies_ = false;
     bool has_lights_in_media_ = false;
     Interior camera_interior_;

@@ -142,6 +142,29 @@ TEST(CompileLights, EveryInstanceOfAnEmitterIsALight) {
     EXPECT_EQ(compile(std::move(scene)).statistics().lights, 3u);
 }
 
+TEST(CompileLights, EmittersThatAreNotSampledAreKnown) {
+    SceneDesc scene = empty_scene();
+    const auto glow = add_material(scene, emissive(Rgb(1.0f)));
+    for (const float x : {0.0f, 5.0f}) add_object(scene, quad({x, 0, -2}, {1, 0, 0}, {0, 1, 0}), glow);
+    EXPECT_FALSE(compile(scene).has_unsampled_emitters());
+    // Each has two triangles.
+    for (const std::size_t most : {4u, 3u, 1u}) {
+        SceneDesc limited = scene;
+        WorldData data;
+        TextureCompiler textures(limited);
+        const ThreadPool threads(1);
+        compile_materials(limited, textures, data);
+        compile_geometry(limited, threads, data);
+        ProblemList problems;
+        compile_lights(limited, threads, data, problems, most);
+        EXPECT_EQ(data.lights.size(), most / 2);
+        EXPECT_EQ(data.has_unsampled_emitters, most < 4);
+        EXPECT_EQ(problems.all().size(), most < 4 ? 1u : 0u);
+    }
+    scene.instances.front().motion = {Mat4f(), translation({1, 0, 0})};
+    EXPECT_TRUE(compile(scene).has_unsampled_emitters());
+}
+
 TEST(CompileLights, ConstantEnvironmentsAreColourTimesScale) {
     SceneDesc scene = empty_scene();
     scene.environment.enabled = true;

@@ -189,6 +189,17 @@ TEST(World, ReportsItsRayTracer) {
     EXPECT_FALSE(ray_tracer_info().isa.empty());
 }
 
+TEST(World, UnlitSurfacesAreKnownWhereTheyAre) {
+    SceneDesc scene = empty_scene();
+    MaterialDesc sign;
+    sign.unlit = true;
+    const auto unlit = add_material(scene, sign);
+    add_object(scene, quad({0, 0, -2}, {1, 0, 0}, {0, 1, 0}), add_material(scene, diffuse(Rgb(0.5f))));
+    EXPECT_FALSE(compile(scene).has_unlit_surfaces()) << "no surface has that material";
+    add_object(scene, quad({0, 0, -3}, {1, 0, 0}, {0, 1, 0}), unlit);
+    EXPECT_TRUE(compile(scene).has_unlit_surfaces());
+}
+
 }  // namespace
 
 }  // namespace etendue::test

@@ -14,6 +14,14 @@ std::vector<std::string> LightIntegrator::unreachable_light(const World& world) 
         sentences.emplace_back(
             "the environment itself is not seen: paths from the light start there, and no camera can be connected to "
             "what is infinitely far away; 'path' finds it");
+    if (world.has_unlit_surfaces())
+        sentences.emplace_back(
+            "unlit surfaces (KHR_materials_unlit) stay black: they show their colour to the eye and send no light that "
+            "a path could start with; 'path' finds it");
+    if (world.has_unsampled_emitters())
+        sentences.emplace_back(
+            "surfaces that glow and are not sampled, because they move while the shutter is open or are too many, "
+            "start no paths from the light: neither they nor what they light is seen; 'path' finds it");
     return sentences;
 }
 

@@ -10,9 +10,10 @@ std::vector<std::string> WhittedIntegrator::unreachable_light(const World& world
         "is left out; 'path' finds it"};
     if (world.has_scattering_bodies())
         sentences.emplace_back("light that scatters within bodies is left out; 'path' finds it");
-    if (world.has_motion())
+    if (world.has_unsampled_emitters())
         sentences.emplace_back(
-            "what glows and moves while the shutter is open is seen but lights no surface; 'path' finds that light");
+            "surfaces that glow and are not sampled, because they move while the shutter is open or are too many, are "
+            "seen but light no surface; 'path' finds that light");
     return sentences;
 }
 
