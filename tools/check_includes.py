@@ -31,7 +31,7 @@ ROOMS = {
     "world": "scene bsdf medium light camera texture image color sampling core",
     "film": "sampling core",
     "integrator": "world film bsdf medium light camera sampling core",
-    "render": "integrator world film core",
+    "render": "integrator world film image core",
     "output": "film color image core",
     "metrics": "image core",
     "report": "metrics image core",

@@ -11,6 +11,7 @@
 #include "render/strategy_pyramid.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -69,18 +70,13 @@ RenderOptions small_options(const Variant& variant) {
     return options;
 }
 
-ImageF rgba_image(const StrategyImage& strategy, const PixelRect& window) {
-    ImageF image(window.width(), window.height(), 4);
-    image.pixels = strategy.rgba;
-    return image;
-}
-
 double mean_luminance(const ImageF& rgba, const Rgb& weights) {
     double sum = 0.0;
     for (std::size_t i = 0; i + 3 < rgba.pixels.size(); i += 4)
         sum += static_cast<double>(rgba.pixels[i] * weights.r + rgba.pixels[i + 1] * weights.g +
                                    rgba.pixels[i + 2] * weights.b);
-    return sum / static_cast<double>(rgba.pixels.size() / 4);
+    const std::size_t pixels = rgba.pixels.size() / 4;
+    return sum / static_cast<double>(pixels);
 }
 
 }  // namespace
@@ -117,6 +113,13 @@ bool add_strategies(ReportImages& images, ComparisonReport& report, const Varian
     integrator.strategy.reset();
     longest = std::min(longest, integrator.lengths.max_depth);
     const std::vector<Strategy> wanted = strategies_between(integrator.lengths.min_depth, longest);
+    if (wanted.empty()) {
+        report.notes.push_back(
+            fmt::format("no strategies are shown: --strategies-depth ends at {} edges, and paths of fewer than {} are "
+                        "left out (--min-depth)",
+                        longest, integrator.lengths.min_depth));
+        return false;
+    }
     const Rgb weights = context.colors.luminance_weights(report.working_space);
     StrategiesReport result{.variant = variant.name, .spp = options.spp, .longest = longest};
     for (const Strategy& strategy : wanted) result.strategies.push_back({.s = strategy.s, .t = strategy.t});
@@ -130,7 +133,7 @@ bool add_strategies(ReportImages& images, ComparisonReport& report, const Varian
                               [&](const RenderProgress& progress) { display.update(progress); });
         if (strategies.size() < wanted.size()) return false;
         for (std::size_t i = 0; i < strategies.size(); ++i) {
-            const ImageF image = rgba_image(strategies[i], options.window);
+            const ImageF& image = strategies[i].rgba;
             made[fmt::format("strategy/{}/{},{}", name, wanted[i].s, wanted[i].t)] =
                 encode_png(display_image(image, view, context.colors));
             (weighted ? result.strategies[i].weighted_mean : result.strategies[i].unweighted_mean) =

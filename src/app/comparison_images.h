@@ -16,7 +16,8 @@ void add_images(ReportImages& images, ComparisonReport& report, std::span<const 
                 const std::optional<Reference>& reference, const DisplayView& view, const MeasureContext& context);
 
 /// Renders every strategy of `variant`, which has some, of paths of up to `longest` edges, with and without weights,
-/// as small images. False if it is interrupted; nothing is added then.
+/// as small images. Nothing but a note is added where no such path is kept, and nothing at all if it is interrupted;
+/// false then.
 bool add_strategies(ReportImages& images, ComparisonReport& report, const Variant& variant, int longest,
                     const DisplayView& view, const MeasureContext& context, bool quiet);
 

@@ -1,6 +1,7 @@
 // etendue: the command line.
 #include "app/commands.h"
 #include "app/interrupt.h"
+#include "app/usage_error.h"
 #include "core/error.h"
 #include "core/log.h"
 #include "film/film.h"
@@ -26,6 +27,9 @@ ExitCode run(const Action& action) {
     } catch (const SceneError& error) {
         log_error("{}", error.what());
         return ExitCode::InvalidScene;
+    } catch (const UsageError& error) {
+        log_error("error: {}", error.what());
+        return ExitCode::UsageError;
     } catch (const std::bad_alloc&) {
         log_error("error: there is not enough memory; a smaller --size or --crop needs less: {} bytes a pixel",
                   sizeof(PixelSum));

@@ -95,7 +95,8 @@ void add_render_command(CLI::App& app, Action& action) {
         ->check(CLI::Range(1, 4096));
     auto* strategies = command->add_option_function<std::string>(
         "--strategies-image", [arguments](const std::string& path) { arguments->request.strategies.output = path; },
-        "Also write the images of all strategies of bdpt, one by one: an EXR with a part for each and a labelled PNG");
+        "Also write the images of all strategies of bdpt, one by one: an EXR with a part for each and a labelled PNG. "
+        "They stay in memory until all are rendered, about 24 bytes a pixel and strategy, with --float 32");
     command
         ->add_option("--strategies-depth", arguments->request.strategies.longest,
                      "Longest paths whose strategies are shown (default: 8, or --max-depth if that is less)")

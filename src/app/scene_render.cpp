@@ -69,8 +69,7 @@ OutputFrame make_frame(const RenderResult& result, const Camera& camera, const s
                        const RenderSettings& settings, const std::string& working_space) {
     const PixelRect& window = result.film.window();
     OutputFrame frame;
-    frame.pixels = ImageF(window.width(), window.height(), 4);
-    frame.pixels.pixels = result.film.resolve();
+    frame.pixels = rgba_image(result.film);
     if (settings.film.crop) {
         frame.crop_x = window.x0;
         frame.crop_y = window.y0;
@@ -247,13 +246,6 @@ std::string resolve_colors(RenderSettings& settings, const ColorConfig& colors) 
     return s.working_space;
 }
 
-OutputPaths OutputPaths::beside(const std::filesystem::path& exr) {
-    OutputPaths paths{exr, exr, exr};
-    paths.png.replace_extension(".png");
-    paths.json.replace_extension(".json");
-    return paths;
-}
-
 PreparedScene prepare_scene(const std::filesystem::path& path, const SettingsOverrides& overrides) {
     const PhaseTimer timer;
     LoadedScene loaded = load_scene(path, overrides.moment);
@@ -294,6 +286,8 @@ SceneRenderResult render_scene(PreparedScene prepared, const SceneRenderRequest&
     }
     const RenderOptions options = make_render_options(scene.settings);
     const auto integrator = create_integrator(scene.settings);
+    if (shows_strategies)
+        check_strategies_request(request.strategies, paths, scene.settings, options, request.overrides.depth);
     // Before names are resolved: batch compares it with that of a scene that was only prepared.
     const std::string hash = settings_hash(scene, request.overrides.depth);
     const ColorConfig colors = ColorConfig::from_environment();

@@ -1,6 +1,7 @@
 // One scene, from its directory to its files: the data flow of the program in one function.
 #pragma once
 
+#include "app/output_paths.h"
 #include "app/settings_overrides.h"
 #include "app/strategies_image.h"
 #include "color/color_config.h"
@@ -28,15 +29,6 @@ struct SceneRenderResult {
     RenderStatistics statistics;
     std::filesystem::path output;
     bool interrupted = false;
-};
-
-/// The three files that belong to one image.
-struct OutputPaths {
-    std::filesystem::path exr;
-    std::filesystem::path png;
-    std::filesystem::path json;
-
-    [[nodiscard]] static OutputPaths beside(const std::filesystem::path& exr);
 };
 
 /// A scene as it will be rendered: loaded, overridden, completed and validated.

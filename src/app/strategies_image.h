@@ -1,6 +1,7 @@
 // The pyramid of all strategies of a scene, in files.
 #pragma once
 
+#include "app/output_paths.h"
 #include "color/color_config.h"
 #include "core/parallel.h"
 #include "image/write.h"
@@ -8,9 +9,9 @@
 #include "output/output_frame.h"
 #include "render/render.h"
 #include "render/strategy_pyramid.h"
+#include "scene/render_settings.h"
 
 #include <filesystem>
-#include <span>
 #include <string>
 
 namespace etendue {
@@ -23,6 +24,11 @@ struct StrategiesRequest {
     int longest = 0;                 ///< edges; 0 for the smaller of kLongest and the integrator's longest
     bool weighted = true;
 };
+
+/// Before anything is rendered: throws UsageError if the pyramid would be written over the image, whose files are
+/// `image`, or would show nothing, and std::runtime_error if it needs more memory than the machine has.
+void check_strategies_request(const StrategiesRequest& request, const OutputPaths& image,
+                              const RenderSettings& settings, const RenderOptions& options, PixelDepth depth);
 
 /// Renders every strategy of bidirectional path tracing and writes an EXR with a part for each, named "s0t2" and so on,
 /// and a PNG with all of them labelled (s,t), a row for each length of path. `frame` says what is to be said of the

@@ -1,7 +1,7 @@
 // Whether an image must be rendered again.
 #pragma once
 
-#include "app/scene_render.h"
+#include "app/output_paths.h"
 
 #include <filesystem>
 #include <string>

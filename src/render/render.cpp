@@ -67,6 +67,15 @@ const char* halt_reason_name(HaltReason reason) {
     return "unknown";
 }
 
+ImageF rgba_image(const Film& film) {
+    ImageF image;
+    image.width = film.window().width();
+    image.height = film.window().height();
+    image.channels = 4;
+    image.pixels = film.resolve();
+    return image;
+}
+
 double process_cpu_seconds() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);

@@ -3,6 +3,7 @@
 
 #include "core/parallel.h"
 #include "film/film.h"
+#include "image/image.h"
 #include "integrator/integrator.h"
 #include "render/progressive_render.h"
 #include "world/world.h"
@@ -51,6 +52,9 @@ struct RenderResult {
 [[nodiscard]] RenderResult render(const World& world, const Integrator& integrator, const RenderOptions& options,
                                   const ThreadPool& threads, const std::atomic<bool>& stop,
                                   const ProgressCallback& progress);
+
+/// The film's means of red, green, blue and alpha.
+[[nodiscard]] ImageF rgba_image(const Film& film);
 
 /// Seconds of processor time that this process has used, all threads together.
 [[nodiscard]] double process_cpu_seconds();

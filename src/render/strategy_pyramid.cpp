@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include <fmt/format.h>
+
 namespace etendue {
 
 std::vector<Strategy> strategies_between(int shortest, int longest) {
@@ -32,10 +34,16 @@ std::vector<StrategyImage> render_strategies(const World& world, const Integrato
         };
         RenderResult result = render(world, *make_integrator("bdpt", one), options, threads, stop, report);
         if (result.halt_reason == HaltReason::Interrupted) break;
-        images.push_back({strategy, result.film.resolve()});
+        images.push_back({strategy, rgba_image(result.film)});
         before = now;
     }
     return images;
+}
+
+std::vector<ImagePart> strategy_parts(std::span<const StrategyImage> images) {
+    std::vector<ImagePart> parts;
+    for (const auto& [strategy, rgba] : images) parts.push_back({fmt::format("s{}t{}", strategy.s, strategy.t), &rgba});
+    return parts;
 }
 
 }  // namespace etendue

@@ -1,6 +1,8 @@
 // The images of all strategies of bidirectional path tracing, one by one: the pyramid of Veach 1997, figure 10.4.
 #pragma once
 
+#include "image/image.h"
+#include "image/write.h"
 #include "integrator/integrator.h"
 #include "render/render.h"
 
@@ -15,7 +17,7 @@ namespace etendue {
 
 struct StrategyImage {
     Strategy strategy;
-    std::vector<float> rgba;  ///< of the window, row by row
+    ImageF rgba;  ///< of the window
 };
 
 /// Renders each of `strategies` by itself, with the same random numbers: weighted ones add up to the image of `bdpt`.
@@ -25,5 +27,8 @@ struct StrategyImage {
                                                            const RenderOptions& options, const ThreadPool& threads,
                                                            const std::atomic<bool>& stop,
                                                            const ProgressCallback& progress);
+
+/// A part of a file for each, named "s0t2" and so on, with the pixels of `images`.
+[[nodiscard]] std::vector<ImagePart> strategy_parts(std::span<const StrategyImage> images);
 
 }  // namespace etendue

@@ -1,9 +1,9 @@
 #include "agreement/room_comparison.h"
 
-#include "agreement/failure_images.h"
 #include "core/parallel.h"
 #include "integrator/agreement_cases.h"
 #include "integrator/agreement_render.h"
+#include "integrator/failure_images.h"
 
 #include <algorithm>
 #include <chrono>
@@ -67,13 +67,17 @@ RoomComparison compare_in_room(const RoomTraits& room, std::size_t index, const 
     }
     RoomComparison result;
     result.room = room;
+    std::vector<Disagreement> disagreements;
     for (std::size_t a = 0; a < estimates.size(); ++a)
-        for (std::size_t b = a + 1; b < estimates.size(); ++b)
+        for (std::size_t b = a + 1; b < estimates.size(); ++b) {
             result.pairs.push_back(
                 {integrators[a], integrators[b],
                  test_agreement(estimates[a], estimates[b], {.block_size = 16, .significance = options.significance})});
-    if (!options.failures.empty() && !result.agrees())
-        write_failure_images(options.failures, result, agreement, world, estimates);
+            if (!result.pairs.back().agreement.agree())
+                disagreements.push_back({{integrators[a], &estimates[a].mean}, {integrators[b], &estimates[b].mean}});
+        }
+    if (!options.failures.empty() && !disagreements.empty())
+        write_failure_images(options.failures, agreement, world, disagreements);
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return result;
 }

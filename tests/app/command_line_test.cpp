@@ -218,6 +218,61 @@ TEST_F(CommandLine, StrategiesAreShownOneByOne) {
     EXPECT_NE(path.err.find("--strategies-image: 'path' has no strategies"), std::string::npos) << path.err;
 }
 
+/// The pyramid must not be written over the image, by whatever name.
+TEST_F(CommandLine, ThePyramidIsNotWrittenOverTheImage) {
+    const std::string box = scene("box");
+    fs::create_directories(work_ / "sub");
+    fs::create_directory_symlink(work_, work_ / "sub/link");
+    fs::create_symlink("image.exr", work_ / "dangling.exr");
+    fs::create_symlink("image.png", work_ / "picture.png");
+    fs::create_symlink(work_ / "image.json", work_ / "text.png");
+    const Names before = list(work_);
+    const auto refused = [&](const std::string& pyramid, const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{"render", box, "--integrator",       "bdpt",
+                                           "--spp",  "1", "--strategies-image", pyramid};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const ProgramResult result = run(arguments);
+        EXPECT_EQ(result.exit_code, 2) << pyramid << ": " << result.err;
+        for (const char* option : {"--strategies-image", "--output"})
+            EXPECT_NE(result.err.find(option), std::string::npos) << pyramid << ": " << result.err;
+        EXPECT_EQ(list(work_), before) << pyramid;
+    };
+    for (const std::string& pyramid :
+         {std::string("image.exr"), std::string("./image.exr"), std::string("sub/../image.exr"),
+          (work_ / "image.exr").string(), std::string("sub/link/image.exr"), std::string("dangling.exr"),
+          std::string("picture.exr"), std::string("text.exr")})
+        refused(pyramid, {"-o", "image.exr"});
+    refused("image.exr", {"-o", "dangling.exr"});
+    refused("./box.exr", {});
+    // The same name elsewhere is another file.
+    const ProgramResult other = run({"render", box, "--integrator", "bdpt", "--spp", "1", "--max-depth", "2",
+                                     "--strategies-image", "sub/image.exr", "-o", "image.exr", "--quiet"});
+    EXPECT_EQ(other.exit_code, 0) << other.err;
+    EXPECT_TRUE(fs::exists(work_ / "sub/image.exr"));
+}
+
+TEST_F(CommandLine, PyramidsThatCannotBeMadeAreRefusedBeforeRendering) {
+    const std::string box = scene("box");
+    const auto refused = [&](int exit_code, const Names& words, const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{"render", box, "--integrator",       "bdpt",
+                                           "--spp",  "1", "--strategies-image", "pyramid.exr"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const ProgramResult result = run(arguments);
+        EXPECT_EQ(result.exit_code, exit_code) << result.err;
+        for (const std::string& word : words) EXPECT_NE(result.err.find(word), std::string::npos) << result.err;
+        EXPECT_TRUE(list(work_).empty());
+    };
+    refused(2, {"--strategies-image", "--strategies-depth", "--min-depth of 9"}, {"--min-depth", "9"});
+    refused(2, {"--strategies-depth", "--min-depth of 4"}, {"--min-depth", "4", "--strategies-depth", "3"});
+    // 4 billion pixels of 43 strategies.
+    refused(1, {"--strategies-image", "43 strategies of 65536x65536", "GiB", "--size", "--strategies-depth"},
+            {"--size", "65536x65536"});
+    const std::string shallow = scene("shallow", R"("integrator": {"min_depth": 9},)");
+    const ProgramResult result = run({"render", shallow, "--integrator", "bdpt", "--strategies-image", "pyramid.exr"});
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_NE(result.err.find("render.json#/integrator/min_depth"), std::string::npos) << result.err;
+}
+
 TEST_F(CommandLine, WhatCannotBeWrittenEndsWithOneAtOnce) {
     fs::create_directories(folder_ / "directory.exr");
     for (const std::string& output : {std::string("no/such/folder/image.exr"), (folder_ / "directory.exr").string()}) {

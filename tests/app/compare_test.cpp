@@ -68,6 +68,14 @@ TEST_F(Compare, MeasuresVariantsAgainstEachOther) {
         EXPECT_NE(page.find(std::string("\"") + image + "\":"), std::string::npos) << image;
 }
 
+TEST_F(Compare, StrategiesThatAreLeftOutAreANote) {
+    const ProgramResult result = compare({"--spp", "2", "--seeds", "1", "--min-depth", "3", "--strategies-depth", "2"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const json report = this->report();
+    EXPECT_FALSE(report.contains("strategies"));
+    EXPECT_NE(report["notes"].dump().find("--min-depth"), std::string::npos) << report["notes"];
+}
+
 TEST_F(Compare, TheCommandsOfTheReportRenderItsImages) {
     ASSERT_EQ(
         compare({"--spp", "4", "--seeds", "3", "--seed", "5", "--size", "12x8", "--strategies-depth", "0"}).exit_code,

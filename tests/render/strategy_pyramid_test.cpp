@@ -1,5 +1,6 @@
 #include "render/strategy_pyramid.h"
 
+#include "render/whole_image.h"
 #include "world/test_scene.h"
 
 #include <atomic>
@@ -34,11 +35,7 @@ World lamp_above_floor() {
 TEST(RenderStrategies, WeightedOnesAddUpToTheImage) {
     const ThreadPool threads(2);
     const World world = lamp_above_floor();
-    RenderOptions options;
-    options.full_width = 24;
-    options.full_height = 16;
-    options.window = {0, 0, 24, 16};
-    options.spp = 4;
+    const RenderOptions options = whole_image(24, 16, 4);
     const IntegratorOptions integrator{.lengths = {.max_depth = 4}};
     const std::atomic<bool> stop{false};
     const std::vector<Strategy> strategies = strategies_between(1, 4);
@@ -56,23 +53,25 @@ TEST(RenderStrategies, WeightedOnesAddUpToTheImage) {
     for (std::size_t i = 0; i < whole.size(); ++i) {
         if (i % 4 == 3) continue;  // alpha
         double sum = 0.0;
-        for (const StrategyImage& image : images) sum += static_cast<double>(image.rgba[i]);
+        for (const StrategyImage& image : images) sum += static_cast<double>(image.rgba.pixels[i]);
         EXPECT_NEAR(sum, static_cast<double>(whole[i]), 1e-4 * (1.0 + sum)) << i;
         total += sum;
     }
     EXPECT_GT(total, 1.0);
+    const std::vector<ImagePart> parts = strategy_parts(images);
+    ASSERT_EQ(parts.size(), images.size());
+    EXPECT_EQ(parts[0].name, "s0t2");
+    EXPECT_EQ(parts[3].name, "s2t1");
+    EXPECT_EQ(parts[3].image, &images[3].rgba);
+    EXPECT_EQ(parts[3].image->width, 24);
+    EXPECT_EQ(parts[3].image->channels, 4);
 }
 
 TEST(RenderStrategies, AStopLeavesThoseThatAreFinished) {
     const ThreadPool threads(1);
     const World world = lamp_above_floor();
-    RenderOptions options;
-    options.full_width = 8;
-    options.full_height = 8;
-    options.window = {0, 0, 8, 8};
-    options.spp = 1;
     std::atomic<bool> stop{false};
-    const auto images = render_strategies(world, {}, strategies_between(1, 3), options, threads, stop,
+    const auto images = render_strategies(world, {}, strategies_between(1, 3), whole_image(8, 8, 1), threads, stop,
                                           [&](const RenderProgress& progress) { stop = progress.fraction > 0.3; });
     EXPECT_GE(images.size(), 1u);
     EXPECT_LT(images.size(), 8u);

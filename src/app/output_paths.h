@@ -1,0 +1,20 @@
+// The files that belong to one image.
+#pragma once
+
+#include <filesystem>
+
+namespace etendue {
+
+struct OutputPaths {
+    std::filesystem::path exr;
+    std::filesystem::path png;
+    std::filesystem::path json;
+
+    [[nodiscard]] static OutputPaths beside(const std::filesystem::path& exr);
+};
+
+/// Where `file` will lie once it is written, and with it all that links lead to by then: equal for two names of one
+/// file, whether it exists or not.
+[[nodiscard]] std::filesystem::path written_file(const std::filesystem::path& file);
+
+}  // namespace etendue
