@@ -23,5 +23,6 @@ function(etendue_test room)
   target_compile_definitions(test_${room} PRIVATE
     ETENDUE_SOURCE_DIR="${PROJECT_SOURCE_DIR}" ETENDUE_SHARED_ASSETS="${PROJECT_SOURCE_DIR}/../shared/assets")
   gtest_discover_tests(test_${room} TEST_PREFIX "${room}." DISCOVERY_TIMEOUT 120 PROPERTIES LABELS ${room} TIMEOUT 600
-    ENVIRONMENT "LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/cmake/lsan-suppressions.txt")
+    ENVIRONMENT "LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/cmake/lsan-suppressions.txt"
+    ENVIRONMENT_MODIFICATION "ETENDUE_TEST_OUTPUT=set:${PROJECT_BINARY_DIR}/test-output")
 endfunction()

@@ -4,9 +4,11 @@
 // All comparisons together fail with probability 0.01 if everything is right (Sidak's correction); seeds are fixed.
 #include "integrator/agreement_cases.h"
 #include "integrator/agreement_render.h"
+#include "integrator/failure_images.h"
 #include "support/chi2.h"
 
 #include <cstddef>
+#include <filesystem>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -49,7 +51,11 @@ TEST_P(Agreement, MakesTheSameImage) {
     const ImageEstimate other = estimate(world, integrator, *agreement, {.first_seed = 200}, threads);
     const BlockAgreement result =
         test_agreement(first, other, {.block_size = 8, .significance = sidak_level(kFamilyLevel, pairs().size())});
-    EXPECT_TRUE(result.agree()) << result.str();
+    if (result.agree()) return;
+    const Disagreement pair{{agreement->integrators.front(), &first.mean}, {integrator, &other.mean}};
+    const std::filesystem::path images = write_failure_images(test_output_directory(), *agreement, world, {&pair, 1});
+    ADD_FAILURE() << result.str() << "; the images, their difference and the strategies of bdpt are in "
+                  << images.string();
 }
 
 /// A crop, of `pairs`' rooms, and who renders it.
