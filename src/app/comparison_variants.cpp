@@ -74,6 +74,9 @@ std::vector<Variant> make_variants(const std::filesystem::path& scene, std::span
         if (variants.empty() && !quiet)
             for (const Problem& problem : prepared.problems.all()) log_warning("{}", problem.str());
         complete(variant);
+        if (!quiet)
+            for (const std::string& note : variant.integrator->ineffective_options(*variant.world))
+                log_warning("note: {}: {}", variant.name, note);
         if (!variants.empty()) require_comparable(variants.front(), variant);
         variants.push_back(std::move(variant));
     }

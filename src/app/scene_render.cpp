@@ -324,7 +324,8 @@ SceneRenderResult render_scene(PreparedScene prepared, const SceneRenderRequest&
     statistics.lights = world_statistics.lights;
 
     if (!request.quiet)
-        for (const std::string& missing : integrator->unreachable_light(world)) log_warning("note: {}", missing);
+        for (const auto& notes : {integrator->unreachable_light(world), integrator->ineffective_options(world)})
+            for (const std::string& note : notes) log_warning("note: {}", note);
 
     const std::string title = request.title.empty() ? name : request.title;
     std::optional<ProgressDisplay> display(std::in_place, title, request.quiet);

@@ -83,6 +83,9 @@ class Integrator {
     /// What light of `world` this algorithm can never find, a sentence for each kind of path; empty if it finds all.
     [[nodiscard]] virtual std::vector<std::string> unreachable_light(const World& world) const = 0;
 
+    /// What was asked of this algorithm and has no effect in `world`, a sentence for each option.
+    [[nodiscard]] virtual std::vector<std::string> ineffective_options(const World&) const { return {}; }
+
     /// True if `render_tile` leaves splats, one light path for each of its samples.
     [[nodiscard]] virtual bool makes_splats() const { return false; }
 

@@ -406,6 +406,22 @@ TEST_F(CommandLine, FramesAreImagesOfTheirMoments) {
     EXPECT_NE(read_file(work_ / "box.-0001.png"), read_file(work_ / "end.png"));
 }
 
+TEST_F(CommandLine, NotesSayWhichOptionsHaveNoEffect) {
+    const std::string box = scene("box");
+    const std::vector<std::string> cached{"render", box, "--integrator",       "bdpt",
+                                          "--spp",  "1", "--bdpt-connections", "cache:2"};
+    EXPECT_EQ(run(cached).err.find("cache:2"), std::string::npos);
+    (void)animated_scene(box);
+    std::vector<std::string> moving = cached;
+    moving.insert(moving.end(), {"--time-code", "0", "--shutter", "0:1"});
+    const ProgramResult result = run(moving);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(result.err.find("note: connections to a cache (cache:2) have no effect"), std::string::npos)
+        << result.err;
+    moving.emplace_back("--quiet");
+    EXPECT_EQ(run(moving).err.find("cache:2"), std::string::npos);
+}
+
 TEST_F(CommandLine, FinishedFramesAreNotRenderedAgain) {
     const std::string box = animated_scene(scene("box", R"("frames": [0, 1],)"));
     const auto results = [&](const std::vector<std::string>& more) {

@@ -19,6 +19,14 @@ std::vector<std::string> BdptIntegrator::unreachable_light(const World& world) c
     return sentences;
 }
 
+std::vector<std::string> BdptIntegrator::ineffective_options(const World& world) const {
+    if (options_.cached_connections == 0 || !world.has_motion()) return {};
+    return {fmt::format(
+        "connections to a cache (cache:{}) have no effect where something moves while the shutter is open: each sample "
+        "has a time of its own, and is connected pairwise",
+        options_.cached_connections)};
+}
+
 std::unique_ptr<IntegratorScratch> BdptIntegrator::make_scratch() const {
     return std::make_unique<BdptWave>();
 }

@@ -20,6 +20,7 @@ class BdptIntegrator final : public Integrator {
 
     [[nodiscard]] std::unique_ptr<IntegratorScratch> make_scratch() const override;
     [[nodiscard]] std::vector<std::string> unreachable_light(const World& world) const override;
+    [[nodiscard]] std::vector<std::string> ineffective_options(const World& world) const override;
     [[nodiscard]] bool makes_splats() const override { return true; }
     void render_tile(const World& world, const TileJob& job, IntegratorScratch& scratch, TileBuffer& tile,
                      RenderCounters& counters) const override;

@@ -135,6 +135,12 @@ TEST(CachedConnectionsInMotion, AreThoseOfEachSample) {
     const std::vector<float> pairwise = render_bdpt(world, options, 8, 3);
     options.cached_connections = 4;
     EXPECT_EQ(pairwise, render_bdpt(world, options, 8, 3));
+    const auto said = BdptIntegrator(options).ineffective_options(world);
+    ASSERT_EQ(said.size(), 1u);
+    EXPECT_NE(said.front().find("cache:4"), std::string::npos) << said.front();
+    EXPECT_TRUE(BdptIntegrator(options).ineffective_options(agreement_world(agreement_case("LampDiffuse"))).empty());
+    options.cached_connections = 0;
+    EXPECT_TRUE(BdptIntegrator(options).ineffective_options(world).empty());
 }
 
 }  // namespace
