@@ -3,10 +3,13 @@
 #include "integrator/agreement_cases.h"
 #include "integrator/bdpt/bdpt_integrator.h"
 #include "integrator/bdpt/reference_weights.h"
+#include "integrator/bdpt/render_bdpt.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,6 +25,15 @@ constexpr double kTolerance = 1e-4;
 constexpr float kShortEdge = 0.1f;
 constexpr float kSmallCosine = 0.3f;
 constexpr double kRoundingTolerance = 1e-2;
+
+constexpr PixelRect kAll{0, 0, kAgreementWidth, kAgreementHeight};
+/// A quarter of the pixels.
+constexpr PixelRect kCrop{18, 20, 50, 44};
+constexpr double kPixelsOverThoseOfTheCrop = 4.0;
+
+TileJob job_of(const PixelRect& window, std::uint32_t seed, const PixelFilter& filter) {
+    return {window, window, kAgreementWidth, kAgreementHeight, 0, 1, seed, SampleSequence::Sobol, &filter};
+}
 
 bool is_well_conditioned(const CompletePath& path) {
     bool is_well = true;
@@ -76,12 +88,11 @@ TEST_P(BdptWeights, RecursionSaysWhatTheDefinitionSays) {
         options.observer = &comparison;
         const BdptIntegrator integrator(options);
         const auto scratch = integrator.make_scratch();
-        const PixelRect all{0, 0, kAgreementWidth, kAgreementHeight};
         RenderCounters counters;
         for (std::uint32_t seed = 0; comparison.paths < kPaths / 2; ++seed) {
-            const TileJob job{all, all, all.x1, all.y1, 0, 1, seed, SampleSequence::Sobol, &filter};
+            const TileJob job = job_of(seed % 2 == 0 ? kAll : kCrop, seed, filter);
             TileBuffer tile;
-            tile.reset(all);
+            tile.reset(job.rect);
             integrator.render_tile(world, job, *scratch, tile, counters);
         }
         EXPECT_LE(comparison.different_without_excuse, comparison.paths / 10'000) << comparison.worst_path;
@@ -89,6 +100,53 @@ TEST_P(BdptWeights, RecursionSaysWhatTheDefinitionSays) {
         EXPECT_LE(comparison.worst, kRoundingTolerance) << comparison.worst_path;
         EXPECT_GE(comparison.strategies, 4u);
     }
+}
+
+/// Of the paths of a crop, holds the weights of their strategies against those in a render of the whole image.
+class CropObserver final : public WeightObserver {
+  public:
+    /// All must outlive it.
+    CropObserver(const World& world, const TileJob& whole, const PathLengths& lengths)
+        : whole_{world, whole, lengths, Raised{Heuristic::Balance}, {}, {}} {}
+
+    void on_weight(const CompletePath& path, double, std::span<const double> in_crop) override {
+        const std::vector<double> in_whole = reference_weights(whole_, path);
+        const std::size_t last = in_crop.size() - 1;
+        if (!(in_whole[last] > 1e-6)) return;
+        for (std::size_t s = 0; s < last; ++s) {
+            if (!(in_whole[s] > 1e-6)) continue;
+            const double expected = kPixelsOverThoseOfTheCrop * in_whole[s] / in_whole[last];
+            worst = std::max(worst, std::abs(in_crop[s] / in_crop[last] / expected - 1.0));
+            ++compared;
+        }
+    }
+
+    double worst = 0.0;  ///< relative error of a ratio of two weights
+    std::size_t compared = 0;
+
+  private:
+    SubpathJob whole_;
+};
+
+// A crop has a light path for each of its camera samples, and those all start in it: per area of the film strategies
+// from the eye have more samples than one from the light, as many times as the film is larger. Images do not tell: any
+// factor makes the same one, but with more noise.
+TEST(BdptWeightsOfACrop, CountItsCameraSamples) {
+    const AgreementCase& room = agreement_case("LampPlastic");
+    const World world = agreement_world(room);
+    const PixelFilter filter(FilterShape::Box);
+    const TileJob whole = job_of(kAll, 0, filter);
+    CropObserver observer(world, whole, room.lengths);
+    BdptOptions options{.lengths = room.lengths, .heuristic = Heuristic::Balance};
+    options.observer = &observer;
+    const BdptIntegrator integrator(options);
+    const auto scratch = integrator.make_scratch();
+    TileBuffer tile;
+    tile.reset(kCrop);
+    RenderCounters counters;
+    integrator.render_tile(world, job_of(kCrop, 0, filter), *scratch, tile, counters);
+    EXPECT_GT(observer.compared, 1000u);
+    EXPECT_LT(observer.worst, 1e-6);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, BdptWeights, testing::ValuesIn(agreement_cases()),
