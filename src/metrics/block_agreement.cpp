@@ -226,16 +226,6 @@ double critical_z(double significance, std::size_t tests) {
     return 0.5 * (low + high);
 }
 
-double mean_error(const ImageEstimate& image) {
-    const PixelRect whole{0, 0, image.mean.width, image.mean.height};
-    double largest = 0.0;
-    for (int channel = 0; channel < image.mean.channels; ++channel) {
-        const Moments m = moments(image, whole, channel);
-        if (m.mean != 0.0) largest = std::max(largest, std::sqrt(m.variance) / std::abs(m.mean));
-    }
-    return largest;
-}
-
 BlockAgreement test_agreement(const ImageEstimate& a, const ImageEstimate& b, const AgreementOptions& options) {
     require_estimates(a, b);
     BlockAgreement result;

@@ -33,9 +33,6 @@ struct AgreementOptions {
 /// std::invalid_argument if they are too few or differ in shape.
 [[nodiscard]] ImageEstimate estimate_image(std::span<const ImageF> renders);
 
-/// Relative standard error of the mean of the image, the largest over the channels; 0 where that is 0.
-[[nodiscard]] double mean_error(const ImageEstimate& image);
-
 /// Mean over pixels and channels of variance / (m² + kMetricEpsilon), m being the mean of the pixel's block: of its own
 /// mean a pixel with a firefly would have no more than another. Of the mean of the renders, as the variances are.
 [[nodiscard]] double relative_variance(const ImageEstimate& estimate, int block_size = AgreementOptions{}.block_size);

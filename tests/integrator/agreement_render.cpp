@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -43,6 +44,21 @@ ImageEstimate estimate(const World& world, const std::string& integrator, const 
                        const AgreementRenders& renders, const ThreadPool& threads) {
     return estimate(world, *make_integrator(integrator, {.lengths = agreement.lengths}), agreement, renders, threads,
                     agreement.window);
+}
+
+double mean_error(const ImageEstimate& image) {
+    const auto channels = static_cast<std::size_t>(image.mean.channels);
+    double largest = 0.0;
+    for (std::size_t channel = 0; channel < channels; ++channel) {
+        double sum = 0.0;
+        double variance = 0.0;
+        for (std::size_t i = channel; i < image.mean.pixels.size(); i += channels) {
+            sum += static_cast<double>(image.mean.pixels[i]);
+            variance += static_cast<double>(image.variance.pixels[i]);
+        }
+        if (sum != 0.0) largest = std::max(largest, std::sqrt(variance) / std::abs(sum));
+    }
+    return largest;
 }
 
 }  // namespace etendue::test

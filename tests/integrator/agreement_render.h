@@ -26,4 +26,7 @@ struct AgreementRenders {
 [[nodiscard]] ImageEstimate estimate(const World& world, const std::string& integrator, const AgreementCase& agreement,
                                      const AgreementRenders& renders, const ThreadPool& threads);
 
+/// Relative standard error of the mean of the image, the largest over the channels; 0 where that is 0.
+[[nodiscard]] double mean_error(const ImageEstimate& image);
+
 }  // namespace etendue::test

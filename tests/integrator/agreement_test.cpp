@@ -86,6 +86,15 @@ TEST_P(CropAgreement, ACropIsThePartOfTheWhole) {
     }
 }
 
+TEST(MeanError, IsTheLargestOverTheChannels) {
+    ImageEstimate e{ImageF(2, 1, 2), ImageF(2, 1, 2)};
+    e.mean.pixels = {1.0f, 2.0f, 3.0f, 2.0f};
+    e.variance.pixels = {0.0f, 0.04f, 0.16f, 0.05f};
+    EXPECT_NEAR(mean_error(e), 0.1, 1e-6);
+    e.mean.pixels.assign(4, 0.0f);
+    EXPECT_EQ(mean_error(e), 0.0) << "black";
+}
+
 INSTANTIATE_TEST_SUITE_P(Splats, CropAgreement, testing::Values("light", "bdpt"),
                          [](const auto& param) { return std::string(param.param); });
 

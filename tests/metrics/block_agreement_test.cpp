@@ -53,14 +53,6 @@ TEST(EstimateImage, RefusesTooFewAndDifferentRenders) {
     EXPECT_THROW((void)estimate_image(std::vector<ImageF>{ImageF(1, 1, 1), ImageF(2, 1, 1)}), std::invalid_argument);
 }
 
-TEST(EstimateImage, KnowsTheErrorOfItsMean) {
-    ImageEstimate e{ImageF(2, 1, 2), ImageF(2, 1, 2)};
-    e.mean.pixels = {1.0f, 2.0f, 3.0f, 2.0f};
-    e.variance.pixels = {0.0f, 0.04f, 0.16f, 0.05f};
-    EXPECT_NEAR(mean_error(e), 0.1, 1e-6);
-    EXPECT_EQ(mean_error(constant_estimate(2, 2, 0.0f, 0.0f)), 0.0);
-}
-
 TEST(BlockAgreement, ComputesZFromBothVariances) {
     // 16 pixels a block: variances 0.16 / 16 and 0.09 / 16 · … make a standard error of 0.125.
     const ImageEstimate a = constant_estimate(4, 4, 1.25f, 0.16f);
