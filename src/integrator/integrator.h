@@ -102,11 +102,15 @@ struct IntegratorEntry {
     std::unique_ptr<const Integrator> (*make)(const IntegratorOptions&);
     int longest_path = std::numeric_limits<int>::max();  ///< edges
     bool has_strategies = false;                         ///< it looks at the options for them
+    bool shows_light = true;                             ///< false: something else, for finding out what is wrong
 };
 
 [[nodiscard]] std::span<const IntegratorEntry> integrator_registry();
 
 /// Null if there is no integrator of that name.
+[[nodiscard]] const IntegratorEntry* find_integrator(std::string_view name);
+
+/// The same.
 [[nodiscard]] std::unique_ptr<const Integrator> make_integrator(std::string_view name,
                                                                 const IntegratorOptions& options);
 

@@ -63,8 +63,8 @@ constexpr IntegratorEntry kRegistry[] = {
      .make = make_bdpt,
      .has_strategies = true},
     {"whitted", "mirrored and refracted rays, direct light, and no more", make_whitted},
-    {"normals", "shading normals, for debugging", make_normals},
-    {"albedo", "scattered share of light, for debugging", make_albedo},
+    {.name = "normals", .summary = "shading normals, for debugging", .make = make_normals, .shows_light = false},
+    {.name = "albedo", .summary = "scattered share of light, for debugging", .make = make_albedo, .shows_light = false},
 };
 
 }  // namespace
@@ -73,10 +73,14 @@ std::span<const IntegratorEntry> integrator_registry() {
     return kRegistry;
 }
 
+const IntegratorEntry* find_integrator(std::string_view name) {
+    const auto* const found = std::ranges::find(kRegistry, name, &IntegratorEntry::name);
+    return found != std::ranges::end(kRegistry) ? found : nullptr;
+}
+
 std::unique_ptr<const Integrator> make_integrator(std::string_view name, const IntegratorOptions& options) {
-    for (const IntegratorEntry& entry : kRegistry)
-        if (entry.name == name) return entry.make(options);
-    return nullptr;
+    const IntegratorEntry* const entry = find_integrator(name);
+    return entry != nullptr ? entry->make(options) : nullptr;
 }
 
 }  // namespace etendue
