@@ -103,6 +103,16 @@ std::vector<std::string> integrator_names() {
     return names;
 }
 
+CLI::Validator real_range(double least, double most) {
+    const auto check = [least, most](const std::string& text) {
+        double value = 0.0;
+        // Written so that NaN does not pass.
+        if (CLI::detail::lexical_cast(text, value) && value >= least && value <= most) return std::string();
+        return fmt::format("'{}' is not a number from {:g} to {:g}", text, least, most);
+    };
+    return CLI::Validator(check, fmt::format("FLOAT in [{:g} - {:g}]", least, most));
+}
+
 std::array<int, 4> parse_pixel_window(const std::string& option, const std::string& text) {
     std::array<int, 4> c{};
     char rest = 0;
@@ -133,14 +143,14 @@ void SettingsOverrides::add_options(CLI::App& command) {
         "--frames", [this](const std::string& text) { frames = parse_frames(text); },
         "Render a sequence, FIRST:LAST or FIRST:LAST:STEP, or one frame of it; frame f is at time code + f / fps");
     command.add_option("--fps", moment.fps, "Frames per second of a sequence (default: 24)")
-        ->check(CLI::Range(1e-3, 1e6));
+        ->check(real_range(1e-3, 1e6));
     command.add_option_function<std::string>(
         "--shutter", [this](const std::string& text) { moment.shutter = parse_shutter(text); },
         "Blur what moves from OPEN to CLOSE, seconds from the moment shown: OPEN:CLOSE (default: no motion blur)");
     command.add_option("--variant", variant, "Name of the file's set of materials (KHR_materials_variants)");
     command.add_option("--seed", seed, "Seed of everything random");
     command.add_option("--time", time_seconds, "Start no new pass after this many seconds")
-        ->check(CLI::Range(1e-3, 1e9));
+        ->check(real_range(1e-3, 1e9));
     command
         .add_option("--max-depth", max_depth, "Most edges of a path from camera to light; 1 is emission seen directly")
         ->check(CLI::Range(1, kMostEdges));
@@ -177,7 +187,7 @@ void SettingsOverrides::add_options(CLI::App& command) {
         "--texture-memory", [this](const std::string& text) { texture_memory = parse_texture_memory(text); },
         "Memory for decoded textures, such as 8G or 512M; scenes with more read them piece by piece as they are "
         "needed (default: half of the machine's)");
-    command.add_option("--exposure", exposure, "Exposure of the preview image, stops")->check(CLI::Range(-64.0, 64.0));
+    command.add_option("--exposure", exposure, "Exposure of the preview image, stops")->check(real_range(-64.0, 64.0));
     command.add_option("--view", view, "OpenColorIO view of the preview image");
     command.add_option("--working-space", working_space, "Scene-linear space to render in and to write");
     auto* half = command.add_flag_callback(

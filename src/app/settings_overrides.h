@@ -14,7 +14,8 @@
 
 namespace CLI {
 class App;
-}
+class Validator;
+}  // namespace CLI
 
 namespace etendue {
 
@@ -60,6 +61,9 @@ struct SettingsOverrides {
 
 /// Of the registry, in its order.
 [[nodiscard]] std::vector<std::string> integrator_names();
+
+/// Checks that an option's value is a number from `least` to `most`; NaN, which CLI::Range lets pass, is not.
+[[nodiscard]] CLI::Validator real_range(double least, double most);
 
 /// "100,100,200,200" to x0, y0, x1, y1. Throws the error that CLI11 shows for `option` unless 0 <= x0 < x1 and
 /// 0 <= y0 < y1.
