@@ -150,17 +150,8 @@ void report_dropped(const RenderCounters& counters, const SceneRenderRequest& re
         counters.dropped, first.sample, first.x, first.y, command);
 }
 
-/// Fails now if the files cannot be written later: better found before hours of rendering than after.
-void check_writable(const OutputPaths& paths) {
-    const std::filesystem::path parent = paths.exr.parent_path();
-    const std::filesystem::path directory = parent.empty() ? "." : parent;
-    if (!std::filesystem::is_directory(directory))
-        throw IoError(fmt::format("cannot write {}: there is no directory {}", paths.exr.string(), directory.string()));
-    for (const std::filesystem::path& path : {paths.exr, paths.png, paths.json})
-        if (std::filesystem::is_directory(path))
-            throw IoError(fmt::format("cannot write {}: it is a directory", path.string()));
-    if (access(directory.c_str(), W_OK | X_OK) != 0)
-        throw IoError(fmt::format("cannot write {}: {} is not writable", paths.exr.string(), directory.string()));
+void require_all_writable(const OutputPaths& paths) {
+    for (const std::filesystem::path& path : {paths.exr, paths.png, paths.json}) require_writable(path);
 }
 
 }  // namespace
@@ -169,6 +160,17 @@ std::string quoted(const std::string& text) {
     std::string result = "'";
     for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
     return result + "'";
+}
+
+void require_writable(const std::filesystem::path& file) {
+    const std::filesystem::path parent = file.parent_path();
+    const std::filesystem::path directory = parent.empty() ? "." : parent;
+    if (!std::filesystem::is_directory(directory))
+        throw IoError(fmt::format("cannot write {}: there is no directory {}", file.string(), directory.string()));
+    if (std::filesystem::is_directory(file))
+        throw IoError(fmt::format("cannot write {}: it is a directory", file.string()));
+    if (access(directory.c_str(), W_OK | X_OK) != 0)
+        throw IoError(fmt::format("cannot write {}: {} is not writable", file.string(), directory.string()));
 }
 
 RenderOptions make_render_options(const RenderSettings& settings) {
@@ -198,9 +200,8 @@ IntegratorOptions integrator_options(const RenderSettings& settings) {
 }
 
 bool has_strategies(const std::string& integrator) {
-    return std::ranges::any_of(integrator_registry(), [&](const IntegratorEntry& entry) {
-        return entry.name == integrator && entry.has_strategies;
-    });
+    const IntegratorEntry* const entry = find_integrator(integrator);
+    return entry != nullptr && entry->has_strategies;
 }
 
 void require_strategies(const RenderSettings& settings, const SourceLocation& asked_for) {
@@ -278,10 +279,10 @@ SceneRenderResult render_scene(PreparedScene prepared, const SceneRenderRequest&
 
     const OutputPaths paths =
         OutputPaths::beside(request.output.empty() ? std::filesystem::path(scene.name + ".exr") : request.output);
-    check_writable(paths);
+    require_all_writable(paths);
     const bool shows_strategies = !request.strategies.output.empty();
     if (shows_strategies) {
-        check_writable(OutputPaths::beside(request.strategies.output));
+        require_all_writable(OutputPaths::beside(request.strategies.output));
         require_strategies(scene.settings, {"--strategies-image", {}});
     }
     const RenderOptions options = make_render_options(scene.settings);

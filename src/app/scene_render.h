@@ -49,6 +49,9 @@ struct PreparedScene {
 /// `text` as one word of a shell's command line.
 [[nodiscard]] std::string quoted(const std::string& text);
 
+/// Throws IoError if `file` cannot be written later: better found before hours of rendering than after.
+void require_writable(const std::filesystem::path& file);
+
 /// What the settings ask of the film and the sampler.
 [[nodiscard]] RenderOptions make_render_options(const RenderSettings& settings);
 
