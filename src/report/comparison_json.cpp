@@ -1,6 +1,5 @@
 #include "report/comparison_report.h"
 
-#include <cmath>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -9,32 +8,22 @@ namespace etendue {
 
 namespace {
 
+/// Writes numbers that are not finite as null.
 using Json = nlohmann::ordered_json;
 
-constexpr int kFormat = 1;
+constexpr int kFormat = 2;
 constexpr std::array kChannels{"R", "G", "B"};
-
-/// JSON has no NaN and no infinity.
-Json number(double value) {
-    return std::isfinite(value) ? Json(value) : Json();
-}
 
 Json window(const PixelRect& rect) {
     return {rect.x0, rect.y0, rect.x1, rect.y1};
 }
 
-Json color(const std::array<double, 3>& rgb) {
-    return {number(rgb[0]), number(rgb[1]), number(rgb[2])};
-}
-
 Json range(const SeedValues& values) {
-    return {{"mean", number(values.mean())}, {"min", number(values.least())}, {"max", number(values.largest())}};
+    return {{"mean", values.mean()}, {"min", values.least()}, {"max", values.largest()}};
 }
 
 Json spread(const SeedValues& values) {
-    Json single = Json::array();
-    for (const double value : values.values) single.push_back(number(value));
-    return {{"mean", number(values.mean())}, {"deviation", number(values.deviation())}, {"values", std::move(single)}};
+    return {{"mean", values.mean()}, {"deviation", values.deviation()}, {"values", values.values}};
 }
 
 template <typename Value, typename Write>
@@ -46,8 +35,8 @@ Json object(const std::map<std::string, Value>& members, const Write& write) {
 
 Json to_json(const ConvergenceStep& step) {
     return {{"spp", step.spp},
-            {"seconds", number(step.seconds)},
-            {"cpu_seconds", number(step.cpu_seconds)},
+            {"seconds", step.seconds},
+            {"cpu_seconds", step.cpu_seconds},
             {"errors", object(step.errors, range)}};
 }
 
@@ -57,27 +46,29 @@ Json to_json(const VariantReport& variant) {
     return {{"name", variant.name},
             {"options", variant.options},
             {"command", variant.command},
+            {"command_note", variant.command_note.empty() ? Json() : Json(variant.command_note)},
+            {"seeds", variant.seeds},
             {"cannot_find", variant.cannot_find},
             {"spp", variant.spp},
             {"seconds", range(variant.seconds)},
             {"cpu_seconds", range(variant.cpu_seconds)},
-            {"samples_per_cpu_second", number(variant.samples_per_cpu_second)},
+            {"samples_per_cpu_second", variant.samples_per_cpu_second},
             {"rays", variant.rays},
-            {"rays_per_second", number(variant.rays_per_second)},
-            {"mean", color(variant.mean)},
+            {"rays_per_second", variant.rays_per_second},
+            {"mean", variant.mean},
             {"dropped_samples", variant.dropped_samples},
             {"errors", object(variant.errors, spread)},
-            {"variance", number(variant.variance)},
-            {"efficiency", number(variant.efficiency)},
+            {"variance", variant.variance},
+            {"efficiency", variant.efficiency},
             {"convergence", std::move(convergence)},
             {"slopes", object(variant.slopes, [](const ConvergenceSlope& slope) {
-                 return Json{{"spp", number(slope.spp)}, {"seconds", number(slope.seconds)}};
+                 return Json{{"spp", slope.spp}, {"seconds", slope.seconds}};
              })}};
 }
 
 Json to_json(const std::optional<ReachedError>& reached) {
     if (!reached) return {};
-    return {{"seconds", number(reached->seconds)}, {"extrapolated", reached->extrapolated}};
+    return {{"seconds", reached->seconds}, {"extrapolated", reached->extrapolated}};
 }
 
 Json to_json(const BlockAgreement& agreement, const AgreementOptions& options) {
@@ -87,9 +78,9 @@ Json to_json(const BlockAgreement& agreement, const AgreementOptions& options) {
             {"means_agree", agreement.means_agree},
             {"block_size", options.block_size},
             {"tests", agreement.tests},
-            {"p_value", number(agreement.p_value)},
+            {"p_value", agreement.p_value},
             {"significance", options.significance},
-            {"mean_difference", number(agreement.mean_difference)},
+            {"mean_difference", agreement.mean_difference},
             {"mean_tolerance", options.mean_tolerance},
             {"worst",
              {{"x", worst.x},
@@ -97,21 +88,22 @@ Json to_json(const BlockAgreement& agreement, const AgreementOptions& options) {
               {"width", worst.width},
               {"height", worst.height},
               {"channel", kChannels.at(static_cast<std::size_t>(worst.channel))},
-              {"mean_a", number(worst.mean_a)},
-              {"mean_b", number(worst.mean_b)},
-              {"z", number(worst.z)}}},
+              {"mean_a", worst.mean_a},
+              {"mean_b", worst.mean_b},
+              {"z", worst.z}}},
             {"text", agreement.str()}};
 }
 
 Json to_json(const PairReport& pair) {
     return {{"a", pair.a},
             {"b", pair.b},
-            {"ratios", object(pair.ratios, number)},
+            {"ratios", pair.ratios},
             {"time_to_reach",
              {{"metric", "relmse"},
               {"a_reaches_b", to_json(pair.a_reaches_b)},
               {"b_reaches_a", to_json(pair.b_reaches_a)}}},
             {"comparable", pair.comparable},
+            {"different_light", pair.different_light.empty() ? Json() : Json(pair.different_light)},
             {"agreement", pair.agreement ? to_json(*pair.agreement, pair.agreement_options) : Json()}};
 }
 
@@ -119,11 +111,11 @@ Json to_json(const RegionReport& region) {
     Json variants = Json::array();
     for (const RegionVariant& variant : region.variants)
         variants.push_back({{"name", variant.name},
-                            {"mean", color(variant.mean)},
-                            {"mean_error", number(variant.mean_error.mean())},
-                            {"mean_error_deviation", number(variant.mean_error.deviation())},
+                            {"mean", variant.mean},
+                            {"mean_error", variant.mean_error.mean()},
+                            {"mean_error_deviation", variant.mean_error.deviation()},
                             {"errors", object(variant.errors, spread)},
-                            {"relmse_seconds", number(variant.rel_mse_seconds)}});
+                            {"relmse_seconds", variant.rel_mse_seconds}});
     return {
         {"name", region.name},    {"found", region.found},  {"x0", region.pixels.x0},         {"y0", region.pixels.y0},
         {"x1", region.pixels.x1}, {"y1", region.pixels.y1}, {"variants", std::move(variants)}};
@@ -137,15 +129,15 @@ Json to_json(const StrategiesReport& report) {
             rows.push_back({{"edges", edges}, {"images", Json::array()}});
         rows.back()["images"].push_back({{"s", strategy.s},
                                          {"t", strategy.t},
-                                         {"weighted_mean", number(strategy.weighted_mean)},
-                                         {"unweighted_mean", number(strategy.unweighted_mean)}});
+                                         {"weighted_mean", strategy.weighted_mean},
+                                         {"unweighted_mean", strategy.unweighted_mean}});
     }
     return {{"variant", report.variant}, {"spp", report.spp}, {"longest", report.longest}, {"rows", std::move(rows)}};
 }
 
 Json to_json(const ReferenceReport& reference) {
-    Json json{{"kind", reference.kind}, {"text", reference.text}, {"noise_relmse", number(reference.noise_rel_mse)}};
-    if (!reference.weights.empty()) json["weights"] = object(reference.weights, number);
+    Json json{{"kind", reference.kind}, {"text", reference.text}, {"noise_relmse", reference.noise_rel_mse}};
+    if (!reference.weights.empty()) json["weights"] = reference.weights;
     return json;
 }
 
@@ -187,7 +179,7 @@ std::string to_json(const ComparisonReport& report) {
               {"metrics", array(report.metrics)},
               {"maps", object(report.maps,
                               [](const MapScale& scale) {
-                                  return Json{{"low", number(scale.low)}, {"high", number(scale.high)}};
+                                  return Json{{"low", scale.low}, {"high", scale.high}};
                               })},
               {"notes", report.notes},
               {"variants", array(report.variants)},

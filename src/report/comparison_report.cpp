@@ -27,4 +27,9 @@ double SeedValues::largest() const {
     return values.empty() ? kUnknown : *std::ranges::max_element(values);
 }
 
+bool ComparisonReport::agrees() const {
+    return std::ranges::all_of(
+        pairs, [](const PairReport& pair) { return !pair.comparable || !pair.agreement || pair.agreement->agree(); });
+}
+
 }  // namespace etendue

@@ -57,6 +57,8 @@ struct VariantReport {
     std::string name{};
     std::string options{};                   ///< that make it what it is
     std::string command{};                   ///< that renders its first image
+    std::string command_note{};              ///< how what it renders differs from that; empty if it does not
+    std::vector<std::uint32_t> seeds{};      ///< of its renders, in their order
     std::vector<std::string> cannot_find{};  ///< sentences
     std::uint32_t spp = 0;
     SeedValues seconds{};
@@ -86,12 +88,13 @@ struct PairReport {
         ratios{};  ///< a's over b's: metrics, "relmse_seconds", "rays_per_second", "efficiency"
     std::optional<ReachedError> a_reaches_b{};
     std::optional<ReachedError> b_reaches_a{};
-    bool comparable = true;  ///< both find all light of the scene
+    std::string different_light{};  ///< why they show different light by what was asked for; empty if they do not
+    bool comparable = true;         ///< they show the same light, and both find all of it
     std::optional<BlockAgreement> agreement{};
     AgreementOptions agreement_options{};
 };
 
-/// One variant within a part of the image.
+/// One variant within a part of the image. Without a reference there are no errors.
 struct RegionVariant {
     std::string name{};
     std::array<double, 3> mean{};
@@ -157,12 +160,15 @@ struct ComparisonReport {
     std::uint32_t first_seed = 0;
     ReferenceReport reference;
     std::vector<ReportedMetric> metrics{};
-    std::map<std::string, MapScale> maps{};  ///< by the beginning of their images' keys: "error/relmse", "z"
+    std::map<std::string, MapScale> maps{};  ///< by the beginning of their images' keys: "error/relmse", or all of it
     std::vector<std::string> notes{};
     std::vector<VariantReport> variants{};
     std::vector<PairReport> pairs{};
     std::vector<RegionReport> regions{};
     std::optional<StrategiesReport> strategies{};
+
+    /// False if a test says of two comparable variants that their images differ.
+    [[nodiscard]] bool agrees() const;
 };
 
 /// docs/compare.md describes it.

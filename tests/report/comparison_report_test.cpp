@@ -24,8 +24,8 @@ ComparisonReport small_report() {
     report.seeds = 3;
     report.reference = {.kind = "pooled", .text = "Pooled.", .weights = {{"bdpt", 0.9}, {"path", 0.1}}};
     report.metrics.push_back({"relmse", "relMSE", "mean (v - r)^2"});
-    report.maps["z"] = {0.0, 4.5};
-    VariantReport path{.name = "path", .options = "--integrator path", .spp = 7};
+    report.maps["z/path/bdpt"] = {0.0, 4.5};
+    VariantReport path{.name = "path", .options = "--integrator path", .seeds = {4, 6, 8}, .spp = 7};
     path.seconds.values = {1.0, 2.0, 3.0};
     path.errors["relmse"].values = {0.5, 0.25, 0.75};
     path.convergence.push_back({.spp = 1, .seconds = 0.5, .errors = {{"relmse", {{2.0, 4.0, 6.0}}}}});
@@ -54,14 +54,16 @@ TEST(SeedValues, AreSummedUp) {
 
 TEST(ComparisonJson, HoldsWhatWasMeasured) {
     const Json json = Json::parse(to_json(small_report()));
-    EXPECT_EQ(json["format"], 1);
+    EXPECT_EQ(json["format"], 2);
     EXPECT_EQ(json["scene"]["crop"], Json({1, 2, 21, 22}));
     EXPECT_EQ(json["settings"]["seconds"], 2.0);
     EXPECT_TRUE(json["settings"]["spp"].is_null());
     EXPECT_EQ(json["reference"]["weights"]["bdpt"], 0.9);
-    EXPECT_EQ(json["maps"]["z"]["high"], 4.5);
+    EXPECT_EQ(json["maps"]["z/path/bdpt"]["high"], 4.5);
     const Json& path = json["variants"][0];
     EXPECT_EQ(path["seconds"]["mean"], 2.0);
+    EXPECT_EQ(path["seeds"], Json({4, 6, 8}));
+    EXPECT_TRUE(path["command_note"].is_null());
     EXPECT_EQ(path["errors"]["relmse"]["deviation"], 0.25);
     EXPECT_EQ(path["errors"]["relmse"]["values"].size(), 3u);
     EXPECT_EQ(path["convergence"][0]["errors"]["relmse"]["max"], 6.0);
@@ -69,6 +71,7 @@ TEST(ComparisonJson, HoldsWhatWasMeasured) {
     EXPECT_EQ(pair["time_to_reach"]["a_reaches_b"]["extrapolated"], true);
     EXPECT_TRUE(pair["time_to_reach"]["b_reaches_a"].is_null());
     EXPECT_EQ(pair["agreement"]["agree"], false);
+    EXPECT_TRUE(pair["different_light"].is_null());
     EXPECT_EQ(json["regions"][0]["x0"], 3);
     EXPECT_EQ(json["strategies"]["rows"].size(), 2u) << "a row for each length of path";
     EXPECT_EQ(json["strategies"]["rows"][0]["images"][1]["s"], 2);
@@ -85,6 +88,18 @@ TEST(ComparisonJson, WhatIsNotKnownIsNull) {
     EXPECT_TRUE(json["variants"][0]["slopes"]["relmse"]["seconds"].is_null());
     EXPECT_FALSE(json.contains("strategies"));
     EXPECT_TRUE(json["variants"][1]["errors"].empty());
+}
+
+TEST(ComparisonReport, OnlyComparableImagesCanDisagree) {
+    ComparisonReport report = small_report();
+    EXPECT_FALSE(report.agrees());
+    report.pairs[0].comparable = false;
+    EXPECT_TRUE(report.agrees());
+    report.pairs[0].comparable = true;
+    report.pairs[0].agreement->means_agree = true;
+    EXPECT_TRUE(report.agrees());
+    report.pairs[0].agreement.reset();
+    EXPECT_TRUE(report.agrees()) << "not tested";
 }
 
 /// What stands in the element with this id.
