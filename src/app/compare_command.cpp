@@ -2,8 +2,11 @@
 #include "app/commands.h"
 #include "app/comparison_images.h"
 #include "app/comparison_measures.h"
+#include "app/comparison_reference.h"
 #include "app/comparison_renders.h"
+#include "app/comparison_summary.h"
 #include "app/comparison_variants.h"
+#include "app/given_options.h"
 #include "app/image_pair.h"
 #include "app/interrupt.h"
 #include "app/library_versions.h"
@@ -18,7 +21,10 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
+#include <span>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -35,17 +41,13 @@ constexpr int kDefaultSeeds = 4;
 constexpr int kDefaultStrategies = 5;  // edges
 constexpr std::array kLetters{'a', 'b', 'c', 'd', 'e', 'f'};
 
-/// Far from those of the renders that are measured.
-constexpr std::uint32_t kReferenceSeed = 0x5eed0000u;
-
 struct CompareArguments {
     std::string scene;
     std::string output;
     std::vector<std::string> integrators;
     std::array<std::optional<std::string>, kLetters.size()> variants;
-    SettingsOverrides overrides;
-    std::string common_options;  ///< the overrides, as they stand on a command line
-    std::string command_line;
+    RenderRequest common;  ///< of all variants
+    std::string command;   ///< this comparison's
     std::optional<double> seconds;
     int seeds = kDefaultSeeds;
     std::string reference;
@@ -67,21 +69,11 @@ NamedRegion parse_region(const std::string& text) {
     return {text.substr(0, colon), {window[0], window[1], window[2], window[3]}, false};
 }
 
-/// The options among `chosen` that were given, as they would stand on a command line.
-std::string options_text(const std::vector<const CLI::Option*>& chosen) {
-    std::vector<std::string> words;
-    for (const CLI::Option* option : chosen) {
-        if (option->count() == 0) continue;
-        if (option->get_positional()) {
-            for (const std::string& value : option->results()) words.push_back(quoted(value));
-            continue;
-        }
-        words.push_back(option->get_name());
-        const bool is_flag = option->get_items_expected_max() == 0;
-        for (const std::string& value : is_flag ? std::vector<std::string>() : option->results())
-            words.push_back(quoted(value));
-    }
-    return fmt::format("{}", fmt::join(words, " "));
+/// What has one name could not be told apart.
+void require_different(const std::string& option, const std::vector<std::string>& names) {
+    std::set<std::string> known;
+    for (const std::string& name : names)
+        if (!known.insert(name).second) throw CLI::ValidationError(option, "'" + name + "' is named twice");
 }
 
 std::vector<VariantRequest> variant_requests(const CompareArguments& arguments) {
@@ -96,18 +88,19 @@ std::vector<VariantRequest> variant_requests(const CompareArguments& arguments) 
     return requests;
 }
 
-std::string join(const std::string& a, const std::string& b) {
-    return a.empty() || b.empty() ? a + b : a + " " + b;
+RenderBudget budget_of(const CompareArguments& arguments) {
+    if (arguments.common.overrides.spp) return {.spp = static_cast<std::uint32_t>(*arguments.common.overrides.spp)};
+    return {.seconds = arguments.seconds.value_or(kDefaultSeconds)};
 }
 
-ComparisonReport start_report(const CompareArguments& arguments, const Variant& variant,
-                              const std::vector<VariantRenders>& renders, const ThreadPool& threads) {
+ComparisonReport start_report(const CompareArguments& arguments, const Variant& variant, const RendersRequest& request,
+                              std::size_t rounds, const ThreadPool& threads) {
     const RenderSettings& settings = variant.settings;
     ComparisonReport report;
     report.program = software_name();
     report.created = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}",
                                  fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())));
-    report.command = arguments.command_line;
+    report.command = arguments.command;
     report.scene = scene_name(arguments.scene);
     report.scene_path = arguments.scene;
     report.width = settings.film.width;
@@ -120,81 +113,70 @@ ComparisonReport start_report(const CompareArguments& arguments, const Variant& 
     report.threads = threads.thread_count();
     report.isa = ray_tracer_info().isa;
     report.libraries = library_versions();
-    if (arguments.overrides.spp)
-        report.spp = static_cast<std::uint32_t>(*arguments.overrides.spp);
-    else
-        report.seconds = arguments.seconds.value_or(kDefaultSeconds);
-    report.seeds = static_cast<int>(renders.front().seeds.size());
-    report.first_seed = settings.seed;
+    report.seconds = request.budget.seconds;
+    report.spp = request.budget.spp;
+    report.seeds = static_cast<int>(rounds);
+    report.first_seed = request.first_seed;
     return report;
 }
 
-/// The command that renders a variant's first image.
-std::string render_command(const CompareArguments& arguments, const VariantReport& variant, std::uint32_t seed) {
-    std::string command = join("etendue render " + quoted(arguments.scene), arguments.common_options);
-    command = join(command, variant.options);
-    if (!arguments.overrides.spp) command += fmt::format(" --spp {}", variant.spp);
-    if (!arguments.overrides.seed) command += fmt::format(" --seed {}", seed);
-    return command + " --float -o image.exr";
-}
+/// A reference that is asked for: what can be known of it before anything is rendered.
+struct RequestedReference {
+    std::optional<ImageF> image{};     ///< of the file
+    std::optional<Variant> variant{};  ///< that renders it
+    double seconds = 0.0;              ///< that it renders for
+    std::vector<std::string> notes{};
+};
 
-std::optional<Reference> find_reference(const CompareArguments& arguments, const std::vector<Variant>& variants,
-                                        const std::vector<FinishedImages>& images, const MeasureContext& context,
-                                        ComparisonReport& report) {
+RequestedReference requested_reference(const CompareArguments& arguments, const std::vector<Variant>& variants,
+                                       const RenderBudget& budget, const ColorConfig& colors) {
+    RequestedReference requested;
     const Variant& first = variants.front();
-    const RenderOptions& sampling = first.sampling;
-    if (!arguments.reference.empty())
-        return Reference(read_scene_linear(arguments.reference, sampling.full_width, sampling.full_height,
-                                           sampling.window, report.working_space, context.colors),
-                         {.kind = "file", .text = fmt::format("The file {}.", arguments.reference)});
-    if (!arguments.reference_integrator.empty()) {
-        const Variant variant = with_integrator(first, arguments.reference_integrator);
-        const double seconds = arguments.reference_seconds.value_or(10.0 * report.seconds.value_or(kDefaultSeconds));
-        auto image = render_reference(variant, seconds, kReferenceSeed, context.threads, arguments.quiet);
-        if (!image) return std::nullopt;
-        for (const Variant& measured : variants)
-            if (measured.settings.integrator.type == variant.settings.integrator.type)
-                report.notes.push_back(
-                    fmt::format("the reference comes from '{}' alone, which '{}' is measured "
-                                "against: an error of that algorithm would not be seen",
-                                variant.name, measured.name));
-        return Reference(std::move(*image), {.kind = "integrator",
-                                             .text = fmt::format("Rendered by {} for {:g} s with a seed of its own.",
-                                                                 variant.name, seconds)});
+    if (!arguments.reference.empty()) {
+        const RenderOptions& sampling = first.sampling;
+        SceneLinearImage file = read_scene_linear(arguments.reference, sampling.full_width, sampling.full_height,
+                                                  sampling.window, first.settings.color.working_space, colors);
+        requested.image = std::move(file.pixels);
+        requested.notes = std::move(file.warnings);
+    } else if (!arguments.reference_integrator.empty()) {
+        requested.variant = with_integrator(first, arguments.reference_integrator);
+        requested.seconds = arguments.reference_seconds.value_or(10.0 * budget.seconds.value_or(kDefaultSeconds));
+        requested.notes = reference_notes(*requested.variant, variants);
     }
-    std::string why_not;
-    auto pooled = pool_reference(variants, images, report.pairs, why_not);
-    if (!pooled)
-        report.notes.push_back(
-            fmt::format("there is no reference, so no errors are given: {}; --reference or "
-                        "--reference-integrator give one",
-                        why_not));
-    return pooled;
+    return requested;
 }
 
-void print_summary(const ComparisonReport& report) {
-    for (const VariantReport& variant : report.variants) {
-        const auto error = [&](const char* metric) {
-            return variant.errors.contains(metric) ? variant.errors.at(metric).mean() : kUnknown;
-        };
-        log_info("{}: {} spp in {:.3g} s, relMSE {:.3g}, trimmed {:.3g}, {:.2f} Msamples per CPU s", variant.name,
-                 variant.spp, variant.seconds.mean(), error("relmse"), error("relmse-trimmed"),
-                 variant.samples_per_cpu_second * 1e-6);
+/// `seed` is that of its render, if it is rendered.
+std::optional<Reference> find_reference(const CompareArguments& arguments, RequestedReference requested,
+                                        std::uint32_t seed, const std::vector<Variant>& variants,
+                                        const std::vector<FinishedImages>& images, const ThreadPool& threads,
+                                        ComparisonReport& report) {
+    if (requested.image)
+        return Reference(std::move(*requested.image),
+                         {.kind = "file", .text = fmt::format("The file {}.", arguments.reference)});
+    if (!requested.variant) return pool_reference(variants, images, report.pairs, report.notes);
+    auto image = render_reference(*requested.variant, requested.seconds, seed, threads, arguments.quiet);
+    if (!image) {
+        report.notes.emplace_back(
+            "there is no reference, so no errors are given: it was not rendered, because the comparison was "
+            "interrupted");
+        return std::nullopt;
     }
-    for (const PairReport& pair : report.pairs) {
-        if (const auto ratio = pair.ratios.find("relmse_seconds"); ratio != pair.ratios.end())
-            log_info("relMSE x seconds of {} over that of {}: {:.3g}", pair.a, pair.b, ratio->second);
-        if (pair.agreement && pair.comparable)
-            log_info("{} and {} {}: {}", pair.a, pair.b, pair.agreement->agree() ? "agree" : "DISAGREE",
-                     pair.agreement->str());
-    }
-    for (const RegionReport& region : report.regions)
-        for (const RegionVariant& variant : region.variants)
-            if (!region.found)
-                log_info("{}, {}: relMSE {:.3g}, relMSE x seconds {:.3g}, mean off by {:.2f}% (deviation {:.2f}%)",
-                         region.name, variant.name, variant.errors.at("relmse").mean(), variant.rel_mse_seconds,
-                         100.0 * variant.mean_error.mean(), 100.0 * variant.mean_error.deviation());
-    for (const std::string& note : report.notes) log_warning("note: {}", note);
+    return Reference(std::move(*image), {.kind = "integrator",
+                                         .text = fmt::format("Rendered by {} for {:g} s with a seed of its own, {}.",
+                                                             requested.variant->name, requested.seconds, seed)});
+}
+
+/// Makes the directory and returns the files that the report will be in. Throws IoError if they could not be written.
+std::array<std::filesystem::path, 2> prepare_output(const std::filesystem::path& directory) {
+    std::error_code error;
+    std::filesystem::create_directories(directory, error);
+    if (!std::filesystem::is_directory(directory))
+        throw IoError(fmt::format("cannot make the directory {}: {}", directory.string(),
+                                  error ? error.message() : "there is something else of that name"));
+    const std::array files{directory / "report.json", directory / "index.html"};
+    for (const std::filesystem::path& file : files) require_writable(file);
+    return files;
 }
 
 void require_regions_within(const std::vector<NamedRegion>& regions, const PixelRect& window) {
@@ -205,79 +187,86 @@ void require_regions_within(const std::vector<NamedRegion>& regions, const Pixel
                                          region.name, window.x0, window.y0, window.x1, window.y1));
 }
 
-ExitCode write_report(const CompareArguments& arguments, const ComparisonReport& report, const ReportImages& images) {
-    const std::filesystem::path directory = arguments.output;
-    write_text(directory / "report.json", to_json(report));
-    write_text(directory / "index.html", make_page(report, images));
-    if (!arguments.quiet) {
-        print_summary(report);
-        log_info("{}", (directory / "index.html").string());
-    }
-    if (arguments.json) std::fputs(to_json(report).c_str(), stdout);
-    if (interrupt_requested()) return interrupt_exit_code();
-    const bool agree = std::ranges::all_of(report.pairs, [](const PairReport& pair) {
-        return !pair.comparable || !pair.agreement || pair.agreement->agree();
-    });
-    return agree ? ExitCode::Success : ExitCode::DiffFailed;
-}
-
 ExitCode run_compare(const CompareArguments& arguments) {
     const ThreadPool threads(arguments.threads);
     const ColorConfig colors = ColorConfig::from_environment();
-    const std::vector<Variant> variants = make_variants(arguments.scene, variant_requests(arguments),
-                                                        arguments.overrides, colors, threads, arguments.quiet);
+    const std::vector<Variant> variants =
+        make_variants(arguments.scene, variant_requests(arguments), arguments.common, colors, threads, arguments.quiet);
     const PixelRect& window = variants.front().sampling.window;
     require_regions_within(arguments.regions, window);
-    std::filesystem::create_directories(arguments.output);
+    const RendersRequest request{.budget = budget_of(arguments),
+                                 .seeds = arguments.seeds,
+                                 .first_seed = variants.front().settings.seed,
+                                 .quiet = arguments.quiet};
+    RequestedReference requested = requested_reference(arguments, variants, request.budget, colors);
+    if (!arguments.quiet)
+        for (const std::string& note : requested.notes) log_warning("note: {}", note);
+    const auto [json_file, page_file] = prepare_output(arguments.output);
     ImageStore store(arguments.output, window.width(), window.height(), 3);
-    RendersRequest request{
-        .seeds = arguments.seeds, .first_seed = variants.front().settings.seed, .quiet = arguments.quiet};
-    if (arguments.overrides.spp)
-        request.budget.spp = static_cast<std::uint32_t>(*arguments.overrides.spp);
-    else
-        request.budget.seconds = arguments.seconds.value_or(kDefaultSeconds);
     const std::vector<VariantRenders> renders = render_variants(variants, request, store, threads);
-    if (renders.front().seeds.empty()) return interrupt_exit_code();
+    const std::size_t rounds = renders.front().seeds.size();
+    if (rounds == 0) return interrupt_exit_code();
 
-    ComparisonReport report = start_report(arguments, variants.front(), renders, threads);
+    ComparisonReport report = start_report(arguments, variants.front(), request, rounds, threads);
+    report.notes = requested.notes;
+    const std::size_t notes_said = report.notes.size();
     if (report.seeds < arguments.seeds)
         report.notes.push_back(fmt::format("interrupted after {} of {} seeds", report.seeds, arguments.seeds));
     const MeasureContext context{colors, threads, store};
     const std::vector<FinishedImages> images = finished_images(renders, store);
     report.pairs = compare_pairs(variants, images);
-    const std::optional<Reference> reference = find_reference(arguments, variants, images, context, report);
+    // The one after those of all renders.
+    const std::uint32_t reference_seed =
+        render_seed(request.first_seed, static_cast<std::size_t>(request.seeds), 0, variants.size());
+    const std::optional<Reference> reference =
+        find_reference(arguments, std::move(requested), reference_seed, variants, images, threads, report);
     report.reference = reference ? reference->report() : ReferenceReport{.kind = "none", .text = "There is none."};
-    std::vector<NamedRegion> regions = arguments.regions;
-    if (regions.empty() && reference) regions = find_regions(images, *reference, window);
-    measure(report, variants, renders, images, reference, regions, context);
-    for (VariantReport& variant : report.variants)
-        variant.command = render_command(arguments, variant, report.first_seed);
+    const ErrorMaps maps = reference ? map_errors(images, *reference, report.working_space, context) : ErrorMaps{};
+    const std::vector<NamedRegion> regions =
+        arguments.regions.empty() ? find_regions(maps.rel_mse, window) : arguments.regions;
+    measure(report, variants, renders, images, reference, maps, regions, context);
+    for (std::size_t v = 0; v < variants.size(); ++v) {
+        VariantReport& variant = report.variants[v];
+        variant.command = render_command(arguments.scene, variants[v], variant.spp, variant.seeds.front());
+        variant.command_note = command_note(variants[v]);
+    }
 
     const DisplayView view{report.working_space, report.display, report.view, static_cast<float>(report.exposure)};
     ReportImages pictures;
-    add_images(pictures, report, images, reference, view, context);
+    add_images(pictures, report, images, reference, maps, view, context);
     const auto bdpt = std::ranges::find_if(
         variants, [](const Variant& variant) { return has_strategies(variant.settings.integrator.type); });
     if (bdpt != variants.end() && arguments.longest_strategy > 0)
         add_strategies(pictures, report, *bdpt, arguments.longest_strategy, view, context, arguments.quiet);
-    return write_report(arguments, report, pictures);
+
+    write_text(json_file, to_json(report));
+    write_text(page_file, make_page(report, pictures));
+    if (!arguments.quiet) {
+        print_summary(report, notes_said);
+        log_info("{}", page_file.string());
+    }
+    if (arguments.json) std::fputs(to_json(report).c_str(), stdout);
+    if (interrupt_requested()) return interrupt_exit_code();
+    return report.agrees() ? ExitCode::Success : ExitCode::DiffFailed;
 }
 
 void add_compare_options(CLI::App& command, CompareArguments& arguments) {
     command.add_option("scene", arguments.scene, "Scene directory, .gltf or .glb")->required();
     command
         .add_option("-o,--output", arguments.output, "Directory for report.json and index.html; made if it is missing")
-        ->required();
+        ->required()
+        ->check(CLI::Validator([](const std::string& text) { return std::string(text.empty() ? "it is empty" : ""); },
+                               "DIR"));
     auto* integrators = command.add_option("--integrators", arguments.integrators,
                                            "Algorithms to compare, separated by commas (default: path,bdpt)");
-    integrators->delimiter(',')->check(CLI::IsMember(integrator_names()));
+    integrators->delimiter(',')->allow_extra_args(false)->check(CLI::IsMember(integrator_names()));
     for (std::size_t i = 0; i < kLetters.size(); ++i)
         command
             .add_option(fmt::format("--variant-{}", kLetters[i]), arguments.variants[i],
                         "Options of 'render' that make this variant, in quotes; in place of --integrators")
             ->excludes(integrators);
     command.add_option("--seconds", arguments.seconds, "Time of each render (default: 10)")
-        ->check(CLI::Range(1e-3, 1e9));
+        ->check(real_range(1e-3, 1e9));
     command.add_option("--seeds", arguments.seeds, "Independent renders of each variant (default: 4)")
         ->check(CLI::Range(1, 1000));
     auto* file = command.add_option("--reference", arguments.reference, "EXR or HDR file to measure errors against")
@@ -288,15 +277,17 @@ void add_compare_options(CLI::App& command, CompareArguments& arguments) {
     command
         .add_option("--reference-seconds", arguments.reference_seconds,
                     "Time of that render (default: ten times --seconds)")
-        ->check(CLI::Range(1e-3, 1e9))
+        ->check(real_range(1e-3, 1e9))
         ->needs(by);
-    command.add_option_function<std::vector<std::string>>(
-        "--region",
-        [&arguments](const std::vector<std::string>& texts) {
-            for (const std::string& text : texts) arguments.regions.push_back(parse_region(text));
-        },
-        "Part of the image to report by itself, NAME:x0,y0,x1,y1; may be repeated (default: where variants differ "
-        "most)");
+    command
+        .add_option_function<std::vector<std::string>>(
+            "--region",
+            [&arguments](const std::vector<std::string>& texts) {
+                for (const std::string& text : texts) arguments.regions.push_back(parse_region(text));
+            },
+            "Part of the image to report by itself, NAME:x0,y0,x1,y1; may be repeated (default: where variants differ "
+            "most)")
+        ->allow_extra_args(false);
     command
         .add_option("--strategies-depth", arguments.longest_strategy,
                     "Longest paths whose strategies are shown for bdpt (default: 5); 0 for none")
@@ -315,11 +306,12 @@ void add_compare_command(CLI::App& app, Action& action) {
         app.add_subcommand("compare", "Render one scene in several ways and report which comes to the image soonest");
     add_compare_options(*command, *arguments);
     const std::size_t own = command->get_options().size();
-    arguments->overrides.add_options(*command);
+    arguments->common.overrides.add_options(*command);
     command->footer(
-        "Every variant is rendered with each seed, for the same time unless --spp is given, and its error is measured\n"
-        "on the way. Other options override render.json for all variants. Exit code 1 if variants that both find all\n"
-        "light of the scene do not make the same image.\n\n"
+        "Every variant is rendered as many times, each time with a seed that no other render has and for the same "
+        "time\n"
+        "unless --spp is given, and its error is measured on the way. Other options override render.json for all\n"
+        "variants. Exit code 1 if variants that show the same light and find all of it do not make the same image.\n\n"
         "Examples:\n"
         "  etendue compare scenes/caustic-glass -o report\n"
         "  etendue compare scenes/cornell-box --integrators path,bdpt,light --seconds 5 --seeds 8 -o report\n"
@@ -327,19 +319,18 @@ void add_compare_command(CLI::App& app, Action& action) {
         "  etendue compare scenes/veach-mis --variant-a '--integrator path' --variant-b '--integrator path --max-depth "
         "4' -o report");
     command->callback([arguments, command, own, &action] {
+        const CompareArguments& given = *arguments;
+        refuse_options_of_render(*command, false);
+        if (given.common.overrides.spp && given.seconds)
+            throw CLI::ValidationError("--seconds", "it and --spp exclude each other");
+        require_different("--integrators", given.integrators);
+        std::vector<std::string> regions;
+        for (const NamedRegion& region : given.regions) regions.push_back(region.name);
+        require_different("--region", regions);
         const std::vector<const CLI::Option*> all = std::as_const(*command).get_options();
-        arguments->command_line = join("etendue compare", options_text(all));
-        arguments->common_options = options_text({all.begin() + static_cast<std::ptrdiff_t>(own), all.end()});
+        arguments->command = command_line("etendue compare", given_options(all));
+        arguments->common.given = given_options(std::span(all).subspan(own));
         action = [arguments] {
-            if (arguments->overrides.time_seconds || arguments->overrides.frames) {
-                log_error("error: {} is for 'render'; here {}", arguments->overrides.frames ? "--frames" : "--time",
-                          arguments->overrides.frames ? "--time-code names the moment" : "it is --seconds");
-                return ExitCode::UsageError;
-            }
-            if (arguments->overrides.spp && arguments->seconds) {
-                log_error("error: --seconds and --spp exclude each other");
-                return ExitCode::UsageError;
-            }
             try {
                 return run_compare(*arguments);
             } catch (const CLI::ParseError& error) {

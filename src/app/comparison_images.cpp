@@ -1,12 +1,9 @@
 #include "app/comparison_images.h"
 
-#include "app/image_pair.h"
 #include "app/interrupt.h"
 #include "app/progress_display.h"
 #include "image/write.h"
 #include "metrics/color_map.h"
-#include "metrics/error_metrics.h"
-#include "metrics/flip.h"
 #include "metrics/pixel_selection.h"
 #include "render/strategy_pyramid.h"
 
@@ -28,27 +25,16 @@ constexpr double kMapQuantile = 0.95;
 constexpr int kStrategyWidth = 240;  // pixels
 constexpr std::uint32_t kStrategySpp = 8;
 
-void add_error_maps(ReportImages& images, ComparisonReport& report, std::span<const FinishedImages> finished,
-                    const Reference& reference, const MeasureContext& context) {
-    const auto linear = [&](const ImageF& image) {
-        return to_linear_rec709(image, false, report.working_space, context.colors);
-    };
-    const ExposureRange exposures = exposures_for(linear(reference.of_seed(0)));
-    std::vector<ImageF> rel_mse;
-    double largest = 0.0;
-    for (std::size_t v = 0; v < finished.size(); ++v) {
-        const ImageF& image = finished[v].of_seeds.front();
-        rel_mse.push_back(error_map(ErrorMetric::RelMse, image, reference.of_seed(0)));
-        largest = std::max(largest, quantile_of(rel_mse.back(), kMapQuantile));
-        const HdrFlip flip =
-            hdr_flip(linear(image), linear(reference.of_seed(0)),
-                     {.start_exposure = exposures.start, .stop_exposure = exposures.stop}, context.threads);
-        images["error/flip/" + report.variants[v].name] = encode_png(paint_magma(flip.map, 1.0));
-    }
+void add_error_maps(ReportImages& images, ComparisonReport& report, const ErrorMaps& maps) {
     // One scale for all, so that they can be compared.
+    double largest = 0.0;
+    for (const ImageF& map : maps.rel_mse) largest = std::max(largest, quantile_of(map, kMapQuantile));
     if (!(largest > 0.0)) largest = 1.0;
-    for (std::size_t v = 0; v < finished.size(); ++v)
-        images["error/relmse/" + report.variants[v].name] = encode_png(paint_magma(rel_mse[v], largest));
+    for (std::size_t v = 0; v < report.variants.size(); ++v) {
+        const std::string& name = report.variants[v].name;
+        images["error/flip/" + name] = encode_png(paint_magma(maps.flip[v], 1.0));
+        images["error/relmse/" + name] = encode_png(paint_magma(maps.rel_mse[v], largest));
+    }
     report.maps["error/flip"] = {0.0, 1.0};
     report.maps["error/relmse"] = {0.0, largest};
 }
@@ -82,13 +68,14 @@ double mean_luminance(const ImageF& rgba, const Rgb& weights) {
 }  // namespace
 
 void add_images(ReportImages& images, ComparisonReport& report, std::span<const FinishedImages> finished,
-                const std::optional<Reference>& reference, const DisplayView& view, const MeasureContext& context) {
+                const std::optional<Reference>& reference, const ErrorMaps& maps, const DisplayView& view,
+                const MeasureContext& context) {
     const auto shown = [&](const ImageF& image) { return encode_png(display_image(image, view, context.colors)); };
     for (std::size_t v = 0; v < finished.size(); ++v)
         images["image/" + report.variants[v].name] = shown(finished[v].of_seeds.front());
     if (reference) {
-        images["reference"] = shown(reference->of_seed(0));
-        add_error_maps(images, report, finished, *reference, context);
+        images["reference"] = shown(reference->of_round(0));
+        add_error_maps(images, report, maps);
     }
     std::size_t pair = 0;
     for (std::size_t a = 0; a < finished.size(); ++a)
@@ -98,11 +85,12 @@ void add_images(ReportImages& images, ComparisonReport& report, std::span<const 
             // The last colour is where the test fails.
             const double critical = critical_z(tested.agreement_options.significance, tested.agreement->tests);
             const int size = tested.agreement_options.block_size;
-            images[fmt::format("z/{}/{}", tested.a, tested.b)] =
+            const std::string key = fmt::format("z/{}/{}", tested.a, tested.b);
+            images[key] =
                 encode_png(paint_magma(agreement_map(widened_estimate(finished[a], size),
                                                      widened_estimate(finished[b], size), tested.agreement_options),
                                        critical));
-            report.maps["z"] = {0.0, critical};
+            report.maps[key] = {0.0, critical};
         }
 }
 

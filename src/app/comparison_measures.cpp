@@ -74,6 +74,7 @@ VariantReport describe(const Variant& variant, const VariantRenders& renders, co
     double rays = 0.0;
     double samples = 0.0;
     for (const SeedRender& seed : renders.seeds) {
+        report.seeds.push_back(seed.seed);
         report.spp = seed.checkpoints.back().spp;
         report.seconds.values.push_back(seed.checkpoints.back().seconds);
         report.cpu_seconds.values.push_back(seed.checkpoints.back().cpu_seconds);
@@ -89,7 +90,8 @@ VariantReport describe(const Variant& variant, const VariantRenders& renders, co
         for (std::size_t c = 0; c < 3; ++c) report.mean[c] += mean[c] / count;
     }
     report.variance = images.relative_variance;
-    report.efficiency = 1.0 / (report.variance * report.seconds.mean());
+    // Without any variance there is nothing to tell it by.
+    if (report.variance > 0.0) report.efficiency = 1.0 / (report.variance * report.seconds.mean());
     return report;
 }
 
@@ -102,7 +104,7 @@ void measure_convergence(VariantReport& report, const VariantRenders& renders, c
             const Checkpoint& checkpoint = renders.seeds[seed].checkpoints[i];
             step.seconds += checkpoint.seconds / static_cast<double>(renders.seeds.size());
             step.cpu_seconds += checkpoint.cpu_seconds / static_cast<double>(renders.seeds.size());
-            add(step.errors, compute_error_metrics(store.get(checkpoint.image), reference.of_seed(seed)));
+            add(step.errors, compute_error_metrics(store.get(checkpoint.image), reference.of_round(seed)));
         }
         report.convergence.push_back(std::move(step));
     }
@@ -123,21 +125,25 @@ void fit_slopes(VariantReport& report) {
                                      .seconds = log_log_slope(errors_after(report, metric, true)).value_or(kUnknown)};
 }
 
-/// HDR-FLIP of the finished images, all with the exposures of the first reference; returns its description.
-std::string measure_flip(ComparisonReport& report, std::span<const FinishedImages> images, const Reference& reference,
-                         const MeasureContext& context) {
-    const auto linear = [&](const ImageF& image) {
-        return to_linear_rec709(image, false, report.working_space, context.colors);
-    };
-    const ExposureRange exposures = exposures_for(linear(reference.of_seed(0)));
+/// HDR-FLIP with the same exposures for all images of a comparison.
+ImageF flip_map(const ImageF& image, const ImageF& reference, const ExposureRange& exposures,
+                const std::string& working_space, const MeasureContext& context) {
     const HdrFlipOptions options{.start_exposure = exposures.start, .stop_exposure = exposures.stop};
-    for (std::size_t v = 0; v < images.size(); ++v)
-        for (std::size_t seed = 0; seed < images[v].of_seeds.size(); ++seed) {
-            const HdrFlip flip =
-                hdr_flip(linear(images[v].of_seeds[seed]), linear(reference.of_seed(seed)), options, context.threads);
-            report.variants[v].errors[kFlip].values.push_back(mean_of(flip.map));
-        }
-    return describe_hdr_flip(options.pixels_per_degree, exposures);
+    return hdr_flip(to_linear_rec709(image, false, working_space, context.colors),
+                    to_linear_rec709(reference, false, working_space, context.colors), options, context.threads)
+        .map;
+}
+
+/// HDR-FLIP of the finished images, of the first of which there are maps.
+void measure_flip(ComparisonReport& report, std::span<const FinishedImages> images, const Reference& reference,
+                  const ErrorMaps& maps, const MeasureContext& context) {
+    for (std::size_t v = 0; v < images.size(); ++v) {
+        std::vector<double>& values = report.variants[v].errors[kFlip].values;
+        values.push_back(mean_of(maps.flip[v]));
+        for (std::size_t seed = 1; seed < images[v].of_seeds.size(); ++seed)
+            values.push_back(mean_of(flip_map(images[v].of_seeds[seed], reference.of_round(seed), maps.exposures,
+                                              report.working_space, context)));
+    }
 }
 
 std::optional<ReachedError> time_to_reach(const VariantReport& one, const VariantReport& other) {
@@ -156,24 +162,26 @@ void fill_ratios(PairReport& pair, const VariantReport& a, const VariantReport& 
     pair.b_reaches_a = time_to_reach(b, a);
 }
 
+/// Means, and errors if there is a reference.
 RegionReport measure_region(const NamedRegion& region, const ComparisonReport& report,
-                            std::span<const FinishedImages> images, const Reference& reference, const PixelRect& window,
-                            const Rgb& weights) {
+                            std::span<const FinishedImages> images, const std::optional<Reference>& reference,
+                            const PixelRect& window, const Rgb& weights) {
     RegionReport result{.name = region.name, .found = region.found, .pixels = region.pixels};
     const PixelRect pixels = within(region.pixels, window);
     for (std::size_t v = 0; v < images.size(); ++v) {
         RegionVariant variant{.name = report.variants[v].name};
         for (std::size_t seed = 0; seed < images[v].of_seeds.size(); ++seed) {
             const ImageF& image = images[v].of_seeds[seed];
-            const ImageF& expected = reference.of_seed(seed);
             const std::array<double, 3> mean = mean_color(image, pixels);
             for (std::size_t c = 0; c < 3; ++c)
                 variant.mean[c] += mean[c] / static_cast<double>(images[v].of_seeds.size());
+            if (!reference) continue;
+            const ImageF& expected = reference->of_round(seed);
             variant.mean_error.values.push_back(
                 luminance(mean, weights) / luminance(mean_color(expected, pixels), weights) - 1.0);
             add(variant.errors, compute_error_metrics(image, expected, {.region = pixels}));
         }
-        variant.rel_mse_seconds = variant.errors.at(kRelMse).mean() * report.variants[v].seconds.mean();
+        if (reference) variant.rel_mse_seconds = variant.errors.at(kRelMse).mean() * report.variants[v].seconds.mean();
         result.variants.push_back(std::move(variant));
     }
     return result;
@@ -181,12 +189,20 @@ RegionReport measure_region(const NamedRegion& region, const ComparisonReport& r
 
 }  // namespace
 
-std::vector<NamedRegion> find_regions(std::span<const FinishedImages> images, const Reference& reference,
-                                      const PixelRect& window) {
-    if (images.size() < 2) return {};
-    std::vector<ImageF> maps;
-    for (const FinishedImages& of_variant : images)
-        maps.push_back(error_map(ErrorMetric::RelMse, of_variant.of_seeds.front(), reference.of_seed(0)));
+ErrorMaps map_errors(std::span<const FinishedImages> images, const Reference& reference,
+                     const std::string& working_space, const MeasureContext& context) {
+    const ImageF& expected = reference.of_round(0);
+    ErrorMaps maps{.exposures = exposures_for(to_linear_rec709(expected, false, working_space, context.colors))};
+    for (const FinishedImages& of_variant : images) {
+        const ImageF& image = of_variant.of_seeds.front();
+        maps.rel_mse.push_back(error_map(ErrorMetric::RelMse, image, expected));
+        maps.flip.push_back(flip_map(image, expected, maps.exposures, working_space, context));
+    }
+    return maps;
+}
+
+std::vector<NamedRegion> find_regions(std::span<const ImageF> maps, const PixelRect& window) {
+    if (maps.size() < 2) return {};
     // Whole blocks, so that no two overlap.
     const int side = std::max(8, std::min(window.width(), window.height()) / 6);
     struct Candidate {
@@ -197,12 +213,11 @@ std::vector<NamedRegion> find_regions(std::span<const FinishedImages> images, co
     for (int y = 0; y + side <= window.height(); y += side)
         for (int x = 0; x + side <= window.width(); x += side) {
             const PixelRect block{x, y, x + side, y + side};
-            double least = mean_of(maps.front(), {.region = block});
-            double most = least;
-            for (const ImageF& map : maps) {
-                least = std::min(least, mean_of(map, {.region = block}));
-                most = std::max(most, mean_of(map, {.region = block}));
-            }
+            std::vector<double> errors;
+            for (const ImageF& map : maps) errors.push_back(mean_of(map, {.region = block}));
+            // They could not be sorted.
+            if (!std::ranges::all_of(errors, [](double error) { return std::isfinite(error); })) continue;
+            const auto [least, most] = std::ranges::minmax(errors);
             candidates.push_back({moved_to(block, x + window.x0, y + window.y0), most - least});
         }
     std::ranges::stable_sort(candidates, std::ranges::greater{}, &Candidate::difference);
@@ -213,7 +228,7 @@ std::vector<NamedRegion> find_regions(std::span<const FinishedImages> images, co
 }
 
 void measure(ComparisonReport& report, std::span<const Variant> variants, std::span<const VariantRenders> renders,
-             std::span<const FinishedImages> images, const std::optional<Reference>& reference,
+             std::span<const FinishedImages> images, const std::optional<Reference>& reference, const ErrorMaps& maps,
              std::span<const NamedRegion> regions, const MeasureContext& context) {
     for (std::size_t v = 0; v < variants.size(); ++v) {
         report.variants.push_back(describe(variants[v], renders[v], images[v]));
@@ -224,12 +239,13 @@ void measure(ComparisonReport& report, std::span<const Variant> variants, std::s
     if (reference) {
         for (const ErrorMetric metric : kErrorMetrics)
             report.metrics.push_back({key_of(metric), title_of(metric), formula_of(metric)});
-        report.metrics.push_back({kFlip, "HDR-FLIP", measure_flip(report, images, *reference, context)});
-        const Rgb weights = context.colors.luminance_weights(report.working_space);
-        for (const NamedRegion& region : regions)
-            report.regions.push_back(
-                measure_region(region, report, images, *reference, variants.front().sampling.window, weights));
+        measure_flip(report, images, *reference, maps, context);
+        report.metrics.push_back({kFlip, "HDR-FLIP", describe_hdr_flip(kFlipPixelsPerDegree, maps.exposures)});
     }
+    const Rgb weights = context.colors.luminance_weights(report.working_space);
+    for (const NamedRegion& region : regions)
+        report.regions.push_back(
+            measure_region(region, report, images, reference, variants.front().sampling.window, weights));
     for (PairReport& pair : report.pairs) {
         const auto named = [&](const std::string& name) -> const VariantReport& {
             return *std::ranges::find(report.variants, name, &VariantReport::name);

@@ -1,8 +1,9 @@
 // From the images of a comparison to what is reported of them.
 #pragma once
 
-#include "app/comparison_renders.h"
+#include "app/comparison_reference.h"
 #include "color/color_config.h"
+#include "metrics/flip.h"
 #include "report/comparison_report.h"
 
 #include <span>
@@ -11,47 +12,22 @@
 
 namespace etendue {
 
-/// What the images are compared with.
-class Reference {
-  public:
-    /// An image that has nothing to do with those that are measured.
-    Reference(ImageF image, ReferenceReport report);
-    /// A pooled one: for every seed an image that the renders with this seed had no part in.
-    Reference(std::vector<ImageF> of_seeds, ReferenceReport report);
-
-    [[nodiscard]] const ImageF& of_seed(std::size_t seed) const;
-    [[nodiscard]] const ReferenceReport& report() const { return report_; }
-
-  private:
-    std::vector<ImageF> images_;
-    ReferenceReport report_;
+/// What is measured with.
+struct MeasureContext {
+    const ColorConfig& colors;
+    const ThreadPool& threads;
+    const ImageStore& store;
 };
 
-/// The finished images of a variant.
-struct FinishedImages {
-    std::vector<ImageF> of_seeds;
-    ImageEstimate estimate;         ///< of two seeds or more
-    std::optional<int> block_size;  ///< smallest that can be tested; nothing if few pixels make up the whole image
-    double relative_variance = kUnknown;  ///< of one render
+/// How the first image of every variant differs from the reference, pixel by pixel: one channel each.
+struct ErrorMaps {
+    std::vector<ImageF> rel_mse{};
+    std::vector<ImageF> flip{};  ///< HDR-FLIP
+    ExposureRange exposures{};   ///< that all images are looked at with: those of the reference
 };
 
-[[nodiscard]] std::vector<FinishedImages> finished_images(std::span<const VariantRenders> renders,
-                                                          const ImageStore& store);
-
-/// Tests every two variants whose images can be tested, in the smallest blocks that both allow. Those count as
-/// comparable that find all light of the scene.
-[[nodiscard]] std::vector<PairReport> compare_pairs(std::span<const Variant> variants,
-                                                    std::span<const FinishedImages> images);
-
-/// The same estimate with its variance widened for splats that fall into several pixels of a block.
-[[nodiscard]] ImageEstimate widened_estimate(const FinishedImages& images, int block_size);
-
-/// The mean of all renders of the variants that find all light, weighted by one over their mean relative variance, of
-/// all seeds but one each time. Nothing if fewer than two variants find all light, if there are fewer than three seeds,
-/// or if those variants disagree or could not be tested; `why_not` says so then.
-[[nodiscard]] std::optional<Reference> pool_reference(std::span<const Variant> variants,
-                                                      std::span<const FinishedImages> images,
-                                                      std::span<const PairReport> pairs, std::string& why_not);
+[[nodiscard]] ErrorMaps map_errors(std::span<const FinishedImages> images, const Reference& reference,
+                                   const std::string& working_space, const MeasureContext& context);
 
 /// A part of the image to look at, in the full image's coordinates.
 struct NamedRegion {
@@ -60,20 +36,14 @@ struct NamedRegion {
     bool found = false;
 };
 
-/// The blocks of the image whose errors differ most between two of the variants, at most three.
-[[nodiscard]] std::vector<NamedRegion> find_regions(std::span<const FinishedImages> images, const Reference& reference,
-                                                    const PixelRect& window);
+/// The blocks of the image whose errors, of which each variant has a map, differ most between two of the variants; at
+/// most three. Blocks with an error that is not finite have no place among them.
+[[nodiscard]] std::vector<NamedRegion> find_regions(std::span<const ImageF> maps, const PixelRect& window);
 
-/// What is measured with.
-struct MeasureContext {
-    const ColorConfig& colors;
-    const ThreadPool& threads;
-    const ImageStore& store;
-};
-
-/// Fills `report.variants`, `metrics`, `pairs`' ratios and `regions`; errors where there is a reference.
+/// Fills `report.variants`, `metrics`, `pairs`' ratios and `regions`; errors where there is a reference, of which
+/// `maps` are then.
 void measure(ComparisonReport& report, std::span<const Variant> variants, std::span<const VariantRenders> renders,
-             std::span<const FinishedImages> images, const std::optional<Reference>& reference,
+             std::span<const FinishedImages> images, const std::optional<Reference>& reference, const ErrorMaps& maps,
              std::span<const NamedRegion> regions, const MeasureContext& context);
 
 }  // namespace etendue

@@ -1,5 +1,5 @@
-// What images are compared with, and whether they agree among themselves.
-#include "app/comparison_measures.h"
+#include "app/comparison_reference.h"
+
 #include "metrics/error_metrics.h"
 
 #include <algorithm>
@@ -14,13 +14,13 @@ namespace etendue {
 
 namespace {
 
-/// Adds `weight` times the mean of all images but the one of seed `left_out`.
+/// Adds `weight` times the mean of all images but the one of round `left_out`.
 void add_mean(ImageF& sum, std::span<const ImageF> images, std::size_t left_out, double weight) {
     const double scale = weight / static_cast<double>(images.size() - 1);
     for (std::size_t i = 0; i < sum.pixels.size(); ++i) {
         double value = 0.0;
-        for (std::size_t seed = 0; seed < images.size(); ++seed)
-            if (seed != left_out) value += static_cast<double>(images[seed].pixels[i]);
+        for (std::size_t round = 0; round < images.size(); ++round)
+            if (round != left_out) value += static_cast<double>(images[round].pixels[i]);
         sum.pixels[i] += static_cast<float>(scale * value);
     }
 }
@@ -31,17 +31,89 @@ std::string weights_text(const std::map<std::string, double>& weights) {
     return fmt::format("{}", fmt::join(parts, ", "));
 }
 
+/// Places of variants.
+using Members = std::vector<std::size_t>;
+
+/// Variants that find all of the light they show, by which light that is; most of one kind first.
+std::vector<Members> groups_of_light(std::span<const Variant> variants) {
+    std::vector<Members> groups;
+    for (std::size_t v = 0; v < variants.size(); ++v) {
+        if (!variants[v].cannot_find.empty()) continue;
+        const auto group = std::ranges::find_if(groups, [&](const Members& members) {
+            return different_light(variants[members.front()], variants[v]).empty();
+        });
+        if (group != groups.end())
+            group->push_back(v);
+        else
+            groups.push_back({v});
+    }
+    std::ranges::stable_sort(groups, std::ranges::greater{}, &Members::size);
+    return groups;
+}
+
+/// Why the first of `groups` cannot be pooled; empty if it can.
+std::string why_not_pooled(std::span<const Variant> variants, const std::vector<Members>& groups,
+                           std::span<const PairReport> pairs, std::size_t rounds) {
+    if (variants.size() < 2) return "one variant alone cannot be pooled";
+    if (groups.empty() || groups.front().size() < 2)
+        return "no two of the variants show the same light and find all of it, and none can be its own reference";
+    const Members& members = groups.front();
+    if (groups.size() > 1 && groups[1].size() == members.size())
+        return "the variants show different light, and as many of them one as another";
+    if (rounds < 3) return "pooling a reference needs three seeds or more";
+    const auto is_member = [&](const std::string& name) {
+        return std::ranges::any_of(members, [&](std::size_t v) { return variants[v].name == name; });
+    };
+    for (const PairReport& pair : pairs) {
+        if (!pair.comparable || !is_member(pair.a) || !is_member(pair.b)) continue;
+        if (!pair.agreement)
+            return fmt::format(
+                "so few pixels make up the image of '{}' or of '{}' that nothing can be said about their agreement: "
+                "give "
+                "them more time",
+                pair.a, pair.b);
+        if (!pair.agreement->agree())
+            return fmt::format("'{}' and '{}' do not make the same image, so none was pooled", pair.a, pair.b);
+    }
+    return "";
+}
+
+/// One over each variance, their sum being 1. What has no variance is known exactly: the others have no weight then.
+std::vector<double> pooling_weights(const std::vector<double>& variances) {
+    const bool some_are_exact = std::ranges::find(variances, 0.0) != variances.end();
+    std::vector<double> weights;
+    for (const double variance : variances)
+        weights.push_back(some_are_exact ? (variance == 0.0 ? 1.0 : 0.0) : 1.0 / variance);
+    const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+    for (double& weight : weights) weight /= sum;
+    return weights;
+}
+
+/// Notes about variants that `reference` says little about: they show different light than it.
+void add_different_light(std::vector<std::string>& notes, const Variant& reference, std::span<const Variant> variants) {
+    for (const Variant& variant : variants)
+        if (const std::string why = different_light(reference, variant); !why.empty())
+            notes.push_back(
+                fmt::format("the errors of '{}' are against an image of different light: {}", variant.name, why));
+}
+
+std::string made_alone_by(const std::string& integrator, const std::string& measured) {
+    return fmt::format(
+        "the reference comes from '{}' alone, which {} measured against: an error of that algorithm would not be seen",
+        integrator, measured);
+}
+
 }  // namespace
 
 Reference::Reference(ImageF image, ReferenceReport report) : report_(std::move(report)) {
     images_.push_back(std::move(image));
 }
 
-Reference::Reference(std::vector<ImageF> of_seeds, ReferenceReport report)
-    : images_(std::move(of_seeds)), report_(std::move(report)) {}
+Reference::Reference(std::vector<ImageF> of_rounds, ReferenceReport report)
+    : images_(std::move(of_rounds)), report_(std::move(report)) {}
 
-const ImageF& Reference::of_seed(std::size_t seed) const {
-    return images_.size() == 1 ? images_.front() : images_[seed];
+const ImageF& Reference::of_round(std::size_t round) const {
+    return images_.size() == 1 ? images_.front() : images_[round];
 }
 
 std::vector<FinishedImages> finished_images(std::span<const VariantRenders> renders, const ImageStore& store) {
@@ -72,8 +144,10 @@ std::vector<PairReport> compare_pairs(std::span<const Variant> variants, std::sp
         for (std::size_t b = a + 1; b < variants.size(); ++b) {
             PairReport pair{.a = variants[a].name,
                             .b = variants[b].name,
-                            .comparable = variants[a].cannot_find.empty() && variants[b].cannot_find.empty()};
-            if (images[a].block_size && images[b].block_size) {
+                            .different_light = different_light(variants[a], variants[b])};
+            const bool same_light = pair.different_light.empty();
+            pair.comparable = same_light && variants[a].cannot_find.empty() && variants[b].cannot_find.empty();
+            if (same_light && images[a].block_size && images[b].block_size) {
                 const int size = std::max(*images[a].block_size, *images[b].block_size);
                 pair.agreement_options.block_size = size;
                 // Of images that are still noisy the test of the whole says more than a fixed difference of means.
@@ -91,49 +165,51 @@ std::vector<PairReport> compare_pairs(std::span<const Variant> variants, std::sp
 }
 
 std::optional<Reference> pool_reference(std::span<const Variant> variants, std::span<const FinishedImages> images,
-                                        std::span<const PairReport> pairs, std::string& why_not) {
-    const std::size_t seeds = images.front().of_seeds.size();
-    if (seeds < 3) {
-        why_not = "pooling a reference needs three seeds or more";
+                                        std::span<const PairReport> pairs, std::vector<std::string>& notes) {
+    const std::size_t rounds = images.front().of_seeds.size();
+    const std::vector<Members> groups = groups_of_light(variants);
+    if (const std::string why_not = why_not_pooled(variants, groups, pairs, rounds); !why_not.empty()) {
+        notes.push_back(fmt::format(
+            "there is no reference, so no errors are given: {}; --reference or --reference-integrator give one",
+            why_not));
         return std::nullopt;
     }
-    for (const PairReport& pair : pairs)
-        if (pair.comparable && !pair.agreement) {
-            why_not = fmt::format(
-                "so few pixels make up the image of '{}' or of '{}' that nothing can be said about "
-                "their agreement: give them more time",
-                pair.a, pair.b);
-            return std::nullopt;
-        } else if (pair.comparable && !pair.agreement->agree()) {
-            why_not = fmt::format("'{}' and '{}' do not make the same image, so none was pooled", pair.a, pair.b);
-            return std::nullopt;
-        }
-    std::vector<double> weights(variants.size());
-    int complete = 0;
-    for (std::size_t v = 0; v < variants.size(); ++v) {
-        if (!variants[v].cannot_find.empty()) continue;
-        ++complete;
-        weights[v] = 1.0 / images[v].relative_variance;
-    }
-    if (complete < 2) {
-        why_not = "fewer than two of the variants find all light of the scene, and none can be its own reference";
-        return std::nullopt;
-    }
-    const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+    const Members& members = groups.front();
+    std::vector<double> variances;
+    for (const std::size_t v : members) variances.push_back(images[v].relative_variance);
+    const std::vector<double> weights = pooling_weights(variances);
     ReferenceReport report{.kind = "pooled", .noise_rel_mse = 0.0};
-    std::vector<ImageF> of_seeds(seeds, ImageF(images[0].estimate.mean.width, images[0].estimate.mean.height, 3));
-    for (std::size_t v = 0; v < variants.size(); ++v) {
-        if (!(weights[v] > 0.0)) continue;
-        const double weight = weights[v] / sum;
-        report.weights[variants[v].name] = weight;
-        report.noise_rel_mse += weight * weight * images[v].relative_variance / static_cast<double>(seeds - 1);
-        for (std::size_t seed = 0; seed < seeds; ++seed) add_mean(of_seeds[seed], images[v].of_seeds, seed, weight);
+    const ImageF& like = images.front().of_seeds.front();
+    std::vector<ImageF> of_rounds(rounds, ImageF(like.width, like.height, like.channels));
+    for (std::size_t i = 0; i < members.size(); ++i) {
+        const FinishedImages& member = images[members[i]];
+        report.weights[variants[members[i]].name] = weights[i];
+        report.noise_rel_mse += weights[i] * weights[i] * variances[i] / static_cast<double>(rounds - 1);
+        for (std::size_t round = 0; round < rounds; ++round)
+            add_mean(of_rounds[round], member.of_seeds, round, weights[i]);
     }
     report.text = fmt::format(
         "Pooled from the variants after they were found to agree: each image is measured against the mean of all "
-        "renders with other seeds, weighted by one over the variants' mean relative variance ({}).",
+        "renders of other rounds, weighted by one over the variants' mean relative variance ({}).",
         weights_text(report.weights));
-    return Reference(std::move(of_seeds), std::move(report));
+
+    const Variant& first = variants[members.front()];
+    const std::string& integrator = first.settings.integrator.type;
+    if (std::ranges::all_of(members, [&](std::size_t v) { return variants[v].settings.integrator.type == integrator; }))
+        notes.push_back(made_alone_by(integrator, "all variants that it was pooled from are"));
+    add_different_light(notes, first, variants);
+    return Reference(std::move(of_rounds), std::move(report));
+}
+
+std::vector<std::string> reference_notes(const Variant& reference, std::span<const Variant> variants) {
+    std::vector<std::string> notes;
+    for (const std::string& missing : reference.cannot_find)
+        notes.push_back(fmt::format("the reference lacks light, as '{}' makes it: {}", reference.name, missing));
+    for (const Variant& variant : variants)
+        if (variant.settings.integrator.type == reference.settings.integrator.type)
+            notes.push_back(made_alone_by(reference.name, fmt::format("'{}' is", variant.name)));
+    add_different_light(notes, reference, variants);
+    return notes;
 }
 
 }  // namespace etendue

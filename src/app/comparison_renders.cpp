@@ -56,7 +56,8 @@ class TimedRender {
         seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         cpu_seconds_ += process_cpu_seconds() - cpu_start;
         const double fraction = budget_.seconds ? seconds_ / *budget_.seconds : double(spp()) / double(*budget_.spp);
-        display_.update({.fraction = std::min(fraction, 1.0),
+        // Written so that no fraction at all, as of no time, is 1.
+        display_.update({.fraction = fraction < 1.0 ? fraction : 1.0,
                          .seconds = seconds_,
                          .samples = area_ * spp(),
                          .rays = render_.counters().rays()});
@@ -84,7 +85,7 @@ class TimedRender {
 };
 
 /// False if it is interrupted.
-bool render_seed(TimedRender& render, ImageStore& store, SeedRender& result) {
+bool keep_images(TimedRender& render, ImageStore& store, SeedRender& result) {
     std::uint32_t next = 1;
     const auto keep = [&] {
         result.checkpoints.push_back({render.spp(), render.seconds(), render.cpu_seconds(), store.add(render.image())});
@@ -102,6 +103,10 @@ bool render_seed(TimedRender& render, ImageStore& store, SeedRender& result) {
 
 }  // namespace
 
+std::uint32_t render_seed(std::uint32_t first, std::size_t render, std::size_t variant, std::size_t variants) {
+    return first + static_cast<std::uint32_t>(render * variants + variant);
+}
+
 std::vector<VariantRenders> render_variants(std::span<const Variant> variants, const RendersRequest& request,
                                             ImageStore& store, const ThreadPool& threads) {
     std::vector<VariantRenders> renders(variants.size());
@@ -109,10 +114,11 @@ std::vector<VariantRenders> render_variants(std::span<const Variant> variants, c
         for (std::size_t v = 0; v < variants.size(); ++v) {
             const RenderBudget budget =
                 seed == 0 ? request.budget : RenderBudget{.spp = renders[v].seeds.front().checkpoints.back().spp};
-            TimedRender render(variants[v], request.first_seed + static_cast<std::uint32_t>(seed), threads, budget,
+            SeedRender result{.seed =
+                                  render_seed(request.first_seed, static_cast<std::size_t>(seed), v, variants.size())};
+            TimedRender render(variants[v], result.seed, threads, budget,
                                fmt::format("{} {}/{}", variants[v].name, seed + 1, request.seeds), request.quiet);
-            SeedRender result;
-            if (!render_seed(render, store, result)) {
+            if (!keep_images(render, store, result)) {
                 for (VariantRenders& of_variant : renders) of_variant.seeds.resize(static_cast<std::size_t>(seed));
                 return renders;
             }

@@ -29,8 +29,9 @@ struct Checkpoint {
 
 /// One render with one seed.
 struct SeedRender {
-    std::vector<Checkpoint> checkpoints;  ///< the last is the finished image
-    RenderCounters counters;
+    std::uint32_t seed = 0;
+    std::vector<Checkpoint> checkpoints{};  ///< the last is the finished image
+    RenderCounters counters{};
 };
 
 struct VariantRenders {
@@ -44,10 +45,16 @@ struct RendersRequest {
     bool quiet = false;
 };
 
-/// Renders every variant with `seeds` seeds, one variant after the other for each seed, so that what else the machine
-/// does falls on all alike. The first seed of a variant takes as many samples as fit into the time, the others as many
-/// as the first. Images are kept after 1, 2, 3, 4, 6, 8, ... samples, a factor of sqrt(2) apart. Once an interrupt is
-/// requested, the seeds are returned that all variants have.
+/// The seed of a variant's render with number `render`, of `variants` that are rendered: no two renders have the same,
+/// so that all images are independent. Counts on from `first` by rounds of one render of each variant; what would be
+/// the number after the last seed there is, is 0.
+[[nodiscard]] std::uint32_t render_seed(std::uint32_t first, std::size_t render, std::size_t variant,
+                                        std::size_t variants);
+
+/// Renders every variant `seeds` times, each time with a seed of its own, one variant after the other, so that what
+/// else the machine does falls on all alike. The first render of a variant takes as many samples as fit into the time,
+/// the others as many as the first. Images are kept after 1, 2, 3, 4, 6, 8, ... samples, a factor of sqrt(2) apart.
+/// Once an interrupt is requested, the renders are returned that all variants have.
 [[nodiscard]] std::vector<VariantRenders> render_variants(std::span<const Variant> variants,
                                                           const RendersRequest& request, ImageStore& store,
                                                           const ThreadPool& threads);

@@ -1,9 +1,13 @@
 #include "app/comparison_variants.h"
 
 #include "core/log.h"
+#include "loader/loader.h"
 #include "world/compile.h"
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
+#include <string_view>
 #include <utility>
 
 #include <CLI/CLI.hpp>
@@ -13,13 +17,32 @@ namespace etendue {
 
 namespace {
 
-/// What of a scene the world depends on, as text: all but how its light is computed.
-std::string world_text(SceneDesc scene) {
+/// An option of `render` that `compare` takes no notice of, as it decides about that itself.
+struct OptionOfRender {
+    const char* name;
+    const char* instead;
+    bool for_all = false;  ///< it may be given, but to all variants alike
+};
+
+constexpr std::array kOptionsOfRender{
+    OptionOfRender{"--seed", "every variant gets seeds of its own; the first of all is --seed of 'compare'", true},
+    OptionOfRender{"--spp", "all variants render alike, for --seconds or with --spp of 'compare'", true},
+    OptionOfRender{"--time", "here it is --seconds, for all variants alike"},
+    OptionOfRender{"--frames", "here --time-code names the moment"},
+    OptionOfRender{"--half", "here no image file is written"},
+    OptionOfRender{"--float", "here no image file is written"}};
+
+/// What of a scene decides which light there is, as text: neither how it is computed nor what memory that takes.
+std::string light_text(SceneDesc scene) {
     scene.settings.integrator = {};
     scene.settings.spp = 1;
     scene.settings.seed = 0;
     scene.settings.time_limit = 0.0;
-    return dump(scene);
+    scene.settings.texture_memory.reset();
+    // The text of a scene has the names of its files only.
+    std::string text = dump(scene);
+    for (const std::filesystem::path& input : scene.inputs) text += input.string() + "\n";
+    return text;
 }
 
 void require_comparable(const Variant& first, const Variant& other) {
@@ -46,31 +69,54 @@ void complete(Variant& variant) {
     variant.cannot_find = variant.integrator->unreachable_light(*variant.world);
 }
 
+/// Lengths of the paths that an image shows, in edges.
+std::array<int, 2> path_window(const Variant& variant) {
+    const IntegratorSettings& settings = variant.settings.integrator;
+    return {settings.min_depth, std::min(settings.max_depth, find_integrator(settings.type)->longest_path)};
+}
+
 }  // namespace
 
-SettingsOverrides with_options(const SettingsOverrides& common, const std::string& options) {
-    SettingsOverrides overrides = common;
+void refuse_options_of_render(const CLI::App& command, bool of_variant) {
+    for (const OptionOfRender& option : kOptionsOfRender)
+        if ((of_variant || !option.for_all) && command.count(option.name) > 0)
+            throw CLI::ValidationError(option.name, fmt::format("is for 'render'; {}", option.instead));
+}
+
+RenderRequest with_options(const RenderRequest& common, const std::string& options) {
+    RenderRequest request = common;
     CLI::App parser;
-    overrides.add_options(parser);
+    // Its --help would be an exception that nobody expects.
+    parser.set_help_flag();
+    request.overrides.add_options(parser);
     parser.parse(options, false);
-    return overrides;
+    refuse_options_of_render(parser, true);
+    request.given = merged(common.given, given_options(std::as_const(parser).get_options()));
+    return request;
 }
 
 std::vector<Variant> make_variants(const std::filesystem::path& scene, std::span<const VariantRequest> requests,
-                                   const SettingsOverrides& common, const ColorConfig& colors,
-                                   const ThreadPool& threads, bool quiet) {
+                                   const RenderRequest& common, const ColorConfig& colors, const ThreadPool& threads,
+                                   bool quiet) {
+    const bool is_sequence = find_frames(scene).has_value();
     std::vector<Variant> variants;
-    std::vector<std::string> worlds;  // of each variant, as text
     for (const VariantRequest& request : requests) {
-        PreparedScene prepared = prepare_scene(scene, with_options(common, request.options));
+        RenderRequest merged_request = with_options(common, request.options);
+        if (is_sequence) merged_request.overrides.moment.frame = 0;
+        PreparedScene prepared = prepare_scene(scene, merged_request.overrides);
         const std::string working_space = resolve_colors(prepared.scene.settings, colors);
-        Variant variant{.name = request.name, .options = request.options, .settings = prepared.scene.settings};
-        worlds.push_back(world_text(prepared.scene));
-        for (std::size_t i = 0; i + 1 < worlds.size() && !variant.world; ++i)
-            if (worlds[i] == worlds.back()) variant.world = variants[i].world;
-        if (!variant.world)
-            variant.world = std::make_shared<const World>(
-                compile_world(std::move(prepared.scene), colors, working_space, threads, prepared.problems));
+        Variant variant{.name = request.name,
+                        .options = request.options,
+                        .given = std::move(merged_request.given),
+                        .settings = prepared.scene.settings,
+                        .light = light_text(prepared.scene)};
+        const auto same_world = std::ranges::find_if(variants, [&](const Variant& other) {
+            return other.light == variant.light && other.settings.texture_memory == variant.settings.texture_memory;
+        });
+        variant.world = same_world != variants.end()
+                            ? same_world->world
+                            : std::make_shared<const World>(compile_world(std::move(prepared.scene), colors,
+                                                                          working_space, threads, prepared.problems));
         if (variants.empty() && !quiet)
             for (const Problem& problem : prepared.problems.all()) log_warning("{}", problem.str());
         complete(variant);
@@ -78,18 +124,58 @@ std::vector<Variant> make_variants(const std::filesystem::path& scene, std::span
             for (const std::string& note : variant.integrator->ineffective_options(*variant.world))
                 log_warning("note: {}: {}", variant.name, note);
         if (!variants.empty()) require_comparable(variants.front(), variant);
+        if (!quiet)
+            for (const std::string& missing : variant.cannot_find) log_warning("note: {}: {}", variant.name, missing);
         variants.push_back(std::move(variant));
     }
     return variants;
 }
 
 Variant with_integrator(const Variant& like, const std::string& integrator) {
-    Variant variant{.name = integrator, .options = {}, .settings = like.settings, .world = like.world};
+    Variant variant{.name = integrator, .settings = like.settings, .world = like.world, .light = like.light};
     variant.settings.integrator.type = integrator;
     variant.settings.integrator.strategy.reset();
     variant.settings.integrator.weighted = true;
     complete(variant);
     return variant;
+}
+
+std::string different_light(const Variant& a, const Variant& b) {
+    for (const Variant* variant : {&a, &b}) {
+        if (!find_integrator(variant->settings.integrator.type)->shows_light)
+            return fmt::format("'{}' shows something else than light", variant->name);
+        if (const auto& strategy = variant->settings.integrator.strategy)
+            return fmt::format("'{}' shows the strategy {},{} alone", variant->name, (*strategy)[0], (*strategy)[1]);
+    }
+    const std::array<int, 2> of_a = path_window(a);
+    const std::array<int, 2> of_b = path_window(b);
+    if (of_a != of_b)
+        return fmt::format("'{}' shows paths of {} to {} edges, '{}' those of {} to {}", a.name, of_a[0], of_a[1],
+                           b.name, of_b[0], of_b[1]);
+    if (a.light != b.light)
+        return fmt::format(
+            "the scenes of '{}' and '{}' differ, in their camera, moment, lights, environment or materials", a.name,
+            b.name);
+    return "";
+}
+
+std::string render_command(const std::filesystem::path& scene, const Variant& variant, std::uint32_t spp,
+                           std::uint32_t seed) {
+    const std::vector<GivenOption> given = without(without(variant.given, "--spp"), "--seed");
+    std::string command = command_line("etendue render " + quoted(scene.string()), given);
+    if (variant.settings.frame) command += fmt::format(" --frames {}", *variant.settings.frame);
+    command += fmt::format(" --spp {} --seed {}", spp, seed);
+    // The scene's own limit, which is not looked at here, would cut the image short.
+    if (variant.settings.time_limit > 0.0) command += " --time 1e9";
+    return command + " --float -o image.exr";
+}
+
+std::string command_note(const Variant& variant) {
+    const IntegratorSettings& settings = variant.settings.integrator;
+    if (settings.cached_connections == 0 || !find_integrator(settings.type)->has_strategies) return "";
+    return "With cached connections the command renders an image of the same light with other noise: each pass fills "
+           "its "
+           "caches anew, and here passes end wherever an image is kept.";
 }
 
 }  // namespace etendue

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "image/read.h"
+#include "metrics/not_finite.h"
 #include "texture/srgb.h"
 
 #include <algorithm>
@@ -108,6 +109,11 @@ void require_same_display(const ComparedFile& a, const ComparedFile& b) {
                                                         size_text(a.display), b.path.string(), size_text(b.display)));
 }
 
+std::string assumed_space(const fs::path& path, const std::string& space, const std::string& like) {
+    return fmt::format("'{}' does not say its colour space; it is taken to be in '{}' as {} is", path.string(), space,
+                       like);
+}
+
 /// The space of both, with a word about what was assumed.
 std::string common_space(const ComparedFile& a, const ComparedFile& b, bool is_encoded,
                          std::vector<std::string>& warnings) {
@@ -124,8 +130,7 @@ std::string common_space(const ComparedFile& a, const ComparedFile& b, bool is_e
                                      a.color_space, b.path.string(), b.color_space));
     const ComparedFile& known = a.color_space.empty() ? b : a;
     const ComparedFile& unknown = a.color_space.empty() ? a : b;
-    warnings.push_back(fmt::format("'{}' does not say its colour space; it is taken to be in '{}' as '{}' is",
-                                   unknown.path.string(), known.color_space, known.path.string()));
+    warnings.push_back(assumed_space(unknown.path, known.color_space, fmt::format("'{}'", known.path.string())));
     return known.color_space;
 }
 
@@ -177,8 +182,8 @@ ImagePair read_image_pair(const fs::path& image, const fs::path& reference, cons
     return pair;
 }
 
-ImageF read_scene_linear(const fs::path& path, int full_width, int full_height, const PixelRect& window,
-                         const std::string& working_space, const ColorConfig& colors) {
+SceneLinearImage read_scene_linear(const fs::path& path, int full_width, int full_height, const PixelRect& window,
+                                   const std::string& working_space, const ColorConfig& colors) {
     const ImageInfo info = read_info(path);
     const ComparedFile file = describe_file(path, info, colors);
     const SourceLocation where{path.string(), ""};
@@ -190,13 +195,21 @@ ImageF read_scene_linear(const fs::path& path, int full_width, int full_height, 
         throw SceneError(
             where, fmt::format("it has the pixels {},{},{},{} only, not all of {},{},{},{}", file.data.x0, file.data.y0,
                                file.data.x1, file.data.y1, window.x0, window.y0, window.x1, window.y1));
-    ImageF rgb = rgb_in(read_pixels(path), file.data, window);
-    if (file.color_space.empty() || file.color_space == working_space) return rgb;
-    if (!knows_linear_space(file.color_space, colors))
+    SceneLinearImage image{.pixels = rgb_in(read_pixels(path), file.data, window), .warnings = {}};
+    if (file.color_space.empty()) {
+        image.warnings.push_back(assumed_space(path, working_space, "the render"));
+    } else if (file.color_space != working_space) {
+        if (!knows_linear_space(file.color_space, colors))
+            throw SceneError(where, fmt::format("it is in '{}', which is no linear space of the OpenColorIO config",
+                                                file.color_space));
+        convert(image.pixels, colors.matrix(file.color_space, working_space));
+    }
+    if (const NotFinite faults = find_not_finite(image.pixels); faults.count() > 0)
         throw SceneError(
-            where, fmt::format("it is in '{}', which is no linear space of the OpenColorIO config", file.color_space));
-    convert(rgb, colors.matrix(file.color_space, working_space));
-    return rgb;
+            where, fmt::format("{} of its pixels are NaN or infinite, the first is ({}, {}); nothing can be "
+                               "measured against them: render it anew, or give a --crop without them",
+                               faults.count(), faults.first.front().x + window.x0, faults.first.front().y + window.y0));
+    return image;
 }
 
 bool knows_linear_space(const std::string& color_space, const ColorConfig& colors) {

@@ -43,12 +43,19 @@ struct ImagePair {
 [[nodiscard]] ImagePair read_image_pair(const std::filesystem::path& image, const std::filesystem::path& reference,
                                         const ColorConfig& colors);
 
+/// R, G and B of a part of a file.
+struct SceneLinearImage {
+    ImageF pixels;
+    std::vector<std::string> warnings;  ///< what was assumed, one sentence each
+};
+
 /// R, G and B of the pixels `window` of the scene-linear file `path`, whose whole image has `full_width` times
 /// `full_height` pixels, converted from its colour space to `working_space`; one that says no space is taken to be in
-/// that. Throws SceneError if it is of another size or kind, lacks pixels of the window or is in an unknown space.
-[[nodiscard]] ImageF read_scene_linear(const std::filesystem::path& path, int full_width, int full_height,
-                                       const PixelRect& window, const std::string& working_space,
-                                       const ColorConfig& colors);
+/// that, with a warning. Throws SceneError if it is of another size or kind, lacks pixels of the window, has some that
+/// are not finite, or is in an unknown space.
+[[nodiscard]] SceneLinearImage read_scene_linear(const std::filesystem::path& path, int full_width, int full_height,
+                                                 const PixelRect& window, const std::string& working_space,
+                                                 const ColorConfig& colors);
 
 /// `image`, of a pair with these properties, as FLIP wants it: linear Rec.709. Integers are decoded from sRGB; floats
 /// are converted from `color_space`, or taken to be linear Rec.709 already if that is empty or the config does not
