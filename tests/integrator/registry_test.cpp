@@ -22,9 +22,16 @@ TEST(IntegratorRegistry, HoldsWhatTheDocumentationNames) {
         EXPECT_TRUE(names.contains(name)) << name;
 }
 
+TEST(IntegratorRegistry, KnowsWhichShowLight) {
+    for (const char* name : {"normals", "albedo"}) EXPECT_FALSE(find_integrator(name)->shows_light) << name;
+    for (const char* name : {"path", "direct", "naive", "light", "bdpt", "whitted"})
+        EXPECT_TRUE(find_integrator(name)->shows_light) << name;
+}
+
 TEST(IntegratorRegistry, UnknownNamesMakeNothing) {
     EXPECT_EQ(make_integrator("pathtracer", {}), nullptr);
     EXPECT_EQ(make_integrator("", {}), nullptr);
+    EXPECT_EQ(find_integrator("pathtracer"), nullptr);
 }
 
 }  // namespace
