@@ -307,6 +307,7 @@ void add_compare_command(CLI::App& app, Action& action) {
     add_compare_options(*command, *arguments);
     const std::size_t own = command->get_options().size();
     arguments->common.overrides.add_options(*command);
+    hide_options_of_render(*command);
     command->footer(
         "Every variant is rendered as many times, each time with a seed that no other render has and for the same "
         "time\n"
@@ -322,7 +323,7 @@ void add_compare_command(CLI::App& app, Action& action) {
         const CompareArguments& given = *arguments;
         refuse_options_of_render(*command, false);
         if (given.common.overrides.spp && given.seconds)
-            throw CLI::ValidationError("--seconds", "it and --spp exclude each other");
+            throw CLI::ValidationError("--seconds", "cannot be given with --spp: one of them ends a render");
         require_different("--integrators", given.integrators);
         std::vector<std::string> regions;
         for (const NamedRegion& region : given.regions) regions.push_back(region.name);

@@ -77,6 +77,11 @@ std::array<int, 2> path_window(const Variant& variant) {
 
 }  // namespace
 
+void hide_options_of_render(CLI::App& command) {
+    for (const OptionOfRender& option : kOptionsOfRender)
+        if (!option.for_all) command.get_option(option.name)->group("");
+}
+
 void refuse_options_of_render(const CLI::App& command, bool of_variant) {
     for (const OptionOfRender& option : kOptionsOfRender)
         if ((of_variant || !option.for_all) && command.count(option.name) > 0)

@@ -44,8 +44,12 @@ struct Variant {
     std::vector<std::string> cannot_find{};
 };
 
-/// Throws CLI::ValidationError if one of the options of `command` was given that are for `render` alone: for how long
-/// it renders, which images and into what file. Of a variant, the seed and the number of samples are among them.
+/// Leaves the options out of the help of `command` that are for `render` alone: for how long it renders, which images
+/// and into what file.
+void hide_options_of_render(CLI::App& command);
+
+/// Throws CLI::ValidationError if one of them was given. Of a variant, the seed and the number of samples are among
+/// them.
 void refuse_options_of_render(const CLI::App& command, bool of_variant);
 
 /// `common` and then `options`. Throws CLI::ParseError for options that it does not know, and for those that

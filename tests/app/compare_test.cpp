@@ -425,6 +425,14 @@ TEST_F(Compare, SaysWhatIsWrong) {
     EXPECT_FALSE(fs::exists(work_ / "report/report.json"));
 }
 
+TEST_F(Compare, HelpLeavesOutWhatIsRefused) {
+    const std::string help = run_etendue({"compare", "--help"}, work_).out;
+    for (const char* option : {"--time ", "--frames", "--half", "--float"})
+        EXPECT_EQ(help.find(option), std::string::npos) << option;
+    for (const char* option : {"--seed ", "--spp", "--max-depth"})
+        EXPECT_NE(help.find(option), std::string::npos) << option;
+}
+
 TEST_F(Compare, TheSceneMayStandAnywhere) {
     const std::string box = (folder_ / "box").string();
     for (const Names& arguments : {Names{"--integrators", "path,bdpt", box}, Names{"--region", "a:0,0,2,2", box}}) {
