@@ -174,7 +174,7 @@ std::array<std::filesystem::path, 2> prepare_output(const std::filesystem::path&
     if (!std::filesystem::is_directory(directory))
         throw IoError(fmt::format("cannot make the directory {}: {}", directory.string(),
                                   error ? error.message() : "there is something else of that name"));
-    const std::array files{directory / "report.json", directory / "index.html"};
+    std::array files{directory / "report.json", directory / "index.html"};
     for (const std::filesystem::path& file : files) require_writable(file);
     return files;
 }

@@ -27,6 +27,7 @@ void add_mean(ImageF& sum, std::span<const ImageF> images, std::size_t left_out,
 
 std::string weights_text(const std::map<std::string, double>& weights) {
     std::vector<std::string> parts;
+    parts.reserve(weights.size());
     for (const auto& [name, weight] : weights) parts.push_back(fmt::format("{} {:.3g}", name, weight));
     return fmt::format("{}", fmt::join(parts, ", "));
 }
@@ -82,6 +83,7 @@ std::string why_not_pooled(std::span<const Variant> variants, const std::vector<
 std::vector<double> pooling_weights(const std::vector<double>& variances) {
     const bool some_are_exact = std::ranges::find(variances, 0.0) != variances.end();
     std::vector<double> weights;
+    weights.reserve(variances.size());
     for (const double variance : variances)
         weights.push_back(some_are_exact ? (variance == 0.0 ? 1.0 : 0.0) : 1.0 / variance);
     const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);

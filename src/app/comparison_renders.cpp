@@ -71,7 +71,7 @@ class TimedRender {
     [[nodiscard]] RenderCounters counters() const { return render_.counters(); }
 
   private:
-    [[nodiscard]] static SamplingOptions with_seed(SamplingOptions options, std::uint32_t seed) {
+    [[nodiscard]] static RenderOptions with_seed(RenderOptions options, std::uint32_t seed) {
         options.seed = seed;
         return options;
     }
