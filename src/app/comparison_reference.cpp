@@ -70,8 +70,7 @@ std::string why_not_pooled(std::span<const Variant> variants, const std::vector<
         if (!pair.agreement)
             return fmt::format(
                 "so few pixels make up the image of '{}' or of '{}' that nothing can be said about their agreement: "
-                "give "
-                "them more time",
+                "give them more time",
                 pair.a, pair.b);
         if (!pair.agreement->agree())
             return fmt::format("'{}' and '{}' do not make the same image, so none was pooled", pair.a, pair.b);

@@ -179,8 +179,7 @@ std::string command_note(const Variant& variant) {
     const IntegratorSettings& settings = variant.settings.integrator;
     if (settings.cached_connections == 0 || !find_integrator(settings.type)->has_strategies) return "";
     return "With cached connections the command renders an image of the same light with other noise: each pass fills "
-           "its "
-           "caches anew, and here passes end wherever an image is kept.";
+           "its caches anew, and here passes end wherever an image is kept.";
 }
 
 }  // namespace etendue
