@@ -136,6 +136,7 @@ std::vector<FinishedImages> finished_images(std::span<const VariantRenders> rend
 ImageEstimate widened_estimate(const FinishedImages& images, int block_size) {
     ImageEstimate estimate = images.estimate;
     widen_for_correlation(estimate, images.of_seeds, block_size);
+    pool_variance(estimate, block_size);
     return estimate;
 }
 

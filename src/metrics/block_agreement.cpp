@@ -71,21 +71,44 @@ double variance_of_means(std::span<const ImageF> renders, const PixelRect& regio
     return squares / (count - 1.0) / count;
 }
 
-/// False if few of the values of a region make up its mean.
-bool has_many_values(std::span<const ImageF> renders, const PixelRect& region, int channel) {
+/// How many equal numbers above zero would have the same sum and the same sum of squares (Kish 1965).
+class EffectiveCount {
+  public:
+    void add(double value) {
+        sum_ += value;
+        squares_ += value * value;
+    }
+    /// True of zeros only, too.
+    [[nodiscard]] bool is_at_least(double count) const { return sum_ * sum_ >= count * squares_; }
+
+  private:
+    double sum_ = 0.0;
+    double squares_ = 0.0;
+};
+
+/// False if few of the values of a region make up its mean; or, unless it is `whole`, the variance of that.
+bool has_many_values(std::span<const ImageF> renders, const PixelRect& region, int channel, bool is_whole) {
     constexpr double kMany = 100.0;
     constexpr double kMost = 0.25;  // of all
-    double sum = 0.0;
-    double squares = 0.0;
-    for (const ImageF& render : renders)
-        for (int y = region.y0; y < region.y1; ++y)
-            for (int x = region.x0; x < region.x1; ++x) {
-                const auto value = static_cast<double>(render.pixel(x, y)[static_cast<std::size_t>(channel)]);
-                sum += value;
-                squares += value * value;
+    constexpr double kManyDeviations = 4.0;
+    constexpr double kMostDeviations = 0.01;  // of all
+    const auto c = static_cast<std::size_t>(channel);
+    const auto count = static_cast<double>(renders.size());
+    EffectiveCount values;
+    EffectiveCount deviations;
+    for (int y = region.y0; y < region.y1; ++y)
+        for (int x = region.x0; x < region.x1; ++x) {
+            double sum = 0.0;
+            for (const ImageF& render : renders) sum += static_cast<double>(render.pixel(x, y)[c]);
+            for (const ImageF& render : renders) {
+                const auto value = static_cast<double>(render.pixel(x, y)[c]);
+                values.add(value);
+                deviations.add((value - sum / count) * (value - sum / count));
             }
-    const double all = static_cast<double>(region.area()) * static_cast<double>(renders.size());
-    return squares == 0.0 || sum * sum >= std::min(kMany, kMost * all) * squares;
+        }
+    const double all = static_cast<double>(region.area()) * count;
+    return values.is_at_least(std::min(kMany, kMost * all)) &&
+           (is_whole || deviations.is_at_least(std::min(kManyDeviations, kMostDeviations * all)));
 }
 
 void require_estimates(const ImageEstimate& a, const ImageEstimate& b) {
@@ -160,16 +183,34 @@ ImageEstimate estimate_image(std::span<const ImageF> renders) {
     return result;
 }
 
+void pool_variance(ImageEstimate& estimate, int block_size) {
+    const ImageF own = estimate.variance;
+    for (const PixelRect& block : blocks(own, block_size)) {
+        const PixelRect around{std::max(block.x0 - block_size, 0), std::max(block.y0 - block_size, 0),
+                               std::min(block.x1 + block_size, own.width), std::min(block.y1 + block_size, own.height)};
+        for (int channel = 0; channel < own.channels; ++channel) {
+            const double of_block = mean_of(own, block, channel);
+            const double of_neighbours = mean_of(own, around, channel);
+            if (!(of_neighbours > of_block)) continue;
+            for (int y = block.y0; y < block.y1; ++y)
+                for (int x = block.x0; x < block.x1; ++x)
+                    estimate.variance.pixel(x, y)[static_cast<std::size_t>(channel)] =
+                        static_cast<float>(of_neighbours);
+        }
+    }
+}
+
 std::optional<int> testable_block_size(std::span<const ImageF> renders, int least) {
     const ImageF& first = renders.front();
     for (int size = least;; size *= 2) {
+        const bool is_whole = size >= std::max(first.width, first.height);
         const bool all = std::ranges::all_of(blocks(first, size), [&](const PixelRect& block) {
             for (int channel = 0; channel < first.channels; ++channel)
-                if (!has_many_values(renders, block, channel)) return false;
+                if (!has_many_values(renders, block, channel, is_whole)) return false;
             return true;
         });
         if (all) return size;
-        if (size >= std::max(first.width, first.height)) return std::nullopt;
+        if (is_whole) return std::nullopt;
     }
 }
 

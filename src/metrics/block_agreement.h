@@ -42,11 +42,17 @@ struct AgreementOptions {
 /// factor. Throws std::invalid_argument as `estimate_image`.
 double widen_for_correlation(ImageEstimate& estimate, std::span<const ImageF> renders, int block_size);
 
-/// The side of the smallest blocks, `least` pixels times a power of two, whose means are near enough to normally
-/// distributed to be tested: where a few pixels make the mean of a block, as where light is found by chance, others
-/// like them are missing from the blocks next to it, and neither variance is known. Every block has 100 values or more
-/// that count (Kish 1965: (sum x)² / sum x², over its pixels in all renders), or a quarter of all. The last size is
-/// that of the whole image; nothing if not even that will do.
+/// Raises the variances of every block, where they are less, to the mean of those of the up to nine blocks around and
+/// including it. Where light is found by chance, the blocks that have met little of it by chance are too dark and look
+/// sure of it; what their neighbours have met tells how unsure they are.
+void pool_variance(ImageEstimate& estimate, int block_size);
+
+/// The side of the smallest blocks, `least` pixels times a power of two, whose means can be tested: where a few pixels
+/// make the mean of a block or its variance, as where light is found by chance, others like them are missing from the
+/// blocks next to it, and neither variance is known. Of every block's values, over its pixels in all renders, 100 or
+/// more count for the mean, or a quarter of all (Kish 1965: (sum x)² / sum x²), and 4 or more, or a hundredth of all,
+/// for the variance (the same of squared deviations from the pixel's mean), but in the last size, which is that of the
+/// whole image; nothing if even there the mean hangs on few.
 [[nodiscard]] std::optional<int> testable_block_size(std::span<const ImageF> renders, int least);
 
 /// A block, or the whole image, and how it differs.

@@ -209,6 +209,62 @@ TEST(TestableBlockSize, GrowsUntilManyValuesCount) {
     EXPECT_EQ(testable_block_size(std::vector<ImageF>(2, ImageF(64, 64, 1)), 16), 16) << "black";
 }
 
+TEST(TestableBlockSize, GrowsUntilMoreThanAFewValuesVary) {
+    // As bright everywhere, and a little brighter in single pixels of the first render.
+    const auto renders = [](int spacing) {
+        std::vector<ImageF> images(2, ImageF(64, 64, 1));
+        for (ImageF& image : images) image.pixels.assign(image.pixels.size(), 1.0f);
+        for (int y = 0; y < 64; y += spacing)
+            for (int x = 0; x < 64; x += spacing) images[0].pixel(x, y)[0] = 1.5f;
+        return images;
+    };
+    EXPECT_EQ(testable_block_size(renders(8), 16), 16);
+    // One pixel that varies in 16 × 16, in two renders two values; 4 in 32 × 32.
+    EXPECT_EQ(testable_block_size(renders(16), 16), 32);
+    EXPECT_EQ(testable_block_size(renders(64), 16), 64) << "the whole image is tested however few vary";
+}
+
+TEST(PoolVariance, RaisesToTheMeanAround) {
+    ImageEstimate estimate = constant_estimate(48, 48, 1.0f, 1.0f);
+    for (int y = 16; y < 32; ++y)
+        for (int x = 16; x < 32; ++x) estimate.variance.pixel(x, y)[0] = 10.0f;
+    pool_variance(estimate, 16);
+    EXPECT_FLOAT_EQ(estimate.variance.pixel(20, 20)[0], 10.0f) << "never lowered";
+    EXPECT_FLOAT_EQ(estimate.variance.pixel(20, 0)[0], (5.0f + 10.0f) / 6.0f);
+    EXPECT_FLOAT_EQ(estimate.variance.pixel(0, 0)[0], (3.0f + 10.0f) / 4.0f);
+}
+
+/// Renders of an image that is 1 everywhere: most of it with a little noise; `rare` of its light in flashes, of which
+/// there are `flashes` in a block of 16 × 16 pixels and all renders, on average.
+std::vector<ImageF> flashing_renders(std::mt19937& generator, double rare, double flashes) {
+    constexpr int kRenders = 8;
+    std::normal_distribution<float> noise(static_cast<float>(1.0 - rare), 0.05f);
+    const double probability = flashes / (16.0 * 16.0 * kRenders);
+    std::bernoulli_distribution flash(probability);
+    std::vector<ImageF> renders(kRenders, ImageF(128, 128, 1));
+    for (ImageF& render : renders)
+        for (float& value : render.pixels)
+            value = noise(generator) + (flash(generator) ? static_cast<float>(rare / probability) : 0.0f);
+    return renders;
+}
+
+// Of 300 comparisons of right images 1% may fail: more than 9 do with a probability of 0.1%. Without pooled variances
+// 14 failed, without a look at how many values vary 8 did, without both 234.
+TEST(BlockAgreement, RareFlashesAreNoDisagreement) {
+    std::mt19937 generator(1);
+    int failed = 0;
+    for (const double flashes : {0.5, 1.0, 2.0, 5.0, 20.0})
+        for (int i = 0; i < 60; ++i) {
+            const std::vector<ImageF> a = flashing_renders(generator, 0.05, flashes);
+            const std::vector<ImageF> b = flashing_renders(generator, 0.0, 1.0);
+            const int size = testable_block_size(a, 16).value();
+            ImageEstimate of_a = estimate_image(a);
+            pool_variance(of_a, size);
+            if (!test_agreement(of_a, estimate_image(b), {.block_size = size, .mean_tolerance = 1.0}).agree()) ++failed;
+        }
+    EXPECT_LE(failed, 9);
+}
+
 TEST(RelativeVariance, IsRelativeToTheBlocksMean) {
     EXPECT_NEAR(relative_variance(constant_estimate(16, 16, 2.0f, 0.5f)), 0.5 / 4.01, 1e-6);
     // One bright pixel of 256, with the variance of a firefly: its own mean would hide it.
