@@ -46,11 +46,11 @@ LightSample MeshLight::sample(const Vec3f& point, Vec2f u_triangle, Vec2f u) con
     const Front& front = fronts_[choice.index];
     sample.cos_light = -dot(sample.wi, front.normal);
     sample.pdf_solid_angle = pdf_solid_angle(sample.distance, sample.cos_light);
+    sample.triangle = choice.index;
+    sample.barycentric = b;
     if (!(sample.pdf_solid_angle > 0.0f)) return sample;
     sample.end = offset_origin(on_light, front.normal, front.clearance, -sample.wi);
     sample.radiance = radiance_;
-    sample.triangle = choice.index;
-    sample.barycentric = b;
     return sample;
 }
 

@@ -23,8 +23,8 @@ constexpr RegressionScene fine_row(std::string_view name) {
 }
 
 // The naive integrator cannot find a directional light (sun-and-sky, instances) or the points of row-lamps, and hardly
-// the small lights of veach-mis; those references come from light's side, too. The mean of veach-mis is mostly what the camera sees of its smallest and brightest
-// light.
+// the small lights of veach-mis; those references come from light's side, too. The mean of veach-mis is mostly what the
+// camera sees of its smallest and brightest light.
 constexpr RegressionScene kRegressionScenes[] = {
     {kScenes, "cornell-box", 64, 64, 16, 0.01, {"path", 4, 256}, {"naive", 8, 16384}},
     {kScenes, "cornell-glass", 64, 64, 16, 0.01, {"path", 4, 64}, {"naive", 8, 4096}},
