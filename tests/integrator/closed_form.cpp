@@ -4,7 +4,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "image/write.h"
-#include "render/render.h"
+#include "render/whole_image.h"
 #include "world/compile.h"
 
 #include <algorithm>
@@ -49,12 +49,7 @@ std::vector<Rgb> render_pixels(const SceneDesc& scene, const Integrator& integra
     const ThreadPool threads(1);
     ProblemList warnings;
     const World world = compile_world(std::move(sized), ColorConfig::built_in(), working_space, threads, warnings);
-    RenderOptions options;
-    options.full_width = kImageSide;
-    options.full_height = kImageSide;
-    options.window = {0, 0, kImageSide, kImageSide};
-    options.spp = spp;
-    options.seed = seed;
+    RenderOptions options = whole_image(kImageSide, kImageSide, spp, seed);
     options.sequence = sequence;
     options.filter = PixelFilter(FilterShape::Box);
     const std::atomic<bool> stop{false};

@@ -7,7 +7,7 @@
 #include "image/write.h"
 #include "integrator/integrator.h"
 #include "loader/loader.h"
-#include "render/render.h"
+#include "render/whole_image.h"
 #include "world/compile.h"
 
 #include <atomic>
@@ -49,11 +49,7 @@ ImageEstimate render_estimate(const RegressionScene& scene, const Sampling& samp
     const ThreadPool threads;
     ProblemList warnings;
     const World world = compile_world(std::move(desc), ColorConfig::built_in(), kWorkingSpace, threads, warnings);
-    RenderOptions options;
-    options.full_width = scene.width;
-    options.full_height = scene.height;
-    options.window = {0, 0, scene.width, scene.height};
-    options.spp = static_cast<std::uint32_t>(sampling.spp);
+    RenderOptions options = whole_image(scene.width, scene.height, static_cast<std::uint32_t>(sampling.spp));
     options.sequence = sequence;
     const std::atomic<bool> stop{false};
     std::vector<ImageF> renders;
