@@ -11,7 +11,7 @@
 #include "app/interrupt.h"
 #include "app/library_versions.h"
 #include "core/log.h"
-#include "image/write.h"
+#include "core/write_file.h"
 #include "output/software_name.h"
 
 #include <algorithm>

@@ -6,7 +6,6 @@
 #include "render/tiles.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -47,30 +46,27 @@ class TimedRender {
     /// One more pass, up to `last` samples. False if the time is spent, the samples are taken, or it is interrupted.
     bool advance(std::uint32_t last) {
         const std::uint32_t most = std::min(last, budget_.spp.value_or(kMostSamples));
-        if (spp() >= most || (budget_.seconds && seconds_ >= *budget_.seconds && spp() > 0)) return false;
+        if (spp() >= most || (budget_.seconds && seconds() >= *budget_.seconds && spp() > 0)) return false;
         std::uint32_t count = pass_size(spp(), most);
-        if (budget_.seconds) count = fit_pass(count, spp(), seconds_, *budget_.seconds);
-        const auto start = std::chrono::steady_clock::now();
-        const double cpu_start = process_cpu_seconds();
-        const bool done = render_.add_samples(count, interrupt_requested());
-        seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        cpu_seconds_ += process_cpu_seconds() - cpu_start;
-        const double fraction = budget_.seconds ? seconds_ / *budget_.seconds : double(spp()) / double(*budget_.spp);
+        if (budget_.seconds) count = fit_pass(count, spp(), seconds(), *budget_.seconds);
+        const bool done = render_.add_samples(count, [] { return interrupt_requested().load(); });
+        const double fraction = budget_.seconds ? seconds() / *budget_.seconds : double(spp()) / double(*budget_.spp);
         // Written so that no fraction at all, as of no time, is 1.
         display_.update({.fraction = fraction < 1.0 ? fraction : 1.0,
-                         .seconds = seconds_,
+                         .seconds = seconds(),
                          .samples = area_ * spp(),
-                         .rays = render_.counters().rays()});
+                         .rays = state().counters.rays()});
         return done;
     }
 
-    [[nodiscard]] std::uint32_t spp() const { return render_.spp_done(); }
-    [[nodiscard]] double seconds() const { return seconds_; }
-    [[nodiscard]] double cpu_seconds() const { return cpu_seconds_; }
-    [[nodiscard]] ImageF image() const { return rgb_of(render_.film()); }
-    [[nodiscard]] RenderCounters counters() const { return render_.counters(); }
+    [[nodiscard]] std::uint32_t spp() const { return state().spp_done; }
+    [[nodiscard]] double seconds() const { return state().wall_seconds; }
+    [[nodiscard]] double cpu_seconds() const { return state().cpu_seconds; }
+    [[nodiscard]] ImageF image() const { return rgb_of(state().film); }
+    [[nodiscard]] RenderCounters counters() const { return state().counters; }
 
   private:
+    [[nodiscard]] const RenderState& state() const { return render_.state(); }
     [[nodiscard]] static RenderOptions with_seed(RenderOptions options, std::uint32_t seed) {
         options.seed = seed;
         return options;
@@ -80,8 +76,6 @@ class TimedRender {
     std::uint64_t area_;
     ProgressiveRender render_;
     ProgressDisplay display_;
-    double seconds_ = 0.0;
-    double cpu_seconds_ = 0.0;
 };
 
 /// False if it is interrupted.

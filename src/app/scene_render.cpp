@@ -4,6 +4,8 @@
 #include "app/library_versions.h"
 #include "app/progress_display.h"
 #include "core/log.h"
+#include "core/process_time.h"
+#include "core/write_file.h"
 #include "integrator/integrator.h"
 #include "loader/loader.h"
 #include "output/exr_driver.h"

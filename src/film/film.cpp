@@ -1,5 +1,8 @@
 #include "film/film.h"
 
+#include <cassert>
+#include <utility>
+
 namespace etendue {
 
 Film::Film(int full_width, int full_height, const PixelRect& window)
@@ -21,6 +24,22 @@ void Film::add_splats(std::span<const std::vector<Splat>> lists, std::uint64_t l
                       const ThreadPool& threads) {
     if (!splats_) splats_.emplace(full_width_, full_height_, window_, filter);
     splats_->add(lists, light_paths, threads);
+}
+
+void Film::add(const Film& other) {
+    assert(other.window_ == window_);
+    for (std::size_t i = 0; i < pixels_.size(); ++i) pixels_[i].add(other.pixels_[i]);
+    if (!other.splats_) return;
+    if (splats_)
+        splats_->add(*other.splats_);
+    else
+        splats_ = other.splats_;
+}
+
+void Film::restore(std::vector<PixelSum> sums, std::optional<SplatFilm> splats) {
+    assert(sums.size() == pixels_.size());
+    pixels_ = std::move(sums);
+    splats_ = std::move(splats);
 }
 
 std::vector<float> Film::resolve() const {

@@ -20,7 +20,7 @@ struct PixelSum {
     double b = 0.0;
     double alpha = 0.0;
     double weight = 0.0;
-    std::uint32_t samples = 0;
+    std::uint64_t samples = 0;
 
     /// `filter_weight` is 1 on average; negative in the negative parts of a filter.
     void add(const Rgb& radiance, float sample_alpha, float filter_weight) {
@@ -76,6 +76,15 @@ class Film {
     /// which must be the same in all calls.
     void add_splats(std::span<const std::vector<Splat>> lists, std::uint64_t light_paths, const PixelFilter& filter,
                     const ThreadPool& threads);
+
+    /// Adds the sums of `other`, which has the same window and filter.
+    void add(const Film& other);
+
+    /// All that it holds: of the window, row by row, and the splats, if there have been any.
+    [[nodiscard]] std::span<const PixelSum> sums() const { return pixels_; }
+    [[nodiscard]] const SplatFilm* splats() const { return splats_ ? &*splats_ : nullptr; }
+    /// Puts back what `sums` and `splats` of such a film have given.
+    void restore(std::vector<PixelSum> sums, std::optional<SplatFilm> splats);
 
     [[nodiscard]] int full_width() const { return full_width_; }
     [[nodiscard]] int full_height() const { return full_height_; }

@@ -1,7 +1,9 @@
 #include "film/splat_film.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <utility>
 
 namespace etendue {
 
@@ -62,7 +64,7 @@ void SplatFilm::add_splat(const Splat& splat, int y0, int y1, std::vector<float>
     for (int x = columns.begin; x < columns.end; ++x) along_x.push_back(filter_.evaluate(centre(x) - splat.position.x));
     for (int y = rows.begin; y < rows.end; ++y) {
         const float along_y = filter_.evaluate(centre(y) - splat.position.y);
-        Sum* sum = &pixels_[static_cast<std::size_t>(y - window_.y0) * static_cast<std::size_t>(window_.width()) +
+        SplatSum* sum = &pixels_[static_cast<std::size_t>(y - window_.y0) * static_cast<std::size_t>(window_.width()) +
                             static_cast<std::size_t>(columns.begin - window_.x0)];
         for (const float x_weight : along_x) {
             const auto weight = static_cast<double>(along_y * x_weight);
@@ -72,6 +74,22 @@ void SplatFilm::add_splat(const Splat& splat, int y0, int y1, std::vector<float>
             ++sum;
         }
     }
+}
+
+void SplatFilm::add(const SplatFilm& other) {
+    assert(other.pixels_.size() == pixels_.size());
+    light_paths_ += other.light_paths_;
+    for (std::size_t i = 0; i < pixels_.size(); ++i) {
+        pixels_[i].r += other.pixels_[i].r;
+        pixels_[i].g += other.pixels_[i].g;
+        pixels_[i].b += other.pixels_[i].b;
+    }
+}
+
+void SplatFilm::restore(std::vector<SplatSum> sums, std::uint64_t light_paths) {
+    assert(sums.size() == pixels_.size());
+    pixels_ = std::move(sums);
+    light_paths_ = light_paths;
 }
 
 void SplatFilm::add_to(std::span<float> image) const {

@@ -23,10 +23,17 @@ struct Splat {
     Rgb value;       ///< of the integral over the film of area 1
 };
 
+/// Sums of one pixel, in double because they grow. 24 bytes.
+struct SplatSum {
+    double r = 0.0;
+    double g = 0.0;
+    double b = 0.0;
+};
+
 /// True if some pixel of `window` sees what falls on `position` through `filter`.
 [[nodiscard]] bool reaches(const PixelRect& window, const PixelFilter& filter, const Vec2f& position);
 
-/// Sums of splats, in double. 24 bytes a pixel.
+/// Sums of splats. 24 bytes a pixel.
 class SplatFilm {
   public:
     SplatFilm(int full_width, int full_height, const PixelRect& window, const PixelFilter& filter);
@@ -35,15 +42,19 @@ class SplatFilm {
     /// the order of `lists`, whatever the number of threads.
     void add(std::span<const std::vector<Splat>> lists, std::uint64_t light_paths, const ThreadPool& threads);
 
+    /// Adds the sums of `other`, which has the same window.
+    void add(const SplatFilm& other);
+
     /// Adds the image to that of a `Film` of the same window, four floats a pixel.
     void add_to(std::span<float> image) const;
 
+    /// Of the window, row by row.
+    [[nodiscard]] std::span<const SplatSum> sums() const { return pixels_; }
+    [[nodiscard]] std::uint64_t light_paths() const { return light_paths_; }
+    /// Puts back what `sums` and `light_paths` of such a film have given.
+    void restore(std::vector<SplatSum> sums, std::uint64_t light_paths);
+
   private:
-    struct Sum {
-        double r = 0.0;
-        double g = 0.0;
-        double b = 0.0;
-    };
 
     /// Adds what falls on rows [y0, y1) of the full image.
     void add_rows(std::span<const std::vector<Splat>> lists, int y0, int y1);
@@ -53,7 +64,7 @@ class SplatFilm {
     int full_height_;
     PixelRect window_;
     PixelFilter filter_;
-    std::vector<Sum> pixels_;
+    std::vector<SplatSum> pixels_;
     std::uint64_t light_paths_ = 0;
 };
 

@@ -1,9 +1,9 @@
 #include "image/write.h"
 
 #include "core/error.h"
+#include "core/write_file.h"
 #include "image/exr_header.h"
 #include "image/library_setup.h"
-#include "image/write_file.h"
 
 #include <algorithm>
 #include <array>

@@ -53,7 +53,4 @@ void write_image_parts(const std::filesystem::path& path, std::span<const ImageP
 /// The bytes of a PNG file of `image`, whose values lie in [0, 1] and are encoded for display. Throws IoError.
 [[nodiscard]] std::vector<unsigned char> encode_png(const ImageF& image);
 
-/// Writes `text` the same careful way. Throws IoError.
-void write_text(const std::filesystem::path& path, const std::string& text);
-
 }  // namespace etendue

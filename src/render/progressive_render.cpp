@@ -1,70 +1,109 @@
 #include "render/progressive_render.h"
 
+#include "core/process_time.h"
 #include "render/tiles.h"
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <utility>
 
 namespace etendue {
 
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+}  // namespace
+
 ProgressiveRender::ProgressiveRender(const World& world, const Integrator& integrator, const SamplingOptions& options,
                                      const ThreadPool& threads)
+    : ProgressiveRender(world, integrator, options, threads,
+                        {.film = Film(options.full_width, options.full_height, options.window)}) {}
+
+ProgressiveRender::ProgressiveRender(const World& world, const Integrator& integrator, const SamplingOptions& options,
+                                     const ThreadPool& threads, RenderState state)
     : world_(world),
       integrator_(integrator),
       options_(options),
       threads_(threads),
-      film_(options.full_width, options.full_height, options.window),
+      state_(std::move(state)),
       tiles_(make_tiles(options.window)),
       workers_(static_cast<std::size_t>(threads.thread_count())) {
     for (Worker& worker : workers_) worker.scratch = integrator.make_scratch();
 }
 
-bool ProgressiveRender::add_samples(std::uint32_t count, const std::atomic<bool>& stop, const TileCallback& tile_done) {
+bool ProgressiveRender::add_samples(std::uint32_t count, const StopPredicate& stop, const TileCallback& tile_done) {
+    const auto start = Clock::now();
+    const double cpu_start = process_cpu_seconds();
+    if (state_.pass_size == 0) {
+        state_.pass_size = count;
+        state_.tiles_done.assign(tiles_.size(), 0);
+    }
     // Splats are added in the order of the tiles, whatever the order in which these are rendered.
-    const std::size_t group_size = integrator_.makes_splats() ? splat_group_size(count) : tiles_.size();
-    for (std::size_t first = 0; first < tiles_.size() && !stop.load(); first += group_size)
-        render_group(first, std::min(group_size, tiles_.size() - first), count, stop, tile_done);
-    if (stop.load()) return false;
-    spp_done_ += count;
+    for (std::size_t first = 0; first < tiles_.size() && !stop();) {
+        const std::size_t left = tiles_.size() - first;
+        const std::size_t size = integrator_.makes_splats() ? std::min(left, splat_group_size()) : left;
+        const auto group_start = Clock::now();
+        render_group(first, size, stop, tile_done);
+        seconds_per_tile_ = seconds_since(group_start) / static_cast<double>(size);
+        first += size;
+    }
+    for (Worker& worker : workers_) state_.counters.add(std::exchange(worker.counters, {}));
+    state_.wall_seconds += seconds_since(start);
+    state_.cpu_seconds += process_cpu_seconds() - cpu_start;
+    if (std::ranges::find(state_.tiles_done, 0) != state_.tiles_done.end()) return false;
+    state_.spp_done += std::exchange(state_.pass_size, 0);
+    state_.tiles_done.clear();
     return true;
 }
 
-void ProgressiveRender::render_group(std::size_t first, std::size_t size, std::uint32_t count,
-                                     const std::atomic<bool>& stop, const TileCallback& tile_done) {
+std::size_t ProgressiveRender::splat_group_size() const {
+    constexpr double kSeconds = 1.0;
+    constexpr double kTilesPerThread = 4.0;  // so that few threads wait for the last tile
+    const double soon = seconds_per_tile_ > 0.0 ? kSeconds / seconds_per_tile_ : 0.0;
+    const double busy = kTilesPerThread * threads_.thread_count();
+    return std::min(static_cast<std::size_t>(std::max(soon, busy)), largest_splat_group(state_.pass_size));
+}
+
+void ProgressiveRender::render_group(std::size_t first, std::size_t size, const StopPredicate& stop,
+                                     const TileCallback& tile_done) {
     const bool makes_splats = integrator_.makes_splats();
     const std::vector<std::size_t> order = make_order(size, options_.tile_order_seed);
     if (makes_splats) splats_.resize(size);
     std::atomic<std::uint64_t> light_paths = 0;
     threads_.parallel_for(size, [&](std::size_t index, int slot) {
-        if (stop.load(std::memory_order_relaxed)) return;
+        std::uint8_t& is_done = state_.tiles_done[first + order[index]];
+        // Splats of a tile after one that is missing would come too early.
+        if (is_done != 0 || (!makes_splats && stop())) return;
         Worker& worker = workers_[static_cast<std::size_t>(slot)];
         const TileJob job{tiles_[first + order[index]],
                           options_.window,
                           options_.full_width,
                           options_.full_height,
-                          spp_done_,
-                          count,
+                          state_.spp_done,
+                          state_.pass_size,
                           options_.seed,
                           options_.sequence,
                           &options_.filter};
         const std::uint64_t rays_before = worker.counters.rays();
         worker.tile.reset(job.rect);
         integrator_.render_tile(world_, job, *worker.scratch, worker.tile, worker.counters);
-        film_.add(worker.tile);
-        const std::uint64_t samples = job.rect.area() * count;
+        state_.film.add(worker.tile);
+        is_done = 1;
+        const std::uint64_t samples = job.rect.area() * job.sample_count;
         if (makes_splats) {
             splats_[order[index]].swap(worker.tile.splats());
             light_paths += samples;
         }
         if (tile_done) tile_done(samples, worker.counters.rays() - rays_before);
     });
-    if (makes_splats) film_.add_splats(splats_, light_paths, options_.filter, threads_);
+    if (makes_splats) state_.film.add_splats(splats_, light_paths, options_.filter, threads_);
     for (std::vector<Splat>& list : splats_) list.clear();
-}
-
-RenderCounters ProgressiveRender::counters() const {
-    RenderCounters sum;
-    for (const Worker& worker : workers_) sum.add(worker.counters);
-    return sum;
 }
 
 }  // namespace etendue

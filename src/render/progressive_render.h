@@ -7,10 +7,10 @@
 #include "integrator/integrator.h"
 #include "world/world.h"
 
-#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace etendue {
@@ -30,23 +30,39 @@ struct SamplingOptions {
 /// Called from rendering threads whenever a tile is done, with what it took.
 using TileCallback = std::function<void(std::uint64_t samples, std::uint64_t rays)>;
 
+/// Asked from rendering threads whether to stop for now.
+using StopPredicate = std::function<bool()>;
+
+/// How far a render has come: all that is needed to go on with it.
+struct RenderState {
+    Film film;
+    std::uint32_t spp_done = 0;               ///< samples that every pixel has
+    std::uint32_t pass_size = 0;              ///< samples of the pass that was stopped; 0 if none was
+    std::vector<std::uint8_t> tiles_done{};   ///< of that pass: 1 for those that have its samples
+    RenderCounters counters{};
+    double wall_seconds = 0.0;  ///< of rendering
+    double cpu_seconds = 0.0;   ///< the same, of all threads
+};
+
 class ProgressiveRender {
   public:
     /// All but the options must outlive it.
     ProgressiveRender(const World& world, const Integrator& integrator, const SamplingOptions& options,
                       const ThreadPool& threads);
+    /// Goes on with `state`, which comes from a render of the same world, integrator and options.
+    ProgressiveRender(const World& world, const Integrator& integrator, const SamplingOptions& options,
+                      const ThreadPool& threads, RenderState state);
 
     /// Takes the next `count` > 0 samples of every pixel. The image is bit-identical for every thread count and tile
-    /// order. `stop` is looked at before every tile: when it becomes true, the tiles under way are finished and false
-    /// is returned; some pixels have their samples then.
-    bool add_samples(std::uint32_t count, const std::atomic<bool>& stop, const TileCallback& tile_done = {});
+    /// order, and however often it is stopped. `stop` is looked at before every tile, or every group of them if the
+    /// integrator makes splats: when it becomes true, those under way are finished and false is returned; some pixels
+    /// have their samples then, and the next call takes those that are missing, whatever its `count`.
+    bool add_samples(std::uint32_t count, const StopPredicate& stop, const TileCallback& tile_done = {});
 
-    [[nodiscard]] const Film& film() const { return film_; }
-    /// Samples that every pixel has.
-    [[nodiscard]] std::uint32_t spp_done() const { return spp_done_; }
-    [[nodiscard]] RenderCounters counters() const;
-    /// Moves the image out; nothing else may be called then.
-    [[nodiscard]] Film take_film() { return std::move(film_); }
+    /// Of a pass that was stopped, what its complete tiles have is in the film.
+    [[nodiscard]] const RenderState& state() const { return state_; }
+    /// Moves the state out; nothing else may be called then.
+    [[nodiscard]] RenderState take_state() { return std::move(state_); }
 
   private:
     /// What one thread keeps between tiles.
@@ -56,18 +72,20 @@ class ProgressiveRender {
         RenderCounters counters;
     };
 
-    void render_group(std::size_t first, std::size_t size, std::uint32_t count, const std::atomic<bool>& stop,
-                      const TileCallback& tile_done);
+    /// Tiles whose splats are added together: few enough for the render to stop within seconds. The image does not
+    /// depend on it.
+    [[nodiscard]] std::size_t splat_group_size() const;
+    void render_group(std::size_t first, std::size_t size, const StopPredicate& stop, const TileCallback& tile_done);
 
     const World& world_;
     const Integrator& integrator_;
     SamplingOptions options_;
     const ThreadPool& threads_;
-    Film film_;
+    RenderState state_;
     std::vector<PixelRect> tiles_;
     std::vector<Worker> workers_;
     std::vector<std::vector<Splat>> splats_;  ///< of each tile of a group
-    std::uint32_t spp_done_ = 0;
+    double seconds_per_tile_ = 0.0;           ///< of the last group; 0: not known
 };
 
 }  // namespace etendue

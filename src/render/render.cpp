@@ -4,8 +4,7 @@
 
 #include <chrono>
 #include <mutex>
-
-#include <sys/resource.h>
+#include <utility>
 
 namespace etendue {
 
@@ -20,37 +19,43 @@ double seconds_since(Clock::time_point start) {
 /// Counts finished tiles and tells the callback now and then.
 class ProgressReporter {
   public:
-    ProgressReporter(const ProgressCallback& callback, std::uint64_t total_samples, Clock::time_point start)
-        : callback_(callback), total_samples_(total_samples), start_(start) {}
+    /// `before` was rendered earlier.
+    ProgressReporter(const ProgressCallback& callback, std::uint64_t total_samples, const RenderState& before)
+        : callback_(callback),
+          total_samples_(total_samples),
+          seconds_before_(before.wall_seconds),
+          samples_(before.counters.samples),
+          rays_(before.counters.rays()) {}
 
     void tile_done(std::uint64_t samples, std::uint64_t rays) {
         if (!callback_) return;
         const std::scoped_lock lock(mutex_);
         samples_ += samples;
         rays_ += rays;
-        const double now = seconds_since(start_);
-        if (now - last_report_ < 0.1) return;
-        last_report_ = now;
-        report(now);
+        if (seconds_since(last_report_) < 0.1) return;
+        last_report_ = Clock::now();
+        report();
     }
     void finish() {
         if (!callback_) return;
         const std::scoped_lock lock(mutex_);
-        report(seconds_since(start_));
+        report();
     }
 
   private:
-    void report(double now) {
-        callback_({static_cast<double>(samples_) / static_cast<double>(total_samples_), now, samples_, rays_});
+    void report() {
+        callback_({static_cast<double>(samples_) / static_cast<double>(total_samples_),
+                   seconds_before_ + seconds_since(start_), samples_, rays_});
     }
 
     const ProgressCallback& callback_;
     const std::uint64_t total_samples_;
-    const Clock::time_point start_;
+    const double seconds_before_;
+    const Clock::time_point start_ = Clock::now();
     std::mutex mutex_;
-    std::uint64_t samples_ = 0;
-    std::uint64_t rays_ = 0;
-    double last_report_ = 0.0;
+    std::uint64_t samples_;
+    std::uint64_t rays_;
+    Clock::time_point last_report_ = start_;
 };
 
 }  // namespace
@@ -76,46 +81,42 @@ ImageF rgba_image(const Film& film) {
     return image;
 }
 
-double process_cpu_seconds() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    const auto seconds = [](const timeval& t) {
-        return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+RenderResult render(const World& world, const Integrator& integrator, const RenderOptions& options,
+                    const ThreadPool& threads, const std::atomic<bool>& stop, const ProgressCallback& progress,
+                    const RenderPause& pause, RenderState state) {
+    ProgressReporter reporter(progress, options.window.area() * static_cast<std::uint64_t>(options.spp), state);
+    ProgressiveRender rendering(world, integrator, options, threads, std::move(state));
+    const RenderState& now = rendering.state();
+    const StopPredicate is_wanted = [&] {
+        return stop.load(std::memory_order_relaxed) || (pause.is_due && pause.is_due());
     };
-    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+    HaltReason halt_reason = HaltReason::SamplesDone;
+    while (now.spp_done < options.spp) {
+        if (stop.load()) {
+            halt_reason = HaltReason::Interrupted;
+            break;
+        }
+        if (pause.is_due && pause.is_due()) pause.act(now);
+        std::uint32_t count = pass_size(now.spp_done, options.spp);
+        if (options.time_limit_seconds > 0.0) {
+            if (now.wall_seconds >= options.time_limit_seconds) {
+                halt_reason = HaltReason::TimeLimit;
+                break;
+            }
+            count = fit_pass(count, now.spp_done, now.wall_seconds, options.time_limit_seconds);
+        }
+        rendering.add_samples(count, is_wanted, [&](std::uint64_t samples, std::uint64_t rays) {
+            reporter.tile_done(samples, rays);
+        });
+    }
+    reporter.finish();
+    return {rendering.take_state(), halt_reason};
 }
 
 RenderResult render(const World& world, const Integrator& integrator, const RenderOptions& options,
                     const ThreadPool& threads, const std::atomic<bool>& stop, const ProgressCallback& progress) {
-    ProgressiveRender rendering(world, integrator, options, threads);
-    const Clock::time_point start = Clock::now();
-    const double cpu_start = process_cpu_seconds();
-    ProgressReporter reporter(progress, options.window.area() * static_cast<std::uint64_t>(options.spp), start);
-    HaltReason halt_reason = HaltReason::SamplesDone;
-    while (rendering.spp_done() < options.spp) {
-        std::uint32_t count = pass_size(rendering.spp_done(), options.spp);
-        if (options.time_limit_seconds > 0.0) {
-            const double seconds = seconds_since(start);
-            if (seconds >= options.time_limit_seconds) {
-                halt_reason = HaltReason::TimeLimit;
-                break;
-            }
-            count = fit_pass(count, rendering.spp_done(), seconds, options.time_limit_seconds);
-        }
-        const bool done = rendering.add_samples(
-            count, stop, [&](std::uint64_t samples, std::uint64_t rays) { reporter.tile_done(samples, rays); });
-        if (!done) {
-            halt_reason = HaltReason::Interrupted;
-            break;
-        }
-    }
-    reporter.finish();
-    return {.counters = rendering.counters(),
-            .halt_reason = halt_reason,
-            .spp_done = rendering.spp_done(),
-            .wall_seconds = seconds_since(start),
-            .cpu_seconds = process_cpu_seconds() - cpu_start,
-            .film = rendering.take_film()};
+    return render(world, integrator, options, threads, stop, progress, {},
+                  {.film = Film(options.full_width, options.full_height, options.window)});
 }
 
 }  // namespace etendue

@@ -23,7 +23,7 @@ struct RenderOptions : SamplingOptions {
 /// How far a render is.
 struct RenderProgress {
     double fraction = 0.0;  ///< of all samples, [0, 1]
-    double seconds = 0.0;   ///< since the first pass began
+    double seconds = 0.0;   ///< of rendering
     std::uint64_t samples = 0;
     std::uint64_t rays = 0;
 };
@@ -38,25 +38,30 @@ enum class HaltReason {
 };
 [[nodiscard]] const char* halt_reason_name(HaltReason reason);
 
-struct RenderResult {
-    RenderCounters counters;
+struct RenderResult : RenderState {
     HaltReason halt_reason = HaltReason::SamplesDone;
-    std::uint32_t spp_done = 0;  ///< complete passes; single tiles may have more
-    double wall_seconds = 0.0;
-    double cpu_seconds = 0.0;  ///< of all threads
-    Film film;
 };
 
-/// Renders `world`. The image is bit-identical for every thread count and tile order. `stop` is looked at before every
-/// tile: when it becomes true, the tiles under way are finished and what there is is returned.
+/// What to do now and then in the middle of a render, such as writing a checkpoint.
+struct RenderPause {
+    StopPredicate is_due;  ///< false for a while after `act`
+    std::function<void(const RenderState&)> act;  ///< nothing is rendered meanwhile
+};
+
+/// Renders `world`, beginning with `state`. The image is bit-identical for every thread count and tile order, and
+/// however often the render was stopped and gone on with. `stop` and `pause` are looked at before every tile (or group
+/// of tiles, see ProgressiveRender): when one of them says so, those under way are finished, and what there is is
+/// returned or shown to `pause`. The limit of time counts what `state` has taken.
+[[nodiscard]] RenderResult render(const World& world, const Integrator& integrator, const RenderOptions& options,
+                                  const ThreadPool& threads, const std::atomic<bool>& stop,
+                                  const ProgressCallback& progress, const RenderPause& pause, RenderState state);
+
+/// The same from the beginning and without pauses.
 [[nodiscard]] RenderResult render(const World& world, const Integrator& integrator, const RenderOptions& options,
                                   const ThreadPool& threads, const std::atomic<bool>& stop,
                                   const ProgressCallback& progress);
 
 /// The film's means of red, green, blue and alpha.
 [[nodiscard]] ImageF rgba_image(const Film& film);
-
-/// Seconds of processor time that this process has used, all threads together.
-[[nodiscard]] double process_cpu_seconds();
 
 }  // namespace etendue

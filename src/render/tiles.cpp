@@ -25,7 +25,7 @@ std::vector<std::size_t> make_order(std::size_t count, std::uint32_t seed) {
     return order;
 }
 
-std::size_t splat_group_size(std::uint32_t spp) {
+std::size_t largest_splat_group(std::uint32_t spp) {
     constexpr std::size_t kSamples = std::size_t{1} << 20;
     constexpr std::size_t kTileArea = std::size_t{kTileSize} * kTileSize;
     return std::max<std::size_t>(1, kSamples / (kTileArea * spp));

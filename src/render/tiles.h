@@ -18,8 +18,8 @@ inline constexpr int kTileSize = 32;
 /// The numbers [0, count) in an order shuffled by `seed`, or in theirs if it is 0.
 [[nodiscard]] std::vector<std::size_t> make_order(std::size_t count, std::uint32_t seed);
 
-/// Tiles to render with `spp` samples before their splats are added to the film, so that not many have to be held.
-[[nodiscard]] std::size_t splat_group_size(std::uint32_t spp);
+/// Most tiles to render with `spp` samples before their splats are added to the film, so that not many have to be held.
+[[nodiscard]] std::size_t largest_splat_group(std::uint32_t spp);
 
 /// Samples of the pass that begins after `done` of `total` samples: 1, 1, 2, 4, 8, 16, 16, … so that the first picture
 /// comes soon, stopping is prompt, and later passes fill their waves. Depends on `done` only, so that a render that is

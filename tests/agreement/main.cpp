@@ -7,7 +7,7 @@
 #include "agreement/room_comparison.h"
 #include "agreement/room_traits.h"
 #include "core/parallel.h"
-#include "image/write.h"
+#include "core/write_file.h"
 #include "support/chi2.h"
 
 #include <cstddef>

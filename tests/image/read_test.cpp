@@ -1,6 +1,7 @@
 #include "image/read.h"
 
 #include "core/error.h"
+#include "core/write_file.h"
 #include "image/write.h"
 #include "image_test_files.h"
 

@@ -52,10 +52,10 @@ TEST(MakeOrder, TheSeedShufflesAllNumbers) {
     EXPECT_EQ(shuffled, in_order);
 }
 
-TEST(SplatGroupSize, HoldsAMillionSamplesButAtLeastOneTile) {
-    EXPECT_EQ(splat_group_size(1), 1024u);
-    EXPECT_EQ(splat_group_size(16), 64u);
-    EXPECT_EQ(splat_group_size(1u << 20), 1u);
+TEST(LargestSplatGroup, HoldsAMillionSamplesButAtLeastOneTile) {
+    EXPECT_EQ(largest_splat_group(1), 1024u);
+    EXPECT_EQ(largest_splat_group(16), 64u);
+    EXPECT_EQ(largest_splat_group(1u << 20), 1u);
 }
 
 TEST(PassSize, GrowsToSixteenAndStopsAtTheTotal) {

@@ -1,8 +1,7 @@
-#include "image/write_file.h"
+#include "core/write_file.h"
 
 #include "core/error.h"
-#include "image/write.h"
-#include "image_test_files.h"
+#include "support/temporary_folder.h"
 
 #include <csignal>
 #include <string>

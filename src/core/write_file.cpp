@@ -1,7 +1,6 @@
-#include "image/write_file.h"
+#include "core/write_file.h"
 
 #include "core/error.h"
-#include "image/write.h"
 
 #include <cerrno>
 #include <string>
@@ -20,30 +19,34 @@ namespace {
     throw IoError(fmt::format("cannot write {}: {}", path.string(), std::generic_category().message(error)));
 }
 
-// An open file descriptor. Closing can report what earlier writes could not (a full disk or quota), hence `close()`.
-class Descriptor {
+// An open file of the name `path`, for messages. Closing can report what earlier writes could not (a full disk or quota),
+// hence `close()`.
+class OpenFile {
   public:
-    explicit Descriptor(int fd) : fd_(fd) {}
-    ~Descriptor() {
+    OpenFile(const std::filesystem::path& path, int fd) : path_(path), fd_(fd) {}
+    ~OpenFile() {
         if (fd_ >= 0) ::close(fd_);
     }
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
+    OpenFile(const OpenFile&) = delete;
+    OpenFile& operator=(const OpenFile&) = delete;
 
-    // Returns 0 or an errno.
-    [[nodiscard]] int write(std::span<const std::byte> bytes) const {
+    void write(std::span<const std::byte> bytes) const {
         while (!bytes.empty()) {
             const ssize_t written = ::write(fd_, bytes.data(), bytes.size());
             if (written < 0 && errno == EINTR) continue;
-            if (written < 0) return errno;
+            if (written < 0) throw_errno(path_, errno);
             bytes = bytes.subspan(static_cast<std::size_t>(written));
         }
-        return 0;
     }
-    // Returns 0 or an errno.
-    [[nodiscard]] int close() { return ::close(std::exchange(fd_, -1)) == 0 ? 0 : errno; }
+    void sync() const {
+        if (::fsync(fd_) != 0) throw_errno(path_, errno);
+    }
+    void close() {
+        if (::close(std::exchange(fd_, -1)) != 0) throw_errno(path_, errno);
+    }
 
   private:
+    const std::filesystem::path& path_;
     int fd_;
 };
 
@@ -68,11 +71,9 @@ class TemporaryFile {
     TemporaryFile& operator=(const TemporaryFile&) = delete;
 
     [[nodiscard]] int descriptor() const { return fd_; }
-    [[nodiscard]] int rename_to(const std::filesystem::path& target) {
-        std::error_code error;
-        std::filesystem::rename(path_, target, error);
-        if (!error) path_.clear();
-        return error.value();
+    void rename_to(const std::filesystem::path& target) {
+        if (::rename(path_.c_str(), target.c_str()) != 0) throw_errno(target, errno);
+        path_.clear();
     }
 
   private:
@@ -80,32 +81,35 @@ class TemporaryFile {
     int fd_ = -1;
 };
 
-void write_in_place(const std::filesystem::path& path, std::span<const std::byte> bytes) {
+void write_in_place(const std::filesystem::path& path, const std::function<void(const ByteSink&)>& produce) {
     const int fd = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
     if (fd < 0) throw_errno(path, errno);
-    Descriptor file(fd);
-    int error = file.write(bytes);
-    if (error == 0) error = file.close();
-    if (error != 0) throw_errno(path, error);
+    OpenFile file(path, fd);
+    produce([&](std::span<const std::byte> bytes) { file.write(bytes); });
+    file.close();
 }
 
 }  // namespace
 
-void write_bytes(const std::filesystem::path& path, std::span<const std::byte> bytes) {
+void write_file(const std::filesystem::path& path, const std::function<void(const ByteSink&)>& produce) {
     std::error_code ignored;
     const auto status = std::filesystem::status(path, ignored);
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-        return write_in_place(path, bytes);
+        return write_in_place(path, produce);
     }
     const auto target = std::filesystem::is_symlink(path, ignored) && std::filesystem::exists(status)
                             ? std::filesystem::canonical(path)
                             : path;
     TemporaryFile temporary(target);
-    Descriptor file(temporary.descriptor());
-    int error = file.write(bytes);
-    if (error == 0) error = file.close();
-    if (error == 0) error = temporary.rename_to(target);
-    if (error != 0) throw_errno(path, error);
+    OpenFile file(path, temporary.descriptor());
+    produce([&](std::span<const std::byte> bytes) { file.write(bytes); });
+    file.sync();
+    file.close();
+    temporary.rename_to(target);
+}
+
+void write_bytes(const std::filesystem::path& path, std::span<const std::byte> bytes) {
+    write_file(path, [&](const ByteSink& sink) { sink(bytes); });
 }
 
 void write_text(const std::filesystem::path& path, const std::string& text) {

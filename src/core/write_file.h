@@ -1,0 +1,26 @@
+// Files, whole or not at all: written under a temporary name beside their own and renamed, so that no reader ever sees
+// half of one, and none is left behind under its own name by a full disk or a kill.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+
+namespace etendue {
+
+/// Takes the next bytes of a file.
+using ByteSink = std::function<void(std::span<const std::byte>)>;
+
+/// Writes what `produce` hands to its sink, piece by piece, so that the file need not be in memory at once. The bytes
+/// are on the disk before the name is. A link is followed, and what exists and is no regular file (a pipe, a device) is
+/// written in place, since renaming would replace it. Creates no directory. Throws IoError with the path and the
+/// reason; the temporary file is gone then, as it is when `produce` throws.
+void write_file(const std::filesystem::path& path, const std::function<void(const ByteSink&)>& produce);
+
+/// The same of bytes that are there already.
+void write_bytes(const std::filesystem::path& path, std::span<const std::byte> bytes);
+void write_text(const std::filesystem::path& path, const std::string& text);
+
+}  // namespace etendue
