@@ -46,6 +46,7 @@ THIRD_PARTY = [
     (r"Imath/", "core", SHOWN),
     (r"fmt/", ANY_ROOM, SHOWN),
     (r"spdlog/", "core", WRAPPED),
+    (r"xxhash\.h", "core", WRAPPED),
     (r"(tbb|oneapi)/", "core render", WRAPPED),
     (r"OpenImageIO/", "image texture", WRAPPED),
     (r"OpenColorIO/", "color", WRAPPED),

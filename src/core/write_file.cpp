@@ -2,13 +2,18 @@
 
 #include "core/error.h"
 
+#include <array>
 #include <cerrno>
+#include <chrono>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace etendue {
@@ -19,8 +24,8 @@ namespace {
     throw IoError(fmt::format("cannot write {}: {}", path.string(), std::generic_category().message(error)));
 }
 
-// An open file of the name `path`, for messages. Closing can report what earlier writes could not (a full disk or quota),
-// hence `close()`.
+// An open file of the name `path`, for messages. Closing can report what earlier writes could not (a full disk or
+// quota), hence `close()`.
 class OpenFile {
   public:
     OpenFile(const std::filesystem::path& path, int fd) : path_(path), fd_(fd) {}
@@ -38,6 +43,9 @@ class OpenFile {
             bytes = bytes.subspan(static_cast<std::size_t>(written));
         }
     }
+    void clear() const {
+        if (::ftruncate(fd_, 0) != 0) throw_errno(path_, errno);
+    }
     void sync() const {
         if (::fsync(fd_) != 0) throw_errno(path_, errno);
     }
@@ -50,18 +58,61 @@ class OpenFile {
     int fd_;
 };
 
-// A name beside the target, removed unless it has been renamed.
+std::string host_name() {
+    std::array<char, 256> name{};
+    if (::gethostname(name.data(), name.size() - 1) != 0) return "unknown";
+    return name.data();
+}
+
+/// Names of temporary files: a dot before the target's name, and the writer's host and a number behind it.
+constexpr std::string_view kTemporaryEnd = ".etendue.tmp";
+std::filesystem::path temporary_path(const std::filesystem::path& target, int attempt) {
+    return target.parent_path() /
+           fmt::format(".{}.{}-{}{}", target.filename().string(), host_name(), attempt, kTemporaryEnd);
+}
+
+/// True if `path` is still the name of the open file `fd`.
+bool is_name_of(const std::filesystem::path& path, int fd) {
+    struct stat named {};
+    struct stat opened {};
+    return ::stat(path.c_str(), &named) == 0 && ::fstat(fd, &opened) == 0 && named.st_dev == opened.st_dev &&
+           named.st_ino == opened.st_ino;
+}
+
+/// The open file if nobody else holds it, else -1. The kernel lets go of the files of the dead.
+int open_unowned(const std::filesystem::path& path, int flags) {
+    const int fd = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW | flags, 0666);
+    if (fd < 0) return -1;
+    // Where file systems know no locks, nobody holds any. Between opening and locking, its owner may have renamed it:
+    // then it is somebody's finished file.
+    const bool is_held = ::flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    if (!is_held && is_name_of(path, fd)) return fd;
+    ::close(fd);
+    errno = EWOULDBLOCK;
+    return -1;
+}
+
+/// Locked, empty and under a name beside `target`. Throws IoError.
+struct UnownedFile {
+    std::filesystem::path path;
+    int fd;
+};
+UnownedFile create_temporary(const std::filesystem::path& target) {
+    constexpr int kMostWriters = 1000;  // of one target at a time
+    for (int attempt = 0; attempt < kMostWriters; ++attempt) {
+        const std::filesystem::path path = temporary_path(target, attempt);
+        if (const int fd = open_unowned(path, O_CREAT); fd >= 0) return {path, fd};
+        if (errno != EWOULDBLOCK) throw_errno(target, errno);
+    }
+    throw IoError(fmt::format("cannot write {}: too many others do", target.string()));
+}
+
+// A name beside the target, removed unless it has been renamed. What a writer that was killed left behind is used again
+// by the next one with the same target.
 class TemporaryFile {
   public:
-    explicit TemporaryFile(const std::filesystem::path& target) {
-        // O_EXCL makes the name ours even if another process or thread picks the same.
-        for (int attempt = 0;; ++attempt) {
-            path_ =
-                target.parent_path() / fmt::format(".{}.{}-{}.tmp", target.filename().string(), ::getpid(), attempt);
-            fd_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-            if (fd_ >= 0) return;
-            if (errno != EEXIST) throw_errno(target, errno);
-        }
+    explicit TemporaryFile(const std::filesystem::path& target) : TemporaryFile(target, create_temporary(target)) {
+        file_.clear();
     }
     ~TemporaryFile() {
         std::error_code ignored;
@@ -70,15 +121,22 @@ class TemporaryFile {
     TemporaryFile(const TemporaryFile&) = delete;
     TemporaryFile& operator=(const TemporaryFile&) = delete;
 
-    [[nodiscard]] int descriptor() const { return fd_; }
-    void rename_to(const std::filesystem::path& target) {
-        if (::rename(path_.c_str(), target.c_str()) != 0) throw_errno(target, errno);
+    void write(std::span<const std::byte> bytes) const { file_.write(bytes); }
+    /// Gives it its name once its bytes are on the disk. It is closed after that: closing lets others take the name.
+    void finish() {
+        file_.sync();
+        if (::rename(path_.c_str(), target_.c_str()) != 0) throw_errno(target_, errno);
         path_.clear();
+        file_.close();
     }
 
   private:
+    TemporaryFile(const std::filesystem::path& target, UnownedFile temporary)
+        : target_(target), path_(std::move(temporary.path)), file_(target, temporary.fd) {}
+
+    const std::filesystem::path& target_;
     std::filesystem::path path_;
-    int fd_ = -1;
+    OpenFile file_;  ///< closed after the name is gone
 };
 
 void write_in_place(const std::filesystem::path& path, const std::function<void(const ByteSink&)>& produce) {
@@ -101,11 +159,8 @@ void write_file(const std::filesystem::path& path, const std::function<void(cons
                             ? std::filesystem::canonical(path)
                             : path;
     TemporaryFile temporary(target);
-    OpenFile file(path, temporary.descriptor());
-    produce([&](std::span<const std::byte> bytes) { file.write(bytes); });
-    file.sync();
-    file.close();
-    temporary.rename_to(target);
+    produce([&](std::span<const std::byte> bytes) { temporary.write(bytes); });
+    temporary.finish();
 }
 
 void write_bytes(const std::filesystem::path& path, std::span<const std::byte> bytes) {
@@ -114,6 +169,26 @@ void write_bytes(const std::filesystem::path& path, std::span<const std::byte> b
 
 void write_text(const std::filesystem::path& path, const std::string& text) {
     write_bytes(path, std::as_bytes(std::span(text)));
+}
+
+std::size_t remove_abandoned_files(const std::filesystem::path& directory) {
+    constexpr auto kOldAge = std::chrono::hours(1);  // of what may be another machine's
+    std::size_t removed = 0;
+    std::error_code error;
+    std::filesystem::recursive_directory_iterator entry(
+        directory, std::filesystem::directory_options::skip_permission_denied, error);
+    for (; !error && entry != std::filesystem::recursive_directory_iterator(); entry.increment(error)) {
+        const std::string name = entry->path().filename().string();
+        if (!name.starts_with('.') || !name.ends_with(kTemporaryEnd) || !entry->is_regular_file(error)) continue;
+        const bool is_ours = name.find(fmt::format(".{}-", host_name())) != std::string::npos;
+        const auto age = std::filesystem::file_time_type::clock::now() - entry->last_write_time(error);
+        if (error || (!is_ours && age < kOldAge)) continue;
+        const int fd = open_unowned(entry->path(), 0);
+        if (fd < 0) continue;
+        if (std::filesystem::remove(entry->path(), error)) ++removed;
+        ::close(fd);
+    }
+    return removed;
 }
 
 }  // namespace etendue

@@ -17,10 +17,18 @@ using ByteSink = std::function<void(std::span<const std::byte>)>;
 /// are on the disk before the name is. A link is followed, and what exists and is no regular file (a pipe, a device) is
 /// written in place, since renaming would replace it. Creates no directory. Throws IoError with the path and the
 /// reason; the temporary file is gone then, as it is when `produce` throws.
+///
+/// It is `.NAME.HOST-N.etendue.tmp` beside NAME, and locked while it is written: what a killed writer left is known by
+/// that, and used again by the next writer of the same file.
 void write_file(const std::filesystem::path& path, const std::function<void(const ByteSink&)>& produce);
 
 /// The same of bytes that are there already.
 void write_bytes(const std::filesystem::path& path, std::span<const std::byte> bytes);
 void write_text(const std::filesystem::path& path, const std::string& text);
+
+/// Removes the temporary files that killed writers have left in `directory` and below: those of this host that nobody
+/// has open for writing, and those of other hosts that are an hour old. Returns how many. What cannot be read or
+/// removed is left.
+std::size_t remove_abandoned_files(const std::filesystem::path& directory);
 
 }  // namespace etendue

@@ -3,7 +3,10 @@
 #include "core/error.h"
 #include "support/temporary_folder.h"
 
+#include <chrono>
 #include <csignal>
+#include <fstream>
+#include <span>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -103,6 +106,64 @@ TEST(WriteText, SeesAFullDisk) {
 TEST(WriteText, WritesDevicesInPlace) {
     write_text("/dev/null", "text");
     EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+}
+
+/// What a killed writer of `name` would leave, as the running one sees it.
+std::filesystem::path temporary_of(const TemporaryFolder& folder, const std::string& name) {
+    std::filesystem::path temporary;
+    write_file(folder / name, [&](const ByteSink&) {
+        for (const auto& entry : std::filesystem::directory_iterator(folder / "."))
+            if (entry.path().extension() == ".tmp") temporary = entry.path();
+    });
+    EXPECT_FALSE(temporary.empty());
+    return temporary.lexically_normal();
+}
+
+TEST(WriteFile, TakesOverWhatAKilledWriterLeft) {
+    const TemporaryFolder folder;
+    const auto left = temporary_of(folder, "a");
+    std::ofstream(left) << "what was written before the kill, and is longer";
+    write_text(folder / "a", "short");
+    EXPECT_EQ(text_of(folder / "a"), "short");
+    EXPECT_EQ(folder.file_count(), 1u);
+}
+
+TEST(WriteFile, TwoWritersOfOneFileDoNotMixTheirBytes) {
+    const TemporaryFolder folder;
+    write_file(folder / "a", [&](const ByteSink& sink) {
+        sink(std::as_bytes(std::span("first ", 6)));
+        write_text(folder / "a", "second");
+        EXPECT_EQ(text_of(folder / "a"), "second");
+        EXPECT_EQ(remove_abandoned_files(folder / "."), 0u) << "it is not abandoned";
+        sink(std::as_bytes(std::span("writer", 6)));
+    });
+    EXPECT_EQ(text_of(folder / "a"), "first writer") << "the last to finish";
+    EXPECT_EQ(folder.file_count(), 1u);
+}
+
+TEST(WriteFile, WhatThrowsLeavesNothing) {
+    const TemporaryFolder folder;
+    EXPECT_THROW(write_file(folder / "a", [](const ByteSink&) { throw IoError("no"); }), IoError);
+    EXPECT_EQ(folder.file_count(), 0u);
+}
+
+TEST(RemoveAbandonedFiles, TakesThoseOfTheDeadAndNoOthers) {
+    const TemporaryFolder folder;
+    const auto left = temporary_of(folder, "a");
+    std::filesystem::create_directories(folder / "below/deep");
+    for (const auto& path : {left, (folder / "below/deep") / left.filename(), folder / "below/.mine.tmp",
+                             folder / "below/.a.another-host-0.etendue.tmp", folder / "b.tmp"})
+        std::ofstream(path) << "half";
+    const auto old = folder / "below/.b.another-host-0.etendue.tmp";
+    std::ofstream(old) << "half";
+    std::filesystem::last_write_time(old, std::filesystem::file_time_type::clock::now() - std::chrono::hours(2));
+    EXPECT_EQ(remove_abandoned_files(folder / "."), 3u);
+    EXPECT_FALSE(std::filesystem::exists(left));
+    EXPECT_FALSE(std::filesystem::exists(old));
+    EXPECT_TRUE(std::filesystem::exists(folder / "below/.mine.tmp")) << "another program's";
+    EXPECT_TRUE(std::filesystem::exists(folder / "below/.a.another-host-0.etendue.tmp")) << "its writer may live";
+    EXPECT_TRUE(std::filesystem::exists(folder / "a"));
+    EXPECT_EQ(remove_abandoned_files(folder / "missing"), 0u);
 }
 
 }  // namespace

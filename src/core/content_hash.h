@@ -1,0 +1,39 @@
+// A fingerprint of bytes, to tell whether they are the same as before.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+
+namespace etendue {
+
+/// XXH3, 128 bits: finds every accident, and no attacker's work.
+class ContentHash {
+  public:
+    static constexpr std::size_t kSize = 16;
+    using Digest = std::array<std::byte, kSize>;
+
+    ContentHash();
+    ~ContentHash();
+    ContentHash(const ContentHash&) = delete;
+    ContentHash& operator=(const ContentHash&) = delete;
+
+    void add(std::span<const std::byte> bytes);
+    /// Of all bytes so far.
+    [[nodiscard]] Digest digest() const;
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+/// 32 hexadecimal digits.
+[[nodiscard]] std::string hex(const ContentHash::Digest& digest);
+
+/// Of what `path` holds. Throws IoError if it cannot be read.
+[[nodiscard]] ContentHash::Digest hash_file(const std::filesystem::path& path);
+
+}  // namespace etendue
