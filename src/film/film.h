@@ -68,7 +68,10 @@ class TileBuffer {
 /// order with the same result: each pixel receives its passes in their order.
 class Film {
   public:
-    Film(int full_width, int full_height, const PixelRect& window);
+    /// Splats are kept for all of `splat_window`, which need not be the window of the pixels: the light paths of one
+    /// part of an image shine on the others.
+    Film(int full_width, int full_height, const PixelRect& window, const PixelRect& splat_window);
+    Film(int full_width, int full_height, const PixelRect& window) : Film(full_width, full_height, window, window) {}
 
     /// Adds the pixels of a finished tile. Calls for tiles that do not overlap may run at the same time.
     void add(const TileBuffer& tile);
@@ -77,7 +80,7 @@ class Film {
     void add_splats(std::span<const std::vector<Splat>> lists, std::uint64_t light_paths, const PixelFilter& filter,
                     const ThreadPool& threads);
 
-    /// Adds the sums of `other`, which has the same window and filter.
+    /// Adds the sums of `other`, which has the same filter and splat window, and a window inside this one's.
     void add(const Film& other);
 
     /// All that it holds: of the window, row by row, and the splats, if there have been any.
@@ -89,6 +92,7 @@ class Film {
     [[nodiscard]] int full_width() const { return full_width_; }
     [[nodiscard]] int full_height() const { return full_height_; }
     [[nodiscard]] const PixelRect& window() const { return window_; }
+    [[nodiscard]] const PixelRect& splat_window() const { return splat_window_; }
 
     /// Means of red, green, blue and alpha of the window, row by row, four floats a pixel, with the splats; pixels
     /// without samples are zero.
@@ -96,9 +100,13 @@ class Film {
     [[nodiscard]] std::uint64_t sample_count() const;
 
   private:
+    /// Of the window's row `y`, from its column `x` on.
+    [[nodiscard]] PixelSum* row(int x, int y);
+
     int full_width_;
     int full_height_;
     PixelRect window_;
+    PixelRect splat_window_;
     std::vector<PixelSum> pixels_;
     std::optional<SplatFilm> splats_;
 };

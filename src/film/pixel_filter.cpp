@@ -54,7 +54,7 @@ float shape_value(FilterShape shape, float t) {
 }  // namespace
 
 PixelFilter::PixelFilter(FilterShape shape, float radius)
-    : radius_(radius > 0.0f ? radius : default_radius(shape)), edges_(kCells + 1), values_(kValues + 1) {
+    : shape_(shape), radius_(radius > 0.0f ? radius : default_radius(shape)), edges_(kCells + 1), values_(kValues + 1) {
     // The distribution function on a grid much finer than the cells, then its inverse at equal steps.
     constexpr std::size_t kSteps = 64 * kCells;
     std::vector<double> cdf(kSteps + 1, 0.0);

@@ -43,6 +43,7 @@ class PixelFilter {
         return values_[below] + (values_[below + 1] - values_[below]) * (step - static_cast<float>(below));
     }
     [[nodiscard]] float radius() const { return radius_; }
+    [[nodiscard]] FilterShape shape() const { return shape_; }
 
   private:
     struct Sample1D {
@@ -64,6 +65,7 @@ class PixelFilter {
     /// Steps of the table for `evaluate`: straight lines between them stay within 3e-6 of the filter's largest value.
     static constexpr std::size_t kValues = 1024;
 
+    FilterShape shape_;
     float radius_;
     float steps_per_pixel_ = 1.0f;
     float weight_ = 1.0f;           ///< ∫ |filter| / ∫ filter

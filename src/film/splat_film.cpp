@@ -65,7 +65,7 @@ void SplatFilm::add_splat(const Splat& splat, int y0, int y1, std::vector<float>
     for (int y = rows.begin; y < rows.end; ++y) {
         const float along_y = filter_.evaluate(centre(y) - splat.position.y);
         SplatSum* sum = &pixels_[static_cast<std::size_t>(y - window_.y0) * static_cast<std::size_t>(window_.width()) +
-                            static_cast<std::size_t>(columns.begin - window_.x0)];
+                                 static_cast<std::size_t>(columns.begin - window_.x0)];
         for (const float x_weight : along_x) {
             const auto weight = static_cast<double>(along_y * x_weight);
             sum->r += weight * static_cast<double>(splat.value.r);
@@ -92,14 +92,20 @@ void SplatFilm::restore(std::vector<SplatSum> sums, std::uint64_t light_paths) {
     light_paths_ = light_paths;
 }
 
-void SplatFilm::add_to(std::span<float> image) const {
+void SplatFilm::add_to(std::span<float> image, const PixelRect& window) const {
     if (light_paths_ == 0) return;
     const double scale =
         static_cast<double>(full_width_) * static_cast<double>(full_height_) / static_cast<double>(light_paths_);
-    for (std::size_t i = 0; i < pixels_.size(); ++i) {
-        image[4 * i] += static_cast<float>(pixels_[i].r * scale);
-        image[4 * i + 1] += static_cast<float>(pixels_[i].g * scale);
-        image[4 * i + 2] += static_cast<float>(pixels_[i].b * scale);
+    float* pixel = image.data();
+    for (int y = window.y0; y < window.y1; ++y) {
+        const SplatSum* sum =
+            &pixels_[static_cast<std::size_t>(y - window_.y0) * static_cast<std::size_t>(window_.width()) +
+                     static_cast<std::size_t>(window.x0 - window_.x0)];
+        for (int x = window.x0; x < window.x1; ++x, ++sum, pixel += 4) {
+            pixel[0] += static_cast<float>(sum->r * scale);
+            pixel[1] += static_cast<float>(sum->g * scale);
+            pixel[2] += static_cast<float>(sum->b * scale);
+        }
     }
 }
 

@@ -45,9 +45,10 @@ class SplatFilm {
     /// Adds the sums of `other`, which has the same window.
     void add(const SplatFilm& other);
 
-    /// Adds the image to that of a `Film` of the same window, four floats a pixel.
-    void add_to(std::span<float> image) const;
+    /// Adds the image to that of a `Film` whose `window` lies in this one's, four floats a pixel.
+    void add_to(std::span<float> image, const PixelRect& window) const;
 
+    [[nodiscard]] const PixelFilter& filter() const { return filter_; }
     /// Of the window, row by row.
     [[nodiscard]] std::span<const SplatSum> sums() const { return pixels_; }
     [[nodiscard]] std::uint64_t light_paths() const { return light_paths_; }
@@ -55,7 +56,6 @@ class SplatFilm {
     void restore(std::vector<SplatSum> sums, std::uint64_t light_paths);
 
   private:
-
     /// Adds what falls on rows [y0, y1) of the full image.
     void add_rows(std::span<const std::vector<Splat>> lists, int y0, int y1);
     void add_splat(const Splat& splat, int y0, int y1, std::vector<float>& along_x);
