@@ -26,7 +26,7 @@ namespace etendue {
 /// The samples to take: `sample_count` of every pixel of `rect`, beginning with index `first_sample`.
 struct TileJob {
     PixelRect rect;
-    PixelRect window;  ///< all that is rendered: what splats may fall into
+    PixelRect window;  ///< what splats may fall into; each of its pixels has a light path per sample
     int full_width = 0;
     int full_height = 0;
     std::uint32_t first_sample = 0;

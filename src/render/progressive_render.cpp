@@ -20,10 +20,14 @@ double seconds_since(Clock::time_point start) {
 
 }  // namespace
 
+Film make_film(const SamplingOptions& options) {
+    return {options.full_width, options.full_height, options.window,
+            options.splat_window.empty() ? options.window : options.splat_window};
+}
+
 ProgressiveRender::ProgressiveRender(const World& world, const Integrator& integrator, const SamplingOptions& options,
                                      const ThreadPool& threads)
-    : ProgressiveRender(world, integrator, options, threads,
-                        {.film = Film(options.full_width, options.full_height, options.window)}) {}
+    : ProgressiveRender(world, integrator, options, threads, {.film = make_film(options)}) {}
 
 ProgressiveRender::ProgressiveRender(const World& world, const Integrator& integrator, const SamplingOptions& options,
                                      const ThreadPool& threads, RenderState state)
@@ -57,9 +61,14 @@ bool ProgressiveRender::add_samples(std::uint32_t count, const StopPredicate& st
     state_.wall_seconds += seconds_since(start);
     state_.cpu_seconds += process_cpu_seconds() - cpu_start;
     if (std::ranges::find(state_.tiles_done, 0) != state_.tiles_done.end()) return false;
+    if (second_film() != nullptr) state_.every_other_spp += state_.pass_size;
     state_.spp_done += std::exchange(state_.pass_size, 0);
     state_.tiles_done.clear();
     return true;
+}
+
+Film* ProgressiveRender::second_film() {
+    return state_.every_other_pass && is_odd_pass(state_.next_sample()) ? &*state_.every_other_pass : nullptr;
 }
 
 std::size_t ProgressiveRender::splat_group_size() const {
@@ -74,6 +83,7 @@ void ProgressiveRender::render_group(std::size_t first, std::size_t size, const 
                                      const TileCallback& tile_done) {
     const bool makes_splats = integrator_.makes_splats();
     const std::vector<std::size_t> order = make_order(size, options_.tile_order_seed);
+    Film* const second = second_film();
     if (makes_splats) splats_.resize(size);
     std::atomic<std::uint64_t> light_paths = 0;
     threads_.parallel_for(size, [&](std::size_t index, int slot) {
@@ -82,10 +92,10 @@ void ProgressiveRender::render_group(std::size_t first, std::size_t size, const 
         if (is_done != 0 || (!makes_splats && stop())) return;
         Worker& worker = workers_[static_cast<std::size_t>(slot)];
         const TileJob job{tiles_[first + order[index]],
-                          options_.window,
+                          state_.film.splat_window(),
                           options_.full_width,
                           options_.full_height,
-                          state_.spp_done,
+                          state_.next_sample(),
                           state_.pass_size,
                           options_.seed,
                           options_.sequence,
@@ -94,6 +104,7 @@ void ProgressiveRender::render_group(std::size_t first, std::size_t size, const 
         worker.tile.reset(job.rect);
         integrator_.render_tile(world_, job, *worker.scratch, worker.tile, worker.counters);
         state_.film.add(worker.tile);
+        if (second != nullptr) second->add(worker.tile);
         is_done = 1;
         const std::uint64_t samples = job.rect.area() * job.sample_count;
         if (makes_splats) {
@@ -102,7 +113,9 @@ void ProgressiveRender::render_group(std::size_t first, std::size_t size, const 
         }
         if (tile_done) tile_done(samples, worker.counters.rays() - rays_before);
     });
-    if (makes_splats) state_.film.add_splats(splats_, light_paths, options_.filter, threads_);
+    if (makes_splats)
+        for (Film* film : {&state_.film, second})
+            if (film != nullptr) film->add_splats(splats_, light_paths, options_.filter, threads_);
     for (std::vector<Splat>& list : splats_) list.clear();
 }
 

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -20,12 +21,18 @@ struct SamplingOptions {
     int full_width = 1024;
     int full_height = 576;
     PixelRect window{0, 0, 1024, 576};  ///< inside the full image, not empty
+    /// What the window is a part of that other renders have the rest of: splats are kept for all of it. Empty for the
+    /// window itself.
+    PixelRect splat_window{};
     std::uint32_t seed = 0;
     SampleSequence sequence = SampleSequence::Sobol;
     PixelFilter filter{FilterShape::BlackmanHarris};
     /// Not 0: tiles are taken in an order shuffled by this number. The image does not depend on it; tests show that.
     std::uint32_t tile_order_seed = 0;
 };
+
+/// A film without samples for such a render.
+[[nodiscard]] Film make_film(const SamplingOptions& options);
 
 /// Called from rendering threads whenever a tile is done, with what it took.
 using TileCallback = std::function<void(std::uint64_t samples, std::uint64_t rays)>;
@@ -36,12 +43,19 @@ using StopPredicate = std::function<bool()>;
 /// How far a render has come: all that is needed to go on with it.
 struct RenderState {
     Film film;
-    std::uint32_t spp_done = 0;               ///< samples that every pixel has
-    std::uint32_t pass_size = 0;              ///< samples of the pass that was stopped; 0 if none was
-    std::vector<std::uint8_t> tiles_done{};   ///< of that pass: 1 for those that have its samples
+    std::uint32_t first_sample = 0;          ///< index of the first sample of every pixel
+    std::uint32_t spp_done = 0;              ///< samples that every pixel has
+    std::uint32_t pass_size = 0;             ///< samples of the pass that was stopped; 0 if none was
+    std::vector<std::uint8_t> tiles_done{};  ///< of that pass: 1 for those that have its samples
     RenderCounters counters{};
     double wall_seconds = 0.0;  ///< of rendering
     double cpu_seconds = 0.0;   ///< the same, of all threads
+    /// What every other pass gave, to be compared with the whole; kept if it is there from the beginning.
+    std::optional<Film> every_other_pass{};
+    std::uint32_t every_other_spp = 0;  ///< samples per pixel in it
+
+    /// Index of the next sample of every pixel.
+    [[nodiscard]] std::uint32_t next_sample() const { return first_sample + spp_done; }
 };
 
 class ProgressiveRender {
@@ -75,6 +89,8 @@ class ProgressiveRender {
     /// Tiles whose splats are added together: few enough for the render to stop within seconds. The image does not
     /// depend on it.
     [[nodiscard]] std::size_t splat_group_size() const;
+    /// The film of every other pass, during such a pass.
+    [[nodiscard]] Film* second_film();
     void render_group(std::size_t first, std::size_t size, const StopPredicate& stop, const TileCallback& tile_done);
 
     const World& world_;

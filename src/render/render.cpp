@@ -1,7 +1,9 @@
 #include "render/render.h"
 
+#include "film/error_estimate.h"
 #include "render/tiles.h"
 
+#include <algorithm>
 #include <chrono>
 #include <mutex>
 #include <utility>
@@ -44,7 +46,8 @@ class ProgressReporter {
 
   private:
     void report() {
-        callback_({static_cast<double>(samples_) / static_cast<double>(total_samples_),
+        // What is gone on with may have more samples than are asked for now.
+        callback_({std::min(1.0, static_cast<double>(samples_) / static_cast<double>(total_samples_)),
                    seconds_before_ + seconds_since(start_), samples_, rays_});
     }
 
@@ -66,6 +69,8 @@ const char* halt_reason_name(HaltReason reason) {
             return "samples done";
         case HaltReason::TimeLimit:
             return "time limit";
+        case HaltReason::ErrorReached:
+            return "error reached";
         case HaltReason::Interrupted:
             return "interrupted";
     }
@@ -79,6 +84,16 @@ ImageF rgba_image(const Film& film) {
     image.channels = 4;
     image.pixels = film.resolve();
     return image;
+}
+
+std::optional<double> relative_error(const RenderState& state) {
+    // Estimates from a few samples would end renders by luck.
+    constexpr std::uint32_t kFewest = 16;
+    const std::uint32_t other = state.spp_done - state.every_other_spp;
+    if (!state.every_other_pass || state.pass_size > 0 || state.every_other_spp < kFewest || other < kFewest)
+        return std::nullopt;
+    return estimate_relative_error(state.film, *state.every_other_pass,
+                                   static_cast<double>(state.every_other_spp) / static_cast<double>(state.spp_done));
 }
 
 RenderResult render(const World& world, const Integrator& integrator, const RenderOptions& options,
@@ -97,7 +112,11 @@ RenderResult render(const World& world, const Integrator& integrator, const Rend
             break;
         }
         if (pause.is_due && pause.is_due()) pause.act(now);
-        std::uint32_t count = pass_size(now.spp_done, options.spp);
+        if (options.relative_error > 0.0 && relative_error(now).value_or(1.0) <= options.relative_error) {
+            halt_reason = HaltReason::ErrorReached;
+            break;
+        }
+        std::uint32_t count = pass_size(now.next_sample(), now.first_sample + options.spp);
         if (options.time_limit_seconds > 0.0) {
             if (now.wall_seconds >= options.time_limit_seconds) {
                 halt_reason = HaltReason::TimeLimit;
@@ -105,9 +124,8 @@ RenderResult render(const World& world, const Integrator& integrator, const Rend
             }
             count = fit_pass(count, now.spp_done, now.wall_seconds, options.time_limit_seconds);
         }
-        rendering.add_samples(count, is_wanted, [&](std::uint64_t samples, std::uint64_t rays) {
-            reporter.tile_done(samples, rays);
-        });
+        rendering.add_samples(count, is_wanted,
+                              [&](std::uint64_t samples, std::uint64_t rays) { reporter.tile_done(samples, rays); });
     }
     reporter.finish();
     return {rendering.take_state(), halt_reason};
@@ -115,8 +133,7 @@ RenderResult render(const World& world, const Integrator& integrator, const Rend
 
 RenderResult render(const World& world, const Integrator& integrator, const RenderOptions& options,
                     const ThreadPool& threads, const std::atomic<bool>& stop, const ProgressCallback& progress) {
-    return render(world, integrator, options, threads, stop, progress, {},
-                  {.film = Film(options.full_width, options.full_height, options.window)});
+    return render(world, integrator, options, threads, stop, progress, {}, {.film = make_film(options)});
 }
 
 }  // namespace etendue

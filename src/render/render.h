@@ -11,6 +11,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 
 namespace etendue {
@@ -18,6 +19,7 @@ namespace etendue {
 struct RenderOptions : SamplingOptions {
     std::uint32_t spp = 64;
     double time_limit_seconds = 0.0;  ///< no pass starts after this; 0 for no limit
+    double relative_error = 0.0;      ///< no pass starts once the estimate is below this; 0 for no limit
 };
 
 /// How far a render is.
@@ -34,9 +36,14 @@ using ProgressCallback = std::function<void(const RenderProgress&)>;
 enum class HaltReason {
     SamplesDone,
     TimeLimit,
+    ErrorReached,
     Interrupted,
 };
 [[nodiscard]] const char* halt_reason_name(HaltReason reason);
+
+/// Of the image, from the passes that it is made of: the square root of the relMSE that is to be expected of it, as
+/// estimate_relative_error says. Nothing as long as there are too few samples, or if every other pass is not kept.
+[[nodiscard]] std::optional<double> relative_error(const RenderState& state);
 
 struct RenderResult : RenderState {
     HaltReason halt_reason = HaltReason::SamplesDone;
@@ -44,14 +51,15 @@ struct RenderResult : RenderState {
 
 /// What to do now and then in the middle of a render, such as writing a checkpoint.
 struct RenderPause {
-    StopPredicate is_due;  ///< false for a while after `act`
+    StopPredicate is_due;                         ///< false for a while after `act`
     std::function<void(const RenderState&)> act;  ///< nothing is rendered meanwhile
 };
 
 /// Renders `world`, beginning with `state`. The image is bit-identical for every thread count and tile order, and
 /// however often the render was stopped and gone on with. `stop` and `pause` are looked at before every tile (or group
 /// of tiles, see ProgressiveRender): when one of them says so, those under way are finished, and what there is is
-/// returned or shown to `pause`. The limit of time counts what `state` has taken.
+/// returned or shown to `pause`. The limit of time counts what `state` has taken; that of the error needs a state that
+/// keeps every other pass.
 [[nodiscard]] RenderResult render(const World& world, const Integrator& integrator, const RenderOptions& options,
                                   const ThreadPool& threads, const std::atomic<bool>& stop,
                                   const ProgressCallback& progress, const RenderPause& pause, RenderState state);

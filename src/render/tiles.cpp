@@ -1,6 +1,7 @@
 #include "render/tiles.h"
 
 #include <algorithm>
+#include <bit>
 #include <numeric>
 #include <random>
 #include <utility>
@@ -31,9 +32,15 @@ std::size_t largest_splat_group(std::uint32_t spp) {
     return std::max<std::size_t>(1, kSamples / (kTileArea * spp));
 }
 
-std::uint32_t pass_size(std::uint32_t done, std::uint32_t total) {
-    constexpr std::uint32_t kLargest = 16;
-    return std::min(std::clamp(done, 1u, kLargest), total - done);
+std::uint32_t pass_size(std::uint32_t first, std::uint32_t end) {
+    const std::uint32_t next =
+        first < kLargestPass ? std::bit_ceil(first + 1) : (first / kLargestPass + 1) * kLargestPass;
+    return std::min(next, end) - first;
+}
+
+bool is_odd_pass(std::uint32_t first) {
+    const auto small = static_cast<std::uint32_t>(std::bit_width(std::min(first, kLargestPass)));
+    return (small + first / kLargestPass) % 2 != 0;
 }
 
 std::uint32_t fit_pass(std::uint32_t wanted, std::uint32_t done, double seconds, double seconds_limit) {

@@ -21,10 +21,16 @@ inline constexpr int kTileSize = 32;
 /// Most tiles to render with `spp` samples before their splats are added to the film, so that not many have to be held.
 [[nodiscard]] std::size_t largest_splat_group(std::uint32_t spp);
 
-/// Samples of the pass that begins after `done` of `total` samples: 1, 1, 2, 4, 8, 16, 16, … so that the first picture
-/// comes soon, stopping is prompt, and later passes fill their waves. Depends on `done` only, so that a render that is
-/// cut short agrees with the beginning of a longer one.
-[[nodiscard]] std::uint32_t pass_size(std::uint32_t done, std::uint32_t total);
+/// Most samples of a pass.
+inline constexpr std::uint32_t kLargestPass = 16;
+
+/// Samples of the pass that begins with sample `first` < `end`: from 0 on 1, 1, 2, 4, 8, 16, 16, … so that the first
+/// picture comes soon, stopping is prompt, and later passes fill their waves. They are cut at the same places wherever
+/// a render begins and ends, so that parts of a render agree with the whole.
+[[nodiscard]] std::uint32_t pass_size(std::uint32_t first, std::uint32_t end);
+
+/// True for every other pass, by the sample that it begins with.
+[[nodiscard]] bool is_odd_pass(std::uint32_t first);
 
 /// As many of the `wanted` samples as fit before `seconds_limit`, at the pace of the first `done` ones, which took
 /// `seconds`; at least 1.

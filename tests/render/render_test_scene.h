@@ -53,7 +53,7 @@ inline RenderOptions options_for(int width, int height, std::uint32_t spp) {
 }
 
 inline RenderResult render_now(const World& world, const char* integrator, const RenderOptions& options, int threads,
-                        const ProgressCallback& progress = {}) {
+                               const ProgressCallback& progress = {}) {
     const ThreadPool pool(threads);
     const std::atomic<bool> stop{false};
     return render(world, *make_integrator(integrator, {}), options, pool, stop, progress);

@@ -66,9 +66,8 @@ TEST(RenderPause, ActsInTheMiddleAndChangesNothing) {
     const std::atomic<bool> stop{false};
     std::atomic<int> asked = 0;
     std::vector<std::uint64_t> seen;
-    const RenderPause pause{
-        .is_due = [&] { return ++asked % 3 == 0; },
-        .act = [&](const RenderState& state) { seen.push_back(state.film.sample_count()); }};
+    const RenderPause pause{.is_due = [&] { return ++asked % 3 == 0; },
+                            .act = [&](const RenderState& state) { seen.push_back(state.film.sample_count()); }};
     const RenderResult result =
         render(world, *integrator, options, pool, stop, {}, pause, {.film = Film(96, 96, options.window)});
     EXPECT_EQ(result.halt_reason, HaltReason::SamplesDone);

@@ -1,0 +1,267 @@
+#include "render/checkpoint.h"
+
+#include "core/content_hash.h"
+#include "core/error.h"
+#include "core/write_file.h"
+#include "render/tiles.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+#include <fstream>
+#include <limits>
+#include <optional>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace etendue {
+
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "checkpoints are written as numbers lie in memory");
+static_assert(sizeof(PixelSum) == 48 && sizeof(SplatSum) == 24, "sums have no padding, and old files hold them so");
+
+constexpr std::array<char, 8> kMagic{'E', 'T', 'D', 'C', 'K', 'P', 'T', '1'};
+
+/// Writes and hashes.
+class Writer {
+  public:
+    explicit Writer(const ByteSink& sink) : sink_(sink) {}
+
+    template <typename T>
+    void put(std::span<const T> values) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        hash_.add(std::as_bytes(values));
+        sink_(std::as_bytes(values));
+    }
+    template <typename T>
+    void put(const T& value) {
+        put(std::span(&value, 1));
+    }
+    void put(const std::string& text) {
+        put(std::uint64_t{text.size()});
+        put(std::span<const char>(text));
+    }
+    void finish() {
+        const ContentHash::Digest digest = hash_.digest();
+        sink_(digest);
+    }
+
+  private:
+    const ByteSink& sink_;
+    ContentHash hash_;
+};
+
+/// Reads no further than the file is long.
+class Reader {
+  public:
+    Reader(const std::filesystem::path& path, std::uint64_t size)
+        : path_(path), file_(path, std::ios::binary), left_(size) {}
+
+    template <typename T>
+    void get(std::span<T> values) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        if (values.size_bytes() > left_) fail();
+        file_.read(reinterpret_cast<char*>(values.data()), static_cast<std::streamsize>(values.size_bytes()));
+        if (!file_) fail();
+        left_ -= values.size_bytes();
+    }
+    template <typename T>
+    [[nodiscard]] T get() {
+        T value;
+        get(std::span(&value, 1));
+        return value;
+    }
+    /// `count` of them, which the file must have room for.
+    template <typename T>
+    [[nodiscard]] std::vector<T> get_many(std::uint64_t count) {
+        if (count > left_ / sizeof(T)) fail();
+        std::vector<T> values(static_cast<std::size_t>(count));
+        get(std::span(values));
+        return values;
+    }
+    [[nodiscard]] std::string get_text() {
+        const std::vector<char> text = get_many<char>(get<std::uint64_t>());
+        return {text.begin(), text.end()};
+    }
+    [[nodiscard]] std::uint64_t left() const { return left_; }
+    [[noreturn]] void fail() const {
+        throw IoError(fmt::format("{} is damaged, or no checkpoint of this program", path_.string()));
+    }
+
+  private:
+    const std::filesystem::path& path_;
+    std::ifstream file_;
+    std::uint64_t left_;
+};
+
+void put_counters(Writer& out, const RenderCounters& counters) {
+    for (const std::uint64_t count :
+         {counters.camera_rays, counters.bounce_rays, counters.shadow_rays, counters.samples, counters.dropped})
+        out.put(count);
+    out.put(std::uint64_t{counters.first_dropped.size()});
+    out.put(std::span<const DroppedSample>(counters.first_dropped));
+}
+
+RenderCounters get_counters(Reader& in) {
+    RenderCounters counters;
+    for (std::uint64_t* count :
+         {&counters.camera_rays, &counters.bounce_rays, &counters.shadow_rays, &counters.samples, &counters.dropped})
+        *count = in.get<std::uint64_t>();
+    counters.first_dropped = in.get_many<DroppedSample>(in.get<std::uint64_t>());
+    return counters;
+}
+
+void put_film(Writer& out, const Film& film) {
+    const PixelRect& window = film.window();
+    const PixelRect& around = film.splat_window();
+    for (const int number : {film.full_width(), film.full_height(), window.x0, window.y0, window.x1, window.y1,
+                             around.x0, around.y0, around.x1, around.y1})
+        out.put(number);
+    out.put(film.sums());
+    const SplatFilm* splats = film.splats();
+    out.put(std::uint64_t{splats != nullptr});
+    if (splats == nullptr) return;
+    out.put(static_cast<std::uint32_t>(splats->filter().shape()));
+    out.put(splats->filter().radius());
+    out.put(splats->light_paths());
+    out.put(splats->sums());
+}
+
+PixelFilter get_filter(Reader& in) {
+    constexpr float kLargestRadius = 1000.0f;
+    const auto shape = in.get<std::uint32_t>();
+    const auto radius = in.get<float>();
+    if (shape > static_cast<std::uint32_t>(FilterShape::Mitchell) || !(radius > 0.0f && radius < kLargestRadius))
+        in.fail();
+    return PixelFilter(static_cast<FilterShape>(shape), radius);
+}
+
+/// A window with pixels, all of them in `frame`.
+PixelRect get_window(Reader& in, const PixelRect& frame) {
+    std::array<int, 4> edges;
+    in.get(std::span<int>(edges));
+    const PixelRect window{edges[0], edges[1], edges[2], edges[3]};
+    if (window.empty() || intersection(window, frame) != window) in.fail();
+    return window;
+}
+
+Film get_film(Reader& in) {
+    const auto width = in.get<int>();
+    const auto height = in.get<int>();
+    const PixelRect window = get_window(in, {0, 0, width, height});
+    const PixelRect splat_window = get_window(in, {0, 0, width, height});
+    std::vector<PixelSum> sums = in.get_many<PixelSum>(window.area());
+    std::optional<SplatFilm> splats;
+    if (in.get<std::uint64_t>() != 0) {
+        const PixelFilter filter = get_filter(in);
+        const auto light_paths = in.get<std::uint64_t>();
+        std::vector<SplatSum> splat_sums = in.get_many<SplatSum>(splat_window.area());
+        splats.emplace(width, height, splat_window, filter);
+        splats->restore(std::move(splat_sums), light_paths);
+    }
+    Film film(width, height, window, splat_window);
+    film.restore(std::move(sums), std::move(splats));
+    return film;
+}
+
+/// The size of the file without its hash, which must be right.
+std::uint64_t checked_size(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary | std::ios::ate);
+    if (!file) throw IoError(fmt::format("cannot read {}", path.string()));
+    const auto size = static_cast<std::uint64_t>(file.tellg());
+    file.seekg(0);
+    std::vector<char> buffer(std::size_t{1} << 20);
+    ContentHash hash;
+    std::uint64_t left = size > ContentHash::kSize ? size - ContentHash::kSize : 0;
+    const std::uint64_t content = left;
+    while (left > 0 && file) {
+        const std::size_t part = std::min<std::uint64_t>(left, buffer.size());
+        file.read(buffer.data(), static_cast<std::streamsize>(part));
+        hash.add(std::as_bytes(std::span(buffer).first(part)));
+        left -= part;
+    }
+    ContentHash::Digest kept{};
+    file.read(reinterpret_cast<char*>(kept.data()), kept.size());
+    if (!file || content == 0 || kept != hash.digest()) Reader(path, 0).fail();
+    return content;
+}
+
+}  // namespace
+
+std::string difference(const RenderIdentity& kept, const RenderIdentity& wanted) {
+    std::string text;
+    const auto value = [](const RenderIdentity& identity, const std::string& name) {
+        const auto found = identity.find(name);
+        return found != identity.end() ? "'" + found->second + "'" : std::string("missing");
+    };
+    RenderIdentity names = kept;
+    names.insert(wanted.begin(), wanted.end());
+    for (const auto& [name, ignored] : names)
+        if (value(kept, name) != value(wanted, name))
+            text += fmt::format("{}{}: {} there, {} here", text.empty() ? "" : "\n", name, value(kept, name),
+                                value(wanted, name));
+    return text;
+}
+
+void write_checkpoint(const std::filesystem::path& path, const RenderIdentity& identity, const std::string& description,
+                      const RenderState& state) {
+    write_file(path, [&](const ByteSink& sink) {
+        Writer out(sink);
+        out.put(kMagic);
+        out.put(std::uint64_t{identity.size()});
+        for (const auto& [name, value] : identity) {
+            out.put(name);
+            out.put(value);
+        }
+        out.put(description);
+        for (const std::uint32_t count : {state.first_sample, state.spp_done, state.every_other_spp, state.pass_size})
+            out.put(count);
+        out.put(std::uint64_t{state.tiles_done.size()});
+        out.put(std::span<const std::uint8_t>(state.tiles_done));
+        put_counters(out, state.counters);
+        out.put(state.wall_seconds);
+        out.put(state.cpu_seconds);
+        put_film(out, state.film);
+        out.put(std::uint64_t{state.every_other_pass.has_value()});
+        if (state.every_other_pass) put_film(out, *state.every_other_pass);
+        out.finish();
+    });
+}
+
+Checkpoint read_checkpoint(const std::filesystem::path& path) {
+    Reader in(path, checked_size(path));
+    if (in.get<std::array<char, 8>>() != kMagic) in.fail();
+    RenderIdentity identity;
+    for (auto count = in.get<std::uint64_t>(); count > 0; --count) {
+        std::string name = in.get_text();
+        identity[std::move(name)] = in.get_text();
+    }
+    std::string description = in.get_text();
+    std::array<std::uint32_t, 4> counts;
+    in.get(std::span<std::uint32_t>(counts));
+    const auto [first_sample, spp_done, every_other_spp, pass_size] = counts;
+    std::vector<std::uint8_t> tiles_done = in.get_many<std::uint8_t>(in.get<std::uint64_t>());
+    RenderCounters counters = get_counters(in);
+    const auto wall_seconds = in.get<double>();
+    const auto cpu_seconds = in.get<double>();
+    RenderState state{.film = get_film(in),
+                      .first_sample = first_sample,
+                      .spp_done = spp_done,
+                      .pass_size = pass_size,
+                      .tiles_done = std::move(tiles_done),
+                      .counters = std::move(counters),
+                      .wall_seconds = wall_seconds,
+                      .cpu_seconds = cpu_seconds,
+                      .every_other_spp = every_other_spp};
+    if (in.get<std::uint64_t>() != 0) state.every_other_pass = get_film(in);
+    const std::size_t tiles = pass_size > 0 ? make_tiles(state.film.window()).size() : 0;
+    if (in.left() != 0 || state.tiles_done.size() != tiles) in.fail();
+    return {std::move(identity), std::move(description), std::move(state)};
+}
+
+}  // namespace etendue

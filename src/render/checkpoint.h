@@ -1,0 +1,37 @@
+// A render kept in a file, for another process or machine to go on with it.
+//
+// The file, little endian: the eight characters of kMagic; the names and values of the identity; the description;
+// counts and times; the tiles of the pass under way; the sums of the film and, if there are any, of the splats, as they
+// lie in memory; the same of every other pass if it is kept; and at the end an XXH3 hash, 16 bytes, of all that stands
+// before. 48 bytes a pixel, 72 with splats, twice that with every other pass.
+#pragma once
+
+#include "render/progressive_render.h"
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+namespace etendue {
+
+/// All that the sums of a render depend on, by name: those of two renders can be told apart, and the difference named.
+using RenderIdentity = std::map<std::string, std::string>;
+
+/// What differs between `kept` and `wanted`, a line for each name; empty if nothing does.
+[[nodiscard]] std::string difference(const RenderIdentity& kept, const RenderIdentity& wanted);
+
+struct Checkpoint {
+    RenderIdentity identity;
+    std::string description;  ///< what else is to be known about the image; any text
+    RenderState state;
+};
+
+/// Writes the file whole or not at all. Throws IoError.
+void write_checkpoint(const std::filesystem::path& path, const RenderIdentity& identity, const std::string& description,
+                      const RenderState& state);
+
+/// Throws IoError if the file cannot be read, or is damaged: it is never believed in part. Sizes that its bytes claim
+/// are checked before memory is taken for them.
+[[nodiscard]] Checkpoint read_checkpoint(const std::filesystem::path& path);
+
+}  // namespace etendue

@@ -1,0 +1,109 @@
+#include "render/checkpoint.h"
+
+#include "core/error.h"
+#include "core/write_file.h"
+#include "render/render_test_scene.h"
+#include "support/temporary_folder.h"
+
+#include <atomic>
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace etendue::test {
+
+namespace {
+
+const RenderIdentity kIdentity{{"integrator", "bdpt"}, {"file scene.gltf", "0123"}, {"empty", ""}};
+
+/// A render that was stopped after that many questions.
+RenderState stopped(const World& world, const Integrator& integrator, const RenderOptions& options, int questions) {
+    const ThreadPool pool(1);
+    std::atomic<int> asked = 0;
+    ProgressiveRender rendering(world, integrator, options, pool);
+    const auto stop = [&] { return ++asked > questions; };
+    for (const std::uint32_t count : {1u, 1u, 2u}) rendering.add_samples(count, stop);
+    return rendering.take_state();
+}
+
+/// Not through to the disk: that takes long, a thousand times.
+void write_quickly(const std::filesystem::path& path, const std::vector<std::byte>& bytes) {
+    std::ofstream file(path, std::ios::binary);
+    file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+}
+
+class Checkpoints : public testing::TestWithParam<std::string> {};
+
+TEST_P(Checkpoints, GoOnToTheSameBytes) {
+    const TemporaryFolder folder;
+    const World world = compile(busy_scene(100, 70));
+    const auto integrator = make_integrator(GetParam(), {});
+    const RenderOptions options = options_for(100, 70, 9);
+    const bool asks_often = !integrator->makes_splats();
+    RenderState state = stopped(world, *integrator, options, asks_often ? 31 : 1);
+    // Once the speed is known, all splats of a pass that takes less than a second are added together.
+    ASSERT_EQ(state.pass_size, asks_often ? 2u : 1u) << "the middle of a pass";
+    const auto path = folder / "a.checkpoint";
+    write_checkpoint(path, kIdentity, "what it is", state);
+    Checkpoint kept = read_checkpoint(path);
+    EXPECT_EQ(kept.identity, kIdentity);
+    EXPECT_EQ(kept.description, "what it is");
+    EXPECT_EQ(kept.state.spp_done, state.spp_done);
+    EXPECT_EQ(kept.state.tiles_done, state.tiles_done);
+    EXPECT_EQ(kept.state.counters.rays(), state.counters.rays());
+    EXPECT_EQ(kept.state.wall_seconds, state.wall_seconds);
+    EXPECT_TRUE(same_bytes(kept.state.film.resolve(), state.film.resolve()));
+    const ThreadPool pool(3);
+    const std::atomic<bool> never{false};
+    const RenderResult result = render(world, *integrator, options, pool, never, {}, {}, std::move(kept.state));
+    const RenderResult whole = render_now(world, GetParam().c_str(), options, 2);
+    EXPECT_TRUE(same_bytes(result.film.resolve(), whole.film.resolve()));
+    EXPECT_EQ(result.counters.samples, whole.counters.samples);
+}
+
+INSTANTIATE_TEST_SUITE_P(Integrators, Checkpoints, testing::Values("path", "light", "bdpt"),
+                         [](const auto& test) { return test.param; });
+
+TEST(Checkpoint, DamageIsFound) {
+    const TemporaryFolder folder;
+    const World world = compile(busy_scene(20, 10));
+    const RenderOptions options = options_for(20, 10, 4);
+    const auto path = folder / "a.checkpoint";
+    write_checkpoint(path, kIdentity, "what it is", stopped(world, *make_integrator("bdpt", {}), options, 1000));
+    const std::vector<std::byte> bytes = read_all(path);
+    std::mt19937 random(3);
+    for (int i = 0; i < 1000; ++i) {
+        std::vector<std::byte> damaged = bytes;
+        damaged[random() % damaged.size()] ^= static_cast<std::byte>(1 + random() % 255);
+        write_quickly(path, damaged);
+        EXPECT_THROW((void)read_checkpoint(path), IoError) << "attempt " << i;
+    }
+    for (const std::size_t size :
+         {std::size_t{0}, std::size_t{1}, std::size_t{16}, bytes.size() / 2, bytes.size() - 1}) {
+        write_bytes(path, std::span(bytes).first(size));
+        EXPECT_THROW((void)read_checkpoint(path), IoError) << size << " bytes";
+    }
+    write_bytes(path, bytes);
+    EXPECT_NO_THROW((void)read_checkpoint(path));
+    EXPECT_THROW((void)read_checkpoint(folder / "missing"), IoError);
+}
+
+TEST(Checkpoint, DifferencesAreNamed) {
+    EXPECT_EQ(difference(kIdentity, kIdentity), "");
+    RenderIdentity other = kIdentity;
+    other["integrator"] = "path";
+    other.erase("empty");
+    other["new"] = "1";
+    EXPECT_EQ(difference(kIdentity, other),
+              "empty: '' there, missing here\nintegrator: 'bdpt' there, 'path' here\nnew: missing there, '1' here");
+}
+
+}  // namespace
+
+}  // namespace etendue::test

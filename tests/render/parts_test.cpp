@@ -1,0 +1,96 @@
+// Parts of a render, added up, are the whole.
+#include "render/render.h"
+#include "render/render_test_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace etendue::test {
+
+namespace {
+
+constexpr int kWidth = 80;
+constexpr int kHeight = 50;
+constexpr std::uint32_t kSpp = 9;
+
+/// The film of samples [begin, end) of `window`, as a part of the whole image.
+Film render_part(const World& world, const Integrator& integrator, const PixelRect& window, std::uint32_t begin,
+                 std::uint32_t end) {
+    RenderOptions options = options_for(kWidth, kHeight, end - begin);
+    options.window = window;
+    options.splat_window = {0, 0, kWidth, kHeight};
+    const ThreadPool pool(2);
+    const std::atomic<bool> never{false};
+    return render(world, integrator, options, pool, never, {}, {}, {.film = make_film(options), .first_sample = begin})
+        .film;
+}
+
+/// Largest difference between two images, over the value where that is above 1.
+double largest_difference(const std::vector<float>& a, const std::vector<float>& b) {
+    EXPECT_EQ(a.size(), b.size());
+    double largest = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const double difference = std::abs(static_cast<double>(a[i]) - static_cast<double>(b[i]));
+        largest = std::max(largest, difference / std::max(1.0, static_cast<double>(std::abs(b[i]))));
+    }
+    return largest;
+}
+
+class Parts : public testing::TestWithParam<std::string> {};
+
+TEST_P(Parts, RangesOfSamplesAddUp) {
+    const World world = compile(busy_scene(kWidth, kHeight));
+    const auto integrator = make_integrator(GetParam(), {});
+    const PixelRect all{0, 0, kWidth, kHeight};
+    Film sum = render_part(world, *integrator, all, 5, kSpp);
+    sum.add(render_part(world, *integrator, all, 0, 3));
+    sum.add(render_part(world, *integrator, all, 3, 5));
+    const RenderResult whole = render_now(world, GetParam().c_str(), options_for(kWidth, kHeight, kSpp), 2);
+    EXPECT_EQ(sum.sample_count(), whole.film.sample_count());
+    EXPECT_LT(largest_difference(sum.resolve(), whole.film.resolve()), 1e-6);
+}
+
+TEST_P(Parts, WindowsAddUpWithTheLightThatTheyThrowOnEachOther) {
+    const World world = compile(busy_scene(kWidth, kHeight));
+    const auto integrator = make_integrator(GetParam(), {});
+    Film sum(kWidth, kHeight, {0, 0, kWidth, kHeight});
+    for (const PixelRect& window :
+         {PixelRect{33, 0, kWidth, 21}, PixelRect{0, 0, 33, 21}, PixelRect{0, 21, kWidth, 50}})
+        sum.add(render_part(world, *integrator, window, 0, kSpp));
+    const RenderResult whole = render_now(world, GetParam().c_str(), options_for(kWidth, kHeight, kSpp), 2);
+    EXPECT_LT(largest_difference(sum.resolve(), whole.film.resolve()), 1e-6);
+}
+
+INSTANTIATE_TEST_SUITE_P(Integrators, Parts, testing::Values("path", "light", "bdpt"),
+                         [](const auto& test) { return test.param; });
+
+TEST(RelativeError, EndsTheRenderAndIsKept) {
+    const World world = compile(busy_scene(kWidth, kHeight));
+    RenderOptions options = options_for(kWidth, kHeight, 4096);
+    options.relative_error = 0.2;
+    const ThreadPool pool(2);
+    const std::atomic<bool> never{false};
+    const auto render_with = [&](const char* integrator) {
+        RenderState state{.film = make_film(options)};
+        state.every_other_pass = make_film(options);
+        return render(world, *make_integrator(integrator, {}), options, pool, never, {}, {}, std::move(state));
+    };
+    for (const char* integrator : {"path", "bdpt"}) {
+        const RenderResult result = render_with(integrator);
+        EXPECT_EQ(result.halt_reason, HaltReason::ErrorReached) << integrator;
+        EXPECT_LT(result.spp_done, options.spp) << integrator;
+        ASSERT_TRUE(relative_error(result)) << integrator;
+        EXPECT_LE(*relative_error(result), options.relative_error) << integrator;
+        // The same samples as a render that is as long.
+        RenderOptions same = options_for(kWidth, kHeight, result.spp_done);
+        EXPECT_TRUE(same_bytes(result.film.resolve(), render_now(world, integrator, same, 2).film.resolve()));
+    }
+}
+
+}  // namespace
+
+}  // namespace etendue::test
