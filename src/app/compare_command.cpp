@@ -10,6 +10,7 @@
 #include "app/image_pair.h"
 #include "app/interrupt.h"
 #include "app/library_versions.h"
+#include "app/render_setup.h"
 #include "core/log.h"
 #include "core/write_file.h"
 #include "output/software_name.h"

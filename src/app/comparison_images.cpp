@@ -2,6 +2,7 @@
 
 #include "app/interrupt.h"
 #include "app/progress_display.h"
+#include "app/render_setup.h"
 #include "image/write.h"
 #include "metrics/color_map.h"
 #include "metrics/pixel_selection.h"

@@ -1,5 +1,7 @@
 #include "app/comparison_variants.h"
 
+#include "app/render_setup.h"
+#include "app/shell_word.h"
 #include "core/log.h"
 #include "loader/loader.h"
 #include "world/compile.h"
@@ -28,6 +30,7 @@ constexpr std::array kOptionsOfRender{
     OptionOfRender{"--seed", "every variant gets seeds of its own; the first of all is --seed of 'compare'", true},
     OptionOfRender{"--spp", "all variants render alike, for --seconds or with --spp of 'compare'", true},
     OptionOfRender{"--time", "here it is --seconds, for all variants alike"},
+    OptionOfRender{"--error", "the errors of all variants are measured"},
     OptionOfRender{"--frames", "here --time-code names the moment"},
     OptionOfRender{"--half", "here no image file is written"},
     OptionOfRender{"--float", "here no image file is written"}};
@@ -38,6 +41,7 @@ std::string light_text(SceneDesc scene) {
     scene.settings.spp = 1;
     scene.settings.seed = 0;
     scene.settings.time_limit = 0.0;
+    scene.settings.relative_error = 0.0;
     scene.settings.texture_memory.reset();
     // The text of a scene has the names of its files only.
     std::string text = dump(scene);
@@ -172,6 +176,7 @@ std::string render_command(const std::filesystem::path& scene, const Variant& va
     command += fmt::format(" --spp {} --seed {}", spp, seed);
     // The scene's own limit, which is not looked at here, would cut the image short.
     if (variant.settings.time_limit > 0.0) command += " --time 1e9";
+    if (variant.settings.relative_error > 0.0) command += " --error 1e-6";
     return command + " --float -o image.exr";
 }
 

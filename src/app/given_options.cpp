@@ -1,6 +1,6 @@
 #include "app/given_options.h"
 
-#include "app/scene_render.h"
+#include "app/shell_word.h"
 
 #include <CLI/CLI.hpp>
 

@@ -1,5 +1,6 @@
 #include "app/image_job.h"
 
+#include "app/checkpoint_files.h"
 #include "app/up_to_date.h"
 
 #include <algorithm>
@@ -58,16 +59,27 @@ ImageResult run_job(const ImageJob& job, const ImageJobOptions& options, const T
     ImageResult result{job, ImageOutcome::UpToDate, {}, {}};
     SceneRenderRequest request{.scene = job.scene,
                                .output = job.output,
+                               .strategies = options.strategies,
                                .overrides = options.overrides,
+                               .samples = options.samples,
+                               .checkpoint_minutes = options.checkpoint_minutes,
+                               .resume = options.resume,
+                               .progress_descriptor = options.progress_descriptor,
                                .quiet = options.quiet,
                                .title = options.title};
     request.overrides.moment.frame = job.frame;
     PreparedScene prepared = prepare_scene(job.scene, request.overrides);
     const std::string hash = settings_hash(prepared.scene, request.overrides.depth);
-    if (!options.force && is_up_to_date(OutputPaths::beside(job.output), prepared.scene.inputs, hash)) return result;
+    if (!options.force && !is_partial(job.output) &&
+        is_up_to_date(OutputPaths::beside(job.output), prepared.scene.inputs, hash)) {
+        // Of a render that was stopped after its image was complete.
+        CheckpointFiles(job.output).remove();
+        return result;
+    }
     if (options.make_directories) std::filesystem::create_directories(job.output.parent_path());
     SceneRenderResult rendered = render_scene(std::move(prepared), request, threads);
     result.statistics = std::move(rendered.statistics);
+    if (rendered.was_there) return result;
     result.outcome = rendered.interrupted ? ImageOutcome::Interrupted : ImageOutcome::Rendered;
     return result;
 }

@@ -44,8 +44,13 @@ struct ImageJobOptions {
     SettingsOverrides overrides;
     bool force = false;  ///< also what is up to date
     bool quiet = false;
-    bool make_directories = false;  ///< for the output
-    std::string title;              ///< before the progress bar
+    bool make_directories = false;         ///< for the output
+    double checkpoint_minutes = 0.0;       ///< as in SceneRenderRequest
+    bool resume = false;                   ///< the same
+    int progress_descriptor = -1;          ///< the same
+    StrategiesRequest strategies{};        ///< the same
+    std::optional<SampleRange> samples{};  ///< the same
+    std::string title{};                   ///< before the progress bar
 };
 
 /// Renders the image unless it is up to date. Throws what `prepare_scene` and `render_scene` throw.

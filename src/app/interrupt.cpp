@@ -8,6 +8,7 @@ namespace {
 
 // Signal handlers can reach nothing but globals.
 std::atomic<bool> requested{false};
+std::atomic<bool> preview{false};
 std::atomic<int> signal_number{0};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
 
@@ -17,15 +18,28 @@ extern "C" void on_signal(int number) {
     std::signal(number, SIG_DFL);
 }
 
+extern "C" void on_preview_signal(int) {
+    preview.store(true);
+}
+
 }  // namespace
 
 void install_interrupt_handlers() {
     std::signal(SIGINT, on_signal);
     std::signal(SIGTERM, on_signal);
+    std::signal(SIGUSR1, on_preview_signal);
 }
 
 const std::atomic<bool>& interrupt_requested() {
     return requested;
+}
+
+bool preview_requested() {
+    return preview.load(std::memory_order_relaxed);
+}
+
+void clear_preview_request() {
+    preview.store(false);
 }
 
 ExitCode interrupt_exit_code() {

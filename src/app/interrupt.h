@@ -1,4 +1,5 @@
 // SIGINT and SIGTERM: the first asks the render to stop and write what there is, the second ends the process at once.
+// SIGUSR1 asks it to show what there is and to go on.
 #pragma once
 
 #include "app/exit_code.h"
@@ -12,6 +13,10 @@ void install_interrupt_handlers();
 
 /// Becomes true when a signal has arrived.
 [[nodiscard]] const std::atomic<bool>& interrupt_requested();
+
+/// True after SIGUSR1, until it is cleared.
+[[nodiscard]] bool preview_requested();
+void clear_preview_request();
 
 /// Interrupted or Terminated, by the signal that arrived.
 [[nodiscard]] ExitCode interrupt_exit_code();

@@ -55,7 +55,8 @@ int main(int argc, char** argv) {
         "  etendue batch scenes --quality draft -o out\n"
         "  etendue inspect model.glb\n"
         "  etendue diff box.exr reference.exr --metric flip --map flip.png\n"
-        "  etendue compare scenes/caustic-glass --integrators path,bdpt -o report\n\n"
+        "  etendue compare scenes/caustic-glass --integrators path,bdpt -o report\n"
+        "  etendue merge a.partial b.partial -o box.exr\n\n"
         "'etendue COMMAND --help' tells more.");
     Action action;
     add_render_command(app, action);
@@ -63,6 +64,7 @@ int main(int argc, char** argv) {
     add_inspect_command(app, action);
     add_diff_command(app, action);
     add_compare_command(app, action);
+    add_merge_command(app, action);
     // CLI11 would only say that a command is missing.
     if (argc > 1 && argv[1][0] != '-') {
         const std::vector<CLI::App*> commands = app.get_subcommands({});

@@ -1,5 +1,10 @@
 #include "app/output_paths.h"
 
+#include "core/error.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
 namespace etendue {
 
 OutputPaths OutputPaths::beside(const std::filesystem::path& exr) {
@@ -7,6 +12,17 @@ OutputPaths OutputPaths::beside(const std::filesystem::path& exr) {
     paths.png.replace_extension(".png");
     paths.json.replace_extension(".json");
     return paths;
+}
+
+void require_writable(const std::filesystem::path& file) {
+    const std::filesystem::path parent = file.parent_path();
+    const std::filesystem::path directory = parent.empty() ? "." : parent;
+    if (!std::filesystem::is_directory(directory))
+        throw IoError(fmt::format("cannot write {}: there is no directory {}", file.string(), directory.string()));
+    if (std::filesystem::is_directory(file))
+        throw IoError(fmt::format("cannot write {}: it is a directory", file.string()));
+    if (access(directory.c_str(), W_OK | X_OK) != 0)
+        throw IoError(fmt::format("cannot write {}: {} is not writable", file.string(), directory.string()));
 }
 
 std::filesystem::path written_file(const std::filesystem::path& file) {

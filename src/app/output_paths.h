@@ -13,6 +13,9 @@ struct OutputPaths {
     [[nodiscard]] static OutputPaths beside(const std::filesystem::path& exr);
 };
 
+/// Throws IoError if `file` cannot be written later: better found before hours of rendering than after.
+void require_writable(const std::filesystem::path& file);
+
 /// Where `file` will lie once it is written, and with it all that links lead to by then: equal for two names of one
 /// file, whether it exists or not.
 [[nodiscard]] std::filesystem::path written_file(const std::filesystem::path& file);

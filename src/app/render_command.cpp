@@ -2,11 +2,15 @@
 #include "app/commands.h"
 #include "app/image_job.h"
 #include "app/interrupt.h"
+#include "app/probe.h"
 #include "app/progress_display.h"
 #include "app/scene_render.h"
+#include "app/usage_error.h"
 #include "core/log.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -22,41 +26,42 @@ namespace etendue {
 namespace {
 
 struct RenderArguments {
-    SceneRenderRequest request;
+    ImageJobOptions job;
     std::string scene;
-    std::string output;
+    std::filesystem::path output;
     int threads = 0;
     bool force = false;
+    bool probe = false;
     bool json = false;
 };
 
 void report(const std::filesystem::path& output, const RenderStatistics& s) {
     const double seconds = std::max(s.render.wall, 1e-9);
-    log_info("{}: {}x{}, {} spp in {} ({:.2f} Msamples/s, {:.1f} Mrays/s){}", output.string(), s.width, s.height,
+    log_info("{}: {}x{}, {} spp in {} ({:.2f} Msamples/s, {:.1f} Mrays/s){}{}", output.string(), s.width, s.height,
              s.spp_done, format_duration(s.render.wall), static_cast<double>(s.samples) / seconds * 1e-6,
              static_cast<double>(s.rays.total()) / seconds * 1e-6,
+             s.relative_error ? fmt::format(", relative error about {:.2g}", *s.relative_error) : "",
              s.complete ? "" : fmt::format(", incomplete: {}", s.halt_reason));
 }
 
-/// One image: rendered whether or not it is up to date.
-ExitCode render_image(const RenderArguments& arguments, const ThreadPool& threads) {
-    const SceneRenderResult result =
-        render_scene(prepare_scene(arguments.scene, arguments.request.overrides), arguments.request, threads);
-    if (!arguments.request.quiet) report(result.output, result.statistics);
-    if (arguments.json) std::fputs(to_json(result.statistics).c_str(), stdout);
-    return result.interrupted ? interrupt_exit_code() : ExitCode::Success;
+/// NAME.exr, or NAME.partial if it is to be part of an image.
+std::filesystem::path default_output(const RenderArguments& arguments, const std::string& name) {
+    const auto& samples = arguments.job.samples;
+    return samples ? fmt::format("{}.{}-{}.partial", name, samples->begin, samples->end) : name + ".exr";
 }
 
-/// A sequence: what an earlier run has finished is left as it is.
-ExitCode render_frames(const RenderArguments& arguments, const std::vector<ImageJob>& jobs, const ThreadPool& threads) {
-    const bool quiet = arguments.request.quiet;
+/// One image is rendered whether or not it is up to date, unless it is gone on with. Of a sequence, what an earlier run
+/// has finished is left as it is.
+ExitCode render_jobs(const RenderArguments& arguments, const std::vector<ImageJob>& jobs) {
+    const ThreadPool threads(arguments.threads);
+    const bool is_sequence = jobs.front().frame.has_value();
+    const bool quiet = arguments.job.quiet;
     std::vector<ImageResult> results;
     for (std::size_t i = 0; i < jobs.size() && !interrupt_requested(); ++i) {
-        const std::string title = fmt::format("[{}/{}] {}", i + 1, jobs.size(), jobs[i].name);
-        ImageResult result = run_job(
-            jobs[i],
-            {.overrides = arguments.request.overrides, .force = arguments.force, .quiet = quiet, .title = title},
-            threads);
+        ImageJobOptions options = arguments.job;
+        options.force = is_sequence ? arguments.force : !arguments.job.resume;
+        if (is_sequence) options.title = fmt::format("[{}/{}] {}", i + 1, jobs.size(), jobs[i].name);
+        ImageResult result = run_job(jobs[i], options, threads);
         if (!quiet && result.outcome == ImageOutcome::UpToDate)
             log_info("{}: up to date", result.job.output.string());
         else if (!quiet)
@@ -64,20 +69,82 @@ ExitCode render_frames(const RenderArguments& arguments, const std::vector<Image
         // Statistics of many frames are kept only for those who want them.
         if (arguments.json) results.push_back(std::move(result));
     }
-    if (arguments.json) std::fputs(to_json(results).c_str(), stdout);
+    if (arguments.json)
+        std::fputs((is_sequence ? to_json(results) : to_json(results.front().statistics)).c_str(), stdout);
     return interrupt_requested() ? interrupt_exit_code() : ExitCode::Success;
 }
 
 ExitCode run_render(const RenderArguments& arguments) {
-    const ThreadPool threads(arguments.threads);
     const std::string name = scene_name(arguments.scene);
-    const std::filesystem::path output =
-        arguments.output.empty() ? std::filesystem::path(name + ".exr") : arguments.request.output;
-    const std::vector<ImageJob> jobs = image_jobs(arguments.scene, output, name, arguments.request.overrides);
-    if (jobs.front().frame && !arguments.request.strategies.output.empty())
+    const std::filesystem::path output = arguments.output.empty() ? default_output(arguments, name) : arguments.output;
+    const std::vector<ImageJob> jobs = image_jobs(arguments.scene, output, name, arguments.job.overrides);
+    if (jobs.front().frame && !arguments.job.strategies.output.empty())
         throw SceneError({"--strategies-image", {}},
                          "it shows one image, and this is a sequence of frames: name the moment with --time-code");
-    return jobs.front().frame ? render_frames(arguments, jobs, threads) : render_image(arguments, threads);
+    if (arguments.probe) {
+        std::fputs(probe(jobs.front(), arguments.job.overrides, ThreadPool(arguments.threads)).c_str(), stdout);
+        return ExitCode::Success;
+    }
+    return render_jobs(arguments, jobs);
+}
+
+/// Throws UsageError for names that cannot be.
+void check_outputs(const RenderArguments& arguments) {
+    const std::filesystem::path& output = arguments.output;
+    const std::filesystem::path& pyramid = arguments.job.strategies.output;
+    const bool partial = arguments.job.samples || is_partial(output);
+    if (partial && !output.empty() && !is_partial(output))
+        throw UsageError(
+            fmt::format("--output '{}' must end in .partial: it holds a range of the samples, and "
+                        "'etendue merge' makes the image",
+                        output.string()));
+    if (!partial && !output.empty() && output.extension() != ".exr")
+        throw UsageError(
+            fmt::format("--output '{}' must end in .exr, or in .partial for a part of an image to be "
+                        "merged with others",
+                        output.string()));
+    if (!pyramid.empty() && pyramid.extension() != ".exr")
+        throw UsageError(fmt::format("--strategies-image '{}' must end in .exr", pyramid.string()));
+    if (partial && !pyramid.empty()) throw UsageError("--strategies-image shows an image, not a part of one");
+    if (partial && (arguments.job.overrides.time_seconds || arguments.job.overrides.relative_error))
+        throw UsageError("--time and --error end an image; a part of one has the samples that --samples names");
+}
+
+/// "0:64" to that range. Throws CLI::ValidationError.
+SampleRange parse_sample_range(const std::string& text) {
+    constexpr std::uint32_t kMost = 1u << 24;
+    SampleRange range;
+    const char* const end = text.data() + text.size();
+    const auto [colon, first_error] = std::from_chars(text.data(), end, range.begin);
+    if (first_error == std::errc{} && colon != end && *colon == ':') {
+        const auto [rest, error] = std::from_chars(colon + 1, end, range.end);
+        if (error == std::errc{} && rest == end && range.begin < range.end && range.end <= kMost) return range;
+    }
+    throw CLI::ValidationError("--samples",
+                               fmt::format("'{}' is no A:B with 0 <= A < B <= {}: samples A to B - 1", text, kMost));
+}
+
+/// How to stop, to go on and to split.
+void add_continuation_options(CLI::App& command, const std::shared_ptr<RenderArguments>& arguments) {
+    command
+        .add_option(
+            "--checkpoint-every", arguments->job.checkpoint_minutes,
+            "Minutes between checkpoints, NAME.checkpoint beside the image; 0 (default) for none but the one of "
+            "an interrupted render")
+        ->check(real_range(0.0, 1e6));
+    command.add_flag(
+        "--resume", arguments->job.resume,
+        "Go on with the checkpoint, if there is one, to the same image bit for bit; leave an image that is "
+        "up to date");
+    command.add_option_function<std::string>(
+        "--samples", [arguments](const std::string& text) { arguments->job.samples = parse_sample_range(text); },
+        "Render samples A to B-1 of every pixel, A:B, into a part of the image for 'etendue merge'");
+    command.add_flag("--probe", arguments->probe,
+                     "Render for about a second, write no file, and print as JSON what the image would take");
+    command
+        .add_option("--progress-fd", arguments->job.progress_descriptor,
+                    "Write progress as JSON lines to this open file descriptor, in place of the bar")
+        ->check(CLI::Range(3, 1 << 20));
 }
 
 }  // namespace
@@ -89,31 +156,37 @@ void add_render_command(CLI::App& app, Action& action) {
     command->add_option("scene", arguments->scene, "Scene directory, .gltf or .glb")->required();
     command->add_option("-o,--output", arguments->output,
                         "EXR file to write; PNG and JSON go beside it (default: NAME.exr in the current directory). "
-                        "Frames of a sequence have their number in place of #### or before the extension");
-    arguments->request.overrides.add_options(*command);
+                        "Frames of a sequence have their number in place of #### or before the extension. A .partial "
+                        "holds a part of an image (a range of --samples, or a --crop) for 'etendue merge'");
+    arguments->job.overrides.add_options(*command);
     command->add_option("--threads", arguments->threads, "Threads to use (default: one per processor)")
         ->check(CLI::Range(1, 4096));
+    add_continuation_options(*command, arguments);
     auto* strategies = command->add_option_function<std::string>(
-        "--strategies-image", [arguments](const std::string& path) { arguments->request.strategies.output = path; },
+        "--strategies-image", [arguments](const std::string& path) { arguments->job.strategies.output = path; },
         "Also write the images of all strategies of bdpt, one by one: an EXR with a part for each and a labelled PNG. "
         "They stay in memory until all are rendered, about 24 bytes a pixel and strategy, with --float 32");
     command
-        ->add_option("--strategies-depth", arguments->request.strategies.longest,
+        ->add_option("--strategies-depth", arguments->job.strategies.longest,
                      "Longest paths whose strategies are shown (default: 8, or --max-depth if that is less)")
         ->check(CLI::Range(1, 64))
         ->needs(strategies);
     command
         ->add_flag_callback(
-            "--strategies-unweighted", [arguments] { arguments->request.strategies.weighted = false; },
+            "--strategies-unweighted", [arguments] { arguments->job.strategies.weighted = false; },
             "Show each as if it were the only one")
         ->needs(strategies);
     command->add_flag("--force", arguments->force, "Of a sequence, render again what is up to date");
-    command->add_flag("--quiet", arguments->request.quiet, "No progress, notes or warnings; errors only");
+    command->add_flag("--quiet", arguments->job.quiet, "No progress, notes or warnings; errors only");
     command->add_flag("--json", arguments->json, "Print the statistics as JSON on stdout; of a sequence, an array");
     command->footer(
         "Options override render.json. Of a sequence, frames that are newer than all of their inputs and were made "
         "with\n"
-        "the same settings are skipped: what was interrupted goes on when it is started again.\n\n"
+        "the same settings are skipped. Ctrl-C writes a checkpoint and the image so far, marked incomplete: --resume "
+        "goes\n"
+        "on from there. SIGUSR1 writes NAME.preview.png and goes on. --spp, --time and --error can be combined: the "
+        "first\n"
+        "that is reached ends the render.\n\n"
         "Examples:\n"
         "  etendue render scenes/cornell-box -o box.exr\n"
         "  etendue render scenes/cornell-box --quality draft --integrator naive --seed 7\n"
@@ -121,18 +194,12 @@ void add_render_command(CLI::App& app, Action& action) {
         "  etendue render fox.glb --time-code 0.35 --animation Run\n"
         "  etendue render fox.glb --frames 0:23 --fps 30 -o run/fox.####.exr --shutter 0:0.0167\n"
         "  etendue render scenes/caustic-glass --integrator bdpt --strategies-image pyramid.exr --strategies-depth 5\n"
+        "  etendue render scenes/cornell-box --spp 65536 --error 0.02 --checkpoint-every 10 --resume\n"
+        "  etendue render scenes/cornell-box --samples 0:128 -o a.partial   # and 128:256 elsewhere, then 'merge'\n"
         "  etendue render scenes/veach-mis --crop 100,100,200,200 --time 60 --json --quiet");
     command->callback([arguments, &action] {
         action = [arguments] {
-            arguments->request.scene = arguments->scene;
-            arguments->request.output = arguments->output;
-            const std::filesystem::path& pyramid = arguments->request.strategies.output;
-            for (const auto& [option, path] :
-                 {std::pair{"--output", arguments->request.output}, std::pair{"--strategies-image", pyramid}})
-                if (!path.empty() && path.extension() != ".exr") {
-                    log_error("error: {} '{}' must end in .exr", option, path.string());
-                    return ExitCode::UsageError;
-                }
+            check_outputs(*arguments);
             return run_render(*arguments);
         };
     });

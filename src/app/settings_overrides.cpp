@@ -152,6 +152,11 @@ void SettingsOverrides::add_options(CLI::App& command) {
     command.add_option("--time", time_seconds, "Start no new pass after this many seconds")
         ->check(real_range(1e-3, 1e9));
     command
+        .add_option("--error", relative_error,
+                    "Start no new pass once the image's estimated relative error, the root of its relMSE, is at most "
+                    "this: 0.05 is a clean preview, 0.01 a clean image. Doubles the memory of the film")
+        ->check(real_range(1e-6, 1e3));
+    command
         .add_option("--max-depth", max_depth, "Most edges of a path from camera to light; 1 is emission seen directly")
         ->check(CLI::Range(1, kMostEdges));
     command.add_option("--min-depth", min_depth, "Least edges of a path that is kept (default: 1)")
@@ -220,6 +225,7 @@ void SettingsOverrides::apply(SceneDesc& scene) const {
     set(seed, settings.seed, "/seed", "--seed");
     set(light_units, settings.light_units, "/light_units", "--light-units");
     set(time_seconds, settings.time_limit, "/time", "--time");
+    set(relative_error, settings.relative_error, "/error", "--error");
     set(texture_memory, settings.texture_memory, "/texture_memory", "--texture-memory");
     set(exposure, settings.color.exposure, "/color/exposure", "--exposure");
     set(view, settings.color.view, "/color/view", "--view");

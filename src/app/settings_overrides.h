@@ -37,6 +37,7 @@ struct SettingsOverrides {
     std::optional<FrameRange> frames;
     std::optional<std::uint32_t> seed;
     std::optional<double> time_seconds;
+    std::optional<double> relative_error;
     std::optional<int> max_depth;
     std::optional<int> min_depth;
     std::optional<HeuristicType> heuristic;

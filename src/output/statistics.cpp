@@ -38,6 +38,7 @@ std::string to_json(const RenderStatistics& s) {
     json["full_size"] = {s.full_width, s.full_height};
     json["complete"] = s.complete;
     json["halt_reason"] = s.halt_reason;
+    json["estimated_relative_error"] = s.relative_error ? Json(*s.relative_error) : Json();
     json["spp"] = {{"requested", s.spp_requested}, {"done", s.spp_done}};
     json["samples"] = s.samples;
     json["samples_per_second"] = per_second(s.samples, s.render.wall);

@@ -41,7 +41,8 @@ struct RenderStatistics {
     int spp_requested = 0;
     int spp_done = 0;  ///< finished passes
     bool complete = true;
-    std::string halt_reason;  ///< why rendering ended
+    std::string halt_reason;               ///< why rendering ended
+    std::optional<double> relative_error;  ///< estimated; if every other pass was kept for it
 
     PhaseTime load;   ///< reading the scene
     PhaseTime build;  ///< compiling the world: BVHs, textures, lights

@@ -254,8 +254,8 @@ void dump_settings(const RenderSettings& s, Out out) {
     if (const int count = s.integrator.cached_connections; count > 0)
         fmt::format_to(out, ", connections cache:{}", count);
     fmt::format_to(out, "\n");
-    fmt::format_to(out, "sampling: {}, {} spp, seed {}, time limit {:g}\n",
-                   s.sampler == SamplerType::Sobol ? "sobol" : "random", s.spp, s.seed, s.time_limit);
+    fmt::format_to(out, "sampling: {}, {} spp, seed {}, time limit {:g}, error {:g}\n",
+                   s.sampler == SamplerType::Sobol ? "sobol" : "random", s.spp, s.seed, s.time_limit, s.relative_error);
     fmt::format_to(out, "film: {} x {}, filter {} radius {:g}\n", s.film.width, s.film.height, text(s.film.filter),
                    s.film.filter_radius);
     if (s.film.crop) fmt::format_to(out, "crop: {}\n", fmt::join(*s.film.crop, " "));

@@ -80,9 +80,10 @@ struct RenderSettings {
     SamplerType sampler = SamplerType::Sobol;
     int spp = 64;  ///< samples per pixel, [1, 2^24]
     std::uint32_t seed = 0;
-    double time_limit = 0.0;  ///< seconds; 0 for none. Rendering stops after the pass that exceeds it.
-    std::string camera;       ///< name of the camera; empty for the first
-    std::string variant;      ///< KHR_materials_variants: name of the set of materials; empty for the file's default
+    double time_limit = 0.0;      ///< seconds; 0 for none. Rendering stops after the pass that exceeds it.
+    double relative_error = 0.0;  ///< of the image; 0 for none. Rendering stops after the pass that reaches it.
+    std::string camera;           ///< name of the camera; empty for the first
+    std::string variant;  ///< KHR_materials_variants: name of the set of materials; empty for the file's default
     std::optional<double> time_code;   ///< seconds of the animation; of a sequence, where frame 0 is
     std::optional<FrameRange> frames;  ///< a sequence; none for one image
     double fps = 24.0;                 ///< frames per second, > 0

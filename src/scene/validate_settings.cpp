@@ -160,6 +160,7 @@ void validate_settings(const SceneDesc& scene, ProblemList& problems) {
                        "weights: name it as strategy");
     check(settings.spp, 1, kMaxSpp, "spp", "/spp");
     check(settings.time_limit, 0.0, kInfinity, "time", "/time");
+    check(settings.relative_error, 0.0, kInfinity, "error", "/error");
     check(static_cast<double>(settings.color.exposure), -kMaxExposure, kMaxExposure, "exposure", "/color/exposure");
     if (!(settings.shutter.close >= settings.shutter.open))
         problems.error(settings.at("/shutter"), fmt::format("the shutter closes at {} before it opens at {}",

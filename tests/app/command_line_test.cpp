@@ -42,9 +42,9 @@ class CommandLine : public testing::Test {
 TEST_F(CommandLine, HelpHasExamplesForEachCommand) {
     const ProgramResult top = run({"--help"});
     EXPECT_EQ(top.exit_code, 0);
-    for (const char* word : {"render", "batch", "inspect", "diff", "compare", "Examples:", "130"})
+    for (const char* word : {"render", "batch", "inspect", "diff", "compare", "merge", "Examples:", "130"})
         EXPECT_NE(top.out.find(word), std::string::npos) << word;
-    for (const char* command : {"render", "batch", "inspect", "diff", "compare"}) {
+    for (const char* command : {"render", "batch", "inspect", "diff", "compare", "merge"}) {
         const ProgramResult help = run({command, "--help"});
         EXPECT_EQ(help.exit_code, 0);
         EXPECT_NE(help.out.find("Examples:"), std::string::npos) << command;
@@ -291,7 +291,8 @@ TEST_F(CommandLine, InterruptsWriteWhatThereIs) {
                                                      kill(pid, signal);
                                                  });
         EXPECT_EQ(result.exit_code, code) << result.err;
-        EXPECT_EQ(list(work_), (Names{"image.exr", "image.json", "image.png"}));
+        EXPECT_EQ(list(work_), (Names{"image.checkpoint", "image.exr", "image.json", "image.png"}));
+        fs::remove(work_ / "image.checkpoint");
         const json statistics = json::parse(read_file(work_ / "image.json"));
         EXPECT_EQ(statistics["complete"], false);
         EXPECT_EQ(statistics["halt_reason"], "interrupted");

@@ -24,6 +24,7 @@ RenderStatistics make_statistics() {
     s.spp_done = 8;
     s.complete = false;
     s.halt_reason = "time limit";
+    s.relative_error = 0.125;
     s.load = {0.25, 0.5};
     s.build = {1.0, 1.5};
     s.render = {2.0, 3.75};
@@ -52,7 +53,8 @@ TEST(StatisticsJson, HasEveryField) {
     const auto expected = nlohmann::json::parse(R"({
         "scene": "cornell-box", "frame": 7, "time_code": 0.25, "settings_hash": "0123abcd",
         "light_units": "radiometric", "size": [64, 32], "full_size": [128, 96],
-        "complete": false, "halt_reason": "time limit", "spp": {"requested": 16, "done": 8},
+        "complete": false, "halt_reason": "time limit", "estimated_relative_error": 0.125,
+        "spp": {"requested": 16, "done": 8},
         "samples": 80, "samples_per_second": 40.0,
         "rays": {"camera": 100, "bounce": 250, "shadow": 50, "total": 400}, "rays_per_second": 200.0,
         "seconds": {"load": {"wall": 0.25, "cpu": 0.5}, "build": {"wall": 1.0, "cpu": 1.5},

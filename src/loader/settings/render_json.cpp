@@ -334,6 +334,7 @@ void read_document(const Json& value, ProblemList& problems, RenderJson& out) {
     object.integer("spp", 1, kMaxSpp, settings.spp);
     object.integer("seed", 0, kMaxSeed, settings.seed);
     object.number("time", kNotNegative, settings.time_limit);
+    object.number("error", kNotNegative, settings.relative_error);
     read_texture_memory(object, settings);
     read_film_size(object, settings.film);
     read_camera_member(object, out);

@@ -1,4 +1,4 @@
-#include "app/scene_render.h"
+#include "app/prepared_scene.h"
 
 #include "app/small_files.h"
 
@@ -7,7 +7,6 @@
 #include <string>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 namespace etendue::test {
 
@@ -31,31 +30,6 @@ TEST(PrepareScene, OverridesAreValidatedToo) {
     overrides.crop.reset();
     overrides.camera = "mian";
     EXPECT_THROW((void)prepare_scene(folder.path(), overrides), SceneError);
-}
-
-// The schema is what editors check a render.json with; an integrator that it does not know looks wrong there.
-TEST(CreateIntegrator, TheSchemaNamesWhatTheRegistryHolds) {
-    const nlohmann::json schema =
-        nlohmann::json::parse(read_file(std::string(ETENDUE_SOURCE_DIR) + "/scenes/render.schema.json"));
-    std::vector<std::string> names;
-    for (const IntegratorEntry& entry : integrator_registry()) names.emplace_back(entry.name);
-    EXPECT_EQ(schema["properties"]["integrator"]["properties"]["type"]["enum"], nlohmann::json(names));
-}
-
-TEST(CreateIntegrator, RefusesPathsThatAreNeverTraced) {
-    RenderSettings settings;
-    settings.integrator = {.type = "direct", .min_depth = 3};
-    EXPECT_THROW((void)create_integrator(settings), SceneError);
-    settings.integrator.min_depth = 2;
-    EXPECT_NE(create_integrator(settings), nullptr);
-}
-
-TEST(CreateIntegrator, OnlyThoseWithStrategiesShowOne) {
-    RenderSettings settings;
-    settings.integrator = {.type = "path", .strategy = {{1, 2}}};
-    EXPECT_THROW((void)create_integrator(settings), SceneError);
-    settings.integrator.type = "bdpt";
-    EXPECT_NE(create_integrator(settings), nullptr);
 }
 
 TEST(SettingsHash, ChangesWithEverythingThatChangesTheImage) {

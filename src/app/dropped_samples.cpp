@@ -1,0 +1,40 @@
+#include "app/dropped_samples.h"
+
+#include "app/shell_word.h"
+#include "core/log.h"
+
+#include <fmt/format.h>
+
+namespace etendue {
+
+void report_dropped(const RenderCounters& counters, const std::filesystem::path& scene,
+                    const SettingsOverrides& overrides, const RenderSettings& settings,
+                    const std::string& working_space) {
+    if (counters.dropped == 0) return;
+    const DroppedSample& first = counters.first_dropped.front();
+    std::string command = fmt::format(
+        "etendue render {} --integrator {} --max-depth {} --size {}x{} --crop {},{},{},{} --spp {} --seed {} "
+        "--working-space {}",
+        quoted(scene.string()), settings.integrator.type, settings.integrator.max_depth, settings.film.width,
+        settings.film.height, first.x, first.y, first.x + 1, first.y + 1, first.sample + 1, settings.seed,
+        quoted(working_space));
+    if (overrides.min_depth) command += fmt::format(" --min-depth {}", *overrides.min_depth);
+    if (const auto& strategy = settings.integrator.strategy)
+        command += fmt::format(" --strategy {},{}{}", (*strategy)[0], (*strategy)[1],
+                               settings.integrator.weighted ? "" : " --unweighted");
+    if (!settings.camera.empty()) command += " --camera " + quoted(settings.camera);
+    if (settings.time_code) command += fmt::format(" --time-code {}", *settings.time_code);
+    if (settings.frame) command += fmt::format(" --frames {} --fps {}", *settings.frame, settings.fps);
+    if (settings.shutter.is_open())
+        command += fmt::format(" --shutter {}:{}", settings.shutter.open, settings.shutter.close);
+    if (!settings.animation.empty()) command += " --animation " + quoted(settings.animation);
+    if (!settings.variant.empty()) command += " --variant " + quoted(settings.variant);
+    if (overrides.light_units) command += fmt::format(" --light-units {}", light_units_name(settings.light_units));
+    if (overrides.environment) command += " --environment " + quoted(*overrides.environment);
+    log_warning(
+        "warning: {} samples were not finite and were dropped; the first is sample {} of pixel ({}, {}). To see it "
+        "alone: {}",
+        counters.dropped, first.sample, first.x, first.y, command);
+}
+
+}  // namespace etendue

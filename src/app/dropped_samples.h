@@ -1,0 +1,18 @@
+// What is said of samples that were not finite.
+#pragma once
+
+#include "app/settings_overrides.h"
+#include "integrator/integrator.h"
+#include "scene/render_settings.h"
+
+#include <filesystem>
+#include <string>
+
+namespace etendue {
+
+/// Warns, if samples were dropped, with a command that renders just the first of those pixels of `scene`.
+void report_dropped(const RenderCounters& counters, const std::filesystem::path& scene,
+                    const SettingsOverrides& overrides, const RenderSettings& settings,
+                    const std::string& working_space);
+
+}  // namespace etendue

@@ -1,0 +1,133 @@
+#include "app/image_description.h"
+
+#include "core/error.h"
+#include "render/render.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace etendue {
+
+namespace {
+
+using Json = nlohmann::json;
+
+Json to_object(const Mat4f& matrix) {
+    Json numbers = Json::array();
+    for (int row = 0; row < 4; ++row)
+        for (int column = 0; column < 4; ++column) numbers.push_back(matrix[row][column]);
+    return numbers;
+}
+
+Mat4f to_matrix(const Json& numbers) {
+    Mat4f matrix;
+    for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = numbers.at(static_cast<std::size_t>(i)).get<float>();
+    return matrix;
+}
+
+Json to_object(const OutputFrame& f) {
+    return {{"pixel_aspect", f.pixel_aspect},
+            {"working_space", f.working_space},
+            {"display", f.display},
+            {"view", f.view},
+            {"exposure", f.exposure},
+            {"world_to_camera", to_object(f.world_to_camera)},
+            {"world_to_screen", to_object(f.world_to_screen)},
+            {"scene", f.scene},
+            {"integrator", f.integrator},
+            {"sampler", f.sampler},
+            {"seed", f.seed}};
+}
+
+OutputFrame to_frame(const Json& json) {
+    OutputFrame f;
+    json.at("pixel_aspect").get_to(f.pixel_aspect);
+    json.at("working_space").get_to(f.working_space);
+    json.at("display").get_to(f.display);
+    json.at("view").get_to(f.view);
+    json.at("exposure").get_to(f.exposure);
+    f.world_to_camera = to_matrix(json.at("world_to_camera"));
+    f.world_to_screen = to_matrix(json.at("world_to_screen"));
+    json.at("scene").get_to(f.scene);
+    json.at("integrator").get_to(f.integrator);
+    json.at("sampler").get_to(f.sampler);
+    json.at("seed").get_to(f.seed);
+    return f;
+}
+
+Json to_object(const RenderStatistics& s) {
+    return {{"scene", s.scene},
+            {"frame", s.frame ? Json(*s.frame) : Json()},
+            {"time_code", s.time_code ? Json(*s.time_code) : Json()},
+            {"settings_hash", s.settings_hash},
+            {"light_units", s.light_units},
+            {"spp_requested", s.spp_requested},
+            {"triangles", s.triangles},
+            {"instances", s.instances},
+            {"lights", s.lights}};
+}
+
+RenderStatistics to_statistics(const Json& json) {
+    RenderStatistics s;
+    json.at("scene").get_to(s.scene);
+    if (!json.at("frame").is_null()) s.frame = json.at("frame").get<int>();
+    if (!json.at("time_code").is_null()) s.time_code = json.at("time_code").get<double>();
+    json.at("settings_hash").get_to(s.settings_hash);
+    json.at("light_units").get_to(s.light_units);
+    json.at("spp_requested").get_to(s.spp_requested);
+    json.at("triangles").get_to(s.triangles);
+    json.at("instances").get_to(s.instances);
+    json.at("lights").get_to(s.lights);
+    return s;
+}
+
+}  // namespace
+
+std::string to_text(const ImageDescription& description) {
+    const Json json{{"frame", to_object(description.frame)}, {"statistics", to_object(description.statistics)}};
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+ImageDescription parse_description(const std::string& text, const std::filesystem::path& file) {
+    try {
+        const Json json = Json::parse(text);
+        return {to_frame(json.at("frame")), to_statistics(json.at("statistics"))};
+    } catch (const Json::exception& error) {
+        throw IoError(fmt::format("{} does not say what image it is part of: {}", file.string(), error.what()));
+    }
+}
+
+void describe_state(ImageDescription& description, const RenderState& state, bool complete,
+                    const std::string& halt_reason) {
+    const Film& film = state.film;
+    const PixelRect& window = film.window();
+    OutputFrame& frame = description.frame;
+    frame.pixels = rgba_image(film);
+    const bool is_cropped = window != PixelRect{0, 0, film.full_width(), film.full_height()};
+    frame.crop_x = window.x0;
+    frame.crop_y = window.y0;
+    frame.full_width = is_cropped ? film.full_width() : 0;
+    frame.full_height = is_cropped ? film.full_height() : 0;
+    frame.spp = static_cast<int>(state.spp_done);
+    frame.render_seconds = state.wall_seconds;
+    frame.complete = complete;
+    frame.halt_reason = halt_reason;
+
+    RenderStatistics& s = description.statistics;
+    const RenderCounters& c = state.counters;
+    s.width = window.width();
+    s.height = window.height();
+    s.full_width = film.full_width();
+    s.full_height = film.full_height();
+    s.rays = {c.camera_rays, c.bounce_rays, c.shadow_rays};
+    s.samples = c.samples;
+    s.spp_done = static_cast<int>(state.spp_done);
+    s.complete = complete;
+    s.halt_reason = halt_reason;
+    s.render = {state.wall_seconds, state.cpu_seconds};
+    s.dropped_samples = c.dropped;
+    s.first_dropped = c.first_dropped;
+    s.relative_error = relative_error(state);
+}
+
+}  // namespace etendue

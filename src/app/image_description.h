@@ -1,0 +1,29 @@
+// What is said of an image besides its pixels, kept with its checkpoints and parts.
+#pragma once
+
+#include "output/output_frame.h"
+#include "output/statistics.h"
+#include "render/progressive_render.h"
+
+#include <filesystem>
+#include <string>
+
+namespace etendue {
+
+struct ImageDescription {
+    OutputFrame frame;            ///< without pixels, window and counts, which the film knows
+    RenderStatistics statistics;  ///< of what is rendered; when it is read back, without what rendering it cost
+};
+
+/// As text that `parse_description` understands.
+[[nodiscard]] std::string to_text(const ImageDescription& description);
+
+/// Of `text`, which stood in `file`. Throws IoError if it is not what `to_text` writes.
+[[nodiscard]] ImageDescription parse_description(const std::string& text, const std::filesystem::path& file);
+
+/// Puts in what the film and the counters of `state` say: pixels, window, samples, rays and seconds, and why rendering
+/// ended.
+void describe_state(ImageDescription& description, const RenderState& state, bool complete,
+                    const std::string& halt_reason);
+
+}  // namespace etendue

@@ -1,0 +1,117 @@
+// etendue merge: one image from parts that were rendered apart.
+#include "app/commands.h"
+#include "app/image_description.h"
+#include "app/library_versions.h"
+#include "app/merge_parts.h"
+#include "app/output_paths.h"
+#include "app/peak_memory.h"
+#include "app/phase_timer.h"
+#include "app/scene_render.h"
+#include "app/usage_error.h"
+#include "color/color_config.h"
+#include "core/error.h"
+#include "core/log.h"
+#include "core/write_file.h"
+#include "output/exr_driver.h"
+#include "output/preview_driver.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace etendue {
+
+namespace {
+
+struct MergeArguments {
+    std::vector<std::string> parts;
+    std::string output;
+    PixelDepth depth = PixelDepth::Half;
+    bool quiet = false;
+    bool json = false;
+};
+
+ExitCode run_merge(const MergeArguments& arguments) {
+    const std::filesystem::path output = arguments.output;
+    if (!is_partial(output) && output.extension() != ".exr")
+        throw UsageError(
+            fmt::format("--output '{}' must end in .exr, or in .partial for a larger part", output.string()));
+    const OutputPaths paths = OutputPaths::beside(output);
+    require_writable(output);
+    const PhaseTimer timer;
+    const std::vector<std::filesystem::path> parts(arguments.parts.begin(), arguments.parts.end());
+    const Checkpoint merged = merge_parts(parts, [&](const std::string& note) {
+        // A part says where its samples begin and how many there are, and no more.
+        if (is_partial(output)) throw SceneError({output.string(), {}}, note + "; such parts can become an image only");
+        if (!arguments.quiet) log_warning("note: {}", note);
+    });
+    ImageDescription image = parse_description(merged.description, arguments.parts.front());
+    image.statistics.load = timer.elapsed();
+    if (is_partial(output)) {
+        write_checkpoint(output, merged.identity, merged.description, merged.state);
+    } else {
+        require_writable(paths.png);
+        require_writable(paths.json);
+        const PhaseTimer write_timer;
+        const ColorConfig colors = ColorConfig::from_environment();
+        describe_state(image, merged.state, true, "merged");
+        image.statistics.libraries = library_versions();
+        image.statistics.peak_memory_bytes = peak_memory_bytes();
+        ExrDriver(paths.exr, colors, arguments.depth).write(image.frame);
+        PreviewDriver(paths.png, colors).write(image.frame);
+        image.statistics.write = write_timer.elapsed();
+        write_text(paths.json, to_json(image.statistics));
+    }
+    const PixelRect& window = merged.state.film.window();
+    if (!arguments.quiet)
+        log_info("{}: {} parts, {}x{}, {} spp", output.string(), arguments.parts.size(), window.width(),
+                 window.height(), merged.state.spp_done);
+    if (arguments.json) {
+        describe_state(image, merged.state, true, "merged");
+        std::fputs(to_json(image.statistics).c_str(), stdout);
+    }
+    return ExitCode::Success;
+}
+
+}  // namespace
+
+void add_merge_command(CLI::App& app, Action& action) {
+    auto arguments = std::make_shared<MergeArguments>();
+    CLI::App* command = app.add_subcommand("merge", "Make one image of parts that were rendered apart");
+    command->add_option("parts", arguments->parts, "Files of 'etendue render -o PART.partial'")
+        ->required()
+        ->check(CLI::ExistingFile);
+    command
+        ->add_option("-o,--output", arguments->output,
+                     "EXR file to write; PNG and JSON go beside it. Or a .partial, to be merged further")
+        ->required();
+    auto* half = command->add_flag_callback(
+        "--half", [arguments] { arguments->depth = PixelDepth::Half; }, "Write 16-bit floats (default)");
+    command
+        ->add_flag_callback(
+            "--float", [arguments] { arguments->depth = PixelDepth::Float; }, "Write 32-bit floats")
+        ->excludes(half);
+    command->add_flag("--quiet", arguments->quiet, "No notes; errors only");
+    command->add_flag("--json", arguments->json, "Print the statistics as JSON on stdout");
+    command->footer(
+        "Parts are ranges of samples (--samples) of the same pixels, or crops (--crop) that do not overlap, or both; "
+        "all\n"
+        "of the same scene, settings and version, which is checked, as is that no sample is there twice and no pixel "
+        "has\n"
+        "fewer than the others. The image is that of a single render but for the order in which sums were added "
+        "(1e-6).\n"
+        "The memory it takes is that of two parts and the image: 48 bytes a pixel, 72 with light subpaths.\n\n"
+        "Examples:\n"
+        "  etendue render scenes/cornell-box --samples 0:128 -o a.partial\n"
+        "  etendue render scenes/cornell-box --samples 128:256 -o b.partial\n"
+        "  etendue merge a.partial b.partial -o box.exr\n"
+        "  etendue merge parts/*.partial -o half.partial");
+    command->callback([arguments, &action] { action = [arguments] { return run_merge(*arguments); }; });
+}
+
+}  // namespace etendue

@@ -1,0 +1,38 @@
+#include "app/prepared_scene.h"
+
+#include "app/phase_timer.h"
+#include "color/color_config.h"
+#include "loader/loader.h"
+#include "output/software_name.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace etendue {
+
+PreparedScene prepare_scene(const std::filesystem::path& path, const SettingsOverrides& overrides) {
+    const PhaseTimer timer;
+    LoadedScene loaded = load_scene(path, overrides.moment);
+    PreparedScene prepared{std::move(loaded.scene), std::move(loaded.problems), {}};
+    overrides.apply(prepared.scene);
+    const std::filesystem::path colors = ColorConfig::environment_path();
+    if (!colors.empty()) prepared.scene.inputs.push_back(colors);
+    add_missing_camera_and_light(prepared.scene, prepared.problems);
+    const ProblemList remaining = validate(prepared.scene);
+    if (remaining.has_errors()) throw SceneError(remaining);
+    apply_variant(prepared.scene);
+    prepared.load = timer.elapsed();
+    return prepared;
+}
+
+std::string settings_hash(const SceneDesc& scene, PixelDepth depth) {
+    // FNV-1a, 64 bits, over the text form of the scene; nobody attacks it, it only has to tell settings apart.
+    const std::string text = fmt::format("{}\n{}\n{}\n{}", software_name(), dump(scene), static_cast<int>(depth),
+                                         ColorConfig::environment_path().string());
+    std::uint64_t hash = 0xcbf29ce484222325u;
+    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+    return fmt::format("{:016x}", hash);
+}
+
+}  // namespace etendue

@@ -1,0 +1,28 @@
+// A scene directory read and completed, before anything is made of it.
+#pragma once
+
+#include "app/settings_overrides.h"
+#include "core/error.h"
+#include "output/statistics.h"
+#include "scene/scene_desc.h"
+
+#include <filesystem>
+#include <string>
+
+namespace etendue {
+
+/// A scene as it will be rendered: loaded, overridden, completed and validated.
+struct PreparedScene {
+    SceneDesc scene;
+    ProblemList problems;  ///< notes and warnings
+    PhaseTime load;
+};
+
+/// Loads the scene directory or file `path` and applies overrides and defaults. Throws SceneError.
+[[nodiscard]] PreparedScene prepare_scene(const std::filesystem::path& path, const SettingsOverrides& overrides);
+
+/// Hash of every setting that the image depends on, and of the program's version. Equal for equal pictures as long as
+/// the input files are the same.
+[[nodiscard]] std::string settings_hash(const SceneDesc& scene, PixelDepth depth);
+
+}  // namespace etendue

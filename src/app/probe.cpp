@@ -1,0 +1,68 @@
+#include "app/probe.h"
+
+#include "app/interrupt.h"
+#include "app/peak_memory.h"
+#include "app/phase_timer.h"
+#include "app/prepared_scene.h"
+#include "app/render_setup.h"
+#include "render/progressive_render.h"
+#include "render/tiles.h"
+#include "world/compile.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+namespace etendue {
+
+namespace {
+
+constexpr double kSeconds = 1.0;
+
+/// Renders for about kSeconds; seconds for one sample of every pixel.
+double seconds_per_spp(const World& world, const Integrator& integrator, const RenderOptions& options,
+                       const ThreadPool& threads) {
+    const PhaseTimer timer;
+    const auto enough = [&] { return timer.elapsed().wall > kSeconds || interrupt_requested().load(); };
+    ProgressiveRender rendering(world, integrator, options, threads);
+    const RenderState& state = rendering.state();
+    while (!enough() && state.spp_done < options.spp)
+        rendering.add_samples(pass_size(state.spp_done, options.spp), enough);
+    const double spp = static_cast<double>(state.counters.samples) / static_cast<double>(options.window.area());
+    return state.wall_seconds / std::max(spp, 1e-9);
+}
+
+}  // namespace
+
+std::string probe(const ImageJob& job, const SettingsOverrides& overrides, const ThreadPool& threads) {
+    SettingsOverrides given = overrides;
+    given.moment.frame = job.frame;
+    PreparedScene prepared = prepare_scene(job.scene, given);
+    const PhaseTimer build_timer;
+    const ColorConfig colors = ColorConfig::from_environment();
+    RenderSettings settings = prepared.scene.settings;
+    const std::string working_space = resolve_colors(settings, colors);
+    const RenderOptions options = make_render_options(settings);
+    const auto integrator = create_integrator(settings);
+    const World world = compile_world(std::move(prepared.scene), colors, working_space, threads, prepared.problems);
+    const PhaseTime build = build_timer.elapsed();
+    const double each = seconds_per_spp(world, *integrator, options, threads);
+
+    const double limit = settings.time_limit;
+    const double all = each * static_cast<double>(options.spp);
+    const double start = prepared.load.wall + build.wall;
+    const nlohmann::ordered_json json{{"scene", job.scene.string()},
+                                      {"width", options.window.width()},
+                                      {"height", options.window.height()},
+                                      {"spp", options.spp},
+                                      {"threads", threads.thread_count()},
+                                      {"load_seconds", prepared.load.wall},
+                                      {"build_seconds", build.wall},
+                                      {"seconds_per_spp", each},
+                                      {"estimated_seconds", start + (limit > 0.0 ? std::min(all, limit) : all)},
+                                      {"peak_memory_bytes", peak_memory_bytes()}};
+    return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace etendue

@@ -1,0 +1,18 @@
+// What an image would take, from the beginning of it.
+#pragma once
+
+#include "app/image_job.h"
+#include "core/parallel.h"
+
+#include <string>
+
+namespace etendue {
+
+/// Loads and compiles the scene of `job` and renders for about a second. Writes no file. Returns a JSON object,
+/// indented and ended by a newline: scene, width and height of what is rendered, spp, threads, load_seconds,
+/// build_seconds, seconds_per_spp, estimated_seconds (all of the image, or the limit of time that is set) and
+/// peak_memory_bytes. Memory for splats and textures grows a little after the first second. Throws what `prepare_scene`
+/// throws.
+[[nodiscard]] std::string probe(const ImageJob& job, const SettingsOverrides& overrides, const ThreadPool& threads);
+
+}  // namespace etendue

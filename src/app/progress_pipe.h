@@ -1,0 +1,27 @@
+// Progress for another program: a JSON object a line.
+#pragma once
+
+#include "render/render.h"
+
+#include <string_view>
+
+namespace etendue {
+
+class ProgressPipe {
+  public:
+    /// Writes to the open `descriptor`; nothing if that is negative. A reader that is gone or slow is no reason to
+    /// stop: what cannot be written at once is left out.
+    explicit ProgressPipe(int descriptor) : descriptor_(descriptor) {}
+
+    /// {"phase": "render", "fraction": 0 to 1, "seconds": of rendering, "samples": n, "rays": n}
+    void update(const RenderProgress& progress) const;
+    /// The same, of a phase whose progress is not known: "load" or "write".
+    void enter(std::string_view phase) const;
+
+  private:
+    void write_line(std::string_view phase, const RenderProgress& progress) const;
+
+    int descriptor_;
+};
+
+}  // namespace etendue

@@ -1,0 +1,58 @@
+#include "app/render_identity.h"
+
+#include "core/content_hash.h"
+#include "output/software_name.h"
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <sstream>
+#include <string_view>
+
+#include <fmt/format.h>
+
+namespace etendue {
+
+namespace {
+
+/// Lines of `dump` that are about how long to render, of which pixels, and how to show it.
+bool is_left_out(std::string_view line) {
+    constexpr std::array<std::string_view, 4> kLeftOut{"sampling:", "crop:", "texture memory:", "colour:"};
+    for (const std::string_view start : kLeftOut)
+        if (line.starts_with(start)) return true;
+    return false;
+}
+
+/// Lines of settings have a name that ends at a colon; everything else is of the scene.
+bool is_setting(std::string_view line) {
+    constexpr std::array<std::string_view, 7> kNames{"integrator", "film:",   "camera used:", "light units",
+                                                     "time code",  "shutter", "variant used"};
+    for (const std::string_view name : kNames)
+        if (line.starts_with(name)) return true;
+    return false;
+}
+
+}  // namespace
+
+RenderIdentity render_identity(const SceneDesc& scene, const std::string& working_space) {
+    RenderIdentity identity;
+    identity["program"] = software_name();
+    identity["working space"] = working_space;
+    identity["seed"] = fmt::format("{}", scene.settings.seed);
+    identity["sampler"] = scene.settings.sampler == SamplerType::Random ? "random" : "sobol";
+    for (const std::filesystem::path& input : scene.inputs)
+        identity["content of " + input.string()] = hex(hash_file(input));
+    std::istringstream lines(dump(scene));
+    ContentHash rest;
+    for (std::string line; std::getline(lines, line);) {
+        if (is_left_out(line)) continue;
+        if (is_setting(line))
+            identity["setting " + line.substr(0, line.find_first_of(" :"))] = line;
+        else
+            rest.add(std::as_bytes(std::span(line)));
+    }
+    identity["scene"] = hex(rest.digest());
+    return identity;
+}
+
+}  // namespace etendue

@@ -1,0 +1,106 @@
+#include "app/render_setup.h"
+
+#include "core/error.h"
+#include "integrator/integrator.h"
+
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace etendue {
+
+namespace {
+
+FilterShape to_filter_shape(PixelFilterType type) {
+    switch (type) {
+        case PixelFilterType::BlackmanHarris:
+            return FilterShape::BlackmanHarris;
+        case PixelFilterType::Box:
+            return FilterShape::Box;
+        case PixelFilterType::Gaussian:
+            return FilterShape::Gaussian;
+        case PixelFilterType::Mitchell:
+            return FilterShape::Mitchell;
+    }
+    return FilterShape::BlackmanHarris;
+}
+
+}  // namespace
+
+RenderOptions make_render_options(const RenderSettings& settings) {
+    const FilmSettings& film = settings.film;
+    RenderOptions options;
+    options.full_width = film.width;
+    options.full_height = film.height;
+    options.window = film.crop ? PixelRect{(*film.crop)[0], (*film.crop)[1], (*film.crop)[2], (*film.crop)[3]}
+                               : PixelRect{0, 0, film.width, film.height};
+    options.spp = static_cast<std::uint32_t>(settings.spp);
+    options.seed = settings.seed;
+    options.sequence = settings.sampler == SamplerType::Random ? SampleSequence::Random : SampleSequence::Sobol;
+    options.filter = PixelFilter(to_filter_shape(film.filter), film.filter_radius);
+    options.time_limit_seconds = settings.time_limit;
+    options.relative_error = settings.relative_error;
+    return options;
+}
+
+IntegratorOptions integrator_options(const RenderSettings& settings) {
+    const IntegratorSettings& s = settings.integrator;
+    IntegratorOptions options{
+        .lengths = {s.max_depth, s.min_depth, s.roulette_depth},
+        .heuristic = s.heuristic == HeuristicType::Balance ? Heuristic::Balance : Heuristic::Power,
+        .weighted = s.weighted,
+        .cached_connections = s.cached_connections};
+    if (s.strategy) options.strategy = Strategy{(*s.strategy)[0], (*s.strategy)[1]};
+    return options;
+}
+
+bool has_strategies(const std::string& integrator) {
+    const IntegratorEntry* const entry = find_integrator(integrator);
+    return entry != nullptr && entry->has_strategies;
+}
+
+void require_strategies(const RenderSettings& settings, const SourceLocation& asked_for) {
+    const std::string& type = settings.integrator.type;
+    if (!has_strategies(type)) throw SceneError(asked_for, fmt::format("'{}' has no strategies; 'bdpt' does", type));
+}
+
+std::unique_ptr<const Integrator> create_integrator(const RenderSettings& settings) {
+    const IntegratorSettings& s = settings.integrator;
+    std::vector<std::string_view> names;
+    for (const IntegratorEntry& entry : integrator_registry()) {
+        names.push_back(entry.name);
+        if (entry.name == s.type && s.min_depth > entry.longest_path)
+            throw SceneError(settings.at("/integrator/min_depth"),
+                             fmt::format("min_depth is {}, but the paths of '{}' have at most {} edges", s.min_depth,
+                                         s.type, entry.longest_path));
+    }
+    auto integrator = make_integrator(s.type, integrator_options(settings));
+    if (!integrator)
+        throw SceneError(settings.at("/integrator/type"),
+                         fmt::format("no integrator is named '{}'; {}", s.type, name_hint(s.type, names)));
+    if (s.strategy) require_strategies(settings, settings.at("/integrator/strategy"));
+    return integrator;
+}
+
+std::string resolve_colors(RenderSettings& settings, const ColorConfig& colors) {
+    ColorSettings& s = settings.color;
+    // The config knows names only; where they stood is known here.
+    const auto located = [&](const char* pointer, const auto& look_up) {
+        try {
+            return look_up();
+        } catch (const SceneError& error) {
+            throw SceneError(settings.at(pointer), error.problems().all().front().message);
+        }
+    };
+    s.working_space = located("/color/working_space", [&] {
+        return s.working_space.empty() ? colors.default_working_space() : colors.resolve_space(s.working_space);
+    });
+    if (s.display.empty()) s.display = colors.default_display();
+    if (s.view.empty()) s.view = located("/color/display", [&] { return colors.default_view(s.display); });
+    (void)located("/color/view",
+                  [&] { return colors.display_transform(s.working_space, s.display, s.view, s.exposure); });
+    return s.working_space;
+}
+
+}  // namespace etendue

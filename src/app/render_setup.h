@@ -1,0 +1,33 @@
+// From settings to what renders them: options of the film, the sampler and the integrator, and the colour space.
+#pragma once
+
+#include "color/color_config.h"
+#include "integrator/integrator.h"
+#include "render/render.h"
+#include "scene/render_settings.h"
+
+#include <memory>
+#include <string>
+
+namespace etendue {
+
+/// What the settings ask of the film and the sampler.
+[[nodiscard]] RenderOptions make_render_options(const RenderSettings& settings);
+
+/// What the settings ask of the integrator.
+[[nodiscard]] IntegratorOptions integrator_options(const RenderSettings& settings);
+
+/// True if the integrator of this name has strategies.
+[[nodiscard]] bool has_strategies(const std::string& integrator);
+
+/// Throws SceneError that blames `asked_for` if the integrator that the settings ask for has no strategies.
+void require_strategies(const RenderSettings& settings, const SourceLocation& asked_for);
+
+/// The integrator that the settings ask for. Throws SceneError with the nearest name if there is none of that name.
+[[nodiscard]] std::unique_ptr<const Integrator> create_integrator(const RenderSettings& settings);
+
+/// Puts the config's defaults where `settings` name no space, display or view, and checks that everything exists.
+/// Returns the working space. Throws SceneError with the setting's location.
+[[nodiscard]] std::string resolve_colors(RenderSettings& settings, const ColorConfig& colors);
+
+}  // namespace etendue
