@@ -1,0 +1,105 @@
+// What `etendue batch` has done: a unit for each image of each scene, frame and variant.
+//
+// A plain description, in the order of the plan. What is not known is empty, and null in JSON. Texts are taken as they
+// are, from file names and messages: they may hold anything, and need not be UTF-8.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace etendue {
+
+enum class UnitOutcome {
+    Rendered,
+    UpToDate,
+    Failed,
+    Interrupted,       ///< by the user, with what was rendered so far
+    RunningElsewhere,  ///< another batch process has it
+    NotStarted,        ///< the batch ended before its turn
+};
+
+/// Seconds on the clock.
+struct UnitSeconds {
+    double load = 0.0;   ///< reading the scene
+    double build = 0.0;  ///< compiling the world
+    double render = 0.0;
+    double write = 0.0;  ///< the images
+
+    [[nodiscard]] double total() const { return load + build + render + write; }
+};
+
+/// One image. The statistics are those of the file beside it, of the run that made it: units that are up to date have
+/// them too.
+struct BatchUnit {
+    std::string name{};  ///< unlike all others
+    std::string scene{};
+    std::optional<int> frame{};
+    std::string variant{};  ///< of the scene's materials; empty if none was asked for
+    std::string image{};    ///< the EXR, relative to the output directory; NAME.png beside it is looked at
+    UnitOutcome outcome = UnitOutcome::NotStarted;
+    std::string reason{};            ///< why it was stale: "settings changed"; empty if it was not
+    std::string error{};             ///< one message of any number of lines, if it failed
+    std::string signal{};            ///< that ended its process: "SIGSEGV"; empty if none did
+    int attempts = 0;                ///< that this batch made
+    std::string host{};              ///< where it was rendered, or is
+    std::vector<std::string> log{};  ///< its last lines, oldest first; a few dozen at most
+
+    int width = 0;  ///< pixels rendered; 0 if not known
+    int height = 0;
+    int spp = 0;  ///< finished
+    std::string integrator{};
+    std::string halt_reason{};
+    std::optional<UnitSeconds> seconds{};
+    std::optional<double> estimated_seconds{};  ///< as the plan said
+    std::optional<double> rays_per_second{};
+    std::optional<std::uint64_t> rays{};
+    std::optional<std::uint64_t> peak_memory_bytes{};
+};
+
+struct BatchReport {
+    std::string title{};             ///< what the page is called: the last name of the output directory
+    std::string output_directory{};  ///< absolute
+    std::string program{};           ///< name and version
+    std::string command{};
+    std::string started{};  ///< ISO 8601, UTC
+    std::string ended{};    ///< ISO 8601, UTC; empty while the batch goes on
+    double seconds = 0.0;   ///< from start to end, or until now
+    std::string host{};
+    int threads = 0;
+    bool interrupted = false;
+    std::vector<BatchUnit> units{};
+};
+
+/// Sums over the units; those of seconds and rays are of what this batch rendered.
+struct BatchTotals {
+    std::size_t units = 0;
+    std::size_t rendered = 0;
+    std::size_t up_to_date = 0;
+    std::size_t failed = 0;
+    std::size_t interrupted = 0;
+    std::size_t running_elsewhere = 0;
+    std::size_t not_started = 0;
+    UnitSeconds seconds{};
+    std::uint64_t rays = 0;
+    std::uint64_t peak_memory_bytes = 0;  ///< the largest of all units
+};
+
+[[nodiscard]] BatchTotals totals(const BatchReport& report);
+
+/// As it stands in JSON and on the page: "up to date".
+[[nodiscard]] const char* outcome_name(UnitOutcome outcome);
+
+/// docs/batch-report.md describes it.
+[[nodiscard]] std::string to_json(const BatchReport& report);
+
+/// The encoded images of the units, PNG or JPEG, in their order; empty where there is none.
+using Thumbnails = std::vector<std::vector<unsigned char>>;
+
+/// One HTML file, to stand in the output directory, that shows the report and needs nothing else; links lead to the
+/// images beside it. Throws std::invalid_argument unless there is a thumbnail, be it empty, for each unit.
+[[nodiscard]] std::string make_batch_page(const BatchReport& report, const Thumbnails& thumbnails);
+
+}  // namespace etendue
