@@ -1,5 +1,10 @@
 #include "image/scale_down.h"
 
+#include "core/error.h"
+#include "image/write.h"
+#include "image_test_files.h"
+
+#include <filesystem>
 #include <numeric>
 #include <vector>
 
@@ -39,6 +44,27 @@ TEST(ScaleDown, UnevenBoxesCoverAllPixels) {
     const ImageF small = scale_down(image, 3);
     EXPECT_EQ(small.height, 1);
     EXPECT_EQ(small.pixels, (std::vector<float>{0.5f, 2.5f, 5.0f}));
+}
+
+TEST(ReadScaledDown, IsTheImageScaledDown) {
+    const TemporaryFolder folder;
+    ImageF image = ramp(37, 23, 3);
+    for (float& value : image.pixels) value /= 37.0f * 23.0f * 3.0f;
+    write_image(folder / "a.png", image, {.depth = PixelDepth::UInt8});
+    for (const int width : {1, 10, 36, 37, 100}) {
+        const ImageF small = read_scaled_down(folder / "a.png", width);
+        const ImageF expected = scale_down(read_image_float(folder / "a.png"), width);
+        EXPECT_EQ(small.height, expected.height);
+        EXPECT_EQ(small.pixels, expected.pixels) << width;
+    }
+}
+
+TEST(ReadScaledDown, RefusesWhatIsBroken) {
+    const TemporaryFolder folder;
+    EXPECT_THROW((void)read_scaled_down(folder / "none.png", 10), IoError);
+    write_image(folder / "a.png", ramp(40, 40, 3), {.depth = PixelDepth::UInt8});
+    std::filesystem::resize_file(folder / "a.png", std::filesystem::file_size(folder / "a.png") / 2);
+    EXPECT_THROW((void)read_scaled_down(folder / "a.png", 10), IoError);
 }
 
 }  // namespace
