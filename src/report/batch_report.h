@@ -92,14 +92,21 @@ struct BatchTotals {
 /// As it stands in JSON and on the page: "up to date".
 [[nodiscard]] const char* outcome_name(UnitOutcome outcome);
 
+/// Whether the unit's image shows what was asked for, finished or not: another may lie there from before.
+[[nodiscard]] bool has_image(UnitOutcome outcome);
+
 /// docs/batch-report.md describes it.
 [[nodiscard]] std::string to_json(const BatchReport& report);
 
-/// The encoded images of the units, PNG or JPEG, in their order; empty where there is none.
-using Thumbnails = std::vector<std::vector<unsigned char>>;
+struct Thumbnails {
+    /// Small encoded images of the units, PNG or JPEG, in their order; empty where there is none.
+    std::vector<std::vector<unsigned char>> files{};
+    std::string note{};  ///< what a reader is to know of them; may be empty
+};
 
 /// One HTML file, to stand in the output directory, that shows the report and needs nothing else; links lead to the
-/// images beside it. Throws std::invalid_argument unless there is a thumbnail, be it empty, for each unit.
+/// images beside it. Throws std::invalid_argument unless there is a thumbnail, be it empty, for
+/// each unit.
 [[nodiscard]] std::string make_batch_page(const BatchReport& report, const Thumbnails& thumbnails);
 
 }  // namespace etendue

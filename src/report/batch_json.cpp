@@ -1,0 +1,96 @@
+#include "report/batch_report.h"
+
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+namespace etendue {
+
+namespace {
+
+/// Writes numbers that are not finite as null.
+using Json = nlohmann::ordered_json;
+
+constexpr int kFormat = 1;
+
+template <typename Value>
+Json known(const std::optional<Value>& value) {
+    return value ? Json(*value) : Json();
+}
+
+Json known(const std::string& text) {
+    return text.empty() ? Json() : Json(text);
+}
+
+Json positive(int number) {
+    return number > 0 ? Json(number) : Json();
+}
+
+Json to_object(const UnitSeconds& seconds) {
+    return {{"load", seconds.load},
+            {"build", seconds.build},
+            {"render", seconds.render},
+            {"write", seconds.write},
+            {"total", seconds.total()}};
+}
+
+Json to_object(const BatchTotals& sum) {
+    return {{"units", sum.units},
+            {"rendered", sum.rendered},
+            {"up_to_date", sum.up_to_date},
+            {"failed", sum.failed},
+            {"interrupted", sum.interrupted},
+            {"running_elsewhere", sum.running_elsewhere},
+            {"not_started", sum.not_started},
+            {"seconds", to_object(sum.seconds)},
+            {"rays", sum.rays},
+            {"peak_memory_bytes", sum.peak_memory_bytes}};
+}
+
+Json to_object(const BatchUnit& unit) {
+    return {{"name", unit.name},
+            {"scene", unit.scene},
+            {"frame", known(unit.frame)},
+            {"variant", known(unit.variant)},
+            {"image", unit.image},
+            {"outcome", outcome_name(unit.outcome)},
+            {"reason", known(unit.reason)},
+            {"error", known(unit.error)},
+            {"signal", known(unit.signal)},
+            {"attempts", unit.attempts},
+            {"host", known(unit.host)},
+            {"log", unit.log},
+            {"width", positive(unit.width)},
+            {"height", positive(unit.height)},
+            {"spp", positive(unit.spp)},
+            {"integrator", known(unit.integrator)},
+            {"halt_reason", known(unit.halt_reason)},
+            {"seconds", unit.seconds ? to_object(*unit.seconds) : Json()},
+            {"estimated_seconds", known(unit.estimated_seconds)},
+            {"rays", known(unit.rays)},
+            {"rays_per_second", known(unit.rays_per_second)},
+            {"peak_memory_bytes", known(unit.peak_memory_bytes)}};
+}
+
+}  // namespace
+
+std::string to_json(const BatchReport& report) {
+    Json units = Json::array();
+    for (const BatchUnit& unit : report.units) units.push_back(to_object(unit));
+    const Json json{{"format", kFormat},
+                    {"title", report.title},
+                    {"output_directory", report.output_directory},
+                    {"program", report.program},
+                    {"command", report.command},
+                    {"started", known(report.started)},
+                    {"ended", known(report.ended)},
+                    {"seconds", report.seconds},
+                    {"host", report.host},
+                    {"threads", positive(report.threads)},
+                    {"interrupted", report.interrupted},
+                    {"totals", to_object(totals(report))},
+                    {"units", std::move(units)}};
+    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace etendue

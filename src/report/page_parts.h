@@ -1,0 +1,19 @@
+// What pages with data in them are put together from.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace etendue {
+
+/// RFC 4648, section 4.
+[[nodiscard]] std::string to_base64(std::span<const unsigned char> bytes);
+
+/// JSON that may stand in a script element: nothing in it ends that.
+[[nodiscard]] std::string for_script(std::string_view json);
+
+/// The page `page` with the report and the images, both JSON, at their places. Throws std::logic_error if it has none.
+[[nodiscard]] std::string fill_page(std::string_view page, std::string_view report, std::string_view images);
+
+}  // namespace etendue
