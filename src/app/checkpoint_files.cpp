@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/log.h"
+#include "core/write_file.h"
 
 #include <string>
 #include <system_error>
@@ -96,6 +97,8 @@ void CheckpointFiles::remove() const {
     std::error_code ignored;
     std::filesystem::remove(newest_, ignored);
     std::filesystem::remove(previous_, ignored);
+    // A render that was killed while it wrote one and was gone on with to its end may have written no more of them.
+    remove_abandoned_files_of(newest_);
 }
 
 std::optional<RenderState> read_if_expected(const std::filesystem::path& file,

@@ -92,19 +92,30 @@ int open_unowned(const std::filesystem::path& path, int flags) {
     return -1;
 }
 
+/// Of one target at a time.
+constexpr int kMostWriters = 1000;
+
 /// Locked, empty and under a name beside `target`. Throws IoError.
 struct UnownedFile {
     std::filesystem::path path;
     int fd;
 };
 UnownedFile create_temporary(const std::filesystem::path& target) {
-    constexpr int kMostWriters = 1000;  // of one target at a time
     for (int attempt = 0; attempt < kMostWriters; ++attempt) {
         const std::filesystem::path path = temporary_path(target, attempt);
         if (const int fd = open_unowned(path, O_CREAT); fd >= 0) return {path, fd};
         if (errno != EWOULDBLOCK) throw_errno(target, errno);
     }
     throw IoError(fmt::format("cannot write {}: too many others do", target.string()));
+}
+
+bool remove_unowned(const std::filesystem::path& path) {
+    const int fd = open_unowned(path, 0);
+    if (fd < 0) return false;
+    std::error_code ignored;
+    const bool removed = std::filesystem::remove(path, ignored);
+    ::close(fd);
+    return removed;
 }
 
 // A name beside the target, removed unless it has been renamed. What a writer that was killed left behind is used again
@@ -171,6 +182,15 @@ void write_text(const std::filesystem::path& path, const std::string& text) {
     write_bytes(path, std::as_bytes(std::span(text)));
 }
 
+void remove_abandoned_files_of(const std::filesystem::path& path) {
+    std::error_code ignored;
+    for (int attempt = 0; attempt < kMostWriters; ++attempt) {
+        const std::filesystem::path temporary = temporary_path(path, attempt);
+        if (!std::filesystem::exists(temporary, ignored)) return;
+        remove_unowned(temporary);
+    }
+}
+
 std::size_t remove_abandoned_files(const std::filesystem::path& directory) {
     constexpr auto kOldAge = std::chrono::hours(1);  // of what may be another machine's
     std::size_t removed = 0;
@@ -183,10 +203,7 @@ std::size_t remove_abandoned_files(const std::filesystem::path& directory) {
         const bool is_ours = name.find(fmt::format(".{}-", host_name())) != std::string::npos;
         const auto age = std::filesystem::file_time_type::clock::now() - entry->last_write_time(error);
         if (error || (!is_ours && age < kOldAge)) continue;
-        const int fd = open_unowned(entry->path(), 0);
-        if (fd < 0) continue;
-        if (std::filesystem::remove(entry->path(), error)) ++removed;
-        ::close(fd);
+        if (remove_unowned(entry->path())) ++removed;
     }
     return removed;
 }

@@ -26,6 +26,9 @@ void write_file(const std::filesystem::path& path, const std::function<void(cons
 void write_bytes(const std::filesystem::path& path, std::span<const std::byte> bytes);
 void write_text(const std::filesystem::path& path, const std::string& text);
 
+/// Removes what killed writers of `path` on this host have left, for when it will not be written again.
+void remove_abandoned_files_of(const std::filesystem::path& path);
+
 /// Removes the temporary files that killed writers have left in `directory` and below: those of this host that nobody
 /// has open for writing, and those of other hosts that are an hour old. Returns how many. What cannot be read or
 /// removed is left.

@@ -147,6 +147,20 @@ TEST(WriteFile, WhatThrowsLeavesNothing) {
     EXPECT_EQ(folder.file_count(), 0u);
 }
 
+TEST(RemoveAbandonedFiles, TakesThoseOfOneFile) {
+    const TemporaryFolder folder;
+    const auto left = temporary_of(folder, "a");
+    const auto other = temporary_of(folder, "b");
+    for (const auto& path : {left, other}) std::ofstream(path) << "half";
+    write_file(folder / "c", [&](const ByteSink&) {
+        remove_abandoned_files_of(folder / "a");
+        remove_abandoned_files_of(folder / "c");
+    });
+    EXPECT_FALSE(std::filesystem::exists(left));
+    EXPECT_TRUE(std::filesystem::exists(other));
+    EXPECT_TRUE(std::filesystem::exists(folder / "c")) << "its writer lived";
+}
+
 TEST(RemoveAbandonedFiles, TakesThoseOfTheDeadAndNoOthers) {
     const TemporaryFolder folder;
     const auto left = temporary_of(folder, "a");
