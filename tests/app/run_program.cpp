@@ -4,9 +4,10 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <fstream>
-#include <string_view>
 #include <thread>
+#include <utility>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -42,30 +43,76 @@ bool handles_interrupt(pid_t pid) {
 
 }  // namespace
 
-ProgramResult run_etendue(const std::vector<std::string>& arguments, const std::filesystem::path& directory,
-                          const std::function<void(int pid)>& while_running) {
+RunningProgram::RunningProgram(const std::vector<std::string>& arguments, const std::filesystem::path& directory) {
     // Beside the directory, not in it: tests look at what the program leaves there.
-    const std::filesystem::path out = directory.string() + ".out";
-    const std::filesystem::path err = directory.string() + ".err";
-    const pid_t pid = fork();
-    if (pid == 0) become_etendue(arguments, directory, out, err);
+    // Several may run there at once.
+    const std::string name = fmt::format("{}.{}", directory.string(), static_cast<const void*>(this));
+    out_ = name + ".out";
+    err_ = name + ".err";
+    pid_ = fork();
+    if (pid_ == 0) become_etendue(arguments, directory, out_, err_);
+}
+
+RunningProgram::~RunningProgram() {
+    if (pid_ <= 0) return;
+    send(SIGKILL);
+    (void)wait();
+}
+
+void RunningProgram::send(int signal) const {
+    if (pid_ > 0) kill(pid_, signal);
+}
+
+bool RunningProgram::has_ended() const {
+    siginfo_t ended{};
+    return waitid(P_PID, static_cast<id_t>(pid_), &ended, WEXITED | WNOHANG | WNOWAIT) != 0 || ended.si_pid == pid_;
+}
+
+ProgramResult RunningProgram::wait() {
     int status = 0;
-    bool ended = false;
-    if (while_running) {
-        for (int i = 0; i < 3000 && !ended && !handles_interrupt(pid); ++i) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(10));
-            ended = waitpid(pid, &status, WNOHANG) == pid;
-        }
-        if (!ended) while_running(pid);
-    }
-    if (!ended) waitpid(pid, &status, 0);
+    waitpid(std::exchange(pid_, -1), &status, 0);
     ProgramResult result;
     result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
-    result.out = read_file(out);
-    result.err = read_file(err);
-    std::filesystem::remove(out);
-    std::filesystem::remove(err);
+    result.out = read_file(out_);
+    result.err = read_file(err_);
+    std::filesystem::remove(out_);
+    std::filesystem::remove(err_);
     return result;
+}
+
+std::vector<int> children_of(int pid) {
+    std::vector<int> children;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+        const std::string name = entry.path().filename().string();
+        if (name.find_first_not_of("0123456789") != std::string::npos) continue;
+        std::string text;
+        std::getline(std::ifstream(entry.path() / "stat"), text);
+        int parent = 0;
+        const std::size_t name_end = text.rfind(')');
+        if (name_end == std::string::npos) continue;
+        if (std::sscanf(text.c_str() + name_end, ") %*c %d", &parent) == 1 && parent == pid)
+            children.push_back(std::stoi(name));
+    }
+    return children;
+}
+
+bool wait_until(const std::function<bool()>& is_true) {
+    for (int i = 0; i < 6000; ++i) {
+        if (is_true()) return true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return false;
+}
+
+ProgramResult run_etendue(const std::vector<std::string>& arguments, const std::filesystem::path& directory,
+                          const std::function<void(int pid)>& while_running) {
+    RunningProgram program(arguments, directory);
+    if (while_running) {
+        const bool is_ready =
+            wait_until([&program] { return program.has_ended() || handles_interrupt(program.pid()); });
+        if (is_ready && !program.has_ended()) while_running(program.pid());
+    }
+    return program.wait();
 }
 
 }  // namespace etendue::test

@@ -14,6 +14,35 @@ struct ProgramResult {
     std::string err;
 };
 
+/// `etendue arguments...` while it runs in `directory`.
+class RunningProgram {
+  public:
+    RunningProgram(const std::vector<std::string>& arguments, const std::filesystem::path& directory);
+    /// Kills it if it still runs.
+    ~RunningProgram();
+    RunningProgram(const RunningProgram&) = delete;
+    RunningProgram& operator=(const RunningProgram&) = delete;
+
+    [[nodiscard]] int pid() const { return pid_; }
+    /// Sends it a signal, unless it was waited for.
+    void send(int signal) const;
+    /// True once it has ended, and stays there for `wait`.
+    [[nodiscard]] bool has_ended() const;
+    /// Waits for its end; once.
+    [[nodiscard]] ProgramResult wait();
+
+  private:
+    std::filesystem::path out_;
+    std::filesystem::path err_;
+    int pid_ = -1;
+};
+
+/// Process ids of the children of the process `pid`.
+[[nodiscard]] std::vector<int> children_of(int pid);
+
+/// Waits for at most a minute until `is_true`; says whether it became so.
+[[nodiscard]] bool wait_until(const std::function<bool()>& is_true);
+
 /// Runs `etendue arguments...` in `directory`. `while_running` is called with the process id once the program handles
 /// SIGINT, if it gets that far.
 [[nodiscard]] ProgramResult run_etendue(const std::vector<std::string>& arguments,
