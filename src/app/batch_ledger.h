@@ -1,0 +1,83 @@
+// What batches did to the images of an output directory, for good: OUT/ledger.jsonl, one JSON object a line, appended.
+// docs/batch.md tells its keys.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+namespace etendue {
+
+enum class LedgerEventKind { BatchStarted, BatchFinished, UnitStarted, UnitFinished, UnitFailed, UnitInterrupted };
+
+[[nodiscard]] const char* event_name(LedgerEventKind kind);
+
+struct LedgerEvent {
+    LedgerEventKind kind = LedgerEventKind::UnitStarted;
+    std::string unit{};                  ///< path of the image below OUT, without its extension; empty for batches
+    std::string scene{};                 ///< directory or file
+    int attempt = 0;                     ///< from 1; 0 if it means nothing
+    std::string reason{};                ///< why a unit is started
+    std::string taken_over_from{};       ///< "host:pid" of the dead process that had begun the unit
+    std::optional<int> exit_code{};      ///< of the process that ended
+    std::string signal{};                ///< "SIGSEGV", if one ended it
+    std::string error{};                 ///< what went wrong
+    std::vector<std::string> log{};      ///< last lines of that process, oldest first
+    std::optional<double> seconds{};     ///< that it took
+    bool again = false;                  ///< the same process tries again at once
+    std::optional<std::size_t> units{};  ///< of a batch: all, and at its end those that
+    std::size_t rendered = 0;            ///< it rendered
+    std::size_t failed = 0;              ///< failed
+};
+
+/// "2026-11-22T14:03:07.123Z": now, in UTC.
+[[nodiscard]] std::string utc_time();
+
+class BatchLedger {
+  public:
+    /// The ledger at `path`; it is made by the first event.
+    explicit BatchLedger(std::filesystem::path path) : path_(std::move(path)) {}
+
+    /// Appends the event with time, host and process id, by one write, and waits until it is on the disk. If the last
+    /// line has no end, because a writer died, it gets one first: what was torn stays alone. Several processes may
+    /// append at once. Throws IoError; nothing is appended then.
+    void append(const LedgerEvent& event) const;
+
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_;
+};
+
+/// What a ledger says about each unit in the end. Lines that are not whole, or no such JSON, are skipped.
+class LedgerHistory {
+  public:
+    struct Entry {
+        LedgerEventKind kind = LedgerEventKind::UnitStarted;
+        std::string error{};     ///< if it failed; its first line
+        bool is_final = true;    ///< its process did not try again at once
+        bool is_recent = false;  ///< appended after the first `read_new`
+    };
+
+    explicit LedgerHistory(std::filesystem::path path) : path_(std::move(path)) {}
+
+    /// Reads what was appended since the last time. A ledger that is missing or cannot be read is empty.
+    void read_new();
+
+    /// The last that is known of `unit`; null if nothing is. Valid until the next `read_new`.
+    [[nodiscard]] const Entry* find(const std::string& unit) const;
+
+  private:
+    void take(const std::string& line);
+
+    std::filesystem::path path_;
+    std::uintmax_t read_ = 0;  ///< bytes: all lines that were whole
+    bool is_first_read_ = true;
+    std::unordered_map<std::string, Entry> entries_;
+};
+
+}  // namespace etendue
