@@ -93,6 +93,11 @@ std::optional<RenderState> CheckpointFiles::read(const Expected& expected, bool 
     return std::nullopt;
 }
 
+bool CheckpointFiles::exist() const {
+    std::error_code error;
+    return std::filesystem::exists(newest_, error) || std::filesystem::exists(previous_, error);
+}
+
 void CheckpointFiles::remove() const {
     std::error_code ignored;
     std::filesystem::remove(newest_, ignored);

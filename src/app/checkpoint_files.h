@@ -35,6 +35,8 @@ class CheckpointFiles {
     /// expected.
     [[nodiscard]] std::optional<RenderState> read(const Expected& expected, bool quiet) const;
 
+    /// True if there is one.
+    [[nodiscard]] bool exist() const;
     /// Once the image is complete.
     void remove() const;
 

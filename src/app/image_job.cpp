@@ -55,19 +55,24 @@ std::vector<ImageJob> image_jobs(const std::filesystem::path& scene, const std::
     return jobs;
 }
 
+SettingsOverrides overrides_of(const ImageJob& job, SettingsOverrides overrides) {
+    overrides.moment.frame = job.frame;
+    if (job.variant) overrides.variant = job.variant;
+    return overrides;
+}
+
 ImageResult run_job(const ImageJob& job, const ImageJobOptions& options, const ThreadPool& threads) {
     ImageResult result{job, ImageOutcome::UpToDate, {}, {}};
     SceneRenderRequest request{.scene = job.scene,
                                .output = job.output,
                                .strategies = options.strategies,
-                               .overrides = options.overrides,
+                               .overrides = overrides_of(job, options.overrides),
                                .samples = options.samples,
                                .checkpoint_minutes = options.checkpoint_minutes,
                                .resume = options.resume,
                                .progress_descriptor = options.progress_descriptor,
                                .quiet = options.quiet,
                                .title = options.title};
-    request.overrides.moment.frame = job.frame;
     PreparedScene prepared = prepare_scene(job.scene, request.overrides);
     const std::string hash = settings_hash(prepared.scene, request.overrides.depth);
     if (!options.force && !is_partial(job.output) &&

@@ -19,6 +19,8 @@ struct ImageJob {
     std::filesystem::path output;  ///< the EXR
     std::string name;              ///< what tables and progress call it
     std::optional<int> frame;      ///< of a sequence
+    /// Of the scene's materials; none for the one that overrides or render.json ask for.
+    std::optional<std::string> variant{};
 };
 
 enum class ImageOutcome { Rendered, UpToDate, Failed, Interrupted };
@@ -39,6 +41,9 @@ struct ImageResult {
 /// The jobs of one scene: `output` itself, or one for each frame that `overrides` or the scene's render.json ask for.
 [[nodiscard]] std::vector<ImageJob> image_jobs(const std::filesystem::path& scene, const std::filesystem::path& output,
                                                const std::string& name, const SettingsOverrides& overrides);
+
+/// `overrides` with the frame and variant of the job.
+[[nodiscard]] SettingsOverrides overrides_of(const ImageJob& job, SettingsOverrides overrides);
 
 struct ImageJobOptions {
     SettingsOverrides overrides;
