@@ -1,18 +1,23 @@
 // etendue batch: every scene directory below some directories.
+#include "app/batch_child.h"
+#include "app/batch_lock.h"
+#include "app/batch_options.h"
+#include "app/batch_plan.h"
+#include "app/batch_runner.h"
+#include "app/batch_table.h"
+#include "app/batch_units.h"
 #include "app/commands.h"
-#include "app/image_job.h"
 #include "app/interrupt.h"
-#include "app/progress_display.h"
+#include "core/byte_size.h"
+#include "core/error.h"
 #include "core/log.h"
-#include "loader/loader.h"
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
-#include <map>
 #include <memory>
-#include <set>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -24,158 +29,132 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct BatchArguments {
-    std::vector<std::string> roots;
-    std::string output;
-    SettingsOverrides overrides;
-    int threads = 0;
-    bool force = false;
-    bool quiet = false;
-    bool json = false;
-};
-
-struct BatchItem {
-    fs::path scene;
-    fs::path root;     ///< the directory given, below which it was found
-    std::string name;  ///< path below the output directory, without extension
-};
-
-/// A scene's name is its path below the root; with several roots that hold the same name, the root's name comes first.
-std::vector<BatchItem> collect_items(const BatchArguments& arguments) {
-    std::vector<BatchItem> items;
-    std::map<std::string, int> uses;
-    std::set<fs::path> seen;
-    for (const std::string& text : arguments.roots) {
-        // Absolute, so that "." has a name, and without a trailing slash, so that the last component has one.
-        fs::path root = fs::absolute(text).lexically_normal();
-        if (!root.has_filename()) root = root.parent_path();
-        for (const fs::path& scene : find_scene_directories(root)) {
-            if (!seen.insert(scene).second) continue;
-            const fs::path relative = scene.lexically_relative(root);
-            const std::string name = (relative == "." ? root.filename() : relative).string();
-            items.push_back({scene.lexically_proximate(fs::current_path()), root, name});
-            ++uses[name];
-        }
-    }
-    for (BatchItem& item : items)
-        if (uses[item.name] > 1) item.name = (item.root.filename() / item.name).string();
-    return items;
+/// Makes the output directory. Throws IoError if nothing can be written in it: better now than after the first image.
+void prepare_output(const fs::path& output) {
+    std::error_code error;
+    fs::create_directories(output, error);
+    if (error) throw IoError(fmt::format("cannot make {}: {}", output.string(), error.message()));
+    // What the directory allows is not all that counts: a whole file system may be read-only.
+    BatchLocks(output).require();
 }
 
-/// One job for each image of each scene. Throws SceneError if two would be written to the same file.
-std::vector<ImageJob> collect_jobs(const BatchArguments& arguments) {
-    std::vector<ImageJob> jobs;
-    std::set<fs::path> taken;
-    for (const BatchItem& item : collect_items(arguments)) {
-        const fs::path output = fs::path(arguments.output) / (item.name + ".exr");
-        for (ImageJob& job : image_jobs(item.scene, output, item.name, arguments.overrides)) {
-            if (!taken.insert(job.output).second)
-                throw SceneError(
-                    {item.scene.string(), ""},
-                    fmt::format("two images would be written to '{}'; render them to different directories",
-                                job.output.string()));
-            jobs.push_back(std::move(job));
-        }
-    }
-    return jobs;
+void print(const BatchOptions& options, const std::string& json, const std::string& table) {
+    if (options.json)
+        std::fputs(json.c_str(), stdout);
+    else if (!options.quiet)
+        std::fputs(table.c_str(), stdout);
 }
 
-ImageResult process(const ImageJob& job, const std::string& title, const BatchArguments& arguments,
-                    const ThreadPool& threads) {
-    try {
-        return run_job(job,
-                       {.overrides = arguments.overrides,
-                        .force = arguments.force,
-                        .quiet = arguments.quiet,
-                        .make_directories = true,
-                        .title = title},
-                       threads);
-    } catch (const std::exception& error) {
-        log_error("{}: {}", job.scene.string(), error.what());
-        return {job, ImageOutcome::Failed, error.what(), {}};
-    }
+ExitCode exit_code_of(const BatchRunner& runner) {
+    if (interrupt_requested()) return interrupt_exit_code();
+    const BatchTotals sum = totals(runner.report());
+    const bool is_whole = sum.rendered + sum.up_to_date == sum.units && runner.has_kept_books();
+    return is_whole ? ExitCode::Success : ExitCode::RenderFailed;
 }
 
-/// What is wrong with one frame of a scene is wrong with the others: they are not tried once one has failed.
-std::vector<ImageResult> process_all(const std::vector<ImageJob>& jobs, const BatchArguments& arguments,
-                                     const ThreadPool& threads) {
-    std::vector<ImageResult> results;
-    fs::path failed_scene;
-    for (std::size_t i = 0; i < jobs.size() && !interrupt_requested(); ++i) {
-        if (jobs[i].scene == failed_scene) continue;
-        results.push_back(
-            process(jobs[i], fmt::format("[{}/{}] {}", i + 1, jobs.size(), jobs[i].name), arguments, threads));
-        if (results.back().outcome == ImageOutcome::Failed) failed_scene = jobs[i].scene;
-    }
-    return results;
-}
-
-void print_table(const std::vector<ImageResult>& results) {
-    std::size_t width = 5;
-    for (const ImageResult& result : results) width = std::max(width, result.job.name.size());
-    fmt::print("{:<{}}  {:<11}  {:>11}  {:>6}  {:>9}  {:>8}  {}\n", "scene", width, "result", "size", "spp", "time",
-               "Mrays/s", "image");
-    for (const ImageResult& result : results) {
-        const RenderStatistics& s = result.statistics;
-        fmt::print("{:<{}}  {:<11}  ", result.job.name, width, outcome_name(result.outcome));
-        if (s.samples > 0)
-            fmt::print("{:>11}  {:>6}  {:>9}  {:>8.1f}  ", fmt::format("{}x{}", s.width, s.height), s.spp_done,
-                       format_duration(s.render.wall),
-                       static_cast<double>(s.rays.total()) / std::max(s.render.wall, 1e-9) * 1e-6);
-        else
-            fmt::print("{:>11}  {:>6}  {:>9}  {:>8}  ", "-", "-", "-", "-");
-        // A message of several lines would break the table; its first line is enough here, all were logged.
-        fmt::print("{}\n", result.outcome == ImageOutcome::Failed ? result.error.substr(0, result.error.find('\n'))
-                                                                  : result.job.output.string());
-    }
-}
-
-ExitCode run_batch(const BatchArguments& arguments) {
-    const std::vector<ImageJob> jobs = collect_jobs(arguments);
-    if (jobs.empty()) {
+ExitCode run_batch(const BatchOptions& options) {
+    BatchProgress progress(options.quiet);
+    const auto look = [&](const fs::path& scene) { return find_variants(scene, options); };
+    std::vector<BatchTask> tasks = collect_tasks(options, look);
+    if (tasks.empty()) {
         log_error(
             "error: no scene directory was found; a scene directory holds a render.json or exactly one glTF file");
         return ExitCode::InvalidScene;
     }
-    const ThreadPool threads(arguments.threads);
-    const std::vector<ImageResult> results = process_all(jobs, arguments, threads);
-    if (arguments.json)
-        fmt::print("{}", to_json(results));
-    else if (!arguments.quiet)
-        print_table(results);
-    if (interrupt_requested()) return interrupt_exit_code();
-    const bool failed =
-        std::ranges::any_of(results, [](const ImageResult& result) { return result.outcome == ImageOutcome::Failed; });
-    return failed ? ExitCode::RenderFailed : ExitCode::Success;
+    if (!options.dry_run) prepare_output(options.output);
+    LedgerHistory history(options.output / "ledger.jsonl");
+    history.read_new();
+    BatchPlan plan =
+        make_plan(std::move(tasks), options, history, [&](const std::string& what, std::size_t done, std::size_t of) {
+            progress.update({.done = done, .of = of, .current = what, .state = "planning"});
+        });
+    progress.clear();
+    if (interrupt_requested()) {
+        if (!options.dry_run) BatchLocks(options.output).tidy();
+        return interrupt_exit_code();
+    }
+    if (options.dry_run) {
+        print(options, to_json(plan), to_table(plan));
+        return ExitCode::Success;
+    }
+    progress.say(summary(plan));
+    BatchRunner runner(options, std::move(plan), history, progress);
+    runner.run();
+    print(options, to_json(runner.report()), to_table(runner.report(), options.output.string()));
+    return exit_code_of(runner);
+}
+
+void add_own_options(CLI::App& command, BatchOptions& options) {
+    command.add_option("dirs", options.roots, "Directories to look for scene directories in")
+        ->required()
+        ->check(CLI::ExistingDirectory);
+    command.add_option("-o,--output", options.output, "Directory for the images; made if it does not exist")
+        ->required();
+    command.add_option("--threads", options.threads, "Threads to use (default: one per processor)")
+        ->check(CLI::Range(1, 4096));
+    command.add_flag("--force", options.force, "Render again what is up to date");
+    command.add_flag("--variants", options.all_variants,
+                     "Render every set of materials that a scene's file offers (KHR_materials_variants) to an image of "
+                     "its own, NAME.VARIANT.exr");
+    command.add_flag("--dry-run", options.dry_run, "Print what would be rendered, why and for how long; write nothing");
+    command.add_flag("--no-probe", options.no_probe,
+                     "No estimate of time, which takes a second for each scene that is stale");
+    command.add_option("--retries", options.retries, "Attempts after one that crashed or could not read or write")
+        ->check(CLI::Range(0, 1000))
+        ->capture_default_str();
+    command
+        .add_option("--checkpoint-every", options.checkpoint_minutes,
+                    "Minutes between checkpoints, from which interrupted images go on; 0: none but when interrupted")
+        ->check(real_range(0.0, 1e6))
+        ->capture_default_str();
+    auto* in_process = command.add_flag("--in-process", options.in_process,
+                                        "Render in this process instead of one for each image: a crash ends all");
+    command
+        .add_option_function<std::string>(
+            "--max-memory",
+            [&options](const std::string& text) {
+                options.max_memory = parse_byte_size(text);
+                options.max_memory_text = text;
+                if (!options.max_memory)
+                    throw CLI::ValidationError("--max-memory", fmt::format("'{}' is not {}", text, kByteSizeForm));
+            },
+            "Memory that the render of an image may take, such as 8G; one that needs more fails, the others go on")
+        ->excludes(in_process);
+    command.add_flag("--quiet", options.quiet, "No progress, notes, warnings or summary; errors only");
+    command.add_flag("--json", options.json, "Print the report, or with --dry-run the plan, as JSON on stdout");
 }
 
 }  // namespace
 
 void add_batch_command(CLI::App& app, Action& action) {
-    auto arguments = std::make_shared<BatchArguments>();
+    auto options = std::make_shared<BatchOptions>();
     CLI::App* command = app.add_subcommand("batch", "Render every scene directory below some directories");
-    command->add_option("dirs", arguments->roots, "Directories to look for scene directories in")
-        ->required()
-        ->check(CLI::ExistingDirectory);
-    command->add_option("-o,--output", arguments->output, "Directory for the images; made if it does not exist")
-        ->required();
-    arguments->overrides.add_options(*command);
-    command->add_option("--threads", arguments->threads, "Threads to use (default: one per processor)")
-        ->check(CLI::Range(1, 4096));
-    command->add_flag("--force", arguments->force, "Render again what is up to date");
-    command->add_flag("--quiet", arguments->quiet, "No progress, notes, warnings or summary; errors only");
-    command->add_flag("--json", arguments->json, "Print the summary as JSON on stdout");
+    add_own_options(*command, *options);
+    const std::size_t own = command->get_options().size();
+    options->overrides.add_options(*command);
+    command->get_option("--variants")->excludes(command->get_option("--variant"));
     command->footer(
-        "A scene directory holds a render.json or exactly one glTF file. A scene that fails is reported and the others "
-        "go\n"
-        "on; images that are newer than all of their inputs and were made with the same settings are skipped. Of a\n"
-        "sequence of frames the table has one row for each.\n\n"
+        "A scene directory holds a render.json or exactly one glTF file. Each image is rendered by a process of its "
+        "own;\n"
+        "one that fails is reported and the others go on. Images that are newer than all of their inputs and were "
+        "made\n"
+        "with the same settings are skipped, and what was interrupted goes on where it was. Any number of 'etendue\n"
+        "batch' may work on one output directory at once, also from several machines. What was done stands in\n"
+        "OUT/ledger.jsonl, OUT/report.json and OUT/index.html; docs/batch.md tells more.\n\n"
         "Examples:\n"
         "  etendue batch scenes -o out --quality draft\n"
-        "  etendue batch shots/a shots/b -o /renders --spp 512 --force\n"
+        "  etendue batch scenes -o out --dry-run\n"
+        "  etendue batch shots/a shots/b -o /renders --spp 512 --force --max-memory 16G\n"
         "  etendue batch characters -o turntables --frames 0:47 --animation Walk\n"
+        "  etendue batch products -o catalogue --variants --checkpoint-every 1\n"
         "  etendue batch scenes -o out --json --quiet > summary.json");
-    command->callback([arguments, &action] { action = [arguments] { return run_batch(*arguments); }; });
+    command->callback([options, command, own, &action] {
+        const std::vector<const CLI::Option*> all = std::as_const(*command).get_options();
+        options->command = command_line("etendue batch", given_options(all));
+        options->given = given_options(std::span(all).subspan(own));
+        if (!options->output.has_filename()) options->output = options->output.parent_path();
+        action = [options] { return run_batch(*options); };
+    });
 }
 
 }  // namespace etendue

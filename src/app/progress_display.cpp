@@ -15,12 +15,6 @@ namespace {
 
 constexpr double kSecondsBetweenLines = 5.0;
 
-int terminal_width() {
-    winsize size{};
-    const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
-    return known ? size.ws_col : 80;
-}
-
 std::string format_rate(double per_second, const char* unit) {
     if (per_second >= 1e6) return fmt::format("{:.2f} M{}/s", per_second * 1e-6, unit);
     if (per_second >= 1e3) return fmt::format("{:.0f} k{}/s", per_second * 1e-3, unit);
@@ -28,6 +22,12 @@ std::string format_rate(double per_second, const char* unit) {
 }
 
 }  // namespace
+
+int terminal_width() {
+    winsize size{};
+    const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+    return known ? size.ws_col : 80;
+}
 
 std::string format_duration(double seconds) {
     if (seconds < 10.0) return fmt::format("{:.1f} s", seconds);

@@ -26,6 +26,8 @@ class ProgressDisplay {
     double last_line_seconds_ = 0.0;
 };
 
+/// Characters of the terminal that stderr is; 80 if it is none.
+[[nodiscard]] int terminal_width();
 /// `1:02:03`, `2:03` or `3.4 s`.
 [[nodiscard]] std::string format_duration(double seconds);
 /// The line that the display shows, `width` characters at most; for tests.

@@ -59,7 +59,7 @@ ExitCode render_jobs(const RenderArguments& arguments, const std::vector<ImageJo
     std::vector<ImageResult> results;
     for (std::size_t i = 0; i < jobs.size() && !interrupt_requested(); ++i) {
         ImageJobOptions options = arguments.job;
-        options.force = is_sequence ? arguments.force : !arguments.job.resume;
+        options.force = arguments.force || (!is_sequence && !arguments.job.resume);
         if (is_sequence) options.title = fmt::format("[{}/{}] {}", i + 1, jobs.size(), jobs[i].name);
         ImageResult result = run_job(jobs[i], options, threads);
         if (!quiet && result.outcome == ImageOutcome::UpToDate)
@@ -176,7 +176,7 @@ void add_render_command(CLI::App& app, Action& action) {
             "--strategies-unweighted", [arguments] { arguments->job.strategies.weighted = false; },
             "Show each as if it were the only one")
         ->needs(strategies);
-    command->add_flag("--force", arguments->force, "Of a sequence, render again what is up to date");
+    command->add_flag("--force", arguments->force, "Of a sequence or with --resume, render again what is up to date");
     command->add_flag("--quiet", arguments->job.quiet, "No progress, notes or warnings; errors only");
     command->add_flag("--json", arguments->json, "Print the statistics as JSON on stdout; of a sequence, an array");
     command->footer(

@@ -1,0 +1,172 @@
+#include "app/batch_attempt.h"
+
+#include "app/exit_code.h"
+#include "app/image_job.h"
+#include "app/interrupt.h"
+#include "app/usage_error.h"
+#include "core/error.h"
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <csignal>
+#include <cstring>
+#include <mutex>
+#include <new>
+#include <stop_token>
+#include <thread>
+
+#include <fmt/format.h>
+
+namespace etendue {
+
+namespace {
+
+constexpr std::chrono::milliseconds kBetweenLooks(100);
+
+std::vector<std::string> child_arguments(const BatchTask& task, const BatchOptions& options,
+                                         const AttemptOptions& how) {
+    std::vector<std::string> arguments = render_arguments(task, options);
+    arguments.insert(arguments.end(), {"--progress-fd", fmt::format("{}", ChildProcess::kProgressDescriptor),
+                                       "--checkpoint-every", fmt::format("{}", options.checkpoint_minutes)});
+    if (how.resume) arguments.emplace_back("--resume");
+    if (how.force) arguments.emplace_back("--force");
+    return arguments;
+}
+
+/// True if a failure with this message is one of memory.
+bool tells_of_memory(const std::deque<std::string>& messages) {
+    return std::ranges::any_of(messages, [](const std::string& line) {
+        return line.find("not enough memory") != std::string::npos || line.find("bad_alloc") != std::string::npos ||
+               line.find("annot allocate memory") != std::string::npos;
+    });
+}
+
+std::string end_in_words(const ChildEnd& end) {
+    if (end.signal == 0) return fmt::format("its process ended with exit code {}", end.exit_code);
+    const char* const description = ::sigdescr_np(end.signal);
+    std::string text = fmt::format("its process was ended by {}", signal_name(end.signal));
+    if (description != nullptr) text += fmt::format(" ({})", description);
+    if (end.signal == SIGKILL) text += ": by somebody, or by the system for want of memory";
+    return text;
+}
+
+bool is_interrupt(const ChildEnd& end) {
+    return end.signal == SIGINT || end.signal == SIGTERM || end.exit_code == static_cast<int>(ExitCode::Interrupted) ||
+           end.exit_code == static_cast<int>(ExitCode::Terminated);
+}
+
+/// What the end of a child that was not done means.
+void judge_failure(const ChildProcess& child, bool was_told_to_stop, const BatchOptions& options, Attempt& attempt) {
+    const ChildEnd& end = child.end();
+    attempt.log.assign(child.last_messages().begin(), child.last_messages().end());
+    attempt.error = error_of(child.last_messages());
+    attempt.was_said = !attempt.error.empty() && end.signal == 0;
+    if (!attempt.was_said) attempt.error = end_in_words(end);
+    if (was_told_to_stop && is_interrupt(end)) {
+        attempt.end = AttemptEnd::Interrupted;
+    } else if (options.max_memory && tells_of_memory(child.last_messages())) {
+        attempt.end = AttemptEnd::Hopeless;
+        attempt.was_said = false;
+        attempt.error =
+            fmt::format("it needs more memory than --max-memory {}: {}", options.max_memory_text, attempt.error);
+    } else if (end.signal == 0 && end.exit_code == static_cast<int>(ExitCode::InvalidScene)) {
+        attempt.end = AttemptEnd::Invalid;
+    } else if (end.signal == 0 && end.exit_code == static_cast<int>(ExitCode::UsageError)) {
+        attempt.end = AttemptEnd::Hopeless;
+    } else if (end.signal != 0 && options.max_memory) {
+        attempt.error += fmt::format("; --max-memory {} may be the reason", options.max_memory_text);
+    }
+}
+
+/// Calls something a few times a second, from a thread of its own, for as long as it lives.
+class Repeater {
+  public:
+    explicit Repeater(const std::function<void()>& call)
+        : thread_([call](const std::stop_token& stop) {
+              std::mutex mutex;
+              std::condition_variable_any waiting;
+              std::unique_lock lock(mutex);
+              while (!waiting.wait_for(lock, stop, kBetweenLooks, [&] { return stop.stop_requested(); })) call();
+          }) {}
+
+  private:
+    std::jthread thread_;
+};
+
+}  // namespace
+
+Attempt attempt_in_child(const BatchTask& task, const BatchOptions& options, const AttemptOptions& how,
+                         const AttemptCallbacks& callbacks) {
+    ChildProcess child({.arguments = child_arguments(task, options, how), .memory_limit = options.max_memory});
+    Attempt attempt;
+    const auto on_progress = [&](const std::string& line) {
+        const std::optional<ChildProgress> progress = parse_progress(line);
+        if (!progress) return;
+        attempt.has_rendered = attempt.has_rendered || progress->phase == "render";
+        callbacks.on_progress(*progress);
+    };
+    bool was_told_to_stop = false;
+    bool has_lock = true;
+    while (child.wait(kBetweenLooks, callbacks.on_message, on_progress)) {
+        if (interrupt_requested() && !was_told_to_stop) {
+            // Once: it ends at once when told again. That is up to the user, whose second signal ends this process.
+            child.send(interrupt_exit_code() == ExitCode::Terminated ? SIGTERM : SIGINT);
+            was_told_to_stop = true;
+        }
+        if (attempt.has_rendered && preview_requested()) {
+            clear_preview_request();
+            child.send(SIGUSR1);
+        }
+        if (has_lock && !callbacks.keep_alive()) {
+            has_lock = false;
+            child.send(SIGKILL);
+        }
+    }
+    const ChildEnd& end = child.end();
+    if (end.signal == 0)
+        attempt.exit_code = end.exit_code;
+    else
+        attempt.signal = signal_name(end.signal);
+    if (!has_lock)
+        attempt.end = AttemptEnd::LockLost;
+    else if (end.signal == 0 && end.exit_code == 0)
+        attempt.end = AttemptEnd::Done;
+    else
+        judge_failure(child, was_told_to_stop, options, attempt);
+    return attempt;
+}
+
+Attempt attempt_here(const BatchTask& task, const BatchOptions& options, const AttemptOptions& how,
+                     const std::string& title, const std::function<bool()>& keep_alive, const ThreadPool& threads) {
+    Attempt attempt{.end = AttemptEnd::Done};
+    const Repeater heart([&keep_alive] { static_cast<void>(keep_alive()); });
+    try {
+        const ImageResult result = run_job(task.job,
+                                           {.overrides = options.overrides,
+                                            .force = how.force,
+                                            .quiet = options.quiet,
+                                            .make_directories = true,
+                                            .checkpoint_minutes = options.checkpoint_minutes,
+                                            .resume = how.resume,
+                                            .title = title},
+                                           threads);
+        attempt.has_rendered = true;
+        if (result.outcome == ImageOutcome::Interrupted) attempt.end = AttemptEnd::Interrupted;
+    } catch (const SceneError& error) {
+        attempt.end = AttemptEnd::Invalid;
+        attempt.error = error.what();
+    } catch (const UsageError& error) {
+        attempt.end = AttemptEnd::Hopeless;
+        attempt.error = error.what();
+    } catch (const std::bad_alloc&) {
+        attempt.end = AttemptEnd::Hopeless;
+        attempt.error = "there is not enough memory";
+    } catch (const std::exception& error) {
+        attempt.end = AttemptEnd::Failed;
+        attempt.error = error.what();
+    }
+    return attempt;
+}
+
+}  // namespace etendue

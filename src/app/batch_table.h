@@ -1,0 +1,14 @@
+// What a batch has done, as a table.
+#pragma once
+
+#include "report/batch_report.h"
+
+#include <string>
+
+namespace etendue {
+
+/// A row for each unit that is made, up to date or failed; images are named with `output` before them. A last line
+/// counts those that were not started, if any.
+[[nodiscard]] std::string to_table(const BatchReport& report, const std::string& output);
+
+}  // namespace etendue

@@ -1,0 +1,402 @@
+// etendue batch as a user runs it: several at once, killed, out of memory, interrupted.
+#include "app/run_program.h"
+#include "app/small_files.h"
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <set>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+namespace etendue::test {
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using Names = std::vector<std::string>;
+
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool kHasAddressSanitizer = true;
+#else
+constexpr bool kHasAddressSanitizer = false;
+#endif
+
+class Batch : public testing::Test {
+  protected:
+    void SetUp() override { fs::create_directories(work_); }
+
+    void add_scene(const std::string& name, const std::string& extra = "") const {
+        write_scene(folder_ / ("scenes/" + name), extra);
+    }
+    /// A scene that takes at least so many seconds.
+    void add_slow_scene(const std::string& name, double seconds) const {
+        add_scene(name);
+        write_file(
+            folder_ / ("scenes/" + name + "/render.json"),
+            fmt::format(R"({{"resolution": [16, 12], "spp": 10000000, "time": {}, "environment": {{}}}})", seconds));
+    }
+    [[nodiscard]] Names arguments(const Names& more = {}) const {
+        Names all{"batch", (folder_ / "scenes").string(), "-o", "out", "--no-probe"};
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    }
+    [[nodiscard]] ProgramResult run(const Names& more = {}) const { return run_etendue(arguments(more), work_); }
+    [[nodiscard]] std::unique_ptr<RunningProgram> start(const Names& more = {}) const {
+        return std::make_unique<RunningProgram>(arguments(more), work_);
+    }
+
+    /// The ledger's events of this kind.
+    [[nodiscard]] std::vector<json> events(const std::string& kind) const {
+        std::vector<json> found;
+        if (!fs::exists(work_ / "out/ledger.jsonl")) return found;
+        std::istringstream text(read_file(work_ / "out/ledger.jsonl"));
+        for (std::string line; std::getline(text, line);) {
+            // The last line may be on its way.
+            json event = json::parse(line, nullptr, false);
+            if (event.is_object() && event["event"] == kind) found.push_back(std::move(event));
+        }
+        return found;
+    }
+    /// How often each unit has such an event.
+    [[nodiscard]] std::map<std::string, int> count(const std::string& kind) const {
+        std::map<std::string, int> counts;
+        for (const json& event : events(kind)) ++counts[event["unit"].get<std::string>()];
+        return counts;
+    }
+    /// The process that renders for the batch, once it has told of its progress or, at least, lives.
+    [[nodiscard]] static int child_of(const RunningProgram& batch) {
+        int child = 0;
+        const bool found = wait_until([&] {
+            const std::vector<int> children = children_of(batch.pid());
+            if (!children.empty()) child = children.front();
+            return child != 0 || batch.has_ended();
+        });
+        EXPECT_TRUE(found && child != 0);
+        return child;
+    }
+    /// Nothing is left but images and what tells of them.
+    void expect_tidy() const {
+        for (const std::string& name : list(work_ / "out")) {
+            const std::string extension = fs::path(name).extension().string();
+            EXPECT_TRUE(std::set<std::string>({".exr", ".png", ".json", ".jsonl", ".html"}).contains(extension) ||
+                        fs::is_directory(work_ / "out" / name))
+                << name;
+            EXPECT_NE(fs::path(name).filename().string().front(), '.') << name;
+        }
+    }
+
+    TestFolder folder_;
+    fs::path work_ = folder_ / "work";
+};
+
+TEST_F(Batch, RendersEachImageInAProcessOfItsOwnAndTellsOfIt) {
+    add_scene("a");
+    add_scene("b/c");
+    const ProgramResult result = run();
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(list(work_ / "out"), (Names{"a.exr", "a.json", "a.png", "b", "b/c.exr", "b/c.json", "b/c.png",
+                                          "index.html", "ledger.jsonl", "report.json"}));
+    EXPECT_NE(result.err.find("2 of 2 images to render: 2 never rendered"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("[2/2] b/c: rendered in"), std::string::npos) << result.err;
+    EXPECT_EQ(count("unit finished"), (std::map<std::string, int>{{"a", 1}, {"b/c", 1}}));
+    EXPECT_EQ(events("batch finished").front()["rendered"], 2);
+    const json report = json::parse(read_file(work_ / "out/report.json"));
+    EXPECT_EQ(report["totals"]["rendered"], 2);
+    EXPECT_EQ(report["units"][0]["spp"], 2);
+    EXPECT_EQ(report["units"][0]["reason"], "never rendered");
+    EXPECT_FALSE(report["ended"].is_null());
+    const ProgramResult again = run({"--json", "--quiet"});
+    EXPECT_EQ(again.err, "");
+    EXPECT_EQ(json::parse(again.out), json::parse(read_file(work_ / "out/report.json")));
+    EXPECT_EQ(json::parse(again.out)["totals"]["up_to_date"], 2);
+}
+
+TEST_F(Batch, PassesOnHowToRender) {
+    add_scene("a");
+    const Names how{"--spp",     "3",       "--size",     "20x10", "--seed",   "7",    "--crop",
+                    "1,2,6,9",   "--float", "--exposure", "-1.5",  "--camera", "main", "--max-depth=5",
+                    "--threads", "1"};
+    const ProgramResult result = run(how);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const json statistics = json::parse(read_file(work_ / "out/a.json"));
+    EXPECT_EQ(statistics["spp"]["done"], 3);
+    EXPECT_EQ(statistics["full_size"], (json{20, 10}));
+    EXPECT_EQ(statistics["size"], (json{5, 7}));
+    EXPECT_EQ(statistics["threads"], 1);
+    // What the other process was told is what this one meant.
+    const ProgramResult again = run(how);
+    EXPECT_NE(again.err.find("all up to date"), std::string::npos) << again.err;
+}
+
+TEST_F(Batch, ADryRunPrintsThePlanAndWritesNothing) {
+    add_scene("a");
+    add_scene("b");
+    Names dry = arguments({"--dry-run"});
+    std::erase(dry, "--no-probe");
+    const ProgramResult table = run_etendue(dry, work_);
+    EXPECT_EQ(table.exit_code, 0) << table.err;
+    EXPECT_NE(table.out.find("never rendered"), std::string::npos) << table.out;
+    EXPECT_NE(table.out.find("2 of 2 images to render, about "), std::string::npos) << table.out;
+    EXPECT_TRUE(list(work_).empty());
+    EXPECT_EQ(run({"--quiet"}).exit_code, 0);
+    const Names before = list(work_);
+    const json plan = json::parse(run({"--dry-run", "--json", "--seed", "3"}).out);
+    EXPECT_EQ(plan["stale"], 2);
+    EXPECT_EQ(plan["units"][1]["reason"], "settings changed");
+    EXPECT_TRUE(plan["units"][1]["estimated_seconds"].is_null());
+    EXPECT_EQ(list(work_), before);
+}
+
+TEST_F(Batch, VariantsAreImagesOfTheirOwn) {
+    add_scene("shoe");
+    const fs::path file = folder_ / "scenes/shoe/scene.gltf";
+    std::string text = read_file(file);
+    text.insert(text.find("\"scene\": 0,"),
+                R"("extensionsUsed": ["KHR_materials_variants"],
+                   "extensions": {"KHR_materials_variants": {"variants": [{"name": "red"}, {"name": "sky blue"}]}},
+                   "materials": [{"pbrMetallicRoughness": {"baseColorFactor": [1, 0, 0, 1]}},
+                                 {"pbrMetallicRoughness": {"baseColorFactor": [0, 0, 1, 1]}}],)");
+    const std::string primitive = R"({"attributes": {"POSITION": 0}})";
+    text.replace(text.find(primitive), primitive.size(),
+                 R"({"attributes": {"POSITION": 0}, "material": 0, "extensions": {"KHR_materials_variants":
+                     {"mappings": [{"variants": [0], "material": 0}, {"variants": [1], "material": 1}]}}})");
+    write_file(file, text);
+    const ProgramResult result = run({"--variants"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_TRUE(fs::exists(work_ / "out/shoe.red.exr"));
+    EXPECT_NE(read_file(work_ / "out/shoe.red.png"), read_file(work_ / "out/shoe.sky blue.png"));
+    EXPECT_NE(run({"--variants"}).err.find("2 images, all up to date"), std::string::npos);
+    EXPECT_EQ(run({"--variants", "--variant", "red"}).exit_code, 2);
+}
+
+TEST_F(Batch, SeveralAtOnceRenderEverythingOnce) {
+    for (const int processes : {2, 4}) {
+        fs::remove_all(work_ / "out");
+        constexpr int kScenes = 4;
+        for (int i = 0; i < kScenes; ++i) add_scene(fmt::format("scene{}", i));
+        std::vector<std::unique_ptr<RunningProgram>> batches;
+        for (int i = 0; i < processes; ++i) batches.push_back(start({"--threads", "1"}));
+        for (const auto& batch : batches) {
+            const ProgramResult result = batch->wait();
+            EXPECT_EQ(result.exit_code, 0) << result.err;
+        }
+        EXPECT_EQ(count("unit finished").size(), static_cast<std::size_t>(kScenes));
+        for (const auto& [unit, times] : count("unit finished")) EXPECT_EQ(times, 1) << unit;
+        for (const auto& [unit, times] : count("unit started")) EXPECT_EQ(times, 1) << unit;
+        EXPECT_EQ(events("batch finished").size(), static_cast<std::size_t>(processes));
+        expect_tidy();
+    }
+}
+
+TEST_F(Batch, EvenByForceSeveralAtOnceRenderEverythingOnce) {
+    for (const char* name : {"a", "b", "c"}) add_slow_scene(name, 0.3);
+    EXPECT_EQ(run().exit_code, 0);
+    fs::remove(work_ / "out/ledger.jsonl");
+    const auto first = start({"--force"});
+    const auto second = start({"--force"});
+    EXPECT_EQ(first->wait().exit_code, 0);
+    EXPECT_EQ(second->wait().exit_code, 0);
+    // Whichever planned late enough to see the other's image as an old one may have rendered it again.
+    for (const auto& [unit, times] : count("unit finished")) EXPECT_LE(times, 2) << unit;
+    EXPECT_EQ(count("unit finished").size(), 3u);
+}
+
+TEST_F(Batch, WaitsForWhatAnotherMakesAndThenEverythingIsThere) {
+    add_slow_scene("slow", 2.0);
+    const auto first = start();
+    (void)child_of(*first);
+    const ProgramResult second = run();
+    EXPECT_EQ(second.exit_code, 0) << second.err;
+    EXPECT_TRUE(fs::exists(work_ / "out/slow.json"));
+    EXPECT_NE(second.err.find("waiting for"), std::string::npos) << second.err;
+    EXPECT_NE(second.err.find("made by another batch process"), std::string::npos) << second.err;
+    EXPECT_EQ(first->wait().exit_code, 0);
+    EXPECT_EQ(count("unit finished"), (std::map<std::string, int>{{"slow", 1}}));
+}
+
+TEST_F(Batch, AnotherTakesOverWhatAKilledOneWasMaking) {
+    add_scene("a");
+    add_slow_scene("b", 1.5);
+    add_scene("c");
+    const auto killed = start();
+    ASSERT_TRUE(wait_until([&] { return count("unit started")["b"] == 1; }));
+    const int child = child_of(*killed);
+    const auto other = start();
+    killed->send(SIGKILL);
+    EXPECT_EQ(killed->wait().exit_code, 1000 + SIGKILL);
+    EXPECT_TRUE(wait_until([child] { return !fs::exists(fmt::format("/proc/{}", child)); })) << "nobody goes on";
+    const ProgramResult result = other->wait();
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(count("unit finished"), (std::map<std::string, int>{{"a", 1}, {"b", 1}, {"c", 1}}));
+    const json taken = events("unit started").back()["unit"] == "c" ? *(events("unit started").rbegin() + 1)
+                                                                    : events("unit started").back();
+    EXPECT_EQ(taken["unit"], "b");
+    EXPECT_TRUE(taken.contains("taken_over_from")) << taken;
+    expect_tidy();
+}
+
+TEST_F(Batch, ACrashIsRecordedAndTriedAgain) {
+    add_slow_scene("a", 1.5);
+    add_scene("b");
+    const auto batch = start();
+    kill(child_of(*batch), SIGSEGV);
+    const ProgramResult result = batch->wait();
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(result.err.find("SIGSEGV"), std::string::npos) << result.err;
+    ASSERT_EQ(events("unit failed").size(), 1u);
+    const json failed = events("unit failed").front();
+    EXPECT_EQ(failed["signal"], "SIGSEGV");
+    EXPECT_EQ(failed["again"], true);
+    EXPECT_FALSE(failed.contains("exit_code"));
+    EXPECT_EQ(count("unit started"), (std::map<std::string, int>{{"a", 2}, {"b", 1}}));
+    EXPECT_EQ(count("unit finished"), (std::map<std::string, int>{{"a", 1}, {"b", 1}}));
+}
+
+TEST_F(Batch, ACrashThatIsNotTriedAgainFailsItsImageOnly) {
+    add_slow_scene("a", 60.0);
+    add_scene("b");
+    const auto batch = start({"--retries", "0"});
+    kill(child_of(*batch), SIGSEGV);
+    const ProgramResult result = batch->wait();
+    EXPECT_EQ(result.exit_code, 1) << result.err;
+    EXPECT_TRUE(fs::exists(work_ / "out/b.exr"));
+    const json report = json::parse(read_file(work_ / "out/report.json"));
+    EXPECT_EQ(report["units"][0]["outcome"], "failed");
+    EXPECT_EQ(report["units"][0]["signal"], "SIGSEGV");
+    EXPECT_NE(result.out.find("ended by SIGSEGV"), std::string::npos) << result.out;
+    // The next batch knows.
+    EXPECT_EQ(json::parse(run({"--dry-run", "--json"}).out)["units"][0]["reason"], "failed last time");
+}
+
+TEST_F(Batch, AnInvalidSceneIsTriedOnceAndTheOthersAreRendered) {
+    add_scene("a");
+    add_scene("b", R"("camera_": 3,)");
+    const ProgramResult result = run({"--retries", "5"});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_EQ(count("unit started"), (std::map<std::string, int>{{"a", 1}, {"b", 1}}));
+    EXPECT_EQ(events("unit failed").front()["exit_code"], 3);
+    EXPECT_NE(events("unit failed").front()["error"].get<std::string>().find("camera_"), std::string::npos);
+    EXPECT_NE(result.out.find("camera_"), std::string::npos) << result.out;
+}
+
+TEST_F(Batch, TheMemoryLimitFailsTheSceneThatNeedsMore) {
+    if (kHasAddressSanitizer) GTEST_SKIP() << "AddressSanitizer maps more memory than any limit allows";
+    add_scene("large", R"("unused": 0,)");
+    write_file(folder_ / "scenes/large/render.json", R"({"resolution": [8192, 8192], "spp": 1, "environment": {}})");
+    add_scene("small");
+    const ProgramResult result = run({"--max-memory", "1G", "--threads", "1"});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_TRUE(fs::exists(work_ / "out/small.exr")) << result.err;
+    EXPECT_NE(result.out.find("more memory than --max-memory 1G"), std::string::npos) << result.out;
+    EXPECT_EQ(count("unit started"), (std::map<std::string, int>{{"large", 1}, {"small", 1}})) << "it is no use";
+    EXPECT_EQ(run({"--max-memory", "1G", "--in-process"}).exit_code, 2);
+    EXPECT_EQ(run({"--max-memory", "1"}).exit_code, 2);
+}
+
+TEST_F(Batch, AnInterruptIsPassedOnAndTheNextBatchGoesOnToTheSameImage) {
+    const std::string settings = R"({"resolution": [64, 48], "spp": 1000, "environment": {}})";
+    add_scene("a");
+    add_scene("b");
+    write_file(folder_ / "scenes/a/render.json", settings);
+    for (const auto& [signal, code] : {std::pair{SIGINT, 130}, std::pair{SIGTERM, 143}}) {
+        fs::remove_all(work_ / "out");
+        const auto batch = start({"--threads", "1"});
+        ASSERT_TRUE(wait_until([&] { return count("unit started")["a"] == 1; }));
+        // Until it renders: a signal that comes before ends it without a trace.
+        const int child = child_of(*batch);
+        ASSERT_TRUE(wait_until([&] {
+            std::ifstream status(fmt::format("/proc/{}/status", child));
+            std::ostringstream text;
+            text << status.rdbuf();
+            const std::size_t caught = text.str().find("SigCgt:");
+            return caught != std::string::npos && (std::stoull(text.str().substr(caught + 7), nullptr, 16) & 2u) != 0;
+        }));
+        usleep(100'000);
+        batch->send(signal);
+        const ProgramResult result = batch->wait();
+        EXPECT_EQ(result.exit_code, code) << result.err;
+        EXPECT_EQ(count("unit interrupted"), (std::map<std::string, int>{{"a", 1}})) << result.err;
+        EXPECT_EQ(count("unit started").size(), 1u) << "nothing else is begun";
+        EXPECT_FALSE(fs::exists(work_ / "out/.etendue"));
+        EXPECT_EQ(json::parse(read_file(work_ / "out/report.json"))["interrupted"], true);
+    }
+    EXPECT_TRUE(fs::exists(work_ / "out/a.checkpoint"));
+    const ProgramResult next = run();
+    EXPECT_EQ(next.exit_code, 0) << next.err;
+    EXPECT_NE(next.err.find("goes on from a checkpoint"), std::string::npos) << next.err;
+    expect_tidy();
+    const std::string image = read_file(work_ / "out/a.png");
+    EXPECT_EQ(run({"--force", "--quiet"}).exit_code, 0);
+    EXPECT_EQ(read_file(work_ / "out/a.png"), image);
+}
+
+TEST_F(Batch, ACheckpointOfOtherSettingsIsNoObstacle) {
+    add_slow_scene("a", 60.0);
+    const auto batch = start({"--checkpoint-every", "0.001"});
+    ASSERT_TRUE(wait_until([&] { return fs::exists(work_ / "out/a.checkpoint"); }));
+    batch->send(SIGKILL);
+    (void)batch->wait();
+    EXPECT_EQ(json::parse(run({"--dry-run", "--json"}).out)["units"][0]["reason"],
+              "was interrupted, goes on from a checkpoint");
+    const ProgramResult result = run({"--seed", "99", "--spp", "4", "--retries", "0"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(result.err.find("begins anew without the checkpoint"), std::string::npos) << result.err;
+    EXPECT_EQ(json::parse(read_file(work_ / "out/a.json"))["spp"]["done"], 4);
+    expect_tidy();
+}
+
+TEST_F(Batch, InProcessDoesTheSameWithoutOtherProcesses) {
+    add_scene("a");
+    add_scene("b", R"("camera_": 3,)");
+    add_slow_scene("c", 1.0);
+    const auto batch = start({"--in-process"});
+    ASSERT_TRUE(wait_until([&] { return count("unit started")["c"] == 1 || batch->has_ended(); }));
+    EXPECT_TRUE(children_of(batch->pid()).empty());
+    const ProgramResult result = batch->wait();
+    EXPECT_EQ(result.exit_code, 1) << result.err;
+    EXPECT_EQ(count("unit finished"), (std::map<std::string, int>{{"a", 1}, {"c", 1}}));
+    EXPECT_EQ(count("unit failed"), (std::map<std::string, int>{{"b", 1}}));
+    EXPECT_NE(result.out.find("camera_"), std::string::npos) << result.out;
+    expect_tidy();
+}
+
+TEST_F(Batch, ADirectoryThatCannotBeWrittenIsAnErrorBeforeAnythingStarts) {
+    add_scene("a");
+    write_file(work_ / "out", "a file");
+    const ProgramResult file = run();
+    EXPECT_EQ(file.exit_code, 1);
+    EXPECT_NE(file.err.find("error: cannot"), std::string::npos) << file.err;
+    EXPECT_EQ(list(work_), Names{"out"});
+    // Nobody may write there, not even root.
+    const ProgramResult system =
+        run_etendue({"batch", (folder_ / "scenes").string(), "-o", "/proc/self", "--no-probe"}, work_);
+    EXPECT_EQ(system.exit_code, 1);
+    EXPECT_NE(system.err.find("error: cannot"), std::string::npos) << system.err;
+    EXPECT_EQ(system.err.find("rendered"), std::string::npos) << system.err;
+}
+
+TEST_F(Batch, ATornLedgerIsGoneOnWith) {
+    add_scene("a");
+    fs::create_directories(work_ / "out");
+    write_file(work_ / "out/ledger.jsonl", R"({"event":"unit failed","unit":"a"})"
+                                           "\n"
+                                           R"({"event":"unit fin)");
+    EXPECT_NE(run().err.find("1 failed last time"), std::string::npos);
+    const std::string text = read_file(work_ / "out/ledger.jsonl");
+    EXPECT_NE(text.find("\"unit fin\n{\"event\":\"batch started\""), std::string::npos) << text;
+}
+
+}  // namespace
+
+}  // namespace etendue::test
