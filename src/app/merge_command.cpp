@@ -1,19 +1,16 @@
 // etendue merge: one image from parts that were rendered apart.
 #include "app/commands.h"
 #include "app/image_description.h"
+#include "app/image_files.h"
 #include "app/library_versions.h"
 #include "app/merge_parts.h"
 #include "app/output_paths.h"
-#include "app/peak_memory.h"
 #include "app/phase_timer.h"
 #include "app/scene_render.h"
 #include "app/usage_error.h"
 #include "color/color_config.h"
 #include "core/error.h"
 #include "core/log.h"
-#include "core/write_file.h"
-#include "output/exr_driver.h"
-#include "output/preview_driver.h"
 
 #include <cstdio>
 #include <filesystem>
@@ -57,15 +54,10 @@ ExitCode run_merge(const MergeArguments& arguments) {
     } else {
         require_writable(paths.png);
         require_writable(paths.json);
-        const PhaseTimer write_timer;
         const ColorConfig colors = ColorConfig::from_environment();
         describe_state(image, merged.state, true, "merged");
         image.statistics.libraries = library_versions();
-        image.statistics.peak_memory_bytes = peak_memory_bytes();
-        ExrDriver(paths.exr, colors, arguments.depth).write(image.frame);
-        PreviewDriver(paths.png, colors).write(image.frame);
-        image.statistics.write = write_timer.elapsed();
-        write_text(paths.json, to_json(image.statistics));
+        write_image_files(paths, image, colors, arguments.depth);
     }
     const PixelRect& window = merged.state.film.window();
     if (!arguments.quiet)

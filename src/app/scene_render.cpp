@@ -3,10 +3,10 @@
 #include "app/checkpoint_files.h"
 #include "app/dropped_samples.h"
 #include "app/image_description.h"
+#include "app/image_files.h"
 #include "app/interrupt.h"
 #include "app/library_versions.h"
 #include "app/output_paths.h"
-#include "app/peak_memory.h"
 #include "app/phase_timer.h"
 #include "app/progress_display.h"
 #include "app/progress_pipe.h"
@@ -14,8 +14,6 @@
 #include "app/render_setup.h"
 #include "color/color_config.h"
 #include "core/log.h"
-#include "core/write_file.h"
-#include "output/exr_driver.h"
 #include "output/preview_driver.h"
 #include "render/checkpoint.h"
 #include "render/render.h"
@@ -239,24 +237,18 @@ class SceneRender {
     }
 
     void write(const World& world, const RenderResult& rendered, bool complete) {
-        const PhaseTimer timer;
         progress_pipe_.enter("write");
-        RenderStatistics& statistics = description_.statistics;
         describe_state(description_, rendered, complete, halt_reason_name(rendered.halt_reason));
-        statistics.peak_memory_bytes = peak_memory_bytes();
         if (is_partial(output_)) {
             if (complete) etendue::write_checkpoint(output_, identity_, to_text(description_), rendered);
             return;
         }
         const PixelDepth depth = request_.overrides.depth;
-        ExrDriver(paths_.exr, colors_, depth).write(description_.frame);
-        PreviewDriver(paths_.png, colors_).write(description_.frame);
-        if (!request_.strategies.output.empty() && complete)
-            write_strategies_image(request_.strategies, world, integrator_options(settings_), options_,
-                                   description_.frame, colors_, depth, threads_, title(), request_.quiet);
-        statistics.write = timer.elapsed();
-        // Last: it says that the others are there.
-        write_text(paths_.json, to_json(statistics));
+        write_image_files(paths_, description_, colors_, depth, [&] {
+            if (!request_.strategies.output.empty() && complete)
+                write_strategies_image(request_.strategies, world, integrator_options(settings_), options_,
+                                       description_.frame, colors_, depth, threads_, title(), request_.quiet);
+        });
     }
 
     [[nodiscard]] const std::string& title() const {
