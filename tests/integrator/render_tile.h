@@ -36,7 +36,7 @@ struct TileResult {
             sum.r += p.r, sum.g += p.g, sum.b += p.b, sum.alpha += p.alpha;
             sum.samples += p.samples;
         }
-        const double scale = 1.0 / sum.samples;
+        const double scale = 1.0 / static_cast<double>(sum.samples);
         means.push_back(sum.g * scale);
         result.mean += Rgb(static_cast<float>(sum.r * scale), static_cast<float>(sum.g * scale),
                            static_cast<float>(sum.b * scale)) /
