@@ -2,23 +2,17 @@
 #pragma once
 
 #include "app/prepared_scene.h"
+#include "app/sample_ranges.h"
 #include "app/settings_overrides.h"
 #include "app/strategies_image.h"
 #include "core/parallel.h"
 #include "output/statistics.h"
 
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 
 namespace etendue {
-
-/// Of the sample sequence of every pixel.
-struct SampleRange {
-    std::uint32_t begin = 0;
-    std::uint32_t end = 0;  ///< > begin
-};
 
 struct SceneRenderRequest {
     std::filesystem::path scene{};  ///< scene directory or file, for messages
