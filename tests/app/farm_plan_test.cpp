@@ -1,0 +1,141 @@
+#include "app/farm_plan.h"
+
+#include <algorithm>
+#include <set>
+#include <string>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace etendue::test {
+
+namespace {
+
+FarmImage image(int number, std::uint32_t parts, TaskNeeds needs = {10, 512}) {
+    FarmImage result;
+    result.job.scene = "/scenes/s";
+    result.job.output = fmt::format("/out/s.{:04}.exr", number);
+    result.job.frame = number;
+    result.render_output = "/out/s.exr";
+    if (parts > 1) result.ranges = split_samples(64, parts);
+    result.missing = result.ranges;
+    result.needs = needs;
+    return result;
+}
+
+FarmPlan plan(const std::vector<FarmImage>& images, std::size_t max_array_size = 1001) {
+    FarmOptions options;
+    options.program = "/bin/etendue";
+    options.output = "/out";
+    options.options = {{"--spp", "64"}};
+    options.threads = 8;
+    return plan_farm(images, options, max_array_size);
+}
+
+/// Each task of each image stands where the plan says, once, and no array is too long.
+void expect_consistent(const FarmPlan& plan, const std::vector<FarmImage>& images, std::size_t max_array_size) {
+    std::set<std::pair<std::size_t, std::size_t>> used;
+    std::size_t tasks = 0;
+    for (const JobArray& array : plan.arrays) {
+        EXPECT_FALSE(array.commands.empty());
+        EXPECT_LE(array.commands.size(), max_array_size);
+        tasks += array.commands.size();
+    }
+    for (std::size_t i = 0; i < images.size(); ++i) {
+        EXPECT_EQ(plan.places[i].size(), images[i].missing.size() + 1) << i;
+        EXPECT_EQ(plan.places[i].back().makes, images[i].job.output);
+        for (const TaskPlace& place : plan.places[i]) {
+            EXPECT_TRUE(used.insert({place.array, place.index}).second);
+            const std::string& command = plan.arrays[place.array].commands[place.index];
+            EXPECT_NE(command.find(fmt::format("s.{:04}.exr", *images[i].job.frame)), std::string::npos) << command;
+        }
+    }
+    EXPECT_EQ(used.size(), tasks);
+}
+
+TEST(FarmPlan, AnImageInOnePieceIsOneTask) {
+    FarmImage still = image(7, 1);
+    still.job.frame.reset();
+    const FarmPlan one = plan({still});
+    ASSERT_EQ(one.arrays.size(), 1u);
+    EXPECT_EQ(one.arrays[0].commands[0],
+              "exec '/bin/etendue' render '/scenes/s' -o '/out/s.exr' --resume --checkpoint-every '5' --threads '8' "
+              "--quiet --spp '64'");
+    const FarmPlan frame = plan({image(7, 1)});
+    EXPECT_NE(frame.arrays[0].commands[0].find("--frames '7' -o '/out/s.exr'"), std::string::npos);
+}
+
+TEST(FarmPlan, PartsOfOneImageHaveOneIndexAndAreMergedByIt) {
+    const std::vector<FarmImage> images{image(0, 2), image(1, 2), image(2, 2)};
+    const FarmPlan two = plan(images);
+    ASSERT_EQ(two.arrays.size(), 3u);
+    for (std::size_t i = 0; i < images.size(); ++i)
+        for (const TaskPlace& place : two.places[i]) EXPECT_EQ(place.index, i);
+    EXPECT_EQ(two.arrays[2].wait, ArrayWait::SameTask);
+    EXPECT_EQ(two.arrays[2].after, (std::vector<std::size_t>{0, 1}));
+    const std::string& part = two.arrays[1].commands[2];
+    EXPECT_NE(part.find("--frames '2' -o '/out/.etendue/parts/s.0002.exr/32-64.partial' --samples '32:64'"),
+              std::string::npos)
+        << part;
+    EXPECT_EQ(two.arrays[2].commands[2],
+              "'/bin/etendue' merge '/out/.etendue/parts/s.0002.exr/0-32.0002.partial' "
+              "'/out/.etendue/parts/s.0002.exr/32-64.0002.partial' -o '/out/s.0002.exr' --quiet && "
+              "rm -f -- '/out/.etendue/parts/s.0002.exr/0-32.0002.partial' "
+              "'/out/.etendue/parts/s.0002.exr/32-64.0002.partial' && "
+              "rmdir --ignore-fail-on-non-empty -- '/out/.etendue/parts/s.0002.exr'");
+    EXPECT_EQ(two.places[2][1].makes, "/out/.etendue/parts/s.0002.exr/32-64.0002.partial");
+}
+
+TEST(FarmPlan, ArraysAreCutWhereTheClusterEndsThem) {
+    std::vector<FarmImage> images;
+    for (int i = 0; i < 25; ++i) images.push_back(image(i, 3));
+    const FarmPlan cut = plan(images, 10);
+    EXPECT_EQ(cut.arrays.size(), 3u * 4u);
+    expect_consistent(cut, images, 10);
+    // Merges wait for the parts of their own images.
+    for (const JobArray& array : cut.arrays)
+        for (const std::size_t other : array.after) EXPECT_EQ(cut.arrays[other].commands.size(), array.commands.size());
+}
+
+TEST(FarmPlan, TheNumberOfArraysDoesNotGrowWithThatOfImages) {
+    std::vector<FarmImage> few;
+    std::vector<FarmImage> many;
+    for (int i = 0; i < 900; ++i) {
+        const TaskNeeds needs{10 + i % 5, 512 + i % 300};
+        if (i < 10) few.push_back(image(i, 4, needs));
+        many.push_back(image(i, 4, needs));
+    }
+    EXPECT_EQ(plan(few).arrays.size(), plan(many).arrays.size());
+    expect_consistent(plan(many), many, 1001);
+}
+
+TEST(FarmPlan, SmallScenesDoNotAskForWhatLargeOnesNeed) {
+    const std::vector<FarmImage> images{image(0, 1, {10, 600}), image(1, 1, {10, 60000}), image(2, 1, {12, 700})};
+    const FarmPlan mixed = plan(images);
+    ASSERT_EQ(mixed.arrays.size(), 2u);
+    EXPECT_EQ(mixed.places[0][0].array, mixed.places[2][0].array);
+    EXPECT_EQ(mixed.arrays[mixed.places[0][0].array].needs, (TaskNeeds{12, 700}));
+    EXPECT_EQ(mixed.arrays[mixed.places[1][0].array].needs, (TaskNeeds{10, 60000}));
+}
+
+TEST(FarmPlan, OnlyMissingPartsAreMended) {
+    std::vector<FarmImage> images{image(0, 4), image(1, 4), image(2, 4), image(3, 4)};
+    images[1].missing = {images[1].ranges[2]};
+    images[2].missing = {images[2].ranges[0], images[2].ranges[3]};
+    images[3].missing = {};
+    const FarmPlan mended = plan(images);
+    expect_consistent(mended, images, 1001);
+    // Four arrays of parts and one of merges for the first, one of each for the others.
+    ASSERT_EQ(mended.arrays.size(), 7u);
+    EXPECT_EQ(mended.arrays[5].commands.size(), 3u);
+    EXPECT_EQ(mended.arrays[6].commands.size(), 3u);
+    EXPECT_EQ(mended.arrays[6].wait, ArrayWait::AllTasks);
+    const FarmPlan merge = plan({images[3]});
+    ASSERT_EQ(merge.arrays.size(), 1u);
+    EXPECT_EQ(merge.arrays[0].wait, ArrayWait::No);
+    expect_consistent(plan(images, 2), images, 2);
+}
+
+}  // namespace
+
+}  // namespace etendue::test
