@@ -21,5 +21,6 @@ void add_inspect_command(CLI::App& app, Action& action);
 void add_diff_command(CLI::App& app, Action& action);
 void add_compare_command(CLI::App& app, Action& action);
 void add_merge_command(CLI::App& app, Action& action);
+void add_submit_command(CLI::App& app, Action& action);
 
 }  // namespace etendue

@@ -49,14 +49,15 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     app.footer(
         "Exit codes: 0 success, 1 rendering failed for at least one scene or images differ too much, 2 usage error,\n"
-        "3 invalid scene, settings or images, 130/143 interrupted.\n\n"
+        "3 invalid scene, settings or images, 4 submitted images are not ready yet, 130/143 interrupted.\n\n"
         "Examples:\n"
         "  etendue render scenes/cornell-box\n"
         "  etendue batch scenes --quality draft -o out\n"
         "  etendue inspect model.glb\n"
         "  etendue diff box.exr reference.exr --metric flip --map flip.png\n"
         "  etendue compare scenes/caustic-glass --integrators path,bdpt -o report\n"
-        "  etendue merge a.partial b.partial -o box.exr\n\n"
+        "  etendue merge a.partial b.partial -o box.exr\n"
+        "  etendue submit scenes -o /shared/out --scheduler slurm\n\n"
         "'etendue COMMAND --help' tells more.");
     Action action;
     add_render_command(app, action);
@@ -65,6 +66,7 @@ int main(int argc, char** argv) {
     add_diff_command(app, action);
     add_compare_command(app, action);
     add_merge_command(app, action);
+    add_submit_command(app, action);
     // CLI11 would only say that a command is missing.
     if (argc > 1 && argv[1][0] != '-') {
         const std::vector<CLI::App*> commands = app.get_subcommands({});

@@ -3,7 +3,6 @@
 #include "app/small_files.h"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -386,26 +385,6 @@ TEST_F(CommandLine, BatchFindsScenesInsideScenesAndEachOnce) {
     EXPECT_EQ(batch_results(result), (Names{"outer: rendered", "inner: rendered"}));
     EXPECT_EQ(batch_images(work_ / "out"),
               (Names{"inner.exr", "inner.json", "inner.png", "outer.exr", "outer.json", "outer.png"}));
-}
-
-/// A scene whose triangle moves to the right, off the screen, in the second after time 0.
-std::string animated_scene(const std::string& directory) {
-    std::string text = read_file(directory + "/scene.gltf");
-    const auto replace = [&text](const std::string& from, const std::string& to) {
-        text.replace(text.find(from), from.size(), to);
-    };
-    const std::array<float, 8> keys = {0, 1, 0, 0, 0, 20, 0, 0};
-    write_file(directory + "/keys.bin", std::string(reinterpret_cast<const char*>(keys.data()), sizeof keys));
-    replace(R"("max": [1, 1, -2]})", R"("max": [1, 1, -2]},
-                {"bufferView": 1, "componentType": 5126, "count": 2, "type": "SCALAR", "min": [0], "max": [1]},
-                {"bufferView": 2, "componentType": 5126, "count": 2, "type": "VEC3"})");
-    replace(R"("byteLength": 36}],)", R"("byteLength": 36}, {"buffer": 1, "byteLength": 8},
-                  {"buffer": 1, "byteOffset": 8, "byteLength": 24}],
-  "animations": [{"name": "slide", "samplers": [{"input": 1, "output": 2}],
-                  "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]}],)");
-    replace(R"("byteLength": 36}])", R"("byteLength": 36}, {"uri": "keys.bin", "byteLength": 32}])");
-    write_file(directory + "/scene.gltf", text);
-    return directory;
 }
 
 TEST_F(CommandLine, FramesAreImagesOfTheirMoments) {

@@ -31,4 +31,8 @@ void write_file(const std::filesystem::path& file, const std::string& text);
 /// `extra` is put into render.json, for example `"seed": 3,`.
 void write_scene(const std::filesystem::path& directory, const std::string& extra = "");
 
+/// Makes the triangle of such a scene move to the right, off the screen, in the second after time 0. Returns
+/// `directory`.
+std::string animated_scene(const std::string& directory);
+
 }  // namespace etendue::test

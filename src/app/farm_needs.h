@@ -1,0 +1,39 @@
+// What the tasks of a scene need, from a short probe of it.
+#pragma once
+
+#include "app/farm_plan.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace etendue {
+
+/// What `etendue render --probe` has measured of one image.
+struct RenderProbe {
+    double start_seconds = 0.0;   ///< to load the scene and to build what rays are traced in
+    double render_seconds = 0.0;  ///< to render all samples with `threads` threads
+    std::uint64_t peak_memory_bytes = 0;
+    int threads = 1;
+};
+
+/// Times as much as the probe tells: nodes may be slower than the machine that was probed on, other frames may need
+/// more than the first, and checkpoints and images have to be written.
+inline constexpr double kTimeSafety = 3.0;
+inline constexpr double kMemorySafety = 1.5;
+/// No task gets less, so that schedulers and file systems have time for what is theirs.
+inline constexpr int kLeastMinutes = 10;
+inline constexpr int kLeastMebibytes = 512;
+
+/// Probes the first image of a scene with the options of its renders, in a process of its own: a scene that ends it
+/// ends no other. Throws SceneError with the program's words if it cannot be rendered.
+[[nodiscard]] RenderProbe probe_scene(const ImageJob& first_image, const std::vector<GivenOption>& options);
+
+/// Reads what the probe prints. Throws IoError if that is something else.
+[[nodiscard]] RenderProbe parse_probe(const std::string& text);
+
+/// For each of `parts` tasks with `threads` threads that share the samples of an image.
+[[nodiscard]] TaskNeeds needs_of(const RenderProbe& probe, std::size_t parts, int threads);
+
+}  // namespace etendue

@@ -1,0 +1,146 @@
+#include "app/farm_work.h"
+
+#include "app/farm_leftovers.h"
+#include "app/farm_needs.h"
+#include "app/output_paths.h"
+#include "app/prepared_scene.h"
+#include "app/render_identity.h"
+#include "app/render_setup.h"
+#include "app/up_to_date.h"
+#include "color/color_config.h"
+#include "core/error.h"
+#include "core/log.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace etendue {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+PreparedScene prepare_job(const ImageJob& job, const SettingsOverrides& overrides) {
+    return prepare_scene(job.scene, overrides_of(job, overrides));
+}
+
+/// A first look at the files saves most images from being loaded.
+bool is_done(const ImageJob& job, const SettingsOverrides& overrides) {
+    const OutputPaths paths = OutputPaths::beside(job.output);
+    if (why_unfinished(paths)) return false;
+    const PreparedScene prepared = prepare_job(job, overrides);
+    return !why_outdated(paths, prepared.scene.inputs, settings_hash(prepared.scene, overrides.depth));
+}
+
+RenderIdentity identity_of(const ImageJob& job, const SettingsOverrides& overrides) {
+    PreparedScene prepared = prepare_job(job, overrides);
+    const std::string working_space = resolve_colors(prepared.scene.settings, ColorConfig::from_environment());
+    return render_identity(prepared.scene, working_space);
+}
+
+/// What the images of one scene have in common.
+struct SceneNeeds {
+    std::vector<SampleRange> ranges;
+    TaskNeeds needs;
+};
+
+class WorkFinder {
+  public:
+    WorkFinder(const FarmRequest& request, std::span<const FarmImageStatus> earlier) : request_(request) {
+        for (const FarmImageStatus& status : earlier)
+            if (status.state == FarmState::Running || status.state == FarmState::Pending)
+                busy_.insert(status.image.output);
+    }
+
+    /// The images of one scene: the first that has to be made tells what they need.
+    void add_scene(std::span<const BatchTask> tasks) {
+        std::optional<SceneNeeds> needs;
+        std::string error;
+        for (const BatchTask& task : tasks) {
+            const ImageJob& job = task.job;
+            if (busy_.contains(job.output)) {
+                work_.busy.push_back(job);
+                continue;
+            }
+            // What is wrong with one image of a scene is wrong with the others.
+            if (error.empty()) {
+                try {
+                    add_image(task, needs);
+                    continue;
+                } catch (const std::exception& problem) {
+                    error = problem.what();
+                    log_error("{}: {}", job.name, error);
+                }
+            }
+            work_.failed.push_back({job.name, job.scene, job.output, job.frame, {}, error});
+        }
+    }
+
+    [[nodiscard]] FarmWork take() { return std::move(work_); }
+
+  private:
+    void add_image(const BatchTask& task, std::optional<SceneNeeds>& needs) {
+        const ImageJob& job = task.job;
+        for (const fs::path& path : {job.scene, job.output})
+            if (!can_be_recorded(path.string()))
+                throw SceneError({path.string(), ""}, "its name is not UTF-8; rename it to submit it");
+        if (!request_.force && is_done(job, request_.overrides)) {
+            work_.up_to_date.push_back(job);
+            return;
+        }
+        if (!needs) needs = needs_of_scene(job);
+        FarmImage image{job, task.render_output, needs->ranges, {}, needs->needs};
+        FarmLeftovers leftovers = find_leftovers(image, request_.farm.output, [&] {
+            return request_.force ? RenderIdentity() : identity_of(job, request_.overrides);
+        });
+        work_.useless.insert(work_.useless.end(), leftovers.useless.begin(), leftovers.useless.end());
+        // Tasks leave an image alone that looks finished to them.
+        if (request_.force) work_.useless.push_back(OutputPaths::beside(job.output).json);
+        image.missing = std::move(leftovers.missing);
+        work_.images.push_back(std::move(image));
+    }
+
+    [[nodiscard]] SceneNeeds needs_of_scene(const ImageJob& first) const {
+        const PreparedScene prepared = prepare_job(first, request_.overrides);
+        const RenderSettings& settings = prepared.scene.settings;
+        SceneNeeds scene;
+        if (request_.parts > 1) {
+            if (settings.time_limit > 0.0)
+                throw SceneError(settings.at("/time"), "a limit of time cannot be split; leave out --split-samples");
+            if (settings.relative_error > 0.0)
+                throw SceneError(settings.at("/error"), "a limit of error cannot be split; leave out --split-samples");
+            scene.ranges = split_samples(static_cast<std::uint32_t>(settings.spp), request_.parts);
+            if (scene.ranges.size() == 1) scene.ranges.clear();
+        }
+        if (!request_.task_minutes || !request_.task_memory)
+            scene.needs = needs_of(probe_scene(first, request_.farm.options),
+                                   std::max<std::size_t>(1, scene.ranges.size()), request_.farm.threads);
+        if (request_.task_minutes) scene.needs.minutes = *request_.task_minutes;
+        if (request_.task_memory) scene.needs.mebibytes = static_cast<int>(*request_.task_memory >> 20u);
+        return scene;
+    }
+
+    const FarmRequest& request_;
+    std::set<fs::path> busy_;
+    FarmWork work_;
+};
+
+}  // namespace
+
+FarmWork find_farm_work(const FarmRequest& request, std::span<const BatchTask> tasks,
+                        std::span<const FarmImageStatus> earlier) {
+    WorkFinder finder(request, earlier);
+    while (!tasks.empty()) {
+        const auto other = std::ranges::find_if(
+            tasks, [&](const BatchTask& task) { return task.job.scene != tasks.front().job.scene; });
+        const auto count = static_cast<std::size_t>(other - tasks.begin());
+        finder.add_scene(tasks.first(count));
+        tasks = tasks.subspan(count);
+    }
+    return finder.take();
+}
+
+}  // namespace etendue
