@@ -61,7 +61,7 @@ class TextureAliasing : public testing::Test {
         std::vector<Rgb> pixels;
         for (std::size_t i = 0; i < job.rect.area(); ++i) {
             const PixelSum& sum = tile.pixel(i);
-            const double scale = 1.0 / sum.samples;
+            const double scale = 1.0 / static_cast<double>(sum.samples);
             pixels.emplace_back(static_cast<float>(sum.r * scale), static_cast<float>(sum.g * scale),
                                 static_cast<float>(sum.b * scale));
         }
