@@ -2,6 +2,7 @@
 
 Usage: torture_test.py [PROGRAM]"""
 
+import json
 import os
 import random
 import stat
@@ -16,10 +17,11 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
+from faults.batches import Batches, check_output  # noqa: E402
 from faults.corruption import Corruption, damage, torture_checkpoints  # noqa: E402
 from faults.kills import torture_case  # noqa: E402
 from faults.pixels import EXR_OF_ONE_PART, exr_pixels, png_pixels  # noqa: E402
-from faults.render import Case, make_scenes  # noqa: E402
+from faults.render import Case, Reference, make_scenes  # noqa: E402
 
 PROGRAM = None
 
@@ -84,6 +86,49 @@ class Damage(unittest.TestCase):
         damaged = [damage(whole, index, chance, result) for index in range(500)]
         self.assertTrue(all(data != whole for data in damaged))
         self.assertEqual((result.flipped, result.cut_off), (450, 50))
+
+
+class BatchOutput(unittest.TestCase):
+    """What batches leave, made up."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.out = Path(folder.name)
+        for name in ("a", "b"):
+            self.write(name, exr())
+        self.references = {name: Reference(self.out / f"{name}.exr") for name in ("a", "b")}
+        (self.out / "index.html").write_text("")
+        (self.out / "report.json").write_text(json.dumps({"totals": {"rendered": 1, "up_to_date": 1}}))
+        self.finish(["a", "b"])
+
+    def write(self, name, data):
+        (self.out / f"{name}.exr").write_bytes(data)
+        (self.out / f"{name}.png").write_bytes(png())
+        (self.out / f"{name}.json").write_text('{"complete": true}')
+
+    def finish(self, units):
+        lines = [json.dumps({"event": "unit finished", "unit": unit}) for unit in units]
+        (self.out / "ledger.jsonl").write_text("\n".join([*lines, '{"event": "unit fini']))
+
+    def check(self):
+        result = Batches(2)
+        check_output(self.out, self.references, result)
+        return result
+
+    def test_what_is_right_has_no_faults(self):
+        result = self.check()
+        self.assertEqual((result.faults, result.identical, result.rendered_twice, result.stray), ([], 2, 0, 0))
+
+    def test_each_fault_is_seen(self):
+        self.finish(["a", "b", "a"])
+        (self.out / ".etendue").mkdir()
+        (self.out / ".etendue" / "mutex").write_text("")
+        self.write("b", exr(pixels=b"abd"))
+        (self.out / "report.json").write_text(json.dumps({"totals": {"rendered": 1, "up_to_date": 0}}))
+        result = self.check()
+        self.assertEqual((result.identical, result.rendered_twice, result.stray), (1, 1, 1))
+        self.assertEqual(len(result.faults), 3)
 
 
 class Torture(unittest.TestCase):

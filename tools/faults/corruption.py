@@ -8,6 +8,7 @@ from .kills import CHECKPOINT_MINUTES
 from .render import Reference, command, render, stray_files
 
 EVERY_SO_OFTEN = 10  # one damaged file in so many has a whole previous one beside it, another is cut off
+MOST_ATTEMPTS = 10  # to catch a checkpoint
 
 
 @dataclass
@@ -23,15 +24,15 @@ class Corruption:
 
 
 def make_checkpoint(program, case, directory):
-    """The bytes of a checkpoint of a render under way."""
+    """The bytes of a checkpoint of a render under way, which is killed then. None if it was over too soon."""
     checkpoint = directory / "image.checkpoint"
     process = subprocess.Popen(command(program, case, directory / "image.exr", "--quiet", "--checkpoint-every",
-                                       CHECKPOINT_MINUTES), stderr=subprocess.DEVNULL)
+                                       CHECKPOINT_MINUTES, "--threads", "1"), stderr=subprocess.DEVNULL)
     while process.poll() is None and not checkpoint.exists():
         time.sleep(0.001)
     process.kill()
     process.wait()
-    data = checkpoint.read_bytes()
+    data = checkpoint.read_bytes() if checkpoint.exists() else None
     for path in directory.iterdir():
         path.unlink()
     return data
@@ -78,7 +79,10 @@ def torture_checkpoints(program, case, count, directory, random):
     reference = Reference(reference_output)
     place = directory / "image"
     place.mkdir()
-    whole = make_checkpoint(program, case, place)
+    whole = next(filter(None, (make_checkpoint(program, case, place) for _ in range(MOST_ATTEMPTS))), None)
+    if whole is None:
+        result.faults.append(f"{case.name}: no checkpoint was written in {MOST_ATTEMPTS} renders")
+        return result
     result.size = len(whole)
     for index in range(count):
         previous = whole if index % EVERY_SO_OFTEN == 0 else None
