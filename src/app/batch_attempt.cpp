@@ -65,6 +65,7 @@ void judge_failure(const ChildProcess& child, bool was_told_to_stop, const Batch
     if (!attempt.was_said) attempt.error = end_in_words(end);
     if (was_told_to_stop && is_interrupt(end)) {
         attempt.end = AttemptEnd::Interrupted;
+        attempt.error.clear();
     } else if (options.max_memory && tells_of_memory(child.last_messages())) {
         attempt.end = AttemptEnd::Hopeless;
         attempt.was_said = false;

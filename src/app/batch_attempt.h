@@ -26,7 +26,7 @@ struct Attempt {
     AttemptEnd end = AttemptEnd::Failed;
     std::optional<int> exit_code{};  ///< of its process, if it had one that ended by itself
     std::string signal{};            ///< "SIGSEGV", if that ended it
-    std::string error{};             ///< unless it is done; any number of lines
+    std::string error{};             ///< unless it is done or interrupted; any number of lines
     bool was_said = false;           ///< `error` is what its process had said, and `on_message` was told
     std::vector<std::string> log{};  ///< the last lines of its process, oldest first
     bool has_rendered = false;       ///< it came as far as to take samples

@@ -71,6 +71,7 @@ ExitCode run_batch(const BatchOptions& options) {
     progress.clear();
     if (interrupt_requested()) {
         if (!options.dry_run) BatchLocks(options.output).tidy();
+        progress.say("interrupted before anything was rendered");
         return interrupt_exit_code();
     }
     if (options.dry_run) {

@@ -60,7 +60,8 @@ BatchRunner::BatchRunner(const BatchOptions& options, BatchPlan plan, LedgerHist
       books_(options.output),
       locks_(options.output) {
     if (options.in_process) threads_.emplace(options.threads);
-    const fs::path output = fs::absolute(options.output).lexically_normal();
+    fs::path output = fs::absolute(options.output).lexically_normal();
+    if (!output.has_filename()) output = output.parent_path();
     report_.title = output.filename().string();
     report_.output_directory = output.string();
     report_.program = software_name();

@@ -19,15 +19,6 @@ namespace etendue::test {
 
 namespace {
 
-/// True once the process catches SIGINT, by the mask of caught signals in /proc.
-bool handles_interrupt(pid_t pid) {
-    std::ifstream status(fmt::format("/proc/{}/status", pid));
-    for (std::string line; std::getline(status, line);)
-        if (line.starts_with("SigCgt:"))
-            return (std::stoull(line.substr(7), nullptr, 16) & (1ull << (SIGINT - 1))) != 0;
-    return false;
-}
-
 [[noreturn]] void become_etendue(const std::vector<std::string>& arguments, const std::filesystem::path& directory,
                                  const std::filesystem::path& out, const std::filesystem::path& err) {
     std::vector<char*> argv{const_cast<char*>("etendue")};
@@ -78,6 +69,14 @@ ProgramResult RunningProgram::wait() {
     std::filesystem::remove(out_);
     std::filesystem::remove(err_);
     return result;
+}
+
+bool handles_interrupt(int pid) {
+    std::ifstream status(fmt::format("/proc/{}/status", pid));
+    for (std::string line; std::getline(status, line);)
+        if (line.starts_with("SigCgt:"))
+            return (std::stoull(line.substr(7), nullptr, 16) & (1ull << (SIGINT - 1))) != 0;
+    return false;
 }
 
 std::vector<int> children_of(int pid) {

@@ -37,6 +37,9 @@ class RunningProgram {
     int pid_ = -1;
 };
 
+/// True while the process catches SIGINT: from the time it is ready to, until the first has arrived.
+[[nodiscard]] bool handles_interrupt(int pid);
+
 /// Process ids of the children of the process `pid`.
 [[nodiscard]] std::vector<int> children_of(int pid);
 
