@@ -91,7 +91,7 @@ fs::path make_submission_directory(const fs::path& output) {
     // The jobs of different output directories have different names, too.
     std::random_device random;
     while (!error) {
-        const fs::path directory = parent / fmt::format("{}-{:06x}", name, random() & 0xffffffu);
+        fs::path directory = parent / fmt::format("{}-{:06x}", name, random() & 0xffffffu);
         if (fs::create_directory(directory, error)) return directory;
     }
     throw IoError(fmt::format("cannot make a directory in {}: {}", parent.string(), error.message()));

@@ -88,6 +88,7 @@ TEST(FarmPlan, PartsOfOneImageHaveOneIndexAndAreMergedByIt) {
 
 TEST(FarmPlan, ArraysAreCutWhereTheClusterEndsThem) {
     std::vector<FarmImage> images;
+    images.reserve(25);
     for (int i = 0; i < 25; ++i) images.push_back(image(i, 3));
     const FarmPlan cut = plan(images, 10);
     EXPECT_EQ(cut.arrays.size(), 3u * 4u);

@@ -278,6 +278,18 @@ TEST_F(Submit, ADryRunWritesNothing) {
     EXPECT_EQ(list(folder_ / "scenes"), before);
 }
 
+TEST_F(Submit, DamagedRecordsAreNamed) {
+    const fs::path directory = out() / ".etendue/submit-20260101-000000-abcdef";
+    fs::create_directories(directory);
+    for (const char* text : {"", "{", "[]", R"({"user": 1})", R"({"user": "u", "images": [{"name": "a"}]})"}) {
+        write_file(directory / "submission.json", text);
+        const ProgramResult result = run_etendue({"submit", "--status", out().string()}, work_);
+        EXPECT_EQ(result.exit_code, 1) << text;
+        EXPECT_NE(result.err.find((directory / "submission.json").string() + " cannot be read"), std::string::npos)
+            << result.err;
+    }
+}
+
 TEST_F(Submit, BadOptionsEndWithTwo) {
     scene("a");
     EXPECT_EQ(run_etendue({"submit", "--status", work_.string()}, work_).exit_code, 2);
