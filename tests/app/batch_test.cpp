@@ -192,6 +192,7 @@ TEST_F(Batch, SeveralAtOnceRenderEverythingOnce) {
         constexpr int kScenes = 4;
         for (int i = 0; i < kScenes; ++i) add_scene(fmt::format("scene{}", i));
         std::vector<std::unique_ptr<RunningProgram>> batches;
+        batches.reserve(static_cast<std::size_t>(processes));
         for (int i = 0; i < processes; ++i) batches.push_back(start({"--threads", "1"}));
         for (const auto& batch : batches) {
             const ProgramResult result = batch->wait();
