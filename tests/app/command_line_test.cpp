@@ -41,9 +41,9 @@ class CommandLine : public testing::Test {
 TEST_F(CommandLine, HelpHasExamplesForEachCommand) {
     const ProgramResult top = run({"--help"});
     EXPECT_EQ(top.exit_code, 0);
-    for (const char* word : {"render", "batch", "inspect", "diff", "compare", "merge", "Examples:", "130"})
+    for (const char* word : {"render", "batch", "inspect", "diff", "compare", "merge", "submit", "Examples:", "130"})
         EXPECT_NE(top.out.find(word), std::string::npos) << word;
-    for (const char* command : {"render", "batch", "inspect", "diff", "compare", "merge"}) {
+    for (const char* command : {"render", "batch", "inspect", "diff", "compare", "merge", "submit"}) {
         const ProgramResult help = run({command, "--help"});
         EXPECT_EQ(help.exit_code, 0);
         EXPECT_NE(help.out.find("Examples:"), std::string::npos) << command;

@@ -5,14 +5,12 @@
 #include "image/write.h"
 
 #include <array>
-#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
 #include <set>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -320,17 +318,13 @@ TEST_F(Compare, EachIntegratorSaysWhatItCannotFind) {
 }
 
 TEST_F(Compare, SaysWhyAnInterruptLeftNoReference) {
-    const fs::path err = work_.string() + ".err";
-    const auto interrupt = [&err](int pid) {
-        // Once the last variant is rendered, the reference is.
-        for (int i = 0; i < 3000 && read_file(err).find("bdpt 1/1") == std::string::npos; ++i)
-            std::this_thread::sleep_for(std::chrono::milliseconds(10));
-        kill(pid, SIGINT);
-    };
-    const ProgramResult result =
-        run_etendue({"compare", (folder_ / "box").string(), "-o", "report", "--spp", "1", "--seeds", "1",
-                     "--reference-integrator", "naive", "--reference-seconds", "600"},
-                    work_, interrupt);
+    RunningProgram program({"compare", (folder_ / "box").string(), "-o", "report", "--spp", "1", "--seeds", "1",
+                            "--reference-integrator", "naive", "--reference-seconds", "600"},
+                           work_);
+    // Once the last variant is rendered, the reference is.
+    EXPECT_TRUE(wait_until([&] { return program.messages().find("bdpt 1/1") != std::string::npos; }));
+    program.send(SIGINT);
+    const ProgramResult result = program.wait();
     EXPECT_EQ(result.exit_code, 130) << result.err;
     EXPECT_EQ(report()["reference"]["kind"], "none");
     EXPECT_NE(notes().find("it was not rendered, because the comparison was interrupted"), std::string::npos)

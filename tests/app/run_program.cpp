@@ -59,6 +59,11 @@ bool RunningProgram::has_ended() const {
     return waitid(P_PID, static_cast<id_t>(pid_), &ended, WEXITED | WNOHANG | WNOWAIT) != 0 || ended.si_pid == pid_;
 }
 
+std::string RunningProgram::messages() const {
+    // The program makes it when it starts.
+    return std::filesystem::exists(err_) ? read_file(err_) : "";
+}
+
 ProgramResult RunningProgram::wait() {
     int status = 0;
     waitpid(std::exchange(pid_, -1), &status, 0);
