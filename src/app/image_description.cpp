@@ -115,6 +115,7 @@ void describe_state(ImageDescription& description, const RenderState& state, boo
 
     RenderStatistics& s = description.statistics;
     const RenderCounters& c = state.counters;
+    s.integrator = frame.integrator;
     s.width = window.width();
     s.height = window.height();
     s.full_width = film.full_width();

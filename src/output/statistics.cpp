@@ -30,6 +30,7 @@ std::string to_json(const RenderStatistics& s) {
     Json json;
     json["software"] = software_name();
     json["scene"] = s.scene;
+    json["integrator"] = s.integrator;
     json["frame"] = s.frame ? Json(*s.frame) : Json();
     json["time_code"] = s.time_code ? Json(*s.time_code) : Json();
     json["settings_hash"] = s.settings_hash;

@@ -27,6 +27,7 @@ struct PhaseTime {
 
 struct RenderStatistics {
     std::string scene;
+    std::string integrator;
     std::optional<int> frame;         ///< of a sequence
     std::optional<double> time_code;  ///< seconds of the animation that is shown
     std::string settings_hash;        ///< equal for equal settings and inputs

@@ -24,6 +24,7 @@ RenderStatistics make_statistics() {
     s.spp_done = 8;
     s.complete = false;
     s.halt_reason = "time limit";
+    s.integrator = "bdpt";
     s.relative_error = 0.125;
     s.load = {0.25, 0.5};
     s.build = {1.0, 1.5};
@@ -51,7 +52,7 @@ RenderStatistics make_statistics() {
 TEST(StatisticsJson, HasEveryField) {
     const auto json = nlohmann::json::parse(to_json(make_statistics()));
     const auto expected = nlohmann::json::parse(R"({
-        "scene": "cornell-box", "frame": 7, "time_code": 0.25, "settings_hash": "0123abcd",
+        "scene": "cornell-box", "integrator": "bdpt", "frame": 7, "time_code": 0.25, "settings_hash": "0123abcd",
         "light_units": "radiometric", "size": [64, 32], "full_size": [128, 96],
         "complete": false, "halt_reason": "time limit", "estimated_relative_error": 0.125,
         "spp": {"requested": 16, "done": 8},
