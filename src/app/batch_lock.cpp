@@ -85,7 +85,7 @@ std::string to_json(const ProcessOwner& owner, const std::string& image) {
     return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-/// Whoever dies while writing leaves a lock that says nothing: that is none.
+/// None if it cannot be read: whoever died while writing left it so, or another machine has not seen its content yet.
 std::optional<ProcessOwner> read_owner(const fs::path& file) {
     constexpr std::size_t kMostBytes = 1 << 16;
     std::string text(kMostBytes, '\0');
@@ -100,10 +100,8 @@ std::optional<ProcessOwner> read_owner(const fs::path& file) {
     }
 }
 
-/// While the mutex is held.
-bool is_alive(const ProcessOwner& owner, const fs::path& file, const Mutex& mutex, std::chrono::seconds dead_after) {
-    const Liveness known = liveness(owner);
-    if (known != Liveness::Unknown) return known == Liveness::Alive;
+/// True if it was touched not longer ago than that. While the mutex is held.
+bool is_young(const fs::path& file, const Mutex& mutex, std::chrono::seconds dead_after) {
     // Opened, so that a network file system asks its server.
     const FileDescriptor opened(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
     struct stat status {};
@@ -111,12 +109,21 @@ bool is_alive(const ProcessOwner& owner, const fs::path& file, const Mutex& mute
     return mutex.time_of_files().tv_sec - status.st_mtim.tv_sec <= dead_after.count();
 }
 
+/// True if the owner of the lock `file` is alive, as far as one can tell. While the mutex is held.
+bool is_held(const std::optional<ProcessOwner>& owner, const fs::path& file, const Mutex& mutex,
+             std::chrono::seconds dead_after) {
+    const Liveness known = owner ? liveness(*owner) : Liveness::Unknown;
+    return known == Liveness::Unknown ? is_young(file, mutex, dead_after) : known == Liveness::Alive;
+}
+
+/// On the disk when it returns: another machine would otherwise see a file that says nothing.
 FileDescriptor create(const fs::path& file, const std::string& text) {
     FileDescriptor created(::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
     if (!created.is_open()) throw_errno("write", file, errno);
     const ssize_t written = ::write(created.get(), text.data(), text.size());
-    if (written != static_cast<ssize_t>(text.size())) {
-        const int error = written < 0 ? errno : ENOSPC;
+    const bool is_whole = written == static_cast<ssize_t>(text.size());
+    if (!is_whole || ::fsync(created.get()) != 0) {
+        const int error = written < 0 || is_whole ? errno : ENOSPC;
         ::unlink(file.c_str());
         throw_errno("write", file, error);
     }
@@ -175,7 +182,8 @@ LockAttempt BatchLocks::take(const std::string& image) const {
     fs::create_directory(file.parent_path(), error);
     if (error) throw_errno("make", file.parent_path(), error.value());
     std::optional<ProcessOwner> owner = read_owner(file);
-    if (owner && is_alive(*owner, file, mutex, times_.dead_after)) return {.lock = std::nullopt, .holder = *owner};
+    if (is_held(owner, file, mutex, times_.dead_after))
+        return {.lock = std::nullopt, .holder = owner.value_or(ProcessOwner{.host = "unknown"})};
     if (::unlink(file.c_str()) != 0 && errno != ENOENT) throw_errno("remove", file, errno);
     ProcessOwner self = this_process();
     FileDescriptor created = create(file, to_json(self, image));
@@ -189,7 +197,7 @@ void BatchLocks::tidy() const {
     std::error_code error;
     for (fs::directory_iterator entry(locks, error), end; !error && entry != end; entry.increment(error)) {
         const std::optional<ProcessOwner> owner = read_owner(entry->path());
-        if (!owner || !is_alive(*owner, entry->path(), mutex, times_.dead_after)) ::unlink(entry->path().c_str());
+        if (!is_held(owner, entry->path(), mutex, times_.dead_after)) ::unlink(entry->path().c_str());
     }
     // Fails, as it should, if locks are left.
     if (::rmdir(locks.c_str()) != 0 && errno != ENOENT) return;

@@ -18,7 +18,8 @@ namespace etendue {
 struct LockTimes {
     std::chrono::milliseconds between_touches{5000};
     /// An owner on another machine that has not touched its file for this long is taken for dead. Longer than files may
-    /// look old to other clients of a network file system: a minute with NFS.
+    /// look old to other clients of a network file system: a minute with NFS. So is one whose file says nothing: it may
+    /// have just been written elsewhere.
     std::chrono::seconds dead_after{150};
 };
 

@@ -7,8 +7,8 @@
 namespace etendue {
 
 struct ProcessOwner {
-    std::string host;              ///< its name, for people
-    std::string machine;           ///< this start of the system and, in containers, this set of process ids
+    std::string host{};            ///< its name, for people
+    std::string machine{};         ///< this start of the system and, in containers, this set of process ids
     std::int64_t pid = 0;          ///< is used again, hence:
     std::uint64_t start_time = 0;  ///< of the process, in clock ticks since the system started
 

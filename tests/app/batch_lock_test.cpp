@@ -97,10 +97,14 @@ TEST_F(BatchLockTest, OfAnotherMachineIsTakenOverWhenItWasNotTouchedForLong) {
     EXPECT_TRUE(got.lock->dead_owner()->machine.starts_with("elsewhere"));
 }
 
-TEST_F(BatchLockTest, ThatSaysNothingIsNobodys) {
+TEST_F(BatchLockTest, ThatSaysNothingIsNobodysOnceItIsOld) {
     let_somebody_die("box");
     for (const char* text : {"", "{", "[]", R"({"host":"a","machine":"b","pid":"1","start_time":0})"}) {
         write_file(lock_file(), text);
+        EXPECT_FALSE(locks_.take("box").lock) << "another machine may be writing it: " << text;
+        locks_.tidy();
+        EXPECT_TRUE(fs::exists(lock_file())) << text;
+        fs::last_write_time(lock_file(), fs::file_time_type::clock::now() - std::chrono::seconds(200));
         EXPECT_TRUE(locks_.take("box").lock) << text;
         let_somebody_die("box");
     }
