@@ -57,13 +57,13 @@ bool is_interrupt(const ChildEnd& end) {
 }
 
 /// What the end of a child that was not done means.
-void judge_failure(const ChildProcess& child, bool was_told_to_stop, const BatchOptions& options, Attempt& attempt) {
+void judge_failure(const ChildProcess& child, const BatchOptions& options, Attempt& attempt) {
     const ChildEnd& end = child.end();
     attempt.log.assign(child.last_messages().begin(), child.last_messages().end());
     attempt.error = error_of(child.last_messages());
     attempt.was_said = !attempt.error.empty() && end.signal == 0;
     if (!attempt.was_said) attempt.error = end_in_words(end);
-    if (was_told_to_stop && is_interrupt(end)) {
+    if (interrupt_requested() && is_interrupt(end)) {
         attempt.end = AttemptEnd::Interrupted;
         attempt.error.clear();
     } else if (options.max_memory && tells_of_memory(child.last_messages())) {
@@ -111,7 +111,8 @@ Attempt attempt_in_child(const BatchTask& task, const BatchOptions& options, con
     bool has_lock = true;
     while (child.wait(kBetweenLooks, callbacks.on_message, on_progress)) {
         if (interrupt_requested() && !was_told_to_stop) {
-            // Once: it ends at once when told again. That is up to the user, whose second signal ends this process.
+            // It may have got the signal itself, which is as good. A second one from the user ends this process, and
+            // with it the child.
             child.send(interrupt_exit_code() == ExitCode::Terminated ? SIGTERM : SIGINT);
             was_told_to_stop = true;
         }
@@ -134,7 +135,7 @@ Attempt attempt_in_child(const BatchTask& task, const BatchOptions& options, con
     else if (end.signal == 0 && end.exit_code == 0)
         attempt.end = AttemptEnd::Done;
     else
-        judge_failure(child, was_told_to_stop, options, attempt);
+        judge_failure(child, options, attempt);
     return attempt;
 }
 

@@ -10,12 +10,13 @@ namespace {
 std::atomic<bool> requested{false};
 std::atomic<bool> preview{false};
 std::atomic<int> signal_number{0};
+std::atomic<bool> second_ends{true};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
 
 extern "C" void on_signal(int number) {
     signal_number.store(number);
     requested.store(true);
-    std::signal(number, SIG_DFL);
+    if (second_ends.load()) std::signal(number, SIG_DFL);
 }
 
 extern "C" void on_preview_signal(int) {
@@ -28,6 +29,10 @@ void install_interrupt_handlers() {
     std::signal(SIGINT, on_signal);
     std::signal(SIGTERM, on_signal);
     std::signal(SIGUSR1, on_preview_signal);
+}
+
+void take_all_interrupts_for_one() {
+    second_ends.store(false);
 }
 
 const std::atomic<bool>& interrupt_requested() {

@@ -11,6 +11,10 @@ namespace etendue {
 /// Installs the handlers; once, from main.
 void install_interrupt_handlers();
 
+/// From now on all signals are as the first, and none ends the process at once: for one that another process looks
+/// after. A signal to all processes of a group or a job reaches it twice, once through that other one.
+void take_all_interrupts_for_one();
+
 /// Becomes true when a signal has arrived.
 [[nodiscard]] const std::atomic<bool>& interrupt_requested();
 

@@ -82,7 +82,10 @@ ExitCode run_render(const RenderArguments& arguments) {
         throw SceneError({"--strategies-image", {}},
                          "it shows one image, and this is a sequence of frames: name the moment with --time-code");
     if (arguments.probe) {
-        std::fputs(probe(jobs.front(), arguments.job.overrides, ThreadPool(arguments.threads)).c_str(), stdout);
+        const std::string answer = probe(jobs.front(), arguments.job.overrides, ThreadPool(arguments.threads));
+        // What was cut short says nothing about the image.
+        if (interrupt_requested()) return interrupt_exit_code();
+        std::fputs(answer.c_str(), stdout);
         return ExitCode::Success;
     }
     return render_jobs(arguments, jobs);
@@ -143,7 +146,8 @@ void add_continuation_options(CLI::App& command, const std::shared_ptr<RenderArg
                      "Render for about a second, write no file, and print as JSON what the image would take");
     command
         .add_option("--progress-fd", arguments->job.progress_descriptor,
-                    "Write progress as JSON lines to this open file descriptor, in place of the bar")
+                    "Write progress as JSON lines to this open file descriptor, in place of the bar. For a program that "
+                    "looks after this one: a second Ctrl-C or SIGTERM is then as the first, only SIGKILL ends at once")
         ->check(CLI::Range(3, 1 << 20));
 }
 
@@ -200,6 +204,7 @@ void add_render_command(CLI::App& app, Action& action) {
     command->callback([arguments, &action] {
         action = [arguments] {
             check_outputs(*arguments);
+            if (arguments->job.progress_descriptor >= 0) take_all_interrupts_for_one();
             return run_render(*arguments);
         };
     });

@@ -339,6 +339,23 @@ TEST_F(Batch, AnInterruptIsPassedOnAndTheNextBatchGoesOnToTheSameImage) {
     EXPECT_EQ(read_file(work_ / "out/a.png"), image);
 }
 
+/// As those that end a job or a container send it. The child gets it twice, once through the batch.
+TEST_F(Batch, ASignalToAllProcessesStillWritesWhatThereIs) {
+    add_scene("a");
+    // Large enough for the image to be written for a while.
+    write_file(folder_ / "scenes/a/render.json", R"({"resolution": [640, 480], "spp": 10000000, "environment": {}})");
+    const auto batch = start({"--checkpoint-every", "0.01"});
+    const int child = child_of(*batch);
+    ASSERT_TRUE(wait_until([&] { return fs::exists(work_ / "out/a.checkpoint"); }));
+    kill(child, SIGTERM);
+    usleep(10000);  // or both signals are one
+    batch->send(SIGTERM);
+    const ProgramResult result = batch->wait();
+    EXPECT_EQ(result.exit_code, 143) << result.err;
+    EXPECT_EQ(count("unit interrupted")["a"], 1);
+    EXPECT_TRUE(fs::exists(work_ / "out/a.json")) << "it was ended at once";
+}
+
 TEST_F(Batch, ASecondInterruptEndsEverythingAtOnce) {
     add_slow_scene("a", 1000.0);
     const auto batch = start();

@@ -21,7 +21,7 @@ TEST(SlurmScript, SaysWhatSlurmIsToDo) {
     EXPECT_TRUE(script.starts_with("#!/bin/bash\n"));
     for (const char* line :
          {"--job-name=etendue-x-render-3", "--array=0-1", "--cpus-per-task=8", "--mem=2048M", "--time=90", "--requeue",
-          "--output=logs/render-3.%a.log", "--open-mode=append", "--signal=B:TERM@60"})
+          "--output=logs/render-3.%a.log", "--open-mode=append", "--signal=B:USR2@60"})
         EXPECT_NE(script.find(std::string("\n#SBATCH ") + line + "\n"), std::string::npos) << line << "\n" << script;
     EXPECT_NE(script.find("tasks=render-3.tasks\n"), std::string::npos);
     const TestFolder folder;
