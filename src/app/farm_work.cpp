@@ -2,6 +2,7 @@
 
 #include "app/farm_leftovers.h"
 #include "app/farm_needs.h"
+#include "app/interrupt.h"
 #include "app/output_paths.h"
 #include "app/prepared_scene.h"
 #include "app/render_identity.h"
@@ -60,6 +61,7 @@ class WorkFinder {
         std::optional<SceneNeeds> needs;
         std::string error;
         for (const BatchTask& task : tasks) {
+            if (interrupt_requested()) return;
             const ImageJob& job = task.job;
             if (busy_.contains(job.output)) {
                 work_.busy.push_back(job);
@@ -71,6 +73,8 @@ class WorkFinder {
                     add_image(task, needs);
                     continue;
                 } catch (const std::exception& problem) {
+                    // A probe that was interrupted is no fault of the scene.
+                    if (interrupt_requested()) return;
                     error = problem.what();
                     log_error("{}: {}", job.name, error);
                 }
@@ -133,7 +137,7 @@ class WorkFinder {
 FarmWork find_farm_work(const FarmRequest& request, std::span<const BatchTask> tasks,
                         std::span<const FarmImageStatus> earlier) {
     WorkFinder finder(request, earlier);
-    while (!tasks.empty()) {
+    while (!tasks.empty() && !interrupt_requested()) {
         const auto other = std::ranges::find_if(
             tasks, [&](const BatchTask& task) { return task.job.scene != tasks.front().job.scene; });
         const auto count = static_cast<std::size_t>(other - tasks.begin());

@@ -31,7 +31,7 @@ struct FarmWork {
 };
 
 /// Loads scenes and looks at their images; `earlier` is what became of earlier submissions. What is wrong with one
-/// scene does not concern the others.
+/// scene does not concern the others. Ends early, with what it has found, if it is interrupted.
 [[nodiscard]] FarmWork find_farm_work(const FarmRequest& request, std::span<const BatchTask> tasks,
                                       std::span<const FarmImageStatus> earlier);
 

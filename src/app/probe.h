@@ -12,7 +12,7 @@ namespace etendue {
 /// indented and ended by a newline: scene, width and height of what is rendered, spp, threads, load_seconds,
 /// build_seconds, seconds_per_spp, estimated_seconds (all of the image, or the limit of time that is set) and
 /// peak_memory_bytes. Memory for splats and textures grows a little after the first second. Throws what `prepare_scene`
-/// throws.
+/// throws. If it is interrupted, what it returns says nothing.
 [[nodiscard]] std::string probe(const ImageJob& job, const SettingsOverrides& overrides, const ThreadPool& threads);
 
 }  // namespace etendue

@@ -1,5 +1,6 @@
 #include "app/slurm_farm.h"
 
+#include "app/interrupt.h"
 #include "app/slurm.h"
 #include "core/error.h"
 
@@ -77,6 +78,7 @@ std::vector<std::string> submit(const SlurmFarm& farm) {
     std::size_t kept = 0;
     for (std::size_t array = 0; array < farm.plan.arrays.size(); ++array) {
         try {
+            if (interrupt_requested()) throw IoError("interrupted");
             jobs.push_back(slurm_submit(submit_command(farm, array, jobs)));
             record_job(farm.submission, jobs.back());
         } catch (const IoError& error) {

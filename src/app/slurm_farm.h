@@ -29,8 +29,8 @@ struct SlurmFarm {
                                                       const std::vector<std::string>& jobs);
 
 /// Makes the folders of images and parts, writes the submission and submits all arrays. Returns the numbers of the
-/// jobs. If Slurm refuses an array, those that were to be merged together with it are cancelled, the others stay, and
-/// IoError says how many they are.
+/// jobs. If Slurm refuses an array, or the user interrupts this, those that were to be merged together with it are
+/// cancelled, the others stay, and IoError says how many they are.
 std::vector<std::string> submit(const SlurmFarm& farm);
 
 }  // namespace etendue

@@ -5,6 +5,7 @@
 #include "app/farm_status.h"
 #include "app/farm_work.h"
 #include "app/given_options.h"
+#include "app/interrupt.h"
 #include "app/shell_word.h"
 #include "app/slurm.h"
 #include "app/slurm_farm.h"
@@ -120,6 +121,10 @@ ExitCode run_submit(const SubmitArguments& arguments) {
     }
     const fs::path& output = arguments.request.farm.output;
     const FarmWork work = find_farm_work(arguments.request, tasks, status_of(output));
+    if (interrupt_requested()) {
+        log_error("interrupted before anything was submitted");
+        return interrupt_exit_code();
+    }
     std::size_t max_array_size = 1;
     if (!work.images.empty()) {
         max_array_size = slurm_max_array_size();
@@ -283,7 +288,13 @@ void add_submit_command(CLI::App& app, Action& action) {
         action = [arguments, overrides] {
             if (!arguments->status.empty()) return run_status(*arguments);
             complete(*arguments, overrides);
-            return run_submit(*arguments);
+            try {
+                return run_submit(*arguments);
+            } catch (const IoError& error) {
+                if (!interrupt_requested()) throw;
+                log_error("{}", error.what());
+                return interrupt_exit_code();
+            }
         };
     });
 }

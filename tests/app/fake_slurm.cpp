@@ -23,6 +23,7 @@ FakeSlurm::FakeSlurm(const fs::path& directory) : directory_(directory), path_(p
     fs::create_directories(directory);
     set_max_array_size(1001);
     refuse_after(1000);
+    interrupt_after(1000);
     set_queue("");
     add_program("sbatch", R"sh(
 number=$(($(cat jobs) + 1))
@@ -31,6 +32,7 @@ if [ "$number" -gt "$(cat limit)" ]; then
     exit 1
 fi
 echo "$number" >jobs
+[ "$number" -ne "$(cat interrupt)" ] || kill -INT $PPID
 echo "$number;a-cluster"
 )sh");
     write_file(directory_ / "jobs", "0");
@@ -58,6 +60,9 @@ void FakeSlurm::set_max_array_size(int size) const {
 }
 void FakeSlurm::refuse_after(int jobs) const {
     write_file(directory_ / "limit", fmt::format("{}", jobs));
+}
+void FakeSlurm::interrupt_after(int jobs) const {
+    write_file(directory_ / "interrupt", fmt::format("{}", jobs));
 }
 void FakeSlurm::set_queue(const std::string& lines) const {
     write_file(directory_ / "queue", lines);

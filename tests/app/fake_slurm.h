@@ -23,6 +23,8 @@ class FakeSlurm {
     void set_max_array_size(int size) const;
     /// sbatch takes so many jobs and refuses what comes after.
     void refuse_after(int jobs) const;
+    /// While sbatch takes the job of this number, the user presses Ctrl-C: whoever called it gets SIGINT.
+    void interrupt_after(int jobs) const;
     /// What squeue prints.
     void set_queue(const std::string& lines) const;
     /// The words of each call of a program, oldest first.

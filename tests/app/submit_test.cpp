@@ -3,6 +3,7 @@
 #include "app/run_program.h"
 #include "app/small_files.h"
 
+#include <csignal>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -173,30 +174,32 @@ TEST_F(Submit, PartsOfOtherSettingsAreNotUsed) {
     EXPECT_TRUE(fs::is_empty(out() / ".etendue/parts/a.exr"));
 }
 
-/// Slurm tells a task by SIGTERM that its time is up, and the same to one that is cancelled.
+/// Slurm tells the shell alone by SIGUSR2 that its time is up. Of a task that is cancelled all processes get SIGTERM.
 TEST_F(Submit, ATaskWhoseTimeIsUpIsQueuedAgainUnlessItWasCancelled) {
     scene("a");
-    const std::string directory = submitted({"--spp", "16000000", "--task-minutes", "5", "--task-memory", "512M",
-                                             "--checkpoint-every", "0.001"})["directory"];
+    // Large enough for the image to be written for a while.
+    const std::string directory = submitted({"--spp", "16000000", "--size", "640x480", "--task-minutes", "5",
+                                             "--task-memory", "512M", "--checkpoint-every", "0.01"})["directory"];
     const std::string checkpoint = (out() / "a.checkpoint").string();
-    const std::string stop_it = fmt::format(
-        "cd '{}'; bash render-0.sh >log 2>&1 & task=$!; i=0; while [ ! -e '{}' ] && [ $i -lt 600 ]; do sleep 0.1; "
-        "i=$((i + 1)); done; kill -TERM $task; wait $task",
-        directory, checkpoint);
-    const auto stop_task = [&](const char* state) {
+    const auto stop_task = [&](const char* state, const char* signal) {
         slurm_.set_queue(state);
         fs::remove(checkpoint);
-        return run_command({"env", "SLURM_ARRAY_TASK_ID=0", "SLURM_ARRAY_JOB_ID=12", "sh", "-c", stop_it}).exit_code;
+        fs::remove(out() / "a.json");
+        const std::string stop_it = fmt::format(
+            "cd '{}'; setsid bash render-0.sh >log 2>&1 & task=$!; i=0; while [ ! -e '{}' ] && [ $i -lt 600 ]; do "
+            "sleep 0.1; i=$((i + 1)); done; kill {}$task; wait $task",
+            directory, checkpoint, signal);
+        return run_command({"env", "SLURM_ARRAY_TASK_ID=0", "SLURM_ARRAY_JOB_ID=12", "bash", "-c", stop_it}).exit_code;
     };
-    EXPECT_EQ(stop_task("CANCELLED"), 143);
-    EXPECT_TRUE(fs::exists(checkpoint));
+    EXPECT_EQ(stop_task("CANCELLED", "-TERM -- -"), 143);
+    EXPECT_TRUE(fs::exists(out() / "a.json")) << "etendue was ended at once " << read_file(directory + "/log");
     const auto requeues = [&] {
         std::vector<std::vector<std::string>> calls = slurm_.calls("scontrol");
         std::erase_if(calls, [](const std::vector<std::string>& words) { return words[0] != "requeue"; });
         return calls;
     };
     EXPECT_TRUE(requeues().empty());
-    EXPECT_EQ(stop_task("RUNNING"), 0) << read_file(directory + "/log");
+    EXPECT_EQ(stop_task("RUNNING", "-USR2 "), 0) << read_file(directory + "/log");
     EXPECT_EQ(requeues(), (std::vector<std::vector<std::string>>{{"requeue", "12_0"}}));
     EXPECT_TRUE(fs::exists(checkpoint));
 }
@@ -251,6 +254,41 @@ TEST_F(Submit, RefusedJobsLeaveNoHalvesBehind) {
     EXPECT_NE(result.err.find("0 of 4"), std::string::npos) << result.err;
     ASSERT_EQ(slurm_.calls("scancel").size(), 1u);
     EXPECT_EQ(slurm_.calls("scancel")[0], (std::vector<std::string>{"1", "2", "3"}));
+}
+
+TEST_F(Submit, AnInterruptStopsItBeforeTheNextScene) {
+    scene("a");
+    write_file(folder_ / "scenes/a/render.json", R"({"resolution": [16, 12], "spp": 10000000, "environment": {}})");
+    scene("b", R"("ssp": 1,)");
+    const std::vector<std::string> arguments{"submit", (folder_ / "scenes").string(), "-o", out().string(),
+                                             "--scheduler", "slurm"};
+    RunningProgram program(arguments, work_);
+    // While it probes the first scene.
+    int probe = 0;
+    ASSERT_TRUE(wait_until([&] {
+        for (const int child : children_of(program.pid()))
+            if (handles_interrupt(child)) probe = child;
+        return program.has_ended() || probe > 0;
+    }));
+    ASSERT_GT(probe, 0);
+    program.send(SIGINT);
+    kill(probe, SIGINT);
+    const ProgramResult result = program.wait();
+    EXPECT_EQ(result.exit_code, 130) << result.err;
+    EXPECT_EQ(result.err, "interrupted before anything was submitted\n");
+    EXPECT_TRUE(slurm_.calls("sbatch").empty());
+    EXPECT_FALSE(fs::exists(out()));
+}
+
+TEST_F(Submit, AnInterruptStopsItBeforeTheNextArrayAndTakesHalvesBack) {
+    scene("a");
+    slurm_.interrupt_after(2);
+    const ProgramResult result = submit(split_);
+    EXPECT_EQ(result.exit_code, 130) << result.err;
+    EXPECT_NE(result.err.find("interrupted\n0 of 4"), std::string::npos) << result.err;
+    EXPECT_EQ(slurm_.calls("sbatch").size(), 2u);
+    ASSERT_EQ(slurm_.calls("scancel").size(), 1u);
+    EXPECT_EQ(slurm_.calls("scancel")[0], (std::vector<std::string>{"1", "2"}));
 }
 
 TEST_F(Submit, WithoutSlurmItSaysSo) {
