@@ -128,7 +128,7 @@ class BatchOutput(unittest.TestCase):
         (self.out / "report.json").write_text(json.dumps({"totals": {"rendered": 1, "up_to_date": 0}}))
         result = self.check()
         self.assertEqual((result.identical, result.rendered_twice, result.stray), (1, 1, 1))
-        self.assertEqual(len(result.faults), 3)
+        self.assertEqual(len(result.faults), 4)
 
 
 class Torture(unittest.TestCase):

@@ -117,6 +117,7 @@ def check_output(out, references, result):
     result.faults += [f"{path} is left" for path in stray]
     finished = finished_units(out)
     result.rendered_twice = sum(count - 1 for count in finished.values())
+    result.faults += [f"{unit} was rendered {count} times" for unit, count in finished.items() if count > 1]
     report = json.loads((out / "report.json").read_text())
     there = report["totals"]["rendered"] + report["totals"]["up_to_date"]
     if there != len(references):
