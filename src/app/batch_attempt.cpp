@@ -104,7 +104,7 @@ Attempt attempt_in_child(const BatchTask& task, const BatchOptions& options, con
     const auto on_progress = [&](const std::string& line) {
         const std::optional<ChildProgress> progress = parse_progress(line);
         if (!progress) return;
-        attempt.has_rendered = attempt.has_rendered || progress->phase == "render";
+        attempt.phase = progress->phase;
         callbacks.on_progress(*progress);
     };
     bool was_told_to_stop = false;
@@ -116,7 +116,7 @@ Attempt attempt_in_child(const BatchTask& task, const BatchOptions& options, con
             child.send(interrupt_exit_code() == ExitCode::Terminated ? SIGTERM : SIGINT);
             was_told_to_stop = true;
         }
-        if (attempt.has_rendered && preview_requested()) {
+        if (attempt.phase == "render" && preview_requested()) {
             clear_preview_request();
             child.send(SIGUSR1);
         }
@@ -153,7 +153,6 @@ Attempt attempt_here(const BatchTask& task, const BatchOptions& options, const A
                                             .resume = how.resume,
                                             .title = title},
                                            threads);
-        attempt.has_rendered = true;
         if (result.outcome == ImageOutcome::Interrupted) attempt.end = AttemptEnd::Interrupted;
     } catch (const SceneError& error) {
         attempt.end = AttemptEnd::Invalid;

@@ -29,7 +29,7 @@ struct Attempt {
     std::string error{};             ///< unless it is done or interrupted; any number of lines
     bool was_said = false;           ///< `error` is what its process had said, and `on_message` was told
     std::vector<std::string> log{};  ///< the last lines of its process, oldest first
-    bool has_rendered = false;       ///< it came as far as to take samples
+    std::string phase{};             ///< the last that its process told of
 };
 
 struct AttemptOptions {

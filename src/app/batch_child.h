@@ -15,7 +15,7 @@ namespace etendue {
 
 /// What `etendue render --progress-fd` writes, a line at a time.
 struct ChildProgress {
-    std::string phase{};    ///< "load", "render" or "write"
+    std::string phase{};    ///< "load", "resume", "build", "render" or "write"
     double fraction = 0.0;  ///< of the samples, [0, 1]
     double seconds = 0.0;   ///< of rendering
 };

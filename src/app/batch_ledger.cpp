@@ -147,7 +147,11 @@ void LedgerHistory::take(const std::string& line) {
     for (const LedgerEventKind kind : kKinds) {
         if (text("event") != event_name(kind)) continue;
         const std::string error = text("error");
+        const auto code = json.find("exit_code");
+        const bool has_code = code != json.end() && code->is_number_integer();
         entries_[unit] = {.kind = kind,
+                          .host = text("host"),
+                          .exit_code = has_code ? std::optional(code->get<int>()) : std::nullopt,
                           .error = error.substr(0, error.find('\n')),
                           .is_final = !json.contains("again"),
                           .is_recent = !is_first_read_};

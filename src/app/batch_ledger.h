@@ -58,9 +58,11 @@ class LedgerHistory {
   public:
     struct Entry {
         LedgerEventKind kind = LedgerEventKind::UnitStarted;
-        std::string error{};     ///< if it failed; its first line
-        bool is_final = true;    ///< its process did not try again at once
-        bool is_recent = false;  ///< appended after the first `read_new`
+        std::string host{};              ///< of the batch process
+        std::optional<int> exit_code{};  ///< of the process that rendered it
+        std::string error{};             ///< if it failed; its first line
+        bool is_final = true;            ///< its process did not try again at once
+        bool is_recent = false;          ///< appended after the first `read_new`
     };
 
     explicit LedgerHistory(std::filesystem::path path) : path_(std::move(path)) {}

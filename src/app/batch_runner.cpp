@@ -2,6 +2,7 @@
 
 #include "app/batch_statistics.h"
 #include "app/checkpoint_files.h"
+#include "app/exit_code.h"
 #include "app/interrupt.h"
 #include "app/process_owner.h"
 #include "app/progress_display.h"
@@ -44,10 +45,15 @@ BatchUnit planned_unit(const PlannedUnit& planned, const fs::path& output) {
     return unit;
 }
 
-/// True if the attempt ended because the checkpoint that it was to go on with is of no use.
-bool was_refused(const Attempt& attempt, const AttemptOptions& how, bool had_checkpoint) {
-    return how.resume && had_checkpoint && attempt.exit_code && !attempt.has_rendered &&
-           (attempt.end == AttemptEnd::Failed || attempt.end == AttemptEnd::Invalid);
+/// True if the attempt ended because the checkpoint that it was to go on with is of no use: it is damaged, or of
+/// another render. What merely cannot be read, or used for want of memory, is worth another attempt.
+bool was_refused(const Attempt& attempt) {
+    return attempt.end == AttemptEnd::Invalid && attempt.phase == "resume";
+}
+
+/// True if what failed there is no better here: a disk that is full or a driver that crashes may be one machine's own.
+bool would_fail_here(const LedgerHistory::Entry& failure, const std::string& host) {
+    return failure.host == host || failure.exit_code == static_cast<int>(ExitCode::InvalidScene);
 }
 
 }  // namespace
@@ -82,7 +88,10 @@ void BatchRunner::run() {
     books_.append({.kind = LedgerEventKind::BatchStarted, .units = plan_.size()});
     std::vector<std::size_t> pending;
     for (std::size_t i = 0; i < plan_.size(); ++i)
-        if (plan_[i].is_stale()) pending.push_back(i);
+        if (plan_[i].is_stale())
+            pending.push_back(i);
+        else
+            remove_checkpoints(i);
     while (!pending.empty() && !interrupt_requested()) {
         std::vector<std::size_t> held;
         for (const std::size_t index : pending)
@@ -103,6 +112,21 @@ void BatchRunner::run() {
     tidy();
 }
 
+void BatchRunner::remove_checkpoints(std::size_t index) {
+    const PlannedUnit& planned = plan_[index];
+    const CheckpointFiles checkpoints(planned.task.job.output);
+    if (!checkpoints.exist()) return;
+    try {
+        const LockAttempt got = locks_.take(planned.task.id);
+        if (!got.lock) return;
+        PlannedUnit now = planned;
+        examine(now, options_, false, history_);
+        if (!now.is_stale()) checkpoints.remove();
+    } catch (const std::exception& error) {
+        log_warning("warning: the checkpoint of {} is left: {}", planned.task.job.name, error.what());
+    }
+}
+
 bool BatchRunner::work_on(std::size_t index) {
     BatchUnit& unit = report_.units[index];
     const PlannedUnit& planned = plan_[index];
@@ -120,9 +144,8 @@ bool BatchRunner::work_on(std::size_t index) {
             is_over = false;
         }
     } catch (const std::exception& error) {
-        const Attempt failure{.end = AttemptEnd::Failed, .error = error.what()};
-        end_record(index, failure, 0.0, false);
-        finish(index, failure, 0.0);
+        // Without the lock, the ledger is not told: what becomes of the image is its owner's to say.
+        finish(index, {.end = AttemptEnd::Failed, .error = error.what()}, 0.0);
     }
     if (is_over) {
         ++done_;
@@ -134,10 +157,15 @@ bool BatchRunner::work_on(std::size_t index) {
     return is_over;
 }
 
-bool BatchRunner::work_under(BatchLock& lock, std::size_t index) {
+bool BatchRunner::work_under(BatchLock& lock, std::size_t index) try {
     if (was_made_elsewhere(index, lock)) return true;
     fs::create_directories(plan_[index].task.job.output.parent_path());
     return make(index, lock);
+} catch (const std::exception& error) {
+    const Attempt failure{.end = AttemptEnd::Failed, .error = error.what()};
+    end_record(index, failure, 0.0, false);
+    finish(index, failure, 0.0);
+    return true;
 }
 
 bool BatchRunner::was_made_elsewhere(std::size_t index, const BatchLock& lock) {
@@ -153,7 +181,8 @@ bool BatchRunner::was_made_elsewhere(std::size_t index, const BatchLock& lock) {
         history_.read_new();
         const LedgerHistory::Entry* const last = history_.find(planned.task.id);
         const bool has_failed = last != nullptr && last->is_recent && last->is_final &&
-                                last->kind == LedgerEventKind::UnitFailed && !lock.dead_owner();
+                                last->kind == LedgerEventKind::UnitFailed && !lock.dead_owner() &&
+                                would_fail_here(*last, report_.host);
         if (has_failed)
             finish(index,
                    {.end = AttemptEnd::Failed, .error = fmt::format("another batch process failed: {}", last->error)},
@@ -164,7 +193,10 @@ bool BatchRunner::was_made_elsewhere(std::size_t index, const BatchLock& lock) {
     read_statistics(statistics, unit);
     time_left_.end(std::nullopt);
     // Its owner died between the last of the files and the ledger.
-    if (lock.dead_owner())
+    history_.read_new();
+    const LedgerHistory::Entry* const last = history_.find(planned.task.id);
+    const bool was_told = last != nullptr && last->kind == LedgerEventKind::UnitFinished;
+    if (lock.dead_owner() && !was_told)
         books_.append({.kind = LedgerEventKind::UnitFinished,
                        .unit = planned.task.id,
                        .scene = unit.scene,
@@ -187,12 +219,11 @@ bool BatchRunner::make(std::size_t index, BatchLock& lock) {
     while (true) {
         ++unit.attempts;
         begin_record(index, lock);
-        const bool had_checkpoint = CheckpointFiles(planned.task.job.output).exist();
         const Clock::time_point start = Clock::now();
         const Attempt result = attempt(index, how, lock);
         const double seconds = seconds_since(start);
         if (result.end == AttemptEnd::LockLost) return false;
-        const bool is_refused = was_refused(result, how, had_checkpoint);
+        const bool is_refused = was_refused(result);
         const bool again =
             !interrupt_requested() && (is_refused || (result.end == AttemptEnd::Failed && retries < options_.retries));
         end_record(index, result, seconds, again);

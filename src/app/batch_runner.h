@@ -35,6 +35,8 @@ class BatchRunner {
     [[nodiscard]] bool has_kept_books() const { return books_.are_kept(); }
 
   private:
+    /// Of an image that is up to date: a render that was killed after its image was complete has left them.
+    void remove_checkpoints(std::size_t index);
     /// False if another process has the image now.
     bool work_on(std::size_t index);
     /// Under its lock. False if the lock was lost.

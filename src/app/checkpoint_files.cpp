@@ -69,7 +69,7 @@ void CheckpointFiles::write(const RenderIdentity& identity, const std::string& d
 }
 
 std::optional<RenderState> CheckpointFiles::read(const Expected& expected, bool quiet) const {
-    std::optional<IoError> damage;
+    std::optional<DamagedCheckpoint> damage;
     for (const std::filesystem::path& path : {newest_, previous_}) {
         std::error_code error;
         if (!std::filesystem::exists(path, error)) continue;
@@ -83,13 +83,14 @@ std::optional<RenderState> CheckpointFiles::read(const Expected& expected, bool 
             // Else the damaged one would become the previous one, in place of this.
             if (damage) std::filesystem::rename(path, newest_);
             return take_state(std::move(kept), expected);
-        } catch (const IoError& broken) {
+        } catch (const DamagedCheckpoint& broken) {
             if (!quiet) log_warning("warning: {}", broken.what());
             damage = broken;
         }
     }
     if (damage)
-        throw IoError(fmt::format("{}; no other checkpoint is left: start anew without --resume", damage->what()));
+        throw SceneError({newest_.string(), {}},
+                         fmt::format("{}; no other checkpoint is left: start anew without --resume", damage->what()));
     return std::nullopt;
 }
 

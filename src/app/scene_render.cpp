@@ -156,6 +156,7 @@ class SceneRender {
     /// That of a checkpoint, or of a part that was rendered before.
     [[nodiscard]] std::optional<RenderState> kept_state() const {
         if (!request_.resume) return std::nullopt;
+        progress_pipe_.enter("resume");
         const CheckpointFiles::Expected expected{
             .identity = identity_,
             .window = options_.window,
@@ -171,6 +172,7 @@ class SceneRender {
     }
 
     [[nodiscard]] World compile() {
+        progress_pipe_.enter("build");
         const PhaseTimer timer;
         World world = compile_world(std::move(scene_), colors_, settings_.color.working_space, threads_, problems_);
         report_problems();

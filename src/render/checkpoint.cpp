@@ -90,7 +90,7 @@ class Reader {
     }
     [[nodiscard]] std::uint64_t left() const { return left_; }
     [[noreturn]] void fail() const {
-        throw IoError(fmt::format("{} is damaged, or no checkpoint of this program", path_.string()));
+        throw DamagedCheckpoint(fmt::format("{} is damaged, or no checkpoint of this program", path_.string()));
     }
 
   private:
@@ -187,6 +187,7 @@ std::uint64_t checked_size(const std::filesystem::path& path) {
     }
     ContentHash::Digest kept{};
     file.read(reinterpret_cast<char*>(kept.data()), kept.size());
+    if (file.bad()) throw IoError(fmt::format("cannot read {}", path.string()));
     if (!file || content == 0 || kept != hash.digest()) Reader(path, 0).fail();
     return content;
 }

@@ -6,6 +6,7 @@
 // before. 48 bytes a pixel, 72 with splats, twice that with every other pass.
 #pragma once
 
+#include "core/error.h"
 #include "render/progressive_render.h"
 
 #include <filesystem>
@@ -30,8 +31,14 @@ struct Checkpoint {
 void write_checkpoint(const std::filesystem::path& path, const RenderIdentity& identity, const std::string& description,
                       const RenderState& state);
 
-/// Throws IoError if the file cannot be read, or is damaged: it is never believed in part. Sizes that its bytes claim
-/// are checked before memory is taken for them.
+/// What a file holds is no checkpoint, or not a whole one: reading it again is of no use.
+class DamagedCheckpoint : public IoError {
+  public:
+    using IoError::IoError;
+};
+
+/// Throws IoError if the file cannot be read, DamagedCheckpoint if it is damaged: it is never believed in part. Sizes
+/// that its bytes claim are checked before memory is taken for them.
 [[nodiscard]] Checkpoint read_checkpoint(const std::filesystem::path& path);
 
 }  // namespace etendue

@@ -194,7 +194,7 @@ TEST_F(Continuation, FallsBackToThePreviousCheckpoint) {
     damage("a.checkpoint");
     damage("a.checkpoint.previous");
     const ProgramResult lost = run(once);
-    EXPECT_EQ(lost.exit_code, 1);
+    EXPECT_EQ(lost.exit_code, 3);
     EXPECT_NE(lost.err.find("no other checkpoint is left"), std::string::npos) << lost.err;
 }
 
