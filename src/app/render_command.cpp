@@ -145,9 +145,10 @@ void add_continuation_options(CLI::App& command, const std::shared_ptr<RenderArg
     command.add_flag("--probe", arguments->probe,
                      "Render for about a second, write no file, and print as JSON what the image would take");
     command
-        .add_option("--progress-fd", arguments->job.progress_descriptor,
-                    "Write progress as JSON lines to this open file descriptor, in place of the bar. For a program that "
-                    "looks after this one: a second Ctrl-C or SIGTERM is then as the first, only SIGKILL ends at once")
+        .add_option(
+            "--progress-fd", arguments->job.progress_descriptor,
+            "Write progress as JSON lines to this open file descriptor, in place of the bar. For a program that "
+            "looks after this one: a second Ctrl-C or SIGTERM is then as the first, only SIGKILL ends at once")
         ->check(CLI::Range(3, 1 << 20));
 }
 
