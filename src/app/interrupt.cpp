@@ -15,7 +15,7 @@ static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_alw
 extern "C" void on_signal(int number) {
     signal_number.store(number);
     requested.store(true);
-    std::signal(number, SIG_DFL);
+    for (const int either : {SIGINT, SIGTERM}) std::signal(either, SIG_DFL);
 }
 
 extern "C" void on_preview_signal(int) {
