@@ -1,7 +1,9 @@
 #include "app/checkpoint_files.h"
 
+#include "app/output_paths.h"
 #include "core/error.h"
 #include "core/log.h"
+#include "core/pixel_rect_text.h"
 #include "core/write_file.h"
 
 #include <string>
@@ -14,10 +16,6 @@ namespace etendue {
 
 namespace {
 
-std::string text_of(const PixelRect& rect) {
-    return fmt::format("{},{},{},{}", rect.x0, rect.y0, rect.x1, rect.y1);
-}
-
 /// `identity` and what else a render cannot go on with if it is different.
 RenderIdentity with_sampling(RenderIdentity identity, const PixelRect& window, const PixelRect& splat_window,
                              std::uint32_t first_sample) {
@@ -27,32 +25,50 @@ RenderIdentity with_sampling(RenderIdentity identity, const PixelRect& window, c
     return identity;
 }
 
-std::string difference_from(const Checkpoint& kept, const CheckpointFiles::Expected& expected) {
-    const Film& film = kept.state.film;
-    RenderIdentity is = with_sampling(kept.identity, film.window(), film.splat_window(), kept.state.first_sample);
-    RenderIdentity wanted =
-        with_sampling(expected.identity, expected.window, expected.splat_window, expected.first_sample);
-    if (expected.every_other_pass) {
-        wanted["what --error needs"] = "kept";
-        is["what --error needs"] = kept.state.every_other_pass ? "kept" : "not kept";
-    }
-    return difference(is, wanted);
+/// Throws SceneError if `kept`, which stands in `path`, is not of what is expected. `what` it is, and how to do
+/// `without` it.
+void require_expected(const Checkpoint& kept, const CheckpointFiles::Expected& expected,
+                      const std::filesystem::path& path, const char* what, const char* without) {
+    const auto refuse = [&](const std::string& why) { throw SceneError({path.string(), {}}, why); };
+    const RenderState& state = kept.state;
+    const std::string differences =
+        difference(with_sampling(kept.identity, state.film.window(), state.film.splat_window(), state.first_sample),
+                   with_sampling(expected.identity, expected.window, expected.splat_window, expected.first_sample));
+    if (!differences.empty())
+        refuse(fmt::format("the {} is of another render; {}, or mend what differs:\n{}", what, without, differences));
+    const std::uint64_t spp = std::uint64_t{state.spp_done} + state.pass_size;
+    if (expected.most_spp && spp > *expected.most_spp)
+        refuse(fmt::format("the {} has {} samples of each pixel, and no more than {} are asked for; {}", what, spp,
+                           *expected.most_spp, without));
+    if (expected.every_other_pass && !state.every_other_pass)
+        refuse(fmt::format("the {} was begun without --error and without layers for denoising, and does not hold what they need; leave them out, or {}",
+                           what, without));
 }
 
-/// The state, without what is not needed.
-RenderState take_state(Checkpoint&& kept, const CheckpointFiles::Expected& expected) {
-    if (!expected.every_other_pass) {
-        kept.state.every_other_pass.reset();
-        kept.state.every_other_spp = 0;
-    }
-    return std::move(kept.state);
+/// Drops what is not needed.
+void simplify(RenderState& state, const CheckpointFiles::Expected& expected) {
+    if (expected.every_other_pass) return;
+    state.every_other_pass.reset();
+    state.every_other_spp = 0;
+}
+
+/// Throws IoError.
+void rename_file(const std::filesystem::path& from, const std::filesystem::path& to) {
+    std::error_code error;
+    std::filesystem::rename(from, to, error);
+    if (error) throw IoError(fmt::format("cannot rename {} to {}: {}", from.string(), to.string(), error.message()));
 }
 
 }  // namespace
 
-CheckpointFiles::CheckpointFiles(const std::filesystem::path& exr) : newest_(exr), previous_(exr) {
-    newest_.replace_extension(".checkpoint");
-    previous_.replace_extension(".checkpoint.previous");
+CheckpointFiles::CheckpointFiles(const std::filesystem::path& output) : newest_(output) {
+    // A part and an image may have one name but for the extension, and be rendered at once.
+    if (is_partial(output))
+        newest_ += ".checkpoint";
+    else
+        newest_.replace_extension(".checkpoint");
+    previous_ = newest_;
+    previous_ += ".previous";
 }
 
 void CheckpointFiles::write(const RenderIdentity& identity, const std::string& description,
@@ -63,30 +79,29 @@ void CheckpointFiles::write(const RenderIdentity& identity, const std::string& d
         std::filesystem::remove(previous_, error);
         std::filesystem::create_hard_link(newest_, previous_, error);
         // Where there are no links, the newest is renamed: the previous one is then the only one for a moment.
-        if (error) std::filesystem::rename(newest_, previous_);
+        if (error) rename_file(newest_, previous_);
     }
     write_checkpoint(newest_, identity, description, state);
 }
 
-std::optional<RenderState> CheckpointFiles::read(const Expected& expected, bool quiet) const {
+std::optional<Checkpoint> CheckpointFiles::read(const Expected& expected, bool quiet) const {
     std::optional<DamagedCheckpoint> damage;
     for (const std::filesystem::path& path : {newest_, previous_}) {
         std::error_code error;
         if (!std::filesystem::exists(path, error)) continue;
+        std::optional<Checkpoint> kept;
         try {
-            Checkpoint kept = read_checkpoint(path);
-            if (const std::string differences = difference_from(kept, expected); !differences.empty())
-                throw SceneError({path.string(), {}},
-                                 fmt::format("the checkpoint is of another render; start anew without --resume, or "
-                                             "mend what differs:\n{}",
-                                             differences));
-            // Else the damaged one would become the previous one, in place of this.
-            if (damage) std::filesystem::rename(path, newest_);
-            return take_state(std::move(kept), expected);
+            kept = read_checkpoint(path);
         } catch (const DamagedCheckpoint& broken) {
             if (!quiet) log_warning("warning: {}", broken.what());
             damage = broken;
+            continue;
         }
+        require_expected(*kept, expected, path, "checkpoint", "start anew without --resume");
+        // Else the damaged one would become the previous one, in place of this.
+        if (damage) rename_file(path, newest_);
+        simplify(kept->state, expected);
+        return kept;
     }
     if (damage)
         throw SceneError({newest_.string(), {}},
@@ -107,17 +122,20 @@ void CheckpointFiles::remove() const {
     remove_abandoned_files_of(newest_);
 }
 
-std::optional<RenderState> read_if_expected(const std::filesystem::path& file,
-                                            const CheckpointFiles::Expected& expected) {
+std::optional<Checkpoint> read_part(const std::filesystem::path& file, const CheckpointFiles::Expected& expected,
+                                    bool quiet) {
     std::error_code error;
     if (!std::filesystem::exists(file, error)) return std::nullopt;
+    std::optional<Checkpoint> kept;
     try {
-        Checkpoint kept = read_checkpoint(file);
-        if (!difference_from(kept, expected).empty()) return std::nullopt;
-        return take_state(std::move(kept), expected);
-    } catch (const IoError&) {
-        return std::nullopt;  // it will be written anew
+        kept = read_checkpoint(file);
+    } catch (const IoError& broken) {
+        if (!quiet) log_warning("warning: {}; it is rendered again", broken.what());
+        return std::nullopt;
     }
+    require_expected(*kept, expected, file, "part", "write to another file, or replace it with --force");
+    simplify(kept->state, expected);
+    return kept;
 }
 
 }  // namespace etendue

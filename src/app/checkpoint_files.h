@@ -13,8 +13,9 @@ namespace etendue {
 
 class CheckpointFiles {
   public:
-    /// Those of the image `exr`: NAME.checkpoint, and NAME.checkpoint.previous in case it is damaged.
-    explicit CheckpointFiles(const std::filesystem::path& exr);
+    /// Those of the image NAME.exr: NAME.checkpoint, and NAME.checkpoint.previous in case it is damaged. Those of the
+    /// part NAME.partial begin with all of its name: NAME.partial.checkpoint.
+    explicit CheckpointFiles(const std::filesystem::path& output);
 
     /// What is to be gone on with.
     struct Expected {
@@ -22,18 +23,18 @@ class CheckpointFiles {
         PixelRect window;
         PixelRect splat_window;
         std::uint32_t first_sample = 0;
-        bool every_other_pass = false;  ///< it must be kept; otherwise it is dropped
+        bool every_other_pass = false;            ///< it must be kept; otherwise it is dropped
+        std::optional<std::uint32_t> most_spp{};  ///< that it may have, with those of a pass that was stopped
     };
 
     /// Writes a new one; what was the newest becomes the previous one. At every moment one of the two is whole. Throws
     /// IoError.
     void write(const RenderIdentity& identity, const std::string& description, const RenderState& state) const;
 
-    /// The state of the newest that is whole; none if there is no file. Warns of damaged ones, unless `quiet`, and
-    /// replaces the newest by the previous one if only that is whole. Throws
-    /// IoError if all are damaged, SceneError with every difference if the checkpoint is of another render than what is
-    /// expected.
-    [[nodiscard]] std::optional<RenderState> read(const Expected& expected, bool quiet) const;
+    /// The newest that is whole; none if there is no file. Warns of damaged ones, unless `quiet`, and replaces the
+    /// newest by the previous one if only that is whole. Throws IoError if all are damaged or that cannot be done,
+    /// SceneError with every difference if the checkpoint is of another render than what is expected.
+    [[nodiscard]] std::optional<Checkpoint> read(const Expected& expected, bool quiet) const;
 
     /// True if there is one.
     [[nodiscard]] bool exist() const;
@@ -45,8 +46,9 @@ class CheckpointFiles {
     std::filesystem::path previous_;
 };
 
-/// The state in `file`, if that is there, whole, and of what is expected.
-[[nodiscard]] std::optional<RenderState> read_if_expected(const std::filesystem::path& file,
-                                                          const CheckpointFiles::Expected& expected);
+/// The part in `file`; none if there is none, or, with a warning unless `quiet`, if it is damaged. Throws SceneError
+/// with every difference if it is of another render than what is expected: it took somebody's time.
+[[nodiscard]] std::optional<Checkpoint> read_part(const std::filesystem::path& file,
+                                                  const CheckpointFiles::Expected& expected, bool quiet);
 
 }  // namespace etendue

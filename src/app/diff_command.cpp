@@ -4,6 +4,7 @@
 #include "app/image_pair.h"
 #include "app/settings_overrides.h"
 #include "core/log.h"
+#include "core/pixel_rect_text.h"
 #include "image/write.h"
 #include "metrics/color_map.h"
 #include "metrics/error_metrics.h"
@@ -130,10 +131,6 @@ std::vector<std::string> chosen_measures(const DiffArguments& arguments, bool is
     return chosen;
 }
 
-std::string window_text(const PixelRect& r) {
-    return fmt::format("{},{},{},{}", r.x0, r.y0, r.x1, r.y1);
-}
-
 std::string size_text(const PixelRect& r) {
     return fmt::format("{}x{}", r.width(), r.height());
 }
@@ -183,7 +180,7 @@ MapWritten write_map(const MeasuredPair& pair, const Measure& measure, const Dif
 std::string describe(const ComparedFile& file) {
     return fmt::format("{}: {}, {}, {} channels, {}{}", file.path.string(), size_text(file.display), file.format,
                        file.channels, file.color_space.empty() ? "colour space not said" : file.color_space,
-                       file.data == file.display ? "" : fmt::format(", pixels {}", window_text(file.data)));
+                       file.data == file.display ? "" : fmt::format(", pixels {}", text_of(file.data)));
 }
 
 void print_report(const MeasuredPair& pair, const DiffArguments& arguments, const DiffResult& result) {
@@ -269,7 +266,7 @@ void log_faults(const ComparedFile& file, const NotFinite& faults) {
     std::string places;
     for (const Vec2i& place : faults.first) places += fmt::format(" ({}, {})", place.x, place.y);
     log_error("error: {}: {} pixels with NaN and {} with infinity, within {}:{}{}", file.path.string(), faults.nan,
-              faults.infinite, window_text(faults.bounds), places, faults.count() > faults.first.size() ? " …" : "");
+              faults.infinite, text_of(faults.bounds), places, faults.count() > faults.first.size() ? " …" : "");
 }
 
 // ---- The command.
@@ -283,8 +280,8 @@ bool can_measure(const ImagePair& pair, const std::vector<std::string>& names, c
     }
     const auto& region = arguments.options.region;
     if (region && intersection(*region, pair.window) != *region) {
-        log_error("error: --region {} is not inside {}, the pixels that both images have", window_text(*region),
-                  window_text(pair.window));
+        log_error("error: --region {} is not inside {}, the pixels that both images have", text_of(*region),
+                  text_of(pair.window));
         return false;
     }
     return true;

@@ -1,6 +1,7 @@
 #include "app/image_job.h"
 
 #include "app/checkpoint_files.h"
+#include "app/output_paths.h"
 #include "app/up_to_date.h"
 
 #include <algorithm>
@@ -70,6 +71,7 @@ ImageResult run_job(const ImageJob& job, const ImageJobOptions& options, const T
                                .samples = options.samples,
                                .checkpoint_minutes = options.checkpoint_minutes,
                                .resume = options.resume,
+                               .force = options.force,
                                .progress_descriptor = options.progress_descriptor,
                                .quiet = options.quiet,
                                .title = options.title};

@@ -16,7 +16,8 @@ static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_alw
 extern "C" void on_signal(int number) {
     signal_number.store(number);
     requested.store(true);
-    if (second_ends.load()) std::signal(number, SIG_DFL);
+    if (!second_ends.load()) return;
+    for (const int either : {SIGINT, SIGTERM}) std::signal(either, SIG_DFL);
 }
 
 extern "C" void on_preview_signal(int) {

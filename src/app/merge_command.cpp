@@ -6,12 +6,14 @@
 #include "app/merge_parts.h"
 #include "app/output_paths.h"
 #include "app/phase_timer.h"
-#include "app/scene_render.h"
 #include "app/usage_error.h"
 #include "color/color_config.h"
 #include "core/error.h"
 #include "core/log.h"
+#include "core/pixel_rect_text.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -33,6 +35,25 @@ struct MergeArguments {
     bool json = false;
 };
 
+/// True if the image is all that was asked for when its parts were rendered. Parts of one window may have been meant to
+/// be a crop; other ones are tiles of the whole image.
+bool is_whole(const MergedParts& merged, std::uint32_t spp_requested) {
+    const RenderState& state = merged.sum.state;
+    const PixelRect all{0, 0, state.film.full_width(), state.film.full_height()};
+    return state.spp_done >= spp_requested && (merged.has_one_window || state.film.window() == all);
+}
+
+/// What is missing at the ends; gaps have been noted before.
+void note_missing(const MergedParts& merged, std::uint32_t spp_requested) {
+    const RenderState& state = merged.sum.state;
+    const std::uint32_t end = state.first_sample + merged.spp_span;
+    if (state.first_sample > 0) log_warning("note: no part has samples 0 to {}", state.first_sample - 1);
+    if (end < spp_requested) log_warning("note: no part has samples {} to {}", end, spp_requested - 1);
+    const PixelRect all{0, 0, state.film.full_width(), state.film.full_height()};
+    if (!merged.has_one_window && state.film.window() != all)
+        log_warning("note: the parts have the pixels {} of {}", text_of(state.film.window()), text_of(all));
+}
+
 ExitCode run_merge(const MergeArguments& arguments) {
     const std::filesystem::path output = arguments.output;
     if (!is_partial(output) && output.extension() != ".exr")
@@ -42,31 +63,33 @@ ExitCode run_merge(const MergeArguments& arguments) {
     require_writable(output);
     const PhaseTimer timer;
     const std::vector<std::filesystem::path> parts(arguments.parts.begin(), arguments.parts.end());
-    const Checkpoint merged = merge_parts(parts, [&](const std::string& note) {
+    const MergedParts merged = merge_parts(parts, [&](const std::string& note) {
         // A part says where its samples begin and how many there are, and no more.
         if (is_partial(output)) throw SceneError({output.string(), {}}, note + "; such parts can become an image only");
         if (!arguments.quiet) log_warning("note: {}", note);
     });
-    ImageDescription image = parse_description(merged.description, arguments.parts.front());
+    const RenderState& state = merged.sum.state;
+    ImageDescription image = parse_description(merged.sum.description, arguments.parts.front());
     image.statistics.load = timer.elapsed();
+    const auto spp_requested = static_cast<std::uint32_t>(std::max(image.statistics.spp_requested, 0));
+    const bool complete = is_whole(merged, spp_requested);
+    // That of the first part, which is of the settings for its own window.
+    if (!merged.has_one_window) image.statistics.settings_hash.clear();
+    describe_state(image, state, complete, "merged");
     if (is_partial(output)) {
-        write_checkpoint(output, merged.identity, merged.description, merged.state);
+        write_checkpoint(output, merged.sum.identity, merged.sum.description, state);
     } else {
+        if (!arguments.quiet) note_missing(merged, spp_requested);
         require_writable(paths.png);
         require_writable(paths.json);
-        const ColorConfig colors = ColorConfig::from_environment();
-        describe_state(image, merged.state, true, "merged");
         image.statistics.libraries = library_versions();
-        write_image_files(paths, image, colors, arguments.depth);
+        write_image_files(paths, image, ColorConfig::from_environment(), arguments.depth);
     }
-    const PixelRect& window = merged.state.film.window();
+    const PixelRect& window = state.film.window();
     if (!arguments.quiet)
-        log_info("{}: {} parts, {}x{}, {} spp", output.string(), arguments.parts.size(), window.width(),
-                 window.height(), merged.state.spp_done);
-    if (arguments.json) {
-        describe_state(image, merged.state, true, "merged");
-        std::fputs(to_json(image.statistics).c_str(), stdout);
-    }
+        log_info("{}: {} parts, {}x{}, {} spp{}", output.string(), arguments.parts.size(), window.width(),
+                 window.height(), state.spp_done, complete || is_partial(output) ? "" : ", incomplete");
+    if (arguments.json) std::fputs(to_json(image.statistics).c_str(), stdout);
     return ExitCode::Success;
 }
 
@@ -95,7 +118,8 @@ void add_merge_command(CLI::App& app, Action& action) {
         "all\n"
         "of the same scene, settings and version, which is checked, as is that no sample is there twice and no pixel "
         "has\n"
-        "fewer than the others. The image is that of a single render but for the order in which sums were added "
+        "fewer than the others. If samples or pixels are missing, the image is marked incomplete. The image is that of "
+        "a single render but for the order in which sums were added "
         "(1e-6).\n"
         "The memory it takes is that of two parts and the image: 48 bytes a pixel, 72 with light subpaths.\n\n"
         "Examples:\n"

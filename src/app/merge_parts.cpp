@@ -1,6 +1,7 @@
 #include "app/merge_parts.h"
 
 #include "core/error.h"
+#include "core/pixel_rect_text.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -36,10 +37,6 @@ struct WindowOrder {
     }
 };
 using Ranges = std::map<PixelRect, std::vector<Range>, WindowOrder>;
-
-std::string text_of(const PixelRect& w) {
-    return fmt::format("{},{},{},{}", w.x0, w.y0, w.x1, w.y1);
-}
 
 /// Samples per pixel of one window. Throws SceneError if ranges overlap.
 std::uint32_t count_samples(std::vector<Range>& ranges, const std::function<void(const std::string&)>& note) {
@@ -125,7 +122,8 @@ class Parts {
             identity_ = part.identity;
             splat_window_ = part.state.film.splat_window();
         }
-        const std::string different = difference(part.identity, identity_);
+        const std::string different =
+            difference(part.identity, identity_, "in " + file.filename().string(), "in " + first_.filename().string());
         if (!different.empty())
             fail(file, fmt::format("is part of another render than {}:\n{}", first_.string(), different));
         if (part.state.film.splat_window() != splat_window_)
@@ -149,8 +147,8 @@ void add(RenderState& sum, const RenderState& part) {
 
 }  // namespace
 
-Checkpoint merge_parts(std::span<const std::filesystem::path> files,
-                       const std::function<void(const std::string&)>& note) {
+MergedParts merge_parts(std::span<const std::filesystem::path> files,
+                        const std::function<void(const std::string&)>& note) {
     // Twice, so that nothing is added before all is known to fit, and no more than one part is in memory.
     Parts parts(files.front());
     Ranges ranges;
@@ -158,6 +156,9 @@ Checkpoint merge_parts(std::span<const std::filesystem::path> files,
         const RenderState state = parts.read(file).state;
         ranges[state.film.window()].push_back({state.first_sample, state.next_sample(), file});
     }
+    std::uint32_t end = 0;
+    for (const auto& [ignored, of_window] : ranges)
+        for (const Range& range : of_window) end = std::max(end, range.end);
     const PixelRect bounds = bounds_of(ranges);
     check_tiling(ranges, bounds);
     const std::uint32_t spp = common_samples(ranges, note);
@@ -174,7 +175,8 @@ Checkpoint merge_parts(std::span<const std::filesystem::path> files,
         }
         add(merged->state, part.state);
     }
-    return std::move(*merged);
+    const std::uint32_t span = end - merged->state.first_sample;
+    return {std::move(*merged), span, ranges.size() == 1};
 }
 
 }  // namespace etendue

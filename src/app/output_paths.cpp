@@ -14,6 +14,10 @@ OutputPaths OutputPaths::beside(const std::filesystem::path& exr) {
     return paths;
 }
 
+bool is_partial(const std::filesystem::path& output) {
+    return output.extension() == ".partial";
+}
+
 void require_writable(const std::filesystem::path& file) {
     const std::filesystem::path parent = file.parent_path();
     const std::filesystem::path directory = parent.empty() ? "." : parent;

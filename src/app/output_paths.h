@@ -13,6 +13,9 @@ struct OutputPaths {
     [[nodiscard]] static OutputPaths beside(const std::filesystem::path& exr);
 };
 
+/// True for the name of a part: it ends in .partial.
+[[nodiscard]] bool is_partial(const std::filesystem::path& output);
+
 /// Throws IoError if `file` cannot be written later: better found before hours of rendering than after.
 void require_writable(const std::filesystem::path& file);
 

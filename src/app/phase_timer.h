@@ -11,9 +11,7 @@ namespace etendue {
 /// Measures one phase on the clock and on the processors.
 class PhaseTimer {
   public:
-    [[nodiscard]] PhaseTime elapsed() const {
-        return {std::chrono::duration<double>(Clock::now() - wall_).count(), process_cpu_seconds() - cpu_};
-    }
+    [[nodiscard]] PhaseTime elapsed() const { return {seconds_since(wall_), process_cpu_seconds() - cpu_}; }
 
   private:
     using Clock = std::chrono::steady_clock;

@@ -10,8 +10,8 @@ namespace etendue {
 class ProgressPipe {
   public:
     /// Writes to the open `descriptor`; nothing if that is negative. A reader that is gone or slow is no reason to
-    /// stop: what cannot be written at once is left out.
-    explicit ProgressPipe(int descriptor) : descriptor_(descriptor) {}
+    /// stop: what cannot be written at once is left out, and SIGPIPE is ignored from now on.
+    explicit ProgressPipe(int descriptor);
 
     /// {"phase": "render", "fraction": 0 to 1, "seconds": of rendering, "samples": n, "rays": n}
     void update(const RenderProgress& progress) const;

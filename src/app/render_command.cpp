@@ -2,11 +2,13 @@
 #include "app/commands.h"
 #include "app/image_job.h"
 #include "app/interrupt.h"
+#include "app/output_paths.h"
 #include "app/probe.h"
 #include "app/progress_display.h"
 #include "app/scene_render.h"
 #include "app/usage_error.h"
 #include "core/log.h"
+#include "loader/files.h"
 
 #include <algorithm>
 #include <charconv>
@@ -50,6 +52,13 @@ std::filesystem::path default_output(const RenderArguments& arguments, const std
     return samples ? fmt::format("{}.{}-{}.partial", name, samples->begin, samples->end) : name + ".exr";
 }
 
+/// Of the only image: those of what was rendered before if it is up to date.
+std::string statistics_of(const ImageResult& result) {
+    if (result.outcome != ImageOutcome::UpToDate || is_partial(result.job.output)) return to_json(result.statistics);
+    const std::vector<unsigned char> bytes = read_bytes(OutputPaths::beside(result.job.output).json, kMaxJsonBytes);
+    return {bytes.begin(), bytes.end()};
+}
+
 /// One image is rendered whether or not it is up to date, unless it is gone on with. Of a sequence, what an earlier run
 /// has finished is left as it is.
 ExitCode render_jobs(const RenderArguments& arguments, const std::vector<ImageJob>& jobs) {
@@ -69,8 +78,9 @@ ExitCode render_jobs(const RenderArguments& arguments, const std::vector<ImageJo
         // Statistics of many frames are kept only for those who want them.
         if (arguments.json) results.push_back(std::move(result));
     }
-    if (arguments.json)
-        std::fputs((is_sequence ? to_json(results) : to_json(results.front().statistics)).c_str(), stdout);
+    // An interrupt may have come before the first.
+    if (arguments.json && (is_sequence || !results.empty()))
+        std::fputs((is_sequence ? to_json(results) : statistics_of(results.front())).c_str(), stdout);
     return interrupt_requested() ? interrupt_exit_code() : ExitCode::Success;
 }
 
@@ -82,7 +92,9 @@ ExitCode run_render(const RenderArguments& arguments) {
         throw SceneError({"--strategies-image", {}},
                          "it shows one image, and this is a sequence of frames: name the moment with --time-code");
     if (arguments.probe) {
-        const std::string answer = probe(jobs.front(), arguments.job.overrides, ThreadPool(arguments.threads));
+        SettingsOverrides overrides = arguments.job.overrides;
+        if (const auto& range = arguments.job.samples) overrides.spp = static_cast<int>(range->end - range->begin);
+        const std::string answer = probe(jobs.front(), overrides, ThreadPool(arguments.threads));
         // What was cut short says nothing about the image.
         if (interrupt_requested()) return interrupt_exit_code();
         std::fputs(answer.c_str(), stdout);
@@ -137,7 +149,7 @@ void add_continuation_options(CLI::App& command, const std::shared_ptr<RenderArg
         ->check(real_range(0.0, 1e6));
     command.add_flag(
         "--resume", arguments->job.resume,
-        "Go on with the checkpoint, if there is one, to the same image bit for bit; leave an image that is "
+        "Go on with the checkpoint, if there is one, to the same image bit for bit; leave an image or a part that is "
         "up to date");
     command.add_option_function<std::string>(
         "--samples", [arguments](const std::string& text) { arguments->job.samples = parse_sample_range(text); },
@@ -181,7 +193,10 @@ void add_render_command(CLI::App& app, Action& action) {
             "--strategies-unweighted", [arguments] { arguments->job.strategies.weighted = false; },
             "Show each as if it were the only one")
         ->needs(strategies);
-    command->add_flag("--force", arguments->force, "Of a sequence or with --resume, render again what is up to date");
+    command->add_flag(
+        "--force", arguments->force,
+        "Of a sequence or with --resume, render again what is up to date, and replace a part whatever it is; a "
+        "checkpoint is gone on with all the same");
     command->add_flag("--quiet", arguments->job.quiet, "No progress, notes or warnings; errors only");
     command->add_flag("--json", arguments->json, "Print the statistics as JSON on stdout; of a sequence, an array");
     command->footer(

@@ -2,11 +2,14 @@
 
 #include "core/content_hash.h"
 #include "output/software_name.h"
+#include "world/compile.h"
 
 #include <array>
 #include <cstddef>
+#include <filesystem>
 #include <span>
 #include <sstream>
+#include <string>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -32,6 +35,15 @@ bool is_setting(std::string_view line) {
     return false;
 }
 
+/// The same wherever the scene's directory lies and however it is named: the path from there, or the name alone of what
+/// lies elsewhere.
+std::string name_of(const std::filesystem::path& input, const std::filesystem::path& directory) {
+    const auto base = std::filesystem::weakly_canonical(directory.empty() ? "." : directory);
+    const std::filesystem::path path = std::filesystem::weakly_canonical(input).lexically_relative(base);
+    const bool is_inside = !path.empty() && *path.begin() != "..";
+    return (is_inside ? path : input.filename()).generic_string();
+}
+
 }  // namespace
 
 RenderIdentity render_identity(const SceneDesc& scene, const std::string& working_space) {
@@ -40,8 +52,14 @@ RenderIdentity render_identity(const SceneDesc& scene, const std::string& workin
     identity["working space"] = working_space;
     identity["seed"] = fmt::format("{}", scene.settings.seed);
     identity["sampler"] = scene.settings.sampler == SamplerType::Random ? "random" : "sobol";
-    for (const std::filesystem::path& input : scene.inputs)
-        identity["content of " + input.string()] = hex(hash_file(input));
+    identity["textures"] = holds_textures_in_memory(scene) ? "in memory" : "in a cache (--texture-memory)";
+    for (const std::filesystem::path& input : scene.inputs) {
+        const std::string name = "content of " + name_of(input, scene.directory);
+        // Files outside of the scene's directory may have one name.
+        std::string unique = name;
+        for (int i = 2; identity.contains(unique); ++i) unique = fmt::format("{} ({})", name, i);
+        identity[unique] = hex(hash_file(input));
+    }
     std::istringstream lines(dump(scene));
     ContentHash rest;
     for (std::string line; std::getline(lines, line);) {

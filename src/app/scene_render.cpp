@@ -44,14 +44,6 @@ void fill_texture_statistics(const World& world, RenderStatistics& s) {
                   from.first_texture_failure);
 }
 
-}  // namespace
-
-bool is_partial(const std::filesystem::path& output) {
-    return output.extension() == ".partial";
-}
-
-namespace {
-
 /// One render, step by step.
 class SceneRender {
   public:
@@ -80,19 +72,22 @@ class SceneRender {
     }
 
     SceneRenderResult run() {
-        std::optional<RenderState> state = kept_state();
-        if (state && is_partial(output_) && state->pass_size == 0 && state->spp_done == options_.spp)
-            return {{}, output_, false, true};
+        std::optional<Checkpoint> kept = read_kept();
+        if (kept && is_partial(output_) && kept->state.pass_size == 0 && kept->state.spp_done == options_.spp)
+            return finished_part(*kept);
+        if (kept && !request_.quiet)
+            log_info("{}: going on after {} of {} samples per pixel", output_.string(), kept->state.spp_done,
+                     options_.spp);
         const World world = compile();
-        const RenderResult rendered = render_from(world, state ? std::move(*state) : new_state());
+        const RenderResult rendered = render_from(world, kept ? std::move(kept->state) : new_state());
         report_dropped(rendered.counters, request_.scene, request_.overrides, settings_, settings_.color.working_space);
         fill_texture_statistics(world, description_.statistics);
         const bool interrupted = rendered.halt_reason == HaltReason::Interrupted;
         if (interrupted && rendered.counters.samples > 0) {
-            write_checkpoint(rendered);
+            const bool is_kept = write_checkpoint(rendered);
             if (!request_.quiet)
-                log_info("{}: stopped after {} of {} samples per pixel; --resume goes on from there", output_.string(),
-                         rendered.spp_done, options_.spp);
+                log_info("{}: stopped after {} of {} samples per pixel{}", output_.string(), rendered.spp_done,
+                         options_.spp, is_kept ? "; --resume goes on from there" : "");
         }
         // An earlier image is worth more than a black one.
         if (!interrupted || rendered.counters.samples > 0) write(world, rendered, !interrupted);
@@ -153,8 +148,8 @@ class SceneRender {
         return state;
     }
 
-    /// That of a checkpoint, or of a part that was rendered before.
-    [[nodiscard]] std::optional<RenderState> kept_state() const {
+    /// A checkpoint, or a part that was rendered before.
+    [[nodiscard]] std::optional<Checkpoint> read_kept() const {
         if (!request_.resume) return std::nullopt;
         progress_pipe_.enter("resume");
         const CheckpointFiles::Expected expected{
@@ -162,13 +157,20 @@ class SceneRender {
             .window = options_.window,
             .splat_window = options_.splat_window.empty() ? options_.window : options_.splat_window,
             .first_sample = first_sample(),
-            .every_other_pass = options_.relative_error > 0.0};
-        std::optional<RenderState> state;
-        if (is_partial(output_)) state = read_if_expected(output_, expected);
-        if (!state) state = checkpoints_.read(expected, request_.quiet);
-        if (state && !request_.quiet)
-            log_info("{}: going on after {} of {} samples per pixel", output_.string(), state->spp_done, options_.spp);
-        return state;
+            .every_other_pass = options_.relative_error > 0.0,
+            // An image may have more samples than are asked for, but parts must not overlap.
+            .most_spp = is_partial(output_) ? std::optional(options_.spp) : std::nullopt};
+        std::optional<Checkpoint> kept;
+        if (is_partial(output_) && !request_.force) kept = read_part(output_, expected, request_.quiet);
+        if (!kept) kept = checkpoints_.read(expected, request_.quiet);
+        return kept;
+    }
+
+    /// Of a part that needs nothing to be done.
+    [[nodiscard]] SceneRenderResult finished_part(const Checkpoint& kept) const {
+        ImageDescription description = parse_description(kept.description, output_);
+        describe_state(description, kept.state, true, halt_reason_name(HaltReason::SamplesDone));
+        return {std::move(description.statistics), output_, false, true};
     }
 
     [[nodiscard]] World compile() {
@@ -215,12 +217,14 @@ class SceneRender {
             pause, std::move(state));
     }
 
-    /// A disk that is full must not end a render: it may have room again by the end.
-    void write_checkpoint(const RenderState& state) const {
+    /// False if it could not be written. A disk that is full must not end a render: it may have room again by the end.
+    bool write_checkpoint(const RenderState& state) const {
         try {
             checkpoints_.write(identity_, to_text(description_), state);
+            return true;
         } catch (const IoError& error) {
             log_error("error: no checkpoint was written: {}", error.what());
+            return false;
         }
     }
 

@@ -23,14 +23,15 @@ struct SceneRenderRequest {
     SettingsOverrides overrides{};
     std::optional<SampleRange> samples{};  ///< of a part; without it, all
     double checkpoint_minutes = 0.0;       ///< between checkpoints; 0 for none but when interrupted
-    bool resume = false;                   ///< go on with the checkpoint, if there is one
-    int progress_descriptor = -1;          ///< of a pipe that progress is written to as JSON; -1 for a bar on stderr
+    bool resume = false;                   ///< go on with the checkpoint, if there is one, or with the part
+    bool force = false;            ///< render a part again that was rendered before; a checkpoint is gone on with
+    int progress_descriptor = -1;  ///< of a pipe that progress is written to as JSON; -1 for a bar on stderr
     bool quiet = false;
     std::string title{};  ///< before the progress bar
 };
 
 struct SceneRenderResult {
-    RenderStatistics statistics{};
+    RenderStatistics statistics{};  ///< of a part that was there, those of its own render
     std::filesystem::path output{};
     bool interrupted = false;
     bool was_there = false;  ///< the part had been rendered before
@@ -38,12 +39,9 @@ struct SceneRenderResult {
 
 /// Compiles, renders and writes. When it is interrupted, the checkpoint is written, too, and the image marked
 /// incomplete; checkpoints are removed once the image is complete. Notes and warnings go to stderr unless `quiet`.
-/// Throws SceneError for what is wrong with the scene or its settings, or for a checkpoint of another render, IoError
-/// when a file cannot be written.
+/// Throws SceneError for what is wrong with the scene or its settings, or for a checkpoint or part of another render,
+/// IoError when a file cannot be written.
 [[nodiscard]] SceneRenderResult render_scene(PreparedScene prepared, const SceneRenderRequest& request,
                                              const ThreadPool& threads);
-
-/// True for the name of a part: it ends in .partial.
-[[nodiscard]] bool is_partial(const std::filesystem::path& output);
 
 }  // namespace etendue

@@ -1,9 +1,16 @@
-// What this process has cost so far.
+// What this process has cost so far, and how long something has taken.
 #pragma once
+
+#include <chrono>
 
 namespace etendue {
 
 /// Seconds of processor time that this process has used, all threads together.
 [[nodiscard]] double process_cpu_seconds();
+
+/// Seconds that have passed since `start`.
+[[nodiscard]] inline double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
 
 }  // namespace etendue

@@ -79,14 +79,51 @@ bool is_name_of(const std::filesystem::path& path, int fd) {
            named.st_ino == opened.st_ino;
 }
 
-/// The open file if nobody else holds it, else -1. The kernel lets go of the files of the dead.
-int open_unowned(const std::filesystem::path& path, int flags) {
-    const int fd = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW | flags, 0666);
+/// After which a file is abandoned whose writer cannot be asked, since it may be on another machine or knows no locks.
+constexpr auto kOldAge = std::chrono::hours(1);
+
+/// False if there is no such file.
+bool is_old(const std::filesystem::path& path) {
+    std::error_code error;
+    const auto changed = std::filesystem::last_write_time(path, error);
+    return !error && std::filesystem::file_time_type::clock::now() - changed >= kOldAge;
+}
+
+enum class Lock { Taken, Held, Unknown };
+
+/// Unknown on file systems without locks.
+Lock take_lock(int fd) {
+    if (::flock(fd, LOCK_EX | LOCK_NB) == 0) return Lock::Taken;
+    return errno == EWOULDBLOCK ? Lock::Held : Lock::Unknown;
+}
+
+constexpr int kOpenFlags = O_WRONLY | O_CLOEXEC | O_NOFOLLOW;
+
+/// The open file if nobody else holds it, else -1. The kernel lets go of the files of the dead; where it knows no
+/// locks, only those are theirs that are old and `may_be_old`.
+int open_unowned(const std::filesystem::path& path, bool may_be_old) {
+    const int fd = ::open(path.c_str(), kOpenFlags);
     if (fd < 0) return -1;
-    // Where file systems know no locks, nobody holds any. Between opening and locking, its owner may have renamed it:
-    // then it is somebody's finished file.
-    const bool is_held = ::flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-    if (!is_held && is_name_of(path, fd)) return fd;
+    const Lock lock = take_lock(fd);
+    // Between opening and locking, its owner may have renamed it: then it is somebody's finished file.
+    const bool is_free = lock == Lock::Taken || (lock == Lock::Unknown && may_be_old && is_old(path));
+    if (is_free && is_name_of(path, fd)) return fd;
+    ::close(fd);
+    errno = EWOULDBLOCK;
+    return -1;
+}
+
+/// The same of a file that need not exist. It belongs to who has made it, with a lock or without.
+int create_unowned(const std::filesystem::path& path) {
+    const int fd = ::open(path.c_str(), kOpenFlags | O_CREAT | O_EXCL, 0666);
+    if (fd < 0 && errno == EEXIST) {
+        const int left = open_unowned(path, false);
+        // It has gone since: another name is as good.
+        if (left < 0 && errno == ENOENT) errno = EWOULDBLOCK;
+        return left;
+    }
+    // Somebody who looks for what is abandoned may have been faster with the lock.
+    if (fd < 0 || (take_lock(fd) != Lock::Held && is_name_of(path, fd))) return fd;
     ::close(fd);
     errno = EWOULDBLOCK;
     return -1;
@@ -95,7 +132,7 @@ int open_unowned(const std::filesystem::path& path, int flags) {
 /// Of one target at a time.
 constexpr int kMostWriters = 1000;
 
-/// Locked, empty and under a name beside `target`. Throws IoError.
+/// Nobody else's, and under a name beside `target`. Throws IoError.
 struct UnownedFile {
     std::filesystem::path path;
     int fd;
@@ -103,14 +140,14 @@ struct UnownedFile {
 UnownedFile create_temporary(const std::filesystem::path& target) {
     for (int attempt = 0; attempt < kMostWriters; ++attempt) {
         const std::filesystem::path path = temporary_path(target, attempt);
-        if (const int fd = open_unowned(path, O_CREAT); fd >= 0) return {path, fd};
+        if (const int fd = create_unowned(path); fd >= 0) return {path, fd};
         if (errno != EWOULDBLOCK) throw_errno(target, errno);
     }
     throw IoError(fmt::format("cannot write {}: too many others do", target.string()));
 }
 
 bool remove_unowned(const std::filesystem::path& path) {
-    const int fd = open_unowned(path, 0);
+    const int fd = open_unowned(path, true);
     if (fd < 0) return false;
     std::error_code ignored;
     const bool removed = std::filesystem::remove(path, ignored);
@@ -192,7 +229,6 @@ void remove_abandoned_files_of(const std::filesystem::path& path) {
 }
 
 std::size_t remove_abandoned_files(const std::filesystem::path& directory) {
-    constexpr auto kOldAge = std::chrono::hours(1);  // of what may be another machine's
     std::size_t removed = 0;
     std::error_code error;
     std::filesystem::recursive_directory_iterator entry(
@@ -201,8 +237,7 @@ std::size_t remove_abandoned_files(const std::filesystem::path& directory) {
         const std::string name = entry->path().filename().string();
         if (!name.starts_with('.') || !name.ends_with(kTemporaryEnd) || !entry->is_regular_file(error)) continue;
         const bool is_ours = name.find(fmt::format(".{}-", host_name())) != std::string::npos;
-        const auto age = std::filesystem::file_time_type::clock::now() - entry->last_write_time(error);
-        if (error || (!is_ours && age < kOldAge)) continue;
+        if (!is_ours && !is_old(entry->path())) continue;
         if (remove_unowned(entry->path())) ++removed;
     }
     return removed;

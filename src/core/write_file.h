@@ -19,14 +19,15 @@ using ByteSink = std::function<void(std::span<const std::byte>)>;
 /// reason; the temporary file is gone then, as it is when `produce` throws.
 ///
 /// It is `.NAME.HOST-N.etendue.tmp` beside NAME, and locked while it is written: what a killed writer left is known by
-/// that, and used again by the next writer of the same file.
+/// that, and used again by the next writer of the same file. On file systems without locks it is known by its age.
 void write_file(const std::filesystem::path& path, const std::function<void(const ByteSink&)>& produce);
 
 /// The same of bytes that are there already.
 void write_bytes(const std::filesystem::path& path, std::span<const std::byte> bytes);
 void write_text(const std::filesystem::path& path, const std::string& text);
 
-/// Removes what killed writers of `path` on this host have left, for when it will not be written again.
+/// Removes what killed writers of `path` on this host have left, for when it will not be written again. Without locks,
+/// only what is an hour old.
 void remove_abandoned_files_of(const std::filesystem::path& path);
 
 /// Removes the temporary files that killed writers have left in `directory` and below: those of this host that nobody

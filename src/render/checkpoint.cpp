@@ -192,9 +192,30 @@ std::uint64_t checked_size(const std::filesystem::path& path) {
     return content;
 }
 
+/// What no render leaves behind, so that nobody need expect it. Numbers and windows may be any: only the hash is known
+/// to be right, and whoever writes a file can make one.
+bool is_consistent(const RenderState& state) {
+    constexpr std::uint64_t kMostSamples = std::numeric_limits<std::uint32_t>::max();
+    const Film& film = state.film;
+    if (std::uint64_t{state.first_sample} + state.spp_done + state.pass_size > kMostSamples) return false;
+    if (intersection(film.window(), film.splat_window()) != film.window()) return false;
+    const std::size_t tiles = state.pass_size > 0 ? make_tiles(film.window()).size() : 0;
+    if (state.tiles_done.size() != tiles || std::ranges::any_of(state.tiles_done, [](auto done) { return done > 1; }))
+        return false;
+    const RenderCounters& counters = state.counters;
+    if (counters.first_dropped.size() > counters.dropped || (counters.dropped > 0 && counters.first_dropped.empty()))
+        return false;
+    if (!state.every_other_pass) return state.every_other_spp == 0;
+    const Film& other = *state.every_other_pass;
+    return state.every_other_spp <= state.spp_done && other.full_width() == film.full_width() &&
+           other.full_height() == film.full_height() && other.window() == film.window() &&
+           other.splat_window() == film.splat_window();
+}
+
 }  // namespace
 
-std::string difference(const RenderIdentity& kept, const RenderIdentity& wanted) {
+std::string difference(const RenderIdentity& kept, const RenderIdentity& wanted, const std::string& kept_place,
+                       const std::string& wanted_place) {
     std::string text;
     const auto value = [](const RenderIdentity& identity, const std::string& name) {
         const auto found = identity.find(name);
@@ -204,8 +225,8 @@ std::string difference(const RenderIdentity& kept, const RenderIdentity& wanted)
     names.insert(wanted.begin(), wanted.end());
     for (const auto& [name, ignored] : names)
         if (value(kept, name) != value(wanted, name))
-            text += fmt::format("{}{}: {} there, {} here", text.empty() ? "" : "\n", name, value(kept, name),
-                                value(wanted, name));
+            text += fmt::format("{}{}: {} {}, {} {}", text.empty() ? "" : "\n", name, value(kept, name), kept_place,
+                                value(wanted, name), wanted_place);
     return text;
 }
 
@@ -260,8 +281,7 @@ Checkpoint read_checkpoint(const std::filesystem::path& path) {
                       .cpu_seconds = cpu_seconds,
                       .every_other_spp = every_other_spp};
     if (in.get<std::uint64_t>() != 0) state.every_other_pass = get_film(in);
-    const std::size_t tiles = pass_size > 0 ? make_tiles(state.film.window()).size() : 0;
-    if (in.left() != 0 || state.tiles_done.size() != tiles) in.fail();
+    if (in.left() != 0 || !is_consistent(state)) in.fail();
     return {std::move(identity), std::move(description), std::move(state)};
 }
 

@@ -18,8 +18,10 @@ namespace etendue {
 /// All that the sums of a render depend on, by name: those of two renders can be told apart, and the difference named.
 using RenderIdentity = std::map<std::string, std::string>;
 
-/// What differs between `kept` and `wanted`, a line for each name; empty if nothing does.
-[[nodiscard]] std::string difference(const RenderIdentity& kept, const RenderIdentity& wanted);
+/// What differs between `kept` and `wanted`, a line for each name with the value that either has and where; empty if
+/// nothing does.
+[[nodiscard]] std::string difference(const RenderIdentity& kept, const RenderIdentity& wanted,
+                                     const std::string& kept_place = "there", const std::string& wanted_place = "here");
 
 struct Checkpoint {
     RenderIdentity identity;
@@ -38,7 +40,7 @@ class DamagedCheckpoint : public IoError {
 };
 
 /// Throws IoError if the file cannot be read, DamagedCheckpoint if it is damaged: it is never believed in part. Sizes
-/// that its bytes claim are checked before memory is taken for them.
+/// that its bytes claim are checked before memory is taken for them, and that windows, counts and tiles belong together.
 [[nodiscard]] Checkpoint read_checkpoint(const std::filesystem::path& path);
 
 }  // namespace etendue

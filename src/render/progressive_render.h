@@ -67,10 +67,11 @@ class ProgressiveRender {
     ProgressiveRender(const World& world, const Integrator& integrator, const SamplingOptions& options,
                       const ThreadPool& threads, RenderState state);
 
-    /// Takes the next `count` > 0 samples of every pixel. The image is bit-identical for every thread count and tile
-    /// order, and however often it is stopped. `stop` is looked at before every tile, or every group of them if the
-    /// integrator makes splats: when it becomes true, those under way are finished and false is returned; some pixels
-    /// have their samples then, and the next call takes those that are missing, whatever its `count`.
+    /// Takes the next `count` samples of every pixel, > 0 unless a pass was stopped. The image is bit-identical for
+    /// every thread count and tile order, and however often it is stopped. `stop` is looked at before every tile, or
+    /// every group of them if the integrator makes splats: when it becomes true, those under way are finished and false
+    /// is returned; some pixels have their samples then, and the next call takes those that are missing, whatever its
+    /// `count`.
     bool add_samples(std::uint32_t count, const StopPredicate& stop, const TileCallback& tile_done = {});
 
     /// Of a pass that was stopped, what its complete tiles have is in the film.

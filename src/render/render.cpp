@@ -1,5 +1,6 @@
 #include "render/render.h"
 
+#include "core/process_time.h"
 #include "film/error_estimate.h"
 #include "render/tiles.h"
 
@@ -13,10 +14,6 @@ namespace etendue {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// Counts finished tiles and tells the callback now and then.
 class ProgressReporter {
@@ -60,6 +57,24 @@ class ProgressReporter {
     std::uint64_t rays_;
     Clock::time_point last_report_ = start_;
 };
+
+/// Why no other pass is to begin after `now`, if so.
+std::optional<HaltReason> reached_limit(const RenderState& now, const RenderOptions& options) {
+    if (options.relative_error > 0.0) {
+        const std::optional<double> error = relative_error(now);
+        if (error && *error <= options.relative_error) return HaltReason::ErrorReached;
+    }
+    if (options.time_limit_seconds > 0.0 && now.wall_seconds >= options.time_limit_seconds)
+        return HaltReason::TimeLimit;
+    return std::nullopt;
+}
+
+/// Samples of the pass that begins after `now`.
+std::uint32_t next_pass(const RenderState& now, const RenderOptions& options) {
+    const std::uint32_t count = pass_size(now.next_sample(), now.first_sample + options.spp);
+    if (options.time_limit_seconds <= 0.0) return count;
+    return fit_pass(count, now.spp_done, now.wall_seconds, options.time_limit_seconds);
+}
 
 }  // namespace
 
@@ -106,23 +121,20 @@ RenderResult render(const World& world, const Integrator& integrator, const Rend
         return stop.load(std::memory_order_relaxed) || (pause.is_due && pause.is_due());
     };
     HaltReason halt_reason = HaltReason::SamplesDone;
-    while (now.spp_done < options.spp) {
+    // A pass that is under way is finished, whatever the limits say: no pixel is left with fewer samples than others.
+    while (now.spp_done < options.spp || now.pass_size > 0) {
         if (stop.load()) {
             halt_reason = HaltReason::Interrupted;
             break;
         }
         if (pause.is_due && pause.is_due()) pause.act(now);
-        if (options.relative_error > 0.0 && relative_error(now).value_or(1.0) <= options.relative_error) {
-            halt_reason = HaltReason::ErrorReached;
-            break;
-        }
-        std::uint32_t count = pass_size(now.next_sample(), now.first_sample + options.spp);
-        if (options.time_limit_seconds > 0.0) {
-            if (now.wall_seconds >= options.time_limit_seconds) {
-                halt_reason = HaltReason::TimeLimit;
+        std::uint32_t count = 0;
+        if (now.pass_size == 0) {
+            if (const std::optional<HaltReason> limit = reached_limit(now, options)) {
+                halt_reason = *limit;
                 break;
             }
-            count = fit_pass(count, now.spp_done, now.wall_seconds, options.time_limit_seconds);
+            count = next_pass(now, options);
         }
         rendering.add_samples(count, is_wanted,
                               [&](std::uint64_t samples, std::uint64_t rays) { reporter.tile_done(samples, rays); });

@@ -55,7 +55,9 @@ struct RenderPause {
     std::function<void(const RenderState&)> act;  ///< nothing is rendered meanwhile
 };
 
-/// Renders `world`, beginning with `state`. The image is bit-identical for every thread count and tile order, and
+/// Renders `world`, beginning with `state`. A pass that was stopped is finished first, so that no pixel of what is
+/// returned has fewer samples than others unless it was interrupted; if `state` has more samples than are asked for, so
+/// has the result. The image is bit-identical for every thread count and tile order, and
 /// however often the render was stopped and gone on with. `stop` and `pause` are looked at before every tile (or group
 /// of tiles, see ProgressiveRender): when one of them says so, those under way are finished, and what there is is
 /// returned or shown to `pause`. The limit of time counts what `state` has taken; that of the error needs a state that

@@ -39,8 +39,11 @@ std::uint32_t pass_size(std::uint32_t first, std::uint32_t end) {
 }
 
 bool is_odd_pass(std::uint32_t first) {
-    const auto small = static_cast<std::uint32_t>(std::bit_width(std::min(first, kLargestPass)));
-    return (small + first / kLargestPass) % 2 != 0;
+    // Those before kLargestPass begin at powers of two, the others at its multiples: 1, 4, 16, 48, 80, …
+    static_assert(std::bit_width(kLargestPass / 2) % 2 == 0, "the first large pass differs from the one before");
+    const std::uint32_t number =
+        first < kLargestPass ? static_cast<std::uint32_t>(std::bit_width(first)) : first / kLargestPass;
+    return number % 2 != 0;
 }
 
 std::uint32_t fit_pass(std::uint32_t wanted, std::uint32_t done, double seconds, double seconds_limit) {

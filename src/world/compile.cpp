@@ -26,7 +26,19 @@ XyzToWorking xyz_to_working(const ColorMatrix& from_rec709) {
     return rows;
 }
 
+std::uint64_t texture_budget(const SceneDesc& scene) {
+    return scene.settings.texture_memory.value_or(physical_memory() / 2);
+}
+
 }  // namespace
+
+bool holds_textures_in_memory(const SceneDesc& scene) {
+    if (scene.textures.empty()) return true;
+    TextureCompiler textures(scene);
+    WorldData unused;  // materials say which textures are used, and for what
+    compile_materials(scene, textures, unused);
+    return textures.bytes_in_memory() <= texture_budget(scene);
+}
 
 World compile_world(SceneDesc scene, const ColorConfig& colors, const std::string& working_space,
                     const ThreadPool& threads, ProblemList& problems) {
@@ -39,7 +51,7 @@ World compile_world(SceneDesc scene, const ColorConfig& colors, const std::strin
 
     TextureCompiler textures(scene);
     compile_materials(scene, textures, data);
-    textures.finish(scene.settings.texture_memory.value_or(physical_memory() / 2), threads, data);
+    textures.finish(texture_budget(scene), threads, data);
     compile_geometry(scene, threads, data);
     compile_bodies(data);
     compile_lights(scene, threads, data, problems);

@@ -16,4 +16,9 @@ namespace etendue {
 [[nodiscard]] World compile_world(SceneDesc scene, const ColorConfig& colors, const std::string& working_space,
                                   const ThreadPool& threads, ProblemList& problems);
 
+/// True if the textures of `scene` will be held in memory, decoded, and not in a cache: if all of them fit into what
+/// its settings allow. Both give slightly different values. Reads the headers of its images; throws SceneError if it
+/// cannot.
+[[nodiscard]] bool holds_textures_in_memory(const SceneDesc& scene);
+
 }  // namespace etendue

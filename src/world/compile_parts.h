@@ -31,10 +31,13 @@ class TextureCompiler {
     /// Makes the textures asked for: in memory if all of them fit into `budget` bytes, which is known from the images'
     /// headers, else through a cache of that size. Throws SceneError if an image cannot be read.
     void finish(std::uint64_t budget, const ThreadPool& threads, WorldData& data) const;
+    /// What the textures asked for take in memory. Throws SceneError if an image cannot be read.
+    [[nodiscard]] std::uint64_t bytes_in_memory() const;
 
   private:
     using Request = std::pair<std::size_t, TextureUse>;  ///< texture of the scene, and its use
     [[nodiscard]] const ImageDesc& image_of(const Request& request) const;
+    [[nodiscard]] ImageInfo info_of(const Request& request) const;
     void load_resident(std::span<const ImageInfo> infos, const ThreadPool& threads, WorldData& data) const;
     void open_cached(std::span<const ImageInfo> infos, std::uint64_t budget, WorldData& data) const;
 

@@ -92,12 +92,20 @@ const ImageDesc& TextureCompiler::image_of(const Request& request) const {
     return scene_.images[static_cast<std::size_t>(desc.image.index)];
 }
 
+ImageInfo TextureCompiler::info_of(const Request& request) const {
+    const ImageDesc& image = image_of(request);
+    return read_or_blame(image, [&] { return read_image_info(source_of(image)); });
+}
+
+std::uint64_t TextureCompiler::bytes_in_memory() const {
+    std::uint64_t bytes = 0;
+    for (const Request& request : requests_) bytes += resident_bytes(info_of(request));
+    return bytes;
+}
+
 void TextureCompiler::finish(std::uint64_t budget, const ThreadPool& threads, WorldData& data) const {
     std::vector<ImageInfo> infos(requests_.size());
-    threads.parallel_for(requests_.size(), [&](std::size_t i, int) {
-        const ImageDesc& image = image_of(requests_[i]);
-        infos[i] = read_or_blame(image, [&] { return read_image_info(source_of(image)); });
-    });
+    threads.parallel_for(requests_.size(), [&](std::size_t i, int) { infos[i] = info_of(requests_[i]); });
     std::uint64_t needed = 0;
     for (const ImageInfo& info : infos) needed += resident_bytes(info);
     data.textures.reserve(requests_.size());

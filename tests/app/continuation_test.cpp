@@ -1,6 +1,7 @@
 // Renders that are stopped and gone on with, and parts that are merged, from outside.
 #include "app/run_program.h"
 #include "app/small_files.h"
+#include "render/checkpoint.h"
 
 #include <algorithm>
 #include <chrono>
@@ -9,6 +10,7 @@
 #include <random>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -162,7 +164,7 @@ TEST_F(Continuation, RefusesTheCheckpointOfAnotherRenderAndSaysWhatDiffers) {
     EXPECT_NE(refused({"--integrator", "bdpt"}).find("integrator"), std::string::npos);
     EXPECT_NE(refused({"--max-depth", "3"}).find("max depth 3"), std::string::npos);
     EXPECT_NE(refused({"--crop", "0,0,8,8"}).find("pixels: '0,0,40,30' there, '0,0,8,8' here"), std::string::npos);
-    EXPECT_NE(refused({"--error", "0.1"}).find("--error"), std::string::npos);
+    EXPECT_NE(refused({"--error", "0.1"}).find("begun without --error"), std::string::npos);
     EXPECT_NE(refused({"--working-space", "lin_rec709"}).find("working space"), std::string::npos);
     std::string bytes = read_file(folder_ / "box/triangle.bin");
     bytes[0] = static_cast<char>(bytes[0] ^ 1);
@@ -243,7 +245,7 @@ TEST_F(Continuation, RefusesPartsThatDoNotBelongTogether) {
     };
     refused({"a", "b"}, "none may be added twice");
     refused({"a", "a"}, "none may be added twice");
-    refused({"a", "seed"}, "seed: '4' there, '0' here");
+    refused({"a", "seed"}, "seed: '4' in seed.partial, '0' in a.partial");
     refused({"left", "middle"}, "windows must be equal or apart");
     refused({"left", "corner"}, "no part has pixel (20, 20)");
     refused({"left", "short"}, "8 samples each in all parts together, others have 16");
@@ -255,6 +257,127 @@ TEST_F(Continuation, RefusesPartsThatDoNotBelongTogether) {
     const ProgramResult damaged = run({"merge", "a.partial", "later.partial", "-o", "n.exr"});
     EXPECT_EQ(damaged.exit_code, 1);
     EXPECT_NE(damaged.err.find("a.partial is damaged"), std::string::npos) << damaged.err;
+}
+
+TEST_F(Continuation, RefusesTheCheckpointOfAnotherVersionAndSaysSo) {
+    ASSERT_EQ(interrupt(render(1000000, "a.exr"), 60).exit_code, 130);
+    Checkpoint kept = read_checkpoint(work_ / "a.checkpoint");
+    const std::string version = std::exchange(kept.identity.at("program"), "etendue 0.0.1");
+    write_checkpoint(work_ / "a.checkpoint", kept.identity, kept.description, kept.state);
+    const ProgramResult refused = run(render(1000000, "a.exr", {"--resume", "--quiet"}));
+    EXPECT_EQ(refused.exit_code, 3);
+    EXPECT_NE(refused.err.find("program: 'etendue 0.0.1' there, '" + version + "' here"), std::string::npos)
+        << refused.err;
+}
+
+TEST_F(Continuation, GoesOnWithASceneThatWasMoved) {
+    ASSERT_EQ(interrupt(render(1000000, "a.exr"), 60).exit_code, 130);
+    const int spp = json::parse(read_file(work_ / "a.json"))["spp"]["done"].get<int>() + 40;
+    fs::create_directories(folder_ / "mounted");
+    fs::rename(folder_ / "box", folder_ / "mounted/box");
+    Arguments moved = render(spp, "a.exr", {"--resume"});
+    moved[1] = "../mounted/box";
+    const ProgramResult result = run(moved);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(result.err.find("going on after"), std::string::npos) << result.err;
+}
+
+TEST_F(Continuation, FewerSamplesThanThereAreEndWithWholePasses) {
+    ASSERT_EQ(interrupt(render(1000000, "a.exr"), 60).exit_code, 130);
+    const ProgramResult result = run(render(1, "a.exr", {"--resume"}));
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const json statistics = json::parse(read_file(work_ / "a.json"));
+    const int spp = statistics["spp"]["done"].get<int>();
+    EXPECT_EQ(statistics["samples"], 40 * 30 * spp);
+    ASSERT_EQ(run(render(spp, "whole.exr")).exit_code, 0);
+    EXPECT_EQ(difference("a.exr", "whole.exr"), 0.0);
+}
+
+TEST_F(Continuation, DoesNotReplaceAPartOfAnotherRenderUnlessForced) {
+    const Arguments eight{"--samples", "0:8", "--resume", "--quiet"};
+    ASSERT_EQ(run(render(16, "a.partial", eight)).exit_code, 0);
+    const std::string bytes = read_file(work_ / "a.partial");
+    const auto refused = [&](const Arguments& arguments, const std::string& why) {
+        const ProgramResult result = run(render(16, "a.partial", arguments));
+        EXPECT_EQ(result.exit_code, 3) << why;
+        EXPECT_NE(result.err.find(why), std::string::npos) << result.err;
+        EXPECT_EQ(read_file(work_ / "a.partial"), bytes) << why;
+    };
+    refused({"--samples", "0:8", "--resume", "--seed", "4"}, "seed: '0' there, '4' here");
+    refused({"--samples", "8:16", "--resume"}, "first sample: '0' there, '8' here");
+    refused({"--samples", "0:4", "--resume"}, "has 8 samples of each pixel, and no more than 4 are asked for");
+    // The same part is left alone, and its statistics are its own.
+    ProgramResult same = run(render(16, "a.partial", {"--samples", "0:8", "--resume", "--json"}));
+    EXPECT_NE(same.err.find("up to date"), std::string::npos) << same.err;
+    EXPECT_EQ(json::parse(same.out)["spp"]["done"], 8);
+    same = run(render(16, "a.partial", {"--samples", "0:8", "--resume", "--force"}));
+    EXPECT_EQ(same.err.find("up to date"), std::string::npos) << same.err;
+    EXPECT_EQ(run(render(16, "a.partial", {"--samples", "8:16", "--resume", "--force"})).exit_code, 0);
+    EXPECT_NE(read_file(work_ / "a.partial"), bytes);
+    // What is damaged is of no use to anybody.
+    write_file(work_ / "a.partial", bytes.substr(100));
+    const ProgramResult again = run(render(16, "a.partial", {"--samples", "0:8", "--resume"}));
+    EXPECT_EQ(again.exit_code, 0);
+    EXPECT_NE(again.err.find("a.partial is damaged"), std::string::npos) << again.err;
+}
+
+TEST_F(Continuation, AMergeOfSomePartsIsNoFinishedImage) {
+    const auto part = [&](const std::string& name, const Arguments& more) {
+        ASSERT_EQ(run(render(16, name + ".partial", more)).exit_code, 0) << name;
+    };
+    part("a", {"--samples", "0:8", "--quiet"});
+    part("b", {"--samples", "8:16", "--quiet"});
+    part("left", {"--crop", "0,0,13,30", "--quiet"});
+    part("middle", {"--crop", "13,0,20,30", "--quiet"});
+    const auto merged = [&](const Arguments& parts, bool complete) {
+        Arguments merge{"merge"};
+        for (const std::string& name : parts) merge.push_back(name + ".partial");
+        merge.insert(merge.end(), {"-o", "m.exr", "--json"});
+        const ProgramResult result = run(merge);
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        EXPECT_EQ(json::parse(read_file(work_ / "m.json"))["complete"], complete) << parts.front();
+        EXPECT_EQ(json::parse(result.out)["complete"], complete);
+        EXPECT_EQ(result.err.find("incomplete") == std::string::npos, complete) << result.err;
+        return result.err;
+    };
+    EXPECT_NE(merged({"a"}, false).find("note: no part has samples 8 to 15"), std::string::npos);
+    EXPECT_EQ(run(render(16, "m.exr", {"--resume"})).err.find("up to date"), std::string::npos);
+    EXPECT_NE(merged({"b"}, false).find("note: no part has samples 0 to 7"), std::string::npos);
+    EXPECT_NE(merged({"left", "middle"}, false).find("the parts have the pixels 0,0,20,30 of 0,0,40,30"),
+              std::string::npos);
+    EXPECT_EQ(merged({"left"}, true).find("note"), std::string::npos) << "a crop is what was asked for";
+    EXPECT_EQ(merged({"b", "a"}, true).find("note"), std::string::npos);
+    EXPECT_NE(run(render(16, "m.exr", {"--resume"})).err.find("up to date"), std::string::npos);
+}
+
+TEST_F(Continuation, StatisticsOfAnImageThatIsUpToDateAreThoseOfItsRender) {
+    ASSERT_EQ(run(render(5, "a.exr", {"--quiet"})).exit_code, 0);
+    const ProgramResult again = run(render(5, "a.exr", {"--resume", "--json"}));
+    EXPECT_NE(again.err.find("up to date"), std::string::npos) << again.err;
+    EXPECT_EQ(again.out, read_file(work_ / "a.json"));
+}
+
+TEST_F(Continuation, ACheckpointThatCannotBeWrittenIsNotPromised) {
+    ASSERT_EQ(interrupt(render(1000000, "a.exr"), 60).exit_code, 130);
+    fs::create_directories(work_ / "a.checkpoint.previous/taken");
+    const ProgramResult result = interrupt(render(1000000, "a.exr"), 60);
+    EXPECT_EQ(result.exit_code, 130);
+    EXPECT_NE(result.err.find("no checkpoint was written: cannot rename"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("stopped after"), std::string::npos) << result.err;
+    EXPECT_EQ(result.err.find("goes on from there"), std::string::npos) << result.err;
+}
+
+TEST_F(Continuation, ASecondSignalOfTheOtherKindEndsItAtOnce) {
+    // Large enough for the second to come before the first is obeyed.
+    Arguments large = render(1000000, "a.exr");
+    large[3] = "3000x2000";
+    const ProgramResult result = run(large, [](int pid) {
+        sleep_ms(100);
+        kill(pid, SIGINT);
+        EXPECT_TRUE(wait_until([pid] { return !handles_interrupt(pid); }));
+        kill(pid, SIGTERM);
+    });
+    EXPECT_EQ(result.exit_code, 1000 + SIGTERM);
 }
 
 TEST_F(Continuation, UsageErrorsEndWithTwo) {
@@ -277,6 +400,8 @@ TEST_F(Continuation, AProbeSaysWhatTheImageWouldTakeAndWritesNothing) {
                             1e5 * probe["seconds_per_spp"].get<double>();
     EXPECT_NEAR(probe["estimated_seconds"].get<double>(), expected, 1e-3 * expected);
     EXPECT_GT(probe["peak_memory_bytes"].get<double>(), 1e6);
+    const ProgramResult part = run(render(100000, "a.partial", {"--samples", "64:96", "--probe", "--quiet"}));
+    EXPECT_EQ(json::parse(part.out)["spp"], 32);
     EXPECT_TRUE(list(work_).empty());
 }
 

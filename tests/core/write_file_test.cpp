@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "support/temporary_folder.h"
 
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <fstream>
@@ -10,11 +11,36 @@
 #include <string>
 
 #include <gtest/gtest.h>
+#include <sys/file.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+namespace {
+
+bool has_locks = true;
+
+}  // namespace
+
+/// The kernel's, in place of the C library's: or what it says of a file system that has none.
+extern "C" int flock(int fd, int operation) noexcept {
+    if (has_locks) return static_cast<int>(::syscall(SYS_flock, fd, operation));
+    errno = ENOLCK;
+    return -1;
+}
 
 namespace etendue {
 
 namespace {
+
+/// Takes the locks from all file systems while it lives.
+class NoLocks {
+  public:
+    NoLocks() { has_locks = false; }
+    ~NoLocks() { has_locks = true; }
+    NoLocks(const NoLocks&) = delete;
+    NoLocks& operator=(const NoLocks&) = delete;
+};
 
 std::string text_of(const std::filesystem::path& path) {
     const auto bytes = read_all(path);
@@ -139,6 +165,34 @@ TEST(WriteFile, TwoWritersOfOneFileDoNotMixTheirBytes) {
     });
     EXPECT_EQ(text_of(folder / "a"), "first writer") << "the last to finish";
     EXPECT_EQ(folder.file_count(), 1u);
+}
+
+TEST(WriteFile, TwoWritersOfOneFileDoNotMixTheirBytesWithoutLocksEither) {
+    const NoLocks none;
+    const TemporaryFolder folder;
+    write_file(folder / "a", [&](const ByteSink& sink) {
+        sink(std::as_bytes(std::span("first ", 6)));
+        write_text(folder / "a", "second");
+        EXPECT_EQ(text_of(folder / "a"), "second");
+        EXPECT_EQ(remove_abandoned_files(folder / "."), 0u) << "it is not abandoned";
+        remove_abandoned_files_of(folder / "a");
+        sink(std::as_bytes(std::span("writer", 6)));
+    });
+    EXPECT_EQ(text_of(folder / "a"), "first writer") << "the last to finish";
+    EXPECT_EQ(folder.file_count(), 1u);
+}
+
+TEST(RemoveAbandonedFiles, GoesByAgeWithoutLocks) {
+    const NoLocks none;
+    const TemporaryFolder folder;
+    const auto left = temporary_of(folder, "a");
+    std::ofstream(left) << "half";
+    write_text(folder / "a", "whole");
+    EXPECT_TRUE(std::filesystem::exists(left)) << "its writer may live";
+    std::filesystem::last_write_time(left, std::filesystem::file_time_type::clock::now() - std::chrono::hours(2));
+    EXPECT_EQ(remove_abandoned_files(folder / "."), 1u);
+    EXPECT_FALSE(std::filesystem::exists(left));
+    EXPECT_EQ(text_of(folder / "a"), "whole");
 }
 
 TEST(WriteFile, WhatThrowsLeavesNothing) {

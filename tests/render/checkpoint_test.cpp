@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <random>
 #include <string>
 #include <utility>
@@ -94,6 +95,51 @@ TEST(Checkpoint, DamageIsFound) {
     EXPECT_THROW((void)read_checkpoint(folder / "missing"), IoError);
 }
 
+// Such files have a right hash; what stands in them is what no render leaves behind.
+TEST(Checkpoint, WhatDoesNotBelongTogetherIsRefused) {
+    const TemporaryFolder folder;
+    const auto path = folder / "a.checkpoint";
+    const World world = compile(busy_scene(40, 40));
+    RenderOptions options = options_for(40, 40, 4);
+    options.window = {4, 4, 36, 36};
+    options.splat_window = {0, 0, 40, 40};
+    const auto integrator = make_integrator("path", {});
+    const auto read_after = [&](const std::function<void(RenderState&)>& change, int questions = 1000) {
+        RenderState state = stopped(world, *integrator, options, questions);
+        change(state);
+        write_checkpoint(path, kIdentity, "", state);
+        (void)read_checkpoint(path);
+    };
+    const auto every_other = [&](const PixelRect& window, const PixelRect& splat_window, int width = 40) {
+        return [=](RenderState& state) {
+            state.every_other_pass = Film(width, 40, window, splat_window);
+            state.every_other_spp = 1;
+        };
+    };
+    EXPECT_NO_THROW(read_after([](RenderState&) {}));
+    EXPECT_NO_THROW(read_after([](RenderState&) {}, 2));
+    EXPECT_NO_THROW(read_after(every_other(options.window, options.splat_window)));
+    EXPECT_THROW(read_after(every_other({4, 4, 36, 35}, options.splat_window)), IoError);
+    EXPECT_THROW(read_after(every_other(options.window, {0, 0, 40, 39})), IoError);
+    EXPECT_THROW(read_after(every_other(options.window, options.splat_window, 41)), IoError);
+    EXPECT_THROW(read_after([&](RenderState& state) {
+                     state.every_other_pass = Film(40, 40, options.window, options.splat_window);
+                     state.every_other_spp = state.spp_done + 1;
+                 }),
+                 IoError);
+    EXPECT_THROW(read_after([](RenderState& state) { state.every_other_spp = 1; }), IoError);
+    EXPECT_THROW(read_after([](RenderState& state) {
+                     state.film = Film(40, 40, {4, 4, 36, 36}, {5, 4, 36, 36});
+                 }),
+                 IoError);
+    EXPECT_THROW(read_after([](RenderState& state) { state.first_sample = ~0u - 3; }), IoError);
+    EXPECT_NO_THROW(read_after([](RenderState& state) { state.first_sample = ~0u - 4; }));
+    EXPECT_THROW(read_after([](RenderState& state) { state.counters.dropped = 1; }), IoError);
+    EXPECT_THROW(read_after([](RenderState& state) { state.counters.first_dropped.push_back({}); }), IoError);
+    EXPECT_THROW(read_after([](RenderState& state) { state.tiles_done.push_back(1); }), IoError);
+    EXPECT_THROW(read_after([](RenderState& state) { state.tiles_done.back() = 2; }, 2), IoError);
+}
+
 TEST(Checkpoint, DifferencesAreNamed) {
     EXPECT_EQ(difference(kIdentity, kIdentity), "");
     RenderIdentity other = kIdentity;
@@ -102,6 +148,8 @@ TEST(Checkpoint, DifferencesAreNamed) {
     other["new"] = "1";
     EXPECT_EQ(difference(kIdentity, other),
               "empty: '' there, missing here\nintegrator: 'bdpt' there, 'path' here\nnew: missing there, '1' here");
+    EXPECT_EQ(difference({{"seed", "1"}}, {{"seed", "2"}}, "in a.partial", "in b.partial"),
+              "seed: '1' in a.partial, '2' in b.partial");
 }
 
 }  // namespace

@@ -68,29 +68,6 @@ TEST_P(Parts, WindowsAddUpWithTheLightThatTheyThrowOnEachOther) {
 INSTANTIATE_TEST_SUITE_P(Integrators, Parts, testing::Values("path", "light", "bdpt"),
                          [](const auto& test) { return test.param; });
 
-TEST(RelativeError, EndsTheRenderAndIsKept) {
-    const World world = compile(busy_scene(kWidth, kHeight));
-    RenderOptions options = options_for(kWidth, kHeight, 4096);
-    options.relative_error = 0.2;
-    const ThreadPool pool(2);
-    const std::atomic<bool> never{false};
-    const auto render_with = [&](const char* integrator) {
-        RenderState state{.film = make_film(options)};
-        state.every_other_pass = make_film(options);
-        return render(world, *make_integrator(integrator, {}), options, pool, never, {}, {}, std::move(state));
-    };
-    for (const char* integrator : {"path", "bdpt"}) {
-        const RenderResult result = render_with(integrator);
-        EXPECT_EQ(result.halt_reason, HaltReason::ErrorReached) << integrator;
-        EXPECT_LT(result.spp_done, options.spp) << integrator;
-        ASSERT_TRUE(relative_error(result)) << integrator;
-        EXPECT_LE(*relative_error(result), options.relative_error) << integrator;
-        // The same samples as a render that is as long.
-        RenderOptions same = options_for(kWidth, kHeight, result.spp_done);
-        EXPECT_TRUE(same_bytes(result.film.resolve(), render_now(world, integrator, same, 2).film.resolve()));
-    }
-}
-
 }  // namespace
 
 }  // namespace etendue::test

@@ -77,6 +77,67 @@ TEST(RenderPause, ActsInTheMiddleAndChangesNothing) {
     EXPECT_LT(seen.front(), result.counters.samples);
 }
 
+/// Stops in the middle of the pass that begins with sample 2.
+RenderState stopped_in_a_pass(const World& world, const Integrator& integrator, const RenderOptions& options) {
+    const ThreadPool pool(1);
+    int asked = 0;
+    ProgressiveRender rendering(world, integrator, options, pool);
+    for (const std::uint32_t count : {1u, 1u}) rendering.add_samples(count, [] { return false; });
+    rendering.add_samples(2, [&] { return ++asked > 4; });
+    EXPECT_EQ(rendering.state().pass_size, 2u);
+    EXPECT_GT(rendering.state().film.sample_count(), options.window.area() * 2) << "no tile of the pass was rendered";
+    return rendering.take_state();
+}
+
+TEST(RenderPause, TheLimitOfTimeWaitsForTheEndOfThePass) {
+    const World world = compile(busy_scene(96, 96));
+    const auto integrator = make_integrator("path", {});
+    RenderOptions options = options_for(96, 96, 64);
+    options.time_limit_seconds = 1e-9;
+    const ThreadPool pool(1);
+    const std::atomic<bool> stop{false};
+    int asked = 0;
+    const RenderPause pause{.is_due = [&] { return ++asked == 5; }, .act = [](const RenderState&) {}};
+    const RenderResult result =
+        render(world, *integrator, options, pool, stop, {}, pause, {.film = make_film(options)});
+    EXPECT_GT(asked, 5);
+    EXPECT_EQ(result.halt_reason, HaltReason::TimeLimit);
+    EXPECT_EQ(result.spp_done, 1u);
+    EXPECT_EQ(result.pass_size, 0u);
+    EXPECT_EQ(result.film.sample_count(), options.window.area());
+}
+
+TEST(ResumedRender, ALimitOfTimeThatIsOverWaitsForTheEndOfThePass) {
+    const World world = compile(busy_scene(96, 96));
+    const auto integrator = make_integrator("path", {});
+    RenderOptions options = options_for(96, 96, 64);
+    RenderState state = stopped_in_a_pass(world, *integrator, options);
+    options.time_limit_seconds = 0.5 * state.wall_seconds;
+    const ThreadPool pool(2);
+    const std::atomic<bool> stop{false};
+    const RenderResult result = render(world, *integrator, options, pool, stop, {}, {}, std::move(state));
+    EXPECT_EQ(result.halt_reason, HaltReason::TimeLimit);
+    EXPECT_EQ(result.spp_done, 4u);
+    EXPECT_EQ(result.film.sample_count(), options.window.area() * 4);
+}
+
+TEST(ResumedRender, FinishesThePassIfFewerSamplesAreAskedForNow) {
+    const World world = compile(busy_scene(96, 96));
+    const auto integrator = make_integrator("path", {});
+    for (const std::uint32_t spp : {1u, 2u, 3u, 4u}) {
+        const RenderOptions options = options_for(96, 96, spp);
+        const ThreadPool pool(2);
+        const std::atomic<bool> stop{false};
+        const RenderResult result =
+            render(world, *integrator, options, pool, stop, {}, {}, stopped_in_a_pass(world, *integrator, options));
+        EXPECT_EQ(result.halt_reason, HaltReason::SamplesDone);
+        EXPECT_EQ(result.spp_done, 4u) << spp;
+        EXPECT_EQ(result.pass_size, 0u);
+        const RenderResult whole = render_now(world, "path", options_for(96, 96, 4), 2);
+        EXPECT_TRUE(same_bytes(result.film.resolve(), whole.film.resolve())) << spp;
+    }
+}
+
 }  // namespace
 
 }  // namespace etendue::test

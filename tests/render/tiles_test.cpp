@@ -69,6 +69,20 @@ TEST(PassSize, GrowsToSixteenAndStopsAtTheTotal) {
     EXPECT_EQ(sequence(7), (std::vector<std::uint32_t>{1, 1, 2, 3}));
 }
 
+TEST(IsOddPass, IsTrueForEveryOtherPass) {
+    bool before = is_odd_pass(0);
+    for (std::uint32_t first = pass_size(0, 1000); first < 1000; first += pass_size(first, 1000)) {
+        EXPECT_NE(is_odd_pass(first), before) << first;
+        before = is_odd_pass(first);
+    }
+}
+
+TEST(IsOddPass, IsTheSameInAllOfAPass) {
+    for (std::uint32_t first = 0; first < 100; first += pass_size(first, 100))
+        for (std::uint32_t i = 0; i < pass_size(first, 100); ++i)
+            EXPECT_EQ(is_odd_pass(first + i), is_odd_pass(first)) << first + i;
+}
+
 TEST(FitPass, TakesWhatFitsIntoTheTimeLeft) {
     EXPECT_EQ(fit_pass(1, 0, 0.0, 1.0), 1u) << "nothing is known about the pace yet";
     EXPECT_EQ(fit_pass(16, 16, 1.0, 10.0), 16u);
