@@ -56,6 +56,7 @@ ExitCode run_merge(const MergeArguments& arguments) {
         require_writable(paths.json);
         const ColorConfig colors = ColorConfig::from_environment();
         describe_state(image, merged.state, true, "merged");
+        resolve_layers(image, merged.state);
         image.statistics.libraries = library_versions();
         write_image_files(paths, image, colors, arguments.depth);
     }

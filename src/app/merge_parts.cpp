@@ -167,7 +167,8 @@ Checkpoint merge_parts(std::span<const std::filesystem::path> files,
         Checkpoint part = parts.read(file);
         if (!merged) {
             const Film& film = part.state.film;
-            RenderState none{.film = Film(film.full_width(), film.full_height(), bounds, film.splat_window()),
+            RenderState none{.film = Film(film.full_width(), film.full_height(), bounds, film.splat_window(),
+                                          film.layers().layout()),
                              .first_sample = std::numeric_limits<std::uint32_t>::max(),
                              .spp_done = spp};
             merged.emplace(std::move(part.identity), std::move(part.description), std::move(none));
