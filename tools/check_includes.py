@@ -18,6 +18,7 @@ from pathlib import Path
 # room: the rooms that it may include besides itself.
 ROOMS = {
     "core": "",
+    "lightpath": "core",
     "sampling": "core",
     "image": "core",
     "color": "core",
@@ -30,12 +31,12 @@ ROOMS = {
     "camera": "sampling core",
     "world": "scene bsdf medium light camera texture image color sampling core",
     "film": "sampling core",
-    "integrator": "world film bsdf medium light camera sampling core",
+    "integrator": "world lightpath film bsdf medium light camera sampling core",
     "render": "integrator world film image core",
     "output": "film color image core",
     "metrics": "image core",
     "report": "metrics image core",
-    "app": "core sampling image color scene loader bsdf medium texture light camera world film integrator render "
+    "app": "core lightpath sampling image color scene loader bsdf medium texture light camera world film integrator render "
     "output metrics report",
 }
 

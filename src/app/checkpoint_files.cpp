@@ -129,7 +129,7 @@ std::optional<Checkpoint> read_part(const std::filesystem::path& file, const Che
     std::optional<Checkpoint> kept;
     try {
         kept = read_checkpoint(file);
-    } catch (const IoError& broken) {
+    } catch (const DamagedCheckpoint& broken) {
         if (!quiet) log_warning("warning: {}; it is rendered again", broken.what());
         return std::nullopt;
     }

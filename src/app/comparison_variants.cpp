@@ -114,11 +114,12 @@ std::vector<Variant> make_variants(const std::filesystem::path& scene, std::span
         if (is_sequence) merged_request.overrides.moment.frame = 0;
         PreparedScene prepared = prepare_scene(scene, merged_request.overrides);
         const std::string working_space = resolve_colors(prepared.scene.settings, colors);
-        Variant variant{.name = request.name,
-                        .options = request.options,
-                        .given = std::move(merged_request.given),
-                        .settings = prepared.scene.settings,
-                        .light = light_text(prepared.scene)};
+        Variant variant;
+        variant.name = request.name;
+        variant.options = request.options;
+        variant.given = std::move(merged_request.given);
+        variant.settings = prepared.scene.settings;
+        variant.light = light_text(prepared.scene);
         const auto same_world = std::ranges::find_if(variants, [&](const Variant& other) {
             return other.light == variant.light && other.settings.texture_memory == variant.settings.texture_memory;
         });
@@ -141,7 +142,11 @@ std::vector<Variant> make_variants(const std::filesystem::path& scene, std::span
 }
 
 Variant with_integrator(const Variant& like, const std::string& integrator) {
-    Variant variant{.name = integrator, .settings = like.settings, .world = like.world, .light = like.light};
+    Variant variant;
+    variant.name = integrator;
+    variant.settings = like.settings;
+    variant.world = like.world;
+    variant.light = like.light;
     variant.settings.integrator.type = integrator;
     variant.settings.integrator.strategy.reset();
     variant.settings.integrator.weighted = true;

@@ -3,6 +3,11 @@
 #include "core/error.h"
 #include "render/render.h"
 
+#include <algorithm>
+#include <cstddef>
+#include <exception>
+#include <utility>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -55,6 +60,22 @@ OutputFrame to_frame(const Json& json) {
     return f;
 }
 
+Json to_object(const AovOutput& aov) {
+    return {{"name", aov.name},   {"channels", aov.channels},     {"kind", static_cast<int>(aov.kind)},
+            {"first", aov.first}, {"background", aov.background}, {"is_float", aov.is_float}};
+}
+
+AovOutput to_aov(const Json& json) {
+    AovOutput aov;
+    json.at("name").get_to(aov.name);
+    json.at("channels").get_to(aov.channels);
+    aov.kind = static_cast<AovKind>(std::clamp(json.at("kind").get<int>(), 0, static_cast<int>(AovKind::Rays)));
+    json.at("first").get_to(aov.first);
+    json.at("background").get_to(aov.background);
+    json.at("is_float").get_to(aov.is_float);
+    return aov;
+}
+
 Json to_object(const RenderStatistics& s) {
     return {{"scene", s.scene},
             {"frame", s.frame ? Json(*s.frame) : Json()},
@@ -84,15 +105,25 @@ RenderStatistics to_statistics(const Json& json) {
 }  // namespace
 
 std::string to_text(const ImageDescription& description) {
-    const Json json{{"frame", to_object(description.frame)}, {"statistics", to_object(description.statistics)}};
+    Json aovs = Json::array();
+    for (const AovOutput& aov : description.aovs) aovs.push_back(to_object(aov));
+    const Json json{{"frame", to_object(description.frame)},
+                    {"aovs", std::move(aovs)},
+                    {"aov_layout", static_cast<int>(description.aov_layout)},
+                    {"statistics", to_object(description.statistics)}};
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 ImageDescription parse_description(const std::string& text, const std::filesystem::path& file) {
     try {
         const Json json = Json::parse(text);
-        return {to_frame(json.at("frame")), to_statistics(json.at("statistics"))};
-    } catch (const Json::exception& error) {
+        ImageDescription description{
+            .frame = to_frame(json.at("frame")), .aovs = {}, .statistics = to_statistics(json.at("statistics"))};
+        for (const Json& aov : json.at("aovs")) description.aovs.push_back(to_aov(aov));
+        const int layout = json.at("aov_layout").get<int>();
+        description.aov_layout = kAovLayoutNames.at(static_cast<std::size_t>(layout)).second;
+        return description;
+    } catch (const std::exception& error) {
         throw IoError(fmt::format("{} does not say what image it is part of: {}", file.string(), error.what()));
     }
 }
@@ -129,6 +160,21 @@ void describe_state(ImageDescription& description, const RenderState& state, boo
     s.dropped_samples = c.dropped;
     s.first_dropped = c.first_dropped;
     s.relative_error = relative_error(state);
+}
+
+void resolve_layers(ImageDescription& description, const RenderState& state) {
+    OutputFrame& frame = description.frame;
+    frame.layers.clear();
+    for (const AovOutput& aov : description.aovs) frame.layers.push_back(resolve_layer(state.film, aov));
+    if (!state.every_other_pass || state.every_other_spp == 0 || description.aovs.empty()) return;
+    const Film& half = *state.every_other_pass;
+    frame.half_share = static_cast<float>(state.every_other_spp) / static_cast<float>(state.spp_done);
+    OutputLayer image{.name = "half", .channels = "RGBA", .is_float = false, .pixels = rgba_image(half)};
+    frame.layers.push_back(std::move(image));
+    for (const AovOutput& aov : description.aovs) {
+        frame.layers.push_back(resolve_layer(half, aov));
+        frame.layers.back().name.insert(0, "half.");
+    }
 }
 
 }  // namespace etendue

@@ -1,17 +1,22 @@
 // What is said of an image besides its pixels, kept with its checkpoints and parts.
 #pragma once
 
+#include "output/aov_output.h"
 #include "output/output_frame.h"
 #include "output/statistics.h"
 #include "render/progressive_render.h"
+#include "scene/aov_desc.h"
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace etendue {
 
 struct ImageDescription {
-    OutputFrame frame;            ///< without pixels, window and counts, which the film knows
+    OutputFrame frame;            ///< without pixels, layers, window and counts, which the film knows
+    std::vector<AovOutput> aovs;  ///< the layers that the film has
+    AovLayout aov_layout = AovLayout::Layers;
     RenderStatistics statistics;  ///< of what is rendered; when it is read back, without what rendering it cost
 };
 
@@ -25,5 +30,8 @@ struct ImageDescription {
 /// ended.
 void describe_state(ImageDescription& description, const RenderState& state, bool complete,
                     const std::string& halt_reason);
+
+/// Puts in the layers of the film, and if the state has every other pass by itself, those of that.
+void resolve_layers(ImageDescription& description, const RenderState& state);
 
 }  // namespace etendue

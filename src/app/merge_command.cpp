@@ -82,6 +82,7 @@ ExitCode run_merge(const MergeArguments& arguments) {
         if (!arguments.quiet) note_missing(merged, spp_requested);
         require_writable(paths.png);
         require_writable(paths.json);
+        resolve_layers(image, state);
         image.statistics.libraries = library_versions();
         write_image_files(paths, image, ColorConfig::from_environment(), arguments.depth);
     }

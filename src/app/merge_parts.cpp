@@ -94,8 +94,8 @@ void check_tiling(const Ranges& ranges, const PixelRect& bounds) {
                      static_cast<std::size_t>(bounds.y0) + hole / width));
 }
 
-/// Samples per pixel of the whole. Throws SceneError if it is not the same everywhere.
-std::uint32_t common_samples(Ranges& ranges, const std::function<void(const std::string&)>& note) {
+/// Throws SceneError if the samples per pixel are not the same everywhere.
+void check_samples(Ranges& ranges, const std::function<void(const std::string&)>& note) {
     std::optional<std::uint32_t> common;
     for (auto& [window, parts] : ranges) {
         const std::uint32_t count = count_samples(parts, note);
@@ -105,7 +105,6 @@ std::uint32_t common_samples(Ranges& ranges, const std::function<void(const std:
                              text_of(window), count, *common));
         common = count;
     }
-    return *common;
 }
 
 /// Reads one part after the other, as what it must be to be added to the first.
@@ -137,8 +136,25 @@ class Parts {
     PixelRect splat_window_;
 };
 
-void add(RenderState& sum, const RenderState& part) {
+/// Without samples, of pixels `bounds`, with all that `part` has.
+RenderState nothing_like(const RenderState& part, const PixelRect& bounds) {
+    const Film& film = part.film;
+    const auto empty_film = [&] {
+        return Film(film.full_width(), film.full_height(), bounds, film.splat_window(), film.layers().layout());
+    };
+    RenderState none{.film = empty_film(), .first_sample = std::numeric_limits<std::uint32_t>::max()};
+    if (part.every_other_pass) none.every_other_pass = empty_film();
+    return none;
+}
+
+/// `is_counted` for the parts of one window, whose samples are those of every window.
+void add(RenderState& sum, const RenderState& part, bool is_counted) {
     sum.film.add(part.film);
+    if (sum.every_other_pass && part.every_other_pass) sum.every_other_pass->add(*part.every_other_pass);
+    if (is_counted) {
+        sum.spp_done += part.spp_done;
+        sum.every_other_spp += part.every_other_spp;
+    }
     sum.counters.add(part.counters);
     sum.wall_seconds += part.wall_seconds;
     sum.cpu_seconds += part.cpu_seconds;
@@ -161,19 +177,15 @@ MergedParts merge_parts(std::span<const std::filesystem::path> files,
         for (const Range& range : of_window) end = std::max(end, range.end);
     const PixelRect bounds = bounds_of(ranges);
     check_tiling(ranges, bounds);
-    const std::uint32_t spp = common_samples(ranges, note);
+    check_samples(ranges, note);
+    const PixelRect counted = ranges.begin()->first;
 
     std::optional<Checkpoint> merged;
     for (const std::filesystem::path& file : files) {
         Checkpoint part = parts.read(file);
-        if (!merged) {
-            const Film& film = part.state.film;
-            RenderState none{.film = Film(film.full_width(), film.full_height(), bounds, film.splat_window()),
-                             .first_sample = std::numeric_limits<std::uint32_t>::max(),
-                             .spp_done = spp};
-            merged.emplace(std::move(part.identity), std::move(part.description), std::move(none));
-        }
-        add(merged->state, part.state);
+        if (!merged)
+            merged.emplace(std::move(part.identity), std::move(part.description), nothing_like(part.state, bounds));
+        add(merged->state, part.state, part.state.film.window() == counted);
     }
     const std::uint32_t span = end - merged->state.first_sample;
     return {std::move(*merged), span, ranges.size() == 1};

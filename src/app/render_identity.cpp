@@ -20,7 +20,7 @@ namespace {
 
 /// Lines of `dump` that are about how long to render, of which pixels, and how to show it.
 bool is_left_out(std::string_view line) {
-    constexpr std::array<std::string_view, 4> kLeftOut{"sampling:", "crop:", "texture memory:", "colour:"};
+    constexpr std::array<std::string_view, 5> kLeftOut{"sampling:", "crop:", "texture memory:", "layout of layers:", "colour:"};
     for (const std::string_view start : kLeftOut)
         if (line.starts_with(start)) return true;
     return false;
@@ -28,7 +28,7 @@ bool is_left_out(std::string_view line) {
 
 /// Lines of settings have a name that ends at a colon; everything else is of the scene.
 bool is_setting(std::string_view line) {
-    constexpr std::array<std::string_view, 7> kNames{"integrator", "film:",   "camera used:", "light units",
+    constexpr std::array<std::string_view, 8> kNames{"aov ", "integrator", "film:",   "camera used:", "light units",
                                                      "time code",  "shutter", "variant used"};
     for (const std::string_view name : kNames)
         if (line.starts_with(name)) return true;
@@ -42,6 +42,11 @@ std::string name_of(const std::filesystem::path& input, const std::filesystem::p
     const std::filesystem::path path = std::filesystem::weakly_canonical(input).lexically_relative(base);
     const bool is_inside = !path.empty() && *path.begin() != "..";
     return (is_inside ? path : input.filename()).generic_string();
+}
+
+/// Up to the colon; of layers, with their names.
+std::string setting_name(const std::string& line) {
+    return line.substr(0, line.find_first_of(line.starts_with("aov ") ? "=" : " :"));
 }
 
 }  // namespace
@@ -65,7 +70,7 @@ RenderIdentity render_identity(const SceneDesc& scene, const std::string& workin
     for (std::string line; std::getline(lines, line);) {
         if (is_left_out(line)) continue;
         if (is_setting(line))
-            identity["setting " + line.substr(0, line.find_first_of(" :"))] = line;
+            identity["setting " + setting_name(line)] = line;
         else
             rest.add(std::as_bytes(std::span(line)));
     }

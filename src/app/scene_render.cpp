@@ -1,5 +1,6 @@
 #include "app/scene_render.h"
 
+#include "app/aov_setup.h"
 #include "app/checkpoint_files.h"
 #include "app/dropped_samples.h"
 #include "app/image_description.h"
@@ -66,6 +67,9 @@ class SceneRender {
             if (request.samples) options_.spp = request.samples->end - request.samples->begin;
         }
         integrator_ = create_integrator(scene_.settings);
+        aovs_ = make_aov_plan(scene_, problems_);
+        report_problems();
+        options_.aovs = aovs_.set;
         check_outputs();
         description_.statistics.load = prepared.load;
         describe_scene();
@@ -130,6 +134,8 @@ class SceneRender {
         identity_ = render_identity(scene_, working_space);
         settings_ = scene_.settings;
         OutputFrame& frame = description_.frame;
+        description_.aovs = aovs_.outputs;
+        description_.aov_layout = settings_.aov_layout;
         frame.working_space = working_space;
         frame.display = settings_.color.display;
         frame.view = settings_.color.view;
@@ -142,9 +148,11 @@ class SceneRender {
 
     [[nodiscard]] std::uint32_t first_sample() const { return request_.samples ? request_.samples->begin : 0; }
 
+    [[nodiscard]] bool keeps_every_other_pass() const { return options_.relative_error > 0.0 || aovs_.has_halves; }
+
     [[nodiscard]] RenderState new_state() const {
         RenderState state{.film = make_film(options_), .first_sample = first_sample()};
-        if (options_.relative_error > 0.0) state.every_other_pass = make_film(options_);
+        if (keeps_every_other_pass()) state.every_other_pass = make_film(options_);
         return state;
     }
 
@@ -157,7 +165,7 @@ class SceneRender {
             .window = options_.window,
             .splat_window = options_.splat_window.empty() ? options_.window : options_.splat_window,
             .first_sample = first_sample(),
-            .every_other_pass = options_.relative_error > 0.0,
+            .every_other_pass = keeps_every_other_pass(),
             // An image may have more samples than are asked for, but parts must not overlap.
             .most_spp = is_partial(output_) ? std::optional(options_.spp) : std::nullopt};
         std::optional<Checkpoint> kept;
@@ -249,6 +257,7 @@ class SceneRender {
             if (complete) etendue::write_checkpoint(output_, identity_, to_text(description_), rendered);
             return;
         }
+        resolve_layers(description_, rendered);
         const PixelDepth depth = request_.overrides.depth;
         write_image_files(paths_, description_, colors_, depth, [&] {
             if (!request_.strategies.output.empty() && complete)
@@ -272,6 +281,7 @@ class SceneRender {
     ProgressPipe progress_pipe_;
     RenderOptions options_;
     std::unique_ptr<const Integrator> integrator_;
+    AovPlan aovs_;
     ColorConfig colors_ = ColorConfig::from_environment();
     RenderSettings settings_;  ///< with names of colour spaces resolved
     RenderIdentity identity_;

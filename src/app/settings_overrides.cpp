@@ -26,6 +26,7 @@ constexpr int kMostEdges = 1 << 20;
 const std::map<std::string, HeuristicType> kHeuristics{{"power", HeuristicType::Power},
                                                        {"balance", HeuristicType::Balance}};
 
+const std::map<std::string, AovLayout> kAovLayouts(kAovLayoutNames.begin(), kAovLayoutNames.end());
 const std::map<std::string, LightUnits> kLightUnits(kLightUnitNames.begin(), kLightUnitNames.end());
 
 void apply_quality(Quality quality, RenderSettings& settings) {
@@ -66,6 +67,17 @@ std::uint64_t parse_texture_memory(const std::string& text) {
     const auto bytes = parse_byte_size(text);
     if (!bytes) throw CLI::ValidationError("--texture-memory", fmt::format("'{}' is not {}", text, kByteSizeForm));
     return *bytes;
+}
+
+std::vector<AovDesc> parse_aovs(const std::vector<std::string>& texts) {
+    std::vector<AovDesc> aovs;
+    for (const std::string& text : texts) {
+        std::optional<AovDesc> aov = parse_aov(text);
+        if (!aov) throw CLI::ValidationError("--aov", fmt::format("'{}' is not {}", text, kAovForm));
+        aov->location = {"--aov", {}};
+        aovs.push_back(std::move(*aov));
+    }
+    return aovs;
 }
 
 /// "3", "1:48" or "1:48:2".
@@ -192,6 +204,18 @@ void SettingsOverrides::add_options(CLI::App& command) {
         "--texture-memory", [this](const std::string& text) { texture_memory = parse_texture_memory(text); },
         "Memory for decoded textures, such as 8G or 512M; scenes with more read them piece by piece as they are "
         "needed (default: half of the machine's)");
+    command
+        .add_option_function<std::vector<std::string>>(
+            "--aov", [this](const std::vector<std::string>& texts) { aovs = parse_aovs(texts); },
+            "Another layer to write: one of those listed below, NAME=lpe:EXPRESSION or NAME=light:NAME; :half or :float "
+            "behind it says how. Can be given several times (docs/aovs.md)")
+        ->allow_extra_args(false);
+    command
+        .add_option_function<std::string>(
+            "--aov-layout", [this](const std::string& text) { aov_layout = kAovLayouts.at(text); },
+            "Layers as channels of the image (layers, default), as parts of its file (parts) or in files of their own "
+            "(files)")
+        ->check(CLI::IsMember(kAovLayouts));
     command.add_option("--exposure", exposure, "Exposure of the preview image, stops")->check(real_range(-64.0, 64.0));
     command.add_option("--view", view, "OpenColorIO view of the preview image");
     command.add_option("--working-space", working_space, "Scene-linear space to render in and to write");
@@ -227,6 +251,8 @@ void SettingsOverrides::apply(SceneDesc& scene) const {
     set(time_seconds, settings.time_limit, "/time", "--time");
     set(relative_error, settings.relative_error, "/error", "--error");
     set(texture_memory, settings.texture_memory, "/texture_memory", "--texture-memory");
+    settings.aovs.insert(settings.aovs.end(), aovs.begin(), aovs.end());
+    set(aov_layout, settings.aov_layout, "/aov_layout", "--aov-layout");
     set(exposure, settings.color.exposure, "/color/exposure", "--exposure");
     set(view, settings.color.view, "/color/view", "--view");
     set(working_space, settings.color.working_space, "/color/working_space", "--working-space");

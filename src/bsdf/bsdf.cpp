@@ -16,6 +16,22 @@ float reverse_pdf_of_lobe(const Bsdf& bsdf, const Vec3f& wo, const Vec3f& wi) {
     return evaluate_bsdf(bsdf, from, to, kAny).pdf_solid_angle;
 }
 
+Rgb diffuse_share(const Bsdf& bsdf, const Vec3f& wo, const Vec3f& wi, TransportMode mode) {
+    MetallicRoughness::Value parts;
+    if (std::holds_alternative<Diffuse>(bsdf) || std::holds_alternative<RoughDiffuse>(bsdf)) return Rgb(1.0f);
+    if (const auto* base = std::get_if<MetallicRoughness>(&bsdf))
+        parts = base->evaluate_parts(wo, wi);
+    else if (const auto* body = std::get_if<DielectricBody>(&bsdf))
+        parts = body->evaluate_parts(wo, wi, mode);
+    else if (const auto* layered = std::get_if<LayeredSurface>(&bsdf))
+        parts = layered->evaluate_parts(wo, wi, mode);
+    const auto share = [](float diffuse, float specular) {
+        return diffuse > 0.0f ? diffuse / (diffuse + specular) : 0.0f;
+    };
+    return {share(parts.diffuse.r, parts.specular.r), share(parts.diffuse.g, parts.specular.g),
+            share(parts.diffuse.b, parts.specular.b)};
+}
+
 Rgb estimate_albedo(const Bsdf& bsdf, const Vec3f& wo, int count, std::uint32_t seed) {
     Rgb sum;
     for (int i = 0; i < count; ++i) {

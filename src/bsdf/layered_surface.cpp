@@ -108,8 +108,8 @@ class InnerSide {
     const DielectricBody* body_;
 };
 
-BsdfValue evaluate_layers(const LayeredSurface& surface, const Layers& layers, const Vec3f& wo, const Vec3f& wi,
-                          TransportMode mode) {
+MetallicRoughness::Value evaluate_layer_parts(const LayeredSurface& surface, const Layers& layers, const Vec3f& wo,
+                                              const Vec3f& wi, TransportMode mode) {
     const MetallicRoughness::Value base = evaluate_base(surface, wo, wi, mode);
     const float passed_i = Layers::passed(surface, wi);
     const float p_base = layers.p_base();
@@ -117,27 +117,34 @@ BsdfValue evaluate_layers(const LayeredSurface& surface, const Layers& layers, c
     const float specular_scale =
         std::lerp(std::min(layers.passed_o, passed_i), layers.passed_o * passed_i / surface.passed_average_plain,
                   surface.diffuseness);
-    BsdfValue value{base.diffuse * diffuse_scale + base.specular * specular_scale, base.pdf_solid_angle * p_base};
+    MetallicRoughness::Value value{base.diffuse * diffuse_scale, base.specular * specular_scale,
+                                   base.pdf_solid_angle * p_base};
     const InnerSide inner(surface);
     if (inner.is_seen_from(wo)) {
         const BsdfValue returned = inner.evaluate(wo, wi);
-        value.f_cos += returned.f_cos;
+        value.specular += returned.f_cos;
         value.pdf_solid_angle = std::lerp(value.pdf_solid_angle, returned.pdf_solid_angle, inner.choice(wo));
         return value;
     }
     if (wo.z <= 0.0f || wi.z <= 0.0f) return value;
     if (surface.sheen.exists()) {
         const BsdfValue sheen = surface.sheen.evaluate(wo, wi);
-        value.f_cos += sheen.f_cos * std::min(surface.coat.passed(dot(wo, surface.coat.normal)),
-                                              surface.coat.passed(dot(wi, surface.coat.normal)));
+        value.diffuse += sheen.f_cos * std::min(surface.coat.passed(dot(wo, surface.coat.normal)),
+                                                surface.coat.passed(dot(wi, surface.coat.normal)));
         value.pdf_solid_angle += sheen.pdf_solid_angle * layers.p_sheen;
     }
     if (surface.coat.exists()) {
         const BsdfValue coat = surface.coat.evaluate(wo, wi, mode);
-        value.f_cos += coat.f_cos;
+        value.specular += coat.f_cos;
         value.pdf_solid_angle += coat.pdf_solid_angle * layers.p_coat;
     }
     return value;
+}
+
+BsdfValue evaluate_layers(const LayeredSurface& surface, const Layers& layers, const Vec3f& wo, const Vec3f& wi,
+                          TransportMode mode) {
+    const MetallicRoughness::Value parts = evaluate_layer_parts(surface, layers, wo, wi, mode);
+    return {parts.diffuse + parts.specular, parts.pdf_solid_angle};
 }
 
 /// The mirror direction of a smooth coat.
@@ -188,6 +195,11 @@ LayeredSurface LayeredSurface::make(const std::variant<MetallicRoughness, Dielec
 bool LayeredSurface::has_non_delta() const {
     return sheen.exists() || (coat.exists() && !coat.is_smooth()) ||
            std::visit([](const auto& lobe) { return lobe.has_non_delta(); }, base);
+}
+
+MetallicRoughness::Value LayeredSurface::evaluate_parts(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const {
+    if (wo.z == 0.0f || wi.z == 0.0f || (wo.z < 0.0f && !is_two_sided())) return {};
+    return evaluate_layer_parts(*this, Layers(*this, wo), wo, wi, mode);
 }
 
 BsdfValue LayeredSurface::evaluate(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const {

@@ -150,6 +150,10 @@ RayCone OrthographicCamera::pixel_cone(const Vec3f&, float pixel_area) const {
     return {std::sqrt(4.0f * half_width * half_height * pixel_area), 0.0f};
 }
 
+const CameraPose& pose_of(const Camera& camera) {
+    return std::visit([](const auto& c) -> const CameraPose& { return pose_of(c); }, camera);
+}
+
 Camera with_pose(const Camera& camera, const CameraPose& pose) {
     Camera result = camera;
     std::visit([&](auto& c) { set_pose(c, pose); }, result);

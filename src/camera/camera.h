@@ -80,6 +80,7 @@ struct OrthographicCamera {
 
 using Camera = std::variant<PinholeCamera, ThinLensCamera, OrthographicCamera>;
 
+[[nodiscard]] const CameraPose& pose_of(const Camera& camera);
 /// `camera` with another pose.
 [[nodiscard]] Camera with_pose(const Camera& camera, const CameraPose& pose);
 

@@ -1,45 +1,68 @@
 #include "film/film.h"
 
+#include <algorithm>
 #include <cassert>
 #include <utility>
 
 namespace etendue {
 
-Film::Film(int full_width, int full_height, const PixelRect& window, const PixelRect& splat_window)
+namespace {
+
+/// What to multiply the sums of a pixel by. Dividing by the weights keeps even regions even. Where a filter with
+/// negative parts has by chance left little weight (a few samples), their number, which is the weight's mean, stands
+/// in.
+double scale_of(const PixelSum& p) {
+    const auto count = static_cast<double>(p.samples);
+    const double weight = p.weight > 0.5 * count ? p.weight : count;
+    return weight > 0.0 ? 1.0 / weight : 0.0;
+}
+
+}  // namespace
+
+Film::Film(int full_width, int full_height, const PixelRect& window, const PixelRect& splat_window,
+           const LayerLayout& layout)
     : full_width_(full_width),
       full_height_(full_height),
       window_(window),
       splat_window_(splat_window),
-      pixels_(window.area()) {}
+      pixels_(window.area()),
+      layers_(layout, window.area()) {}
 
-PixelSum* Film::row(int x, int y) {
-    return pixels_.data() + static_cast<std::size_t>(y - window_.y0) * static_cast<std::size_t>(window_.width()) +
+std::size_t Film::index(int x, int y) const {
+    return static_cast<std::size_t>(y - window_.y0) * static_cast<std::size_t>(window_.width()) +
            static_cast<std::size_t>(x - window_.x0);
 }
 
 void Film::add(const TileBuffer& tile) {
     const PixelRect& rect = tile.rect();
     std::size_t source = 0;
-    for (int y = rect.y0; y < rect.y1; ++y) {
-        PixelSum* target = row(rect.x0, y);
-        for (int x = rect.x0; x < rect.x1; ++x, ++source, ++target) target->add(tile.pixel(source));
-    }
+    for (int y = rect.y0; y < rect.y1; ++y)
+        for (int x = rect.x0; x < rect.x1; ++x, ++source) {
+            const std::size_t target = index(x, y);
+            pixels_[target].add(tile.pixel(source));
+            layers_.add(target, tile.layers(), source);
+        }
 }
 
 void Film::add_splats(std::span<const std::vector<Splat>> lists, std::uint64_t light_paths, const PixelFilter& filter,
                       const ThreadPool& threads) {
-    if (!splats_) splats_.emplace(full_width_, full_height_, splat_window_, filter);
+    if (!splats_)
+        splats_.emplace(full_width_, full_height_, splat_window_, filter, layers_.layout().light,
+                        layers_.layout().has_moments);
     splats_->add(lists, light_paths, threads);
 }
 
 void Film::add(const Film& other) {
     const PixelRect& rect = other.window_;
-    assert(intersection(rect, window_) == rect && other.splat_window_ == splat_window_);
-    const PixelSum* source = other.pixels_.data();
-    for (int y = rect.y0; y < rect.y1; ++y) {
-        PixelSum* target = row(rect.x0, y);
-        for (int x = rect.x0; x < rect.x1; ++x, ++source, ++target) target->add(*source);
-    }
+    assert(intersection(rect, window_) == rect && other.splat_window_ == splat_window_ &&
+           other.layers_.layout() == layers_.layout());
+    std::size_t source = 0;
+    for (int y = rect.y0; y < rect.y1; ++y)
+        for (int x = rect.x0; x < rect.x1; ++x, ++source) {
+            const std::size_t target = index(x, y);
+            pixels_[target].add(other.pixels_[source]);
+            layers_.add(target, other.layers_, source);
+        }
     if (!other.splats_) return;
     if (splats_)
         splats_->add(*other.splats_);
@@ -47,9 +70,10 @@ void Film::add(const Film& other) {
         splats_ = other.splats_;
 }
 
-void Film::restore(std::vector<PixelSum> sums, std::optional<SplatFilm> splats) {
-    assert(sums.size() == pixels_.size());
+void Film::restore(std::vector<PixelSum> sums, LayerBuffer layers, std::optional<SplatFilm> splats) {
+    assert(sums.size() == pixels_.size() && layers.layout() == layers_.layout());
     pixels_ = std::move(sums);
+    layers_ = std::move(layers);
     splats_ = std::move(splats);
 }
 
@@ -57,14 +81,10 @@ std::vector<float> Film::resolve() const {
     std::vector<float> image;
     image.reserve(pixels_.size() * 4);
     for (const PixelSum& p : pixels_) {
-        // Dividing by the weights keeps even regions even. Where a filter with negative parts has by chance left little
-        // weight (a few samples), their number, which is the weight's mean, stands in.
-        const auto count = static_cast<double>(p.samples);
-        const double weight = p.weight > 0.5 * count ? p.weight : count;
-        const double scale = weight > 0.0 ? 1.0 / weight : 0.0;
+        const double scale = scale_of(p);
         for (const double sum : {p.r, p.g, p.b, p.alpha}) image.push_back(static_cast<float>(sum * scale));
     }
-    if (splats_) splats_->add_to(image, window_);
+    if (splats_) splats_->add_to(image, 4, window_, SplatFilm::kBeauty);
     return image;
 }
 
@@ -72,6 +92,75 @@ std::uint64_t Film::sample_count() const {
     std::uint64_t count = 0;
     for (const PixelSum& p : pixels_) count += p.samples;
     return count;
+}
+
+std::vector<float> Film::resolve_sums(std::size_t first, std::size_t count) const {
+    std::vector<float> means;
+    means.reserve(pixels_.size() * count);
+    for (std::size_t p = 0; p < pixels_.size(); ++p) {
+        const double scale = scale_of(pixels_[p]);
+        for (const double sum : layers_.sums(p).subspan(first, count)) means.push_back(static_cast<float>(sum * scale));
+    }
+    return means;
+}
+
+std::vector<float> Film::resolve_light(std::size_t layer) const {
+    std::vector<float> means = resolve_sums(3 * layer, 3);
+    if (splats_) splats_->add_to(means, 3, window_, SplatFilm::kFirstLayer + layer);
+    return means;
+}
+
+std::vector<float> Film::resolve_values(std::size_t first, std::size_t count) const {
+    return resolve_sums(layers_.layout().value_sums() + first, count);
+}
+
+std::vector<float> Film::resolve_nearest(std::size_t first, std::size_t count, float background) const {
+    std::vector<float> values;
+    values.reserve(pixels_.size() * count);
+    for (std::size_t p = 0; p < pixels_.size(); ++p) {
+        const bool has_hit = layers_.has_nearest(p);
+        for (const float value : layers_.nearest(p).subspan(first, count))
+            values.push_back(has_hit ? value : background);
+    }
+    return values;
+}
+
+std::vector<float> Film::resolve_variance() const {
+    assert(layers_.layout().has_moments);
+    const std::size_t first = layers_.layout().moment_sums();
+    std::vector<float> variance;
+    variance.reserve(pixels_.size() * 3);
+    for (std::size_t i = 0; i < pixels_.size(); ++i) {
+        const PixelSum& p = pixels_[i];
+        const double scale = scale_of(p);
+        const double others = p.samples > 1 ? 1.0 / static_cast<double>(p.samples - 1) : 0.0;
+        const std::span<const double> squares = layers_.sums(i).subspan(first, 3);
+        const double sums[3] = {p.r, p.g, p.b};
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double mean = sums[c] * scale;
+            variance.push_back(static_cast<float>(std::max(0.0, squares[c] * scale - mean * mean) * others));
+        }
+    }
+    if (splats_) splats_->add_variance_to(variance, window_);
+    return variance;
+}
+
+std::vector<float> Film::resolve_ray_counts() const {
+    assert(layers_.layout().has_ray_counts);
+    std::vector<float> rays;
+    rays.reserve(pixels_.size());
+    for (std::size_t p = 0; p < pixels_.size(); ++p) {
+        const auto samples = static_cast<double>(std::max<std::uint64_t>(1, pixels_[p].samples));
+        rays.push_back(static_cast<float>(layers_.sums(p)[layers_.layout().ray_sum()] / samples));
+    }
+    return rays;
+}
+
+std::vector<float> Film::resolve_sample_counts() const {
+    std::vector<float> counts;
+    counts.reserve(pixels_.size());
+    for (const PixelSum& p : pixels_) counts.push_back(static_cast<float>(p.samples));
+    return counts;
 }
 
 }  // namespace etendue

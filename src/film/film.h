@@ -3,6 +3,7 @@
 
 #include "core/pixel_rect.h"
 #include "core/rgb.h"
+#include "film/layers.h"
 #include "film/splat_film.h"
 
 #include <cstddef>
@@ -46,21 +47,26 @@ struct PixelSum {
 class TileBuffer {
   public:
     /// Starts a tile; memory is kept from the one before.
-    void reset(const PixelRect& rect) {
+    void reset(const PixelRect& rect, const LayerLayout& layout = {}) {
         rect_ = rect;
         pixels_.assign(rect.area(), PixelSum{});
+        layers_.reset(layout, rect.area());
         splats_.clear();
     }
     [[nodiscard]] const PixelRect& rect() const { return rect_; }
     /// Pixel `index` of the rectangle, row by row.
     [[nodiscard]] PixelSum& pixel(std::size_t index) { return pixels_[index]; }
     [[nodiscard]] const PixelSum& pixel(std::size_t index) const { return pixels_[index]; }
+    /// Of the same pixels.
+    [[nodiscard]] LayerBuffer& layers() { return layers_; }
+    [[nodiscard]] const LayerBuffer& layers() const { return layers_; }
     /// Light for any pixel of the image, of integrators that make such.
     [[nodiscard]] std::vector<Splat>& splats() { return splats_; }
 
   private:
     PixelRect rect_;
     std::vector<PixelSum> pixels_;
+    LayerBuffer layers_;
     std::vector<Splat> splats_;
 };
 
@@ -70,7 +76,8 @@ class Film {
   public:
     /// Splats are kept for all of `splat_window`, which need not be the window of the pixels: the light paths of one
     /// part of an image shine on the others.
-    Film(int full_width, int full_height, const PixelRect& window, const PixelRect& splat_window);
+    Film(int full_width, int full_height, const PixelRect& window, const PixelRect& splat_window,
+         const LayerLayout& layout = {});
     Film(int full_width, int full_height, const PixelRect& window) : Film(full_width, full_height, window, window) {}
 
     /// Adds the pixels of a finished tile. Calls for tiles that do not overlap may run at the same time.
@@ -80,14 +87,15 @@ class Film {
     void add_splats(std::span<const std::vector<Splat>> lists, std::uint64_t light_paths, const PixelFilter& filter,
                     const ThreadPool& threads);
 
-    /// Adds the sums of `other`, which has the same filter and splat window, and a window inside this one's.
+    /// Adds the sums of `other`, which has the same filter, splat window and layers, and a window inside this one's.
     void add(const Film& other);
 
     /// All that it holds: of the window, row by row, and the splats, if there have been any.
     [[nodiscard]] std::span<const PixelSum> sums() const { return pixels_; }
+    [[nodiscard]] const LayerBuffer& layers() const { return layers_; }
     [[nodiscard]] const SplatFilm* splats() const { return splats_ ? &*splats_ : nullptr; }
-    /// Puts back what `sums` and `splats` of such a film have given.
-    void restore(std::vector<PixelSum> sums, std::optional<SplatFilm> splats);
+    /// Puts back what `sums`, `layers` and `splats` of such a film have given.
+    void restore(std::vector<PixelSum> sums, LayerBuffer layers, std::optional<SplatFilm> splats);
 
     [[nodiscard]] int full_width() const { return full_width_; }
     [[nodiscard]] int full_height() const { return full_height_; }
@@ -99,15 +107,32 @@ class Film {
     [[nodiscard]] std::vector<float> resolve() const;
     [[nodiscard]] std::uint64_t sample_count() const;
 
+    /// Of the window, row by row: means of the light layer of this index, three floats a pixel, with its splats.
+    [[nodiscard]] std::vector<float> resolve_light(std::size_t layer) const;
+    /// Means of the values [first, first + count), as many floats a pixel.
+    [[nodiscard]] std::vector<float> resolve_values(std::size_t first, std::size_t count) const;
+    /// Of the nearest samples, the numbers [first, first + count); `background` where nothing was hit.
+    [[nodiscard]] std::vector<float> resolve_nearest(std::size_t first, std::size_t count, float background) const;
+    /// Estimate of the variance of each pixel's mean, red, green and blue, from the squares of what its samples and
+    /// splats brought: as if all were independent, which samples that fill each other's gaps are better than. Zero with
+    /// fewer than two samples. The film must have moments.
+    [[nodiscard]] std::vector<float> resolve_variance() const;
+    /// Rays per sample. The film must have ray counts.
+    [[nodiscard]] std::vector<float> resolve_ray_counts() const;
+    [[nodiscard]] std::vector<float> resolve_sample_counts() const;
+
   private:
-    /// Of the window's row `y`, from its column `x` on.
-    [[nodiscard]] PixelSum* row(int x, int y);
+    /// Of the pixel in column `x` and row `y` of the full image.
+    [[nodiscard]] std::size_t index(int x, int y) const;
+    /// Means of the layers' sums [first, first + count).
+    [[nodiscard]] std::vector<float> resolve_sums(std::size_t first, std::size_t count) const;
 
     int full_width_;
     int full_height_;
     PixelRect window_;
     PixelRect splat_window_;
     std::vector<PixelSum> pixels_;
+    LayerBuffer layers_;
     std::optional<SplatFilm> splats_;
 };
 

@@ -34,8 +34,26 @@ bool reaches(const PixelRect& window, const PixelFilter& filter, const Vec2f& po
            position.y > centre(window.y0) - r && position.y < centre(window.y1 - 1) + r;
 }
 
-SplatFilm::SplatFilm(int full_width, int full_height, const PixelRect& window, const PixelFilter& filter)
-    : full_width_(full_width), full_height_(full_height), window_(window), filter_(filter), pixels_(window.area()) {}
+SplatFilm::SplatFilm(int full_width, int full_height, const PixelRect& window, const PixelFilter& filter,
+                     std::size_t light_layers, bool has_moments)
+    : full_width_(full_width),
+      full_height_(full_height),
+      window_(window),
+      filter_(filter),
+      moment_layer_(has_moments ? kFirstLayer + light_layers : kBeauty),
+      pixels_(window.area() * (kFirstLayer + light_layers + (has_moments ? 1 : 0))) {}
+
+std::size_t SplatFilm::index(int x, int y, std::size_t layer) const {
+    return layer * window_.area() +
+           static_cast<std::size_t>(y - window_.y0) * static_cast<std::size_t>(window_.width()) +
+           static_cast<std::size_t>(x - window_.x0);
+}
+
+double SplatFilm::scale() const {
+    return light_paths_ == 0 ? 0.0
+                             : static_cast<double>(full_width_) * static_cast<double>(full_height_) /
+                                   static_cast<double>(light_paths_);
+}
 
 void SplatFilm::add(std::span<const std::vector<Splat>> lists, std::uint64_t light_paths, const ThreadPool& threads) {
     light_paths_ += light_paths;
@@ -64,14 +82,24 @@ void SplatFilm::add_splat(const Splat& splat, int y0, int y1, std::vector<float>
     for (int x = columns.begin; x < columns.end; ++x) along_x.push_back(filter_.evaluate(centre(x) - splat.position.x));
     for (int y = rows.begin; y < rows.end; ++y) {
         const float along_y = filter_.evaluate(centre(y) - splat.position.y);
-        SplatSum* sum = &pixels_[static_cast<std::size_t>(y - window_.y0) * static_cast<std::size_t>(window_.width()) +
-                                 static_cast<std::size_t>(columns.begin - window_.x0)];
+        SplatSum* sum = &pixels_[index(columns.begin, y, splat.layer)];
+        SplatSum* square = splat.layer == kBeauty && moment_layer_ != kBeauty
+                               ? &pixels_[index(columns.begin, y, moment_layer_)]
+                               : nullptr;
         for (const float x_weight : along_x) {
             const auto weight = static_cast<double>(along_y * x_weight);
-            sum->r += weight * static_cast<double>(splat.value.r);
-            sum->g += weight * static_cast<double>(splat.value.g);
-            sum->b += weight * static_cast<double>(splat.value.b);
+            const double r = weight * static_cast<double>(splat.value.r);
+            const double g = weight * static_cast<double>(splat.value.g);
+            const double b = weight * static_cast<double>(splat.value.b);
+            sum->r += r;
+            sum->g += g;
+            sum->b += b;
             ++sum;
+            if (square == nullptr) continue;
+            square->r += r * r;
+            square->g += g * g;
+            square->b += b * b;
+            ++square;
         }
     }
 }
@@ -92,21 +120,36 @@ void SplatFilm::restore(std::vector<SplatSum> sums, std::uint64_t light_paths) {
     light_paths_ = light_paths;
 }
 
-void SplatFilm::add_to(std::span<float> image, const PixelRect& window) const {
-    if (light_paths_ == 0) return;
-    const double scale =
-        static_cast<double>(full_width_) * static_cast<double>(full_height_) / static_cast<double>(light_paths_);
+void SplatFilm::add_to(std::span<float> image, std::size_t channels, const PixelRect& window,
+                       std::size_t layer) const {
+    const double all = scale();
     float* pixel = image.data();
     for (int y = window.y0; y < window.y1; ++y) {
-        const SplatSum* sum =
-            &pixels_[static_cast<std::size_t>(y - window_.y0) * static_cast<std::size_t>(window_.width()) +
-                     static_cast<std::size_t>(window.x0 - window_.x0)];
-        for (int x = window.x0; x < window.x1; ++x, ++sum, pixel += 4) {
-            pixel[0] += static_cast<float>(sum->r * scale);
-            pixel[1] += static_cast<float>(sum->g * scale);
-            pixel[2] += static_cast<float>(sum->b * scale);
+        const SplatSum* sum = &pixels_[index(window.x0, y, layer)];
+        for (int x = window.x0; x < window.x1; ++x, ++sum, pixel += channels) {
+            pixel[0] += static_cast<float>(sum->r * all);
+            pixel[1] += static_cast<float>(sum->g * all);
+            pixel[2] += static_cast<float>(sum->b * all);
         }
     }
+}
+
+void SplatFilm::add_variance_to(std::span<float> variance, const PixelRect& window) const {
+    assert(moment_layer_ != kBeauty);
+    const double all = scale();
+    const double share = light_paths_ > 0 ? 1.0 / static_cast<double>(light_paths_) : 0.0;
+    float* pixel = variance.data();
+    for (int y = window.y0; y < window.y1; ++y)
+        for (int x = window.x0; x < window.x1; ++x, pixel += 3) {
+            const SplatSum& sum = pixels_[index(x, y, kBeauty)];
+            const SplatSum& square = pixels_[index(x, y, moment_layer_)];
+            const auto of = [&](double total, double squares) {
+                return static_cast<float>(std::max(0.0, squares - total * total * share) * all * all);
+            };
+            pixel[0] += of(sum.r, square.r);
+            pixel[1] += of(sum.g, square.g);
+            pixel[2] += of(sum.b, square.b);
+        }
 }
 
 }  // namespace etendue

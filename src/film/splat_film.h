@@ -19,8 +19,9 @@ namespace etendue {
 
 /// Light at a place on the film.
 struct Splat {
-    Vec2f position;  ///< pixels of the full image, x right and y down from its corner
-    Rgb value;       ///< of the integral over the film of area 1
+    Vec2f position;           ///< pixels of the full image, x right and y down from its corner
+    Rgb value;                ///< of the integral over the film of area 1
+    std::uint32_t layer = 0;  ///< of SplatFilm: the image, or one of the film's light layers
 };
 
 /// Sums of one pixel, in double because they grow. 24 bytes.
@@ -33,23 +34,32 @@ struct SplatSum {
 /// True if some pixel of `window` sees what falls on `position` through `filter`.
 [[nodiscard]] bool reaches(const PixelRect& window, const PixelFilter& filter, const Vec2f& position);
 
-/// Sums of splats. 24 bytes a pixel.
+/// Sums of splats, of the image and of the light layers of a film. 24 bytes a pixel and layer.
 class SplatFilm {
   public:
-    SplatFilm(int full_width, int full_height, const PixelRect& window, const PixelFilter& filter);
+    static constexpr std::size_t kBeauty = 0;
+    static constexpr std::size_t kFirstLayer = 1;
+
+    /// With moments it keeps the sums of the squares of what the splats of the image bring, in one more layer.
+    SplatFilm(int full_width, int full_height, const PixelRect& window, const PixelFilter& filter,
+              std::size_t light_layers = 0, bool has_moments = false);
 
     /// Adds lists of splats, which came from `light_paths` paths. The sums are those of adding one after the other in
     /// the order of `lists`, whatever the number of threads.
     void add(std::span<const std::vector<Splat>> lists, std::uint64_t light_paths, const ThreadPool& threads);
 
-    /// Adds the sums of `other`, which has the same window.
+    /// Adds the sums of `other`, which has the same window and layers.
     void add(const SplatFilm& other);
 
-    /// Adds the image to that of a `Film` whose `window` lies in this one's, four floats a pixel.
-    void add_to(std::span<float> image, const PixelRect& window) const;
+    /// Adds a layer to that of a `Film` whose `window` lies in this one's, `channels` floats a pixel, of which the
+    /// first three are red, green and blue.
+    void add_to(std::span<float> image, std::size_t channels, const PixelRect& window, std::size_t layer) const;
+    /// Adds an estimate of the variance of the image to that of such a film, three floats a pixel: as if each light
+    /// path left one splat in a pixel at most, so that those that leave several count too little.
+    void add_variance_to(std::span<float> variance, const PixelRect& window) const;
 
     [[nodiscard]] const PixelFilter& filter() const { return filter_; }
-    /// Of the window, row by row.
+    /// Layer by layer, each of the window, row by row.
     [[nodiscard]] std::span<const SplatSum> sums() const { return pixels_; }
     [[nodiscard]] std::uint64_t light_paths() const { return light_paths_; }
     /// Puts back what `sums` and `light_paths` of such a film have given.
@@ -59,11 +69,15 @@ class SplatFilm {
     /// Adds what falls on rows [y0, y1) of the full image.
     void add_rows(std::span<const std::vector<Splat>> lists, int y0, int y1);
     void add_splat(const Splat& splat, int y0, int y1, std::vector<float>& along_x);
+    /// Of a pixel in the window, in column `x` and row `y` of the full image.
+    [[nodiscard]] std::size_t index(int x, int y, std::size_t layer) const;
+    [[nodiscard]] double scale() const;
 
     int full_width_;
     int full_height_;
     PixelRect window_;
     PixelFilter filter_;
+    std::size_t moment_layer_;  ///< kBeauty if there is none
     std::vector<SplatSum> pixels_;
     std::uint64_t light_paths_ = 0;
 };

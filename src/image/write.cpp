@@ -82,9 +82,12 @@ void add_attribute(OIIO::ImageSpec& spec, const ImageAttribute& attribute) {
     std::visit(Visitor{spec, attribute.name}, attribute.value);
 }
 
-OIIO::ImageSpec make_spec(const ImageF& image, const ImageWriteOptions& options) {
+OIIO::ImageSpec make_spec(const ImagePart& part, const ImageWriteOptions& options) {
+    const ImageF& image = *part.image;
     OIIO::ImageSpec spec(image.width, image.height, image.channels, stored_type(options.depth));
-    spec.channelnames = options.channel_names.empty() ? default_channel_names(image.channels) : options.channel_names;
+    for (const PixelDepth depth : part.channel_depths) spec.channelformats.push_back(stored_type(depth));
+    const std::vector<std::string>& names = part.channel_names.empty() ? options.channel_names : part.channel_names;
+    spec.channelnames = names.empty() ? default_channel_names(image.channels) : names;
     spec.x = options.offset_x;
     spec.y = options.offset_y;
     if (options.full_width > 0 && options.full_height > 0) {
@@ -116,36 +119,37 @@ std::vector<std::uint8_t> to_8bit(std::span<const float> pixels) {
 }
 
 // A finite value stays finite: an infinity in a file poisons every filter that touches it.
-std::vector<float> to_half_range(std::span<const float> pixels) {
+// `depths` are those of the channels.
+std::vector<float> to_half_range(std::span<const float> pixels, std::span<const PixelDepth> depths) {
     std::vector<float> clamped(pixels.begin(), pixels.end());
-    for (float& value : clamped) {
-        if (std::isfinite(value)) value = std::clamp(value, -kLargestHalf, kLargestHalf);
-    }
+    for (std::size_t i = 0; i < clamped.size(); ++i)
+        if (depths[i % depths.size()] == PixelDepth::Half && std::isfinite(clamped[i]))
+            clamped[i] = std::clamp(clamped[i], -kLargestHalf, kLargestHalf);
     return clamped;
 }
 
-bool write_pixels(OIIO::ImageOutput& output, const ImageF& image, PixelDepth depth) {
-    switch (depth) {
-        case PixelDepth::UInt8:
-            return output.write_image(OIIO::TypeDesc::UINT8, to_8bit(image.pixels).data());
-        case PixelDepth::Half:
-            return output.write_image(OIIO::TypeDesc::FLOAT, to_half_range(image.pixels).data());
-        case PixelDepth::Float:
-            break;
-    }
-    return output.write_image(OIIO::TypeDesc::FLOAT, image.pixels.data());
+bool write_pixels(OIIO::ImageOutput& output, const ImagePart& part, PixelDepth depth) {
+    const ImageF& image = *part.image;
+    if (depth == PixelDepth::UInt8) return output.write_image(OIIO::TypeDesc::UINT8, to_8bit(image.pixels).data());
+    const std::vector<PixelDepth> depths = part.channel_depths.empty() ? std::vector{depth} : part.channel_depths;
+    if (std::ranges::find(depths, PixelDepth::Half) == depths.end())
+        return output.write_image(OIIO::TypeDesc::FLOAT, image.pixels.data());
+    return output.write_image(OIIO::TypeDesc::FLOAT, to_half_range(image.pixels, depths).data());
 }
 
-void check_shape(const std::filesystem::path& path, const ImageF& image, const ImageWriteOptions& options) {
+void check_shape(const std::filesystem::path& path, const ImagePart& part, const ImageWriteOptions& options) {
+    const ImageF& image = *part.image;
+    const std::vector<std::string>& names = part.channel_names.empty() ? options.channel_names : part.channel_names;
     const auto expected = static_cast<std::size_t>(std::max(image.width, 0)) *
                           static_cast<std::size_t>(std::max(image.height, 0)) *
                           static_cast<std::size_t>(std::max(image.channels, 0));
-    const bool named =
-        options.channel_names.empty() || options.channel_names.size() == static_cast<std::size_t>(image.channels);
+    const auto channels = static_cast<std::size_t>(std::max(image.channels, 0));
+    const bool named = (names.empty() || names.size() == channels) &&
+                       (part.channel_depths.empty() || part.channel_depths.size() == channels);
     if (expected == 0 || image.pixels.size() != expected || !named) {
         throw IoError(fmt::format("cannot write {}: {} x {} pixels of {} channels with {} values and {} channel names",
                                   path.string(), image.width, image.height, image.channels, image.pixels.size(),
-                                  options.channel_names.size()));
+                                  names.size()));
     }
 }
 
@@ -153,7 +157,7 @@ void check_shape(const std::filesystem::path& path, const ImageF& image, const I
 std::vector<OIIO::ImageSpec> make_specs(std::span<const ImagePart> parts, const ImageWriteOptions& options) {
     std::vector<OIIO::ImageSpec> specs;
     for (const ImagePart& part : parts) {
-        specs.push_back(make_spec(*part.image, options));
+        specs.push_back(make_spec(part, options));
         if (!part.name.empty()) specs.back().attribute("oiio:subimagename", part.name);
     }
     return specs;
@@ -167,7 +171,7 @@ bool write_parts(OIIO::ImageOutput& output, const std::string& name, std::span<c
     if (!opened) return false;
     for (std::size_t i = 0; i < parts.size(); ++i) {
         if (i > 0 && !output.open(name, specs[i], OIIO::ImageOutput::AppendSubimage)) return false;
-        if (!write_pixels(output, *parts[i].image, options.depth)) return false;
+        if (!write_pixels(output, parts[i], options.depth)) return false;
     }
     return output.close();
 }
@@ -195,7 +199,7 @@ class MemoryFile {
 // Encoded in memory first, so that every byte that reaches the disk is written and checked in one place.
 std::vector<unsigned char> encode(const std::filesystem::path& path, std::span<const ImagePart> parts,
                                   const ImageWriteOptions& options) {
-    for (const ImagePart& part : parts) check_shape(path, *part.image, options);
+    for (const ImagePart& part : parts) check_shape(path, part, options);
     const std::string format = output_format(path, options.depth);
     configure_image_library();
     std::vector<unsigned char> encoded;
@@ -221,13 +225,13 @@ void write_image_parts(const std::filesystem::path& path, std::span<const ImageP
 }
 
 void write_image(const std::filesystem::path& path, const ImageF& image, const ImageWriteOptions& options) {
-    write_image_parts(path, std::array{ImagePart{{}, &image}}, options);
+    write_image_parts(path, std::array{ImagePart{.image = &image}}, options);
 }
 
 std::vector<unsigned char> encode_png(const ImageF& image) {
     ImageWriteOptions options;
     options.depth = PixelDepth::UInt8;
-    return encode("image.png", std::array{ImagePart{{}, &image}}, options);
+    return encode("image.png", std::array{ImagePart{.image = &image}}, options);
 }
 
 }  // namespace etendue

@@ -40,10 +40,12 @@ struct ImageWriteOptions {
 /// IoError with the path and the reason; no partial file is left.
 void write_image(const std::filesystem::path& path, const ImageF& image, const ImageWriteOptions& options);
 
-/// One image of a file that holds several.
+/// One image of a file that may hold several.
 struct ImagePart {
-    std::string name;  ///< unlike all others
+    std::string name{};  ///< unlike all others
     const ImageF* image = nullptr;
+    std::vector<std::string> channel_names{};  ///< in place of those of the options; empty for these
+    std::vector<PixelDepth> channel_depths{};  ///< Half or Float of each channel; empty for that of the options
 };
 
 /// Writes `parts`, at least one, as a multi-part EXR in the same way; `options` are those of all.

@@ -75,15 +75,33 @@ void generate_camera_rays(const World& world, const TileJob& job, std::size_t fi
     }
 }
 
-void accumulate(const TileJob& job, const CameraSample& sample, const Rgb& radiance, float alpha, TileBuffer& tile,
+bool accumulate(const TileJob& job, const CameraSample& sample, const Rgb& radiance, float alpha, TileBuffer& tile,
                 RenderCounters& counters) {
     ++counters.samples;
     if (!is_finite(radiance) || min_component(radiance) < 0.0f) {
         const Vec2i position = pixel_position(job, sample.pixel);
         counters.drop({position.x, position.y, sample.key.index});
-        return;
+        return false;
     }
     tile.pixel(sample.pixel).add(radiance, alpha, sample.weight);
+    return true;
+}
+
+void accumulate(const TileJob& job, std::span<const CameraSample> samples, const SampleLight& light,
+                std::span<const float> alpha, TileBuffer& tile, RenderCounters& counters) {
+    LayerBuffer& layers = tile.layers();
+    const LayerLayout& layout = layers.layout();
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const CameraSample& sample = samples[i];
+        const Rgb& radiance = light.radiance(i);
+        if (!accumulate(job, sample, radiance, alpha[i], tile, counters) || layout.sums() == 0) continue;
+        const auto weight = static_cast<double>(sample.weight);
+        const std::span<const Rgb> parts = light.layers(i);
+        for (std::size_t layer = 0; layer < parts.size(); ++layer)
+            layers.add_rgb(sample.pixel, 3 * layer, parts[layer], weight);
+        if (layout.has_moments) layers.add_rgb(sample.pixel, layout.moment_sums(), radiance * radiance, weight);
+        if (layout.has_ray_counts) layers.sums(sample.pixel)[layout.ray_sum()] += static_cast<double>(light.rays(i));
+    }
 }
 
 }  // namespace etendue

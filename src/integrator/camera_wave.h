@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/ray.h"
+#include "integrator/aov/sample_light.h"
 #include "integrator/integrator.h"
 
 #include <algorithm>
@@ -39,9 +40,13 @@ struct CameraSample {
 void generate_camera_rays(const World& world, const TileJob& job, std::size_t first, std::span<CameraSample> samples,
                           std::span<Ray> rays);
 
-/// Adds `radiance` to the sample's pixel; drops, counts and locates what is not finite or negative.
-void accumulate(const TileJob& job, const CameraSample& sample, const Rgb& radiance, float alpha, TileBuffer& tile,
+/// Adds `radiance` to the sample's pixel; drops, counts and locates what is not finite or negative: false if it was.
+bool accumulate(const TileJob& job, const CameraSample& sample, const Rgb& radiance, float alpha, TileBuffer& tile,
                 RenderCounters& counters);
+
+/// Adds all that the samples have found, with their alphas, to their pixels and layers.
+void accumulate(const TileJob& job, std::span<const CameraSample> samples, const SampleLight& light,
+                std::span<const float> alpha, TileBuffer& tile, RenderCounters& counters);
 
 /// Traces all samples of the job, as many at a time as a `Wave`, which `scratch` is, holds.
 template <typename Wave, typename Options>

@@ -6,6 +6,7 @@
 #include "film/dropped_sample.h"
 #include "film/film.h"
 #include "film/pixel_filter.h"
+#include "integrator/aov/aov_set.h"
 #include "integrator/heuristic.h"
 #include "integrator/strategy.h"
 #include "sampling/sampler.h"
@@ -34,6 +35,7 @@ struct TileJob {
     std::uint32_t seed = 0;
     SampleSequence sequence = SampleSequence::Sobol;
     const PixelFilter* filter = nullptr;  ///< not null
+    const AovSet* aovs = nullptr;         ///< of the tile's layers; null if it has none
 };
 
 /// What rendering counts. One per thread, added up at the end.
@@ -102,6 +104,7 @@ struct IntegratorEntry {
     std::unique_ptr<const Integrator> (*make)(const IntegratorOptions&);
     int longest_path = std::numeric_limits<int>::max();  ///< edges
     bool has_strategies = false;                         ///< it looks at the options for them
+    bool has_expressions = true;                         ///< it tells the light of paths apart
     bool shows_light = true;                             ///< false: something else, for finding out what is wrong
 };
 

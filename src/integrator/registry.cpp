@@ -62,9 +62,20 @@ constexpr IntegratorEntry kRegistry[] = {
      .summary = "eye and light paths, connected in every way, combined by MIS",
      .make = make_bdpt,
      .has_strategies = true},
-    {"whitted", "mirrored and refracted rays, direct light, and no more", make_whitted},
-    {.name = "normals", .summary = "shading normals, for debugging", .make = make_normals, .shows_light = false},
-    {.name = "albedo", .summary = "scattered share of light, for debugging", .make = make_albedo, .shows_light = false},
+    {.name = "whitted",
+     .summary = "mirrored and refracted rays, direct light, and no more",
+     .make = make_whitted,
+     .has_expressions = false},
+    {.name = "normals",
+     .summary = "shading normals, for debugging",
+     .make = make_normals,
+     .has_expressions = false,
+     .shows_light = false},
+    {.name = "albedo",
+     .summary = "scattered share of light, for debugging",
+     .make = make_albedo,
+     .has_expressions = false,
+     .shows_light = false},
 };
 
 }  // namespace

@@ -4,9 +4,13 @@
 #include "output/software_name.h"
 
 #include <array>
+#include <cstddef>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
+
+#include <fmt/format.h>
 
 namespace etendue {
 
@@ -49,6 +53,7 @@ std::vector<ImageAttribute> make_attributes(const OutputFrame& frame, const Colo
         {"etendue:complete", frame.complete ? 1 : 0},
         {"etendue:haltReason", frame.halt_reason},
     };
+    if (frame.half_share > 0.0f) attributes.push_back({"etendue:halfShare", frame.half_share});
     add_chromaticities(config, space, attributes);
     return attributes;
 }
@@ -58,8 +63,60 @@ std::vector<ImageAttribute> make_attributes(const OutputFrame& frame, const Colo
 ExrDriver::ExrDriver(std::filesystem::path path, ColorConfig config, PixelDepth depth)
     : path_(std::move(path)), config_(std::move(config)), depth_(depth) {}
 
+ImagePart ExrDriver::part_of(const OutputLayer& layer, bool with_name) const {
+    ImagePart part{.image = &layer.pixels};
+    for (const char channel : layer.channels) {
+        part.channel_names.push_back(with_name ? fmt::format("{}.{}", layer.name, channel) : std::string(1, channel));
+        part.channel_depths.push_back(layer.is_float ? PixelDepth::Float : depth_);
+    }
+    return part;
+}
+
 void ExrDriver::write(const OutputFrame& frame) {
-    write_parts(frame, std::array{ImagePart{{}, &frame.pixels}});
+    if (frame.layers.empty()) return write_parts(frame, std::array{ImagePart{.image = &frame.pixels}});
+    constexpr std::string_view kColor = "RGBA";
+    ImageF all;
+    all.width = frame.pixels.width;
+    all.height = frame.pixels.height;
+    all.channels = frame.pixels.channels;
+    ImagePart part{.image = &all};
+    for (const char channel : kColor.substr(0, static_cast<std::size_t>(all.channels))) {
+        part.channel_names.emplace_back(1, channel);
+        part.channel_depths.push_back(depth_);
+    }
+    for (const OutputLayer& layer : frame.layers) {
+        const ImagePart channels = part_of(layer, true);
+        part.channel_names.insert(part.channel_names.end(), channels.channel_names.begin(),
+                                  channels.channel_names.end());
+        part.channel_depths.insert(part.channel_depths.end(), channels.channel_depths.begin(),
+                                   channels.channel_depths.end());
+        all.channels += layer.pixels.channels;
+    }
+    const auto pixels = static_cast<std::size_t>(all.width) * static_cast<std::size_t>(all.height);
+    all.pixels.reserve(pixels * static_cast<std::size_t>(all.channels));
+    const auto append = [&](const ImageF& image, std::size_t pixel) {
+        const auto channels = static_cast<std::ptrdiff_t>(image.channels);
+        const auto first = image.pixels.begin() + static_cast<std::ptrdiff_t>(pixel) * channels;
+        all.pixels.insert(all.pixels.end(), first, first + channels);
+    };
+    for (std::size_t p = 0; p < pixels; ++p) {
+        append(frame.pixels, p);
+        for (const OutputLayer& layer : frame.layers) append(layer.pixels, p);
+    }
+    write_parts(frame, std::array{part});
+}
+
+void ExrDriver::write_layers_as_parts(const OutputFrame& frame) {
+    std::vector<ImagePart> parts{{.name = "rgba", .image = &frame.pixels}};
+    for (const OutputLayer& layer : frame.layers) {
+        parts.push_back(part_of(layer, true));
+        parts.back().name = layer.name;
+    }
+    write_parts(frame, parts);
+}
+
+void ExrDriver::write_layer(const OutputFrame& frame, const OutputLayer& layer) {
+    write_parts(frame, std::array{part_of(layer, false)});
 }
 
 void ExrDriver::write_parts(const OutputFrame& frame, std::span<const ImagePart> parts) {

@@ -17,11 +17,18 @@ class ExrDriver final : public OutputDriver {
     /// `depth` is Half or Float.
     ExrDriver(std::filesystem::path path, ColorConfig config, PixelDepth depth = PixelDepth::Half);
 
+    /// The image and its layers as the channels of one part: R, G, B, A, NAME.R …
     void write(const OutputFrame& frame) override;
+    /// The image and its layers as parts of their own: "rgba", NAME …
+    void write_layers_as_parts(const OutputFrame& frame);
+    /// One layer of the frame in place of its pixels.
+    void write_layer(const OutputFrame& frame, const OutputLayer& layer);
     /// `parts`, of the frame's size, in place of its pixels: a multi-part file, unless it is one.
     void write_parts(const OutputFrame& frame, std::span<const ImagePart> parts);
 
   private:
+    [[nodiscard]] ImagePart part_of(const OutputLayer& layer, bool with_name) const;
+
     std::filesystem::path path_;
     ColorConfig config_;
     PixelDepth depth_;

@@ -6,13 +6,25 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace etendue {
+
+/// One of the layers of an image besides its colour.
+struct OutputLayer {
+    std::string name;
+    std::string channels;   ///< a letter each
+    bool is_float = false;  ///< to be written as 32-bit floats, whatever the image is
+    ImageF pixels;
+};
 
 struct OutputFrame {
     /// 3 or 4 channels, linear in `working_space`, as large as the crop window. Alpha is associated (colour is already
     /// multiplied by it).
     ImageF pixels;
+    std::vector<OutputLayer> layers;  ///< of the same size
+    /// Not 0: layers whose names begin with "half." are of this share of the samples, (0, 1).
+    float half_share = 0.0f;
     int crop_x = 0;             ///< column of the first pixel in the full image
     int crop_y = 0;             ///< row of the first pixel in the full image, y down
     int full_width = 0;         ///< pixels; 0 if the image is not cropped

@@ -25,7 +25,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "checkpoints are written as numbers lie in memory");
 static_assert(sizeof(PixelSum) == 48 && sizeof(SplatSum) == 24, "sums have no padding, and old files hold them so");
 
-constexpr std::array<char, 8> kMagic{'E', 'T', 'D', 'C', 'K', 'P', 'T', '1'};
+constexpr std::array<char, 8> kMagic{'E', 'T', 'D', 'C', 'K', 'P', 'T', '2'};
 
 /// Writes and hashes.
 class Writer {
@@ -116,12 +116,22 @@ RenderCounters get_counters(Reader& in) {
     return counters;
 }
 
+void put_layers(Writer& out, const LayerBuffer& layers) {
+    const LayerLayout& layout = layers.layout();
+    for (const std::size_t count : {layout.light, layout.values, layout.nearest}) out.put(std::uint64_t{count});
+    out.put(std::uint64_t{layout.has_moments});
+    out.put(std::uint64_t{layout.has_ray_counts});
+    out.put(layers.all_sums());
+    out.put(layers.all_nearest());
+}
+
 void put_film(Writer& out, const Film& film) {
     const PixelRect& window = film.window();
     const PixelRect& around = film.splat_window();
     for (const int number : {film.full_width(), film.full_height(), window.x0, window.y0, window.x1, window.y1,
                              around.x0, around.y0, around.x1, around.y1})
         out.put(number);
+    put_layers(out, film.layers());
     out.put(film.sums());
     const SplatFilm* splats = film.splats();
     out.put(std::uint64_t{splats != nullptr});
@@ -150,22 +160,40 @@ PixelRect get_window(Reader& in, const PixelRect& frame) {
     return window;
 }
 
+LayerBuffer get_layers(Reader& in, std::size_t pixels) {
+    constexpr std::uint64_t kMost = 4096;  // far more than can be asked for
+    std::array<std::uint64_t, 5> counts;
+    in.get(std::span<std::uint64_t>(counts));
+    for (const std::uint64_t count : counts)
+        if (count > kMost) in.fail();
+    const LayerLayout layout{counts[0], counts[1], counts[2], counts[3] != 0, counts[4] != 0};
+    if (in.left() / sizeof(double) / std::max<std::size_t>(1, layout.sums()) < pixels ||
+        in.left() / sizeof(float) / (layout.nearest + 1) < pixels)
+        in.fail();
+    LayerBuffer layers(layout, pixels);
+    in.get(layers.all_sums());
+    in.get(layers.all_nearest());
+    return layers;
+}
+
 Film get_film(Reader& in) {
     const auto width = in.get<int>();
     const auto height = in.get<int>();
     const PixelRect window = get_window(in, {0, 0, width, height});
     const PixelRect splat_window = get_window(in, {0, 0, width, height});
+    LayerBuffer layers = get_layers(in, window.area());
     std::vector<PixelSum> sums = in.get_many<PixelSum>(window.area());
     std::optional<SplatFilm> splats;
     if (in.get<std::uint64_t>() != 0) {
         const PixelFilter filter = get_filter(in);
         const auto light_paths = in.get<std::uint64_t>();
-        std::vector<SplatSum> splat_sums = in.get_many<SplatSum>(splat_window.area());
-        splats.emplace(width, height, splat_window, filter);
+        const LayerLayout& layout = layers.layout();
+        splats.emplace(width, height, splat_window, filter, layout.light, layout.has_moments);
+        std::vector<SplatSum> splat_sums = in.get_many<SplatSum>(splats->sums().size());
         splats->restore(std::move(splat_sums), light_paths);
     }
-    Film film(width, height, window, splat_window);
-    film.restore(std::move(sums), std::move(splats));
+    Film film(width, height, window, splat_window, layers.layout());
+    film.restore(std::move(sums), std::move(layers), std::move(splats));
     return film;
 }
 

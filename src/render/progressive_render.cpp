@@ -18,7 +18,8 @@ using Clock = std::chrono::steady_clock;
 
 Film make_film(const SamplingOptions& options) {
     return {options.full_width, options.full_height, options.window,
-            options.splat_window.empty() ? options.window : options.splat_window};
+            options.splat_window.empty() ? options.window : options.splat_window,
+            options.aovs ? options.aovs->layout : LayerLayout{}};
 }
 
 ProgressiveRender::ProgressiveRender(const World& world, const Integrator& integrator, const SamplingOptions& options,
@@ -95,9 +96,10 @@ void ProgressiveRender::render_group(std::size_t first, std::size_t size, const 
                           state_.pass_size,
                           options_.seed,
                           options_.sequence,
-                          &options_.filter};
+                          &options_.filter,
+                          options_.aovs.get()};
         const std::uint64_t rays_before = worker.counters.rays();
-        worker.tile.reset(job.rect);
+        worker.tile.reset(job.rect, state_.film.layers().layout());
         integrator_.render_tile(world_, job, *worker.scratch, worker.tile, worker.counters);
         state_.film.add(worker.tile);
         if (second != nullptr) second->add(worker.tile);

@@ -29,6 +29,7 @@ struct SamplingOptions {
     PixelFilter filter{FilterShape::BlackmanHarris};
     /// Not 0: tiles are taken in an order shuffled by this number. The image does not depend on it; tests show that.
     std::uint32_t tile_order_seed = 0;
+    std::shared_ptr<const AovSet> aovs{};  ///< layers to keep besides the image; null for none
 };
 
 /// A film without samples for such a render.

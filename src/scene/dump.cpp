@@ -38,6 +38,10 @@ std::string text(const TextureRef& ref) {
     return result;
 }
 
+std::string_view text(AovLayout layout) {
+    return kAovLayoutNames[static_cast<std::size_t>(layout)].first;
+}
+
 const char* text(AlphaMode mode) {
     switch (mode) {
         case AlphaMode::Opaque:
@@ -259,6 +263,8 @@ void dump_settings(const RenderSettings& s, Out out) {
     fmt::format_to(out, "film: {} x {}, filter {} radius {:g}\n", s.film.width, s.film.height, text(s.film.filter),
                    s.film.filter_radius);
     if (s.film.crop) fmt::format_to(out, "crop: {}\n", fmt::join(*s.film.crop, " "));
+    for (const AovDesc& aov : s.aovs) fmt::format_to(out, "aov {}\n", to_text(aov));
+    if (!s.aovs.empty()) fmt::format_to(out, "layout of layers: {}\n", text(s.aov_layout));
     fmt::format_to(out, "camera used: \"{}\"\n", s.camera);
     fmt::format_to(out, "light units: {}\n", light_units_name(s.light_units));
     // Not the sequence that a frame belongs to: it is the same image in a longer one.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/error.h"
+#include "scene/aov_desc.h"
 #include "scene/light_desc.h"
 
 #include <array>
@@ -11,6 +12,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace etendue {
 
@@ -93,6 +95,8 @@ struct RenderSettings {
     LightUnits light_units = LightUnits::Photometric;
     std::optional<std::uint64_t> texture_memory;  ///< bytes for decoded textures; none for half of the machine's memory
     FilmSettings film;
+    std::vector<AovDesc> aovs;  ///< layers to write besides the image
+    AovLayout aov_layout = AovLayout::Layers;
     ColorSettings color;
     SourceLocation location;                     ///< of render.json
     std::map<std::string, std::string> options;  ///< JSON pointers of what the command line set, and with which option

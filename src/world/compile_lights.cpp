@@ -98,7 +98,7 @@ void compile_mesh_lights(std::size_t most_triangles, WorldData& data, ProblemLis
             if (!(light.area() > 0.0f)) continue;
             data.light_of_slot[instance.first_light_slot + g] = static_cast<std::uint32_t>(data.lights.size());
             data.lights.emplace_back(std::move(light));
-            data.emitter_of_light.push_back({static_cast<std::uint32_t>(i), index});
+            data.emitter_of_light.push_back({.instance = static_cast<std::uint32_t>(i), .geometry = index});
         }
     }
     data.has_unsampled_emitters = moving > 0 || skipped > 0;
@@ -118,10 +118,11 @@ void compile_lights(const SceneDesc& scene, const ThreadPool& threads, WorldData
                     std::size_t most_triangles) {
     const auto profiles = compile_profiles(scene);
     const float scale = scene.settings.light_units == LightUnits::Radiometric ? 1.0f / kLumensPerWatt : 1.0f;
-    for (const LightDesc& desc : scene.lights) {
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+        const LightDesc& desc = scene.lights[i];
         if (!(desc.intensity > 0.0f) || !(max_component(desc.color) > 0.0f)) continue;
         data.lights.push_back(compile_punctual(desc, profiles, scale, data.from_rec709));
-        data.emitter_of_light.emplace_back();
+        data.emitter_of_light.push_back({.lamp = static_cast<std::uint32_t>(i)});
     }
     compile_mesh_lights(most_triangles, data, problems);
     if (scene.environment.enabled) {

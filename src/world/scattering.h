@@ -58,6 +58,13 @@ class Scattering {
                 value.pdf_solid_angle, etendue::reverse_pdf_solid_angle(*bsdf_, wo_local_, wi_local)};
     }
 
+    /// Share, [0, 1], of what `evaluate` says that is scattered as by a diffuse surface.
+    [[nodiscard]] Rgb diffuse_share(const Vec3f& wi, TransportMode mode) const {
+        return etendue::diffuse_share(*bsdf_, wo_local_, frame_.to_local(wi), mode);
+    }
+    /// True if `wi` lies on the other side of the surface than wo.
+    [[nodiscard]] bool is_transmission(const Vec3f& wi) const { return wo_local_.z * frame_.to_local(wi).z < 0.0f; }
+
     /// wi of the result is in world space.
     [[nodiscard]] BsdfSample sample(float u_lobe, Vec2f u, TransportMode mode) const {
         if (!wo_agrees_) return {};

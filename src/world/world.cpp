@@ -300,6 +300,11 @@ CameraConnection World::connect_to_camera(const Vec3f& point, Vec2f lens, float 
     return data_->camera_motion.empty() ? connect(data_->camera, point, lens) : connect(camera_at(time), point, lens);
 }
 
+float World::depth(const Vec3f& point, float time) const {
+    const CameraPose pose = data_->camera_motion.empty() ? pose_of(data_->camera) : pose_of(camera_at(time));
+    return dot(point - pose.position, pose.forward);
+}
+
 float World::bounding_radius() const {
     return radius_of(data_->bounds);
 }

@@ -73,10 +73,11 @@ struct WorldStatistics {
     std::string first_texture_failure;
 };
 
-/// Which surface a mesh light belongs to.
+/// What a light is: a surface, one of the scene's lights without one, or neither, the environment.
 struct Emitter {
     std::uint32_t instance = kNone;
     std::uint32_t geometry = kNone;
+    std::uint32_t lamp = kNone;  ///< index into SceneDesc::lights
 };
 
 /// Everything `compile_world` fills in; the World makes it immutable.
@@ -88,7 +89,7 @@ struct WorldData {
     std::unique_ptr<TextureCache> texture_cache;  ///< null if all textures are resident
     std::vector<Texture> textures;
     std::vector<Light> lights;
-    std::vector<Emitter> emitter_of_light;     ///< of each light; kNone for those without a surface
+    std::vector<Emitter> emitter_of_light;     ///< of each light
     std::vector<std::uint32_t> light_of_slot;  ///< light index of (instance, geometry), kNone if it is not sampled
     bool has_unsampled_emitters = false;       ///< some surface that emits is none of `lights`
     std::uint32_t environment = kNone;         ///< index into `lights`
@@ -215,6 +216,14 @@ class World {
     [[nodiscard]] float emission_pdf(std::uint32_t light, const Vec3f& direction, float cos_light) const {
         return etendue::emission_pdf(data_->lights[light], direction, cos_light, scene_sphere());
     }
+    /// What the light of this index is.
+    [[nodiscard]] const Emitter& emitter(std::uint32_t light) const { return data_->emitter_of_light[light]; }
+    /// Index of the material of `point`, as in the description.
+    [[nodiscard]] std::uint32_t material_index(const SurfacePoint& point) const {
+        return static_cast<std::uint32_t>(point.material - data_->materials.data());
+    }
+    /// Distance of `point` from the camera as it is at `time`, metres along its viewing direction.
+    [[nodiscard]] float depth(const Vec3f& point, float time) const;
     /// The light that the surface at `point` belongs to; kNone if it is not sampled.
     [[nodiscard]] std::uint32_t light_at(const SurfacePoint& point) const;
     /// Index of the environment, kNone if there is none.

@@ -31,7 +31,7 @@ std::vector<float> image_of(const std::vector<std::vector<Splat>>& splats, const
     SplatFilm film(kWidth, kHeight, window, filter);
     film.add(splats, 1000, ThreadPool(threads));
     std::vector<float> image(4 * window.area(), 0.0f);
-    film.add_to(image, window);
+    film.add_to(image, 4, window, SplatFilm::kBeauty);
     return image;
 }
 

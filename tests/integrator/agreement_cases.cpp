@@ -168,14 +168,18 @@ const std::vector<AgreementCase>& agreement_cases() {
     return cases;
 }
 
-World agreement_world(const AgreementCase& agreement) {
+SceneDesc agreement_scene(const AgreementCase& agreement) {
     SceneDesc scene = empty_scene();
     scene.settings.film.width = kAgreementWidth;
     scene.settings.film.height = kAgreementHeight;
     add_room(scene);
     add_occluder(scene);
     agreement.make(scene);
-    return compile(std::move(scene));
+    return scene;
+}
+
+World agreement_world(const AgreementCase& agreement) {
+    return compile(agreement_scene(agreement));
 }
 
 }  // namespace etendue::test

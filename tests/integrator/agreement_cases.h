@@ -27,6 +27,7 @@ struct AgreementCase {
 
 [[nodiscard]] const std::vector<AgreementCase>& agreement_cases();
 
+[[nodiscard]] SceneDesc agreement_scene(const AgreementCase& agreement);
 [[nodiscard]] World agreement_world(const AgreementCase& agreement);
 
 }  // namespace etendue::test

@@ -1,5 +1,6 @@
 #include "integrator/bdpt/bdpt_wave.h"
 
+#include "integrator/aov/first_hits.h"
 #include "integrator/connecting_ray.h"
 #include "integrator/subpath/camera_splat.h"
 
@@ -71,17 +72,19 @@ void BdptWave::trace(const World& world, const TileJob& job, const BdptOptions& 
     samples_.resize(count);
     camera_rays_.resize(count);
     generate_camera_rays(world, job, first, samples_, camera_rays_);
-    radiance_.assign(count, Rgb());
+    found_.reset(count, job.aovs);
     alpha_.assign(count, 1.0f);
     const Context context{{world, job, options.lengths, Raised{options.heuristic}, samples_, camera_rays_}, options};
     // Both subpaths of a path share the edges that roulette spares.
     const int roulette_depth_at_light = options.lengths.roulette_depth / 2;
     context_ = &context;
-    eye_.trace(context, options.lengths.roulette_depth - roulette_depth_at_light, this, counters);
+    tile_ = &tile;
+    eye_.trace(context, options.lengths.roulette_depth - roulette_depth_at_light, this, found_, counters);
     context_ = nullptr;
+    tile_ = nullptr;
     if (world.has_lights()) {
-        const auto resolve_if_full = [&] { connections_.resolve_if_full(world, samples_, radiance_, tile, counters); };
-        light_.trace(context, roulette_depth_at_light, nullptr, counters);
+        const auto resolve_if_full = [&] { connections_.resolve_if_full(world, samples_, found_, tile, counters); };
+        light_.trace(context, roulette_depth_at_light, nullptr, found_, counters);
         cache_.clear();
         if (options.cached_connections > 0)
             for (const PathVertex& vertex : light_.vertices())
@@ -101,9 +104,9 @@ void BdptWave::trace(const World& world, const TileJob& job, const BdptOptions& 
             connect_to_camera(context, to_camera_[v], lens);
             resolve_if_full();
         }
-        connections_.resolve(world, samples_, radiance_, tile, counters);
+        connections_.resolve(world, samples_, found_, tile, counters);
     }
-    for (std::size_t i = 0; i < count; ++i) accumulate(job, samples_[i], radiance_[i], alpha_[i], tile, counters);
+    accumulate(job, samples_, found_, alpha_, tile, counters);
 }
 
 void BdptWave::check(const SubpathJob& job, const BdptOptions& options, std::size_t s, float weight,
@@ -135,12 +138,19 @@ CameraConnection BdptWave::camera_of(const SubpathJob& job, const PathVertex& ey
     return job.world.connect_to_camera(first->position, job.samples[eye.slot].lens, job.camera_rays[eye.slot].time);
 }
 
-void BdptWave::add(const SubpathState& state, const Rgb& light, double fewer_from_eye, const PathLightEnd& end) {
+void BdptWave::on_first_hits(std::span<const Ray> rays, std::span<const Hit> hits) {
+    add_first_hits(context_->world, context_->job, samples_, rays, hits, *tile_);
+}
+
+void BdptWave::add(const SubpathState& state, const Rgb& light, double fewer_from_eye, const PathLightEnd& end,
+                   const AovSet::Source& source) {
     const Context& context = *context_;
     if (!is_wanted(context.options, {.s = 0, .t = state.index + 1})) return;
     const float share = weight(context.options, 0.0, fewer_from_eye);
-    radiance_[state.slot] +=
-        state.throughput * light * context.wavelength_weight(state.slot, state.is_dispersed) * share;
+    shares_.clear();
+    if (eye_.words().are_followed()) eye_.words().end_at_light(state.words, source, shares_);
+    found_.add(state.slot, state.throughput * light * context.wavelength_weight(state.slot, state.is_dispersed) * share,
+               shares_);
     if (is_checked(samples_[state.slot], context.options) && state.index > kDirectlySeen) {
         const PathVertex& last = eye_.vertices()[state.last_vertex];
         check(context, context.options, 0, share, end, nullptr, &last, camera_of(context, last));
@@ -166,13 +176,15 @@ void BdptWave::on_emitter(const SubpathState& state, const SurfacePoint& point, 
          .position = point.position,
          .direction = -direction,
          .cos_light = -dot(direction, point.geometric_normal),
-         .is_reached_directly = state.is_direct});
+         .is_reached_directly = state.is_direct},
+        eye_.words().surface_source(point));
 }
 
 void BdptWave::on_unlit(const SubpathState& state, const SurfacePoint& point, const Vec3f& direction) {
     // Only what the eye sees directly or in mirrors shows an unlit surface; it lights nothing.
     if (state.only_delta && state.edges >= context_->lengths.min_depth)
-        add(state, context_->world.unlit_color(point), 0.0, {.position = point.position, .direction = -direction});
+        add(state, context_->world.unlit_color(point), 0.0, {.position = point.position, .direction = -direction},
+            eye_.words().surface_source(point));
 }
 
 void BdptWave::on_escape(const SubpathState& state, const Vec3f& direction) {
@@ -194,7 +206,8 @@ void BdptWave::on_escape(const SubpathState& state, const Vec3f& direction) {
                 arrived.fewer(raised, static_cast<double>(world.emission_pdf(world.environment(), -direction, 1.0f)));
     }
     add(state, world.environment_radiance(direction), fewer,
-        {.light = world.environment(), .direction = -direction, .is_reached_directly = state.is_direct});
+        {.light = world.environment(), .direction = -direction, .is_reached_directly = state.is_direct},
+        eye_.words().environment_source());
 }
 
 void BdptWave::connect_to_light(const Context& context, const PathVertex& vertex, const LightNumbers& numbers) {
@@ -220,10 +233,15 @@ void BdptWave::connect_to_light(const Context& context, const PathVertex& vertex
     Ray ray = shadow_ray(vertex.origin(light.wi), light);
     ray.time = context.camera_rays[vertex.slot].time;
     ray.alpha_key = context.connection_key(SubpathEnd::AtEye, vertex.index, vertex.slot);
+    shares_.clear();
+    if (eye_.words().are_followed())
+        eye_.words().end_at_light(eye_.words_after(vertex, light.wi), eye_.words().light_source(world, chosen.light),
+                                  shares_);
     connections_.to_sample(ray, vertex.slot,
                            vertex.throughput * value.f_cos * light.radiance *
                                vertex.transmittance(light.wi, light.distance) *
-                               context.wavelength_weight(vertex.slot, vertex.is_dispersed) * (share / density));
+                               context.wavelength_weight(vertex.slot, vertex.is_dispersed) * (share / density),
+                           shares_);
     if (is_checked(samples_[vertex.slot], context.options))
         check(context, context.options, 1, share,
               {.light = chosen.light,
@@ -250,11 +268,15 @@ void BdptWave::connect_to_camera(const Context& context, const PathVertex& verte
     Ray ray = connecting_ray(vertex.origin(view->direction), view->camera.lens);
     ray.time = time;
     ray.alpha_key = context.connection_key(SubpathEnd::AtLight, vertex.index, vertex.slot);
+    shares_.clear();
+    if (light_.words().are_followed())
+        light_.words().end_at_camera(light_.words_after(vertex, view->direction), shares_);
     connections_.to_film(
         ray, vertex.slot,
         {view->pixel, vertex.throughput * value.f_cos * vertex.transmittance(view->direction, view->distance) *
                           context.wavelength_weight(vertex.slot, vertex.is_dispersed) *
-                          (view->camera.importance_area * share)});
+                          (view->camera.importance_area * share)},
+        shares_);
     if (is_checked(samples_[vertex.slot], context.options))
         check(context, context.options, static_cast<std::size_t>(vertex.index) + 1, share, light_end(vertex.slot),
               &vertex, nullptr, view->camera);
@@ -311,10 +333,14 @@ void BdptWave::connect(const Context& context, const PathVertex& eye, const Path
     ray.time = context.camera_rays[eye.slot].time;
     ray.alpha_key = context.connection_key(SubpathEnd::AtEye, eye.index, eye.slot) +
                     context.connection_key(SubpathEnd::AtLight, light.index, light.slot);
+    shares_.clear();
+    if (eye_.words().are_followed())
+        eye_.words().join(eye_.words_after(eye, w), light_.words()[light_.words_after(light, -w)], shares_);
     connections_.to_sample(
         ray, eye.slot,
         eye.throughput * at_eye.f_cos * at_light.f_cos * light.throughput * eye.transmittance(w, distance) *
-            context.wavelength_weight(eye.slot, eye.is_dispersed || light.is_dispersed) * (scale * share / squared));
+            context.wavelength_weight(eye.slot, eye.is_dispersed || light.is_dispersed) * (scale * share / squared),
+        shares_);
     if (is_checked(samples_[eye.slot], context.options))
         check(context, context.options, static_cast<std::size_t>(light.index) + 1, share, light_end(light.slot), &light,
               &eye, camera_of(context, eye));

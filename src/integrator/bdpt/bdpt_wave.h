@@ -38,7 +38,9 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
                     const SubpathDensities& arrived) override;
     void on_unlit(const SubpathState& state, const SurfacePoint& point, const Vec3f& direction) override;
     void on_escape(const SubpathState& state, const Vec3f& direction) override;
-    void add(const SubpathState& state, const Rgb& light, double fewer_from_eye, const PathLightEnd& end);
+    void on_first_hits(std::span<const Ray> rays, std::span<const Hit> hits) override;
+    void add(const SubpathState& state, const Rgb& light, double fewer_from_eye, const PathLightEnd& end,
+             const AovSet::Source& source);
 
     /// s = 1: to a point on a light that is sampled for the vertex.
     void connect_to_light(const Context& context, const PathVertex& vertex, const LightNumbers& numbers);
@@ -64,8 +66,9 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
 
     std::vector<CameraSample> samples_;
     std::vector<Ray> camera_rays_;
-    std::vector<Rgb> radiance_;
+    SampleLight found_;
     std::vector<float> alpha_;
+    std::vector<ExpressionShare> shares_;  ///< of the path at hand
     SubpathWave eye_{SubpathEnd::AtEye};
     SubpathWave light_{SubpathEnd::AtLight};
     VerticesToLight to_light_;
@@ -74,6 +77,7 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
     std::vector<const PathVertex*> cache_;
     Connections connections_;
     const Context* context_ = nullptr;  ///< of the call of `trace` under way, for what eye subpaths find
+    TileBuffer* tile_ = nullptr;        ///< the same
 };
 
 }  // namespace etendue

@@ -1,5 +1,6 @@
 #include "integrator/debug/debug_integrator.h"
 
+#include "integrator/aov/first_hits.h"
 #include "integrator/camera_wave.h"
 #include "integrator/scattered_cone.h"
 #include "world/scattering.h"
@@ -14,6 +15,8 @@ struct DebugScratch final : IntegratorScratch {
     static constexpr std::size_t kCapacity = 1024;
     std::vector<CameraSample> samples = std::vector<CameraSample>(kCapacity);
     std::vector<Ray> rays = std::vector<Ray>(kCapacity);
+    SampleLight found;
+    std::vector<float> alpha = std::vector<float>(kCapacity);
     std::vector<Hit> hits = std::vector<Hit>(kCapacity);
 };
 
@@ -37,11 +40,14 @@ void DebugIntegrator::render_tile(const World& world, const TileJob& job, Integr
         generate_camera_rays(world, job, first, std::span(s.samples).first(count), rays);
         world.intersect(rays, hits, Coherence::Coherent);
         counters.camera_rays += count;
-        for (std::size_t i = 0; i < count; ++i) {
-            const bool hit = hits[i].valid();
-            const Rgb shown = hit ? value(world, job, rays[i], hits[i], s.samples[i].key) : Rgb();
-            accumulate(job, s.samples[i], shown, hit ? 1.0f : 0.0f, tile, counters);
+        add_first_hits(world, job, std::span(s.samples).first(count), rays, hits, tile);
+        s.found.reset(count, job.aovs);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            s.found.count_ray(i);
+            s.alpha[i] = hits[i].valid() ? 1.0f : 0.0f;
+            if (hits[i].valid()) s.found.add(i, value(world, job, rays[i], hits[i], s.samples[i].key));
         }
+        accumulate(job, std::span(s.samples).first(count), s.found, s.alpha, tile, counters);
     }
 }
 

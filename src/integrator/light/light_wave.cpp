@@ -1,5 +1,6 @@
 #include "integrator/light/light_wave.h"
 
+#include "integrator/aov/first_hits.h"
 #include "integrator/connecting_ray.h"
 #include "integrator/subpath/camera_splat.h"
 #include "integrator/walk.h"
@@ -12,14 +13,26 @@ void LightWave::trace(const World& world, const TileJob& job, const PathLengths&
     samples_.resize(count);
     camera_rays_.resize(count);
     generate_camera_rays(world, job, first, samples_, camera_rays_);
+    found_.reset(count, job.aovs);
+    if (job.aovs != nullptr && job.aovs->needs_first_hits()) {
+        hits_.resize(count);
+        world.intersect(camera_rays_, hits_, Coherence::Coherent);
+        counters.camera_rays += count;
+        add_first_hits(world, job, samples_, camera_rays_, hits_, tile);
+    }
+    if (world.has_lights()) trace_subpaths(world, job, options, tile, counters);
     // No path from the light tells what the camera sees through: the image is opaque.
-    for (const CameraSample& sample : samples_) accumulate(job, sample, Rgb(), 1.0f, tile, counters);
-    if (!world.has_lights()) return;
+    alpha_.assign(count, 1.0f);
+    accumulate(job, samples_, found_, alpha_, tile, counters);
+}
+
+void LightWave::trace_subpaths(const World& world, const TileJob& job, const PathLengths& options, TileBuffer& tile,
+                               RenderCounters& counters) {
     const SubpathJob subpath_job{world, job, options, Raised{}, samples_, camera_rays_};
-    subpaths_.trace(subpath_job, options.roulette_depth, nullptr, counters);
+    subpaths_.trace(subpath_job, options.roulette_depth, nullptr, found_, counters);
     if (options.min_depth <= 1) connect_lights(subpath_job);
     connect_vertices(subpath_job, tile, counters);
-    connections_.resolve(world, samples_, {}, tile, counters);
+    connections_.resolve(world, samples_, found_, tile, counters);
 }
 
 void LightWave::connect_lights(const SubpathJob& job) {
@@ -39,10 +52,14 @@ void LightWave::connect_lights(const SubpathJob& job) {
         Ray ray = connecting_ray(emission.sample.origin(view->direction), view->camera.lens);
         ray.time = time;
         ray.alpha_key = job.connection_key(SubpathEnd::AtLight, 0, slot);
+        shares_.clear();
+        if (PathWords& words = subpaths_.words(); words.are_followed())
+            words.end_at_camera(words.light_source(world, emission.light), shares_);
         connections_.to_film(ray, slot,
                              {view->pixel, radiance * transmittance(world, interior, view->distance) *
                                                (view->camera.importance_area /
-                                                (emission.sample.pdf_position_area * emission.probability))});
+                                                (emission.sample.pdf_position_area * emission.probability))},
+                             shares_);
     }
 }
 
@@ -60,11 +77,15 @@ void LightWave::connect_vertices(const SubpathJob& job, TileBuffer& tile, Render
         Ray ray = connecting_ray(vertex.origin(view->direction), view->camera.lens);
         ray.time = time;
         ray.alpha_key = job.connection_key(SubpathEnd::AtLight, vertex.index, vertex.slot);
+        shares_.clear();
+        if (subpaths_.words().are_followed())
+            subpaths_.words().end_at_camera(subpaths_.words_after(vertex, view->direction), shares_);
         connections_.to_film(
             ray, vertex.slot,
             {view->pixel, vertex.throughput * scattered * job.wavelength_weight(vertex.slot, vertex.is_dispersed) *
-                              vertex.transmittance(view->direction, view->distance) * view->camera.importance_area});
-        connections_.resolve_if_full(job.world, samples_, {}, tile, counters);
+                              vertex.transmittance(view->direction, view->distance) * view->camera.importance_area},
+            shares_);
+        connections_.resolve_if_full(job.world, samples_, found_, tile, counters);
     }
 }
 

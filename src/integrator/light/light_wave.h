@@ -19,12 +19,18 @@ class LightWave final : public IntegratorScratch {
                TileBuffer& tile, RenderCounters& counters);
 
   private:
+    void trace_subpaths(const World& world, const TileJob& job, const PathLengths& options, TileBuffer& tile,
+                        RenderCounters& counters);
     /// The points of the lights where the subpaths begin.
     void connect_lights(const SubpathJob& job);
     void connect_vertices(const SubpathJob& job, TileBuffer& tile, RenderCounters& counters);
 
     std::vector<CameraSample> samples_;
     std::vector<Ray> camera_rays_;
+    std::vector<Hit> hits_;    ///< of the camera rays, if layers ask for them
+    std::vector<float> alpha_;
+    SampleLight found_;        ///< nothing but rays: all light falls on the film
+    std::vector<ExpressionShare> shares_;  ///< of the path at hand
     SubpathWave subpaths_{SubpathEnd::AtLight};
     VerticesToCamera to_camera_;
     SampleKeys keys_;

@@ -1,5 +1,6 @@
 #include "integrator/path/path_wave.h"
 
+#include "integrator/aov/first_hits.h"
 #include "integrator/connecting_ray.h"
 #include "integrator/scattered_cone.h"
 #include "integrator/walk.h"
@@ -56,7 +57,6 @@ PathWave::PathWave()
       pending_(kCapacity),
       occluded_(kCapacity),
       samples_(kCapacity),
-      radiance_(kCapacity),
       alpha_(kCapacity) {
     for (Numbers* numbers :
          {&light_choice_, &light_triangle_, &light_direction_, &bsdf_direction_, &choices_, &medium_}) {
@@ -69,13 +69,15 @@ void PathWave::trace(const World& world, const TileJob& job, const PathOptions& 
                      std::size_t count, TileBuffer& tile, RenderCounters& counters) {
     generate_camera_rays(world, job, first, std::span(samples_).first(count), std::span(rays_).first(count));
     if (world.has_bodies()) interiors_.assign(kCapacity, world.camera_interior());
+    words_.reset(job.aovs);
+    light_.reset(count, job.aovs);
     for (std::size_t i = 0; i < count; ++i) {
         states_[i] = PathState{};
         states_[i].slot = static_cast<std::uint32_t>(i);
         if (world.has_textures()) states_[i].cone = camera_cone(world, job, rays_[i]);
         pixel_seeds_[i] = samples_[i].key.pixel_seed;
         sample_indices_[i] = samples_[i].key.index;
-        radiance_[i] = Rgb();
+        if (words_.are_followed()) states_[i].words = words_.begin_at_eye();
         alpha_[i] = 1.0f;
     }
     active_ = count;
@@ -83,12 +85,17 @@ void PathWave::trace(const World& world, const TileJob& job, const PathOptions& 
         const Coherence coherence = depth == 1 ? Coherence::Coherent : Coherence::Incoherent;
         world.intersect(std::span(rays_).first(active_), std::span(hits_).first(active_), coherence);
         (depth == 1 ? counters.camera_rays : counters.bounce_rays) += active_;
+        if (light_.counts_rays())
+            for (std::size_t i = 0; i < active_; ++i) light_.count_ray(states_[i].slot);
+        if (depth == 1)
+            add_first_hits(world, job, std::span(samples_).first(count), std::span(rays_).first(count),
+                           std::span(hits_).first(count), tile);
         const Context context{world, job, options, depth};
         draw_numbers(context);
         shade(context);
         add_unoccluded(world, counters);
     }
-    for (std::size_t i = 0; i < count; ++i) accumulate(job, samples_[i], radiance_[i], alpha_[i], tile, counters);
+    accumulate(job, std::span(samples_).first(count), light_, alpha_, tile, counters);
 }
 
 void PathWave::draw(const Context& context, std::uint32_t dimension, Numbers& numbers) {
@@ -111,6 +118,7 @@ void PathWave::draw_numbers(const Context& context) {
 
 void PathWave::shade(const Context& context) {
     pending_count_ = 0;
+    shares_.clear();
     std::size_t kept = 0;
     for (std::size_t i = 0; i < active_; ++i) {
         PathStep next;
@@ -149,7 +157,7 @@ bool PathWave::shade_path(const Context& context, std::size_t i, PathStep& next)
     if (point.material->unlit) {
         // Only what the eye sees directly or in mirrors shows an unlit surface; it lights nothing.
         if (state.only_delta && state.edges >= context.options.lengths.min_depth)
-            radiance_[state.slot] += state.throughput * world.unlit_color(point);
+            add_light(state, world.unlit_color(point), words_.surface_source(point));
         return false;
     }
     if (state.edges >= context.options.lengths.max_depth) return false;
@@ -180,6 +188,10 @@ bool PathWave::scatter_at_surface(const Context& context, std::size_t i, const S
     if (is_black(sample.weight)) return false;
 
     next.state = state;
+    if (words_.are_followed())
+        next.state.words = words_.scatter_from_eye(
+            state.words, surface_event(scattering, sample.wi, sample.is_delta, TransportMode::Radiance,
+                                       words_.label(world, point)));
     next.state.throughput *= sample.weight;
     const auto* mirror = chooses_wavelength && sample.is_delta && !sample.is_transmission
                              ? std::get_if<SmoothDielectric>(&bsdf)
@@ -231,6 +243,7 @@ bool PathWave::scatter_in_medium(const Context& context, std::size_t i, PathStep
     next.state.pdf_solid_angle = medium->phase.pdf_solid_angle(-ray.direction, next.ray.direction);
     next.state.after_delta = !samples_lights;
     next.state.only_delta = false;
+    if (words_.are_followed()) next.state.words = words_.scatter_from_eye(state.words, VertexEvent{});
     next.state.cone = scatter_cone(state.cone.at(sample.distance), lobe_spread(next.state.pdf_solid_angle));
     return true;
 }
@@ -268,7 +281,8 @@ void PathWave::add_environment(const Context& context, const PathState& state, c
     float weight = 1.0f;
     if (context.options.sample_lights && !state.after_delta)
         weight = power_heuristic(state.pdf_solid_angle, world.environment_pdf_solid_angle(ray.direction));
-    radiance_[state.slot] += state.throughput * world.environment_radiance(ray.direction) * weight;
+    add_light(state, world.environment_radiance(ray.direction) * weight,
+              words_.environment_source());
 }
 
 void PathWave::add_emission(const Context& context, const PathState& state, const Ray& ray, const Hit& hit,
@@ -280,7 +294,7 @@ void PathWave::add_emission(const Context& context, const PathState& state, cons
     if (context.options.sample_lights && !state.after_delta)
         weight =
             power_heuristic(state.pdf_solid_angle, context.world.emitter_pdf_solid_angle(point, ray.direction, hit.t));
-    radiance_[state.slot] += state.throughput * emitted * weight;
+    add_light(state, emitted * weight, words_.surface_source(point));
 }
 
 std::uint32_t PathWave::alpha_key(const Context& context, std::size_t i) const {
@@ -309,7 +323,10 @@ void PathWave::queue_direct_light(const Context& context, std::size_t i, const S
             transmittance(context.world, crossing ? beyond(*crossing, point, light.wi) : interiors_[i], light.distance);
     queue(context, i,
           shadow_ray(offset_origin(point.position, point.geometric_normal, point.clearance, light.wi), light),
-          contribution);
+          contribution, chosen.light,
+          words_.are_followed() ? surface_event(scattering, light.wi, false, TransportMode::Radiance,
+                                                words_.label(context.world, point))
+                                : VertexEvent{});
 }
 
 void PathWave::queue_direct_light_in_medium(const Context& context, std::size_t i, const Vec3f& position,
@@ -320,15 +337,27 @@ void PathWave::queue_direct_light_in_medium(const Context& context, std::size_t 
     const float phase = medium.phase.pdf_solid_angle(-rays_[i].direction, light.wi);
     queue(context, i, shadow_ray(position, light),
           states_[i].throughput * light.radiance * medium.transmittance(light.distance) *
-              (phase * light_sample_scale(chosen, phase)));
+              (phase * light_sample_scale(chosen, phase)),
+          chosen.light, VertexEvent{});
 }
 
-void PathWave::queue(const Context& context, std::size_t i, Ray ray, const Rgb& contribution) {
+void PathWave::add_light(const PathState& state, const Rgb& light, const AovSet::Source& source) {
+    // What is added at once stands behind what waits.
+    const std::size_t kept = shares_.size();
+    if (words_.are_followed()) words_.end_at_light(state.words, source, shares_);
+    light_.add(state.slot, state.throughput * light, std::span(shares_).subspan(kept));
+    shares_.resize(kept);
+}
+
+void PathWave::queue(const Context& context, std::size_t i, Ray ray, const Rgb& contribution, std::uint32_t light,
+                     const VertexEvent& event) {
     if (is_black(contribution)) return;
+    if (words_.are_followed())
+        words_.end_at_light(states_[i].words, event, words_.light_source(context.world, light), shares_);
     ray.time = rays_[i].time;
     ray.alpha_key = ~alpha_key(context, i);  // another key than the bounce ray's
     shadow_rays_[pending_count_] = ray;
-    pending_[pending_count_] = {contribution, states_[i].slot};
+    pending_[pending_count_] = {contribution, states_[i].slot, static_cast<std::uint32_t>(shares_.size())};
     ++pending_count_;
 }
 
@@ -336,8 +365,14 @@ void PathWave::add_unoccluded(const World& world, RenderCounters& counters) {
     if (pending_count_ == 0) return;
     world.occluded(std::span(shadow_rays_).first(pending_count_), std::span(occluded_).first(pending_count_));
     counters.shadow_rays += pending_count_;
-    for (std::size_t i = 0; i < pending_count_; ++i)
-        if (occluded_[i] == 0) radiance_[pending_[i].slot] += pending_[i].contribution;
+    const std::span<const ExpressionShare> shares(shares_);
+    for (std::size_t i = 0, first = 0; i < pending_count_; ++i) {
+        const PendingLight& pending = pending_[i];
+        light_.count_ray(pending.slot);
+        if (occluded_[i] == 0)
+            light_.add(pending.slot, pending.contribution, shares.subspan(first, pending.end_of_shares - first));
+        first = pending.end_of_shares;
+    }
 }
 
 }  // namespace etendue

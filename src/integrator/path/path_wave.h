@@ -4,6 +4,8 @@
 #include "core/ray.h"
 #include "core/ray_cone.h"
 #include "core/rgb.h"
+#include "integrator/aov/path_words.h"
+#include "integrator/aov/sample_light.h"
 #include "integrator/camera_wave.h"
 #include "integrator/path/path_integrator.h"
 
@@ -26,6 +28,7 @@ struct PathState {
     float pdf_solid_angle = 0.0f;  ///< of the ray's direction; not meaningful after a delta
     float wavelength_nm = 0.0f;    ///< nanometres once a dispersive body has refracted it, 0 for all wavelengths
     RayCone cone;                  ///< around the ray; followed only where there are textures to filter
+    WordRange words;               ///< what it has been so far, if that is followed
     std::uint32_t slot = 0;        ///< which camera sample
     int edges = 1;                 ///< of the path when its ray has hit; media and hidden boundaries add none
     bool after_delta = true;  ///< the last scattering was a delta, or there was none: lights cannot be sampled for it
@@ -43,6 +46,7 @@ struct PathStep {
 struct PendingLight {
     Rgb contribution;
     std::uint32_t slot = 0;
+    std::uint32_t end_of_shares = 0;  ///< its shares are those from where the one before has ended
 };
 
 /// Structure-of-arrays state of a wave. About 200 bytes a path, 250 among bodies.
@@ -89,7 +93,11 @@ class PathWave final : public IntegratorScratch {
     void queue_direct_light_in_medium(const Context& context, std::size_t i, const Vec3f& position,
                                       const HomogeneousMedium& medium);
     [[nodiscard]] ChosenLight sample_light(const Context& context, std::size_t i, const Vec3f& position) const;
-    void queue(const Context& context, std::size_t i, Ray ray, const Rgb& contribution);
+    /// `event` is what the vertex does towards `light`.
+    void queue(const Context& context, std::size_t i, Ray ray, const Rgb& contribution, std::uint32_t light,
+               const VertexEvent& event);
+    /// Adds `light` that the path has met.
+    void add_light(const PathState& state, const Rgb& light, const AovSet::Source& source);
     [[nodiscard]] std::uint32_t alpha_key(const Context& context, std::size_t i) const;
     void add_unoccluded(const World& world, RenderCounters& counters);
 
@@ -119,10 +127,12 @@ class PathWave final : public IntegratorScratch {
     std::size_t pending_count_ = 0;
     std::vector<Ray> shadow_rays_;
     std::vector<PendingLight> pending_;
+    std::vector<ExpressionShare> shares_;  ///< of `pending_`, and of light that was met just now
+    PathWords words_;
     std::vector<std::uint8_t> occluded_;
     // By slot, that is, by camera sample.
     std::vector<CameraSample> samples_;
-    std::vector<Rgb> radiance_;
+    SampleLight light_;
     std::vector<float> alpha_;
 };
 

@@ -1,36 +1,59 @@
 #include "integrator/subpath/connections.h"
 
+#include <bit>
+
 namespace etendue {
 
-void Connections::to_sample(const Ray& ray, std::uint32_t slot, const Rgb& contribution) {
+void Connections::push(const Ray& ray, Pending pending, std::span<const ExpressionShare> shares) {
     rays_.push_back(ray);
-    pending_.push_back({.value = contribution, .slot = slot});
+    shares_.insert(shares_.end(), shares.begin(), shares.end());
+    pending.end_of_shares = static_cast<std::uint32_t>(shares_.size());
+    pending_.push_back(pending);
 }
 
-void Connections::to_film(const Ray& ray, std::uint32_t slot, const Splat& splat) {
-    rays_.push_back(ray);
-    pending_.push_back({.value = splat.value, .position = splat.position, .slot = slot, .is_splat = true});
+void Connections::to_sample(const Ray& ray, std::uint32_t slot, const Rgb& contribution,
+                            std::span<const ExpressionShare> shares) {
+    push(ray, {.value = contribution, .slot = slot}, shares);
 }
 
-void Connections::resolve(const World& world, std::span<const CameraSample> samples, std::span<Rgb> radiance,
+void Connections::to_film(const Ray& ray, std::uint32_t slot, const Splat& splat,
+                          std::span<const ExpressionShare> shares) {
+    push(ray, {.value = splat.value, .position = splat.position, .slot = slot, .is_splat = true}, shares);
+}
+
+void Connections::splat(const Pending& pending, std::span<const ExpressionShare> shares, std::vector<Splat>& splats) {
+    splats.push_back({pending.position, pending.value});
+    for (const ExpressionShare& part : shares)
+        for (ExpressionMask left = part.expressions; left != 0; left &= left - 1)
+            splats.push_back({pending.position, pending.value * part.share,
+                              static_cast<std::uint32_t>(SplatFilm::kFirstLayer) +
+                                  static_cast<std::uint32_t>(std::countr_zero(left))});
+}
+
+void Connections::resolve(const World& world, std::span<const CameraSample> samples, SampleLight& light,
                           TileBuffer& tile, RenderCounters& counters) {
     if (rays_.empty()) return;
     occluded_.resize(rays_.size());
     world.occluded(rays_, occluded_);
     counters.shadow_rays += rays_.size();
-    for (std::size_t i = 0; i < pending_.size(); ++i) {
-        if (occluded_[i] != 0) continue;
+    const std::span<const ExpressionShare> all_shares(shares_);
+    for (std::size_t i = 0, first = 0; i < pending_.size(); ++i) {
         const Pending& pending = pending_[i];
+        const auto shares = all_shares.subspan(first, pending.end_of_shares - first);
+        first = pending.end_of_shares;
+        light.count_ray(pending.slot);
+        if (occluded_[i] != 0) continue;
         if (!pending.is_splat)
-            radiance[pending.slot] += pending.value;
+            light.add(pending.slot, pending.value, shares);
         else if (is_finite(pending.value) && min_component(pending.value) >= 0.0f)
-            tile.splats().push_back({pending.position, pending.value});
+            splat(pending, shares, tile.splats());
         else
             counters.drop({static_cast<int>(pending.position.x), static_cast<int>(pending.position.y),
                            samples[pending.slot].key.index});
     }
     rays_.clear();
     pending_.clear();
+    shares_.clear();
 }
 
 }  // namespace etendue

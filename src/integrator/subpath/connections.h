@@ -14,18 +14,19 @@ namespace etendue {
 
 class Connections {
   public:
-    /// To the radiance of sample `slot`.
-    void to_sample(const Ray& ray, std::uint32_t slot, const Rgb& contribution);
+    /// To the light of sample `slot`. `shares` are those of expressions.
+    void to_sample(const Ray& ray, std::uint32_t slot, const Rgb& contribution,
+                   std::span<const ExpressionShare> shares);
     /// To the place on the film that `splat` says, by the light path of sample `slot`.
-    void to_film(const Ray& ray, std::uint32_t slot, const Splat& splat);
+    void to_film(const Ray& ray, std::uint32_t slot, const Splat& splat, std::span<const ExpressionShare> shares);
 
     /// Traces all rays and adds what arrives, in the order of the calls above.
-    void resolve(const World& world, std::span<const CameraSample> samples, std::span<Rgb> radiance, TileBuffer& tile,
+    void resolve(const World& world, std::span<const CameraSample> samples, SampleLight& light, TileBuffer& tile,
                  RenderCounters& counters);
     /// Resolves once there are enough to fill a batch.
-    void resolve_if_full(const World& world, std::span<const CameraSample> samples, std::span<Rgb> radiance,
+    void resolve_if_full(const World& world, std::span<const CameraSample> samples, SampleLight& light,
                          TileBuffer& tile, RenderCounters& counters) {
-        if (rays_.size() >= kBatch) resolve(world, samples, radiance, tile, counters);
+        if (rays_.size() >= kBatch) resolve(world, samples, light, tile, counters);
     }
 
   private:
@@ -36,10 +37,16 @@ class Connections {
         Rgb value;
         Vec2f position{0.0f, 0.0f};  ///< on the film, if it is a splat
         std::uint32_t slot = 0;
+        std::uint32_t end_of_shares = 0;  ///< its shares are those from where the one before has ended
         bool is_splat = false;
     };
+    void push(const Ray& ray, Pending pending, std::span<const ExpressionShare> shares);
+    /// Leaves a splat of the image, and those of its layers.
+    static void splat(const Pending& pending, std::span<const ExpressionShare> shares, std::vector<Splat>& splats);
+
     std::vector<Ray> rays_;
     std::vector<Pending> pending_;
+    std::vector<ExpressionShare> shares_;
     std::vector<std::uint8_t> occluded_;
 };
 

@@ -3,6 +3,7 @@
 
 #include "core/ray.h"
 #include "core/rgb.h"
+#include "integrator/aov/path_words.h"
 #include "integrator/subpath/subpath_densities.h"
 #include "medium/homogeneous_medium.h"
 #include "world/scattering.h"
@@ -27,6 +28,8 @@ struct PathVertex {
     const HomogeneousMedium* inside = nullptr;   ///< and on the back; in a medium both are that
     Rgb throughput{};                            ///< of the subpath that arrives, without the weight of its wavelength
     SubpathDensities densities{};
+    WordRange words{};                   ///< of the subpath that arrives
+    std::uint16_t label = 0;             ///< of the material, for words
     std::uint32_t slot = 0;              ///< which sample
     std::uint32_t previous = kNoVertex;  ///< the one before it, kNoVertex after the light or the lens
     int index = 1;                       ///< vertices before it
@@ -50,6 +53,10 @@ struct PathVertex {
     }
     /// False if nothing is scattered towards `towards`, of any length; quick to ask.
     [[nodiscard]] bool may_scatter(const Vec3f& towards) const { return !surface || surface->may_scatter(towards); }
+    /// What light that goes on to `w` may be taken for.
+    [[nodiscard]] VertexEvent event(const Vec3f& w, TransportMode mode) const {
+        return surface ? surface_event(*surface, w, false, mode, label) : VertexEvent{};
+    }
     /// Cosine between `w` and the geometric normal; 1 in a medium.
     [[nodiscard]] float cosine(const Vec3f& w) const { return surface ? abs_dot(w, geometric_normal) : 1.0f; }
     /// Where a ray along `w` starts.

@@ -41,7 +41,8 @@ std::uint32_t SubpathJob::connection_key(SubpathEnd end, int index, std::uint32_
     return ~sample_bits(samples[slot].key, subpath_dimension(end, index, BounceNumbers::Alpha));
 }
 
-void SubpathWave::trace(const SubpathJob& job, int roulette_depth, LightFinder* finder, RenderCounters& counters) {
+void SubpathWave::trace(const SubpathJob& job, int roulette_depth, LightFinder* finder, SampleLight& light,
+                        RenderCounters& counters) {
     // In bodies nothing but roulette bounds a walk: neither media nor hidden boundaries add edges.
     roulette_depth_ = job.world.has_bodies() ? std::min(roulette_depth, kLongPath) : roulette_depth;
     const std::size_t count = job.samples.size();
@@ -49,6 +50,7 @@ void SubpathWave::trace(const SubpathJob& job, int roulette_depth, LightFinder* 
     rays_.assign(job.camera_rays.begin(), job.camera_rays.end());
     interiors_.clear();
     vertices_.clear();
+    words_.reset(job.job.aovs);
     bsdf_count_ = 0;
     last_vertex_.assign(count, PathVertex::kNoVertex);
     if (end_ == SubpathEnd::AtEye)
@@ -60,6 +62,9 @@ void SubpathWave::trace(const SubpathJob& job, int roulette_depth, LightFinder* 
         const bool from_camera = end_ == SubpathEnd::AtEye && bounce_ == 1;
         job.world.intersect(rays_, hits_, from_camera ? Coherence::Coherent : Coherence::Incoherent);
         (from_camera ? counters.camera_rays : counters.bounce_rays) += rays_.size();
+        if (light.counts_rays())
+            for (const SubpathState& state : states_) light.count_ray(state.slot);
+        if (from_camera && finder != nullptr) finder->on_first_hits(rays_, hits_);
         draw_numbers(job);
         std::size_t kept = 0;
         for (std::size_t i = 0; i < states_.size(); ++i) {
@@ -74,6 +79,14 @@ void SubpathWave::trace(const SubpathJob& job, int roulette_depth, LightFinder* 
         states_.resize(kept);
         rays_.resize(kept);
     }
+    words_of_vertices_ = words_.size();
+}
+
+WordRange SubpathWave::words_after(const PathVertex& vertex, const Vec3f& w) {
+    words_.shrink_to(words_of_vertices_);
+    return end_ == SubpathEnd::AtEye
+               ? words_.scatter_from_eye(vertex.words, vertex.event(w, TransportMode::Radiance))
+               : words_.scatter_from_light(vertex.words, vertex.event(w, TransportMode::Importance));
 }
 
 void SubpathWave::begin_at_eye(const SubpathJob& job) {
@@ -81,6 +94,7 @@ void SubpathWave::begin_at_eye(const SubpathJob& job) {
     for (std::size_t i = 0; i < states_.size(); ++i) {
         states_[i].slot = static_cast<std::uint32_t>(i);
         states_[i].from = rays_[i].origin;
+        if (words_.are_followed()) states_[i].words = words_.begin_at_eye();
     }
 }
 
@@ -107,6 +121,8 @@ void SubpathWave::begin_at_lights(const SubpathJob& job) {
         state.roulette_scale = 1.0f / max_component(emission.weight);
         state.from = sample.position;
         state.slot = static_cast<std::uint32_t>(i);
+        if (words_.are_followed())
+            state.words = words_.begin_at_light(words_.light_source(world, emission.light));
         const bool at_infinity = world.is_at_infinity(emission.light);
         const auto position = static_cast<double>(sample.pdf_position_area);
         const auto direction = static_cast<double>(sample.pdf_direction_solid_angle);
@@ -206,6 +222,7 @@ bool SubpathWave::scatter_at_surface(const SubpathJob& job, std::size_t i, const
     vertex.position = point.position;
     vertex.wo = wo;
     vertex.surface = scattering;
+    vertex.label = words_.label(world, point);
     vertex.geometric_normal = point.geometric_normal;
     vertex.clearance = point.clearance;
     vertex.densities = arrived;
@@ -222,6 +239,8 @@ bool SubpathWave::scatter_at_surface(const SubpathJob& job, std::size_t i, const
     vertex.is_left_by_delta = sample.is_delta;
     if (sample.is_delta) vertex.delta_reverse_ratio = scattering.reverse_density_ratio(sample);
     state.throughput *= sample.weight;
+    if (words_.are_followed())
+        follow_words(state, surface_event(scattering, sample.wi, sample.is_delta, mode, vertex.label));
     if (mode == TransportMode::Radiance && sample.is_transmission) state.roulette_scale *= sample.eta * sample.eta;
     state.from = point.position;
     state.departing = {
@@ -262,8 +281,14 @@ bool SubpathWave::scatter_in_medium(const SubpathJob& job, std::size_t i) {
     state.from = vertex.position;
     state.departing = {.d = vertex.densities.fewer(job.raised, phase), .pdf_forward = phase};
     state.only_delta = false;
+    if (words_.are_followed()) follow_words(state, VertexEvent{});
     ++state.index;
     return true;
+}
+
+void SubpathWave::follow_words(SubpathState& state, const VertexEvent& event) {
+    state.words = end_ == SubpathEnd::AtEye ? words_.scatter_from_eye(state.words, event)
+                                            : words_.scatter_from_light(state.words, event);
 }
 
 bool SubpathWave::survives(std::size_t i) {
@@ -278,6 +303,7 @@ bool SubpathWave::survives(std::size_t i) {
 PathVertex& SubpathWave::store(SubpathState& state) {
     PathVertex& vertex = vertices_.emplace_back();
     vertex.throughput = state.throughput;
+    vertex.words = state.words;
     vertex.slot = state.slot;
     vertex.previous = state.last_vertex;
     vertex.index = state.index;

@@ -64,6 +64,7 @@ struct SubpathState {
     float roulette_scale = 1.0f;
     Vec3f from{0.0f};  ///< the vertex before
     DepartingDensities departing;
+    WordRange words;
     std::uint32_t slot = 0;
     std::uint32_t last_vertex = PathVertex::kNoVertex;
     int index = 1;  ///< of the vertex to come
@@ -82,6 +83,8 @@ class LightFinder {
                             const SubpathDensities& arrived) = 0;
     virtual void on_unlit(const SubpathState& state, const SurfacePoint& point, const Vec3f& direction) = 0;
     virtual void on_escape(const SubpathState& state, const Vec3f& direction) = 0;
+    /// What all camera rays have met, before anything else is said of it.
+    virtual void on_first_hits(std::span<const Ray> rays, std::span<const Hit> hits) = 0;
 };
 
 class SubpathWave {
@@ -89,8 +92,9 @@ class SubpathWave {
     explicit SubpathWave(SubpathEnd end) : end_(end) {}
 
     /// Traces the subpath of each sample. From `roulette_depth` edges on Russian roulette may end it. Vertices of
-    /// former calls are gone. `finder` may be null for lights.
-    void trace(const SubpathJob& job, int roulette_depth, LightFinder* finder, RenderCounters& counters);
+    /// former calls are gone. `finder` may be null for lights. Rays are counted in `light`.
+    void trace(const SubpathJob& job, int roulette_depth, LightFinder* finder, SampleLight& light,
+               RenderCounters& counters);
 
     /// Where the subpaths from lights began, by slot.
     [[nodiscard]] std::span<const Emission> emissions() const { return emissions_; }
@@ -98,6 +102,10 @@ class SubpathWave {
     [[nodiscard]] std::span<const PathVertex> vertices() const { return vertices_; }
     /// The last vertex of each slot's subpath, from where `previous` leads on; kNoVertex if it has none.
     [[nodiscard]] std::uint32_t last_vertex(std::uint32_t slot) const { return last_vertex_[slot]; }
+    /// Of the subpaths as they arrive at their vertices.
+    [[nodiscard]] PathWords& words() { return words_; }
+    /// Those of a connection that leaves `vertex` along `w`; of use until the next call for this subpath's wave.
+    [[nodiscard]] WordRange words_after(const PathVertex& vertex, const Vec3f& w);
 
   private:
     void begin_at_eye(const SubpathJob& job);
@@ -111,6 +119,8 @@ class SubpathWave {
     [[nodiscard]] SubpathDensities arrive(const SubpathJob& job, std::size_t i, const Vec3f& position,
                                           float cosine) const;
     [[nodiscard]] bool survives(std::size_t i);
+    /// Takes the subpath's words past a vertex.
+    void follow_words(SubpathState& state, const VertexEvent& event);
     /// The next vertex, with what the state knows of it.
     PathVertex& store(SubpathState& state);
 
@@ -129,6 +139,8 @@ class SubpathWave {
     std::vector<Emission> emissions_;
     std::vector<std::uint32_t> last_vertex_;
     std::vector<PathVertex> vertices_;
+    PathWords words_;
+    std::size_t words_of_vertices_ = 0;  ///< the others are of the last connection
     // Lobes that vertices point to; it only grows, so that they stay where they are.
     std::deque<Bsdf> bsdfs_;
     std::size_t bsdf_count_ = 0;

@@ -1,5 +1,6 @@
 #include "integrator/whitted/whitted_wave.h"
 
+#include "integrator/aov/first_hits.h"
 #include "integrator/connecting_ray.h"
 #include "integrator/scattered_cone.h"
 #include "integrator/walk.h"
@@ -40,7 +41,7 @@ void WhittedWave::trace(const World& world, const TileJob& job, const PathLength
     samples_.resize(count);
     rays_.resize(count);
     generate_camera_rays(world, job, first, samples_, rays_);
-    radiance_.assign(count, Rgb());
+    found_.reset(count, job.aovs);
     alpha_.assign(count, 1.0f);
     waiting_.assign(count, {});
     for (std::size_t i = 0; i < count; ++i) {
@@ -52,11 +53,11 @@ void WhittedWave::trace(const World& world, const TileJob& job, const PathLength
         if (world.has_bodies()) branch.interior = world.camera_interior();
     }
     const Context context{world, job, lengths};
-    while (!waiting_.empty()) trace_batch(context, counters);
-    for (std::size_t i = 0; i < count; ++i) accumulate(job, samples_[i], radiance_[i], alpha_[i], tile, counters);
+    while (!waiting_.empty()) trace_batch(context, tile, counters);
+    accumulate(job, samples_, found_, alpha_, tile, counters);
 }
 
-void WhittedWave::trace_batch(const Context& context, RenderCounters& counters) {
+void WhittedWave::trace_batch(const Context& context, TileBuffer& tile, RenderCounters& counters) {
     const std::size_t count = std::min(kCapacity, waiting_.size());
     const auto youngest = waiting_.end() - static_cast<std::ptrdiff_t>(count);
     batch_.assign(youngest, waiting_.end());
@@ -69,9 +70,12 @@ void WhittedWave::trace_batch(const Context& context, RenderCounters& counters) 
         rays_[i] = batch_[i].ray;
         keys_.push_back({batch_[i].seed, samples_[batch_[i].slot].key.index});
         are_camera_rays = are_camera_rays && batch_[i].rays == 1;
+        found_.count_ray(batch_[i].slot);
         (batch_[i].rays == 1 ? counters.camera_rays : counters.bounce_rays) += 1;
     }
     context.world.intersect(rays_, hits_, are_camera_rays ? Coherence::Coherent : Coherence::Incoherent);
+    // The first batch has all camera rays, in the order of their samples.
+    if (are_camera_rays) add_first_hits(context.world, context.job, samples_, rays_, hits_, tile);
     light_choice_.draw(context.job.sequence, keys_, kLightChoice);
     light_triangle_.draw(context.job.sequence, keys_, kLightTriangle);
     light_direction_.draw(context.job.sequence, keys_, kLightDirection);
@@ -98,7 +102,7 @@ void WhittedWave::shade(const Context& context, std::size_t i) {
     const SurfacePoint point = world.surface_point(hit, branch.ray, branch.cone);
     const bool is_wanted = branch.edges >= context.lengths.min_depth;
     if (point.material->emits && is_wanted)
-        radiance_[branch.slot] += branch.throughput * world.emission(point, -branch.ray.direction);
+        found_.add(branch.slot, branch.throughput * world.emission(point, -branch.ray.direction));
     std::optional<Crossing> crossing;
     if (world.has_bodies() && world.is_boundary(point)) {
         crossing = world.crossing(point, branch.interior);
@@ -114,7 +118,7 @@ void WhittedWave::shade(const Context& context, std::size_t i) {
         }
     }
     if (point.material->unlit) {
-        if (is_wanted) radiance_[branch.slot] += branch.throughput * world.unlit_color(point);
+        if (is_wanted) found_.add(branch.slot, branch.throughput * world.unlit_color(point));
         return;
     }
     if (branch.edges < context.lengths.max_depth) scatter(context, i, point, crossing);
@@ -215,7 +219,7 @@ void WhittedWave::add_environment(const Context& context, const WhittedBranch& b
         return;
     }
     if (world.has_environment() && branch.edges >= context.lengths.min_depth)
-        radiance_[branch.slot] += branch.throughput * world.environment_radiance(branch.ray.direction);
+        found_.add(branch.slot, branch.throughput * world.environment_radiance(branch.ray.direction));
 }
 
 void WhittedWave::add_unoccluded(const World& world, RenderCounters& counters) {
@@ -223,8 +227,10 @@ void WhittedWave::add_unoccluded(const World& world, RenderCounters& counters) {
     occluded_.resize(shadow_rays_.size());
     world.occluded(shadow_rays_, occluded_);
     counters.shadow_rays += shadow_rays_.size();
-    for (std::size_t i = 0; i < shadow_rays_.size(); ++i)
-        if (occluded_[i] == 0) radiance_[lit_slots_[i]] += contributions_[i];
+    for (std::size_t i = 0; i < shadow_rays_.size(); ++i) {
+        found_.count_ray(lit_slots_[i]);
+        if (occluded_[i] == 0) found_.add(lit_slots_[i], contributions_[i]);
+    }
 }
 
 }  // namespace etendue

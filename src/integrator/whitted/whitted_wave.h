@@ -50,7 +50,7 @@ class WhittedWave final : public IntegratorScratch {
 
     /// Takes the youngest branches, at most kCapacity, and replaces them by those that grow from them. What waits is so
     /// at most the depth of the trees times what one batch grows.
-    void trace_batch(const Context& context, RenderCounters& counters);
+    void trace_batch(const Context& context, TileBuffer& tile, RenderCounters& counters);
     void shade(const Context& context, std::size_t i);
     void scatter(const Context& context, std::size_t i, const SurfacePoint& point,
                  const std::optional<Crossing>& crossing);
@@ -78,7 +78,7 @@ class WhittedWave final : public IntegratorScratch {
     std::vector<std::uint8_t> occluded_;
     // By slot, that is, by camera sample.
     std::vector<CameraSample> samples_;
-    std::vector<Rgb> radiance_;
+    SampleLight found_;
     std::vector<float> alpha_;
 };
 

@@ -266,6 +266,29 @@ void read_film_size(JsonObject& object, FilmSettings& film) {
     if (object.integers("crop", 0, kMaxSide, crop)) film.crop = crop;
 }
 
+/// "depth", "caustics=lpe:C D S+ L:float", as on the command line.
+void read_aovs(JsonObject& object, RenderSettings& settings) {
+    object.choice("aov_layout", kAovLayoutNames, settings.aov_layout);
+    const Json* member = object.member("aovs");
+    if (member == nullptr) return;
+    const SourceLocation where = object.at("aovs");
+    if (!member->is_array()) {
+        object.problems().error(where, "must be a list of texts");
+        return;
+    }
+    for (std::size_t i = 0; i < member->size(); ++i) {
+        const Json& element = (*member)[i];
+        const SourceLocation place{where.file, fmt::format("{}/{}", where.pointer, i)};
+        auto aov = element.is_string() ? parse_aov(element.get_ref<const std::string&>()) : std::nullopt;
+        if (!aov) {
+            object.problems().error(place, fmt::format("must be a text of the form {}", kAovForm));
+            continue;
+        }
+        aov->location = place;
+        settings.aovs.push_back(std::move(*aov));
+    }
+}
+
 void read_texture_memory(JsonObject& object, RenderSettings& settings) {
     std::string text;
     if (!object.text("texture_memory", text)) return;
@@ -335,6 +358,7 @@ void read_document(const Json& value, ProblemList& problems, RenderJson& out) {
     object.integer("seed", 0, kMaxSeed, settings.seed);
     object.number("time", kNotNegative, settings.time_limit);
     object.number("error", kNotNegative, settings.relative_error);
+    read_aovs(object, settings);
     read_texture_memory(object, settings);
     read_film_size(object, settings.film);
     read_camera_member(object, out);

@@ -1,0 +1,227 @@
+#include "app/aov_setup.h"
+
+#include "integrator/integrator.h"
+#include "lightpath/usual_expressions.h"
+
+#include <algorithm>
+#include <cctype>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace etendue {
+
+namespace {
+
+constexpr std::string_view kExpression = "lpe:";
+constexpr std::string_view kLight = "light:";
+
+/// Sources that are neither expressions nor values of first hits.
+struct OtherSource {
+    std::string_view name;
+    std::string_view summary;
+};
+constexpr OtherSource kSamples{"samples", "samples of each pixel"};
+constexpr OtherSource kVariance{"variance", "variance of each pixel's mean, as if its samples were independent"};
+constexpr OtherSource kRays{"rays", "rays per sample of each pixel"};
+/// Sources that stand for several.
+constexpr OtherSource kPasses{"passes", "the light in ten layers that add up to the image"};
+constexpr OtherSource kLights{"lights", "the light of each lamp, emitting object and the environment, by name"};
+constexpr OtherSource kDenoising{"denoising", "what 'etendue denoise' needs: albedo, N, depth, and half of the samples"};
+
+PathNames names_in(const SceneDesc& scene) {
+    PathNames names;
+    for (const MaterialDesc& material : scene.materials) names.materials.push_back(material.name);
+    for (const LightDesc& light : scene.lights) names.lights.push_back(light.name);
+    for (const InstanceDesc& instance : scene.instances) names.lights.push_back(instance.name);
+    names.lights.emplace_back("environment");
+    return names;
+}
+
+bool emits(const SceneDesc& scene, const InstanceDesc& instance) {
+    const MeshDesc& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh.index)];
+    return std::ranges::any_of(mesh.primitives, [&](const PrimitiveDesc& primitive) {
+        const MaterialDesc& material = scene.materials[static_cast<std::size_t>(primitive.material.index)];
+        return material.emissive_strength > 0.0f && !is_black(material.emissive);
+    });
+}
+
+/// Names of what shines, each once, in the order of the scene.
+std::vector<std::string> light_names(const SceneDesc& scene) {
+    std::vector<std::string> names;
+    const auto add = [&](const std::string& name) {
+        if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+    };
+    for (const LightDesc& light : scene.lights) add(light.name);
+    for (const InstanceDesc& instance : scene.instances)
+        if (emits(scene, instance)) add(instance.name);
+    if (scene.environment.enabled) add("environment");
+    return names;
+}
+
+/// `name` with '_' in place of what layers may not be called.
+std::string layer_name(const std::string& name) {
+    std::string result = name.empty() ? "unnamed" : name;
+    for (char& c : result)
+        if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-') c = '_';
+    return result;
+}
+
+std::string light_expression(const std::string& name) {
+    const char quote = name.find('\'') == std::string::npos ? '\'' : '"';
+    return fmt::format("C .* <L{}{}{}>", quote, name, quote);
+}
+
+/// Makes the plan, layer by layer.
+class Planner {
+  public:
+    Planner(const SceneDesc& scene, ProblemList& problems) : scene_(scene), problems_(problems) {}
+
+    AovPlan plan() {
+        for (const AovDesc& aov : scene_.settings.aovs) add(aov);
+        if (plan_.outputs.empty()) return {};
+        finish_expressions();
+        plan_.set = std::make_shared<AovSet>(std::move(set_));
+        return std::move(plan_);
+    }
+
+  private:
+    [[noreturn]] static void fail(const AovDesc& aov, const std::string& what) {
+        throw SceneError(aov.location, fmt::format("layer '{}': {}", aov.name, what));
+    }
+
+    void add(const AovDesc& aov) {
+        const bool is_group = aov.name == aov.source;
+        if (is_group && aov.source == kPasses.name) {
+            for (const UsualExpression& usual : partition_expressions())
+                add_expression(aov, std::string(usual.name), std::string(usual.expression));
+        } else if (is_group && aov.source == kLights.name) {
+            for (const std::string& name : light_names(scene_))
+                add_expression(aov, "light_" + layer_name(name), light_expression(name));
+        } else if (is_group && aov.source == kDenoising.name) {
+            plan_.has_halves = true;
+            for (const FirstHitValue value : {FirstHitValue::Albedo, FirstHitValue::Normal, FirstHitValue::Depth})
+                add_first_hit(aov, std::string(first_hit_entry(value).name), first_hit_entry(value));
+        } else {
+            add_one(aov);
+        }
+    }
+
+    void add_one(const AovDesc& aov) {
+        const std::string_view source = aov.source;
+        if (source.starts_with(kExpression)) return add_expression(aov, aov.name, aov.source.substr(kExpression.size()));
+        if (source.starts_with(kLight))
+            return add_expression(aov, aov.name, light_expression(aov.source.substr(kLight.size())));
+        for (const UsualExpression& usual : usual_expressions())
+            if (usual.name == source) return add_expression(aov, aov.name, std::string(usual.expression));
+        for (const FirstHitEntry& entry : first_hit_table())
+            if (entry.name == source) return add_first_hit(aov, aov.name, entry);
+        if (source == kSamples.name) return (void)add_output(aov, {aov.name, "X", AovKind::Samples, 0, 0.0f, true});
+        if (source == kVariance.name) {
+            set_.layout.has_moments = true;
+            return (void)add_output(aov, {aov.name, "RGB", AovKind::Variance, 0, 0.0f, true});
+        }
+        if (source == kRays.name) {
+            set_.layout.has_ray_counts = true;
+            return (void)add_output(aov, {aov.name, "X", AovKind::Rays});
+        }
+        std::vector<std::string_view> names{kSamples.name, kVariance.name, kRays.name,
+                                            kPasses.name,  kLights.name,   kDenoising.name};
+        for (const UsualExpression& usual : usual_expressions()) names.push_back(usual.name);
+        for (const FirstHitEntry& entry : first_hit_table()) names.push_back(entry.name);
+        fail(aov, fmt::format("there is no source '{}'; {}", source, name_hint(source, names)));
+    }
+
+    void add_expression(const AovDesc& aov, const std::string& name, const std::string& text) {
+        const std::string& type = scene_.settings.integrator.type;
+        const IntegratorEntry* const entry = find_integrator(type);
+        if (entry != nullptr && !entry->has_expressions)
+            fail(aov, fmt::format("'{}' does not tell paths apart; path, direct, naive, light and bdpt do", type));
+        if (!add_output(aov, {name, "RGB", AovKind::Layer, expressions_.size()})) return;
+        try {
+            expressions_.push_back(parse_expression(text));
+            // Alone, so that what is wrong with it is not blamed on another.
+            (void)PathAutomaton(std::span(expressions_).last(1), {});
+        } catch (const ExpressionError& error) {
+            fail(aov, fmt::format("{}\n    {}\n    {:>{}}", error.what(), text, '^', error.offset() + 1));
+        }
+        expression_sources_.push_back(&aov);
+    }
+
+    void add_first_hit(const AovDesc& aov, const std::string& name, const FirstHitEntry& entry) {
+        LayerLayout& layout = set_.layout;
+        std::size_t& count = entry.is_nearest ? layout.nearest : layout.values;
+        AovOutput output{name,
+                         std::string(entry.channels),
+                         entry.is_nearest ? AovKind::Nearest : AovKind::Values,
+                         count,
+                         entry.background,
+                         entry.is_float};
+        if (!add_output(aov, std::move(output))) return;
+        count += entry.channels.size();
+        (entry.is_nearest ? set_.nearest : set_.values).push_back(entry.value);
+    }
+
+    /// False if it is there already, as groups may ask for it.
+    bool add_output(const AovDesc& aov, AovOutput output) {
+        if (aov.is_float) output.is_float = *aov.is_float;
+        const auto same = std::ranges::find(plan_.outputs, output.name, &AovOutput::name);
+        if (same == plan_.outputs.end()) {
+            plan_.outputs.push_back(std::move(output));
+            origins_.push_back(&aov);
+            return true;
+        }
+        const AovDesc& earlier = *origins_[static_cast<std::size_t>(same - plan_.outputs.begin())];
+        const bool either_is_group = earlier.name != output.name || aov.name != output.name;
+        if (!(earlier == aov || either_is_group))
+            fail(aov, fmt::format("there are two of this name, this one of '{}' and one of '{}' ({})", aov.source,
+                                  earlier.source, earlier.location.str()));
+        return false;
+    }
+
+    void finish_expressions() {
+        if (expressions_.empty()) return;
+        set_.layout.light = expressions_.size();
+        set_.lamp_count = scene_.lights.size();
+        set_.instance_count = scene_.instances.size();
+        try {
+            set_.automaton = std::make_shared<PathAutomaton>(expressions_, names_in(scene_));
+        } catch (const ExpressionError& error) {
+            fail(*expression_sources_.back(), error.what());
+        }
+        for (const std::string& name : set_.automaton->unmatched_names())
+            problems_.note(scene_.settings.location,
+                           fmt::format("no light, object or material is named '{}', which a layer asks for", name));
+    }
+
+    const SceneDesc& scene_;
+    ProblemList& problems_;
+    AovPlan plan_;
+    AovSet set_;
+    std::vector<const AovDesc*> origins_;  ///< of each output
+    std::vector<PathExpression> expressions_;
+    std::vector<const AovDesc*> expression_sources_;
+};
+
+}  // namespace
+
+AovPlan make_aov_plan(const SceneDesc& scene, ProblemList& problems) {
+    return Planner(scene, problems).plan();
+}
+
+std::string list_aov_sources() {
+    std::string list;
+    const auto line = [&](std::string_view name, std::string_view what) {
+        list += fmt::format("  {:<22} {}\n", name, what);
+    };
+    for (const OtherSource& source : {kPasses, kLights, kDenoising}) line(source.name, source.summary);
+    for (const FirstHitEntry& entry : first_hit_table()) line(entry.name, entry.summary);
+    for (const OtherSource& source : {kSamples, kVariance, kRays}) line(source.name, source.summary);
+    for (const UsualExpression& usual : usual_expressions())
+        line(usual.name, fmt::format("{} ({})", usual.summary, usual.expression));
+    return list;
+}
+
+}  // namespace etendue

@@ -1,0 +1,30 @@
+// From the layers that settings ask for to what integrators keep and files hold.
+#pragma once
+
+#include "core/error.h"
+#include "integrator/aov/aov_set.h"
+#include "output/aov_output.h"
+#include "scene/scene_desc.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace etendue {
+
+/// The layers of a render.
+struct AovPlan {
+    std::shared_ptr<const AovSet> set;  ///< null if there are none
+    std::vector<AovOutput> outputs;
+    bool has_halves = false;  ///< every layer, and the image, is written of half of the samples, too: for denoising
+};
+
+/// What `scene.settings.aovs` asks for, groups in place of their names. Names that nothing in the scene has are noted in
+/// `problems`. Throws SceneError for sources that do not exist, expressions that are wrong, names that are there twice,
+/// and what the integrator cannot tell apart.
+[[nodiscard]] AovPlan make_aov_plan(const SceneDesc& scene, ProblemList& problems);
+
+/// All sources with what they are, a line each, for --help.
+[[nodiscard]] std::string list_aov_sources();
+
+}  // namespace etendue

@@ -1,0 +1,101 @@
+// What is kept of each pixel besides its radiance and alpha: arbitrary output variables.
+#pragma once
+
+#include "core/rgb.h"
+
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace etendue {
+
+/// Which layers there are. Sums are of all samples of a pixel, weighted as its radiance is, except those of rays;
+/// what cannot be averaged is of the sample whose surface is nearest.
+struct LayerLayout {
+    std::size_t light = 0;        ///< radiance of some of the paths, three sums each; splats fall into these, too
+    std::size_t values = 0;       ///< numbers that are averaged
+    std::size_t nearest = 0;      ///< numbers of the nearest sample
+    bool has_moments = false;     ///< squares of radiance, for its variance: three sums
+    bool has_ray_counts = false;  ///< rays that the samples of the pixel took
+
+    [[nodiscard]] std::size_t value_sums() const { return 3 * light; }
+    [[nodiscard]] std::size_t moment_sums() const { return value_sums() + values; }
+    [[nodiscard]] std::size_t ray_sum() const { return moment_sums() + (has_moments ? 3 : 0); }
+    /// Sums of a pixel, 8 bytes each; the functions above say where the later kinds begin.
+    [[nodiscard]] std::size_t sums() const { return ray_sum() + (has_ray_counts ? 1 : 0); }
+    [[nodiscard]] bool empty() const { return sums() == 0 && nearest == 0; }
+    friend bool operator==(const LayerLayout&, const LayerLayout&) = default;
+};
+
+/// The layers of some pixels.
+class LayerBuffer {
+  public:
+    LayerBuffer() = default;
+    LayerBuffer(const LayerLayout& layout, std::size_t pixels) { reset(layout, pixels); }
+
+    /// Starts with nothing; memory is kept.
+    void reset(const LayerLayout& layout, std::size_t pixels) {
+        layout_ = layout;
+        sums_.assign(pixels * layout.sums(), 0.0);
+        nearest_.assign(pixels * nearest_stride(), 0.0f);
+        if (layout.nearest > 0)
+            for (std::size_t p = 0; p < pixels; ++p)
+                nearest_[p * nearest_stride()] = std::numeric_limits<float>::infinity();
+    }
+
+    [[nodiscard]] const LayerLayout& layout() const { return layout_; }
+    [[nodiscard]] std::span<double> sums(std::size_t pixel) {
+        return std::span(sums_).subspan(pixel * layout_.sums(), layout_.sums());
+    }
+    [[nodiscard]] std::span<const double> sums(std::size_t pixel) const {
+        return std::span(sums_).subspan(pixel * layout_.sums(), layout_.sums());
+    }
+    /// True if a sample of the pixel has hit anything.
+    [[nodiscard]] bool has_nearest(std::size_t pixel) const {
+        return nearest_[pixel * nearest_stride()] < std::numeric_limits<float>::infinity();
+    }
+    /// All zero otherwise.
+    [[nodiscard]] std::span<const float> nearest(std::size_t pixel) const {
+        return std::span(nearest_).subspan(pixel * nearest_stride() + 1, layout_.nearest);
+    }
+
+    /// Adds radiance, weighted, to sums that begin with `first`.
+    void add_rgb(std::size_t pixel, std::size_t first, const Rgb& value, double weight) {
+        double* const sum = &sums_[pixel * layout_.sums() + first];
+        sum[0] += weight * static_cast<double>(value.r);
+        sum[1] += weight * static_cast<double>(value.g);
+        sum[2] += weight * static_cast<double>(value.b);
+    }
+    /// Keeps `values` if no earlier sample was as near; of equally near ones, the first.
+    void add_nearest(std::size_t pixel, float distance, std::span<const float> values) {
+        float* const kept = &nearest_[pixel * nearest_stride()];
+        if (!(distance < *kept)) return;
+        kept[0] = distance;
+        for (std::size_t i = 0; i < values.size(); ++i) kept[i + 1] = values[i];
+    }
+    /// Adds pixel `other_pixel` of `other`, which has the same layout, to `pixel`.
+    void add(std::size_t pixel, const LayerBuffer& other, std::size_t other_pixel) {
+        const std::span<const double> from = other.sums(other_pixel);
+        const std::span<double> to = sums(pixel);
+        for (std::size_t i = 0; i < to.size(); ++i) to[i] += from[i];
+        if (layout_.nearest > 0)
+            add_nearest(pixel, other.nearest_[other_pixel * nearest_stride()], other.nearest(other_pixel));
+    }
+
+    /// All numbers, pixel by pixel, and how to put them back.
+    [[nodiscard]] std::span<const double> all_sums() const { return sums_; }
+    [[nodiscard]] std::span<const float> all_nearest() const { return nearest_; }
+    [[nodiscard]] std::span<double> all_sums() { return sums_; }
+    [[nodiscard]] std::span<float> all_nearest() { return nearest_; }
+
+  private:
+    /// The distance stands before the numbers.
+    [[nodiscard]] std::size_t nearest_stride() const { return layout_.nearest > 0 ? layout_.nearest + 1 : 0; }
+
+    LayerLayout layout_;
+    std::vector<double> sums_;
+    std::vector<float> nearest_;
+};
+
+}  // namespace etendue

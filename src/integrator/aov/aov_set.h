@@ -1,0 +1,49 @@
+// What a render keeps besides the image, as integrators see it.
+#pragma once
+
+#include "film/layers.h"
+#include "integrator/aov/first_hit_value.h"
+#include "lightpath/automaton.h"
+#include "world/world.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace etendue {
+
+struct AovSet {
+    LayerLayout layout{};
+    /// Of the light layers: the first ones are those of its expressions. Null if there are none.
+    std::shared_ptr<const PathAutomaton> automaton{};
+    /// Whose names for lights are those of the lamps, of the instances and of the environment, in this order.
+    std::size_t lamp_count = 0;
+    std::size_t instance_count = 0;
+    /// Of the first surface that the eye meets, in the order of their channels: averaged ones, and the nearest's.
+    std::vector<FirstHitValue> values{};
+    std::vector<FirstHitValue> nearest{};
+
+    [[nodiscard]] bool needs_first_hits() const { return !values.empty() || !nearest.empty(); }
+
+    /// How the automaton reads a light.
+    struct Source {
+        SourceEvent event = SourceEvent::Surface;
+        std::uint16_t label = 0;
+    };
+    [[nodiscard]] Source source_of_instance(std::uint32_t instance) const {
+        return {SourceEvent::Surface, automaton->light_label(lamp_count + instance)};
+    }
+    [[nodiscard]] Source environment_source() const {
+        return {SourceEvent::Environment, automaton->light_label(lamp_count + instance_count)};
+    }
+    /// Of the light of this index in `world`.
+    [[nodiscard]] Source source_of_light(const World& world, std::uint32_t light) const {
+        const Emitter& emitter = world.emitter(light);
+        if (emitter.instance != kNone) return source_of_instance(emitter.instance);
+        if (emitter.lamp != kNone) return {SourceEvent::Lamp, automaton->light_label(emitter.lamp)};
+        return environment_source();
+    }
+};
+
+}  // namespace etendue

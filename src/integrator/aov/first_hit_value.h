@@ -1,0 +1,41 @@
+// What can be said of the first surface that the eye meets.
+//
+// To add another: its place in `FirstHitValue`, its row in the table of first_hit_value.cpp, its case in
+// first_hits.cpp.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string_view>
+
+namespace etendue {
+
+enum class FirstHitValue {
+    Depth,           ///< metres along the camera's viewing direction
+    Position,        ///< world space, metres
+    Normal,          ///< of shading, world space, unit, towards the eye
+    GeometricNormal, ///< the same of the triangle
+    Uv,              ///< the first set of texture coordinates
+    Albedo,          ///< share of light that is scattered, diffuse and specular
+    AlbedoDiffuse,
+    AlbedoSpecular,
+    ObjectId,        ///< index of the instance, from 1 on
+    MaterialId,      ///< index of the material, from 1 on
+    Motion,          ///< pixels by which the point moves on the film while the shutter is open, x right and y down
+};
+
+struct FirstHitEntry {
+    FirstHitValue value;
+    std::string_view name;      ///< of the AOV
+    std::string_view channels;  ///< a letter each
+    bool is_nearest;            ///< of the nearest sample of a pixel; the others are averaged
+    bool is_float;              ///< too large or too fine for half floats
+    float background;           ///< where there is no surface, of the nearest's
+    std::string_view summary;   ///< for --help
+};
+
+/// All of them, by the order of the enumeration.
+[[nodiscard]] std::span<const FirstHitEntry> first_hit_table();
+[[nodiscard]] const FirstHitEntry& first_hit_entry(FirstHitValue value);
+
+}  // namespace etendue

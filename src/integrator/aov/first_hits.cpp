@@ -1,0 +1,140 @@
+#include "integrator/aov/first_hits.h"
+
+#include "integrator/aov/aov_set.h"
+#include "integrator/scattered_cone.h"
+#include "world/scattering.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace etendue {
+
+namespace {
+
+/// Pairs of dimensions of albedos; far from those of paths.
+constexpr std::uint32_t kAlbedoDimension = 7u << 28;
+
+/// Diffuse and specular share of light that a surface scatters, by some of the lobe's own samples.
+struct Albedo {
+    Rgb diffuse;
+    Rgb specular;
+};
+
+/// One surface, seen by one sample; what several values need is found once.
+class FirstHit {
+  public:
+    FirstHit(const World& world, const TileJob& job, const CameraSample& sample, const Ray& ray, const Hit& hit)
+        : world_(world), job_(job), sample_(sample), hit_(hit), wo_(-ray.direction), time_(ray.time) {
+        point_ = world.has_textures() ? world.surface_point(hit, ray, camera_cone(world, job, ray))
+                                      : world.surface_point(hit);
+    }
+
+    void append(FirstHitValue value, std::vector<float>& to) {
+        const auto put = [&](std::initializer_list<float> numbers) { to.insert(to.end(), numbers); };
+        const auto put_rgb = [&](const Rgb& c) { put({c.r, c.g, c.b}); };
+        const auto put_normal = [&](const Vec3f& n) {
+            const Vec3f facing = dot(point_.geometric_normal, wo_) < 0.0f ? -n : n;
+            put({facing.x, facing.y, facing.z});
+        };
+        switch (value) {
+            case FirstHitValue::Depth:
+                return put({world_.depth(point_.position, time_)});
+            case FirstHitValue::Position:
+                return put({point_.position.x, point_.position.y, point_.position.z});
+            case FirstHitValue::Normal:
+                return put_normal(point_.shading.normal);
+            case FirstHitValue::GeometricNormal:
+                return put_normal(point_.geometric_normal);
+            case FirstHitValue::Uv:
+                return put({point_.uv[0].x, point_.uv[0].y});
+            case FirstHitValue::Albedo:
+                return put_rgb(albedo().diffuse + albedo().specular);
+            case FirstHitValue::AlbedoDiffuse:
+                return put_rgb(albedo().diffuse);
+            case FirstHitValue::AlbedoSpecular:
+                return put_rgb(albedo().specular);
+            case FirstHitValue::ObjectId:
+                return put({static_cast<float>(hit_.instance + 1)});
+            case FirstHitValue::MaterialId:
+                return put({static_cast<float>(world_.material_index(point_) + 1)});
+            case FirstHitValue::Motion: {
+                const Vec2f way = position_on_film(1.0f) - position_on_film(0.0f);
+                return put({way.x, way.y});
+            }
+        }
+    }
+
+  private:
+    /// Pixels from the corner of the full image, of this point of the surface at another time.
+    [[nodiscard]] Vec2f position_on_film(float time) const {
+        Hit then = hit_;
+        then.time = time;
+        constexpr Vec2f kMiddleOfLens{0.5f, 0.5f};
+        const Vec2f film = world_.connect_to_camera(world_.surface_point(then).position, kMiddleOfLens, time).film;
+        return {film.x * static_cast<float>(job_.full_width), film.y * static_cast<float>(job_.full_height)};
+    }
+
+    const Albedo& albedo() {
+        if (albedo_) return *albedo_;
+        albedo_.emplace();
+        if (point_.material->unlit) return *albedo_;
+        float ior = 0.0f;
+        if (world_.has_bodies() && world_.is_boundary(point_))
+            ior = world_.crossing(point_, world_.camera_interior()).relative_ior(0.0f);
+        Bsdf storage;
+        const Bsdf& bsdf = world_.bsdf(point_, wo_, ior, storage);
+        const Scattering scattering(bsdf, point_.shading, point_.geometric_normal, wo_);
+        constexpr std::uint32_t kSamples = 4;
+        for (std::uint32_t i = 0; i < kSamples; ++i) {
+            const auto number = [&](std::uint32_t which) {
+                return sample_2d(job_.sequence, sample_.key, kAlbedoDimension + 2 * i + which);
+            };
+            // As importance: radiance is scaled where it enters glass, which is no albedo.
+            const BsdfSample s = scattering.sample(number(0).x, number(1), TransportMode::Importance);
+            if (is_black(s.weight)) continue;
+            const Rgb weight = s.weight * (1.0f / kSamples);
+            const Rgb diffuse =
+                s.is_delta ? Rgb() : scattering.diffuse_share(s.wi, TransportMode::Importance) * weight;
+            albedo_->diffuse += diffuse;
+            albedo_->specular += weight - diffuse;
+        }
+        return *albedo_;
+    }
+
+    const World& world_;
+    const TileJob& job_;
+    const CameraSample& sample_;
+    const Hit& hit_;
+    Vec3f wo_;
+    float time_;
+    SurfacePoint point_;
+    std::optional<Albedo> albedo_;
+};
+
+}  // namespace
+
+void add_first_hits(const World& world, const TileJob& job, std::span<const CameraSample> samples,
+                    std::span<const Ray> rays, std::span<const Hit> hits, TileBuffer& tile) {
+    if (job.aovs == nullptr || !job.aovs->needs_first_hits()) return;
+    const AovSet& aovs = *job.aovs;
+    LayerBuffer& layers = tile.layers();
+    const std::size_t first = aovs.layout.value_sums();
+    std::vector<float> values;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        if (!hits[i].valid()) continue;
+        FirstHit hit(world, job, samples[i], rays[i], hits[i]);
+        const std::uint32_t pixel = samples[i].pixel;
+        values.clear();
+        for (const FirstHitValue value : aovs.values) hit.append(value, values);
+        const std::span<double> sums = layers.sums(pixel).subspan(first, values.size());
+        for (std::size_t v = 0; v < values.size(); ++v)
+            sums[v] += static_cast<double>(samples[i].weight) * static_cast<double>(values[v]);
+        if (aovs.nearest.empty()) continue;
+        values.clear();
+        for (const FirstHitValue value : aovs.nearest) hit.append(value, values);
+        layers.add_nearest(pixel, hits[i].t, values);
+    }
+}
+
+}  // namespace etendue

@@ -1,0 +1,14 @@
+// What camera rays have hit, as layers of the film.
+#pragma once
+
+#include "integrator/camera_wave.h"
+
+#include <span>
+
+namespace etendue {
+
+/// Adds what `job.aovs` asks for of the first surfaces: `rays` are those of `samples`, `hits` what they met.
+void add_first_hits(const World& world, const TileJob& job, std::span<const CameraSample> samples,
+                    std::span<const Ray> rays, std::span<const Hit> hits, TileBuffer& tile);
+
+}  // namespace etendue

@@ -1,0 +1,114 @@
+// Which light path expressions the light of a path belongs to.
+//
+// A vertex whose material has several lobes may be taken for several events. Its light is not given to one of them at
+// random but shared among them by what each lobe scatters, and a path carries the states of all its words with the
+// share of its light that each has: layers that take each path once add up to the image, but for rounding. States that
+// have become the same are one, so that there are few.
+#pragma once
+
+#include "core/rgb.h"
+#include "integrator/aov/aov_set.h"
+#include "world/scattering.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace etendue {
+
+/// What a vertex may be taken for: one event, or two with the shares of its light that are theirs.
+struct VertexEvent {
+    ScatterEvent event = ScatterEvent::Volume;
+    ScatterEvent other = ScatterEvent::Volume;
+    Rgb share{1.0f};           ///< of `event`; what is left is of `other`
+    std::uint16_t label = 0;  ///< of the material
+};
+
+/// At a surface whose material has `label`, towards `wi`.
+[[nodiscard]] VertexEvent surface_event(const Scattering& scattering, const Vec3f& wi, bool is_delta,
+                                        TransportMode mode, std::uint16_t label);
+
+/// A word that a path may be, by the automaton's state after it.
+struct WordShare {
+    PathAutomaton::State state = 0;
+    Rgb share{1.0f};  ///< of the path's throughput
+};
+
+/// The words of a path or subpath, in `PathWords`.
+struct WordRange {
+    std::uint32_t first = 0;
+    std::uint32_t count = 0;
+};
+
+/// Expressions that have a share of some light.
+struct ExpressionShare {
+    ExpressionMask expressions = 0;
+    Rgb share{1.0f};
+};
+
+/// The words of the paths of a wave. Does nothing, and costs nothing, without an automaton.
+class PathWords {
+  public:
+    /// Forgets all words. `aovs` may be null.
+    void reset(const AovSet* aovs) {
+        aovs_ = aovs;
+        automaton_ = aovs != nullptr ? aovs->automaton.get() : nullptr;
+        words_.clear();
+    }
+    [[nodiscard]] bool are_followed() const { return automaton_ != nullptr; }
+
+    /// How the automaton reads what paths meet; of no meaning if words are not followed.
+    [[nodiscard]] std::uint16_t label(const World& world, const SurfacePoint& point) const {
+        return are_followed() ? automaton_->material_label(world.material_index(point)) : std::uint16_t{0};
+    }
+    [[nodiscard]] AovSet::Source surface_source(const SurfacePoint& point) const {
+        return are_followed() ? aovs_->source_of_instance(point.instance) : AovSet::Source{};
+    }
+    [[nodiscard]] AovSet::Source environment_source() const {
+        return are_followed() ? aovs_->environment_source() : AovSet::Source{};
+    }
+    [[nodiscard]] AovSet::Source light_source(const World& world, std::uint32_t light) const {
+        return are_followed() ? aovs_->source_of_light(world, light) : AovSet::Source{};
+    }
+
+    [[nodiscard]] WordRange begin_at_eye() { return begin(automaton_->eye_start()); }
+    [[nodiscard]] WordRange begin_at_light(const AovSet::Source& source) {
+        return begin(automaton_->light_start(source.event, source.label));
+    }
+    /// The words after a vertex.
+    [[nodiscard]] WordRange scatter_from_eye(WordRange before, const VertexEvent& event);
+    [[nodiscard]] WordRange scatter_from_light(WordRange before, const VertexEvent& event);
+
+    [[nodiscard]] std::span<const WordShare> operator[](WordRange range) const {
+        return std::span(words_).subspan(range.first, range.count);
+    }
+
+    /// Expressions of a path from the eye with these words that meets a light. Put after those in `shares`.
+    void end_at_light(WordRange range, const AovSet::Source& source, std::vector<ExpressionShare>& shares) const;
+    /// The same if the light is sampled for a vertex that `event` says.
+    void end_at_light(WordRange before, const VertexEvent& event, const AovSet::Source& source,
+                      std::vector<ExpressionShare>& shares);
+    /// Of a path from the light that meets the camera.
+    void end_at_camera(WordRange range, std::vector<ExpressionShare>& shares) const;
+    /// Of a light that the camera sees.
+    void end_at_camera(const AovSet::Source& source, std::vector<ExpressionShare>& shares) const;
+    /// Of a connection between a vertex of these words and one of `light`, whose words are in `light_words`.
+    void join(WordRange eye, std::span<const WordShare> light, std::vector<ExpressionShare>& shares) const;
+
+    /// Forgets the words after `range`, which were needed for one connection only.
+    void shrink_to(std::size_t size) { words_.resize(size); }
+    [[nodiscard]] std::size_t size() const { return words_.size(); }
+
+  private:
+    [[nodiscard]] WordRange begin(PathAutomaton::State state);
+    template <typename Next>
+    WordRange scatter(WordRange before, const VertexEvent& event, const Next& next);
+    void add_word(std::size_t first, PathAutomaton::State state, const Rgb& share);
+
+    const AovSet* aovs_ = nullptr;
+    const PathAutomaton* automaton_ = nullptr;
+    std::vector<WordShare> words_;
+};
+
+}  // namespace etendue

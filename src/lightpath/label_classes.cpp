@@ -1,0 +1,63 @@
+#include "lightpath/label_classes.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace etendue {
+
+bool matches_label(std::string_view pattern, std::string_view name) {
+    std::size_t p = 0;
+    std::size_t n = 0;
+    std::size_t star = std::string_view::npos;  // the last one, from where to take one character more
+    std::size_t resume = 0;
+    while (n < name.size()) {
+        if (p < pattern.size() && pattern[p] == '*') {
+            star = p++;
+            resume = n;
+        } else if (p < pattern.size() && pattern[p] == name[n]) {
+            ++p;
+            ++n;
+        } else if (star != std::string_view::npos) {
+            p = star + 1;
+            n = ++resume;
+        } else {
+            return false;
+        }
+    }
+    return pattern.find_first_not_of('*', p) == std::string_view::npos;
+}
+
+LabelClasses::LabelClasses(std::vector<std::string> patterns, std::span<const std::string> names)
+    : patterns_(std::move(patterns)) {
+    std::map<std::vector<bool>, std::uint16_t> known;
+    const auto class_of = [&](std::vector<bool> matched) {
+        const auto [found, is_new] = known.try_emplace(matched, static_cast<std::uint16_t>(matched_.size()));
+        if (is_new) matched_.push_back(std::move(matched));
+        return found->second;
+    };
+    (void)class_of(std::vector<bool>(patterns_.size(), false));
+    classes_.reserve(names.size());
+    for (const std::string& name : names) {
+        std::vector<bool> matched;
+        matched.reserve(patterns_.size());
+        for (const std::string& pattern : patterns_) matched.push_back(matches_label(pattern, name));
+        classes_.push_back(class_of(std::move(matched)));
+    }
+}
+
+bool LabelClasses::matches(std::size_t label, std::string_view pattern) const {
+    if (pattern.empty()) return true;
+    const auto found = std::ranges::find(patterns_, pattern);
+    return found != patterns_.end() && matched_[label][static_cast<std::size_t>(found - patterns_.begin())];
+}
+
+std::vector<std::string> LabelClasses::unmatched() const {
+    std::vector<std::string> names;
+    for (std::size_t p = 0; p < patterns_.size(); ++p)
+        if (std::ranges::none_of(matched_, [&](const std::vector<bool>& matched) { return matched[p]; }))
+            names.push_back(patterns_[p]);
+    return names;
+}
+
+}  // namespace etendue

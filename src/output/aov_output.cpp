@@ -1,0 +1,39 @@
+#include "output/aov_output.h"
+
+#include <utility>
+#include <vector>
+
+namespace etendue {
+
+namespace {
+
+std::vector<float> resolve(const Film& film, const AovOutput& output) {
+    switch (output.kind) {
+        case AovKind::Layer:
+            return film.resolve_light(output.first);
+        case AovKind::Values:
+            return film.resolve_values(output.first, output.channels.size());
+        case AovKind::Nearest:
+            return film.resolve_nearest(output.first, output.channels.size(), output.background);
+        case AovKind::Samples:
+            return film.resolve_sample_counts();
+        case AovKind::Variance:
+            return film.resolve_variance();
+        case AovKind::Rays:
+            return film.resolve_ray_counts();
+    }
+    return {};
+}
+
+}  // namespace
+
+OutputLayer resolve_layer(const Film& film, const AovOutput& output) {
+    OutputLayer layer{.name = output.name, .channels = output.channels, .is_float = output.is_float, .pixels = {}};
+    layer.pixels.width = film.window().width();
+    layer.pixels.height = film.window().height();
+    layer.pixels.channels = static_cast<int>(output.channels.size());
+    layer.pixels.pixels = resolve(film, output);
+    return layer;
+}
+
+}  // namespace etendue

@@ -1,0 +1,35 @@
+// From the layers of a film to those of an image file.
+#pragma once
+
+#include "film/film.h"
+#include "output/output_frame.h"
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace etendue {
+
+/// Where a layer of an image file comes from.
+enum class AovKind {
+    Layer,     ///< one of the film's light layers
+    Values,    ///< averaged numbers
+    Nearest,   ///< numbers of the nearest sample
+    Samples,   ///< samples of each pixel
+    Variance,  ///< of each pixel's mean
+    Rays,      ///< rays per sample
+};
+
+struct AovOutput {
+    std::string name;
+    std::string channels;       ///< a letter each
+    AovKind kind = AovKind::Layer;
+    std::size_t first = 0;      ///< index of the light layer, or of the first number
+    float background = 0.0f;    ///< where nothing was hit, of the nearest
+    bool is_float = false;      ///< written as 32-bit floats; half floats are enough otherwise
+};
+
+/// The pixels of `output`, from a film that has them.
+[[nodiscard]] OutputLayer resolve_layer(const Film& film, const AovOutput& output);
+
+}  // namespace etendue

@@ -1,0 +1,48 @@
+// What is to be written of a render besides its image: arbitrary output variables (AOVs).
+#pragma once
+
+#include "core/error.h"
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace etendue {
+
+/// How an image file holds its layers.
+enum class AovLayout {
+    Layers,  ///< as channels of one image: NAME.R
+    Parts,   ///< as parts of one file
+    Files,   ///< in files of their own beside it: IMAGE.NAME.exr
+};
+inline constexpr std::array<std::pair<std::string_view, AovLayout>, 3> kAovLayoutNames{{
+    {"layers", AovLayout::Layers},
+    {"parts", AovLayout::Parts},
+    {"files", AovLayout::Files},
+}};
+
+struct AovDesc {
+    std::string name;              ///< of the layer: letters, digits, '_' and '-'
+    std::string source;            ///< one that the program knows by name, "lpe:EXPRESSION" or "light:NAME"
+    std::optional<bool> is_float;  ///< 32-bit or 16-bit floats; none for what suits the source
+    SourceLocation location;
+
+    friend bool operator==(const AovDesc& a, const AovDesc& b) {
+        return a.name == b.name && a.source == b.source && a.is_float == b.is_float;
+    }
+};
+
+inline constexpr std::string_view kAovForm =
+    "SOURCE or NAME=SOURCE, with :half or :float behind it if wanted; NAME of letters, digits, '_' and '-'";
+
+/// True for what layers may be called.
+[[nodiscard]] bool is_aov_name(std::string_view name);
+
+/// "depth", "N:float", "caustics=lpe:C D S+ L". Nothing if `text` has another form.
+[[nodiscard]] std::optional<AovDesc> parse_aov(std::string_view text);
+/// The same backwards.
+[[nodiscard]] std::string to_text(const AovDesc& aov);
+
+}  // namespace etendue

@@ -1,0 +1,147 @@
+// Layers of light path expressions: those that take each path once add up to the image, and each is the same whoever
+// finds its paths.
+#include "integrator/aov/layered_render.h"
+#include "integrator/agreement_render.h"
+#include "lightpath/usual_expressions.h"
+#include "support/chi2.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace etendue::test {
+
+namespace {
+
+struct Room {
+    std::string name;
+    std::string integrator;
+};
+
+void PrintTo(const Room& room, std::ostream* out) {
+    *out << room.integrator << " " << room.name;
+}
+
+std::vector<Room> rooms_of_all_kinds() {
+    std::vector<Room> rooms;
+    for (const char* name : {"LampPlastic", "LampLayers", "LampRoughGlass", "LampPrism", "LampWax", "SheetAndLeaf",
+                             "VisibleEnvironment", "SunRoughGlass", "SmoothCoat", "SmoothGlass", "LampInFog"})
+        for (const std::string& integrator : agreement_case(name).integrators) rooms.push_back({name, integrator});
+    return rooms;
+}
+
+class LightLayers : public testing::TestWithParam<Room> {
+  protected:
+    AgreementCase room_ = [] {
+        AgreementCase room = agreement_case(GetParam().name);
+        room.spp = 8;
+        return room;
+    }();
+    World world_ = agreement_world(room_);
+
+    [[nodiscard]] RenderResult render(const std::vector<std::string>& expressions) const {
+        return render_layers(world_, GetParam().integrator, room_,
+                             std::make_shared<AovSet>(expression_layers(room_, expressions)), 3);
+    }
+};
+
+/// Largest difference between the sum of all layers and the image, relative to the image's largest value.
+double largest_gap(const Film& film) {
+    const std::vector<float> image = film.resolve();
+    std::vector<double> sum(image.size() / 4 * 3, 0.0);
+    for (std::size_t layer = 0; layer < film.layers().layout().light; ++layer) {
+        const std::vector<float> part = film.resolve_light(layer);
+        for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += static_cast<double>(part[i]);
+    }
+    double largest = 0.0;
+    double gap = 0.0;
+    for (std::size_t i = 0; i < sum.size(); ++i) {
+        const auto value = static_cast<double>(image[i / 3 * 4 + i % 3]);
+        largest = std::max(largest, value);
+        gap = std::max(gap, std::abs(sum[i] - value));
+    }
+    return gap / largest;
+}
+
+TEST_P(LightLayers, ThoseThatTakeEveryPathOnceAddUpToTheImage) {
+    std::vector<std::string> passes;
+    for (const UsualExpression& usual : partition_expressions()) passes.emplace_back(usual.expression);
+    EXPECT_LT(largest_gap(render(passes).film), 1e-5);
+    EXPECT_LT(largest_gap(render({"C .* L"}).film), 1e-5);
+    EXPECT_LT(largest_gap(render({"C D S+ L", "!L S+ D E"}).film), 1e-5);
+    EXPECT_LT(largest_gap(render({"C [^DG]* L", "C .* [DG] L", "C .* [DG] [SV]+ L"}).film), 1e-5);
+}
+
+TEST_P(LightLayers, LeaveTheImageAsItIs) {
+    const std::vector<float> with = render({"C D .* L", "C S L"}).film.resolve();
+    const std::vector<float> without = render_layers(world_, GetParam().integrator, room_, nullptr, 3).film.resolve();
+    EXPECT_EQ(with, without);
+}
+
+INSTANTIATE_TEST_SUITE_P(Rooms, LightLayers, testing::ValuesIn(rooms_of_all_kinds()), [](const auto& info) {
+    return info.param.integrator + "_" + info.param.name;
+});
+
+/// A room in which the light of some paths is looked at.
+struct Share {
+    const char* room;
+    const char* expression;
+};
+constexpr Share kShares[] = {
+    {"LampPlastic", "C <RD> L"},        {"LampPlastic", "C G L"},           {"LampPlastic", "C D D L"},
+    {"LampPlastic", "C D G L"},         {"LampPlastic", "C G .+ L"},        {"LampLayers", "C <RD> L"},
+    {"LampLayers", "C G L"},            {"LampRoughGlass", "C D T+ L"},     {"LampRoughGlass", "C T T D L"},
+    {"LampRoughGlass", "C D R L"},      {"SheetAndLeaf", "C .* <TD> .* L"}, {"CausticCrop", "L S+ D E"},
+    {"SunRoughGlass", "C D <TG>{2} L"}, {"VisibleEnvironment", "C D B"},    {"LampPrism", "C D <TG>{2} L"},
+};
+
+/// Who is compared with path tracing.
+constexpr const char* kOthers[] = {"light", "bdpt"};
+/// All comparisons together fail with this probability if everything is right.
+constexpr double kFalsePositives = 0.01;
+
+class LightLayersAgree : public testing::TestWithParam<Share> {
+  protected:
+    /// Of the first light layer.
+    [[nodiscard]] static ImageEstimate estimate(const World& world, const std::string& integrator,
+                                                const AgreementCase& room, const std::shared_ptr<const AovSet>& aovs,
+                                                std::uint32_t first_seed) {
+        constexpr std::uint32_t kSeeds = 6;
+        std::vector<ImageF> images;
+        for (std::uint32_t seed = first_seed; seed < first_seed + kSeeds; ++seed) {
+            ImageF image(room.window.width(), room.window.height(), 3);
+            image.pixels = render_layers(world, integrator, room, aovs, seed).film.resolve_light(0);
+            images.push_back(std::move(image));
+        }
+        return estimate_image(images);
+    }
+};
+
+TEST_P(LightLayersAgree, WhoeverFindsTheirPaths) {
+    const AgreementCase& room = agreement_case(GetParam().room);
+    const World world = agreement_world(room);
+    const auto aovs = std::make_shared<AovSet>(expression_layers(room, {GetParam().expression}));
+    const ImageEstimate first = estimate(world, "path", room, aovs, 100);
+    EXPECT_GT(*std::ranges::max_element(first.mean.pixels), 0.0f);
+    std::uint32_t seed = 200;
+    for (const char* other : kOthers) {
+        const BlockAgreement result = test_agreement(
+            first, estimate(world, other, room, aovs, seed),
+            {.block_size = 8, .significance = sidak_level(kFalsePositives, std::size(kOthers) * std::size(kShares))});
+        EXPECT_TRUE(result.agree()) << other << ": " << result.str();
+        seed += 100;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Shares, LightLayersAgree, testing::ValuesIn(kShares),
+                         [](const auto& info) { return std::to_string(info.index) + info.param.room; });
+
+}  // namespace
+
+}  // namespace etendue::test
