@@ -30,7 +30,10 @@ Json to_object(const OutputFrame& f) {
             {"working_space", f.working_space},
             {"display", f.display},
             {"view", f.view},
+            {"look", f.look},
             {"exposure", f.exposure},
+            {"output_space", f.output_space},
+            {"aces_container", f.aces_container},
             {"world_to_camera", to_object(f.world_to_camera)},
             {"world_to_screen", to_object(f.world_to_screen)},
             {"scene", f.scene},
@@ -45,7 +48,10 @@ OutputFrame to_frame(const Json& json) {
     json.at("working_space").get_to(f.working_space);
     json.at("display").get_to(f.display);
     json.at("view").get_to(f.view);
+    f.look = json.value("look", "");  // this and the two below: parts of before they were known have none
     json.at("exposure").get_to(f.exposure);
+    f.output_space = json.value("output_space", "");
+    f.aces_container = json.value("aces_container", false);
     f.world_to_camera = to_matrix(json.at("world_to_camera"));
     f.world_to_screen = to_matrix(json.at("world_to_screen"));
     json.at("scene").get_to(f.scene);

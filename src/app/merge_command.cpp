@@ -54,6 +54,9 @@ ExitCode run_merge(const MergeArguments& arguments) {
     } else {
         require_writable(paths.png);
         require_writable(paths.json);
+        if (image.frame.aces_container && arguments.depth == PixelDepth::Float)
+            throw UsageError(
+                "--float: the parts were rendered for an ACES container (SMPTE ST 2065-4), which holds 16-bit floats");
         const ColorConfig colors = ColorConfig::from_environment();
         describe_state(image, merged.state, true, "merged");
         image.statistics.libraries = library_versions();

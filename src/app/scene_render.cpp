@@ -138,6 +138,9 @@ class SceneRender {
         frame.working_space = working_space;
         frame.display = settings_.color.display;
         frame.view = settings_.color.view;
+        frame.look = settings_.color.look;
+        frame.output_space = settings_.color.output_space;
+        frame.aces_container = settings_.color.aces_container;
         frame.exposure = settings_.color.exposure;
         frame.scene = scene_.name;
         frame.integrator = settings_.integrator.type;

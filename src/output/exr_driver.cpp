@@ -1,6 +1,7 @@
 #include "output/exr_driver.h"
 
 #include "core/error.h"
+#include "output/output_space.h"
 #include "output/software_name.h"
 
 #include <array>
@@ -33,7 +34,8 @@ void add_chromaticities(const ColorConfig& config, const std::string& space, std
 }
 
 std::vector<ImageAttribute> make_attributes(const OutputFrame& frame, const ColorConfig& config) {
-    const std::string space = config.resolve_space(frame.working_space);
+    const std::string space =
+        config.resolve_space(frame.output_space.empty() ? frame.working_space : frame.output_space);
     std::vector<ImageAttribute> attributes{
         {"Software", std::string(software_name())},
         {"oiio:ColorSpace", space},
@@ -59,7 +61,12 @@ ExrDriver::ExrDriver(std::filesystem::path path, ColorConfig config, PixelDepth 
     : path_(std::move(path)), config_(std::move(config)), depth_(depth) {}
 
 void ExrDriver::write(const OutputFrame& frame) {
-    write_parts(frame, std::array{ImagePart{{}, &frame.pixels}});
+    if (frame.output_space.empty() || frame.output_space == frame.working_space) {
+        write_parts(frame, std::array{ImagePart{{}, &frame.pixels}});
+        return;
+    }
+    const ImageF converted = in_output_space(frame, config_);
+    write_parts(frame, std::array{ImagePart{{}, &converted}});
 }
 
 void ExrDriver::write_parts(const OutputFrame& frame, std::span<const ImagePart> parts) {
