@@ -105,8 +105,7 @@ bool is_cryptomatte(const ImageLayer& layer) {
 
 bool is_colors(const ImageLayer& layer, const ViewArguments& arguments) {
     if (!arguments.input_space.empty() && layer.channels.size() >= 3) return true;
-    const bool may_be = layer.kind == LayerKind::Color || layer.kind == LayerKind::Luminance;
-    return may_be && !layer.is_integer && !is_cryptomatte(layer);
+    return (layer.kind == LayerKind::Color || layer.kind == LayerKind::Luminance) && !is_cryptomatte(layer);
 }
 
 DataStyle style_of(const ImageLayer& layer, const ImageF& image) {

@@ -141,7 +141,7 @@ void write_config(const fs::path& file) {
     insert_after("displays:\n  sRGB - Display:\n",
                  view("Compressed", kGamutCompression) + view("Warmed", "Warm") +
                      view("Both", fmt::format("{}, Warm", kGamutCompression).c_str()));
-    insert_after("active_views: [", "Compressed, Warmed, Both, ");
+    insert_after("active_views: [ACES 1.0 - SDR Video, Un-tone-mapped, Raw", ", Compressed, Warmed, Both");
     insert_after("looks:\n",
                  "  - !<Look> {name: Warm, process_space: ACEScct, transform: !<CDLTransform> "
                  "{slope: [1.1, 1, 0.85], offset: [0.02, 0, -0.01], power: [0.95, 1, 1.05], saturation: 1.2}}\n");

@@ -100,7 +100,8 @@ class AcesContainerCheck {
         for (const auto& [name, attribute] : attributes_) {
             require(types.count(attribute.type) == 1, name + " is a " + attribute.type + ", which is no type of them");
             require(name.size() <= 31 && attribute.type.size() <= 31, name + " is longer than 31 characters");
-            require(required.count(name) == 1 || name == "comments", name + " is neither required nor a comment");
+            require(required.count(name) == 1 || name == "comments" || name == "capDate",
+                    name + " is neither required nor one of the two others that are written");
         }
         require(number<std::int32_t>(value("acesImageContainerFlag"), 0) == 1, "acesImageContainerFlag is not 1");
         require(value("compression").size() == 1 && value("compression")[0] == std::byte{0}, "it is compressed");
