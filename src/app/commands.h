@@ -19,6 +19,7 @@ void add_render_command(CLI::App& app, Action& action);
 void add_batch_command(CLI::App& app, Action& action);
 void add_inspect_command(CLI::App& app, Action& action);
 void add_diff_command(CLI::App& app, Action& action);
+void add_view_command(CLI::App& app, Action& action);
 void add_compare_command(CLI::App& app, Action& action);
 void add_merge_command(CLI::App& app, Action& action);
 void add_submit_command(CLI::App& app, Action& action);

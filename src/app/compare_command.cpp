@@ -110,6 +110,7 @@ ComparisonReport start_report(const CompareArguments& arguments, const Variant& 
     report.working_space = settings.color.working_space;
     report.display = settings.color.display;
     report.view = settings.color.view;
+    report.look = settings.color.look;
     report.exposure = static_cast<double>(settings.color.exposure);
     report.threads = threads.thread_count();
     report.isa = ray_tracer_info().isa;
@@ -232,7 +233,8 @@ ExitCode run_compare(const CompareArguments& arguments) {
         variant.command_note = command_note(variants[v]);
     }
 
-    const DisplayView view{report.working_space, report.display, report.view, static_cast<float>(report.exposure)};
+    const DisplayView view{report.working_space, report.display, report.view, report.look,
+                           static_cast<float>(report.exposure)};
     ReportImages pictures;
     add_images(pictures, report, images, reference, maps, view, context);
     const auto bdpt = std::ranges::find_if(

@@ -54,12 +54,12 @@ void require_comparable(const Variant& first, const Variant& other) {
     const FilmSettings& b = other.settings.film;
     const ColorSettings& color_a = first.settings.color;
     const ColorSettings& color_b = other.settings.color;
-    const char* different =
-        a.width != b.width || a.height != b.height || a.crop != b.crop ? "size or crop window"
-        : color_a.working_space != color_b.working_space               ? "working space"
-        : color_a.display != color_b.display || color_a.view != color_b.view || color_a.exposure != color_b.exposure
-            ? "view"
-            : nullptr;
+    const char* different = a.width != b.width || a.height != b.height || a.crop != b.crop ? "size or crop window"
+                            : color_a.working_space != color_b.working_space               ? "working space"
+                            : color_a.display != color_b.display || color_a.view != color_b.view ||
+                                    color_a.look != color_b.look || color_a.exposure != color_b.exposure
+                                ? "view"
+                                : nullptr;
     if (different != nullptr)
         throw SceneError({other.options, {}}, fmt::format("'{}' and '{}' cannot be compared: they differ in their {}; "
                                                           "give that to both",

@@ -35,7 +35,10 @@ Json to_object(const OutputFrame& f) {
             {"working_space", f.working_space},
             {"display", f.display},
             {"view", f.view},
+            {"look", f.look},
             {"exposure", f.exposure},
+            {"output_space", f.output_space},
+            {"aces_container", f.aces_container},
             {"world_to_camera", to_object(f.world_to_camera)},
             {"world_to_screen", to_object(f.world_to_screen)},
             {"scene", f.scene},
@@ -50,7 +53,10 @@ OutputFrame to_frame(const Json& json) {
     json.at("working_space").get_to(f.working_space);
     json.at("display").get_to(f.display);
     json.at("view").get_to(f.view);
+    f.look = json.value("look", "");  // this and the two below: parts of before they were known have none
     json.at("exposure").get_to(f.exposure);
+    f.output_space = json.value("output_space", "");
+    f.aces_container = json.value("aces_container", false);
     f.world_to_camera = to_matrix(json.at("world_to_camera"));
     f.world_to_screen = to_matrix(json.at("world_to_screen"));
     json.at("scene").get_to(f.scene);
@@ -169,7 +175,7 @@ void resolve_layers(ImageDescription& description, const RenderState& state) {
     if (!state.every_other_pass || state.every_other_spp == 0 || description.aovs.empty()) return;
     const Film& half = *state.every_other_pass;
     frame.half_share = static_cast<float>(state.every_other_spp) / static_cast<float>(state.spp_done);
-    OutputLayer image{.name = "half", .channels = "RGBA", .is_float = false, .pixels = rgba_image(half)};
+    OutputLayer image{.name = "half", .channels = "RGBA", .is_color = true, .pixels = rgba_image(half)};
     frame.layers.push_back(std::move(image));
     for (const AovOutput& aov : description.aovs) {
         frame.layers.push_back(resolve_layer(half, aov));

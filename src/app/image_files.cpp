@@ -3,7 +3,9 @@
 #include "app/peak_memory.h"
 #include "app/phase_timer.h"
 #include "core/write_file.h"
+#include "output/aces_driver.h"
 #include "output/exr_driver.h"
+#include "output/output_space.h"
 #include "output/preview_driver.h"
 
 #include <filesystem>
@@ -13,25 +15,23 @@ namespace etendue {
 
 namespace {
 
-/// The image, and its layers where they are to be.
-void write_exr(const OutputPaths& paths, const ImageDescription& image, const ColorConfig& colors, PixelDepth depth) {
+/// The image, and its layers where they are to be; all in the space that they are written in.
+void write_exr(const OutputPaths& paths, const OutputFrame& frame, AovLayout layout, const ColorConfig& colors,
+               PixelDepth depth) {
     ExrDriver driver(paths.exr, colors, depth);
-    switch (image.aov_layout) {
-        case AovLayout::Layers:
-            return driver.write(image.frame);
-        case AovLayout::Parts:
-            return image.frame.layers.empty() ? driver.write(image.frame) : driver.write_layers_as_parts(image.frame);
-        case AovLayout::Files:
-            break;
-    }
-    for (const OutputLayer& layer : image.frame.layers) {
+    if (frame.layers.empty() || layout == AovLayout::Layers) return driver.write(frame);
+    if (layout == AovLayout::Parts) return driver.write_layers_as_parts(frame);
+    for (const OutputLayer& layer : frame.layers) {
         std::filesystem::path path = paths.exr;
         path.replace_extension("." + layer.name + ".exr");
-        ExrDriver(path, colors, depth).write_layer(image.frame, layer);
+        ExrDriver(path, colors, depth).write_layer(frame, layer);
     }
-    OutputFrame alone = image.frame;
+    OutputFrame alone = frame;
     alone.layers.clear();
-    driver.write(alone);
+    if (frame.aces_container)
+        AcesDriver(paths.exr, colors).write(alone);
+    else
+        driver.write(alone);
 }
 
 }  // namespace
@@ -42,7 +42,16 @@ void write_image_files(const OutputPaths& paths, ImageDescription& image, const 
     std::error_code ignored;
     if (std::filesystem::is_regular_file(std::filesystem::symlink_status(paths.json, ignored)))
         std::filesystem::remove(paths.json, ignored);
-    write_exr(paths, image, colors, depth);
+    if (image.frame.aces_container && image.frame.layers.empty()) {
+        AcesDriver(paths.exr, colors).write(image.frame);
+    } else if (is_to_be_converted(image.frame)) {
+        // The preview is made of what is in the working space.
+        OutputFrame frame = image.frame;
+        to_output_space(frame, colors);
+        write_exr(paths, frame, image.aov_layout, colors, depth);
+    } else {
+        write_exr(paths, image.frame, image.aov_layout, colors, depth);
+    }
     PreviewDriver(paths.png, colors).write(image.frame);
     if (beside) beside();
     image.statistics.write = timer.elapsed();

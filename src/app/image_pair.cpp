@@ -1,15 +1,12 @@
 #include "app/image_pair.h"
 
+#include "app/file_color_space.h"
 #include "core/error.h"
 #include "image/read.h"
 #include "metrics/not_finite.h"
 #include "texture/srgb.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <optional>
-#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -19,49 +16,6 @@ namespace etendue {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Chromaticities of the same space differ by rounding only.
-constexpr float kChromaticityTolerance = 1e-3f;
-
-bool are_close(const std::array<float, 8>& file, const Chromaticities& space) {
-    const std::array<float, 8> known{space.red[0],  space.red[1],  space.green[0], space.green[1],
-                                     space.blue[0], space.blue[1], space.white[0], space.white[1]};
-    return std::ranges::equal(file, known, [](float a, float b) { return std::abs(a - b) <= kChromaticityTolerance; });
-}
-
-std::optional<Chromaticities> chromaticities_of(const std::string& space, const ColorConfig& colors) {
-    try {
-        return colors.chromaticities(space);
-    } catch (const SceneError&) {
-        return std::nullopt;  // it is not linear
-    }
-}
-
-/// The config's linear space with these primaries and white, if it has one.
-std::string space_with(const std::array<float, 8>& chromaticities, const ColorConfig& colors) {
-    for (const std::string& space : colors.spaces())
-        if (const auto known = chromaticities_of(space, colors); known && are_close(chromaticities, *known))
-            return space;
-    return "";
-}
-
-/// What floats are called that are linear in some primaries: by the library, and in files that know no better.
-bool says_nothing(std::string_view name) {
-    return name.empty() || name == "Linear" || name == "linear" || name == "scene_linear";
-}
-
-std::string color_space_of(const ImageInfo& info, const ColorConfig& colors) {
-    if (!says_nothing(info.color_space)) {
-        try {
-            return colors.resolve_space(info.color_space);
-        } catch (const SceneError&) {
-            return info.color_space;
-        }
-    }
-    if (!info.chromaticities) return "";
-    if (std::string space = space_with(*info.chromaticities, colors); !space.empty()) return space;
-    return fmt::format("linear with the chromaticities {:.4g}", fmt::join(*info.chromaticities, " "));
-}
 
 std::string size_text(const PixelRect& rect) {
     return fmt::format("{}x{}", rect.width(), rect.height());
@@ -91,7 +45,7 @@ ComparedFile describe_file(const fs::path& path, const ImageInfo& info, const Co
             // Counted from the full image's first pixel, which is not (0, 0) in every EXR.
             moved_to(info.data_window, info.data_window.x0 - info.display_window.x0,
                      info.data_window.y0 - info.display_window.y0),
-            moved_to(info.display_window, 0, 0), color_space_of(info, colors)};
+            moved_to(info.display_window, 0, 0), space_of_file(info, colors)};
 }
 
 void require_same_kind(const ComparedFile& a, bool a_is_float, const ComparedFile& b, bool b_is_float) {

@@ -82,6 +82,9 @@ ExitCode run_merge(const MergeArguments& arguments) {
         if (!arguments.quiet) note_missing(merged, spp_requested);
         require_writable(paths.png);
         require_writable(paths.json);
+        if (image.frame.aces_container && arguments.depth == PixelDepth::Float)
+            throw UsageError(
+                "--float: the parts were rendered for an ACES container (SMPTE ST 2065-4), which holds 16-bit floats");
         resolve_layers(image, state);
         image.statistics.libraries = library_versions();
         write_image_files(paths, image, ColorConfig::from_environment(), arguments.depth);

@@ -212,6 +212,8 @@ void add_render_command(CLI::App& app, Action& action) {
         "  etendue render scenes/cornell-box -o box.exr\n"
         "  etendue render scenes/cornell-box --quality draft --integrator naive --seed 7\n"
         "  etendue render model.glb --environment studio.hdr --size 800x600 --spp 256 --exposure 0.5\n"
+        "  etendue render model.glb --display 'Display P3 - Display' --look 'ACES 1.3 Reference Gamut Compression'\n"
+        "  etendue render model.glb -o plate.exr --aces-container\n"
         "  etendue render fox.glb --time-code 0.35 --animation Run\n"
         "  etendue render fox.glb --frames 0:23 --fps 30 -o run/fox.####.exr --shutter 0:0.0167\n"
         "  etendue render scenes/caustic-glass --integrator bdpt --strategies-image pyramid.exr --strategies-depth 5\n"

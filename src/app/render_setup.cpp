@@ -83,23 +83,51 @@ std::unique_ptr<const Integrator> create_integrator(const RenderSettings& settin
     return integrator;
 }
 
+namespace {
+
+/// The config knows names only; where they stood is known here.
+auto located(const RenderSettings& settings, const char* pointer, const auto& look_up) {
+    try {
+        return look_up();
+    } catch (const SceneError& error) {
+        throw SceneError(settings.at(pointer), error.problems().all().front().message);
+    }
+}
+
+/// The space of the EXR, with the working space in place of none.
+std::string resolve_output_space(const RenderSettings& settings, const ColorConfig& colors) {
+    const ColorSettings& s = settings.color;
+    if (!s.output_space.empty()) {
+        const std::string space = located(settings, "/color/output_space", [&] {
+            (void)colors.matrix(s.working_space, s.output_space);
+            return colors.resolve_space(s.output_space);
+        });
+        if (!s.aces_container || space == colors.aces_space()) return space;
+        throw SceneError(settings.at("/color/output_space"),
+                         fmt::format("an ACES container (SMPTE ST 2065-4) is in ACES2065-1, not in '{}'", space));
+    }
+    if (!s.aces_container) return s.working_space;
+    if (colors.aces_space().empty())
+        throw SceneError(settings.at("/color/aces_container"),
+                         fmt::format("the OpenColorIO config {} has no ACES2065-1", colors.origin()));
+    return colors.aces_space();
+}
+
+}  // namespace
+
 std::string resolve_colors(RenderSettings& settings, const ColorConfig& colors) {
     ColorSettings& s = settings.color;
-    // The config knows names only; where they stood is known here.
-    const auto located = [&](const char* pointer, const auto& look_up) {
-        try {
-            return look_up();
-        } catch (const SceneError& error) {
-            throw SceneError(settings.at(pointer), error.problems().all().front().message);
-        }
-    };
-    s.working_space = located("/color/working_space", [&] {
+    s.working_space = located(settings, "/color/working_space", [&] {
         return s.working_space.empty() ? colors.default_working_space() : colors.resolve_space(s.working_space);
     });
     if (s.display.empty()) s.display = colors.default_display();
-    if (s.view.empty()) s.view = located("/color/display", [&] { return colors.default_view(s.display); });
-    (void)located("/color/view",
-                  [&] { return colors.display_transform(s.working_space, s.display, s.view, s.exposure); });
+    const std::string default_view =
+        located(settings, "/color/display", [&] { return colors.default_view(s.display); });
+    if (s.view.empty()) s.view = default_view;
+    located(settings, "/color/look", [&] { colors.require_look(s.look); });
+    (void)located(settings, "/color/view",
+                  [&] { return colors.display_transform(s.working_space, s.display, s.view, s.exposure, s.look); });
+    s.output_space = resolve_output_space(settings, colors);
     return s.working_space;
 }
 

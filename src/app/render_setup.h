@@ -27,7 +27,7 @@ void require_strategies(const RenderSettings& settings, const SourceLocation& as
 [[nodiscard]] std::unique_ptr<const Integrator> create_integrator(const RenderSettings& settings);
 
 /// Puts the config's defaults where `settings` name no space, display or view, and checks that everything exists.
-/// Returns the working space. Throws SceneError with the setting's location.
+/// Returns the working space; the settings name that of the EXR, too. Throws SceneError with the setting's location.
 [[nodiscard]] std::string resolve_colors(RenderSettings& settings, const ColorConfig& colors);
 
 }  // namespace etendue

@@ -70,6 +70,10 @@ class SceneRender {
         aovs_ = make_aov_plan(scene_, problems_);
         report_problems();
         options_.aovs = aovs_.set;
+        if (scene_.settings.color.aces_container && aovs_.set && scene_.settings.aov_layout != AovLayout::Files)
+            throw SceneError(scene_.settings.at("/aov_layout"),
+                             "an ACES container (SMPTE ST 2065-4) holds one image: write layers in files of their own "
+                             "(--aov-layout files)");
         check_outputs();
         description_.statistics.load = prepared.load;
         describe_scene();
@@ -139,6 +143,9 @@ class SceneRender {
         frame.working_space = working_space;
         frame.display = settings_.color.display;
         frame.view = settings_.color.view;
+        frame.look = settings_.color.look;
+        frame.output_space = settings_.color.output_space;
+        frame.aces_container = settings_.color.aces_container;
         frame.exposure = settings_.color.exposure;
         frame.scene = scene_.name;
         frame.integrator = settings_.integrator.type;

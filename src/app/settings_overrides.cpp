@@ -216,15 +216,28 @@ void SettingsOverrides::add_options(CLI::App& command) {
             "Layers as channels of the image (layers, default), as parts of its file (parts) or in files of their own "
             "(files)")
         ->check(CLI::IsMember(kAovLayouts));
-    command.add_option("--exposure", exposure, "Exposure of the preview image, stops")->check(real_range(-64.0, 64.0));
-    command.add_option("--view", view, "OpenColorIO view of the preview image");
-    command.add_option("--working-space", working_space, "Scene-linear space to render in and to write");
+    add_color_options(command);
     auto* half = command.add_flag_callback(
         "--half", [this] { depth = PixelDepth::Half; }, "Write 16-bit floats (default)");
     command
         .add_flag_callback(
             "--float", [this] { depth = PixelDepth::Float; }, "Write 32-bit floats")
         ->excludes(half);
+}
+
+void SettingsOverrides::add_color_options(CLI::App& command) {
+    command.add_option("--exposure", exposure, "Exposure of the preview image, stops")->check(real_range(-64.0, 64.0));
+    command.add_option("--display", display, "OpenColorIO display that the preview image is for");
+    command.add_option("--view", view, "OpenColorIO view of the preview image, one of its display's");
+    command.add_option("--look", look,
+                       "OpenColorIO look of the preview image, in place of the view's own; several with commas, or "
+                       "none ('etendue view --list' names displays, views and looks)");
+    command.add_option("--working-space", working_space, "Scene-linear space to render in");
+    command.add_option("--exr-space", output_space,
+                       "Scene-linear space of the EXR, such as ACES2065-1 (default: the working space)");
+    command.add_flag_callback(
+        "--aces-container", [this] { aces_container = true; },
+        "Write the EXR as SMPTE ST 2065-4 asks: in ACES2065-1, 16-bit floats, not compressed");
 }
 
 void SettingsOverrides::apply(SceneDesc& scene) const {
@@ -254,8 +267,15 @@ void SettingsOverrides::apply(SceneDesc& scene) const {
     settings.aovs.insert(settings.aovs.end(), aovs.begin(), aovs.end());
     set(aov_layout, settings.aov_layout, "/aov_layout", "--aov-layout");
     set(exposure, settings.color.exposure, "/color/exposure", "--exposure");
+    set(display, settings.color.display, "/color/display", "--display");
     set(view, settings.color.view, "/color/view", "--view");
+    set(look, settings.color.look, "/color/look", "--look");
     set(working_space, settings.color.working_space, "/color/working_space", "--working-space");
+    set(output_space, settings.color.output_space, "/color/output_space", "--exr-space");
+    set(aces_container, settings.color.aces_container, "/color/aces_container", "--aces-container");
+    if (settings.color.aces_container && depth == PixelDepth::Float)
+        throw SceneError(settings.at("/color/aces_container"),
+                         "an ACES container (SMPTE ST 2065-4) holds 16-bit floats; leave --float out");
     if (size) {
         settings.film.width = (*size)[0];
         settings.film.height = (*size)[1];

@@ -50,16 +50,23 @@ struct SettingsOverrides {
     std::vector<AovDesc> aovs;  ///< besides those of the scene
     std::optional<AovLayout> aov_layout;
     std::optional<float> exposure;
+    std::optional<std::string> display;
     std::optional<std::string> view;
+    std::optional<std::string> look;
     std::optional<std::string> working_space;
+    std::optional<std::string> output_space;
+    std::optional<bool> aces_container;
     PixelDepth depth = PixelDepth::Half;
 
     /// Adds the options to a subcommand; the values arrive when it is parsed.
     void add_options(CLI::App& command);
 
     /// Applies quality first, then everything that was stated explicitly. Throws SceneError if the environment image
-    /// does not exist.
+    /// does not exist, or --float is asked of an ACES container.
     void apply(SceneDesc& scene) const;
+
+  private:
+    void add_color_options(CLI::App& command);
 };
 
 /// Of the registry, in its order.

@@ -10,6 +10,7 @@
 #include "output/contact_sheet.h"
 #include "output/display_image.h"
 #include "output/exr_driver.h"
+#include "output/output_space.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -106,12 +107,18 @@ void write_strategies_image(const StrategiesRequest& request, const World& world
     one.weighted = request.weighted;
     ProgressDisplay display(title + " strategies", quiet);
     const std::vector<Strategy> wanted = shown_strategies(request, lengths);
-    const std::vector<StrategyImage> images =
+    std::vector<StrategyImage> images =
         render_strategies(world, one, wanted, options, threads, interrupt_requested(),
                           [&](const RenderProgress& progress) { display.update(progress); });
     if (images.size() < wanted.size()) return;
+    if (!frame.output_space.empty() && frame.output_space != frame.working_space) {
+        // In place, since there is no room for another of each.
+        for (StrategyImage& image : images) convert_space(image.rgba, frame.working_space, frame.output_space, colors);
+        frame.working_space = frame.output_space;
+    }
     ExrDriver(request.output, colors, depth).write_parts(frame, strategy_parts(images));
-    const DisplayView view = with_defaults({frame.working_space, frame.display, frame.view, frame.exposure}, colors);
+    const DisplayView view =
+        with_defaults({frame.working_space, frame.display, frame.view, frame.look, frame.exposure}, colors);
     ImageWriteOptions png;
     png.depth = PixelDepth::UInt8;
     png.attributes = display_attributes(view);

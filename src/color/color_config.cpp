@@ -28,10 +28,15 @@ struct ColorConfig::Impl {
     [[nodiscard]] OCIO::ConstCPUProcessorRcPtr processor(const std::string& from, const std::string& to) const;
     [[nodiscard]] Matrix3d probe_matrix(const std::string& from, const std::string& to) const;
     void require_linear(const std::string& space) const;
+    [[nodiscard]] std::string aces_space() const;
     [[nodiscard]] std::optional<Matrix3d> to_ap0(const std::string& space) const;
+    void require_view(const std::string& display, const std::string& view, const std::vector<std::string>& known) const;
+    void require_look(const std::string& look, const std::vector<std::string>& known) const;
     [[noreturn]] void fail(const std::string& message) const;
     [[noreturn]] void fail_unknown(std::string_view what, const std::string& name,
                                    const std::vector<std::string>& known) const;
+    [[noreturn]] void fail_unknown_of_few(std::string_view what, const std::string& name,
+                                          const std::vector<std::string>& known) const;
 };
 
 namespace {
@@ -111,6 +116,16 @@ void ColorConfig::Impl::fail_unknown(std::string_view what, const std::string& n
     fail(fmt::format("there is no {} '{}'; {}", what, name, name_hint(name, views)));
 }
 
+// Displays, views and looks are few, so that all can be named beside the nearest.
+void ColorConfig::Impl::fail_unknown_of_few(std::string_view what, const std::string& name,
+                                            const std::vector<std::string>& known) const {
+    const std::vector<std::string_view> views(known.begin(), known.end());
+    const std::string nearest = nearest_name(name, views);
+    const std::string all = known.empty() ? "there are none" : fmt::format("there are '{}'", fmt::join(known, "', '"));
+    fail(fmt::format("there is no {} '{}'; {}{}", what, name,
+                     nearest.empty() ? "" : fmt::format("did you mean '{}'? ", nearest), all));
+}
+
 OCIO::ConstColorSpaceRcPtr ColorConfig::Impl::find_space(const std::string& name) const {
     auto space = config->getColorSpace(name.c_str());
     if (!space) fail_unknown("colour space", name, everything_that_names_a_space(*config));
@@ -141,11 +156,40 @@ void ColorConfig::Impl::require_linear(const std::string& space) const {
 }
 
 // Configs without the role call ACES2065-1 by one of these names.
-std::optional<Matrix3d> ColorConfig::Impl::to_ap0(const std::string& space) const {
+std::string ColorConfig::Impl::aces_space() const {
     for (const char* name : {OCIO::ROLE_INTERCHANGE_SCENE, "ACES2065-1", "ACES - ACES2065-1", "lin_ap0"}) {
-        if (config->getColorSpace(name)) return probe_matrix(space, name);
+        if (const auto space = config->getColorSpace(name)) return space->getName();
     }
-    return std::nullopt;
+    return {};
+}
+
+std::optional<Matrix3d> ColorConfig::Impl::to_ap0(const std::string& space) const {
+    const std::string aces = aces_space();
+    if (aces.empty()) return std::nullopt;
+    return probe_matrix(space, aces);
+}
+
+void ColorConfig::Impl::require_view(const std::string& display, const std::string& view,
+                                     const std::vector<std::string>& known) const {
+    if (std::find(known.begin(), known.end(), view) == known.end())
+        fail_unknown_of_few(fmt::format("view of display '{}' called", display), view, known);
+}
+
+// OpenColorIO's syntax: options with bars between them, each a list of looks with commas, each with a sign or none.
+void ColorConfig::Impl::require_look(const std::string& look, const std::vector<std::string>& known) const {
+    const auto is_known = [&](const std::string& name) {
+        return std::find(known.begin(), known.end(), name) != known.end();
+    };
+    if (look.empty() || look == kNoLook || is_known(look)) return;
+    std::size_t begin = 0;
+    while (begin <= look.size()) {
+        const std::size_t end = std::min(look.find_first_of(",|", begin), look.size());
+        std::string name = look.substr(begin, end - begin);
+        const std::size_t first = name.find_first_not_of(" +-");
+        name = first == std::string::npos ? "" : name.substr(first, name.find_last_not_of(' ') - first + 1);
+        if (!is_known(name)) fail_unknown_of_few("look", name, known);
+        begin = end + 1;
+    }
 }
 
 ColorConfig::ColorConfig(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
@@ -201,7 +245,7 @@ std::vector<std::string> ColorConfig::views(const std::string& display) const {
     for (int i = 0; i < impl_->config->getNumViews(display.c_str()); ++i) {
         names.emplace_back(impl_->config->getView(display.c_str(), i));
     }
-    if (names.empty()) impl_->fail_unknown("display", display, displays());
+    if (names.empty()) impl_->fail_unknown_of_few("display", display, displays());
     return names;
 }
 
@@ -237,13 +281,31 @@ ColorMatrix ColorConfig::matrix(const std::string& from, const std::string& to) 
     return result;
 }
 
+std::vector<std::string> ColorConfig::looks() const {
+    std::vector<std::string> names;
+    names.reserve(static_cast<std::size_t>(impl_->config->getNumLooks()));
+    for (int i = 0; i < impl_->config->getNumLooks(); ++i) names.emplace_back(impl_->config->getLookNameByIndex(i));
+    return names;
+}
+
+std::string ColorConfig::looks_of_view(const std::string& display, const std::string& view) const {
+    impl_->require_view(display, view, views(display));
+    return impl_->config->getDisplayViewLooks(display.c_str(), view.c_str());
+}
+
+void ColorConfig::require_look(const std::string& look) const {
+    impl_->require_look(look, looks());
+}
+
+std::string ColorConfig::aces_space() const {
+    return impl_->aces_space();
+}
+
 ColorTransform ColorConfig::display_transform(const std::string& working, const std::string& display,
-                                              const std::string& view, float exposure) const {
+                                              const std::string& view, float exposure, const std::string& look) const {
     const std::string source = resolve_space(working);
-    const std::vector<std::string> known_views = views(display);
-    if (std::find(known_views.begin(), known_views.end(), view) == known_views.end()) {
-        impl_->fail_unknown(fmt::format("view of display '{}' called", display), view, known_views);
-    }
+    impl_->require_view(display, view, views(display));
+    require_look(look);
     const auto gain = OCIO::MatrixTransform::Create();
     const double scale = std::exp2(static_cast<double>(exposure));
     const std::array<double, 16> matrix{scale, 0, 0, 0, 0, scale, 0, 0, 0, 0, scale, 0, 0, 0, 0, 1};
@@ -252,8 +314,17 @@ ColorTransform ColorConfig::display_transform(const std::string& working, const 
     to_display->setSrc(source.c_str());
     to_display->setDisplay(display.c_str());
     to_display->setView(view.c_str());
+    to_display->setLooksBypass(!look.empty());
     const auto group = OCIO::GroupTransform::Create();
     group->appendTransform(gain);
+    if (!look.empty() && look != kNoLook) {
+        // To the look's process space and back: what OpenColorIO's own viewing pipeline does for a look that is chosen.
+        const auto graded = OCIO::LookTransform::Create();
+        graded->setSrc(source.c_str());
+        graded->setDst(source.c_str());
+        graded->setLooks(look.c_str());
+        group->appendTransform(graded);
+    }
     group->appendTransform(to_display);
 
     ColorTransform result;
@@ -261,7 +332,8 @@ ColorTransform ColorConfig::display_transform(const std::string& working, const 
         result.impl_ = std::make_shared<ColorTransform::Impl>(
             ColorTransform::Impl{impl_->config->getProcessor(group)->getOptimizedCPUProcessor(kExact)});
     } catch (const OCIO::Exception& error) {
-        impl_->fail(fmt::format("cannot show '{}' through view '{}' of '{}': {}", source, view, display, error.what()));
+        impl_->fail(fmt::format("cannot show '{}' through view '{}' of '{}'{}: {}", source, view, display,
+                                look.empty() ? "" : fmt::format(" with look '{}'", look), error.what()));
     }
     return result;
 }

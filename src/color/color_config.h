@@ -73,9 +73,21 @@ class ColorConfig {
     [[nodiscard]] ColorTransform transform(const std::string& from, const std::string& to) const;
     /// The same for two scene-linear spaces, as a matrix. Throws SceneError if either is not linear.
     [[nodiscard]] ColorMatrix matrix(const std::string& from, const std::string& to) const;
-    /// From `working` to encoded display values; `exposure` in stops is applied first, in `working`.
+    /// Names of the looks: what is done to scene light before the view, such as a grade.
+    [[nodiscard]] std::vector<std::string> looks() const;
+    /// The looks that a view applies itself, as the config lists them; empty if it applies none.
+    [[nodiscard]] std::string looks_of_view(const std::string& display, const std::string& view) const;
+    /// From `working` to encoded display values; `exposure` in stops is applied first, in `working`. `look` is applied
+    /// to the light before the view and takes the place of the view's own looks: a name, several with commas between
+    /// them (a minus before a name undoes it), `kNoLook` for none at all, or empty for the view's own. Throws
+    /// SceneError if a name is unknown.
     [[nodiscard]] ColorTransform display_transform(const std::string& working, const std::string& display,
-                                                   const std::string& view, float exposure) const;
+                                                   const std::string& view, float exposure,
+                                                   const std::string& look = {}) const;
+    /// Throws what `display_transform` throws for such a look.
+    void require_look(const std::string& look) const;
+    /// Name of the space with the primaries and the white of ACES2065-1 (SMPTE ST 2065-1); empty if there is none.
+    [[nodiscard]] std::string aces_space() const;
     /// Of a scene-linear space: the published ones with the space's own white if its conversion to ACES2065-1 (adapted
     /// by Bradford) is that of a known set of primaries, else those after adaptation to D65. Throws SceneError if the
     /// space is not linear or the config has no ACES2065-1.
@@ -89,6 +101,9 @@ class ColorConfig {
     explicit ColorConfig(std::shared_ptr<const Impl> impl);
     std::shared_ptr<const Impl> impl_;
 };
+
+/// A view without its own looks.
+inline constexpr const char* kNoLook = "none";
 
 /// Version of the colour library.
 [[nodiscard]] std::string color_library_version();

@@ -59,8 +59,9 @@ void ImageReader::read_rows(int level, int y_begin, int y_end, std::span<float> 
     const std::size_t pixel_count = width * static_cast<std::size_t>(y_end - y_begin);
     const ChannelRange range = channel_range(impl_->image);
     float* const target = impl_->target(pixel_count, values);
-    const bool read = impl_->image.input->read_scanlines(0, level, first_row + y_begin, first_row + y_end, 0,
-                                                         range.first, range.last, OIIO::TypeDesc::FLOAT, target);
+    const bool read =
+        impl_->image.input->read_scanlines(impl_->image.part, level, first_row + y_begin, first_row + y_end, 0,
+                                           range.first, range.last, OIIO::TypeDesc::FLOAT, target);
     impl_->finish(read, pixel_count, values);
 }
 
@@ -74,8 +75,8 @@ void ImageReader::read_tile(int level, int x, int y, std::span<float> values) {
     const std::size_t pixel_count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     const ChannelRange range = channel_range(impl_->image);
     float* const target = impl_->target(pixel_count, values);
-    const bool read = impl_->image.input->read_tiles(0, level, x, x + width, y, y + height, 0, 1, range.first,
-                                                     range.last, OIIO::TypeDesc::FLOAT, target);
+    const bool read = impl_->image.input->read_tiles(impl_->image.part, level, x, x + width, y, y + height, 0, 1,
+                                                     range.first, range.last, OIIO::TypeDesc::FLOAT, target);
     impl_->finish(read, pixel_count, values);
 }
 

@@ -119,7 +119,7 @@ void throw_library_error(const OIIO::ImageInput& input, std::string_view what) {
     throw IoError(reason.empty() ? std::string(what) : fmt::format("{}: {}", what, reason));
 }
 
-OpenImage open_image(const ImageSource& source) {
+OpenImage open_unchecked(const ImageSource& source) {
     configure_image_library();
     const Encoded encoded = std::visit([](const auto& place) { return look_at(place); }, source);
     if (encoded.size == 0) throw IoError("the file is empty");
@@ -128,6 +128,7 @@ OpenImage open_image(const ImageSource& source) {
 
     OpenImage image;
     image.format = *format;
+    image.encoded_size = encoded.size;
     image.input = OIIO::ImageInput::create(std::string(format->name));
     if (!image.input) throw IoError(OIIO::geterror());
     image.input->threads(1);
@@ -142,8 +143,26 @@ OpenImage open_image(const ImageSource& source) {
     OIIO::ImageSpec request;
     request.attribute("oiio:UnassociatedAlpha", 1);
     if (!image.input->open(name, image.spec, request)) throw_library_error(*image.input, "the header is broken");
-    refuse_absurd(image.spec, *format, encoded.size);
     image.channels = select_channels(image.spec);
+    return image;
+}
+
+bool seek_part(OpenImage& image, int part) {
+    if (!image.input->seek_subimage(part, 0)) return false;
+    image.part = part;
+    image.spec = image.input->spec();
+    image.channels = select_channels(image.spec);
+    return true;
+}
+
+void require_acceptable(const OpenImage& image) {
+    refuse_absurd(image.spec, image.format, image.encoded_size);
+}
+
+OpenImage open_image(const ImageSource& source, int part) {
+    OpenImage image = open_unchecked(source);
+    if (part != 0 && !seek_part(image, part)) throw_library_error(*image.input, fmt::format("it has no part {}", part));
+    require_acceptable(image);
     return image;
 }
 
@@ -159,6 +178,7 @@ ImageInfo describe(const OpenImage& image) {
     info.format = image.format.name;
     info.color_space = image.spec.get_string_attribute("oiio:ColorSpace");
     info.chromaticities = chromaticities_of(image.spec);
+    info.is_aces_container = image.spec.get_int_attribute("acesImageContainerFlag") == 1;
     info.data_window = window(image.spec.x, image.spec.y, image.spec.width, image.spec.height);
     info.display_window = window(image.spec.full_x, image.spec.full_y, image.spec.full_width, image.spec.full_height);
     return info;
@@ -167,7 +187,7 @@ ImageInfo describe(const OpenImage& image) {
 std::vector<ImageLevel> levels_of(OpenImage& image) {
     std::vector<ImageLevel> levels{{image.spec.width, image.spec.height}};
     for (int i = 1; levels.back().width > 1 || levels.back().height > 1; ++i) {
-        const OIIO::ImageSpec level = image.input->spec_dimensions(0, i);
+        const OIIO::ImageSpec level = image.input->spec_dimensions(image.part, i);
         const ImageLevel half{std::max(1, levels.back().width / 2), std::max(1, levels.back().height / 2)};
         const bool is_half = level.width == half.width && level.height == half.height;
         if (!is_half || level.nchannels != image.spec.nchannels) break;
@@ -177,7 +197,7 @@ std::vector<ImageLevel> levels_of(OpenImage& image) {
 }
 
 void seek_level(OpenImage& image, const ImageLevel& size, int level) {
-    if (!image.input->seek_subimage(0, level)) throw_library_error(*image.input, "a mip level is broken");
+    if (!image.input->seek_subimage(image.part, level)) throw_library_error(*image.input, "a mip level is broken");
     const OIIO::ImageSpec live = image.input->spec();
     const bool is_as_stated = live.width == size.width && live.height == size.height && live.depth <= 1 &&
                               live.nchannels == image.spec.nchannels;

@@ -16,15 +16,24 @@ namespace etendue {
 struct OpenImage {
     std::unique_ptr<OIIO::Filesystem::IOMemReader> memory;  // outlives `input`, which reads through it
     std::unique_ptr<OIIO::ImageInput> input;
-    OIIO::ImageSpec spec;
+    OIIO::ImageSpec spec;  ///< of `part`
     EncodedFormat format;
+    std::int64_t encoded_size = 0;  ///< bytes
+    int part = 0;                   ///< of a multi-part file, the one that is read
     /// Those to read, in order: R, G, B and A by name where the file has them (EXR stores channels alphabetically, and
     /// other layers may stand between), else the first four.
     std::vector<int> channels;
 };
 
-/// Bytes in `source` must outlive the result. Throws IoError as `read_image_info` does.
-[[nodiscard]] OpenImage open_image(const ImageSource& source);
+/// One part of a file; bytes in `source` must outlive the result. Throws IoError as `read_image_info` does.
+[[nodiscard]] OpenImage open_image(const ImageSource& source, int part = 0);
+
+/// The same of the first part, whose header may claim anything.
+[[nodiscard]] OpenImage open_unchecked(const ImageSource& source);
+/// Goes on with another part, whose header may claim anything. Returns false if there is none.
+[[nodiscard]] bool seek_part(OpenImage& image, int part);
+/// Throws IoError if what the header claims is not accepted.
+void require_acceptable(const OpenImage& image);
 
 /// What the header of `image` says.
 [[nodiscard]] ImageInfo describe(const OpenImage& image);

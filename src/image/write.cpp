@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -37,12 +38,18 @@ OIIO::TypeDesc stored_type(PixelDepth depth) {
     switch (depth) {
         case PixelDepth::UInt8:
             return OIIO::TypeDesc::UINT8;
+        case PixelDepth::UInt16:
+            return OIIO::TypeDesc::UINT16;
         case PixelDepth::Half:
             return OIIO::TypeDesc::HALF;
         case PixelDepth::Float:
             break;
     }
     return OIIO::TypeDesc::FLOAT;
+}
+
+bool is_integer(PixelDepth depth) {
+    return depth == PixelDepth::UInt8 || depth == PixelDepth::UInt16;
 }
 
 // OpenImageIO's name of the format that the extension asks for; throws if that format cannot hold the pixels.
@@ -52,9 +59,9 @@ std::string output_format(const std::filesystem::path& path, PixelDepth depth) {
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     const bool exr = extension == ".exr";
     if (!exr && extension != ".png") throw IoError(fmt::format("cannot write {}: not .exr or .png", path.string()));
-    if (exr == (depth == PixelDepth::UInt8)) {
+    if (exr == is_integer(depth)) {
         throw IoError(fmt::format("cannot write {}: {}", path.string(),
-                                  exr ? "EXR holds no 8-bit channels" : "PNG is written with 8 bits a channel only"));
+                                  exr ? "EXR holds floats only" : "PNG holds 8 or 16-bit integers only"));
     }
     return exr ? "openexr" : "png";
 }
@@ -96,26 +103,27 @@ OIIO::ImageSpec make_spec(const ImagePart& part, const ImageWriteOptions& option
     }
     const auto alpha = std::find(spec.channelnames.begin(), spec.channelnames.end(), "A");
     if (alpha != spec.channelnames.end()) spec.alpha_channel = static_cast<int>(alpha - spec.channelnames.begin());
-    if (options.depth == PixelDepth::UInt8) {
+    if (is_integer(options.depth)) {
         spec.attribute("oiio:UnassociatedAlpha", 1);  // else the pixels would be divided by alpha
     } else {
-        spec.attribute("compression", "zip");
+        spec.attribute("compression", options.compression == ExrCompression::Zip ? "zip" : "none");
     }
     for (ImageAttribute attribute : options.attributes) {
-        const bool renamed = attribute.name == kColorSpace && options.depth != PixelDepth::UInt8;
+        const bool renamed = attribute.name == kColorSpace && !is_integer(options.depth);
         if (renamed) attribute.name = kColorSpaceStandIn;
         add_attribute(spec, attribute);
     }
     return spec;
 }
 
-std::vector<std::uint8_t> to_8bit(std::span<const float> pixels) {
-    std::vector<std::uint8_t> bytes(pixels.size());
-    std::transform(pixels.begin(), pixels.end(), bytes.begin(), [](float value) {
+template <typename T>
+std::vector<T> to_integers(std::span<const float> pixels) {
+    std::vector<T> integers(pixels.size());
+    std::transform(pixels.begin(), pixels.end(), integers.begin(), [](float value) {
         const float clamped = value > 0.0f ? std::min(value, 1.0f) : 0.0f;  // a NaN becomes 0
-        return static_cast<std::uint8_t>(std::lround(clamped * 255.0f));
+        return static_cast<T>(std::lround(clamped * static_cast<float>(std::numeric_limits<T>::max())));
     });
-    return bytes;
+    return integers;
 }
 
 // A finite value stays finite: an infinity in a file poisons every filter that touches it.
@@ -130,7 +138,10 @@ std::vector<float> to_half_range(std::span<const float> pixels, std::span<const 
 
 bool write_pixels(OIIO::ImageOutput& output, const ImagePart& part, PixelDepth depth) {
     const ImageF& image = *part.image;
-    if (depth == PixelDepth::UInt8) return output.write_image(OIIO::TypeDesc::UINT8, to_8bit(image.pixels).data());
+    if (depth == PixelDepth::UInt8)
+        return output.write_image(OIIO::TypeDesc::UINT8, to_integers<std::uint8_t>(image.pixels).data());
+    if (depth == PixelDepth::UInt16)
+        return output.write_image(OIIO::TypeDesc::UINT16, to_integers<std::uint16_t>(image.pixels).data());
     const std::vector<PixelDepth> depths = part.channel_depths.empty() ? std::vector{depth} : part.channel_depths;
     if (std::ranges::find(depths, PixelDepth::Half) == depths.end())
         return output.write_image(OIIO::TypeDesc::FLOAT, image.pixels.data());

@@ -20,10 +20,13 @@ struct ImageAttribute {
     std::variant<int, float, std::string, std::vector<float>, Mat4f> value;
 };
 
-enum class PixelDepth { UInt8, Half, Float };
+enum class PixelDepth { UInt8, UInt16, Half, Float };
+
+enum class ExrCompression { Zip, None };
 
 struct ImageWriteOptions {
     PixelDepth depth = PixelDepth::Half;
+    ExrCompression compression = ExrCompression::Zip;
     std::vector<std::string> channel_names{};  ///< one per channel; empty for R, G, B, A (Y, A for one or two)
     std::vector<ImageAttribute> attributes{};
     /// Position of the pixels in a larger image (a crop window): x, y of the first pixel, and the full size; all zero
@@ -34,10 +37,10 @@ struct ImageWriteOptions {
     int full_height = 0;
 };
 
-/// Writes `image` to `path`; the extension chooses the format: .exr (Half or Float, ZIP) or .png (UInt8). UInt8 expects
-/// values in [0, 1] that are already encoded for display, and clamps and rounds them; Half clamps finite values to
-/// ±65504. Creates no directory; a path that exists and is no regular file (/dev/stdout) is written in place. Throws
-/// IoError with the path and the reason; no partial file is left.
+/// Writes `image` to `path`; the extension chooses the format: .exr (Half or Float) or .png (UInt8 or UInt16). Those of
+/// PNG expect values in [0, 1] that are already encoded for display, and clamp and round them; Half clamps finite
+/// values to ±65504. Creates no directory; a path that exists and is no regular file (/dev/stdout) is written in place.
+/// Throws IoError with the path and the reason; no partial file is left.
 void write_image(const std::filesystem::path& path, const ImageF& image, const ImageWriteOptions& options);
 
 /// One image of a file that may hold several.

@@ -28,7 +28,8 @@ std::vector<float> resolve(const Film& film, const AovOutput& output) {
 }  // namespace
 
 OutputLayer resolve_layer(const Film& film, const AovOutput& output) {
-    OutputLayer layer{.name = output.name, .channels = output.channels, .is_float = output.is_float, .pixels = {}};
+    OutputLayer layer{.name = output.name, .channels = output.channels, .is_float = output.is_float};
+    layer.is_color = output.kind == AovKind::Layer || (output.kind == AovKind::Values && output.channels == "RGB");
     layer.pixels.width = film.window().width();
     layer.pixels.height = film.window().height();
     layer.pixels.channels = static_cast<int>(output.channels.size());

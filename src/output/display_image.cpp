@@ -32,7 +32,7 @@ ImageF display_image(const ImageF& image, const DisplayView& view, const ColorCo
     if (image.channels < 3) throw IoError("cannot show an image that is not RGB or RGBA");
     const DisplayView full = with_defaults(view, config);
     const ColorTransform transform =
-        config.display_transform(full.working_space, full.display, full.view, full.exposure);
+        config.display_transform(full.working_space, full.display, full.view, full.exposure, full.look);
     ImageF shown = over_black(image);
     transform.apply(shown.pixels, 3);
     return shown;
@@ -43,6 +43,7 @@ std::vector<ImageAttribute> display_attributes(const DisplayView& view) {
                                            {"etendue:display", view.display},
                                            {"etendue:view", view.view},
                                            {"etendue:exposure", std::to_string(view.exposure)}};
+    if (!view.look.empty()) attributes.push_back({"etendue:look", view.look});
     // PNG has a chunk for sRGB; programs take an image without one for sRGB too, so others are better left unsaid.
     if (view.display.starts_with("sRGB")) attributes.push_back({"oiio:ColorSpace", std::string("sRGB")});
     return attributes;

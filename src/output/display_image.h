@@ -15,6 +15,7 @@ struct DisplayView {
     std::string working_space;
     std::string display;    ///< empty for the config's default
     std::string view;       ///< empty for the display's default
+    std::string look{};     ///< as `ColorConfig::display_transform` takes it; empty for the view's own
     float exposure = 0.0f;  ///< stops
 };
 

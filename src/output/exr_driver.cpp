@@ -1,6 +1,7 @@
 #include "output/exr_driver.h"
 
 #include "core/error.h"
+#include "output/output_space.h"
 #include "output/software_name.h"
 
 #include <array>
@@ -37,7 +38,8 @@ void add_chromaticities(const ColorConfig& config, const std::string& space, std
 }
 
 std::vector<ImageAttribute> make_attributes(const OutputFrame& frame, const ColorConfig& config) {
-    const std::string space = config.resolve_space(frame.working_space);
+    const std::string space =
+        config.resolve_space(frame.output_space.empty() ? frame.working_space : frame.output_space);
     std::vector<ImageAttribute> attributes{
         {"Software", std::string(software_name())},
         {"oiio:ColorSpace", space},
@@ -73,6 +75,11 @@ ImagePart ExrDriver::part_of(const OutputLayer& layer, bool with_name) const {
 }
 
 void ExrDriver::write(const OutputFrame& frame) {
+    if (is_to_be_converted(frame)) {
+        OutputFrame converted = frame;
+        to_output_space(converted, config_);
+        return write(converted);
+    }
     if (frame.layers.empty()) return write_parts(frame, std::array{ImagePart{.image = &frame.pixels}});
     constexpr std::string_view kColor = "RGBA";
     ImageF all;

@@ -10,8 +10,9 @@
 
 namespace etendue {
 
-/// Pixels as they are, in the working space, with all metadata: chromaticities, oiio:ColorSpace, worldToCamera and
-/// worldToNDC by OpenEXR's conventions, and etendue:* for how the image was made. docs/colour.md lists them.
+/// Pixels as they are, in the frame's output space or else its working space, with all metadata: chromaticities,
+/// oiio:ColorSpace, worldToCamera and worldToNDC by OpenEXR's conventions, and etendue:* for how the image was made.
+/// docs/colour.md lists them.
 class ExrDriver final : public OutputDriver {
   public:
     /// `depth` is Half or Float.
@@ -19,11 +20,12 @@ class ExrDriver final : public OutputDriver {
 
     /// The image and its layers as the channels of one part: R, G, B, A, NAME.R …
     void write(const OutputFrame& frame) override;
-    /// The image and its layers as parts of their own: "rgba", NAME …
+    /// The same as parts of their own: "rgba", NAME … Pixels are in the space that they are written in.
     void write_layers_as_parts(const OutputFrame& frame);
-    /// One layer of the frame in place of its pixels.
+    /// One layer of the frame, in the space that it is written in, in place of its pixels.
     void write_layer(const OutputFrame& frame, const OutputLayer& layer);
-    /// `parts`, of the frame's size, in place of its pixels: a multi-part file, unless it is one.
+    /// `parts`, of the frame's size and in the space that it is written in, in place of its pixels: a multi-part file,
+    /// unless it is one.
     void write_parts(const OutputFrame& frame, std::span<const ImagePart> parts);
 
   private:

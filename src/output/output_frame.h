@@ -15,6 +15,7 @@ struct OutputLayer {
     std::string name;
     std::string channels;   ///< a letter each
     bool is_float = false;  ///< to be written as 32-bit floats, whatever the image is
+    bool is_color = false;  ///< in the working space; else numbers that mean the same in every space
     ImageF pixels;
 };
 
@@ -31,10 +32,13 @@ struct OutputFrame {
     int full_height = 0;        ///< pixels; 0 if the image is not cropped
     float pixel_aspect = 1.0f;  ///< width over height of a pixel
 
-    std::string working_space;  ///< a scene-linear space of the OpenColorIO config
-    std::string display;        ///< of the preview; empty for the config's default
-    std::string view;           ///< of the preview; empty for the display's default
-    float exposure = 0.0f;      ///< stops, preview only
+    std::string working_space;    ///< a scene-linear space of the OpenColorIO config
+    std::string display;          ///< of the preview; empty for the config's default
+    std::string view;             ///< of the preview; empty for the display's default
+    std::string look;             ///< of the preview; empty for the view's own
+    float exposure = 0.0f;        ///< stops, preview only
+    std::string output_space;     ///< of the EXR, scene-linear; empty for the working space
+    bool aces_container = false;  ///< the EXR follows SMPTE ST 2065-4
 
     Mat4f world_to_camera;  ///< the camera looks along -Z with +Y up
     Mat4f world_to_screen;  ///< projective; x right and y up in [-1, 1] over the full image

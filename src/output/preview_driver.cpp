@@ -13,7 +13,8 @@ PreviewDriver::PreviewDriver(std::filesystem::path path, ColorConfig config)
 
 void PreviewDriver::write(const OutputFrame& frame) {
     if (frame.pixels.channels < 3) throw IoError("cannot write " + path_.string() + ": the image is not RGB or RGBA");
-    const DisplayView view = with_defaults({frame.working_space, frame.display, frame.view, frame.exposure}, config_);
+    const DisplayView view =
+        with_defaults({frame.working_space, frame.display, frame.view, frame.look, frame.exposure}, config_);
     ImageWriteOptions options;
     options.depth = PixelDepth::UInt8;
     options.attributes = display_attributes(view);

@@ -168,6 +168,7 @@ std::string to_json(const ComparisonReport& report) {
                 {"working_space", report.working_space},
                 {"display", report.display},
                 {"view", report.view},
+                {"look", report.look},
                 {"exposure", report.exposure}}},
               {"machine", {{"threads", report.threads}, {"isa", report.isa}, {"libraries", report.libraries}}},
               {"settings",

@@ -150,6 +150,7 @@ struct ComparisonReport {
     std::string working_space{};
     std::string display{};
     std::string view{};
+    std::string look{};  ///< empty for the view's own
     double exposure = 0.0;
     int threads = 0;
     std::string isa{};

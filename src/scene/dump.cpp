@@ -273,8 +273,12 @@ void dump_settings(const RenderSettings& s, Out out) {
         fmt::format_to(out, "shutter {} to {}\n", s.shutter.open, s.shutter.close);
     if (!s.variant.empty()) fmt::format_to(out, "variant used: \"{}\"\n", s.variant);
     if (s.texture_memory) fmt::format_to(out, "texture memory: {} bytes\n", *s.texture_memory);
-    fmt::format_to(out, "colour: working space \"{}\", display \"{}\", view \"{}\", exposure {:g}\n",
+    fmt::format_to(out, "colour: working space \"{}\", display \"{}\", view \"{}\", exposure {:g}",
                    s.color.working_space, s.color.display, s.color.view, s.color.exposure);
+    if (!s.color.look.empty()) fmt::format_to(out, ", look \"{}\"", s.color.look);
+    if (!s.color.output_space.empty()) fmt::format_to(out, ", output space \"{}\"", s.color.output_space);
+    if (s.color.aces_container) fmt::format_to(out, ", ACES container");
+    fmt::format_to(out, "\n");
 }
 
 }  // namespace

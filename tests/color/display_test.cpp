@@ -1,6 +1,12 @@
 #include "color/color_config.h"
+#include "core/error.h"
+#include "support/temporary_folder.h"
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -64,6 +70,82 @@ TEST(DisplayTransform, ExposureIsInStopsBeforeTheView) {
         const auto brighter = config.display_transform("ACEScg", "sRGB - Display", name, 1.5f);
         expect_near(brighter(Rgb(0.1f, 0.2f, 0.05f)), plain(Rgb(0.1f, 0.2f, 0.05f) * std::exp2(1.5f)), 1e-5f);
     }
+}
+
+constexpr const char* kCompression = "ACES 1.3 Reference Gamut Compression";
+constexpr const char* kSrgb = "sRGB - Display";
+
+/// Of a config with a view that has looks of its own: red is halved in `Half`, and doubled in `Double`.
+ColorConfig config_with_looks(const std::filesystem::path& file) {
+    std::ofstream(file) << R"(ocio_profile_version: 2
+search_path: ""
+roles: {default: linear, scene_linear: linear}
+looks:
+  - !<Look> {name: Half, process_space: linear, transform: !<MatrixTransform> {matrix: [0.5, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]}}
+  - !<Look> {name: Offset, process_space: linear, transform: !<MatrixTransform> {offset: [0, 0.25, 0, 0]}}
+displays:
+  s:
+    - !<View> {name: plain, colorspace: linear}
+    - !<View> {name: halved, colorspace: linear, looks: Half}
+colorspaces:
+  - !<ColorSpace> {name: linear, encoding: scene-linear}
+)";
+    return ColorConfig::from_file(file);
+}
+
+TEST(DisplayTransform, ALookTakesThePlaceOfTheViewsOwn) {
+    const TemporaryFolder folder;
+    const ColorConfig config = config_with_looks(folder / "config.ocio");
+    const Rgb color(0.5f, 0.25f, 0.125f);
+    const auto shown = [&](const char* view, const char* look, float exposure = 0.0f) {
+        return config.display_transform("linear", "s", view, exposure, look)(color);
+    };
+    EXPECT_EQ(shown("plain", ""), color);
+    EXPECT_EQ(shown("plain", "Half"), Rgb(0.25f, 0.25f, 0.125f));
+    EXPECT_EQ(shown("halved", ""), Rgb(0.25f, 0.25f, 0.125f));
+    EXPECT_EQ(shown("halved", "none"), color);
+    EXPECT_EQ(shown("halved", "Half"), Rgb(0.25f, 0.25f, 0.125f)) << "once, not twice";
+    EXPECT_EQ(shown("halved", "Offset"), Rgb(0.5f, 0.5f, 0.125f));
+    EXPECT_EQ(shown("plain", "Half, Offset"), Rgb(0.25f, 0.5f, 0.125f));
+    EXPECT_EQ(shown("plain", "-Half"), Rgb(1.0f, 0.25f, 0.125f)) << "undone";
+    EXPECT_EQ(shown("plain", "Offset", 1.0f), Rgb(1.0f, 0.75f, 0.25f)) << "exposure comes first";
+    EXPECT_EQ(config.looks(), (std::vector<std::string>{"Half", "Offset"}));
+    EXPECT_EQ(config.looks_of_view("s", "halved"), "Half");
+    EXPECT_EQ(config.looks_of_view("s", "plain"), "");
+}
+
+TEST(DisplayTransform, TheAcademysCompressionBringsColoursIntoAp1) {
+    const ColorConfig config = ColorConfig::built_in();
+    const auto raw = config.display_transform("ACEScg", kSrgb, "Raw", 0.0f, kCompression);
+    const Rgb grey = raw(Rgb(0.18f));
+    expect_near(grey, Rgb(0.18f), 1e-5f);
+    const Rgb saturated = raw(Rgb(0.5f, -0.05f, 0.2f));
+    EXPECT_GT(saturated.g, 0.0f);
+    EXPECT_LT(saturated.g, 0.1f);
+}
+
+TEST(DisplayTransform, UnknownNamesAreToldWithAllThereAre) {
+    const ColorConfig config = ColorConfig::built_in();
+    const auto error_of = [&](const char* display, const char* view, const char* look) -> std::string {
+        try {
+            (void)config.display_transform("ACEScg", display, view, 0.0f, look);
+        } catch (const SceneError& error) {
+            return error.what();
+        }
+        return "none";
+    };
+    const auto expect_named = [](const std::string& text, const std::vector<std::string>& names) {
+        for (const std::string& name : names) EXPECT_NE(text.find(name), std::string::npos) << name << " in " << text;
+    };
+    expect_named(
+        error_of("sRGB", "Raw", ""),
+        {"there is no display 'sRGB'", "'sRGB - Display', 'Rec.1886 Rec.709 - Display'", "'Display P3 - Display'"});
+    expect_named(error_of(kSrgb, "ACES", ""),
+                 {"view of display 'sRGB - Display' called 'ACES'", "'ACES 1.0 - SDR Video', 'Un-tone-mapped', 'Raw'"});
+    expect_named(error_of(kSrgb, "Raw", "Warm"), {"there is no look 'Warm'", kCompression});
+    expect_named(error_of(kSrgb, "Raw", "ACES 1.3 Reference Gamut Compression, -Warm"), {"there is no look 'Warm'"});
+    expect_named(error_of(kSrgb, "Raw", "+"), {"there is no look ''"});
+    EXPECT_EQ(error_of(kSrgb, "Raw", "none"), "none");
 }
 
 TEST(DisplayTransform, RawShowsTheNumbers) {

@@ -80,7 +80,10 @@ void read_color(const Json& value, const SourceLocation& where, ProblemList& pro
     object.text("working_space", out.working_space);
     object.text("display", out.display);
     object.text("view", out.view);
+    object.text("look", out.look);
     object.number("exposure", kAnyNumber, out.exposure);
+    object.text("output_space", out.output_space);
+    object.boolean("aces_container", out.aces_container);
     object.finish();
 }
 

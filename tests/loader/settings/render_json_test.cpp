@@ -52,7 +52,8 @@ TEST(RenderJson, EverySettingIsRead) {
         "light_units": "radiometric", "camera": "c", "lens_radius": 0.5, "focus_distance": 4,
         "film": {"filter": "mitchell", "filter_radius": 2.5},
         "environment": {"image": "i.exr", "color": [1, 2, 3], "scale": 4, "rotation": 5, "visible_to_camera": false},
-        "color": {"working_space": "w", "display": "d", "view": "v", "exposure": -1}})");
+        "color": {"working_space": "w", "display": "d", "view": "v", "look": "l", "exposure": -1, "output_space": "o",
+                  "aces_container": true}})");
     EXPECT_TRUE(parsed.problems.all().empty()) << listing(parsed.problems);
     const RenderSettings& s = parsed.json.settings;
     EXPECT_EQ(parsed.json.scene, "x.glb");
@@ -86,7 +87,10 @@ TEST(RenderJson, EverySettingIsRead) {
     EXPECT_EQ(s.color.working_space, "w");
     EXPECT_EQ(s.color.display, "d");
     EXPECT_EQ(s.color.view, "v");
+    EXPECT_EQ(s.color.look, "l");
     EXPECT_EQ(s.color.exposure, -1.0f);
+    EXPECT_EQ(s.color.output_space, "o");
+    EXPECT_TRUE(s.color.aces_container);
 }
 
 TEST(RenderJson, UnknownKeysSuggestTheNearest) {
