@@ -63,10 +63,10 @@ DenoiseInput read_input(const DenoiseArguments& arguments) {
         const ImageAttribute* share = input.file.find(kHalfShare);
         const auto* value = share ? std::get_if<float>(&share->value) : nullptr;
         if (!value || !(*value > 0.0f && *value < 1.0f))
-            throw std::invalid_argument(
-                fmt::format("its attribute {} does not say what share of the samples, above 0 and below 1, the channels "
-                            "'{}' are from; render with '--aov denoising'",
-                            kHalfShare, kHalfPrefix));
+            throw std::invalid_argument(fmt::format(
+                "its attribute {} does not say what share of the samples, above 0 and below 1, the channels "
+                "'{}' are from; render with '--aov denoising'",
+                kHalfShare, kHalfPrefix));
         input.half_share = *value;
         return input;
     } catch (const IoError& error) {
@@ -77,11 +77,11 @@ DenoiseInput read_input(const DenoiseArguments& arguments) {
 }
 
 /// Of one layer; `filled` counts pixels that could not be used.
-Halves read_halves(const DenoiseInput& input, const LayerChannels& layer, int smoothing, std::size_t& filled) {
+Halves read_halves(const DenoiseInput& input, const LayerChannels& layer, std::size_t& filled) {
     Planes whole(input.file.pixels, layer.whole);
     Planes half(input.file.pixels, layer.half);
     filled = fill_unusable(whole, half);
-    return make_halves(whole, std::move(half), input.half_share, smoothing);
+    return make_halves(whole, std::move(half), input.half_share, kVarianceRadius);
 }
 
 std::string shown(const LayerChannels& layer) {
@@ -90,8 +90,9 @@ std::string shown(const LayerChannels& layer) {
 
 void report_filled(const LayerChannels& layer, std::size_t filled, const DenoiseArguments& arguments) {
     if (filled > 0 && !arguments.quiet)
-        log_warning("warning: {}: {} pixels of {} are not finite or beyond {:g}; they are filled from those around them",
-                    arguments.image, filled, shown(layer), kLargestUsable);
+        log_warning(
+            "warning: {}: {} pixels of {} are not finite or beyond {:g}; they are filled from those around them",
+            arguments.image, filled, shown(layer), kLargestUsable);
 }
 
 /// Denoises the layers of light in place. Returns false if it was interrupted.
@@ -101,7 +102,7 @@ bool denoise_layers(DenoiseInput& input, const DenoiseArguments& arguments) {
     std::vector<Halves> features;
     for (const LayerChannels& layer : input.plan.features) {
         std::size_t filled = 0;
-        features.push_back(read_halves(input, layer, kFeatureVarianceRadius, filled));
+        features.push_back(read_halves(input, layer, filled));
         report_filled(layer, filled, arguments);
     }
     const ImageF& pixels = input.file.pixels;
@@ -109,7 +110,7 @@ bool denoise_layers(DenoiseInput& input, const DenoiseArguments& arguments) {
     features.clear();
     for (const LayerChannels& layer : input.plan.lights) {
         std::size_t filled = 0;
-        const Halves halves = read_halves(input, layer, kLightVarianceRadius, filled);
+        const Halves halves = read_halves(input, layer, filled);
         report_filled(layer, filled, arguments);
         const Planes denoised = denoise_nfor(halves, prepared, settings, threads);
         if (interrupt_requested()) return false;
@@ -122,11 +123,11 @@ bool denoise_layers(DenoiseInput& input, const DenoiseArguments& arguments) {
 void write_denoised(const DenoiseInput& input, const DenoiseArguments& arguments) {
     const ImageF& pixels = input.file.pixels;
     ImageF image(pixels.width, pixels.height, static_cast<int>(input.plan.kept.size()));
-    Planes(pixels, input.plan.kept).copy_to(image, [&] {
-        std::vector<int> all(input.plan.kept.size());
-        for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
-        return all;
-    }());
+    for (int y = 0; y < pixels.height; ++y)
+        for (int x = 0; x < pixels.width; ++x)
+            std::ranges::transform(
+                input.plan.kept, image.pixel(x, y).begin(),
+                [source = pixels.pixel(x, y)](int channel) { return source[static_cast<std::size_t>(channel)]; });
     ImageWriteOptions options;
     options.depth = arguments.depth.value_or(input.file.depth);
     for (const int channel : input.plan.kept)
@@ -189,9 +190,10 @@ void add_denoise_command(CLI::App& app, Action& action) {
                      "in builds that have it (this one does not)")
         ->check(CLI::IsMember({"nfor", "oidn"}));
     command
-        ->add_option("--features", arguments->features,
-                     fmt::format("Layers that say where edges and textures are (default: those of {} that the file has)",
-                                 fmt::join(default_features(), ", ")))
+        ->add_option(
+            "--features", arguments->features,
+            fmt::format("Layers that say where edges and textures are (default: those of {} that the file has)",
+                        fmt::join(default_features(), ", ")))
         ->delimiter(',');
     command
         ->add_option("--radius", arguments->radius,
@@ -209,7 +211,8 @@ void add_denoise_command(CLI::App& app, Action& action) {
     command->footer(
         "R, G and B are denoised, and every layer of light that has R, G and B; each by its own variance, which the\n"
         "channels 'half.*' tell. Features, alpha and all else are written as they are, the channels 'half.*' are not.\n"
-        "The result is the same for every number of threads. docs/denoising.md says what it does to caustics, textures\n"
+        "The result is the same for every number of threads. docs/denoising.md says what it does to caustics, "
+        "textures\n"
         "and fireflies.\n\n"
         "Examples:\n"
         "  etendue render scenes/cornell-box --spp 64 --aov denoising -o noisy.exr\n"

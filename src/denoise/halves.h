@@ -17,10 +17,10 @@ struct Halves {
     [[nodiscard]] float variance_scale_b() const { return 1.0f / (1.0f - share); }
 };
 
-/// Of `whole`, the mean v of all samples, and `one_half`, the mean a of a share `share` of them, s in (0, 1). The others'
-/// mean is b = (v - s a) / (1 - s). Since v = s a + (1 - s) b, and Var(a) = σ²/(s n), Var(b) = σ²/((1 - s) n) with n
-/// samples of variance σ², E[(a - b)²] = Var(v) / (s (1 - s)): so (a - b)² s (1 - s) estimates Var(v) without bias. It
-/// has one degree of freedom only, and is averaged over a box of (2 `smoothing` + 1)² pixels.
+/// Of `whole`, the mean v of all samples, and `one_half`, the mean a of a share `share` of them, s in (0, 1). The
+/// others' mean is b = (v - s a) / (1 - s). Since v = s a + (1 - s) b, and Var(a) = σ²/(s n), Var(b) = σ²/((1 - s) n)
+/// with n samples of variance σ², E[(a - b)²] = Var(v) / (s (1 - s)): so (a - b)² s (1 - s) estimates Var(v) without
+/// bias. It has one degree of freedom only, and is averaged over a box of (2 `smoothing` + 1)² pixels.
 [[nodiscard]] Halves make_halves(const Planes& whole, Planes one_half, float share, int smoothing);
 
 /// s a + (1 - s) b.

@@ -57,15 +57,15 @@ void add_features(const Places& places, const std::map<std::string, std::vector<
         if (!found && contains(required, feature))
             throw std::invalid_argument(
                 layer == layers.end() ? fmt::format("there is no layer '{}' to be a feature", feature)
-                : fits ? fmt::format("the feature '{0}' has no '{1}{0}' beside it", feature, kHalfPrefix)
+                : fits                ? fmt::format("the feature '{0}' has no '{1}{0}' beside it", feature, kHalfPrefix)
                        : fmt::format("the feature '{}' has more than {} channels", feature, kMostChannelsOfFeature));
         if (!found) continue;
         count += found->whole.size();
         plan.features.push_back(std::move(*found));
     }
     if (count > kMostFeatureChannels)
-        throw std::invalid_argument(fmt::format("the features have {} channels; {} are the most", count,
-                                                kMostFeatureChannels));
+        throw std::invalid_argument(
+            fmt::format("the features have {} channels; {} are the most", count, kMostFeatureChannels));
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ inline constexpr int kFitChannels = 3;
 /// A β = r for `unknowns` unknowns and kFitChannels right-hand sides, A symmetric and positive definite.
 struct NormalEquations {
     int unknowns = 0;
-    std::array<std::array<double, kMostUnknowns>, kMostUnknowns> matrix{};         ///< lower triangle only
+    std::array<std::array<double, kMostUnknowns>, kMostUnknowns> matrix{};          ///< lower triangle only
     std::array<std::array<double, kMostUnknowns>, kFitChannels> right_hand_side{};  ///< becomes β
 };
 

@@ -41,8 +41,8 @@ Filtered regress(const Halves& light, const PreparedFeatures& features, int radi
 
 /// Section 5.3. With F_a and F_b the filtered halves, E[(F_a - b)²] = MSE(F_a) + Var(b), if F_a and b were independent,
 /// and the same with a and b exchanged. Averaged with the shares of the samples that is the squared bias and twice the
-/// variance of s F_a + (1 - s) F_b, of which (F_a - F_b)² s (1 - s) takes one away. The sum over the channels: one choice
-/// for all of them leaves no coloured edges.
+/// variance of s F_a + (1 - s) F_b, of which (F_a - F_b)² s (1 - s) takes one away. The sum over the channels: one
+/// choice for all of them leaves no coloured edges.
 Planes squared_error(const Halves& light, const Filtered& filtered) {
     const float s = light.share;
     return make_planes(light.a.width(), light.a.height(), 1, [&](int, int x, int y) {
@@ -93,7 +93,8 @@ void clamp_below(Planes& planes, const Planes& input) {
     }
 }
 
-/// What a feature's deviations over the image are multiplied by to be 1 on average over its channels; 0 if there are none.
+/// What a feature's deviations over the image are multiplied by to be 1 on average over its channels; 0 if there are
+/// none.
 float scale_of(const Planes& planes) {
     const double pixels = double(planes.width()) * double(planes.height());
     double variance = 0.0;
@@ -162,7 +163,7 @@ Planes denoise_nfor(const Halves& light, const PreparedFeatures& features, const
     filtered = {};
     // Section 5.4: what noise is left is known from the difference of the halves, and is taken from their mean.
     const Planes mean = mean_of_all(a, b, light.share);
-    const Planes variance = variance_of_mean(a, b, light.share);
+    const Planes variance = box_filtered(variance_of_mean(a, b, light.share), kVarianceRadius);
     if (stopped(settings)) return {};
     Planes denoised = collaborative_regression({mean, {mean, variance}, features.both},
                                                {settings.radius, kLargestPatchRadius, 1.0f}, threads);

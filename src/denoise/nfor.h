@@ -1,5 +1,5 @@
-// NFOR: Bitterli, Rousselle, Moon, Iglesias-Guitián, Adler, Mitchell, Jarosz and Novák, "Nonlinearly Weighted First-order
-// Regression for Denoising Monte Carlo Renderings", Computer Graphics Forum 35 (4), EGSR 2016.
+// NFOR: Bitterli, Rousselle, Moon, Iglesias-Guitián, Adler, Mitchell, Jarosz and Novák, "Nonlinearly Weighted
+// First-order Regression for Denoising Monte Carlo Renderings", Computer Graphics Forum 35 (4), EGSR 2016.
 //
 // Two independent halves of the samples are denoised with weights from each other, so that no weight follows the noise
 // that it is to remove. Weights come from colours alone; features (albedo, normals, depth, …) are what is fitted.
@@ -29,17 +29,17 @@ struct PreparedFeatures {
     Planes both;  ///< from both
 };
 
-/// Over what box, of (2 n + 1)² pixels, the variance of a feature and that of a layer of light is averaged.
-inline constexpr int kFeatureVarianceRadius = 1;
-inline constexpr int kLightVarianceRadius = 2;
+/// Variances that are estimated from a difference of halves are averaged over boxes of (2 n + 1)² pixels.
+inline constexpr int kVarianceRadius = 1;
 
-/// Section 5.1 of the paper. All of one size and with the same share; together at most kMostUnknowns - 3 planes, at least
-/// one feature or `width` and `height` say how large the result is.
+/// Section 5.1 of the paper. All of one size and with the same share; together at most kMostUnknowns - 3 planes, at
+/// least one feature or `width` and `height` say how large the result is.
 [[nodiscard]] PreparedFeatures prepare_features(const std::vector<Halves>& features, int width, int height,
                                                 const NforSettings& settings, const ThreadPool& threads);
 
-/// The layer of light `light`, of 3 planes, denoised: sections 5.2 to 5.4. Exactly the same for every number of threads.
-/// No value is below the least of the mean of both halves, or 0 if that is less: light does not become negative.
+/// The layer of light `light`, of 3 planes, denoised: sections 5.2 to 5.4. Exactly the same for every number of
+/// threads. No value is below the least of the mean of both halves, or 0 if that is less: light does not become
+/// negative.
 [[nodiscard]] Planes denoise_nfor(const Halves& light, const PreparedFeatures& features, const NforSettings& settings,
                                   const ThreadPool& threads);
 

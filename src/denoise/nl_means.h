@@ -15,9 +15,9 @@ namespace etendue {
 inline constexpr int kDenoiseTileSide = 2 * kLargestWindowRadius;
 
 struct NlMeansSettings {
-    int radius = 9;    ///< R, of the window that a pixel is averaged over; in [1, kLargestWindowRadius]
-    int patch = 3;     ///< F, of the patches that pixels are compared by; in [0, kLargestPatchRadius]
-    float k = 1.0f;    ///< bandwidth, > 0: how far apart values may lie, in standard deviations of their difference
+    int radius = 9;  ///< R, of the window that a pixel is averaged over; in [1, kLargestWindowRadius]
+    int patch = 3;   ///< F, of the patches that pixels are compared by; in [0, kLargestPatchRadius]
+    float k = 1.0f;  ///< bandwidth, > 0: how far apart values may lie, in standard deviations of their difference
 };
 
 /// What weights are computed from: an image, and its variance times a factor. Borders are filled.
@@ -62,8 +62,8 @@ class WindowWeights {
 /// The tiles of an image of this size, row by row.
 [[nodiscard]] std::vector<PixelRect> denoise_tiles(int width, int height);
 
-/// `target`, each pixel the mean of its window with the weights that `guide` gives. Exactly the same for every number of
-/// threads. The border is filled.
+/// `target`, each pixel the mean of its window with the weights that `guide` gives. Exactly the same for every number
+/// of threads. The border is filled.
 [[nodiscard]] Planes nl_means(const Planes& target, const NlMeansGuide& guide, const NlMeansSettings& settings,
                               const ThreadPool& threads);
 

@@ -1,5 +1,5 @@
-// Channels of an image one by one, with a border of repeated pixels around them, so that filters need not look where the
-// image ends.
+// Channels of an image one by one, with a border of repeated pixels around them, so that filters need not look where
+// the image ends.
 #pragma once
 
 #include "image/image.h"

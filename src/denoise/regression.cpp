@@ -36,8 +36,8 @@ Planes collaborative_regression(const RegressionInput& input, const NlMeansSetti
     const int height = input.target.height();
     Planes sums(width, height, kFitChannels + 1);
     std::vector<std::optional<Scratch>> scratch(static_cast<std::size_t>(threads.thread_count()));
-    // Windows reach into the next tiles. Every other tile of every other row at a time: those are a tile apart, which is
-    // as far as the windows of two reach, so that no two threads write to one pixel and sums have a fixed order.
+    // Windows reach into the next tiles. Every other tile of every other row at a time: those are a tile apart, which
+    // is as far as the windows of two reach, so that no two threads write to one pixel and sums have a fixed order.
     for (int phase = 0; phase < 4; ++phase) {
         std::vector<PixelRect> tiles;
         for (const PixelRect& tile : denoise_tiles(width, height))
@@ -49,9 +49,8 @@ Planes collaborative_regression(const RegressionInput& input, const NlMeansSetti
             regress_tile(input, tiles[index], *own, sums);
         });
     }
-    return make_planes(width, height, kFitChannels, [&](int plane, int x, int y) {
-        return sums.row(plane, y)[x] / sums.row(kFitChannels, y)[x];
-    });
+    return make_planes(width, height, kFitChannels,
+                       [&](int plane, int x, int y) { return sums.row(plane, y)[x] / sums.row(kFitChannels, y)[x]; });
 }
 
 }  // namespace etendue

@@ -53,8 +53,7 @@ void WindowFit::fill_rows(const Planes& target, const Planes& features) {
             for (int i = 0; i < row_stride_; ++i) to[i] = values[i] - centre;
         }
         for (int channel = 0; channel < kFitChannels; ++channel)
-            std::copy_n(target.row(channel, y) + x, row_stride_,
-                        targets_.data() + channel * size_ + row * row_stride_);
+            std::copy_n(target.row(channel, y) + x, row_stride_, targets_.data() + channel * size_ + row * row_stride_);
     }
 }
 
@@ -65,7 +64,8 @@ void WindowFit::fit(const Planes& target, const Planes& features, std::span<cons
     fill_rows(target, features);
     for (int i = 0; i < unknowns_; ++i) {
         const float* values = column(i);
-        for (int q = 0; q < size_; ++q) weighted_[static_cast<std::size_t>(q)] = weights_[static_cast<std::size_t>(q)] * values[q];
+        for (int q = 0; q < size_; ++q)
+            weighted_[static_cast<std::size_t>(q)] = weights_[static_cast<std::size_t>(q)] * values[q];
         const auto row = static_cast<std::size_t>(i);
         for (int j = 0; j <= i; ++j)
             equations_.matrix[row][static_cast<std::size_t>(j)] = dot(weighted_.data(), column(j), size_);
@@ -74,7 +74,8 @@ void WindowFit::fit(const Planes& target, const Planes& features, std::span<cons
                 dot(weighted_.data(), targets_.data() + channel * size_, size_);
     }
     const double weight_sum = equations_.matrix[0][0];
-    for (std::size_t i = 1; i < static_cast<std::size_t>(unknowns_); ++i) equations_.matrix[i][i] += kRidge * weight_sum;
+    for (std::size_t i = 1; i < static_cast<std::size_t>(unknowns_); ++i)
+        equations_.matrix[i][i] += kRidge * weight_sum;
     solve(equations_);
 }
 

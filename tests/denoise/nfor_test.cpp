@@ -18,8 +18,7 @@ const ThreadPool kThreads(2);
 const NforSettings kSettings;
 
 Planes denoised(const Halves& light, const std::vector<Halves>& features, const ThreadPool& threads = kThreads) {
-    const PreparedFeatures prepared =
-        prepare_features(features, light.a.width(), light.a.height(), kSettings, threads);
+    const PreparedFeatures prepared = prepare_features(features, light.a.width(), light.a.height(), kSettings, threads);
     return denoise_nfor(light, prepared, kSettings, threads);
 }
 
@@ -83,12 +82,13 @@ TEST(Nfor, FilledPixelsBecomeLikeTheirNeighbours) {
     Planes half = light.a;
     for (int i = 0; i < 5; ++i) whole.row(i % 3, 10 + 5 * i)[20] = std::numeric_limits<float>::quiet_NaN();
     ASSERT_EQ(fill_unusable(whole, half), 5u);
-    const Planes result = denoised(make_halves(whole, half, light.share, kLightVarianceRadius), {});
+    const Planes result = denoised(make_halves(whole, half, light.share, kVarianceRadius), {});
     EXPECT_LT(largest_difference(result, truth), 0.05);
 }
 
 TEST(Nfor, LightDoesNotBecomeNegative) {
-    const Planes spots = same_planes(48, 48, 3, [](int x, int y) { return x % 16 == 8 && y % 16 == 8 ? 100.0f : 0.0f; });
+    const Planes spots =
+        same_planes(48, 48, 3, [](int x, int y) { return x % 16 == 8 && y % 16 == 8 ? 100.0f : 0.0f; });
     const Planes result = denoised(noisy_halves(spots, 0.0f, 9), {});
     for (int plane = 0; plane < 3; ++plane)
         for (int y = 0; y < 48; ++y)
@@ -104,7 +104,7 @@ TEST(Nfor, AFireflyKeepsItsLightButSpreadsIt) {
         half.row(plane, 32)[32] += 1000.0f;
         whole.row(plane, 32)[32] += 500.0f;
     }
-    const Planes result = denoised(make_halves(whole, half, 0.5f, kLightVarianceRadius), {});
+    const Planes result = denoised(make_halves(whole, half, 0.5f, kVarianceRadius), {});
     EXPECT_LT(result.row(0, 32)[32], 250.0f);
     EXPECT_GT(result.row(0, 32)[32], 0.5f);
 }

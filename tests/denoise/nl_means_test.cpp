@@ -45,8 +45,7 @@ TEST(NlMeans, WeightsAreThoseOfTheFormula) {
             for (int dy = -settings.radius; dy <= settings.radius; ++dy)
                 for (int dx = -settings.radius; dx <= settings.radius; ++dx) {
                     const float* window = weights.window(x, y);
-                    const float weight =
-                        window[(dy + settings.radius) * weights.row_stride() + dx + settings.radius];
+                    const float weight = window[(dy + settings.radius) * weights.row_stride() + dx + settings.radius];
                     EXPECT_NEAR(double(weight), weight_of(guide, settings, x, y, x + dx, y + dy), 1e-4)
                         << x << " " << y << " " << dx << " " << dy;
                 }

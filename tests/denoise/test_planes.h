@@ -2,6 +2,7 @@
 #pragma once
 
 #include "denoise/halves.h"
+#include "denoise/nfor.h"
 #include "denoise/planes.h"
 
 #include <algorithm>
@@ -17,8 +18,8 @@ Planes same_planes(int width, int height, int count, const Function& value) {
     return make_planes(width, height, count, [&](int, int x, int y) { return value(x, y); });
 }
 
-/// `truth` plus Gaussian noise of the standard deviation `sigma` in a mean of all samples, of which half a has the share
-/// `share`; its variance is estimated from the halves.
+/// `truth` plus Gaussian noise of the standard deviation `sigma` in a mean of all samples, of which half a has the
+/// share `share`; its variance is estimated from the halves.
 inline Halves noisy_halves(const Planes& truth, float sigma, std::uint32_t seed, float share = 0.5f) {
     std::mt19937 generator(seed);
     std::normal_distribution<float> normal;
@@ -29,7 +30,7 @@ inline Halves noisy_halves(const Planes& truth, float sigma, std::uint32_t seed,
     };
     const Planes a = with_noise(share);
     const Planes b = with_noise(1.0f - share);
-    return make_halves(mean_of_all(a, b, share), a, share, 2);
+    return make_halves(mean_of_all(a, b, share), a, share, kVarianceRadius);
 }
 
 inline double mean_squared_difference(const Planes& a, const Planes& b) {

@@ -31,7 +31,8 @@ TEST(UnusablePixels, AreFilledFromTheirNeighbours) {
 }
 
 TEST(UnusablePixels, HolesAreFilledFromTheirRim) {
-    Planes whole = same_planes(60, 60, 1, [](int x, int y) { return x > 5 && x < 40 && y > 5 && y < 40 ? kNan : 2.0f; });
+    Planes whole =
+        same_planes(60, 60, 1, [](int x, int y) { return x > 5 && x < 40 && y > 5 && y < 40 ? kNan : 2.0f; });
     Planes half = same_planes(60, 60, 1, [](int, int) { return 2.0f; });
     EXPECT_EQ(fill_unusable(whole, half), 34u * 34u);
     EXPECT_EQ(whole.row(0, 13)[13], 2.0f);
