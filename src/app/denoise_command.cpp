@@ -5,6 +5,7 @@
 #include "app/usage_error.h"
 #include "core/error.h"
 #include "core/log.h"
+#include "denoise/fireflies.h"
 #include "denoise/layers.h"
 #include "denoise/nfor.h"
 #include "denoise/unusable_pixels.h"
@@ -43,6 +44,7 @@ struct DenoiseArguments {
     int radius = 9;
     std::optional<PixelDepth> depth;
     int threads = 0;
+    bool keep_fireflies = false;
     bool quiet = false;
 };
 
@@ -81,7 +83,7 @@ Halves read_halves(const DenoiseInput& input, const LayerChannels& layer, std::s
     Planes whole(input.file.pixels, layer.whole);
     Planes half(input.file.pixels, layer.half);
     filled = fill_unusable(whole, half);
-    return make_halves(whole, std::move(half), input.half_share, kVarianceRadius);
+    return make_halves(whole, std::move(half), input.half_share);
 }
 
 std::string shown(const LayerChannels& layer) {
@@ -93,6 +95,14 @@ void report_filled(const LayerChannels& layer, std::size_t filled, const Denoise
         log_warning(
             "warning: {}: {} pixels of {} are not finite or beyond {:g}; they are filled from those around them",
             arguments.image, filled, shown(layer), kLargestUsable);
+}
+
+void take_fireflies(Halves& light, const LayerChannels& layer, const DenoiseArguments& arguments) {
+    if (arguments.keep_fireflies) return;
+    const Fireflies found = remove_fireflies(light);
+    if (found.count > 0 && !arguments.quiet)
+        log_info("note: {}: {} fireflies of {} removed, {:.2g}% of its light; --keep-fireflies keeps them",
+                 arguments.image, found.count, shown(layer), 100.0 * found.light_share);
 }
 
 /// Denoises the layers of light in place. Returns false if it was interrupted.
@@ -110,8 +120,9 @@ bool denoise_layers(DenoiseInput& input, const DenoiseArguments& arguments) {
     features.clear();
     for (const LayerChannels& layer : input.plan.lights) {
         std::size_t filled = 0;
-        const Halves halves = read_halves(input, layer, filled);
+        Halves halves = read_halves(input, layer, filled);
         report_filled(layer, filled, arguments);
+        take_fireflies(halves, layer, arguments);
         const Planes denoised = denoise_nfor(halves, prepared, settings, threads);
         if (interrupt_requested()) return false;
         denoised.copy_to(input.file.pixels, layer.whole);
@@ -205,6 +216,10 @@ void add_denoise_command(CLI::App& app, Action& action) {
         ->add_flag_callback(
             "--float", [arguments] { arguments->depth = PixelDepth::Float; }, "Write 32-bit floats")
         ->excludes(half);
+    command->add_flag("--keep-fireflies", arguments->keep_fireflies,
+                      fmt::format("Spread, and do not remove, what is more than {:g} times brighter in one half of the "
+                                  "samples than its surroundings in the other",
+                                  kFireflyFactor));
     command->add_option("--threads", arguments->threads, "Threads to use (default: one per processor)")
         ->check(CLI::Range(1, 4096));
     command->add_flag("--quiet", arguments->quiet, "No notes or warnings; errors only");

@@ -4,13 +4,13 @@
 
 namespace etendue {
 
-Halves make_halves(const Planes& whole, Planes one_half, float share, int smoothing) {
+Halves make_halves(const Planes& whole, Planes one_half, float share) {
     Halves halves;
     halves.share = share;
     halves.a = std::move(one_half);
     halves.a.extend();
     halves.b = combined(whole, halves.a, [share](float v, float a) { return (v - share * a) / (1.0f - share); });
-    halves.variance = box_filtered(variance_of_mean(halves.a, halves.b, share), smoothing);
+    halves.variance = estimated_variance(halves.a, halves.b, share);
     return halves;
 }
 
@@ -18,8 +18,10 @@ Planes mean_of_all(const Planes& a, const Planes& b, float share) {
     return combined(a, b, [share](float u, float v) { return share * u + (1.0f - share) * v; });
 }
 
-Planes variance_of_mean(const Planes& a, const Planes& b, float share) {
-    return combined(a, b, [share](float u, float v) { return (u - v) * (u - v) * share * (1.0f - share); });
+Planes estimated_variance(const Planes& a, const Planes& b, float share) {
+    const Planes squares =
+        combined(a, b, [share](float u, float v) { return (u - v) * (u - v) * share * (1.0f - share); });
+    return box_filtered(squares, kVarianceRadius);
 }
 
 Planes box_filtered(const Planes& planes, int radius) {

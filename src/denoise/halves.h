@@ -5,6 +5,9 @@
 
 namespace etendue {
 
+/// Variances that are estimated from a difference of halves are averaged over boxes of (2 n + 1)² pixels.
+inline constexpr int kVarianceRadius = 1;
+
 /// Two estimates of the same image from samples that are independent of each other.
 struct Halves {
     float share = 0.5f;  ///< s in (0, 1): the share of the samples that `a` is the mean of; `b` is of the others
@@ -18,16 +21,16 @@ struct Halves {
 };
 
 /// Of `whole`, the mean v of all samples, and `one_half`, the mean a of a share `share` of them, s in (0, 1). The
-/// others' mean is b = (v - s a) / (1 - s). Since v = s a + (1 - s) b, and Var(a) = σ²/(s n), Var(b) = σ²/((1 - s) n)
-/// with n samples of variance σ², E[(a - b)²] = Var(v) / (s (1 - s)): so (a - b)² s (1 - s) estimates Var(v) without
-/// bias. It has one degree of freedom only, and is averaged over a box of (2 `smoothing` + 1)² pixels.
-[[nodiscard]] Halves make_halves(const Planes& whole, Planes one_half, float share, int smoothing);
+/// others' mean is b = (v - s a) / (1 - s). The border of `whole` is not read.
+[[nodiscard]] Halves make_halves(const Planes& whole, Planes one_half, float share);
+
+/// Of v = s a + (1 - s) b. With n samples of variance σ², Var(a) = σ²/(s n) and Var(b) = σ²/((1 - s) n), so that
+/// E[(a - b)²] = Var(v) / (s (1 - s)): (a - b)² s (1 - s) estimates Var(v) without bias. It has one degree of freedom
+/// only, and is averaged over the box of kVarianceRadius.
+[[nodiscard]] Planes estimated_variance(const Planes& a, const Planes& b, float share);
 
 /// s a + (1 - s) b.
 [[nodiscard]] Planes mean_of_all(const Planes& a, const Planes& b, float share);
-
-/// (a - b)² s (1 - s): the variance of `mean_of_all`, with one degree of freedom.
-[[nodiscard]] Planes variance_of_mean(const Planes& a, const Planes& b, float share);
 
 /// Each pixel the mean of the box of (2 radius + 1)² pixels around it, the image repeated beyond its edges; `radius` in
 /// [0, kPlaneBorder].

@@ -30,11 +30,36 @@ struct Filtered {
     Planes b;
 };
 
-Filtered regress(const Halves& light, const PreparedFeatures& features, int radius, float k,
+/// What weights come from: log(1 + |u| / m) with the sign of u, m the mean of |u| over the image; and the variance of
+/// that. In linear light the variance of one pixel that a lamp's edge crosses is so large that no wall beside it
+/// differs from the lamp; and the paper's images are of lower contrast than a lamp and its room.
+Halves compressed(const Halves& light, float mean) {
+    const auto compress = [mean](const Planes& planes) {
+        return make_planes(planes.width(), planes.height(), planes.count(), [&](int plane, int x, int y) {
+            const float u = planes.row(plane, y)[x];
+            return std::copysign(std::log1p(std::abs(u) / mean), u);
+        });
+    };
+    Halves halves{light.share, compress(light.a), compress(light.b), {}};
+    halves.variance = estimated_variance(halves.a, halves.b, light.share);
+    return halves;
+}
+
+/// Of |u| over all pixels and planes; 1 if all are 0.
+float mean_of(const Planes& planes) {
+    double sum = 0.0;
+    for (int plane = 0; plane < planes.count(); ++plane)
+        for (int y = 0; y < planes.height(); ++y)
+            for (int x = 0; x < planes.width(); ++x) sum += double(std::abs(planes.row(plane, y)[x]));
+    const double mean = sum / (double(planes.width()) * double(planes.height()) * double(planes.count()));
+    return mean > 0.0 ? static_cast<float>(mean) : 1.0f;
+}
+
+Filtered regress(const Halves& light, const Halves& guide, const PreparedFeatures& features, int radius, float k,
                  const ThreadPool& threads) {
     const NlMeansSettings settings{radius, kLargestPatchRadius, k};
-    const NlMeansGuide guide_a{light.a, light.variance, light.variance_scale_a()};
-    const NlMeansGuide guide_b{light.b, light.variance, light.variance_scale_b()};
+    const NlMeansGuide guide_a{guide.a, guide.variance, guide.variance_scale_a()};
+    const NlMeansGuide guide_b{guide.b, guide.variance, guide.variance_scale_b()};
     return {collaborative_regression({light.a, guide_b, features.b}, settings, threads),
             collaborative_regression({light.b, guide_a, features.a}, settings, threads)};
 }
@@ -62,9 +87,10 @@ Planes squared_error(const Halves& light, const Filtered& filtered) {
 }
 
 /// In [0, 1]: 0 where the first bandwidth has the smaller error, 1 where the second.
-Planes bandwidth_choice(const Halves& light, const std::array<Filtered, 2>& filtered, const ThreadPool& threads) {
-    const Planes mean = mean_of_all(light.a, light.b, light.share);
-    const NlMeansGuide guide{mean, light.variance};
+Planes bandwidth_choice(const Halves& light, const Halves& compressed_light, const std::array<Filtered, 2>& filtered,
+                        const ThreadPool& threads) {
+    const Planes mean = mean_of_all(compressed_light.a, compressed_light.b, light.share);
+    const NlMeansGuide guide{mean, compressed_light.variance};
     const Planes narrow = nl_means(squared_error(light, filtered[0]), guide, kErrorFilter, threads);
     const Planes wide = nl_means(squared_error(light, filtered[1]), guide, kErrorFilter, threads);
     const Planes choice = combined(narrow, wide, [](float n, float w) { return n < w ? 0.0f : 1.0f; });
@@ -140,7 +166,7 @@ PreparedFeatures prepare_features(const std::vector<Halves>& features, int width
         const Planes a = nl_means(feature.a, guide_b, kFeatureFilter, threads);
         const Planes b = nl_means(feature.b, guide_a, kFeatureFilter, threads);
         const Planes mean = mean_of_all(a, b, feature.share);
-        const Planes variance = variance_of_mean(a, b, feature.share);
+        const Planes variance = estimated_variance(a, b, feature.share);
         const float scale = scale_of(mean);
         put(a, scale, first, prepared.a);
         put(b, scale, first, prepared.b);
@@ -153,21 +179,25 @@ PreparedFeatures prepare_features(const std::vector<Halves>& features, int width
 
 Planes denoise_nfor(const Halves& light, const PreparedFeatures& features, const NforSettings& settings,
                     const ThreadPool& threads) {
+    const Planes input = mean_of_all(light.a, light.b, light.share);
+    const float brightness = mean_of(input);
+    const Halves guide = compressed(light, brightness);
     std::array<Filtered, 2> filtered;
     for (std::size_t i = 0; i < kBandwidths.size() && !stopped(settings); ++i)
-        filtered[i] = regress(light, features, settings.radius, kBandwidths[i], threads);
+        filtered[i] = regress(light, guide, features, settings.radius, kBandwidths[i], threads);
     if (stopped(settings)) return {};
-    const Planes choice = bandwidth_choice(light, filtered, threads);
-    const Planes a = mixed(filtered[0].a, filtered[1].a, choice);
-    const Planes b = mixed(filtered[0].b, filtered[1].b, choice);
+    const Planes choice = bandwidth_choice(light, guide, filtered, threads);
+    const Halves mixture{
+        light.share, mixed(filtered[0].a, filtered[1].a, choice), mixed(filtered[0].b, filtered[1].b, choice), {}};
     filtered = {};
     // Section 5.4: what noise is left is known from the difference of the halves, and is taken from their mean.
-    const Planes mean = mean_of_all(a, b, light.share);
-    const Planes variance = box_filtered(variance_of_mean(a, b, light.share), kVarianceRadius);
+    const Halves last_guide = compressed(mixture, brightness);
     if (stopped(settings)) return {};
-    Planes denoised = collaborative_regression({mean, {mean, variance}, features.both},
+    const Planes target = mean_of_all(mixture.a, mixture.b, light.share);
+    const Planes last_mean = mean_of_all(last_guide.a, last_guide.b, light.share);
+    Planes denoised = collaborative_regression({target, {last_mean, last_guide.variance}, features.both},
                                                {settings.radius, kLargestPatchRadius, 1.0f}, threads);
-    clamp_below(denoised, mean_of_all(light.a, light.b, light.share));
+    clamp_below(denoised, input);
     return denoised;
 }
 

@@ -29,9 +29,6 @@ struct PreparedFeatures {
     Planes both;  ///< from both
 };
 
-/// Variances that are estimated from a difference of halves are averaged over boxes of (2 n + 1)² pixels.
-inline constexpr int kVarianceRadius = 1;
-
 /// Section 5.1 of the paper. All of one size and with the same share; together at most kMostUnknowns - 3 planes, at
 /// least one feature or `width` and `height` say how large the result is.
 [[nodiscard]] PreparedFeatures prepare_features(const std::vector<Halves>& features, int width, int height,

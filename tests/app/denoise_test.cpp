@@ -152,6 +152,18 @@ TEST_F(Denoise, CountsAndFillsPixelsThatAreNotFinite) {
     EXPECT_LT(error_of(channel(read("out.exr"), "R")), 0.01);
 }
 
+TEST_F(Denoise, RemovesFirefliesUnlessTheyAreToStay) {
+    TestImage image({"R", "G", "B"});
+    image.at("R", 20, 12) += 500.0f;
+    image.at("half.R", 20, 12) += 1000.0f;
+    const std::string a = write("a.exr", image);
+    const ProgramResult result = denoise({a, "-o", "out.exr"});
+    EXPECT_TRUE(contains(result.err, "1 fireflies of RGB removed, 26% of its light")) << result.err;
+    EXPECT_LT(error_of(channel(read("out.exr"), "R")), 0.01);
+    EXPECT_FALSE(contains(denoise({a, "-o", "kept.exr", "--keep-fireflies"}).err, "removed"));
+    EXPECT_GT(error_of(channel(read("kept.exr"), "R")), 0.1);
+}
+
 TEST_F(Denoise, SaysWhatIsMissing) {
     const auto refuses = [&](const std::string& file, const std::string& reason, Names more = {}) {
         more.insert(more.begin(), {file, "-o", "out.exr"});
@@ -172,7 +184,7 @@ TEST_F(Denoise, SaysWhatIsMissing) {
         refuses(write("share.exr", rgb, {{"etendue:halfShare", value}}), "etendue:halfShare");
     refuses(write("text.exr", rgb, {{"etendue:halfShare", std::string("half")}}), "etendue:halfShare");
     refuses(write("twice.exr", rgb, {share[0], {"etendue:denoised", std::string("nfor")}}), "denoised already");
-    refuses(write("a.exr", rgb, share), "no layer 'shadow'", {"--features", "N,shadow"});
+    refuses(write("a.exr", rgb, share), "no layer 'shadow'", {"--features", "shadow"});
     write_image(folder_ / "a.png", ImageF(8, 8, 3), {.depth = PixelDepth::UInt8});
     refuses("../a.png", "integers");
     write_file(folder_ / "text", "no image");

@@ -20,7 +20,7 @@ TEST(Halves, TheOtherHalfIsWhatTheWholeLacks) {
     const Planes a = same_planes(7, 5, 3, [](int x, int y) { return float(x + 10 * y); });
     const Planes b = same_planes(7, 5, 3, [](int x, int y) { return float(3 * y - x); });
     for (const float share : {0.5f, 0.25f, 0.7f}) {
-        const Halves halves = make_halves(mean_of_all(a, b, share), a, share, 0);
+        const Halves halves = make_halves(mean_of_all(a, b, share), a, share);
         EXPECT_LT(largest_difference(halves.a, a), 1e-9) << share;
         EXPECT_LT(largest_difference(halves.b, b), 1e-4) << share;
     }

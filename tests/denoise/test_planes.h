@@ -2,7 +2,6 @@
 #pragma once
 
 #include "denoise/halves.h"
-#include "denoise/nfor.h"
 #include "denoise/planes.h"
 
 #include <algorithm>
@@ -30,7 +29,7 @@ inline Halves noisy_halves(const Planes& truth, float sigma, std::uint32_t seed,
     };
     const Planes a = with_noise(share);
     const Planes b = with_noise(1.0f - share);
-    return make_halves(mean_of_all(a, b, share), a, share, kVarianceRadius);
+    return make_halves(mean_of_all(a, b, share), a, share);
 }
 
 inline double mean_squared_difference(const Planes& a, const Planes& b) {
