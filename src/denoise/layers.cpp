@@ -33,7 +33,7 @@ std::optional<LayerChannels> find_layer(const Places& places, const std::string&
                                         std::span<const std::string> names) {
     LayerChannels found{layer, {}, {}};
     for (const std::string& name : names) {
-        const std::string whole = layer.empty() ? name : layer + "." + name;
+        const std::string whole = layer.empty() ? name : fmt::format("{}.{}", layer, name);
         const auto place = places.find(whole);
         const auto half = places.find(std::string(kHalfPrefix) + whole);
         if (place == places.end() || half == places.end()) return std::nullopt;

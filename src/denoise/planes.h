@@ -41,8 +41,8 @@ class Planes {
 
   private:
     [[nodiscard]] std::size_t offset(int plane, int y) const {
-        const auto rows = static_cast<std::size_t>(height_ + 2 * kPlaneBorder);
-        return (static_cast<std::size_t>(plane) * rows + static_cast<std::size_t>(y + kPlaneBorder)) * stride_ +
+        const std::size_t rows = static_cast<std::size_t>(height_) + 2 * kPlaneBorder;
+        return (static_cast<std::size_t>(plane) * rows + (static_cast<std::size_t>(y) + kPlaneBorder)) * stride_ +
                static_cast<std::size_t>(kPlaneBorder);
     }
 

@@ -38,7 +38,8 @@ WindowFit::WindowFit(int radius, int row_stride, int feature_count)
     for (int i = 0; i < (2 * radius + 1) * row_stride; ++i) {
         column(0)[i] = 1.0f;
         column(1)[i] = static_cast<float>(i % row_stride - radius) / static_cast<float>(radius);
-        column(2)[i] = static_cast<float>(i / row_stride - radius) / static_cast<float>(radius);
+        const int row = i / row_stride;
+        column(2)[i] = static_cast<float>(row - radius) / static_cast<float>(radius);
     }
 }
 
