@@ -36,8 +36,9 @@ ROOMS = {
     "output": "film color image core",
     "metrics": "image core",
     "report": "metrics image core",
+    "denoise": "image core",
     "app": "core lightpath sampling image color scene loader bsdf medium texture light camera world film integrator render "
-    "output metrics report",
+    "output metrics report denoise",
 }
 
 # Pattern of a third-party header, the rooms that may include it, and whether their headers may show it to other rooms.

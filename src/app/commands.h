@@ -18,6 +18,7 @@ using Action = std::function<ExitCode()>;
 void add_render_command(CLI::App& app, Action& action);
 void add_batch_command(CLI::App& app, Action& action);
 void add_inspect_command(CLI::App& app, Action& action);
+void add_denoise_command(CLI::App& app, Action& action);
 void add_diff_command(CLI::App& app, Action& action);
 void add_view_command(CLI::App& app, Action& action);
 void add_compare_command(CLI::App& app, Action& action);

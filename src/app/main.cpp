@@ -57,6 +57,7 @@ int main(int argc, char** argv) {
         "  etendue diff box.exr reference.exr --metric flip --map flip.png\n"
         "  etendue view box.exr -o box.png --exposure 1\n"
         "  etendue compare scenes/caustic-glass --integrators path,bdpt -o report\n"
+        "  etendue denoise noisy.exr -o box.exr\n"
         "  etendue merge a.partial b.partial -o box.exr\n"
         "  etendue submit scenes -o /shared/out --scheduler slurm\n\n"
         "'etendue COMMAND --help' tells more.");
@@ -64,6 +65,7 @@ int main(int argc, char** argv) {
     add_render_command(app, action);
     add_batch_command(app, action);
     add_inspect_command(app, action);
+    add_denoise_command(app, action);
     add_diff_command(app, action);
     add_view_command(app, action);
     add_compare_command(app, action);

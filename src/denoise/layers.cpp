@@ -1,0 +1,105 @@
+#include "denoise/layers.h"
+
+#include "denoise/least_squares.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace etendue {
+
+namespace {
+
+constexpr std::size_t kMostFeatureChannels = kMostUnknowns - 3;
+constexpr std::size_t kMostChannelsOfFeature = 4;
+
+/// Where each name stands among the channels.
+using Places = std::map<std::string, int, std::less<>>;
+
+/// "diffuse.direct.R" is channel R of the layer "diffuse.direct".
+std::pair<std::string, std::string> split(const std::string& name) {
+    const std::size_t dot = name.rfind('.');
+    if (dot == std::string::npos) return {"", name};
+    return {name.substr(0, dot), name.substr(dot + 1)};
+}
+
+/// The channels `names` of a layer and their halves; nothing unless all are there.
+std::optional<LayerChannels> find_layer(const Places& places, const std::string& layer,
+                                        std::span<const std::string> names) {
+    LayerChannels found{layer, {}, {}};
+    for (const std::string& name : names) {
+        const std::string whole = layer.empty() ? name : fmt::format("{}.{}", layer, name);
+        const auto place = places.find(whole);
+        const auto half = places.find(std::string(kHalfPrefix) + whole);
+        if (place == places.end() || half == places.end()) return std::nullopt;
+        found.whole.push_back(place->second);
+        found.half.push_back(half->second);
+    }
+    return found;
+}
+
+bool contains(std::span<const std::string> names, const std::string& name) {
+    return std::ranges::find(names, name) != names.end();
+}
+
+void add_features(const Places& places, const std::map<std::string, std::vector<std::string>>& layers,
+                  std::span<const std::string> features, std::span<const std::string> required, LayerPlan& plan) {
+    std::size_t count = 0;
+    for (const std::string& feature : features) {
+        const auto layer = layers.find(feature);
+        const bool fits = layer != layers.end() && layer->second.size() <= kMostChannelsOfFeature;
+        auto found = fits ? find_layer(places, feature, layer->second) : std::nullopt;
+        if (!found && contains(required, feature))
+            throw std::invalid_argument(
+                layer == layers.end() ? fmt::format("there is no layer '{}' to be a feature", feature)
+                : fits                ? fmt::format("the feature '{0}' has no '{1}{0}' beside it", feature, kHalfPrefix)
+                       : fmt::format("the feature '{}' has more than {} channels", feature, kMostChannelsOfFeature));
+        if (!found) continue;
+        count += found->whole.size();
+        plan.features.push_back(std::move(*found));
+    }
+    if (count > kMostFeatureChannels)
+        throw std::invalid_argument(
+            fmt::format("the features have {} channels; {} are the most", count, kMostFeatureChannels));
+}
+
+}  // namespace
+
+std::vector<std::string> default_features() {
+    return {"albedo", "N", "depth"};
+}
+
+LayerPlan plan_layers(std::span<const std::string> names, std::span<const std::string> features,
+                      std::span<const std::string> required) {
+    const std::array<std::string, 3> rgb{"R", "G", "B"};
+    Places places;
+    std::map<std::string, std::vector<std::string>> layers;
+    LayerPlan plan;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        places.emplace(names[i], static_cast<int>(i));
+        if (names[i].starts_with(kHalfPrefix)) continue;
+        plan.kept.push_back(static_cast<int>(i));
+        const auto [layer, channel] = split(names[i]);
+        layers[layer].push_back(channel);
+    }
+    for (const char* name : {"R", "G", "B"})
+        if (!places.contains(name)) throw std::invalid_argument(fmt::format("there is no channel {}", name));
+    for (const auto& [layer, channels] : layers) {
+        if (contains(features, layer)) continue;
+        if (auto found = find_layer(places, layer, rgb)) plan.lights.push_back(std::move(*found));
+    }
+    if (plan.lights.empty() || !plan.lights.front().name.empty())
+        throw std::invalid_argument(fmt::format(
+            "there are no channels {0}R, {0}G and {0}B, the image from half of the samples, which say how noisy it is; "
+            "render with '--aov denoising' to have them",
+            kHalfPrefix));
+    add_features(places, layers, features, required, plan);
+    return plan;
+}
+
+}  // namespace etendue

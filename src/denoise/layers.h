@@ -1,0 +1,39 @@
+// What the channels of a rendered file are to a denoiser: layers of light, features, their halves, and the rest.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace etendue {
+
+/// The prefix of channels that hold the mean of about half of the samples.
+inline constexpr std::string_view kHalfPrefix = "half.";
+
+/// Channels of one layer, as indices among those of the file, and those of its half in the same order.
+struct LayerChannels {
+    std::string name;  ///< empty for the beauty, whose channels are R, G and B
+    std::vector<int> whole;
+    std::vector<int> half;
+};
+
+struct LayerPlan {
+    std::vector<LayerChannels> lights;  ///< R, G, B each; the beauty first
+    std::vector<LayerChannels> features;
+    std::vector<int> kept;  ///< channels that are written, in the file's order: all but halves
+};
+
+/// The layers that are features where a file has them, unless others are named.
+[[nodiscard]] std::vector<std::string> default_features();
+
+/// Finds the layers among the channels `names` of a file. A layer of light is one that has NAME.R, NAME.G and NAME.B,
+/// and the same with the prefix kHalfPrefix; a feature is one of `features`, of up to four channels with their halves.
+/// What has no halves is kept as it is. Throws std::invalid_argument, with what to do about it, if there is no beauty
+/// with its half, a feature of `required` (a subset of `features`) is not there or not whole, or there are too many
+/// features.
+[[nodiscard]] LayerPlan plan_layers(std::span<const std::string> names, std::span<const std::string> features,
+                                    std::span<const std::string> required);
+
+}  // namespace etendue

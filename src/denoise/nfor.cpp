@@ -1,0 +1,204 @@
+#include "denoise/nfor.h"
+
+#include "denoise/least_squares.h"
+#include "denoise/nl_means.h"
+#include "denoise/regression.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace etendue {
+
+namespace {
+
+/// Of features before the regression, and of their mean before the last.
+constexpr NlMeansSettings kFeatureFilter{5, 3, 0.5f};
+constexpr NlMeansSettings kLastFeatureFilter{2, 3, 0.5f};
+/// Of the map of squared errors and of the choice between bandwidths.
+constexpr NlMeansSettings kErrorFilter{9, 1, 1.0f};
+/// The bandwidths k that are tried everywhere.
+constexpr std::array<float, 2> kBandwidths{0.5f, 1.0f};
+
+bool stopped(const NforSettings& settings) {
+    return settings.stop != nullptr && *settings.stop;
+}
+
+/// Both halves denoised with one bandwidth.
+struct Filtered {
+    Planes a;
+    Planes b;
+};
+
+/// What weights come from: log(1 + |u| / m) with the sign of u, m the mean of |u| over the image; and the variance of
+/// that. In linear light the variance of one pixel that a lamp's edge crosses is so large that no wall beside it
+/// differs from the lamp; and the paper's images are of lower contrast than a lamp and its room.
+Halves compressed(const Halves& light, float mean) {
+    const auto compress = [mean](const Planes& planes) {
+        return make_planes(planes.width(), planes.height(), planes.count(), [&](int plane, int x, int y) {
+            const float u = planes.row(plane, y)[x];
+            return std::copysign(std::log1p(std::abs(u) / mean), u);
+        });
+    };
+    Halves halves{light.share, compress(light.a), compress(light.b), {}};
+    halves.variance = estimated_variance(halves.a, halves.b, light.share);
+    return halves;
+}
+
+/// Of |u| over all pixels and planes; 1 if all are 0.
+float mean_of(const Planes& planes) {
+    double sum = 0.0;
+    for (int plane = 0; plane < planes.count(); ++plane)
+        for (int y = 0; y < planes.height(); ++y)
+            for (int x = 0; x < planes.width(); ++x) sum += double(std::abs(planes.row(plane, y)[x]));
+    const double mean = sum / (double(planes.width()) * double(planes.height()) * double(planes.count()));
+    return mean > 0.0 ? static_cast<float>(mean) : 1.0f;
+}
+
+Filtered regress(const Halves& light, const Halves& guide, const PreparedFeatures& features, int radius, float k,
+                 const ThreadPool& threads) {
+    const NlMeansSettings settings{radius, kLargestPatchRadius, k};
+    const NlMeansGuide guide_a{guide.a, guide.variance, guide.variance_scale_a()};
+    const NlMeansGuide guide_b{guide.b, guide.variance, guide.variance_scale_b()};
+    return {collaborative_regression({light.a, guide_b, features.b}, settings, threads),
+            collaborative_regression({light.b, guide_a, features.a}, settings, threads)};
+}
+
+/// Section 5.3. With F_a and F_b the filtered halves, E[(F_a - b)²] = MSE(F_a) + Var(b), if F_a and b were independent,
+/// and the same with a and b exchanged. Averaged with the shares of the samples that is the squared bias and twice the
+/// variance of s F_a + (1 - s) F_b, of which (F_a - F_b)² s (1 - s) takes one away. The sum over the channels: one
+/// choice for all of them leaves no coloured edges.
+Planes squared_error(const Halves& light, const Filtered& filtered) {
+    const float s = light.share;
+    return make_planes(light.a.width(), light.a.height(), 1, [&](int, int x, int y) {
+        float error = 0.0f;
+        for (int plane = 0; plane < light.a.count(); ++plane) {
+            const float a = light.a.row(plane, y)[x];
+            const float b = light.b.row(plane, y)[x];
+            const float fa = filtered.a.row(plane, y)[x];
+            const float fb = filtered.b.row(plane, y)[x];
+            const float variance = light.variance.row(plane, y)[x];
+            const float error_a = (fa - b) * (fa - b) - variance * light.variance_scale_b();
+            const float error_b = (fb - a) * (fb - a) - variance * light.variance_scale_a();
+            error += s * error_a + (1.0f - s) * error_b - (fa - fb) * (fa - fb) * s * (1.0f - s);
+        }
+        return error;
+    });
+}
+
+/// In [0, 1]: 0 where the first bandwidth has the smaller error, 1 where the second.
+Planes bandwidth_choice(const Halves& light, const Halves& compressed_light, const std::array<Filtered, 2>& filtered,
+                        const ThreadPool& threads) {
+    const Planes mean = mean_of_all(compressed_light.a, compressed_light.b, light.share);
+    const NlMeansGuide guide{mean, compressed_light.variance};
+    const Planes narrow = nl_means(squared_error(light, filtered[0]), guide, kErrorFilter, threads);
+    const Planes wide = nl_means(squared_error(light, filtered[1]), guide, kErrorFilter, threads);
+    const Planes choice = combined(narrow, wide, [](float n, float w) { return n < w ? 0.0f : 1.0f; });
+    return nl_means(choice, guide, kErrorFilter, threads);
+}
+
+Planes mixed(const Planes& narrow, const Planes& wide, const Planes& choice) {
+    return make_planes(narrow.width(), narrow.height(), narrow.count(), [&](int plane, int x, int y) {
+        const float t = choice.row(0, y)[x];
+        return (1.0f - t) * narrow.row(plane, y)[x] + t * wide.row(plane, y)[x];
+    });
+}
+
+float least_value(const Planes& planes, int plane) {
+    float least = std::numeric_limits<float>::max();
+    for (int y = 0; y < planes.height(); ++y)
+        least = std::min(least, *std::min_element(planes.row(plane, y), planes.row(plane, y) + planes.width()));
+    return least;
+}
+
+void clamp_below(Planes& planes, const Planes& input) {
+    for (int plane = 0; plane < planes.count(); ++plane) {
+        const float least = std::min(0.0f, least_value(input, plane));
+        for (int y = 0; y < planes.height(); ++y)
+            std::for_each_n(planes.row(plane, y), planes.width(), [least](float& v) { v = std::max(v, least); });
+    }
+}
+
+/// What a feature's deviations over the image are multiplied by to be 1 on average over its channels; 0 if there are
+/// none.
+float scale_of(const Planes& planes) {
+    const double pixels = double(planes.width()) * double(planes.height());
+    double variance = 0.0;
+    for (int plane = 0; plane < planes.count(); ++plane) {
+        double sum = 0.0;
+        double squares = 0.0;
+        for (int y = 0; y < planes.height(); ++y) {
+            for (int x = 0; x < planes.width(); ++x) sum += double(planes.row(plane, y)[x]);
+        }
+        const double mean = sum / pixels;
+        for (int y = 0; y < planes.height(); ++y) {
+            for (int x = 0; x < planes.width(); ++x) {
+                const double difference = double(planes.row(plane, y)[x]) - mean;
+                squares += difference * difference;
+            }
+        }
+        variance += squares / pixels;
+    }
+    const double deviation = std::sqrt(variance / planes.count());
+    return deviation > 0.0 ? static_cast<float>(1.0 / deviation) : 0.0f;
+}
+
+/// Copies `planes` times `scale` to the planes of `to` from `first` on.
+void put(const Planes& planes, float scale, int first, Planes& to) {
+    for (int plane = 0; plane < planes.count(); ++plane)
+        for (int y = 0; y < planes.height(); ++y)
+            std::transform(planes.row(plane, y), planes.row(plane, y) + planes.width(), to.row(first + plane, y),
+                           [scale](float v) { return scale * v; });
+}
+
+}  // namespace
+
+PreparedFeatures prepare_features(const std::vector<Halves>& features, int width, int height,
+                                  const NforSettings& settings, const ThreadPool& threads) {
+    int count = 0;
+    for (const Halves& feature : features) count += feature.a.count();
+    PreparedFeatures prepared{Planes(width, height, count), Planes(width, height, count), Planes(width, height, count)};
+    int first = 0;
+    for (const Halves& feature : features) {
+        if (stopped(settings)) break;
+        const NlMeansGuide guide_a{feature.a, feature.variance, feature.variance_scale_a()};
+        const NlMeansGuide guide_b{feature.b, feature.variance, feature.variance_scale_b()};
+        const Planes a = nl_means(feature.a, guide_b, kFeatureFilter, threads);
+        const Planes b = nl_means(feature.b, guide_a, kFeatureFilter, threads);
+        const Planes mean = mean_of_all(a, b, feature.share);
+        const Planes variance = estimated_variance(a, b, feature.share);
+        const float scale = scale_of(mean);
+        put(a, scale, first, prepared.a);
+        put(b, scale, first, prepared.b);
+        put(nl_means(mean, {mean, variance}, kLastFeatureFilter, threads), scale, first, prepared.both);
+        first += feature.a.count();
+    }
+    for (Planes* planes : {&prepared.a, &prepared.b, &prepared.both}) planes->extend();
+    return prepared;
+}
+
+Planes denoise_nfor(const Halves& light, const PreparedFeatures& features, const NforSettings& settings,
+                    const ThreadPool& threads) {
+    const Planes input = mean_of_all(light.a, light.b, light.share);
+    const float brightness = mean_of(input);
+    const Halves guide = compressed(light, brightness);
+    std::array<Filtered, 2> filtered;
+    for (std::size_t i = 0; i < kBandwidths.size() && !stopped(settings); ++i)
+        filtered[i] = regress(light, guide, features, settings.radius, kBandwidths[i], threads);
+    if (stopped(settings)) return {};
+    const Planes choice = bandwidth_choice(light, guide, filtered, threads);
+    const Halves mixture{
+        light.share, mixed(filtered[0].a, filtered[1].a, choice), mixed(filtered[0].b, filtered[1].b, choice), {}};
+    filtered = {};
+    // Section 5.4: what noise is left is known from the difference of the halves, and is taken from their mean.
+    const Halves last_guide = compressed(mixture, brightness);
+    if (stopped(settings)) return {};
+    const Planes target = mean_of_all(mixture.a, mixture.b, light.share);
+    const Planes last_mean = mean_of_all(last_guide.a, last_guide.b, light.share);
+    Planes denoised = collaborative_regression({target, {last_mean, last_guide.variance}, features.both},
+                                               {settings.radius, kLargestPatchRadius, 1.0f}, threads);
+    clamp_below(denoised, input);
+    return denoised;
+}
+
+}  // namespace etendue

@@ -1,0 +1,20 @@
+// Pixels that no filter can use: NaN, infinities, and values so large that their squares overflow.
+#pragma once
+
+#include "denoise/planes.h"
+
+#include <cstddef>
+
+namespace etendue {
+
+/// Values beyond ± this count as infinite: squares of their differences, and sums of those, still fit a float.
+inline constexpr float kLargestUsable = 1e15f;
+/// How far away pixels are looked for that an unusable one is filled from.
+inline constexpr int kFillRadius = 8;
+
+/// Replaces each pixel of which any value, in `whole` or in `one_half`, is not finite or beyond kLargestUsable: in both
+/// by the mean of the usable pixels of the smallest square around it that has any, up to kFillRadius; by zero beyond.
+/// Both have the same shape; borders are neither read nor filled. Returns how many pixels were replaced.
+std::size_t fill_unusable(Planes& whole, Planes& one_half);
+
+}  // namespace etendue
