@@ -12,11 +12,11 @@ namespace etendue {
 
 /// One of the layers of an image besides its colour.
 struct OutputLayer {
-    std::string name;
-    std::string channels;   ///< a letter each
+    std::string name{};
+    std::string channels{};  ///< a letter each
     bool is_float = false;  ///< to be written as 32-bit floats, whatever the image is
     bool is_color = false;  ///< in the working space; else numbers that mean the same in every space
-    ImageF pixels;
+    ImageF pixels{};
 };
 
 struct OutputFrame {
