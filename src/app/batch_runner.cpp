@@ -6,6 +6,7 @@
 #include "app/interrupt.h"
 #include "app/process_owner.h"
 #include "app/progress_display.h"
+#include "core/process_time.h"
 #include "core/log.h"
 #include "core/write_file.h"
 #include "output/software_name.h"
@@ -25,10 +26,6 @@ namespace {
 namespace fs = std::filesystem;
 
 using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// What is known of a unit before anything is done.
 BatchUnit planned_unit(const PlannedUnit& planned, const fs::path& output) {

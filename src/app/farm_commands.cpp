@@ -1,5 +1,6 @@
 #include "app/farm_commands.h"
 
+#include "app/output_paths.h"
 #include "app/shell_word.h"
 
 #include <filesystem>
@@ -44,9 +45,16 @@ std::string merge_command(const FarmImage& image, const FarmOptions& options) {
     std::string parts;
     for (const SampleRange& range : image.ranges)
         parts += fmt::format(" {}", quoted(part_file(folder, image.job, range).string()));
-    return fmt::format("{} merge{} -o {} --quiet{} && rm -f --{} && rmdir --ignore-fail-on-non-empty -- {}",
-                       quoted(options.program.string()), parts, quoted(image.job.output.string()),
-                       options.depth == PixelDepth::Float ? " --float" : "", parts, quoted(folder.string()));
+    // Renamed at once: whoever is ended in the middle of removing parts has left none that look as if some were
+    // missing.
+    const std::string from = quoted(folder.string());
+    const std::string away = quoted(folder.string() + ".merged");
+    return fmt::format(
+        "if [ -e {0} ] || ! [ -e {1} ]; then {2} merge{3} -o {4} --quiet{5} && rm -rf -- {6} && mv -T -- {0} {6}; fi "
+        "&& "
+        "rm -rf -- {6}",
+        from, quoted(OutputPaths::beside(image.job.output).json.string()), quoted(options.program.string()), parts,
+        quoted(image.job.output.string()), options.depth == PixelDepth::Float ? " --float" : "", away);
 }
 
 }  // namespace etendue

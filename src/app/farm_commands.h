@@ -14,7 +14,8 @@ namespace etendue {
 /// The same of one part.
 [[nodiscard]] std::string part_command(const FarmImage& image, const SampleRange& range, const FarmOptions& options);
 
-/// Makes the image of its parts, and removes them if that succeeds.
+/// Makes the image of its parts, and removes them with their folder if that succeeds; where that is done already, the
+/// command does nothing and succeeds. The folder is there before any part is.
 [[nodiscard]] std::string merge_command(const FarmImage& image, const FarmOptions& options);
 
 }  // namespace etendue

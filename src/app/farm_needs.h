@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/farm_plan.h"
+#include "scene/render_settings.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -33,7 +34,23 @@ inline constexpr int kLeastMebibytes = 512;
 /// Reads what the probe prints. Throws IoError if that is something else.
 [[nodiscard]] RenderProbe parse_probe(const std::string& text);
 
-/// For each of `parts` tasks with `threads` threads that share the samples of an image.
-[[nodiscard]] TaskNeeds needs_of(const RenderProbe& probe, std::size_t parts, int threads);
+/// How large an image is in memory and in files.
+struct FilmSize {
+    std::uint64_t pixels = 0;        ///< that are rendered
+    std::uint64_t splat_pixels = 0;  ///< that splats are kept for; 0 without splats
+    bool has_second_film = false;    ///< for an estimate of the error
+
+    /// Of the sums of one film.
+    [[nodiscard]] std::uint64_t bytes() const { return 48 * pixels + 24 * splat_pixels; }
+};
+[[nodiscard]] FilmSize film_size_of(const RenderSettings& settings);
+
+/// For each of `parts` tasks with `threads` threads that share the samples of an image. A probe neither writes an image
+/// nor keeps what an estimate of the error needs: that comes on top of its memory.
+[[nodiscard]] TaskNeeds needs_of(const RenderProbe& probe, const FilmSize& size, std::size_t parts, int threads);
+
+/// For the task that merges `parts` parts of an image: in memory are the sums, a part, and as much for reading it; the
+/// time is that of the model in docs/farm.md, three times, as for renders.
+[[nodiscard]] TaskNeeds merge_needs_of(const FilmSize& size, std::size_t parts);
 
 }  // namespace etendue

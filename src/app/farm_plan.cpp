@@ -13,9 +13,6 @@ namespace etendue {
 
 namespace {
 
-/// A merge reads and adds; it is over in seconds.
-constexpr int kMergeMinutes = 10;
-
 /// How the tasks of an image depend on each other.
 enum class Shape { Whole, Split, Mended };
 
@@ -84,20 +81,19 @@ class Planner {
                  part_file(parts_folder(options_.output, it.job.output), it.job, range));
     }
     void add_merges(std::span<const std::size_t> images, ArrayWait wait, std::vector<std::size_t> after) {
-        TaskNeeds needs = needs_of(images);
-        needs.minutes = std::min(needs.minutes, kMergeMinutes);
-        const std::size_t array = add_array("merge", needs);
+        const std::size_t array = add_array("merge", needs_of(images, &FarmImage::merge_needs));
         plan_.arrays[array].wait = wait;
         plan_.arrays[array].after = std::move(after);
         for (const std::size_t i : images)
             add_task(array, i, merge_command(images_[i], options_), images_[i].job.output);
     }
     /// What is enough for all of them.
-    [[nodiscard]] TaskNeeds needs_of(std::span<const std::size_t> images) const {
+    [[nodiscard]] TaskNeeds needs_of(std::span<const std::size_t> images,
+                                     TaskNeeds FarmImage::*of = &FarmImage::needs) const {
         TaskNeeds needs;
         for (const std::size_t i : images) {
-            needs.minutes = std::max(needs.minutes, images_[i].needs.minutes);
-            needs.mebibytes = std::max(needs.mebibytes, images_[i].needs.mebibytes);
+            needs.minutes = std::max(needs.minutes, (images_[i].*of).minutes);
+            needs.mebibytes = std::max(needs.mebibytes, (images_[i].*of).mebibytes);
         }
         return needs;
     }

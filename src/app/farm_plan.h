@@ -32,7 +32,8 @@ struct FarmImage {
     std::filesystem::path render_output;  ///< what `etendue render` is told to write: without the frame's number
     std::vector<SampleRange> ranges;      ///< of its parts, two at least; empty if it is rendered in one piece
     std::vector<SampleRange> missing;     ///< of the parts that are not there yet
-    TaskNeeds needs;                      ///< of each of its tasks
+    TaskNeeds needs;                      ///< of each of its tasks that render
+    TaskNeeds merge_needs{};              ///< of the one that merges its parts
 };
 
 struct FarmOptions {

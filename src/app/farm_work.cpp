@@ -46,6 +46,7 @@ RenderIdentity identity_of(const ImageJob& job, const SettingsOverrides& overrid
 struct SceneNeeds {
     std::vector<SampleRange> ranges;
     TaskNeeds needs;
+    TaskNeeds merge_needs;
 };
 
 class WorkFinder {
@@ -96,7 +97,7 @@ class WorkFinder {
             return;
         }
         if (!needs) needs = needs_of_scene(job);
-        FarmImage image{job, task.render_output, needs->ranges, {}, needs->needs};
+        FarmImage image{job, task.render_output, needs->ranges, {}, needs->needs, needs->merge_needs};
         FarmLeftovers leftovers = find_leftovers(image, request_.farm.output, [&] {
             return request_.force ? RenderIdentity() : identity_of(job, request_.overrides);
         });
@@ -119,10 +120,15 @@ class WorkFinder {
             scene.ranges = split_samples(static_cast<std::uint32_t>(settings.spp), request_.parts);
             if (scene.ranges.size() == 1) scene.ranges.clear();
         }
+        const FilmSize size = film_size_of(settings);
         if (!request_.task_minutes || !request_.task_memory)
-            scene.needs = needs_of(probe_scene(first, request_.farm.options),
+            scene.needs = needs_of(probe_scene(first, request_.farm.options), size,
                                    std::max<std::size_t>(1, scene.ranges.size()), request_.farm.threads);
-        if (request_.task_minutes) scene.needs.minutes = *request_.task_minutes;
+        scene.merge_needs = merge_needs_of(size, scene.ranges.size());
+        if (request_.task_minutes) {
+            scene.needs.minutes = *request_.task_minutes;
+            scene.merge_needs.minutes = std::max(scene.merge_needs.minutes, *request_.task_minutes);
+        }
         if (request_.task_memory) scene.needs.mebibytes = static_cast<int>(*request_.task_memory >> 20u);
         return scene;
     }

@@ -215,7 +215,8 @@ void add_task_options(CLI::App& command, const std::shared_ptr<SubmitArguments>&
     command.add_option("--sbatch-option", arguments->slurm.options,
                        "One further option of sbatch, such as --qos=low; can be given several times");
     command.add_option("--program", arguments->program,
-                       "etendue on the nodes (default: the path of this one, which then has to be there, too)");
+                       "etendue on the nodes: its path, or a name to be found in PATH there (default: the path of this "
+                       "one, which then has to be there, too)");
 }
 
 /// Options as tasks get them, which run elsewhere: with an absolute path, and each for its own frame.
@@ -232,6 +233,8 @@ void complete(SubmitArguments& arguments, std::vector<GivenOption> overrides) {
     farm.output = fs::absolute(arguments.output).lexically_normal();
     if (!farm.output.has_filename()) farm.output = farm.output.parent_path();
     farm.program = arguments.program.empty() ? fs::read_symlink("/proc/self/exe") : fs::path(arguments.program);
+    // Tasks run in another directory. A name alone is looked up in the PATH that they have.
+    if (farm.program.has_parent_path()) farm.program = fs::absolute(farm.program).lexically_normal();
     farm.options = options_of_tasks(std::move(overrides));
     farm.depth = arguments.request.overrides.depth;
     arguments.slurm.threads = farm.threads;

@@ -1,5 +1,7 @@
 #include "app/farm_plan.h"
 
+#include "app/farm_needs.h"
+
 #include <algorithm>
 #include <set>
 #include <string>
@@ -78,11 +80,12 @@ TEST(FarmPlan, PartsOfOneImageHaveOneIndexAndAreMergedByIt) {
               std::string::npos)
         << part;
     EXPECT_EQ(two.arrays[2].commands[2],
+              "if [ -e '/out/.etendue/parts/s.0002.exr' ] || ! [ -e '/out/s.0002.json' ]; then "
               "'/bin/etendue' merge '/out/.etendue/parts/s.0002.exr/0-32.0002.partial' "
               "'/out/.etendue/parts/s.0002.exr/32-64.0002.partial' -o '/out/s.0002.exr' --quiet && "
-              "rm -f -- '/out/.etendue/parts/s.0002.exr/0-32.0002.partial' "
-              "'/out/.etendue/parts/s.0002.exr/32-64.0002.partial' && "
-              "rmdir --ignore-fail-on-non-empty -- '/out/.etendue/parts/s.0002.exr'");
+              "rm -rf -- '/out/.etendue/parts/s.0002.exr.merged' && "
+              "mv -T -- '/out/.etendue/parts/s.0002.exr' '/out/.etendue/parts/s.0002.exr.merged'; fi && "
+              "rm -rf -- '/out/.etendue/parts/s.0002.exr.merged'");
     EXPECT_EQ(two.places[2][1].makes, "/out/.etendue/parts/s.0002.exr/32-64.0002.partial");
 }
 
@@ -117,6 +120,35 @@ TEST(FarmPlan, SmallScenesDoNotAskForWhatLargeOnesNeed) {
     EXPECT_EQ(mixed.places[0][0].array, mixed.places[2][0].array);
     EXPECT_EQ(mixed.arrays[mixed.places[0][0].array].needs, (TaskNeeds{12, 700}));
     EXPECT_EQ(mixed.arrays[mixed.places[1][0].array].needs, (TaskNeeds{10, 60000}));
+}
+
+TEST(FarmPlan, MergesGetWhatTheyNeedThemselves) {
+    std::vector<FarmImage> images{image(0, 2, {10, 60000}), image(1, 2, {10, 60001})};
+    images[0].merge_needs = {70, 900};
+    images[1].merge_needs = {20, 1000};
+    const FarmPlan two = plan(images);
+    ASSERT_EQ(two.arrays.size(), 3u);
+    EXPECT_EQ(two.arrays[1].needs, (TaskNeeds{10, 60001}));
+    EXPECT_EQ(two.arrays[2].needs, (TaskNeeds{70, 1000}));
+}
+
+TEST(FarmNeeds, OfMergesGrowWithPixelsAndParts) {
+    EXPECT_EQ(merge_needs_of({.pixels = 1000}, 2), (TaskNeeds{kLeastMinutes, kLeastMebibytes}));
+    constexpr std::uint64_t kPixels = 100'000'000;
+    // By hand: 3 x (0.223 + 100 x (0.32 + 0.122 x 300)) s, and 1.5 x 3 films of 48 bytes a pixel.
+    EXPECT_EQ(merge_needs_of({.pixels = kPixels}, 300), (TaskNeeds{185, 20600}));
+    EXPECT_EQ(merge_needs_of({.pixels = kPixels, .splat_pixels = kPixels}, 300), (TaskNeeds{185, 30900}));
+}
+
+TEST(FarmNeeds, OfRendersHaveRoomForWritingAndForASecondFilm) {
+    const RenderProbe probe{.render_seconds = 10.0, .peak_memory_bytes = std::uint64_t{1} << 30};
+    constexpr std::uint64_t kPixels = 50'000'000;
+    const TaskNeeds none = needs_of(probe, {}, 1, 1);
+    const TaskNeeds some = needs_of(probe, {.pixels = kPixels}, 1, 1);
+    const TaskNeeds two = needs_of(probe, {.pixels = kPixels, .has_second_film = true}, 1, 1);
+    EXPECT_EQ(none.mebibytes, 1536);
+    EXPECT_GT(some.mebibytes, none.mebibytes);
+    EXPECT_NEAR(two.mebibytes - some.mebibytes, 1.5 * 48.0 * kPixels / (1 << 20), 1.0);
 }
 
 TEST(FarmPlan, OnlyMissingPartsAreMended) {

@@ -86,8 +86,11 @@ TEST_F(Submit, ImagesOfPartsEqualThoseOfOneMachine) {
     EXPECT_EQ(states["images"][0]["state"], "running");
     EXPECT_EQ(states["images"][1]["state"], "pending");
 
+    EXPECT_NE(slurm_.run_task(report["directory"].get<std::string>(), "merge-3", 0).exit_code, 0)
+        << "there are no parts";
     run_all(report);
     slurm_.set_queue("");
+    EXPECT_EQ(slurm_.run_task(report["directory"].get<std::string>(), "merge-3", 0).exit_code, 0) << "and once more";
     const auto [done, after] = status();
     EXPECT_EQ(done, 0);
     EXPECT_EQ(after["done"], 2) << after.dump(1);
@@ -118,6 +121,18 @@ TEST_F(Submit, FileNamesAreNotRunByAnyShell) {
     run_all(submitted({"--spp", "2", "--task-minutes", "5", "--task-memory", "512M", "--split-samples", "2"}));
     EXPECT_EQ(status().first, 0);
     for (const std::string& file : list(folder_.path())) EXPECT_NE(fs::path(file).filename(), "PWNED") << file;
+}
+
+TEST_F(Submit, TheProgramIsFoundFromWhereTasksRun) {
+    scene("a");
+    std::vector<std::string> own = small_;
+    own.insert(own.end(), {"--program", "bin/etendue"});
+    const std::string line = read_file(fs::path(submitted(own)["directory"].get<std::string>()) / "render-0.tasks");
+    EXPECT_TRUE(line.starts_with("exec '" + (work_ / "bin/etendue").string() + "' render")) << line;
+    own.back() = "etendue-2";
+    own.insert(own.end(), {"--force"});
+    const std::string found = read_file(fs::path(submitted(own)["directory"].get<std::string>()) / "render-0.tasks");
+    EXPECT_TRUE(found.starts_with("exec 'etendue-2' render")) << "in PATH: " << found;
 }
 
 TEST_F(Submit, FramesAreImagesOfTheirOwn) {
@@ -260,8 +275,8 @@ TEST_F(Submit, AnInterruptStopsItBeforeTheNextScene) {
     scene("a");
     write_file(folder_ / "scenes/a/render.json", R"({"resolution": [16, 12], "spp": 10000000, "environment": {}})");
     scene("b", R"("ssp": 1,)");
-    const std::vector<std::string> arguments{"submit", (folder_ / "scenes").string(), "-o", out().string(),
-                                             "--scheduler", "slurm"};
+    const std::vector<std::string> arguments{
+        "submit", (folder_ / "scenes").string(), "-o", out().string(), "--scheduler", "slurm"};
     RunningProgram program(arguments, work_);
     // While it probes the first scene.
     int probe = 0;
