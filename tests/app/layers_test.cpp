@@ -1,14 +1,14 @@
 // Layers from the command line to the file, and past checkpoints and parts.
 #include "app/run_program.h"
 #include "app/small_files.h"
-#include "image/open_image.h"
-#include "image/read.h"
+#include "image/layers.h"
+#include "image/read_channels.h"
 #include "support/temporary_folder.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -28,15 +28,75 @@ class Layers : public testing::Test {
         write_scene(folder_ / "box");
     }
     [[nodiscard]] ProgramResult render(const std::string& output, const Arguments& more) const {
-        Arguments arguments{"render", (folder_ / "box").string(), "--size", "16x12", "--spp", "4", "--float", "--quiet",
-                            "-o",     output};
+        Arguments arguments{"render", (folder_ / "box").string(), "--size", "16x12", "--float", "--quiet", "-o", output};
         arguments.insert(arguments.end(), more.begin(), more.end());
+        if (std::ranges::find(more, "--spp") == more.end()) arguments.insert(arguments.end(), {"--spp", "4"});
         return run_etendue(arguments, work_);
+    }
+
+    [[nodiscard]] std::vector<std::string> channels(const std::string& file) const {
+        std::vector<std::string> names = read_channels(work_ / file).channel_names;
+        std::ranges::sort(names);
+        return names;
     }
 
     TestFolder folder_;
     fs::path work_ = folder_ / "work";
 };
+
+TEST_F(Layers, StandWhereTheyAreToStand) {
+    const Arguments layers{"--aov", "depth", "--aov", "N", "--aov", "key=lpe:C D L"};
+    const auto render_as = [&](const std::string& output, const std::string& layout) {
+        Arguments more = layers;
+        more.insert(more.end(), {"--aov-layout", layout});
+        const ProgramResult result = render(output, more);
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+    };
+    render_as("a.exr", "layers");
+    EXPECT_EQ(channels("a.exr"), (std::vector<std::string>{"A", "B", "G", "N.X", "N.Y", "N.Z", "R", "depth.Z", "key.B",
+                                                           "key.G", "key.R"}));
+    render_as("b.exr", "parts");
+    const LayeredImage parts = read_layers(work_ / "b.exr");
+    ASSERT_EQ(parts.parts.size(), 4u);
+    EXPECT_TRUE(find_layer(parts, "N.N") || find_layer(parts, "N"));
+    render_as("c.exr", "files");
+    EXPECT_EQ(channels("c.exr"), (std::vector<std::string>{"A", "B", "G", "R"}));
+    EXPECT_EQ(channels("c.depth.exr"), (std::vector<std::string>{"Z"}));
+    EXPECT_EQ(channels("c.N.exr"), (std::vector<std::string>{"X", "Y", "Z"}));
+    EXPECT_EQ(channels("c.key.exr"), (std::vector<std::string>{"B", "G", "R"}));
+}
+
+// All layers of all kinds, those of half of the samples included.
+TEST_F(Layers, OfPartsAreThoseOfTheWhole) {
+    for (const char* integrator : {"path", "bdpt"}) {
+        const Arguments layers{"--aov",    "denoising", "--aov", "passes",  "--aov",  "P",       "--aov",
+                               "variance", "--aov",     "rays",  "--aov",   "samples", "--spp",  "32",
+                               "--integrator", integrator};
+        const auto with = [&](const Arguments& more) {
+            Arguments all = layers;
+            all.insert(all.end(), more.begin(), more.end());
+            return all;
+        };
+        ASSERT_EQ(render("whole.exr", layers).exit_code, 0);
+        ASSERT_EQ(render("a.partial", with({"--samples", "0:16"})).exit_code, 0);
+        ASSERT_EQ(render("b.partial", with({"--samples", "16:32"})).exit_code, 0);
+        const ProgramResult merged =
+            run_etendue({"merge", "a.partial", "b.partial", "-o", "merged.exr", "--float", "--quiet"}, work_);
+        ASSERT_EQ(merged.exit_code, 0) << merged.err;
+        const ChannelImage whole = read_channels(work_ / "whole.exr");
+        const ChannelImage sum = read_channels(work_ / "merged.exr");
+        ASSERT_EQ(sum.channel_names, whole.channel_names);
+        ASSERT_NE(std::ranges::find(sum.channel_names, "half.albedo.R"), sum.channel_names.end());
+        const std::size_t count = sum.channel_names.size();
+        for (std::size_t i = 0; i < sum.pixels.pixels.size(); ++i) {
+            const float value = whole.pixels.pixels[i];
+            // A variance is a small difference of large sums.
+            const float tolerance = whole.channel_names[i % count].starts_with("variance") ? 1e-4f : 2e-6f;
+            EXPECT_NEAR(sum.pixels.pixels[i], value, tolerance * std::max(1.0f, std::abs(value)))
+                << integrator << " " << whole.channel_names[i % count];
+        }
+    }
+}
 
 TEST_F(Layers, WhatIsWrongIsSaidWithItsPlace) {
     const auto error = [&](const Arguments& more, int exit_code) {
