@@ -157,7 +157,7 @@ TEST_P(VarianceLayer, IsTheVarianceOverSeeds) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Integrators, VarianceLayer, testing::Values("path", "light", "bdpt"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& each) { return std::string(each.param); });
 
 }  // namespace
 

@@ -84,8 +84,8 @@ TEST_P(LightLayers, LeaveTheImageAsItIs) {
     EXPECT_EQ(with, without);
 }
 
-INSTANTIATE_TEST_SUITE_P(Rooms, LightLayers, testing::ValuesIn(rooms_of_all_kinds()), [](const auto& info) {
-    return info.param.integrator + "_" + info.param.name;
+INSTANTIATE_TEST_SUITE_P(Rooms, LightLayers, testing::ValuesIn(rooms_of_all_kinds()), [](const auto& each) {
+    return each.param.integrator + "_" + each.param.name;
 });
 
 /// A room in which the light of some paths is looked at.
@@ -157,7 +157,7 @@ TEST_P(LightLayersAgree, WhoeverFindsTheirPaths) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shares, LightLayersAgree, testing::ValuesIn(kShares),
-                         [](const auto& info) { return std::to_string(info.index) + info.param.room; });
+                         [](const auto& each) { return std::to_string(each.index) + each.param.room; });
 
 }  // namespace
 
