@@ -29,7 +29,8 @@ constexpr OtherSource kRays{"rays", "rays per sample of each pixel"};
 /// Sources that stand for several.
 constexpr OtherSource kPasses{"passes", "the light in ten layers that add up to the image"};
 constexpr OtherSource kLights{"lights", "the light of each lamp, emitting object and the environment, by name"};
-constexpr OtherSource kDenoising{"denoising", "what 'etendue denoise' needs: albedo, N, depth, and half of the samples"};
+constexpr OtherSource kDenoising{"denoising",
+                                 "what 'etendue denoise' needs: albedo, N, depth, and half of the samples"};
 
 PathNames names_in(const SceneDesc& scene) {
     PathNames names;
@@ -111,7 +112,8 @@ class Planner {
 
     void add_one(const AovDesc& aov) {
         const std::string_view source = aov.source;
-        if (source.starts_with(kExpression)) return add_expression(aov, aov.name, aov.source.substr(kExpression.size()));
+        if (source.starts_with(kExpression))
+            return add_expression(aov, aov.name, aov.source.substr(kExpression.size()));
         if (source.starts_with(kLight))
             return add_expression(aov, aov.name, light_expression(aov.source.substr(kLight.size())));
         for (const UsualExpression& usual : usual_expressions())

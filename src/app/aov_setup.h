@@ -19,9 +19,9 @@ struct AovPlan {
     bool has_halves = false;  ///< every layer, and the image, is written of half of the samples, too: for denoising
 };
 
-/// What `scene.settings.aovs` asks for, groups in place of their names. Names that nothing in the scene has are noted in
-/// `problems`. Throws SceneError for sources that do not exist, expressions that are wrong, names that are there twice,
-/// and what the integrator cannot tell apart.
+/// What `scene.settings.aovs` asks for, groups in place of their names. Names that nothing in the scene has are noted
+/// in `problems`. Throws SceneError for sources that do not exist, expressions that are wrong, names that are there
+/// twice, and what the integrator cannot tell apart.
 [[nodiscard]] AovPlan make_aov_plan(const SceneDesc& scene, ProblemList& problems);
 
 /// All sources with what they are, a line each, for --help.

@@ -6,8 +6,8 @@
 #include "app/interrupt.h"
 #include "app/process_owner.h"
 #include "app/progress_display.h"
-#include "core/process_time.h"
 #include "core/log.h"
+#include "core/process_time.h"
 #include "core/write_file.h"
 #include "output/software_name.h"
 

@@ -41,8 +41,10 @@ void require_expected(const Checkpoint& kept, const CheckpointFiles::Expected& e
         refuse(fmt::format("the {} has {} samples of each pixel, and no more than {} are asked for; {}", what, spp,
                            *expected.most_spp, without));
     if (expected.every_other_pass && !state.every_other_pass)
-        refuse(fmt::format("the {} was begun without --error and without layers for denoising, and does not hold what they need; leave them out, or {}",
-                           what, without));
+        refuse(
+            fmt::format("the {} was begun without --error and without layers for denoising, and does not hold what "
+                        "they need; leave them out, or {}",
+                        what, without));
 }
 
 /// Drops what is not needed.

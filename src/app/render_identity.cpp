@@ -20,7 +20,8 @@ namespace {
 
 /// Lines of `dump` that are about how long to render, of which pixels, and how to show it.
 bool is_left_out(std::string_view line) {
-    constexpr std::array<std::string_view, 5> kLeftOut{"sampling:", "crop:", "texture memory:", "layout of layers:", "colour:"};
+    constexpr std::array<std::string_view, 5> kLeftOut{
+        "sampling:", "crop:", "texture memory:", "layout of layers:", "colour:"};
     for (const std::string_view start : kLeftOut)
         if (line.starts_with(start)) return true;
     return false;
@@ -28,8 +29,8 @@ bool is_left_out(std::string_view line) {
 
 /// Lines of settings have a name that ends at a colon; everything else is of the scene.
 bool is_setting(std::string_view line) {
-    constexpr std::array<std::string_view, 8> kNames{"aov ", "integrator", "film:",   "camera used:", "light units",
-                                                     "time code",  "shutter", "variant used"};
+    constexpr std::array<std::string_view, 8> kNames{
+        "aov ", "integrator", "film:", "camera used:", "light units", "time code", "shutter", "variant used"};
     for (const std::string_view name : kNames)
         if (line.starts_with(name)) return true;
     return false;

@@ -47,7 +47,7 @@ struct SettingsOverrides {
     std::optional<LightUnits> light_units;
     std::optional<std::string> environment;
     std::optional<std::uint64_t> texture_memory;  ///< bytes
-    std::vector<AovDesc> aovs;  ///< besides those of the scene
+    std::vector<AovDesc> aovs;                    ///< besides those of the scene
     std::optional<AovLayout> aov_layout;
     std::optional<float> exposure;
     std::optional<std::string> display;

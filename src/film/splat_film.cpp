@@ -120,8 +120,7 @@ void SplatFilm::restore(std::vector<SplatSum> sums, std::uint64_t light_paths) {
     light_paths_ = light_paths;
 }
 
-void SplatFilm::add_to(std::span<float> image, std::size_t channels, const PixelRect& window,
-                       std::size_t layer) const {
+void SplatFilm::add_to(std::span<float> image, std::size_t channels, const PixelRect& window, std::size_t layer) const {
     const double all = scale();
     float* pixel = image.data();
     for (int y = window.y0; y < window.y1; ++y) {

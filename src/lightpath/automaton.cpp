@@ -124,9 +124,8 @@ PathAutomaton::PathAutomaton(std::span<const PathExpression> expressions, const 
     light_ = {symbol_count_, light.explore(end, symbol_count_, [&](const PositionSet& from, std::size_t symbol) {
                   PositionSet to = none;
                   for (std::size_t p = 0; p < positions.size(); ++p)
-                      if (std::ranges::any_of(positions[p].following, [&](std::size_t q) {
-                              return contains(from, q) && stands_at[q][symbol];
-                          }))
+                      if (std::ranges::any_of(positions[p].following,
+                                              [&](std::size_t q) { return contains(from, q) && stands_at[q][symbol]; }))
                           insert(to, p);
                   return to;
               })};

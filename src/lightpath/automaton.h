@@ -96,9 +96,9 @@ class PathAutomaton {
     Table eye_;
     Table light_;
     State eye_start_ = 0;
-    State light_end_ = 0;                 ///< of no event yet
-    std::vector<ExpressionMask> whole_;   ///< by state of the eye: of paths that are complete
-    std::vector<ExpressionMask> join_;    ///< by state of the eye, by state of the light
+    State light_end_ = 0;                ///< of no event yet
+    std::vector<ExpressionMask> whole_;  ///< by state of the eye: of paths that are complete
+    std::vector<ExpressionMask> join_;   ///< by state of the eye, by state of the light
 };
 
 }  // namespace etendue

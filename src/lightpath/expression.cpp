@@ -11,8 +11,8 @@ namespace etendue {
 
 namespace {
 
-constexpr EventKinds kReflect =
-    kind_of(ScatterEvent::ReflectDiffuse) | kind_of(ScatterEvent::ReflectGlossy) | kind_of(ScatterEvent::ReflectSingular);
+constexpr EventKinds kReflect = kind_of(ScatterEvent::ReflectDiffuse) | kind_of(ScatterEvent::ReflectGlossy) |
+                                kind_of(ScatterEvent::ReflectSingular);
 constexpr EventKinds kTransmit = kind_of(ScatterEvent::TransmitDiffuse) | kind_of(ScatterEvent::TransmitGlossy) |
                                  kind_of(ScatterEvent::TransmitSingular);
 constexpr EventKinds kVolume = kind_of(ScatterEvent::Volume);
@@ -94,8 +94,7 @@ class Parser {
     std::size_t parse_repeated(int depth) {
         std::size_t node = parse_one(depth);
         const auto repeat = [&](int least, int most) {
-            node = add(
-                {.kind = ExpressionNode::Kind::Repeat, .children = {node}, .least = least, .most = most});
+            node = add({.kind = ExpressionNode::Kind::Repeat, .children = {node}, .least = least, .most = most});
         };
         for (;;) {
             if (take('*'))
@@ -162,7 +161,8 @@ class Parser {
         const std::size_t begin = at_;
         if (take('<')) return parse_labelled(begin);
         const std::optional<EventKinds> kinds = kinds_of_letter(peek());
-        if (!kinds) fail(fmt::format("'{}' is no event; events are C, E, L, O, B, D, G, S, R, T, V and .", peek()), at_);
+        if (!kinds)
+            fail(fmt::format("'{}' is no event; events are C, E, L, O, B, D, G, S, R, T, V and .", peek()), at_);
         ++at_;
         return {*kinds, {}};
     }

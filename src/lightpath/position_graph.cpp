@@ -77,8 +77,8 @@ class Builder {
             case ExpressionNode::Kind::Sequence: {
                 Ends sequence{.is_nullable = true, .first = {}, .last = {}};
                 for (std::size_t i = 0; i < node.children.size(); ++i)
-                    sequence = follow(
-                        sequence, build(node.children[is_from_light_ ? node.children.size() - 1 - i : i]));
+                    sequence =
+                        follow(sequence, build(node.children[is_from_light_ ? node.children.size() - 1 - i : i]));
                 return sequence;
             }
             case ExpressionNode::Kind::Repeat:
@@ -123,8 +123,7 @@ class Builder {
 
 EventKinds first_kinds(const PositionGraph& graph, std::size_t beginning) {
     EventKinds kinds = 0;
-    for (const std::size_t p : graph.positions[beginning].following)
-        kinds |= possible_kinds(*graph.positions[p].event);
+    for (const std::size_t p : graph.positions[beginning].following) kinds |= possible_kinds(*graph.positions[p].event);
     return kinds;
 }
 
@@ -147,8 +146,8 @@ PositionGraph make_position_graph(std::span<const PathExpression> expressions) {
             graph.positions.resize(beginning);
             graph.beginnings.resize(e);
             Builder(expressions[e], is_from_light, e, graph).build();
-            is_found = first_kinds(graph, beginning) == kCameraKind &&
-                       (last_kinds(graph, beginning) & kAllSourceKinds) != 0;
+            is_found =
+                first_kinds(graph, beginning) == kCameraKind && (last_kinds(graph, beginning) & kAllSourceKinds) != 0;
             if (is_found) break;
         }
         if (!is_found)

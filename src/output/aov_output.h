@@ -22,11 +22,11 @@ enum class AovKind {
 
 struct AovOutput {
     std::string name;
-    std::string channels;       ///< a letter each
+    std::string channels;  ///< a letter each
     AovKind kind = AovKind::Layer;
-    std::size_t first = 0;      ///< index of the light layer, or of the first number
-    float background = 0.0f;    ///< where nothing was hit, of the nearest
-    bool is_float = false;      ///< written as 32-bit floats; half floats are enough otherwise
+    std::size_t first = 0;    ///< index of the light layer, or of the first number
+    float background = 0.0f;  ///< where nothing was hit, of the nearest
+    bool is_float = false;    ///< written as 32-bit floats; half floats are enough otherwise
 };
 
 /// The pixels of `output`, from a film that has them.

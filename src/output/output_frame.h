@@ -14,8 +14,8 @@ namespace etendue {
 struct OutputLayer {
     std::string name{};
     std::string channels{};  ///< a letter each
-    bool is_float = false;  ///< to be written as 32-bit floats, whatever the image is
-    bool is_color = false;  ///< in the working space; else numbers that mean the same in every space
+    bool is_float = false;   ///< to be written as 32-bit floats, whatever the image is
+    bool is_color = false;   ///< in the working space; else numbers that mean the same in every space
     ImageF pixels{};
 };
 

@@ -40,7 +40,8 @@ class DamagedCheckpoint : public IoError {
 };
 
 /// Throws IoError if the file cannot be read, DamagedCheckpoint if it is damaged: it is never believed in part. Sizes
-/// that its bytes claim are checked before memory is taken for them, and that windows, counts and tiles belong together.
+/// that its bytes claim are checked before memory is taken for them, and that windows, counts and tiles belong
+/// together.
 [[nodiscard]] Checkpoint read_checkpoint(const std::filesystem::path& path);
 
 }  // namespace etendue

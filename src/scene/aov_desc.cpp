@@ -8,9 +8,8 @@ namespace etendue {
 
 bool is_aov_name(std::string_view name) {
     constexpr std::size_t kLongest = 100;
-    return !name.empty() && name.size() <= kLongest && std::ranges::all_of(name, [](unsigned char c) {
-        return std::isalnum(c) != 0 || c == '_' || c == '-';
-    });
+    return !name.empty() && name.size() <= kLongest &&
+           std::ranges::all_of(name, [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; });
 }
 
 std::optional<AovDesc> parse_aov(std::string_view text) {

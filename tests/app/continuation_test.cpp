@@ -63,10 +63,9 @@ class Continuation : public testing::Test {
                 sleep_ms(milliseconds);
                 kill(pid, signal);
             });
-            const bool has_checkpoint =
-                std::ranges::any_of(fs::directory_iterator(work_), [](const fs::directory_entry& entry) {
-                    return entry.path().extension() == ".checkpoint";
-                });
+            const bool has_checkpoint = std::ranges::any_of(
+                fs::directory_iterator(work_),
+                [](const fs::directory_entry& entry) { return entry.path().extension() == ".checkpoint"; });
             if (has_checkpoint || result.exit_code == 0 || milliseconds > kLongest) return result;
         }
     }

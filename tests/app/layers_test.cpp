@@ -1,7 +1,8 @@
 // Layers from the command line to the file, and past checkpoints and parts.
+#include "image/layers.h"
+
 #include "app/run_program.h"
 #include "app/small_files.h"
-#include "image/layers.h"
 #include "image/read_channels.h"
 #include "support/temporary_folder.h"
 
@@ -28,7 +29,8 @@ class Layers : public testing::Test {
         write_scene(folder_ / "box");
     }
     [[nodiscard]] ProgramResult render(const std::string& output, const Arguments& more) const {
-        Arguments arguments{"render", (folder_ / "box").string(), "--size", "16x12", "--float", "--quiet", "-o", output};
+        Arguments arguments{"render", (folder_ / "box").string(), "--size", "16x12", "--float", "--quiet", "-o",
+                            output};
         arguments.insert(arguments.end(), more.begin(), more.end());
         if (std::ranges::find(more, "--spp") == more.end()) arguments.insert(arguments.end(), {"--spp", "4"});
         return run_etendue(arguments, work_);
@@ -69,9 +71,8 @@ TEST_F(Layers, StandWhereTheyAreToStand) {
 // All layers of all kinds, those of half of the samples included.
 TEST_F(Layers, OfPartsAreThoseOfTheWhole) {
     for (const char* integrator : {"path", "bdpt"}) {
-        const Arguments layers{"--aov",    "denoising", "--aov", "passes",  "--aov",  "P",       "--aov",
-                               "variance", "--aov",     "rays",  "--aov",   "samples", "--spp",  "32",
-                               "--integrator", integrator};
+        const Arguments layers{"--aov", "denoising", "--aov", "passes",  "--aov", "P",  "--aov",        "variance",
+                               "--aov", "rays",      "--aov", "samples", "--spp", "32", "--integrator", integrator};
         const auto with = [&](const Arguments& more) {
             Arguments all = layers;
             all.insert(all.end(), more.begin(), more.end());

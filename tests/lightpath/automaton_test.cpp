@@ -1,13 +1,13 @@
 #include "lightpath/automaton.h"
 
-#include <gtest/gtest.h>
-
 #include <array>
 #include <cstddef>
 #include <functional>
 #include <regex>
 #include <string>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 namespace etendue {
 namespace {
@@ -59,7 +59,8 @@ void for_all_paths(std::size_t longest, const std::function<void(const Path&)>& 
 ExpressionMask classify(const PathAutomaton& automaton, const Path& path, std::size_t from_eye) {
     PathAutomaton::State eye = automaton.eye_start();
     for (std::size_t i = 0; i < from_eye; ++i)
-        eye = automaton.eye_scatter(eye, path.scatterings[i].first, automaton.material_label(path.scatterings[i].second));
+        eye =
+            automaton.eye_scatter(eye, path.scatterings[i].first, automaton.material_label(path.scatterings[i].second));
     PathAutomaton::State light = automaton.light_start(path.source, automaton.light_label(path.light));
     for (std::size_t i = path.scatterings.size(); i > from_eye; --i)
         light = automaton.light_scatter(light, path.scatterings[i - 1].first,

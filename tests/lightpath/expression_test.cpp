@@ -1,9 +1,9 @@
 #include "lightpath/expression.h"
 
-#include <gtest/gtest.h>
-
 #include <string>
 #include <utility>
+
+#include <gtest/gtest.h>
 
 namespace etendue {
 namespace {

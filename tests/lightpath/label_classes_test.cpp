@@ -1,8 +1,8 @@
 #include "lightpath/label_classes.h"
 
-#include <gtest/gtest.h>
-
 #include <array>
+
+#include <gtest/gtest.h>
 
 namespace etendue {
 namespace {

@@ -12,7 +12,8 @@ constexpr float kFar = 1e10f;
 constexpr std::array kTable{
     FirstHitEntry{FirstHitValue::Depth, "depth", "Z", true, true, kFar, "metres along the viewing direction"},
     FirstHitEntry{FirstHitValue::Position, "P", "XYZ", true, true, 0.0f, "position in the world, metres"},
-    FirstHitEntry{FirstHitValue::Normal, "N", "XYZ", false, false, 0.0f, "shading normal in the world, towards the eye"},
+    FirstHitEntry{FirstHitValue::Normal, "N", "XYZ", false, false, 0.0f,
+                  "shading normal in the world, towards the eye"},
     FirstHitEntry{FirstHitValue::GeometricNormal, "Ng", "XYZ", false, false, 0.0f, "the same of the triangles"},
     FirstHitEntry{FirstHitValue::Uv, "uv", "UV", true, true, 0.0f, "first set of texture coordinates"},
     FirstHitEntry{FirstHitValue::Albedo, "albedo", "RGB", false, false, 0.0f, "share of light that is scattered"},

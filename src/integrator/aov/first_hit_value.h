@@ -11,17 +11,17 @@
 namespace etendue {
 
 enum class FirstHitValue {
-    Depth,           ///< metres along the camera's viewing direction
-    Position,        ///< world space, metres
-    Normal,          ///< of shading, world space, unit, towards the eye
-    GeometricNormal, ///< the same of the triangle
-    Uv,              ///< the first set of texture coordinates
-    Albedo,          ///< share of light that is scattered, diffuse and specular
+    Depth,            ///< metres along the camera's viewing direction
+    Position,         ///< world space, metres
+    Normal,           ///< of shading, world space, unit, towards the eye
+    GeometricNormal,  ///< the same of the triangle
+    Uv,               ///< the first set of texture coordinates
+    Albedo,           ///< share of light that is scattered, diffuse and specular
     AlbedoDiffuse,
     AlbedoSpecular,
-    ObjectId,        ///< index of the instance, from 1 on
-    MaterialId,      ///< index of the material, from 1 on
-    Motion,          ///< pixels by which the point moves on the film while the shutter is open, x right and y down
+    ObjectId,    ///< index of the instance, from 1 on
+    MaterialId,  ///< index of the material, from 1 on
+    Motion,      ///< pixels by which the point moves on the film while the shutter is open, x right and y down
 };
 
 struct FirstHitEntry {

@@ -94,8 +94,7 @@ class FirstHit {
             const BsdfSample s = scattering.sample(number(0).x, number(1), TransportMode::Importance);
             if (is_black(s.weight)) continue;
             const Rgb weight = s.weight * (1.0f / kSamples);
-            const Rgb diffuse =
-                s.is_delta ? Rgb() : scattering.diffuse_share(s.wi, TransportMode::Importance) * weight;
+            const Rgb diffuse = s.is_delta ? Rgb() : scattering.diffuse_share(s.wi, TransportMode::Importance) * weight;
             albedo_->diffuse += diffuse;
             albedo_->specular += weight - diffuse;
         }

@@ -21,7 +21,7 @@ namespace etendue {
 struct VertexEvent {
     ScatterEvent event = ScatterEvent::Volume;
     ScatterEvent other = ScatterEvent::Volume;
-    Rgb share{1.0f};           ///< of `event`; what is left is of `other`
+    Rgb share{1.0f};          ///< of `event`; what is left is of `other`
     std::uint16_t label = 0;  ///< of the material
 };
 

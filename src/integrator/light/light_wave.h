@@ -27,9 +27,9 @@ class LightWave final : public IntegratorScratch {
 
     std::vector<CameraSample> samples_;
     std::vector<Ray> camera_rays_;
-    std::vector<Hit> hits_;    ///< of the camera rays, if layers ask for them
+    std::vector<Hit> hits_;  ///< of the camera rays, if layers ask for them
     std::vector<float> alpha_;
-    SampleLight found_;        ///< nothing but rays: all light falls on the film
+    SampleLight found_;                    ///< nothing but rays: all light falls on the film
     std::vector<ExpressionShare> shares_;  ///< of the path at hand
     SubpathWave subpaths_{SubpathEnd::AtLight};
     VerticesToCamera to_camera_;

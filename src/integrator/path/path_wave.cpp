@@ -190,8 +190,8 @@ bool PathWave::scatter_at_surface(const Context& context, std::size_t i, const S
     next.state = state;
     if (words_.are_followed())
         next.state.words = words_.scatter_from_eye(
-            state.words, surface_event(scattering, sample.wi, sample.is_delta, TransportMode::Radiance,
-                                       words_.label(world, point)));
+            state.words,
+            surface_event(scattering, sample.wi, sample.is_delta, TransportMode::Radiance, words_.label(world, point)));
     next.state.throughput *= sample.weight;
     const auto* mirror = chooses_wavelength && sample.is_delta && !sample.is_transmission
                              ? std::get_if<SmoothDielectric>(&bsdf)
@@ -281,8 +281,7 @@ void PathWave::add_environment(const Context& context, const PathState& state, c
     float weight = 1.0f;
     if (context.options.sample_lights && !state.after_delta)
         weight = power_heuristic(state.pdf_solid_angle, world.environment_pdf_solid_angle(ray.direction));
-    add_light(state, world.environment_radiance(ray.direction) * weight,
-              words_.environment_source());
+    add_light(state, world.environment_radiance(ray.direction) * weight, words_.environment_source());
 }
 
 void PathWave::add_emission(const Context& context, const PathState& state, const Ray& ray, const Hit& hit,
@@ -324,9 +323,9 @@ void PathWave::queue_direct_light(const Context& context, std::size_t i, const S
     queue(context, i,
           shadow_ray(offset_origin(point.position, point.geometric_normal, point.clearance, light.wi), light),
           contribution, chosen.light,
-          words_.are_followed() ? surface_event(scattering, light.wi, false, TransportMode::Radiance,
-                                                words_.label(context.world, point))
-                                : VertexEvent{});
+          words_.are_followed()
+              ? surface_event(scattering, light.wi, false, TransportMode::Radiance, words_.label(context.world, point))
+              : VertexEvent{});
 }
 
 void PathWave::queue_direct_light_in_medium(const Context& context, std::size_t i, const Vec3f& position,

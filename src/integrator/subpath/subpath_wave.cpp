@@ -121,8 +121,7 @@ void SubpathWave::begin_at_lights(const SubpathJob& job) {
         state.roulette_scale = 1.0f / max_component(emission.weight);
         state.from = sample.position;
         state.slot = static_cast<std::uint32_t>(i);
-        if (words_.are_followed())
-            state.words = words_.begin_at_light(words_.light_source(world, emission.light));
+        if (words_.are_followed()) state.words = words_.begin_at_light(words_.light_source(world, emission.light));
         const bool at_infinity = world.is_at_infinity(emission.light);
         const auto position = static_cast<double>(sample.pdf_position_area);
         const auto direction = static_cast<double>(sample.pdf_direction_solid_angle);

@@ -1,6 +1,6 @@
 // Layers of the surfaces that camera rays meet, and of what their samples cost and how far they vary.
-#include "integrator/aov/layered_render.h"
 #include "integrator/agreement_render.h"
+#include "integrator/aov/layered_render.h"
 
 #include <atomic>
 #include <cmath>
@@ -83,9 +83,9 @@ TEST(FirstHits, PositionsLieWhereTheirPixelsLook) {
 TEST(FirstHits, NormalsFaceTheEyeAndAlbedosAreThoseOfTheMaterials) {
     const AgreementCase room = small_room("LampDiffuse", 4);
     const World world = agreement_world(room);
-    const auto aovs = layers_of(
-        {FirstHitValue::GeometricNormal, FirstHitValue::AlbedoDiffuse, FirstHitValue::AlbedoSpecular},
-        {FirstHitValue::Position});
+    const auto aovs =
+        layers_of({FirstHitValue::GeometricNormal, FirstHitValue::AlbedoDiffuse, FirstHitValue::AlbedoSpecular},
+                  {FirstHitValue::Position});
     const Film film = render_layers(world, "path", room, aovs, 1).film;
     const std::vector<float> means = film.resolve_values(0, 9);
     const std::vector<float> positions = film.resolve_nearest(0, 3, 0.0f);
@@ -151,8 +151,7 @@ TEST_P(VarianceLayer, IsTheVarianceOverSeeds) {
         for (const float variance : film.resolve_variance()) estimated += static_cast<double>(variance) / kSeeds;
     }
     double seen = 0.0;
-    for (std::size_t i = 0; i < sums.size(); ++i)
-        seen += (squares[i] - sums[i] * sums[i] / kSeeds) / (kSeeds - 1.0);
+    for (std::size_t i = 0; i < sums.size(); ++i) seen += (squares[i] - sums[i] * sums[i] / kSeeds) / (kSeeds - 1.0);
     EXPECT_NEAR(estimated / seen, 1.0, 0.1);
 }
 

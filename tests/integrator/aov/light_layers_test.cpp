@@ -1,7 +1,7 @@
 // Layers of light path expressions: those that take each path once add up to the image, and each is the same whoever
 // finds its paths.
-#include "integrator/aov/layered_render.h"
 #include "integrator/agreement_render.h"
+#include "integrator/aov/layered_render.h"
 #include "lightpath/usual_expressions.h"
 #include "support/chi2.h"
 
@@ -84,9 +84,8 @@ TEST_P(LightLayers, LeaveTheImageAsItIs) {
     EXPECT_EQ(with, without);
 }
 
-INSTANTIATE_TEST_SUITE_P(Rooms, LightLayers, testing::ValuesIn(rooms_of_all_kinds()), [](const auto& each) {
-    return each.param.integrator + "_" + each.param.name;
-});
+INSTANTIATE_TEST_SUITE_P(Rooms, LightLayers, testing::ValuesIn(rooms_of_all_kinds()),
+                         [](const auto& each) { return each.param.integrator + "_" + each.param.name; });
 
 /// A room in which the light of some paths is looked at.
 struct Share {
@@ -94,11 +93,11 @@ struct Share {
     const char* expression;
 };
 constexpr Share kShares[] = {
-    {"LampPlastic", "C <RD> L"},    {"LampPlastic", "C G L"},           {"LampPlastic", "C D D L"},
-    {"LampPlastic", "C D G L"},     {"LampPlastic", "C G .+ L"},        {"LampLayers", "C <RD> L"},
-    {"LampLayers", "C G L"},        {"LampRoughGlass", "C D T+ L"},     {"LampRoughGlass", "C T T D L"},
-    {"LampRoughGlass", "C D R L"},  {"SheetAndLeaf", "C .* <TD> .* L"}, {"CausticCrop", "L S+ D E"},
-    {"SunRoughGlass", "C D .+ L"},  {"VisibleEnvironment", "C D B"},    {"LampPrism", "C D T+ L"},
+    {"LampPlastic", "C <RD> L"},   {"LampPlastic", "C G L"},           {"LampPlastic", "C D D L"},
+    {"LampPlastic", "C D G L"},    {"LampPlastic", "C G .+ L"},        {"LampLayers", "C <RD> L"},
+    {"LampLayers", "C G L"},       {"LampRoughGlass", "C D T+ L"},     {"LampRoughGlass", "C T T D L"},
+    {"LampRoughGlass", "C D R L"}, {"SheetAndLeaf", "C .* <TD> .* L"}, {"CausticCrop", "L S+ D E"},
+    {"SunRoughGlass", "C D .+ L"}, {"VisibleEnvironment", "C D B"},    {"LampPrism", "C D T+ L"},
 };
 
 /// Who is compared with path tracing.
