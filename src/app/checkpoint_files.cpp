@@ -106,7 +106,7 @@ std::optional<Checkpoint> CheckpointFiles::read(const Expected& expected, bool q
         return kept;
     }
     if (damage)
-        throw SceneError({newest_.string(), {}},
+        throw SceneError({},
                          fmt::format("{}; no other checkpoint is left: start anew without --resume", damage->what()));
     return std::nullopt;
 }

@@ -70,7 +70,7 @@ TEST(CheckpointFiles, SayWhatToDoWithoutWhatTheLimitOfErrorNeeds) {
     with_error.every_other_pass = true;
     const std::string message = message_of<SceneError>([&] { (void)files.read(with_error, true); });
     EXPECT_NE(message.find("begun without --error"), std::string::npos) << message;
-    EXPECT_NE(message.find("leave it out, or start anew without --resume"), std::string::npos) << message;
+    EXPECT_NE(message.find("leave them out, or start anew without --resume"), std::string::npos) << message;
 }
 
 TEST(ReadPart, RefusesMoreSamplesThanAreAskedForAndThoseOfAPassUnderWay) {

@@ -62,7 +62,7 @@ def try_damaged(program, case, directory, damaged, previous, reference, result):
         yield from (f"{path} is left" for path in stray_files(directory, [output]))
         result.previous_used += 1
     else:
-        if finished.returncode != 1 or "damaged" not in finished.stderr:
+        if finished.returncode != 3 or "damaged" not in finished.stderr:
             yield f"exit status {finished.returncode} with a damaged checkpoint only: {finished.stderr}"
         if any(path.exists() for path in (output, output.with_suffix(".png"), output.with_suffix(".json"))):
             yield "an image was made from a damaged checkpoint"
