@@ -23,11 +23,14 @@ std::string as_argument(const std::filesystem::path& path) {
 /// Runs `arguments` to their end and returns the JSON object that stdout holds; it is no object if anything failed, or
 /// if the user has no patience.
 nlohmann::json ask(std::vector<std::string> arguments, const BatchOptions& options) try {
-    ChildProcess child({.arguments = std::move(arguments), .memory_limit = options.max_memory});
+    // A scene may have very many meshes and materials, whose names `inspect` lists.
+    constexpr std::size_t kMostOutput = std::size_t{1} << 28;
+    ChildProcess child(
+        {.arguments = std::move(arguments), .memory_limit = options.max_memory, .most_output = kMostOutput});
     const auto ignore = [](const std::string&) {};
     while (child.wait(kBetweenLooks, ignore, ignore))
         if (interrupt_requested()) child.send(SIGKILL);
-    if (child.end().signal != 0 || child.end().exit_code != 0) return {};
+    if (child.end().signal != 0 || child.end().exit_code != 0 || child.output_was_cut()) return {};
     return nlohmann::json::parse(child.output(), nullptr, false);
 } catch (const IoError&) {
     return {};  // no process could be started: those that render will fail, too, and say why

@@ -119,7 +119,7 @@ std::string signal_name(int signal) {
     return name != nullptr ? fmt::format("SIG{}", name) : fmt::format("signal {}", signal);
 }
 
-ChildProcess::ChildProcess(const ChildOptions& options) {
+ChildProcess::ChildProcess(const ChildOptions& options) : most_output_(options.most_output) {
     std::vector<std::string> words{options.name};
     words.insert(words.end(), options.arguments.begin(), options.arguments.end());
     std::vector<char*> argv;
@@ -183,7 +183,9 @@ void ChildProcess::drain(const LineCallback& on_message, const LineCallback& on_
         on_message(line);
     };
     read_available(output_stream_.pipe, [&](std::string_view text) {
-        output_.append(text.substr(0, std::min(text.size(), kMostOutput - output_.size())));
+        const std::size_t kept = std::min(text.size(), most_output_ - output_.size());
+        output_was_cut_ = output_was_cut_ || kept < text.size();
+        output_.append(text.substr(0, kept));
     });
     read_available(messages_.pipe, [&](std::string_view text) { messages_.lines.add(text, keep); });
     read_available(progress_.pipe, [&](std::string_view text) { progress_.lines.add(text, on_progress); });

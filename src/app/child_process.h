@@ -28,6 +28,8 @@ struct ChildOptions {
     /// which for ray tracing is many times more, and Linux heeds no limit of resident memory (RLIMIT_RSS). Asking for
     /// more fails in the child, as if the machine had none.
     std::optional<std::uint64_t> memory_limit{};
+    /// Bytes of stdout that are kept; `output_was_cut` tells if there were more.
+    std::size_t most_output = std::size_t{1} << 20;
 };
 
 /// How a child has ended.
@@ -46,10 +48,9 @@ class ChildProcess {
   public:
     /// Descriptor on which the child may write lines about its progress; those for which there is no room are lost.
     static constexpr int kProgressDescriptor = 3;
-    /// How many lines of the messages are kept, and bytes of each and of all that goes to stdout.
+    /// How many lines of the messages are kept, and bytes of each.
     static constexpr std::size_t kKeptLines = 20;
     static constexpr std::size_t kLongestLine = 4096;
-    static constexpr std::size_t kMostOutput = std::size_t{1} << 20;
 
     using LineCallback = LineSplitter::Callback;
 
@@ -72,6 +73,7 @@ class ChildProcess {
     [[nodiscard]] const ChildEnd& end() const { return end_; }
     [[nodiscard]] const std::deque<std::string>& last_messages() const { return last_messages_; }
     [[nodiscard]] const std::string& output() const { return output_; }
+    [[nodiscard]] bool output_was_cut() const { return output_was_cut_; }
 
   private:
     struct Stream {
@@ -87,7 +89,9 @@ class ChildProcess {
     Stream progress_;
     ChildEnd end_;
     std::deque<std::string> last_messages_;
+    std::size_t most_output_;
     std::string output_;
+    bool output_was_cut_ = false;
 };
 
 }  // namespace etendue

@@ -1,5 +1,6 @@
 #include "app/probe.h"
 
+#include "app/aov_setup.h"
 #include "app/interrupt.h"
 #include "app/peak_memory.h"
 #include "app/phase_timer.h"
@@ -43,7 +44,8 @@ std::string probe(const ImageJob& job, const SettingsOverrides& overrides, const
     const ColorConfig colors = ColorConfig::from_environment();
     RenderSettings settings = prepared.scene.settings;
     const std::string working_space = resolve_colors(settings, colors);
-    const RenderOptions options = make_render_options(settings);
+    RenderOptions options = make_render_options(settings);
+    options.aovs = make_aov_plan(prepared.scene, prepared.problems).set;
     const auto integrator = create_integrator(settings);
     const World world = compile_world(std::move(prepared.scene), colors, working_space, threads, prepared.problems);
     const PhaseTime build = build_timer.elapsed();

@@ -302,6 +302,29 @@ TEST_F(Batch, AnInvalidSceneIsTriedOnceAndTheOthersAreRendered) {
     EXPECT_NE(result.out.find("camera_"), std::string::npos) << result.out;
 }
 
+TEST_F(Batch, InputThatVanishesOrCannotBeDecodedFailsItsImageOnly) {
+    add_slow_scene("a-slow", 1.5);
+    add_scene("b-undecodable");
+    write_file(folder_ / "scenes/b-undecodable/sky.exr", "this is no image");
+    write_file(folder_ / "scenes/b-undecodable/render.json", R"({"spp": 1, "environment": {"image": "sky.exr"}})");
+    add_scene("c-vanishes");
+    add_scene("d-good");
+    const auto batch = start();
+    // The plan is made, and the first image is under way.
+    ASSERT_TRUE(wait_until([&] { return !events("unit started").empty(); }));
+    fs::remove(folder_ / "scenes/c-vanishes/triangle.bin");
+    EXPECT_EQ(batch->wait().exit_code, 1);
+    std::map<std::string, std::string> errors;
+    for (const json& event : events("unit failed")) errors[event["unit"]] = event["error"];
+    EXPECT_EQ(errors.size(), 2u);
+    EXPECT_NE(errors["b-undecodable"].find("sky.exr"), std::string::npos) << errors["b-undecodable"];
+    EXPECT_NE(errors["c-vanishes"].find("triangle.bin"), std::string::npos) << errors["c-vanishes"];
+    for (const char* name : {"a-slow", "d-good"}) EXPECT_TRUE(fs::exists(work_ / "out" / (std::string(name) + ".exr")));
+    for (const char* name : {"b-undecodable", "c-vanishes"})
+        for (const char* extension : {".exr", ".png", ".json"})
+            EXPECT_FALSE(fs::exists(work_ / "out" / (std::string(name) + extension))) << name << extension;
+}
+
 TEST_F(Batch, TheMemoryLimitFailsTheSceneThatNeedsMore) {
     if (kHasAddressSanitizer) GTEST_SKIP() << "AddressSanitizer maps more memory than any limit allows";
     add_scene("large", R"("unused": 0,)");

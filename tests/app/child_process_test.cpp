@@ -77,7 +77,7 @@ TEST(ChildProcess, KeepsTheLastLinesAndABoundedAmount) {
     ASSERT_EQ(result.last.size(), ChildProcess::kKeptLines);
     EXPECT_EQ(result.last.front(), "line 81");
     EXPECT_EQ(result.last.back().size(), ChildProcess::kLongestLine);
-    EXPECT_EQ(result.output.size(), ChildProcess::kMostOutput);
+    EXPECT_EQ(result.output.size(), ChildOptions{}.most_output);
 }
 
 TEST(ChildProcess, SaysWhichSignalEndedIt) {
