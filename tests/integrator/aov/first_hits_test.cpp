@@ -1,6 +1,7 @@
 // Layers of the surfaces that camera rays meet, and of what their samples cost and how far they vary.
 #include "integrator/agreement_render.h"
 #include "integrator/aov/layered_render.h"
+#include "world/test_scene.h"
 
 #include <atomic>
 #include <cmath>
@@ -106,6 +107,46 @@ TEST(FirstHits, NormalsFaceTheEyeAndAlbedosAreThoseOfTheMaterials) {
     }
     EXPECT_GT(inside, room.window.area() / 2);
     EXPECT_GT(scattering, room.window.area() / 2);
+}
+
+/// The motion of a wall that faces the camera 2 m before it, in the middle pixels; `camera_way` is the camera's own.
+Vec2f motion_of_wall(const Vec3f& way, const Vec3f& camera_way) {
+    SceneDesc scene = empty_scene();
+    scene.settings.film.width = kAgreementWidth;
+    scene.settings.film.height = kAgreementHeight;
+    add_object(scene, quad({0, 0, -2}, {4, 0, 0}, {0, 4, 0}), add_material(scene, diffuse(Rgb(0.5f))));
+    const auto moved = [](const Vec3f& by) { return Mat4f(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, by.x, by.y, by.z, 1); };
+    if (length(way) > 0.0f) scene.instances.back().motion = {moved(way * -0.5f), moved(way * 0.5f)};
+    if (length(camera_way) > 0.0f) scene.cameras.front().motion = {moved(camera_way * -0.5f), moved(camera_way * 0.5f)};
+    const World world = compile(std::move(scene));
+    AgreementCase room{"Wall", {}};
+    room.spp = 16;
+    const auto aovs = layers_of({}, {FirstHitValue::Motion});
+    const Film film = render_layers(world, "path", room, aovs, 1).film;
+    const std::vector<float> motion = film.resolve_nearest(0, 2, 99.0f);
+    const std::size_t middle = 2 * (kAgreementHeight / 2 * kAgreementWidth + kAgreementWidth / 2);
+    return {motion[middle], motion[middle + 1]};
+}
+
+// A pixel at 1 m is as high and as wide as half the film there, tan(fov / 2), over half its rows.
+TEST(FirstHits, MotionIsHowFarPixelsMoveWhileTheShutterIsOpen) {
+    const SceneDesc scene = empty_scene();
+    const float half_height = std::tan(0.5f * scene.cameras.front().yfov);
+    const float pixels = 0.5f * kAgreementHeight / half_height / 2.0f;
+    const float tolerance = 0.01f * pixels;
+    const Vec2f right = motion_of_wall({0.4f, 0, 0}, Vec3f(0.0f));
+    EXPECT_NEAR(right.x, 0.4f * pixels, tolerance);
+    EXPECT_NEAR(right.y, 0.0f, tolerance);
+    const Vec2f up = motion_of_wall({0, 0.2f, 0}, Vec3f(0.0f));
+    EXPECT_NEAR(up.x, 0.0f, tolerance);
+    EXPECT_NEAR(up.y, -0.2f * pixels, tolerance);
+    const Vec2f camera = motion_of_wall(Vec3f(0.0f), {0.4f, 0, 0});
+    EXPECT_NEAR(camera.x, -0.4f * pixels, tolerance);
+    const Vec2f together = motion_of_wall({0.4f, 0, 0}, {0.4f, 0, 0});
+    EXPECT_NEAR(together.x, 0.0f, tolerance);
+    const Vec2f still = motion_of_wall(Vec3f(0.0f), Vec3f(0.0f));
+    EXPECT_EQ(still.x, 0.0f);
+    EXPECT_EQ(still.y, 0.0f);
 }
 
 TEST(RayCounts, AddUpToAllRays) {

@@ -92,6 +92,11 @@ struct Share {
     const char* room;
     const char* expression;
 };
+
+void PrintTo(const Share& share, std::ostream* out) {
+    *out << share.expression << " in " << share.room;
+}
+
 constexpr Share kShares[] = {
     {"LampPlastic", "C <RD> L"},   {"LampPlastic", "C G L"},           {"LampPlastic", "C D D L"},
     {"LampPlastic", "C D G L"},    {"LampPlastic", "C G .+ L"},        {"LampLayers", "C <RD> L"},
