@@ -27,9 +27,10 @@ PROGRAM = None
 
 # Runs the program, then does with the image what a faulty one might have done.
 FAULTY = """#!{python}
-import pathlib, subprocess, sys
+import os, pathlib, subprocess, sys
 if "--resume" not in sys.argv:
-    sys.exit(subprocess.run(["{program}", *sys.argv[1:]]).returncode)
+    # In place of this process: whoever kills it kills the render.
+    os.execv("{program}", ["{program}", *sys.argv[1:]])
 image = pathlib.Path(sys.argv[sys.argv.index("-o") + 1])
 {before}
 status = subprocess.run(["{program}", *sys.argv[1:]]).returncode
