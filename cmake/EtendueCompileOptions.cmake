@@ -7,7 +7,21 @@ target_compile_options(etendue_options INTERFACE
   $<$<BOOL:${ETENDUE_WARNINGS_AS_ERRORS}>:-Werror>
   $<$<BOOL:${ETENDUE_MARCH}>:-march=${ETENDUE_MARCH}>)
 if(ETENDUE_SANITIZERS)
+  # Not in the code of targets with the property ETENDUE_UNINSTRUMENTED.
+  set(sanitizer_options -fsanitize=${ETENDUE_SANITIZERS} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_compile_options(etendue_options INTERFACE
-    -fsanitize=${ETENDUE_SANITIZERS} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    "$<$<NOT:$<BOOL:$<TARGET_PROPERTY:ETENDUE_UNINSTRUMENTED>>>:${sanitizer_options}>")
   target_link_options(etendue_options INTERFACE -fsanitize=${ETENDUE_SANITIZERS})
 endif()
+
+# etendue_build_quickly(<target>...)
+#
+# For code that runs once per image: with sanitizers, compiling its many templates takes longer than optimisation ever
+# saves.
+function(etendue_build_quickly)
+  if(ETENDUE_SANITIZERS)
+    foreach(target ${ARGN})
+      target_compile_options(${target} PRIVATE -O0)
+    endforeach()
+  endif()
+endfunction()

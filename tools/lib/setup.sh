@@ -65,6 +65,9 @@ install_packages() {
             "apt-get update && apt-get install ${missing[*]}"
 }
 
+# Checkouts in other folders share what they compile alike.
+export CCACHE_BASEDIR=${CCACHE_BASEDIR:-$ETENDUE_ROOT} CCACHE_NOHASHDIR=${CCACHE_NOHASHDIR:-1}
+
 # configure_preset PRESET: the build folder is build/PRESET. ccache is used where it is installed.
 configure_preset() {
     local launcher=${CMAKE_CXX_COMPILER_LAUNCHER:-$(command -v ccache || true)}
