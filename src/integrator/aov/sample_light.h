@@ -30,10 +30,10 @@ class SampleLight {
     /// Adds light to the sample in `slot`, and its shares to the layers of their expressions.
     void add(std::uint32_t slot, const Rgb& light, LightKind kind, std::span<const ExpressionShare> shares = {}) {
         // One comparison for all that is done with bright light only; not finite is bright.
-        if (!(max_component(light) < watched_))
-            add_watched(slot, light, kind, shares);
-        else
+        if (max_component(light) < watched_) [[likely]]
             add_unwatched(slot, light, shares);
+        else
+            add_watched(slot, light, kind, shares);
     }
     /// Leaves what the light path of the sample in `slot`, of this index in its pixel, brings to a place on the film.
     void add_splat(std::uint32_t slot, std::uint32_t sample, const Splat& splat, LightKind kind,
