@@ -47,18 +47,19 @@ RenderStatistics make_statistics() {
     s.removed_share = 0.25;
     s.robust_buckets = 5;
     s.robust_removed_share = 0.125;
-    s.brightest = {{.x = 7,
-                    .y = 8,
-                    .sample_x = 1,
-                    .sample_y = 2,
-                    .sample = 9,
-                    .value = {4.0f, 2.0f, 1.0f},
-                    .is_splat = true,
-                    .path = "C D S O",
-                    .s = 3,
-                    .t = 1,
-                    .edges = 3},
-                   {.x = 3, .y = 4, .sample_x = 3, .sample_y = 4, .sample = 5, .value = {1.0f, 1.0f, 0.5f}}};
+    s.brightest = {
+        {.x = 7,
+         .y = 8,
+         .sample_x = 1,
+         .sample_y = 2,
+         .sample = 9,
+         .value = {4.0f, 2.0f, 1.0f},
+         .is_splat = true,
+         .path = "C D S O",
+         .s = 3,
+         .t = 1,
+         .edges = 3},
+        {.x = 3, .y = 4, .sample_x = 3, .sample_y = 4, .sample = 5, .value = {1.0f, 1.0f, 0.5f}, .path = ""}};
     s.threads = 2;
     s.isa = "avx2";
     s.libraries = {{"embree", "3.13.5"}, {"oiio", "2.4.7"}};

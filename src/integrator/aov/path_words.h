@@ -55,9 +55,10 @@ class PathWords {
         aovs_ = aovs;
         automaton_ = aovs != nullptr ? aovs->automaton.get() : nullptr;
         speller_ = aovs != nullptr ? aovs->speller : nullptr;
+        are_followed_ = automaton_ != nullptr || speller_ != nullptr;
         words_.clear();
     }
-    [[nodiscard]] bool are_followed() const { return automaton_ != nullptr || speller_ != nullptr; }
+    [[nodiscard]] bool are_followed() const { return are_followed_; }
 
     /// How the automaton reads what paths meet; of no meaning if words are not followed.
     [[nodiscard]] std::uint16_t label(const World& world, const SurfacePoint& point) const {
@@ -112,6 +113,7 @@ class PathWords {
     const AovSet* aovs_ = nullptr;
     const PathAutomaton* automaton_ = nullptr;
     PathSpeller* speller_ = nullptr;  ///< in place of the automaton: a range is a node of its then
+    bool are_followed_ = false;
     std::vector<WordShare> words_;
 };
 
