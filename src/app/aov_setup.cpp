@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <limits>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -26,6 +27,8 @@ struct OtherSource {
 constexpr OtherSource kSamples{"samples", "samples of each pixel"};
 constexpr OtherSource kVariance{"variance", "variance of each pixel's mean, as if its samples were independent"};
 constexpr OtherSource kRays{"rays", "rays per sample of each pixel"};
+constexpr OtherSource kMean{"mean", "mean of the samples, which the image is without --robust"};
+constexpr OtherSource kRemoved{"clamped", "light that --clamp-indirect took away"};
 /// Sources that stand for several.
 constexpr OtherSource kPasses{"passes", "the light in ten layers that add up to the image"};
 constexpr OtherSource kLights{"lights", "the light of each lamp, emitting object and the environment, by name"};
@@ -82,8 +85,15 @@ class Planner {
 
     AovPlan plan() {
         for (const AovDesc& aov : scene_.settings.aovs) add(aov);
-        if (plan_.outputs.empty()) return {};
+        const RenderSettings& settings = scene_.settings;
+        if (plan_.outputs.empty() && settings.robust_buckets == 0 && settings.clamp_indirect == 0.0f) return {};
+        if (plan_.has_halves && settings.robust_buckets > 0)
+            throw SceneError(
+                settings.at("/robust"),
+                "layers for denoising hold half of the samples, and what is not in them is the other half: "
+                "that is so of means, and not of the medians of mon:N; leave one of both out");
         finish_expressions();
+        finish_fireflies();
         plan_.set = std::make_shared<AovSet>(std::move(set_));
         return std::move(plan_);
     }
@@ -129,8 +139,15 @@ class Planner {
             set_.layout.has_ray_counts = true;
             return (void)add_output(aov, {aov.name, "X", AovKind::Rays});
         }
-        std::vector<std::string_view> names{kSamples.name, kVariance.name, kRays.name,
-                                            kPasses.name,  kLights.name,   kDenoising.name};
+        if (source == kMean.name) return (void)add_output(aov, {aov.name, "RGB", AovKind::Mean});
+        if (source == kRemoved.name) {
+            if (scene_.settings.clamp_indirect == 0.0f)
+                fail(aov, "nothing is taken away without a limit (--clamp-indirect)");
+            // Which light layer that is, is known once all expressions are.
+            return (void)add_output(aov, {aov.name, "RGB", AovKind::Layer, kRemovedLayer});
+        }
+        std::vector<std::string_view> names{kMean.name, kRemoved.name, kSamples.name, kVariance.name,
+                                            kRays.name, kPasses.name,  kLights.name,  kDenoising.name};
         for (const UsualExpression& usual : usual_expressions()) names.push_back(usual.name);
         for (const FirstHitEntry& entry : first_hit_table()) names.push_back(entry.name);
         fail(aov, fmt::format("there is no source '{}'; {}", source, name_hint(source, names)));
@@ -198,6 +215,18 @@ class Planner {
                            fmt::format("no light, object or material is named '{}', which a layer asks for", name));
     }
 
+    /// The layers that fireflies are controlled with, behind all others of their kind.
+    void finish_fireflies() {
+        if (scene_.settings.clamp_indirect > 0.0f) {
+            set_.removed_light = set_.layout.light++;
+            for (AovOutput& output : plan_.outputs)
+                if (output.kind == AovKind::Layer && output.first == kRemovedLayer) output.first = *set_.removed_light;
+        }
+        set_.add_buckets(static_cast<std::size_t>(scene_.settings.robust_buckets));
+    }
+
+    static constexpr std::size_t kRemovedLayer = std::numeric_limits<std::size_t>::max();
+
     const SceneDesc& scene_;
     ProblemList& problems_;
     AovPlan plan_;
@@ -220,7 +249,7 @@ std::string list_aov_sources() {
     };
     for (const OtherSource& source : {kPasses, kLights, kDenoising}) line(source.name, source.summary);
     for (const FirstHitEntry& entry : first_hit_table()) line(entry.name, entry.summary);
-    for (const OtherSource& source : {kSamples, kVariance, kRays}) line(source.name, source.summary);
+    for (const OtherSource& source : {kSamples, kVariance, kRays, kMean, kRemoved}) line(source.name, source.summary);
     for (const UsualExpression& usual : usual_expressions())
         line(usual.name, fmt::format("{} ({})", usual.summary, usual.expression));
     return list;

@@ -2,12 +2,14 @@
 
 #include "app/interrupt.h"
 #include "app/progress_display.h"
+#include "film/median_of_means.h"
 #include "render/progressive_render.h"
 #include "render/tiles.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -26,8 +28,9 @@ std::uint32_t next_checkpoint(std::uint32_t spp) {
     return std::max(spp + 1, static_cast<std::uint32_t>(std::lround(std::min(spp * kStep, 2.0 * kMostSamples))));
 }
 
-ImageF rgb_of(const Film& film) {
-    const std::vector<float> rgba = film.resolve();
+ImageF rgb_of(const Film& film, const AovSet* aovs) {
+    const bool is_median = aovs != nullptr && aovs->buckets.count > 0;
+    const std::vector<float> rgba = is_median ? median_of_means(film, aovs->buckets) : film.resolve();
     ImageF image(film.window().width(), film.window().height(), 3);
     for (std::size_t i = 0; i < rgba.size() / 4; ++i) std::copy_n(&rgba[4 * i], 3, &image.pixels[3 * i]);
     return image;
@@ -40,6 +43,7 @@ class TimedRender {
                 std::string title, bool quiet)
         : budget_(budget),
           area_(variant.sampling.window.area()),
+          aovs_(variant.sampling.aovs),
           render_(*variant.world, *variant.integrator, with_seed(variant.sampling, seed), threads),
           display_(std::move(title), quiet) {}
 
@@ -62,7 +66,7 @@ class TimedRender {
     [[nodiscard]] std::uint32_t spp() const { return state().spp_done; }
     [[nodiscard]] double seconds() const { return state().wall_seconds; }
     [[nodiscard]] double cpu_seconds() const { return state().cpu_seconds; }
-    [[nodiscard]] ImageF image() const { return rgb_of(state().film); }
+    [[nodiscard]] ImageF image() const { return rgb_of(state().film, aovs_.get()); }
     [[nodiscard]] RenderCounters counters() const { return state().counters; }
 
   private:
@@ -74,6 +78,7 @@ class TimedRender {
 
     RenderBudget budget_;
     std::uint64_t area_;
+    std::shared_ptr<const AovSet> aovs_;
     ProgressiveRender render_;
     ProgressDisplay display_;
 };

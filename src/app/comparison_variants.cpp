@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <string_view>
 #include <utility>
 
@@ -32,6 +33,7 @@ constexpr std::array kOptionsOfRender{
     OptionOfRender{"--time", "here it is --seconds, for all variants alike"},
     OptionOfRender{"--error", "the errors of all variants are measured"},
     OptionOfRender{"--frames", "here --time-code names the moment"},
+    OptionOfRender{"--brightest", "here no sample is listed"},
     OptionOfRender{"--half", "here no image file is written"},
     OptionOfRender{"--float", "here no image file is written"}};
 
@@ -42,6 +44,9 @@ std::string light_text(SceneDesc scene) {
     scene.settings.seed = 0;
     scene.settings.time_limit = 0.0;
     scene.settings.relative_error = 0.0;
+    scene.settings.clamp_indirect = 0.0f;
+    scene.settings.robust_buckets = 0;
+    scene.settings.brightest = 0;
     scene.settings.texture_memory.reset();
     // The text of a scene has the names of its files only.
     std::string text = dump(scene);
@@ -69,6 +74,12 @@ void require_comparable(const Variant& first, const Variant& other) {
 /// What depends on the settings alone.
 void complete(Variant& variant) {
     variant.sampling = make_render_options(variant.settings);
+    variant.sampling.brightest = 0;
+    if (variant.settings.robust_buckets > 0) {
+        AovSet aovs;
+        aovs.add_buckets(static_cast<std::size_t>(variant.settings.robust_buckets));
+        variant.sampling.aovs = std::make_shared<AovSet>(aovs);
+    }
     variant.integrator = create_integrator(variant.settings);
     variant.cannot_find = variant.integrator->unreachable_light(*variant.world);
 }
@@ -150,6 +161,8 @@ Variant with_integrator(const Variant& like, const std::string& integrator) {
     variant.settings.integrator.type = integrator;
     variant.settings.integrator.strategy.reset();
     variant.settings.integrator.weighted = true;
+    variant.settings.clamp_indirect = 0.0f;
+    variant.settings.robust_buckets = 0;
     complete(variant);
     return variant;
 }
@@ -161,6 +174,11 @@ std::string different_light(const Variant& a, const Variant& b) {
         if (const auto& strategy = variant->settings.integrator.strategy)
             return fmt::format("'{}' shows the strategy {},{} alone", variant->name, (*strategy)[0], (*strategy)[1]);
     }
+    if (a.settings.clamp_indirect != b.settings.clamp_indirect)
+        return fmt::format("'{}' and '{}' limit indirect light differently", a.name, b.name);
+    if (a.settings.robust_buckets != b.settings.robust_buckets)
+        return fmt::format("'{}' and '{}' are not both means of their samples, and medians are too dark", a.name,
+                           b.name);
     const std::array<int, 2> of_a = path_window(a);
     const std::array<int, 2> of_b = path_window(b);
     if (of_a != of_b)

@@ -1,12 +1,15 @@
 #include "app/image_description.h"
 
 #include "core/error.h"
+#include "film/median_of_means.h"
 #include "render/render.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <exception>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -75,7 +78,7 @@ AovOutput to_aov(const Json& json) {
     AovOutput aov;
     json.at("name").get_to(aov.name);
     json.at("channels").get_to(aov.channels);
-    aov.kind = static_cast<AovKind>(std::clamp(json.at("kind").get<int>(), 0, static_cast<int>(AovKind::Rays)));
+    aov.kind = static_cast<AovKind>(std::clamp(json.at("kind").get<int>(), 0, static_cast<int>(AovKind::Mean)));
     json.at("first").get_to(aov.first);
     json.at("background").get_to(aov.background);
     json.at("is_float").get_to(aov.is_float);
@@ -108,15 +111,53 @@ RenderStatistics to_statistics(const Json& json) {
     return s;
 }
 
+/// Red, green and blue of all pixels.
+double sum_of(const std::vector<float>& image, std::size_t channels) {
+    double total = 0.0;
+    for (std::size_t i = 0; i < image.size(); ++i)
+        if (i % channels < 3) total += static_cast<double>(image[i]);
+    return total;
+}
+
+/// What of all light a limit took away, [0, 1].
+double removed_share(const Film& film, std::size_t layer) {
+    const double removed = sum_of(film.resolve_light(layer), 3);
+    return removed > 0.0 ? removed / (removed + sum_of(film.resolve(), 4)) : 0.0;
+}
+
+std::vector<BrightContribution> describe(std::span<const BrightSample> samples) {
+    std::vector<BrightContribution> list;
+    for (const BrightSample& sample : samples) {
+        BrightContribution& c = list.emplace_back();
+        c.x = sample.x;
+        c.y = sample.y;
+        c.sample_x = sample.sample_x;
+        c.sample_y = sample.sample_y;
+        c.sample = sample.sample;
+        c.value = {sample.value.r, sample.value.g, sample.value.b};
+        c.is_splat = sample.is_splat != 0;
+        if (!sample.has_path()) continue;
+        c.path = sample.word.data();
+        c.s = sample.s;
+        c.t = sample.t;
+        c.edges = sample.edges;
+    }
+    return list;
+}
+
 }  // namespace
 
 std::string to_text(const ImageDescription& description) {
     Json aovs = Json::array();
     for (const AovOutput& aov : description.aovs) aovs.push_back(to_object(aov));
-    const Json json{{"frame", to_object(description.frame)},
-                    {"aovs", std::move(aovs)},
-                    {"aov_layout", static_cast<int>(description.aov_layout)},
-                    {"statistics", to_object(description.statistics)}};
+    const Json json{
+        {"frame", to_object(description.frame)},
+        {"aovs", std::move(aovs)},
+        {"aov_layout", static_cast<int>(description.aov_layout)},
+        {"buckets", {description.buckets.count, description.buckets.first_light, description.buckets.first_value}},
+        {"clamp_indirect", description.clamp_indirect},
+        {"removed_light", description.removed_light ? Json(*description.removed_light) : Json()},
+        {"statistics", to_object(description.statistics)}};
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -127,6 +168,12 @@ ImageDescription parse_description(const std::string& text, const std::filesyste
             .frame = to_frame(json.at("frame")), .aovs = {}, .statistics = to_statistics(json.at("statistics"))};
         for (const Json& aov : json.at("aovs")) description.aovs.push_back(to_aov(aov));
         const int layout = json.at("aov_layout").get<int>();
+        const Json& buckets = json.at("buckets");
+        description.buckets = {buckets.at(0).get<std::size_t>(), buckets.at(1).get<std::size_t>(),
+                               buckets.at(2).get<std::size_t>()};
+        json.at("clamp_indirect").get_to(description.clamp_indirect);
+        if (const Json& layer = json.at("removed_light"); !layer.is_null())
+            description.removed_light = layer.get<std::size_t>();
         description.aov_layout = kAovLayoutNames.at(static_cast<std::size_t>(layout)).second;
         return description;
     } catch (const std::exception& error) {
@@ -140,6 +187,7 @@ void describe_state(ImageDescription& description, const RenderState& state, boo
     const PixelRect& window = film.window();
     OutputFrame& frame = description.frame;
     frame.pixels = rgba_image(film);
+    if (description.buckets.count > 0) frame.pixels.pixels = median_of_means(film, description.buckets);
     const bool is_cropped = window != PixelRect{0, 0, film.full_width(), film.full_height()};
     frame.crop_x = window.x0;
     frame.crop_y = window.y0;
@@ -166,6 +214,12 @@ void describe_state(ImageDescription& description, const RenderState& state, boo
     s.dropped_samples = c.dropped;
     s.first_dropped = c.first_dropped;
     s.relative_error = relative_error(state);
+    s.clamp_indirect = description.clamp_indirect;
+    if (description.removed_light) s.removed_share = removed_share(film, *description.removed_light);
+    s.robust_buckets = static_cast<int>(description.buckets.count);
+    if (const double mean = sum_of(film.resolve(), 4); s.robust_buckets > 0 && mean > 0.0)
+        s.robust_removed_share = 1.0 - sum_of(frame.pixels.pixels, 4) / mean;
+    s.brightest = describe(c.brightest.samples());
 }
 
 void resolve_layers(ImageDescription& description, const RenderState& state) {

@@ -1,13 +1,16 @@
 // What is said of an image besides its pixels, kept with its checkpoints and parts.
 #pragma once
 
+#include "film/bucket_layers.h"
 #include "output/aov_output.h"
 #include "output/output_frame.h"
 #include "output/statistics.h"
 #include "render/progressive_render.h"
 #include "scene/aov_desc.h"
 
+#include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +20,9 @@ struct ImageDescription {
     OutputFrame frame;            ///< without pixels, layers, window and counts, which the film knows
     std::vector<AovOutput> aovs;  ///< the layers that the film has
     AovLayout aov_layout = AovLayout::Layers;
+    BucketLayers buckets{};                      ///< of the median of means that the image is; none: it is the mean
+    float clamp_indirect = 0.0f;                 ///< the limit of indirect contributions; 0 for none
+    std::optional<std::size_t> removed_light{};  ///< the light layer of what that took away
     RenderStatistics statistics;  ///< of what is rendered; when it is read back, without what rendering it cost
 };
 

@@ -219,6 +219,7 @@ void add_render_command(CLI::App& app, Action& action) {
         "  etendue render scenes/caustic-glass --integrator bdpt --strategies-image pyramid.exr --strategies-depth 5\n"
         "  etendue render scenes/cornell-box --spp 65536 --error 0.02 --checkpoint-every 10 --resume\n"
         "  etendue render scenes/cornell-box --samples 0:128 -o a.partial   # and 128:256 elsewhere, then 'merge'\n"
+        "  etendue render scenes/caustic-glass --robust mon:7 --aov mean --brightest 20\n"
         "  etendue render scenes/caustic-glass --integrator bdpt --aov passes --aov 'caustics=lpe:C D S+ L'\n"
         "  etendue render scenes/veach-mis --crop 100,100,200,200 --time 60 --json --quiet\n\n"
         "Layers for --aov:\n" +

@@ -41,6 +41,8 @@ RenderOptions make_render_options(const RenderSettings& settings) {
     options.filter = PixelFilter(to_filter_shape(film.filter), film.filter_radius);
     options.time_limit_seconds = settings.time_limit;
     options.relative_error = settings.relative_error;
+    if (settings.clamp_indirect > 0.0f) options.clamp_indirect = settings.clamp_indirect;
+    options.brightest = static_cast<std::size_t>(settings.brightest);
     return options;
 }
 
@@ -65,11 +67,34 @@ void require_strategies(const RenderSettings& settings, const SourceLocation& as
     if (!has_strategies(type)) throw SceneError(asked_for, fmt::format("'{}' has no strategies; 'bdpt' does", type));
 }
 
+namespace {
+
+/// Throws SceneError for what could have no effect with the integrator `entry`.
+void require_fireflies(const RenderSettings& settings, const IntegratorEntry& entry) {
+    constexpr int kShortestIndirect = 3;  // edges
+    if (settings.clamp_indirect > 0.0f && (!entry.has_expressions || entry.longest_path < kShortestIndirect))
+        throw SceneError(settings.at("/clamp_indirect"),
+                         fmt::format("'{}' finds no indirect light that could be limited; path, naive, light and bdpt "
+                                     "do",
+                                     entry.name));
+    if (settings.robust_buckets > 0 && !entry.shows_light)
+        throw SceneError(settings.at("/robust"), fmt::format("'{}' shows no light, and has no fireflies", entry.name));
+    if (settings.robust_buckets > settings.spp)
+        throw SceneError(
+            settings.at("/robust"),
+            fmt::format("mon:{0} is the median of {0} means, and each pixel has {1} samples: buckets would "
+                        "stay empty; take more samples or fewer buckets",
+                        settings.robust_buckets, settings.spp));
+}
+
+}  // namespace
+
 std::unique_ptr<const Integrator> create_integrator(const RenderSettings& settings) {
     const IntegratorSettings& s = settings.integrator;
     std::vector<std::string_view> names;
     for (const IntegratorEntry& entry : integrator_registry()) {
         names.push_back(entry.name);
+        if (entry.name == s.type) require_fireflies(settings, entry);
         if (entry.name == s.type && s.min_depth > entry.longest_path)
             throw SceneError(settings.at("/integrator/min_depth"),
                              fmt::format("min_depth is {}, but the paths of '{}' have at most {} edges", s.min_depth,

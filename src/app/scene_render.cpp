@@ -1,6 +1,7 @@
 #include "app/scene_render.h"
 
 #include "app/aov_setup.h"
+#include "app/brightest_list.h"
 #include "app/checkpoint_files.h"
 #include "app/dropped_samples.h"
 #include "app/image_description.h"
@@ -16,6 +17,7 @@
 #include "color/color_config.h"
 #include "core/log.h"
 #include "output/preview_driver.h"
+#include "render/brightest_paths.h"
 #include "render/checkpoint.h"
 #include "render/render.h"
 #include "world/compile.h"
@@ -87,7 +89,8 @@ class SceneRender {
             log_info("{}: going on after {} of {} samples per pixel", output_.string(), kept->state.spp_done,
                      options_.spp);
         const World world = compile();
-        const RenderResult rendered = render_from(world, kept ? std::move(kept->state) : new_state());
+        RenderResult rendered = render_from(world, kept ? std::move(kept->state) : new_state());
+        find_brightest_paths(world, *integrator_, options_, rendered);
         report_dropped(rendered.counters, request_.scene, request_.overrides, settings_, settings_.color.working_space);
         fill_texture_statistics(world, description_.statistics);
         const bool interrupted = rendered.halt_reason == HaltReason::Interrupted;
@@ -99,6 +102,7 @@ class SceneRender {
         }
         // An earlier image is worth more than a black one.
         if (!interrupted || rendered.counters.samples > 0) write(world, rendered, !interrupted);
+        if (request_.overrides.brightest && !request_.quiet) list_brightest(description_.statistics);
         if (!interrupted) checkpoints_.remove();
         return {std::move(description_.statistics), output_, interrupted, false};
     }
@@ -140,6 +144,11 @@ class SceneRender {
         OutputFrame& frame = description_.frame;
         description_.aovs = aovs_.outputs;
         description_.aov_layout = settings_.aov_layout;
+        description_.clamp_indirect = settings_.clamp_indirect;
+        if (aovs_.set) {
+            description_.buckets = aovs_.set->buckets;
+            description_.removed_light = aovs_.set->removed_light;
+        }
         frame.working_space = working_space;
         frame.display = settings_.color.display;
         frame.view = settings_.color.view;

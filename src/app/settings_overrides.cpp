@@ -168,6 +168,7 @@ void SettingsOverrides::add_options(CLI::App& command) {
                     "Start no new pass once the image's estimated relative error, the root of its relMSE, is at most "
                     "this: 0.05 is a clean preview, 0.01 a clean image. Doubles the memory of the film")
         ->check(real_range(1e-6, 1e3));
+    add_firefly_options(command);
     command
         .add_option("--max-depth", max_depth, "Most edges of a path from camera to light; 1 is emission seen directly")
         ->check(CLI::Range(1, kMostEdges));
@@ -225,6 +226,28 @@ void SettingsOverrides::add_options(CLI::App& command) {
         ->excludes(half);
 }
 
+void SettingsOverrides::add_firefly_options(CLI::App& command) {
+    command
+        .add_option("--clamp-indirect", clamp_indirect,
+                    "Limit each contribution of indirect light to this, in units of the image: fewer fireflies, and "
+                    "light is missing (docs/fireflies.md). 0 for no limit (default)")
+        ->check(real_range(0.0, 1e30));
+    command.add_option_function<std::string>(
+        "--robust",
+        [this](const std::string& text) {
+            robust_buckets = parse_robust(text);
+            if (!robust_buckets)
+                throw CLI::ValidationError("--robust", fmt::format("'{}' is not {}", text, kRobustForm));
+        },
+        "mean (default), or mon:N, N odd and from 3 to 31: each pixel is the median of the means of N parts of its "
+        "samples, which a few fireflies do not move; too dark with few samples, right with many (docs/fireflies.md)");
+    command
+        .add_option("--brightest", brightest,
+                    "List this many of the brightest contributions, with the paths that brought them, in NAME.json and "
+                    "at the end (default: 8, in NAME.json only; 0 for none)")
+        ->check(CLI::Range(0, kMostBrightest));
+}
+
 void SettingsOverrides::add_color_options(CLI::App& command) {
     command.add_option("--exposure", exposure, "Exposure of the preview image, stops")->check(real_range(-64.0, 64.0));
     command.add_option("--display", display, "OpenColorIO display that the preview image is for");
@@ -263,6 +286,9 @@ void SettingsOverrides::apply(SceneDesc& scene) const {
     set(light_units, settings.light_units, "/light_units", "--light-units");
     set(time_seconds, settings.time_limit, "/time", "--time");
     set(relative_error, settings.relative_error, "/error", "--error");
+    set(clamp_indirect, settings.clamp_indirect, "/clamp_indirect", "--clamp-indirect");
+    set(robust_buckets, settings.robust_buckets, "/robust", "--robust");
+    set(brightest, settings.brightest, "/brightest", "--brightest");
     set(texture_memory, settings.texture_memory, "/texture_memory", "--texture-memory");
     settings.aovs.insert(settings.aovs.end(), aovs.begin(), aovs.end());
     set(aov_layout, settings.aov_layout, "/aov_layout", "--aov-layout");

@@ -38,6 +38,9 @@ struct SettingsOverrides {
     std::optional<std::uint32_t> seed;
     std::optional<double> time_seconds;
     std::optional<double> relative_error;
+    std::optional<float> clamp_indirect;
+    std::optional<int> robust_buckets;
+    std::optional<int> brightest;
     std::optional<int> max_depth;
     std::optional<int> min_depth;
     std::optional<HeuristicType> heuristic;
@@ -66,6 +69,7 @@ struct SettingsOverrides {
     void apply(SceneDesc& scene) const;
 
   private:
+    void add_firefly_options(CLI::App& command);
     void add_color_options(CLI::App& command);
 };
 

@@ -49,10 +49,8 @@ std::size_t SplatFilm::index(int x, int y, std::size_t layer) const {
            static_cast<std::size_t>(x - window_.x0);
 }
 
-double SplatFilm::scale() const {
-    return light_paths_ == 0 ? 0.0
-                             : static_cast<double>(full_width_) * static_cast<double>(full_height_) /
-                                   static_cast<double>(light_paths_);
+double SplatFilm::scale(double light_paths) const {
+    return light_paths > 0.0 ? static_cast<double>(full_width_) * static_cast<double>(full_height_) / light_paths : 0.0;
 }
 
 void SplatFilm::add(std::span<const std::vector<Splat>> lists, std::uint64_t light_paths, const ThreadPool& threads) {
@@ -120,8 +118,9 @@ void SplatFilm::restore(std::vector<SplatSum> sums, std::uint64_t light_paths) {
     light_paths_ = light_paths;
 }
 
-void SplatFilm::add_to(std::span<float> image, std::size_t channels, const PixelRect& window, std::size_t layer) const {
-    const double all = scale();
+void SplatFilm::add_to(std::span<float> image, std::size_t channels, const PixelRect& window, std::size_t layer,
+                       double light_paths) const {
+    const double all = scale(light_paths);
     float* pixel = image.data();
     for (int y = window.y0; y < window.y1; ++y) {
         const SplatSum* sum = &pixels_[index(window.x0, y, layer)];
@@ -135,7 +134,7 @@ void SplatFilm::add_to(std::span<float> image, std::size_t channels, const Pixel
 
 void SplatFilm::add_variance_to(std::span<float> variance, const PixelRect& window) const {
     assert(moment_layer_ != kBeauty);
-    const double all = scale();
+    const double all = scale(static_cast<double>(light_paths_));
     const double share = light_paths_ > 0 ? 1.0 / static_cast<double>(light_paths_) : 0.0;
     float* pixel = variance.data();
     for (int y = window.y0; y < window.y1; ++y)

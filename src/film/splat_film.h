@@ -53,7 +53,12 @@ class SplatFilm {
 
     /// Adds a layer to that of a `Film` whose `window` lies in this one's, `channels` floats a pixel, of which the
     /// first three are red, green and blue.
-    void add_to(std::span<float> image, std::size_t channels, const PixelRect& window, std::size_t layer) const;
+    void add_to(std::span<float> image, std::size_t channels, const PixelRect& window, std::size_t layer) const {
+        add_to(image, channels, window, layer, static_cast<double>(light_paths_));
+    }
+    /// The same of a layer that `light_paths` of all paths have splats in.
+    void add_to(std::span<float> image, std::size_t channels, const PixelRect& window, std::size_t layer,
+                double light_paths) const;
     /// Adds an estimate of the variance of the image to that of such a film, three floats a pixel: as if each light
     /// path left one splat in a pixel at most, so that those that leave several count too little.
     void add_variance_to(std::span<float> variance, const PixelRect& window) const;
@@ -71,7 +76,7 @@ class SplatFilm {
     void add_splat(const Splat& splat, int y0, int y1, std::vector<float>& along_x);
     /// Of a pixel in the window, in column `x` and row `y` of the full image.
     [[nodiscard]] std::size_t index(int x, int y, std::size_t layer) const;
-    [[nodiscard]] double scale() const;
+    [[nodiscard]] double scale(double light_paths) const;
 
     int full_width_;
     int full_height_;

@@ -1,6 +1,8 @@
 #include "integrator/camera_wave.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace etendue {
 
@@ -56,6 +58,38 @@ void generate_few(const World& world, const TileJob& job, std::span<CameraSample
     }
 }
 
+/// What of `light` is bright enough for the list.
+void offer_brightest(const TileJob& job, std::span<const CameraSample> samples, const SampleLight& light,
+                     RenderCounters& counters) {
+    for (const BrightLight& bright : light.bright()) {
+        const CameraSample& sample = samples[bright.slot];
+        const Vec2i maker = pixel_position(job, sample.pixel);
+        BrightSample found{.x = maker.x,
+                           .y = maker.y,
+                           .sample_x = maker.x,
+                           .sample_y = maker.y,
+                           .sample = sample.key.index,
+                           .value = bright.value};
+        if (bright.position) {
+            // The filter may show what falls beside the image.
+            found.x = std::clamp(static_cast<int>(std::floor(bright.position->x)), job.window.x0, job.window.x1 - 1);
+            found.y = std::clamp(static_cast<int>(std::floor(bright.position->y)), job.window.y0, job.window.y1 - 1);
+            found.is_splat = 1;
+        }
+        counters.brightest.offer(found);
+    }
+}
+
+void add_to_bucket(const BucketLayers& buckets, const CameraSample& sample, const Rgb& radiance, LayerBuffer& layers) {
+    const std::size_t bucket = buckets.of(sample.key.index);
+    const auto weight = static_cast<double>(sample.weight);
+    layers.add_rgb(sample.pixel, 3 * (buckets.first_light + bucket), radiance, weight);
+    const std::span<double> values =
+        layers.sums(sample.pixel).subspan(layers.layout().value_sums() + buckets.first_value, buckets.value_count());
+    values[bucket] += weight;
+    values[buckets.count + bucket] += 1.0;
+}
+
 }  // namespace
 
 void generate_camera_rays(const World& world, const TileJob& job, std::size_t first, std::span<CameraSample> samples,
@@ -89,6 +123,7 @@ bool accumulate(const TileJob& job, const CameraSample& sample, const Rgb& radia
 
 void accumulate(const TileJob& job, std::span<const CameraSample> samples, const SampleLight& light,
                 std::span<const float> alpha, TileBuffer& tile, RenderCounters& counters) {
+    offer_brightest(job, samples, light, counters);
     LayerBuffer& layers = tile.layers();
     const LayerLayout& layout = layers.layout();
     for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -99,6 +134,8 @@ void accumulate(const TileJob& job, std::span<const CameraSample> samples, const
         const std::span<const Rgb> parts = light.layers(i);
         for (std::size_t layer = 0; layer < parts.size(); ++layer)
             layers.add_rgb(sample.pixel, 3 * layer, parts[layer], weight);
+        if (job.aovs != nullptr && job.aovs->buckets.count > 0)
+            add_to_bucket(job.aovs->buckets, sample, radiance, layers);
         if (layout.has_moments) layers.add_rgb(sample.pixel, layout.moment_sums(), radiance * radiance, weight);
         if (layout.has_ray_counts) layers.sums(sample.pixel)[layout.ray_sum()] += static_cast<double>(light.rays(i));
     }

@@ -15,6 +15,7 @@ void RenderCounters::add(const RenderCounters& other) {
     dropped += other.dropped;
     for (const DroppedSample& sample : other.first_dropped)
         if (first_dropped.size() < kMaxLocated) first_dropped.push_back(sample);
+    brightest.add(other.brightest);
 }
 
 }  // namespace etendue

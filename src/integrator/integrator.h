@@ -7,6 +7,7 @@
 #include "film/film.h"
 #include "film/pixel_filter.h"
 #include "integrator/aov/aov_set.h"
+#include "integrator/bright_sample.h"
 #include "integrator/heuristic.h"
 #include "integrator/strategy.h"
 #include "sampling/sampler.h"
@@ -36,6 +37,10 @@ struct TileJob {
     SampleSequence sequence = SampleSequence::Sobol;
     const PixelFilter* filter = nullptr;  ///< not null
     const AovSet* aovs = nullptr;         ///< of the tile's layers; null if it has none
+    /// Most that the largest component of an indirect contribution may have, as a sample of a pixel has it; hues are
+    /// kept. Direct is the light of paths C S* L and C S* . L: what the eye sees, mirrors and smooth glass apart, and
+    /// what lights it without another bounce. All other light is indirect.
+    float clamp_indirect = std::numeric_limits<float>::infinity();
 };
 
 /// What rendering counts. One per thread, added up at the end.
@@ -46,6 +51,7 @@ struct RenderCounters {
     std::uint64_t samples = 0;
     std::uint64_t dropped = 0;
     std::vector<DroppedSample> first_dropped;  ///< at most kMaxLocated
+    BrightestSamples brightest;
 
     static constexpr std::size_t kMaxLocated = 8;
 

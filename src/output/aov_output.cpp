@@ -7,6 +7,14 @@ namespace etendue {
 
 namespace {
 
+std::vector<float> resolve_mean(const Film& film) {
+    const std::vector<float> rgba = film.resolve();
+    std::vector<float> rgb;
+    rgb.reserve(rgba.size() / 4 * 3);
+    for (std::size_t i = 0; i < rgba.size(); i += 4) rgb.insert(rgb.end(), {rgba[i], rgba[i + 1], rgba[i + 2]});
+    return rgb;
+}
+
 std::vector<float> resolve(const Film& film, const AovOutput& output) {
     switch (output.kind) {
         case AovKind::Layer:
@@ -21,6 +29,8 @@ std::vector<float> resolve(const Film& film, const AovOutput& output) {
             return film.resolve_variance();
         case AovKind::Rays:
             return film.resolve_ray_counts();
+        case AovKind::Mean:
+            return resolve_mean(film);
     }
     return {};
 }
@@ -29,7 +39,8 @@ std::vector<float> resolve(const Film& film, const AovOutput& output) {
 
 OutputLayer resolve_layer(const Film& film, const AovOutput& output) {
     OutputLayer layer{.name = output.name, .channels = output.channels, .is_float = output.is_float};
-    layer.is_color = output.kind == AovKind::Layer || (output.kind == AovKind::Values && output.channels == "RGB");
+    layer.is_color = output.kind == AovKind::Layer || output.kind == AovKind::Mean ||
+                     (output.kind == AovKind::Values && output.channels == "RGB");
     layer.pixels.width = film.window().width();
     layer.pixels.height = film.window().height();
     layer.pixels.channels = static_cast<int>(output.channels.size());

@@ -18,6 +18,7 @@ enum class AovKind {
     Samples,   ///< samples of each pixel
     Variance,  ///< of each pixel's mean
     Rays,      ///< rays per sample
+    Mean,      ///< of the samples: the image, unless that is something else
 };
 
 struct AovOutput {

@@ -2,6 +2,9 @@
 
 #include "output/software_name.h"
 
+#include <string>
+#include <utility>
+
 #include <nlohmann/json.hpp>
 
 namespace etendue {
@@ -21,6 +24,20 @@ Json to_object(const PhaseTime& time) {
 Json to_object(const std::vector<DroppedSample>& samples) {
     Json list = Json::array();
     for (const DroppedSample& s : samples) list.push_back({{"x", s.x}, {"y", s.y}, {"sample", s.sample}});
+    return list;
+}
+
+Json to_object(const std::vector<BrightContribution>& brightest) {
+    Json list = Json::array();
+    for (const BrightContribution& c : brightest) {
+        Json json{{"pixel", {c.x, c.y}}, {"sample", c.sample}, {"value", c.value}};
+        // A splat's sample is of the pixel whose light path it was.
+        if (c.is_splat) json["sample_pixel"] = {c.sample_x, c.sample_y};
+        json["strategy"] = c.path.empty() ? Json() : Json{c.s, c.t};
+        json["edges"] = c.path.empty() ? Json() : Json(c.edges);
+        json["path"] = c.path.empty() ? Json() : Json(c.path);
+        list.push_back(std::move(json));
+    }
     return list;
 }
 
@@ -63,6 +80,15 @@ std::string to_json(const RenderStatistics& s) {
                         {"cache_budget_bytes", s.texture_cache_budget},
                         {"failed_lookups", s.failed_texture_lookups}};
     json["dropped_samples"] = {{"count", s.dropped_samples}, {"first", to_object(s.first_dropped)}};
+    json["clamp_indirect"] =
+        s.clamp_indirect > 0.0f
+            ? Json{{"limit", s.clamp_indirect}, {"removed_share", s.removed_share ? Json(*s.removed_share) : Json()}}
+            : Json();
+    json["robust"] = s.robust_buckets > 0
+                         ? Json{{"estimate", "mon:" + std::to_string(s.robust_buckets)},
+                                {"removed_share", s.robust_removed_share ? Json(*s.robust_removed_share) : Json()}}
+                         : Json();
+    json["brightest"] = to_object(s.brightest);
     json["threads"] = s.threads;
     json["isa"] = s.isa;
     json["libraries"] = s.libraries;

@@ -3,6 +3,7 @@
 
 #include "film/dropped_sample.h"
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -23,6 +24,21 @@ struct RayCounts {
 struct PhaseTime {
     double wall = 0.0;
     double cpu = 0.0;
+};
+
+/// One of the brightest contributions of a render.
+struct BrightContribution {
+    int x = 0;  ///< pixel of the full image
+    int y = 0;
+    int sample_x = 0;  ///< pixel whose sample made it
+    int sample_y = 0;
+    std::uint32_t sample = 0;      ///< index within that pixel
+    std::array<float, 3> value{};  ///< in the working space, as a sample of the pixel has it
+    bool is_splat = false;         ///< connected to the camera
+    std::string path;              ///< as a light path expression; empty if it is not known
+    int s = 0;                     ///< vertices from the light
+    int t = 0;                     ///< vertices from the eye
+    int edges = 0;
 };
 
 struct RenderStatistics {
@@ -65,6 +81,12 @@ struct RenderStatistics {
 
     std::uint64_t dropped_samples = 0;
     std::vector<DroppedSample> first_dropped;  ///< the first few of them
+
+    float clamp_indirect = 0.0f;                 ///< limit of indirect contributions; 0 for none
+    std::optional<double> removed_share;         ///< of all light, what that took away; if it is known
+    int robust_buckets = 0;                      ///< of the median of means; 0 if the image is the mean
+    std::optional<double> robust_removed_share;  ///< of the light that the mean has, what the median has not
+    std::vector<BrightContribution> brightest;   ///< the brightest first
 
     int threads = 0;
     std::string isa;                               ///< instruction set of the ray kernels

@@ -25,7 +25,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "checkpoints are written as numbers lie in memory");
 static_assert(sizeof(PixelSum) == 48 && sizeof(SplatSum) == 24, "sums have no padding, and old files hold them so");
 
-constexpr std::array<char, 8> kMagic{'E', 'T', 'D', 'C', 'K', 'P', 'T', '2'};
+constexpr std::array<char, 8> kMagic{'E', 'T', 'D', 'C', 'K', 'P', 'T', '3'};
 
 /// Writes and hashes.
 class Writer {
@@ -105,6 +105,9 @@ void put_counters(Writer& out, const RenderCounters& counters) {
         out.put(count);
     out.put(std::uint64_t{counters.first_dropped.size()});
     out.put(std::span<const DroppedSample>(counters.first_dropped));
+    out.put(std::uint64_t{counters.brightest.capacity()});
+    out.put(std::uint64_t{counters.brightest.samples().size()});
+    out.put(counters.brightest.samples());
 }
 
 RenderCounters get_counters(Reader& in) {
@@ -113,6 +116,13 @@ RenderCounters get_counters(Reader& in) {
          {&counters.camera_rays, &counters.bounce_rays, &counters.shadow_rays, &counters.samples, &counters.dropped})
         *count = in.get<std::uint64_t>();
     counters.first_dropped = in.get_many<DroppedSample>(in.get<std::uint64_t>());
+    const auto capacity = in.get<std::uint64_t>();
+    std::vector<BrightSample> brightest = in.get_many<BrightSample>(in.get<std::uint64_t>());
+    // Words are texts that end; numbers that nobody else has read are not believed in either.
+    if (capacity > BrightestSamples::kMost || brightest.size() > capacity) in.fail();
+    for (const BrightSample& sample : brightest)
+        if (sample.word.back() != '\0') in.fail();
+    counters.brightest.restore(static_cast<std::size_t>(capacity), std::move(brightest));
     return counters;
 }
 

@@ -83,6 +83,8 @@ void ProgressiveRender::render_group(std::size_t first, std::size_t size, const 
     Film* const second = second_film();
     if (makes_splats) splats_.resize(size);
     std::atomic<std::uint64_t> light_paths = 0;
+    const BrightestSamples& brightest = state_.counters.brightest;
+    const float brightest_floor = brightest.capacity() > 0 ? brightest.threshold() : 0.0f;
     threads_.parallel_for(size, [&](std::size_t index, int slot) {
         std::uint8_t& is_done = state_.tiles_done[first + order[index]];
         // Splats of a tile after one that is missing would come too early.
@@ -97,7 +99,9 @@ void ProgressiveRender::render_group(std::size_t first, std::size_t size, const 
                           options_.seed,
                           options_.sequence,
                           &options_.filter,
-                          options_.aovs.get()};
+                          options_.aovs.get(),
+                          options_.clamp_indirect};
+        worker.counters.brightest.expect(options_.brightest, brightest_floor);
         const std::uint64_t rays_before = worker.counters.rays();
         worker.tile.reset(job.rect, state_.film.layers().layout());
         integrator_.render_tile(world_, job, *worker.scratch, worker.tile, worker.counters);

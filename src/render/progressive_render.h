@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -29,7 +30,9 @@ struct SamplingOptions {
     PixelFilter filter{FilterShape::BlackmanHarris};
     /// Not 0: tiles are taken in an order shuffled by this number. The image does not depend on it; tests show that.
     std::uint32_t tile_order_seed = 0;
-    std::shared_ptr<const AovSet> aovs{};  ///< layers to keep besides the image; null for none
+    std::shared_ptr<const AovSet> aovs{};                           ///< layers to keep besides the image; null for none
+    float clamp_indirect = std::numeric_limits<float>::infinity();  ///< as in TileJob
+    std::size_t brightest = 0;  ///< how many of the brightest contributions to remember, [0, BrightestSamples::kMost]
 };
 
 /// A film without samples for such a render.

@@ -257,6 +257,9 @@ void dump_settings(const RenderSettings& s, Out out) {
                        (*s.integrator.strategy)[0], (*s.integrator.strategy)[1]);
     if (const int count = s.integrator.cached_connections; count > 0)
         fmt::format_to(out, ", connections cache:{}", count);
+    if (s.clamp_indirect > 0.0f) fmt::format_to(out, ", indirect light up to {:g}", s.clamp_indirect);
+    if (s.robust_buckets > 0) fmt::format_to(out, ", mon:{}", s.robust_buckets);
+    if (s.brightest != RenderSettings{}.brightest) fmt::format_to(out, ", {} brightest", s.brightest);
     fmt::format_to(out, "\n");
     fmt::format_to(out, "sampling: {}, {} spp, seed {}, time limit {:g}, error {:g}\n",
                    s.sampler == SamplerType::Sobol ? "sobol" : "random", s.spp, s.seed, s.time_limit, s.relative_error);

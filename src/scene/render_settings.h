@@ -37,6 +37,16 @@ inline constexpr std::string_view kConnectionsForm = "pairwise or cache:N, N fro
 /// `IntegratorSettings::cached_connections` in that form; nothing if `text` is not.
 [[nodiscard]] std::optional<int> parse_connections(std::string_view text);
 
+/// Buckets of the median of means: an odd number, so that there is a middle one (and see BucketLayers).
+inline constexpr int kLeastBuckets = 3;
+inline constexpr int kMostBuckets = 31;
+inline constexpr std::string_view kRobustForm = "mean or mon:N, N odd and from 3 to 31";
+/// `RenderSettings::robust_buckets` in that form; nothing if `text` is not.
+[[nodiscard]] std::optional<int> parse_robust(std::string_view text);
+
+/// Largest number of `RenderSettings::brightest`.
+inline constexpr int kMostBrightest = 1024;
+
 enum class SamplerType { Sobol, Random };
 enum class PixelFilterType { BlackmanHarris, Box, Gaussian, Mitchell };
 
@@ -88,6 +98,9 @@ struct RenderSettings {
     std::uint32_t seed = 0;
     double time_limit = 0.0;      ///< seconds; 0 for none. Rendering stops after the pass that exceeds it.
     double relative_error = 0.0;  ///< of the image; 0 for none. Rendering stops after the pass that reaches it.
+    float clamp_indirect = 0.0f;  ///< most of an indirect contribution, in units of the image; 0 for no limit
+    int robust_buckets = 0;       ///< of the median of means; 0 for the mean
+    int brightest = 8;            ///< how many of the brightest contributions to list, [0, kMostBrightest]
     std::string camera;           ///< name of the camera; empty for the first
     std::string variant;  ///< KHR_materials_variants: name of the set of materials; empty for the file's default
     std::optional<double> time_code;   ///< seconds of the animation; of a sequence, where frame 0 is

@@ -161,6 +161,11 @@ void validate_settings(const SceneDesc& scene, ProblemList& problems) {
     check(settings.spp, 1, kMaxSpp, "spp", "/spp");
     check(settings.time_limit, 0.0, kInfinity, "time", "/time");
     check(settings.relative_error, 0.0, kInfinity, "error", "/error");
+    check(static_cast<double>(settings.clamp_indirect), 0.0, std::numeric_limits<float>::max(), "clamp_indirect",
+          "/clamp_indirect");
+    check(settings.brightest, 0, kMostBrightest, "brightest", "/brightest");
+    if (const int n = settings.robust_buckets; n != 0 && (n < kLeastBuckets || n > kMostBuckets || n % 2 == 0))
+        problems.error(settings.at("/robust"), fmt::format("mon:{} is not {}", n, kRobustForm));
     check(static_cast<double>(settings.color.exposure), -kMaxExposure, kMaxExposure, "exposure", "/color/exposure");
     if (!(settings.shutter.close >= settings.shutter.open))
         problems.error(settings.at("/shutter"), fmt::format("the shutter closes at {} before it opens at {}",

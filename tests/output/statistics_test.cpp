@@ -43,6 +43,23 @@ RenderStatistics make_statistics() {
     s.failed_texture_lookups = 6;
     s.dropped_samples = 3;
     s.first_dropped = {{1, 2, 3}, {4, 5, 6}};
+    s.clamp_indirect = 0.5f;
+    s.removed_share = 0.25;
+    s.robust_buckets = 5;
+    s.robust_removed_share = 0.125;
+    s.brightest = {
+        {.x = 7,
+         .y = 8,
+         .sample_x = 1,
+         .sample_y = 2,
+         .sample = 9,
+         .value = {4.0f, 2.0f, 1.0f},
+         .is_splat = true,
+         .path = "C D S O",
+         .s = 3,
+         .t = 1,
+         .edges = 3},
+        {.x = 3, .y = 4, .sample_x = 3, .sample_y = 4, .sample = 5, .value = {1.0f, 1.0f, 0.5f}, .path = ""}};
     s.threads = 2;
     s.isa = "avx2";
     s.libraries = {{"embree", "3.13.5"}, {"oiio", "2.4.7"}};
@@ -64,6 +81,12 @@ TEST(StatisticsJson, HasEveryField) {
         "bvh_triangles_per_second": 72.0, "triangles": 36, "instances": 1, "lights": 2,
         "textures": {"count": 4, "held": "cached", "bytes": 5678, "cache_budget_bytes": 9000, "failed_lookups": 6},
         "dropped_samples": {"count": 3, "first": [{"x": 1, "y": 2, "sample": 3}, {"x": 4, "y": 5, "sample": 6}]},
+        "clamp_indirect": {"limit": 0.5, "removed_share": 0.25},
+        "robust": {"estimate": "mon:5", "removed_share": 0.125},
+        "brightest": [{"pixel": [7, 8], "sample": 9, "value": [4.0, 2.0, 1.0], "sample_pixel": [1, 2],
+                       "strategy": [3, 1], "edges": 3, "path": "C D S O"},
+                      {"pixel": [3, 4], "sample": 5, "value": [1.0, 1.0, 0.5], "strategy": null, "edges": null,
+                       "path": null}],
         "threads": 2, "isa": "avx2", "libraries": {"embree": "3.13.5", "oiio": "2.4.7"}})");
     for (const auto& [key, value] : expected.items()) {
         ASSERT_TRUE(json.contains(key)) << key;

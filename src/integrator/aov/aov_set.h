@@ -1,14 +1,17 @@
 // What a render keeps besides the image, as integrators see it.
 #pragma once
 
+#include "film/bucket_layers.h"
 #include "film/layers.h"
 #include "integrator/aov/first_hit_value.h"
+#include "integrator/aov/path_speller.h"
 #include "lightpath/automaton.h"
 #include "world/world.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace etendue {
@@ -17,12 +20,26 @@ struct AovSet {
     LayerLayout layout{};
     /// Of the light layers: the first ones are those of its expressions. Null if there are none.
     std::shared_ptr<const PathAutomaton> automaton{};
+    /// The one after them: of what TileJob::clamp_indirect took away.
+    std::optional<std::size_t> removed_light{};
+    /// Those after that; their values are behind those of first hits.
+    BucketLayers buckets{};
+    /// Not null: paths are spelled out for it in place of being read by the automaton, and all contributions recorded.
+    /// There are no layers then, and one thread. Must outlive the render.
+    PathSpeller* speller = nullptr;
     /// Whose names for lights are those of the lamps, of the instances and of the environment, in this order.
     std::size_t lamp_count = 0;
     std::size_t instance_count = 0;
     /// Of the first surface that the eye meets, in the order of their channels: averaged ones, and the nearest's.
     std::vector<FirstHitValue> values{};
     std::vector<FirstHitValue> nearest{};
+
+    /// Puts buckets behind all layers that there are.
+    void add_buckets(std::size_t count) {
+        buckets = {count, layout.light, layout.values};
+        layout.light += count;
+        layout.values += buckets.value_count();
+    }
 
     [[nodiscard]] bool needs_first_hits() const { return !values.empty() || !nearest.empty(); }
 
@@ -32,17 +49,22 @@ struct AovSet {
         std::uint16_t label = 0;
     };
     [[nodiscard]] Source source_of_instance(std::uint32_t instance) const {
-        return {SourceEvent::Surface, automaton->light_label(lamp_count + instance)};
+        return {SourceEvent::Surface, light_label(lamp_count + instance)};
     }
     [[nodiscard]] Source environment_source() const {
-        return {SourceEvent::Environment, automaton->light_label(lamp_count + instance_count)};
+        return {SourceEvent::Environment, light_label(lamp_count + instance_count)};
     }
     /// Of the light of this index in `world`.
     [[nodiscard]] Source source_of_light(const World& world, std::uint32_t light) const {
         const Emitter& emitter = world.emitter(light);
         if (emitter.instance != kNone) return source_of_instance(emitter.instance);
-        if (emitter.lamp != kNone) return {SourceEvent::Lamp, automaton->light_label(emitter.lamp)};
+        if (emitter.lamp != kNone) return {SourceEvent::Lamp, light_label(emitter.lamp)};
         return environment_source();
+    }
+
+  private:
+    [[nodiscard]] std::uint16_t light_label(std::size_t index) const {
+        return automaton ? automaton->light_label(index) : std::uint16_t{0};
     }
 };
 

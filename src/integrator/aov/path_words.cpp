@@ -8,6 +8,16 @@ void add_share(ExpressionMask expressions, const Rgb& share, std::vector<Express
     if (expressions != 0) shares.push_back({expressions, share});
 }
 
+/// What takes the larger share of the light.
+ScatterEvent usual_event(const VertexEvent& event) {
+    return average(event.share) >= 0.5f ? event.event : event.other;
+}
+
+/// A path that was spelled, in place of a mask.
+void add_spelled(std::size_t path, std::vector<ExpressionShare>& shares) {
+    shares.push_back({ExpressionMask{path}, Rgb(1.0f)});
+}
+
 }  // namespace
 
 VertexEvent surface_event(const Scattering& scattering, const Vec3f& wi, bool is_delta, TransportMode mode,
@@ -52,12 +62,14 @@ WordRange PathWords::scatter(WordRange before, const VertexEvent& event, const N
 }
 
 WordRange PathWords::scatter_from_eye(WordRange before, const VertexEvent& event) {
+    if (speller_ != nullptr) return {speller_->scatter(before.first, usual_event(event))};
     return scatter(before, event, [this](PathAutomaton::State state, ScatterEvent what, std::uint16_t label) {
         return automaton_->eye_scatter(state, what, label);
     });
 }
 
 WordRange PathWords::scatter_from_light(WordRange before, const VertexEvent& event) {
+    if (speller_ != nullptr) return {speller_->scatter(before.first, usual_event(event))};
     return scatter(before, event, [this](PathAutomaton::State state, ScatterEvent what, std::uint16_t label) {
         return automaton_->light_scatter(state, what, label);
     });
@@ -65,29 +77,36 @@ WordRange PathWords::scatter_from_light(WordRange before, const VertexEvent& eve
 
 void PathWords::end_at_light(WordRange range, const AovSet::Source& source,
                              std::vector<ExpressionShare>& shares) const {
+    if (speller_ != nullptr) return add_spelled(speller_->meet_light(range.first, source.event, false), shares);
     for (const WordShare& word : (*this)[range])
         add_share(automaton_->eye_ends(word.state, source.event, source.label), word.share, shares);
 }
 
 void PathWords::end_at_light(WordRange before, const VertexEvent& event, const AovSet::Source& source,
                              std::vector<ExpressionShare>& shares) {
+    if (speller_ != nullptr)
+        return add_spelled(speller_->meet_light(scatter_from_eye(before, event).first, source.event, true), shares);
     const std::size_t kept = words_.size();
     end_at_light(scatter_from_eye(before, event), source, shares);
     words_.resize(kept);
 }
 
 void PathWords::end_at_camera(WordRange range, std::vector<ExpressionShare>& shares) const {
+    if (speller_ != nullptr) return add_spelled(speller_->meet_camera(range.first), shares);
     for (const WordShare& word : (*this)[range])
         add_share(automaton_->join(automaton_->eye_start(), word.state), word.share, shares);
 }
 
 void PathWords::end_at_camera(const AovSet::Source& source, std::vector<ExpressionShare>& shares) const {
+    if (speller_ != nullptr) return add_spelled(speller_->meet_camera(speller_->begin_at_light(source.event)), shares);
     add_share(automaton_->eye_ends(automaton_->eye_start(), source.event, source.label), Rgb(1.0f), shares);
 }
 
-void PathWords::join(WordRange eye, std::span<const WordShare> light, std::vector<ExpressionShare>& shares) const {
+void PathWords::join(WordRange eye, const PathWords& light_words, WordRange light,
+                     std::vector<ExpressionShare>& shares) const {
+    if (speller_ != nullptr) return add_spelled(speller_->connect(eye.first, light.first), shares);
     for (const WordShare& from_eye : (*this)[eye])
-        for (const WordShare& from_light : light)
+        for (const WordShare& from_light : light_words[light])
             add_share(automaton_->join(from_eye.state, from_light.state), from_eye.share * from_light.share, shares);
 }
 

@@ -54,13 +54,15 @@ class PathWords {
     void reset(const AovSet* aovs) {
         aovs_ = aovs;
         automaton_ = aovs != nullptr ? aovs->automaton.get() : nullptr;
+        speller_ = aovs != nullptr ? aovs->speller : nullptr;
+        are_followed_ = automaton_ != nullptr || speller_ != nullptr;
         words_.clear();
     }
-    [[nodiscard]] bool are_followed() const { return automaton_ != nullptr; }
+    [[nodiscard]] bool are_followed() const { return are_followed_; }
 
     /// How the automaton reads what paths meet; of no meaning if words are not followed.
     [[nodiscard]] std::uint16_t label(const World& world, const SurfacePoint& point) const {
-        return are_followed() ? automaton_->material_label(world.material_index(point)) : std::uint16_t{0};
+        return automaton_ != nullptr ? automaton_->material_label(world.material_index(point)) : std::uint16_t{0};
     }
     [[nodiscard]] AovSet::Source surface_source(const SurfacePoint& point) const {
         return are_followed() ? aovs_->source_of_instance(point.instance) : AovSet::Source{};
@@ -72,17 +74,16 @@ class PathWords {
         return are_followed() ? aovs_->source_of_light(world, light) : AovSet::Source{};
     }
 
-    [[nodiscard]] WordRange begin_at_eye() { return begin(automaton_->eye_start()); }
+    [[nodiscard]] WordRange begin_at_eye() {
+        return speller_ != nullptr ? WordRange{PathSpeller::kEye} : begin(automaton_->eye_start());
+    }
     [[nodiscard]] WordRange begin_at_light(const AovSet::Source& source) {
-        return begin(automaton_->light_start(source.event, source.label));
+        return speller_ != nullptr ? WordRange{speller_->begin_at_light(source.event)}
+                                   : begin(automaton_->light_start(source.event, source.label));
     }
     /// The words after a vertex.
     [[nodiscard]] WordRange scatter_from_eye(WordRange before, const VertexEvent& event);
     [[nodiscard]] WordRange scatter_from_light(WordRange before, const VertexEvent& event);
-
-    [[nodiscard]] std::span<const WordShare> operator[](WordRange range) const {
-        return std::span(words_).subspan(range.first, range.count);
-    }
 
     /// Expressions of a path from the eye with these words that meets a light. Put after those in `shares`.
     void end_at_light(WordRange range, const AovSet::Source& source, std::vector<ExpressionShare>& shares) const;
@@ -93,14 +94,17 @@ class PathWords {
     void end_at_camera(WordRange range, std::vector<ExpressionShare>& shares) const;
     /// Of a light that the camera sees.
     void end_at_camera(const AovSet::Source& source, std::vector<ExpressionShare>& shares) const;
-    /// Of a connection between a vertex of these words and one of `light`, whose words are in `light_words`.
-    void join(WordRange eye, std::span<const WordShare> light, std::vector<ExpressionShare>& shares) const;
+    /// Of a connection between a vertex of these words and one of `light`, which are among `light_words`.
+    void join(WordRange eye, const PathWords& light_words, WordRange light, std::vector<ExpressionShare>& shares) const;
 
     /// Forgets the words after `range`, which were needed for one connection only.
     void shrink_to(std::size_t size) { words_.resize(size); }
     [[nodiscard]] std::size_t size() const { return words_.size(); }
 
   private:
+    [[nodiscard]] std::span<const WordShare> operator[](WordRange range) const {
+        return std::span(words_).subspan(range.first, range.count);
+    }
     [[nodiscard]] WordRange begin(PathAutomaton::State state);
     template <typename Next>
     WordRange scatter(WordRange before, const VertexEvent& event, const Next& next);
@@ -108,6 +112,8 @@ class PathWords {
 
     const AovSet* aovs_ = nullptr;
     const PathAutomaton* automaton_ = nullptr;
+    PathSpeller* speller_ = nullptr;  ///< in place of the automaton: a range is a node of its then
+    bool are_followed_ = false;
     std::vector<WordShare> words_;
 };
 

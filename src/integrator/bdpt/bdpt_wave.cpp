@@ -61,6 +61,12 @@ void append_subpath(const SubpathWave& wave, const PathVertex* last, std::vector
         path.push_back(v);
 }
 
+/// Of light that a subpath from the eye meets.
+LightKind kind_of_met_light(const SubpathState& state) {
+    if (state.index == kDirectlySeen) return LightKind::Seen;
+    return state.lights_directly ? LightKind::Direct : LightKind::Indirect;
+}
+
 }  // namespace
 
 float BdptWave::weight(const BdptOptions& options, double fewer_from_light, double fewer_from_eye) {
@@ -72,7 +78,7 @@ void BdptWave::trace(const World& world, const TileJob& job, const BdptOptions& 
     samples_.resize(count);
     camera_rays_.resize(count);
     generate_camera_rays(world, job, first, samples_, camera_rays_);
-    found_.reset(count, job.aovs);
+    found_.reset(count, job, counters.brightest.threshold());
     alpha_.assign(count, 1.0f);
     const Context context{{world, job, options.lengths, Raised{options.heuristic}, samples_, camera_rays_}, options};
     // Both subpaths of a path share the edges that roulette spares.
@@ -150,7 +156,7 @@ void BdptWave::add(const SubpathState& state, const Rgb& light, double fewer_fro
     shares_.clear();
     if (eye_.words().are_followed()) eye_.words().end_at_light(state.words, source, shares_);
     found_.add(state.slot, state.throughput * light * context.wavelength_weight(state.slot, state.is_dispersed) * share,
-               shares_);
+               kind_of_met_light(state), shares_);
     if (is_checked(samples_[state.slot], context.options) && state.index > kDirectlySeen) {
         const PathVertex& last = eye_.vertices()[state.last_vertex];
         check(context, context.options, 0, share, end, nullptr, &last, camera_of(context, last));
@@ -235,13 +241,13 @@ void BdptWave::connect_to_light(const Context& context, const PathVertex& vertex
     ray.alpha_key = context.connection_key(SubpathEnd::AtEye, vertex.index, vertex.slot);
     shares_.clear();
     if (eye_.words().are_followed())
-        eye_.words().end_at_light(eye_.words_after(vertex, light.wi), eye_.words().light_source(world, chosen.light),
-                                  shares_);
+        eye_.words().end_at_light(vertex.words, vertex.event(light.wi, TransportMode::Radiance),
+                                  eye_.words().light_source(world, chosen.light), shares_);
     connections_.to_sample(ray, vertex.slot,
                            vertex.throughput * value.f_cos * light.radiance *
                                vertex.transmittance(light.wi, light.distance) *
                                context.wavelength_weight(vertex.slot, vertex.is_dispersed) * (share / density),
-                           shares_);
+                           vertex.is_seen_directly ? LightKind::Direct : LightKind::Indirect, shares_);
     if (is_checked(samples_[vertex.slot], context.options))
         check(context, context.options, 1, share,
               {.light = chosen.light,
@@ -276,7 +282,7 @@ void BdptWave::connect_to_camera(const Context& context, const PathVertex& verte
         {view->pixel, vertex.throughput * value.f_cos * vertex.transmittance(view->direction, view->distance) *
                           context.wavelength_weight(vertex.slot, vertex.is_dispersed) *
                           (view->camera.importance_area * share)},
-        shares_);
+        vertex.index > 1 ? LightKind::Indirect : LightKind::Direct, shares_);
     if (is_checked(samples_[vertex.slot], context.options))
         check(context, context.options, static_cast<std::size_t>(vertex.index) + 1, share, light_end(vertex.slot),
               &vertex, nullptr, view->camera);
@@ -335,12 +341,12 @@ void BdptWave::connect(const Context& context, const PathVertex& eye, const Path
                     context.connection_key(SubpathEnd::AtLight, light.index, light.slot);
     shares_.clear();
     if (eye_.words().are_followed())
-        eye_.words().join(eye_.words_after(eye, w), light_.words()[light_.words_after(light, -w)], shares_);
+        eye_.words().join(eye_.words_after(eye, w), light_.words(), light_.words_after(light, -w), shares_);
     connections_.to_sample(
         ray, eye.slot,
         eye.throughput * at_eye.f_cos * at_light.f_cos * light.throughput * eye.transmittance(w, distance) *
             context.wavelength_weight(eye.slot, eye.is_dispersed || light.is_dispersed) * (scale * share / squared),
-        shares_);
+        LightKind::Indirect, shares_);
     if (is_checked(samples_[eye.slot], context.options))
         check(context, context.options, static_cast<std::size_t>(light.index) + 1, share, light_end(light.slot), &light,
               &eye, camera_of(context, eye));

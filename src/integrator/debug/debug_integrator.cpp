@@ -41,11 +41,11 @@ void DebugIntegrator::render_tile(const World& world, const TileJob& job, Integr
         world.intersect(rays, hits, Coherence::Coherent);
         counters.camera_rays += count;
         add_first_hits(world, job, std::span(s.samples).first(count), rays, hits, tile);
-        s.found.reset(count, job.aovs);
+        s.found.reset(count, job, counters.brightest.threshold());
         for (std::uint32_t i = 0; i < count; ++i) {
             s.found.count_ray(i);
             s.alpha[i] = hits[i].valid() ? 1.0f : 0.0f;
-            if (hits[i].valid()) s.found.add(i, value(world, job, rays[i], hits[i], s.samples[i].key));
+            if (hits[i].valid()) s.found.add(i, value(world, job, rays[i], hits[i], s.samples[i].key), LightKind::Seen);
         }
         accumulate(job, std::span(s.samples).first(count), s.found, s.alpha, tile, counters);
     }

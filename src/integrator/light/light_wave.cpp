@@ -13,7 +13,7 @@ void LightWave::trace(const World& world, const TileJob& job, const PathLengths&
     samples_.resize(count);
     camera_rays_.resize(count);
     generate_camera_rays(world, job, first, samples_, camera_rays_);
-    found_.reset(count, job.aovs);
+    found_.reset(count, job, counters.brightest.threshold());
     if (job.aovs != nullptr && job.aovs->needs_first_hits()) {
         hits_.resize(count);
         world.intersect(camera_rays_, hits_, Coherence::Coherent);
@@ -59,7 +59,7 @@ void LightWave::connect_lights(const SubpathJob& job) {
                              {view->pixel, radiance * transmittance(world, interior, view->distance) *
                                                (view->camera.importance_area /
                                                 (emission.sample.pdf_position_area * emission.probability))},
-                             shares_);
+                             LightKind::Seen, shares_);
     }
 }
 
@@ -84,7 +84,7 @@ void LightWave::connect_vertices(const SubpathJob& job, TileBuffer& tile, Render
             ray, vertex.slot,
             {view->pixel, vertex.throughput * scattered * job.wavelength_weight(vertex.slot, vertex.is_dispersed) *
                               vertex.transmittance(view->direction, view->distance) * view->camera.importance_area},
-            shares_);
+            vertex.index > 1 ? LightKind::Indirect : LightKind::Direct, shares_);
         connections_.resolve_if_full(job.world, samples_, found_, tile, counters);
     }
 }

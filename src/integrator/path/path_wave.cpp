@@ -45,6 +45,12 @@ float light_sample_scale(const ChosenLight& chosen, float pdf_solid_angle) {
                           : power_heuristic(light.pdf_solid_angle, pdf_solid_angle) / light.pdf_solid_angle;
 }
 
+/// Of light that a path meets.
+LightKind kind_of_met_light(const PathState& state) {
+    if (state.edges == 1 && state.only_delta) return LightKind::Seen;
+    return state.is_direct ? LightKind::Direct : LightKind::Indirect;
+}
+
 }  // namespace
 
 PathWave::PathWave()
@@ -70,7 +76,7 @@ void PathWave::trace(const World& world, const TileJob& job, const PathOptions& 
     generate_camera_rays(world, job, first, std::span(samples_).first(count), std::span(rays_).first(count));
     if (world.has_bodies()) interiors_.assign(kCapacity, world.camera_interior());
     words_.reset(job.aovs);
-    light_.reset(count, job.aovs);
+    light_.reset(count, job, counters.brightest.threshold());
     for (std::size_t i = 0; i < count; ++i) {
         states_[i] = PathState{};
         states_[i].slot = static_cast<std::uint32_t>(i);
@@ -210,6 +216,7 @@ bool PathWave::scatter_at_surface(const Context& context, std::size_t i, const S
     }
     next.state.pdf_solid_angle = sample.pdf_solid_angle;
     next.state.after_delta = sample.is_delta;
+    next.state.is_direct = state.only_delta;
     next.state.only_delta = state.only_delta && sample.is_delta;
     if (sample.is_transmission) next.state.eta_scale *= sample.eta * sample.eta;
     if (world.has_textures())
@@ -242,6 +249,7 @@ bool PathWave::scatter_in_medium(const Context& context, std::size_t i, PathStep
     next.interior = interiors_[i];
     next.state.pdf_solid_angle = medium->phase.pdf_solid_angle(-ray.direction, next.ray.direction);
     next.state.after_delta = !samples_lights;
+    next.state.is_direct = state.only_delta;
     next.state.only_delta = false;
     if (words_.are_followed()) next.state.words = words_.scatter_from_eye(state.words, VertexEvent{});
     next.state.cone = scatter_cone(state.cone.at(sample.distance), lobe_spread(next.state.pdf_solid_angle));
@@ -344,7 +352,7 @@ void PathWave::add_light(const PathState& state, const Rgb& light, const AovSet:
     // What is added at once stands behind what waits.
     const std::size_t kept = shares_.size();
     if (words_.are_followed()) words_.end_at_light(state.words, source, shares_);
-    light_.add(state.slot, state.throughput * light, std::span(shares_).subspan(kept));
+    light_.add(state.slot, state.throughput * light, kind_of_met_light(state), std::span(shares_).subspan(kept));
     shares_.resize(kept);
 }
 
@@ -356,7 +364,8 @@ void PathWave::queue(const Context& context, std::size_t i, Ray ray, const Rgb& 
     ray.time = rays_[i].time;
     ray.alpha_key = ~alpha_key(context, i);  // another key than the bounce ray's
     shadow_rays_[pending_count_] = ray;
-    pending_[pending_count_] = {contribution, states_[i].slot, static_cast<std::uint32_t>(shares_.size())};
+    pending_[pending_count_] = {contribution, states_[i].slot, static_cast<std::uint32_t>(shares_.size()),
+                                states_[i].only_delta ? LightKind::Direct : LightKind::Indirect};
     ++pending_count_;
 }
 
@@ -369,7 +378,8 @@ void PathWave::add_unoccluded(const World& world, RenderCounters& counters) {
         const PendingLight& pending = pending_[i];
         light_.count_ray(pending.slot);
         if (occluded_[i] == 0)
-            light_.add(pending.slot, pending.contribution, shares.subspan(first, pending.end_of_shares - first));
+            light_.add(pending.slot, pending.contribution, pending.kind,
+                       shares.subspan(first, pending.end_of_shares - first));
         first = pending.end_of_shares;
     }
 }

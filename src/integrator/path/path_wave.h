@@ -33,6 +33,7 @@ struct PathState {
     int edges = 1;                 ///< of the path when its ray has hit; media and hidden boundaries add none
     bool after_delta = true;  ///< the last scattering was a delta, or there was none: lights cannot be sampled for it
     bool only_delta = true;   ///< every scattering was: the eye sees this directly or in mirrors
+    bool is_direct = true;    ///< every scattering but the last was: what it meets lights what the eye sees so
 };
 
 /// A path after its next step.
@@ -47,6 +48,7 @@ struct PendingLight {
     Rgb contribution;
     std::uint32_t slot = 0;
     std::uint32_t end_of_shares = 0;  ///< its shares are those from where the one before has ended
+    LightKind kind = LightKind::Direct;
 };
 
 /// Structure-of-arrays state of a wave. About 200 bytes a path, 250 among bodies.

@@ -1,7 +1,5 @@
 #include "integrator/subpath/connections.h"
 
-#include <bit>
-
 namespace etendue {
 
 void Connections::push(const Ray& ray, Pending pending, std::span<const ExpressionShare> shares) {
@@ -11,23 +9,14 @@ void Connections::push(const Ray& ray, Pending pending, std::span<const Expressi
     pending_.push_back(pending);
 }
 
-void Connections::to_sample(const Ray& ray, std::uint32_t slot, const Rgb& contribution,
+void Connections::to_sample(const Ray& ray, std::uint32_t slot, const Rgb& contribution, LightKind kind,
                             std::span<const ExpressionShare> shares) {
-    push(ray, {.value = contribution, .slot = slot}, shares);
+    push(ray, {.value = contribution, .slot = slot, .kind = kind}, shares);
 }
 
-void Connections::to_film(const Ray& ray, std::uint32_t slot, const Splat& splat,
+void Connections::to_film(const Ray& ray, std::uint32_t slot, const Splat& splat, LightKind kind,
                           std::span<const ExpressionShare> shares) {
-    push(ray, {.value = splat.value, .position = splat.position, .slot = slot, .is_splat = true}, shares);
-}
-
-void Connections::splat(const Pending& pending, std::span<const ExpressionShare> shares, std::vector<Splat>& splats) {
-    splats.push_back({pending.position, pending.value});
-    for (const ExpressionShare& part : shares)
-        for (ExpressionMask left = part.expressions; left != 0; left &= left - 1)
-            splats.push_back({pending.position, pending.value * part.share,
-                              static_cast<std::uint32_t>(SplatFilm::kFirstLayer) +
-                                  static_cast<std::uint32_t>(std::countr_zero(left))});
+    push(ray, {.value = splat.value, .position = splat.position, .slot = slot, .is_splat = true, .kind = kind}, shares);
 }
 
 void Connections::resolve(const World& world, std::span<const CameraSample> samples, SampleLight& light,
@@ -44,9 +33,10 @@ void Connections::resolve(const World& world, std::span<const CameraSample> samp
         light.count_ray(pending.slot);
         if (occluded_[i] != 0) continue;
         if (!pending.is_splat)
-            light.add(pending.slot, pending.value, shares);
+            light.add(pending.slot, pending.value, pending.kind, shares);
         else if (is_finite(pending.value) && min_component(pending.value) >= 0.0f)
-            splat(pending, shares, tile.splats());
+            light.add_splat(pending.slot, samples[pending.slot].key.index, {pending.position, pending.value},
+                            pending.kind, shares, tile.splats());
         else
             counters.drop({static_cast<int>(pending.position.x), static_cast<int>(pending.position.y),
                            samples[pending.slot].key.index});

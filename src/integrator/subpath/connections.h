@@ -15,10 +15,11 @@ namespace etendue {
 class Connections {
   public:
     /// To the light of sample `slot`. `shares` are those of expressions.
-    void to_sample(const Ray& ray, std::uint32_t slot, const Rgb& contribution,
+    void to_sample(const Ray& ray, std::uint32_t slot, const Rgb& contribution, LightKind kind,
                    std::span<const ExpressionShare> shares);
     /// To the place on the film that `splat` says, by the light path of sample `slot`.
-    void to_film(const Ray& ray, std::uint32_t slot, const Splat& splat, std::span<const ExpressionShare> shares);
+    void to_film(const Ray& ray, std::uint32_t slot, const Splat& splat, LightKind kind,
+                 std::span<const ExpressionShare> shares);
 
     /// Traces all rays and adds what arrives, in the order of the calls above.
     void resolve(const World& world, std::span<const CameraSample> samples, SampleLight& light, TileBuffer& tile,
@@ -39,10 +40,9 @@ class Connections {
         std::uint32_t slot = 0;
         std::uint32_t end_of_shares = 0;  ///< its shares are those from where the one before has ended
         bool is_splat = false;
+        LightKind kind = LightKind::Direct;
     };
     void push(const Ray& ray, Pending pending, std::span<const ExpressionShare> shares);
-    /// Leaves a splat of the image, and those of its layers.
-    static void splat(const Pending& pending, std::span<const ExpressionShare> shares, std::vector<Splat>& splats);
 
     std::vector<Ray> rays_;
     std::vector<Pending> pending_;

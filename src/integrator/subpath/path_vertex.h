@@ -37,6 +37,7 @@ struct PathVertex {
     bool is_dispersed = false;           ///< light of other wavelengths would not be here, or would not scatter so
     bool is_connectible = true;          ///< false if all it does are deltas
     bool is_reached_directly = true;     ///< false if boundaries that other bodies hide lie before it
+    bool is_seen_directly = true;        ///< of the eye: nothing but deltas lie before it
     bool is_left_by_delta = false;       ///< the subpath went on by one
     float delta_reverse_ratio = 1.0f;    ///< of that one, Scattering::reverse_density_ratio
 

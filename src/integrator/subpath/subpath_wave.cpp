@@ -249,6 +249,7 @@ bool SubpathWave::scatter_at_surface(const SubpathJob& job, std::size_t i, const
         .pdf_forward = sample.is_delta ? 1.0 : static_cast<double>(sample.pdf_solid_angle),
         .cosine = static_cast<double>(abs_dot(sample.wi, point.geometric_normal)),
         .is_connectible = !sample.is_delta};
+    state.lights_directly = state.only_delta;
     state.only_delta = state.only_delta && sample.is_delta;
     ++state.index;
     ++state.edges;
@@ -279,6 +280,7 @@ bool SubpathWave::scatter_in_medium(const SubpathJob& job, std::size_t i) {
     const auto phase = static_cast<double>(medium->phase.pdf_solid_angle(wo, ray.direction));
     state.from = vertex.position;
     state.departing = {.d = vertex.densities.fewer(job.raised, phase), .pdf_forward = phase};
+    state.lights_directly = state.only_delta;
     state.only_delta = false;
     if (words_.are_followed()) follow_words(state, VertexEvent{});
     ++state.index;
@@ -308,6 +310,7 @@ PathVertex& SubpathWave::store(SubpathState& state) {
     vertex.index = state.index;
     vertex.is_dispersed = state.is_dispersed;
     vertex.is_reached_directly = state.is_direct;
+    vertex.is_seen_directly = state.only_delta;
     state.last_vertex = static_cast<std::uint32_t>(vertices_.size() - 1);
     state.is_direct = true;
     last_vertex_[state.slot] = state.last_vertex;

@@ -71,7 +71,8 @@ struct SubpathState {
     int edges = 1;  ///< of the path when its ray has hit; media and hidden boundaries add none
     bool is_dispersed = false;
     bool only_delta = true;
-    bool is_direct = true;  ///< no boundary that another body hides lies between `from` and where the ray is
+    bool lights_directly = true;  ///< every scattering but the last was a delta
+    bool is_direct = true;        ///< no boundary that another body hides lies between `from` and where the ray is
 };
 
 /// Told what subpaths from the eye meet.

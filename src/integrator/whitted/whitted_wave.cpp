@@ -34,6 +34,11 @@ float survival(const WhittedBranch& branch) {
     return std::min(most_survival(branch.rays), contribution / kSmallestContribution);
 }
 
+/// Of light that a branch meets.
+LightKind kind_of(const WhittedBranch& branch) {
+    return branch.edges == 1 ? LightKind::Seen : LightKind::Direct;
+}
+
 }  // namespace
 
 void WhittedWave::trace(const World& world, const TileJob& job, const PathLengths& lengths, std::size_t first,
@@ -41,7 +46,7 @@ void WhittedWave::trace(const World& world, const TileJob& job, const PathLength
     samples_.resize(count);
     rays_.resize(count);
     generate_camera_rays(world, job, first, samples_, rays_);
-    found_.reset(count, job.aovs);
+    found_.reset(count, job, counters.brightest.threshold());
     alpha_.assign(count, 1.0f);
     waiting_.assign(count, {});
     for (std::size_t i = 0; i < count; ++i) {
@@ -102,7 +107,7 @@ void WhittedWave::shade(const Context& context, std::size_t i) {
     const SurfacePoint point = world.surface_point(hit, branch.ray, branch.cone);
     const bool is_wanted = branch.edges >= context.lengths.min_depth;
     if (point.material->emits && is_wanted)
-        found_.add(branch.slot, branch.throughput * world.emission(point, -branch.ray.direction));
+        found_.add(branch.slot, branch.throughput * world.emission(point, -branch.ray.direction), kind_of(branch));
     std::optional<Crossing> crossing;
     if (world.has_bodies() && world.is_boundary(point)) {
         crossing = world.crossing(point, branch.interior);
@@ -118,7 +123,7 @@ void WhittedWave::shade(const Context& context, std::size_t i) {
         }
     }
     if (point.material->unlit) {
-        if (is_wanted) found_.add(branch.slot, branch.throughput * world.unlit_color(point));
+        if (is_wanted) found_.add(branch.slot, branch.throughput * world.unlit_color(point), kind_of(branch));
         return;
     }
     if (branch.edges < context.lengths.max_depth) scatter(context, i, point, crossing);
@@ -219,7 +224,7 @@ void WhittedWave::add_environment(const Context& context, const WhittedBranch& b
         return;
     }
     if (world.has_environment() && branch.edges >= context.lengths.min_depth)
-        found_.add(branch.slot, branch.throughput * world.environment_radiance(branch.ray.direction));
+        found_.add(branch.slot, branch.throughput * world.environment_radiance(branch.ray.direction), kind_of(branch));
 }
 
 void WhittedWave::add_unoccluded(const World& world, RenderCounters& counters) {
@@ -229,7 +234,7 @@ void WhittedWave::add_unoccluded(const World& world, RenderCounters& counters) {
     counters.shadow_rays += shadow_rays_.size();
     for (std::size_t i = 0; i < shadow_rays_.size(); ++i) {
         found_.count_ray(lit_slots_[i]);
-        if (occluded_[i] == 0) found_.add(lit_slots_[i], contributions_[i]);
+        if (occluded_[i] == 0) found_.add(lit_slots_[i], contributions_[i], LightKind::Direct);
     }
 }
 

@@ -361,6 +361,14 @@ void read_document(const Json& value, ProblemList& problems, RenderJson& out) {
     object.integer("seed", 0, kMaxSeed, settings.seed);
     object.number("time", kNotNegative, settings.time_limit);
     object.number("error", kNotNegative, settings.relative_error);
+    object.number("clamp_indirect", kNotNegative, settings.clamp_indirect);
+    if (std::string robust; object.text("robust", robust)) {
+        if (const auto buckets = parse_robust(robust))
+            settings.robust_buckets = *buckets;
+        else
+            problems.error(object.at("robust"), fmt::format("'{}' is not {}", shown(robust), kRobustForm));
+    }
+    object.integer("brightest", 0, kMostBrightest, settings.brightest);
     read_aovs(object, settings);
     read_texture_memory(object, settings);
     read_film_size(object, settings.film);
