@@ -41,6 +41,8 @@ RenderOptions make_render_options(const RenderSettings& settings) {
     options.filter = PixelFilter(to_filter_shape(film.filter), film.filter_radius);
     options.time_limit_seconds = settings.time_limit;
     options.relative_error = settings.relative_error;
+    options.adaptive = settings.adaptive && settings.relative_error > 0.0;
+    options.min_spp = static_cast<std::uint32_t>(settings.min_spp);
     return options;
 }
 

@@ -38,6 +38,8 @@ struct SettingsOverrides {
     std::optional<std::uint32_t> seed;
     std::optional<double> time_seconds;
     std::optional<double> relative_error;
+    std::optional<bool> adaptive;
+    std::optional<int> min_spp;
     std::optional<int> max_depth;
     std::optional<int> min_depth;
     std::optional<HeuristicType> heuristic;
@@ -66,6 +68,7 @@ struct SettingsOverrides {
     void apply(SceneDesc& scene) const;
 
   private:
+    void add_adaptive_options(CLI::App& command);
     void add_color_options(CLI::App& command);
 };
 

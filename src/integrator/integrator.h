@@ -24,7 +24,14 @@
 
 namespace etendue {
 
-/// The samples to take: `sample_count` of every pixel of `rect`, beginning with index `first_sample`.
+/// A pixel that is to get samples: its index in the tile, row by row, and that of its first sample.
+struct PixelJob {
+    std::uint32_t pixel = 0;
+    std::uint32_t first_sample = 0;
+};
+
+/// The samples to take: `sample_count` of every pixel of `rect`, beginning with index `first_sample`, or of `pixels`
+/// alone, each beginning with its own.
 struct TileJob {
     PixelRect rect;
     PixelRect window;  ///< what splats may fall into; each of its pixels has a light path per sample
@@ -36,6 +43,7 @@ struct TileJob {
     SampleSequence sequence = SampleSequence::Sobol;
     const PixelFilter* filter = nullptr;  ///< not null
     const AovSet* aovs = nullptr;         ///< of the tile's layers; null if it has none
+    std::span<const PixelJob> pixels{};   ///< empty for all
 };
 
 /// What rendering counts. One per thread, added up at the end.

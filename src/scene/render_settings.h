@@ -88,6 +88,8 @@ struct RenderSettings {
     std::uint32_t seed = 0;
     double time_limit = 0.0;      ///< seconds; 0 for none. Rendering stops after the pass that exceeds it.
     double relative_error = 0.0;  ///< of the image; 0 for none. Rendering stops after the pass that reaches it.
+    bool adaptive = true;         ///< with a relative error: pixels get samples as they need them
+    int min_spp = 48;             ///< samples that every pixel gets before, [1, 2^24]
     std::string camera;           ///< name of the camera; empty for the first
     std::string variant;  ///< KHR_materials_variants: name of the set of materials; empty for the file's default
     std::optional<double> time_code;   ///< seconds of the animation; of a sequence, where frame 0 is

@@ -161,6 +161,7 @@ void validate_settings(const SceneDesc& scene, ProblemList& problems) {
     check(settings.spp, 1, kMaxSpp, "spp", "/spp");
     check(settings.time_limit, 0.0, kInfinity, "time", "/time");
     check(settings.relative_error, 0.0, kInfinity, "error", "/error");
+    check(settings.min_spp, 1, kMaxSpp, "min_spp", "/min_spp");
     check(static_cast<double>(settings.color.exposure), -kMaxExposure, kMaxExposure, "exposure", "/color/exposure");
     if (!(settings.shutter.close >= settings.shutter.open))
         problems.error(settings.at("/shutter"), fmt::format("the shutter closes at {} before it opens at {}",

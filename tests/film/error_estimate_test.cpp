@@ -43,7 +43,7 @@ TEST(ErrorEstimate, IsTheErrorThatTheImageHas) {
         sum += std::pow(static_cast<double>(image[i]) - truth, 2.0) / (truth * truth + 0.01);
     }
     const double error = std::sqrt(sum / (3.0 * kSide * kSide));
-    EXPECT_NEAR(estimate_relative_error(whole, part, 30.0 / 50.0), error, 0.05 * error);
+    EXPECT_NEAR(estimate_errors(whole, part).relative_error(), error, 0.05 * error);
 }
 
 TEST(ErrorEstimate, IsNothingWithoutNoise) {
@@ -55,7 +55,7 @@ TEST(ErrorEstimate, IsNothingWithoutNoise) {
     whole.add(tile);
     const Film part = whole;
     whole.add(tile);
-    EXPECT_EQ(estimate_relative_error(whole, part, 0.5), 0.0);
+    EXPECT_EQ(estimate_errors(whole, part).relative_error(), 0.0);
 }
 
 }  // namespace

@@ -361,6 +361,8 @@ void read_document(const Json& value, ProblemList& problems, RenderJson& out) {
     object.integer("seed", 0, kMaxSeed, settings.seed);
     object.number("time", kNotNegative, settings.time_limit);
     object.number("error", kNotNegative, settings.relative_error);
+    object.boolean("adaptive", settings.adaptive);
+    object.integer("min_spp", 1, kMaxSpp, settings.min_spp);
     read_aovs(object, settings);
     read_texture_memory(object, settings);
     read_film_size(object, settings.film);
