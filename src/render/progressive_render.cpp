@@ -51,10 +51,6 @@ bool ProgressiveRender::add_samples_to(std::vector<std::uint8_t> is_active, std:
         AdaptiveState& adaptive = state_.adaptive;
         if (adaptive.is_uniform()) adaptive.samples.assign(options_.window.area(), state_.spp_done);
         adaptive.is_active = std::move(is_active);
-        for (std::size_t tile = 0; tile < tiles_.size(); ++tile) {
-            choose_pixels(tiles_[tile], workers_.front());
-            if (workers_.front().pixels.empty()) state_.tiles_done[tile] = 1;
-        }
     }
     return go_on(stop, tile_done);
 }
@@ -156,6 +152,10 @@ void ProgressiveRender::render_group(std::size_t first, std::size_t size, const 
         if (is_done != 0 || (!makes_splats && stop())) return;
         Worker& worker = workers_[static_cast<std::size_t>(slot)];
         choose_pixels(tiles_[first + order[index]], worker);
+        if (!state_.adaptive.is_uniform() && worker.pixels.empty()) {
+            is_done = 1;
+            return;
+        }
         const TileJob job{tiles_[first + order[index]],
                           state_.film.splat_window(),
                           options_.full_width,
