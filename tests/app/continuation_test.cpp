@@ -282,7 +282,7 @@ TEST_F(Continuation, RefusesPartsThatDoNotBelongTogether) {
     Checkpoint adaptive = read_checkpoint(work_ / "left.partial");
     adaptive.state.adaptive = {.passes = 1, .samples = std::vector<std::uint32_t>(20 * 30, 16)};
     write_checkpoint(work_ / "adaptive.partial", adaptive.identity, adaptive.description, adaptive.state);
-    refused({"adaptive", "right"}, "is of an adaptive render");
+    refused({"adaptive", "right"}, "is of an adaptive render", "x.exr");
     write_file(work_ / "a.partial", read_file(work_ / "a.partial").substr(100));
     const ProgramResult damaged = run({"merge", "a.partial", "later.partial", "-o", "n.exr"});
     EXPECT_EQ(damaged.exit_code, 1);
