@@ -45,6 +45,11 @@ void require_expected(const Checkpoint& kept, const CheckpointFiles::Expected& e
             fmt::format("the {} was begun without --error and without layers for denoising, and does not hold what "
                         "they need; leave them out, or {}",
                         what, without));
+    if (!expected.adaptive && !state.adaptive.is_uniform())
+        refuse(
+            fmt::format("the {} is of an adaptive render (--error), and some of its pixels have more samples than "
+                        "others; go on with it as it was begun, or {}",
+                        what, without));
 }
 
 /// Drops what is not needed.

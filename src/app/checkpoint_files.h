@@ -24,6 +24,7 @@ class CheckpointFiles {
         PixelRect splat_window;
         std::uint32_t first_sample = 0;
         bool every_other_pass = false;            ///< it must be kept; otherwise it is dropped
+        bool adaptive = false;                    ///< pixels may have more samples than others
         std::optional<std::uint32_t> most_spp{};  ///< that it may have, with those of a pass that was stopped
     };
 

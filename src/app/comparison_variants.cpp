@@ -32,6 +32,9 @@ constexpr std::array kOptionsOfRender{
     OptionOfRender{"--spp", "all variants render alike, for --seconds or with --spp of 'compare'", true},
     OptionOfRender{"--time", "here it is --seconds, for all variants alike"},
     OptionOfRender{"--error", "the errors of all variants are measured"},
+    OptionOfRender{"--adaptive", "here all pixels get as many samples"},
+    OptionOfRender{"--no-adaptive", "here all pixels get as many samples anyway"},
+    OptionOfRender{"--min-spp", "here all pixels get as many samples"},
     OptionOfRender{"--frames", "here --time-code names the moment"},
     OptionOfRender{"--brightest", "here no sample is listed"},
     OptionOfRender{"--half", "here no image file is written"},
@@ -199,7 +202,7 @@ std::string render_command(const std::filesystem::path& scene, const Variant& va
     command += fmt::format(" --spp {} --seed {}", spp, seed);
     // The scene's own limit, which is not looked at here, would cut the image short.
     if (variant.settings.time_limit > 0.0) command += " --time 1e9";
-    if (variant.settings.relative_error > 0.0) command += " --error 1e-6";
+    if (variant.settings.relative_error > 0.0) command += " --error 1e-6 --no-adaptive";
     return command + " --float -o image.exr";
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <exception>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -220,6 +221,11 @@ void describe_state(ImageDescription& description, const RenderState& state, boo
     if (const double mean = sum_of(film.resolve(), 4); s.robust_buckets > 0 && mean > 0.0)
         s.robust_removed_share = 1.0 - sum_of(frame.pixels.pixels, 4) / mean;
     s.brightest = describe(c.brightest.samples());
+    s.adaptive.reset();
+    if (!state.adaptive.is_uniform()) {
+        const auto [least, most] = std::ranges::minmax(state.adaptive.samples);
+        s.adaptive = {least, static_cast<double>(c.samples) / static_cast<double>(window.area()), most};
+    }
 }
 
 void resolve_layers(ImageDescription& description, const RenderState& state) {
@@ -227,8 +233,12 @@ void resolve_layers(ImageDescription& description, const RenderState& state) {
     frame.layers.clear();
     for (const AovOutput& aov : description.aovs) frame.layers.push_back(resolve_layer(state.film, aov));
     if (!state.every_other_pass || state.every_other_spp == 0 || description.aovs.empty()) return;
-    const Film& half = *state.every_other_pass;
-    frame.half_share = static_cast<float>(state.every_other_spp) / static_cast<float>(state.spp_done);
+    const bool is_adaptive = !state.adaptive.is_uniform();
+    const std::optional<Film> evened =
+        is_adaptive ? std::optional(state.film.as_half(*state.every_other_pass)) : std::nullopt;
+    const Film& half = evened ? *evened : *state.every_other_pass;
+    frame.half_share =
+        is_adaptive ? 0.5f : static_cast<float>(state.every_other_spp) / static_cast<float>(state.spp_done);
     OutputLayer image{.name = "half", .channels = "RGBA", .is_color = true, .pixels = rgba_image(half)};
     frame.layers.push_back(std::move(image));
     for (const AovOutput& aov : description.aovs) {

@@ -117,6 +117,10 @@ class Parts {
         if (part.state.pass_size > 0)
             fail(file, "is the checkpoint of a render that is not finished; go on with it with --resume");
         if (part.state.spp_done == 0) fail(file, "has no samples");
+        if (!part.state.adaptive.is_uniform())
+            fail(file,
+                 "is of an adaptive render (--error), whose pixels have different numbers of samples; "
+                 "render parts with --samples or --crop");
         if (identity_.empty()) {
             identity_ = part.identity;
             splat_window_ = part.state.film.splat_window();

@@ -40,8 +40,11 @@ struct RenderArguments {
 
 void report(const std::filesystem::path& output, const RenderStatistics& s) {
     const double seconds = std::max(s.render.wall, 1e-9);
-    log_info("{}: {}x{}, {} spp in {} ({:.2f} Msamples/s, {:.1f} Mrays/s){}{}", output.string(), s.width, s.height,
-             s.spp_done, format_duration(s.render.wall), static_cast<double>(s.samples) / seconds * 1e-6,
+    const std::string spp = s.adaptive ? fmt::format("{} to {} spp, {:.0f} on average,", s.adaptive->least,
+                                                     s.adaptive->most, s.adaptive->mean)
+                                       : fmt::format("{} spp", s.spp_done);
+    log_info("{}: {}x{}, {} in {} ({:.2f} Msamples/s, {:.1f} Mrays/s){}{}", output.string(), s.width, s.height, spp,
+             format_duration(s.render.wall), static_cast<double>(s.samples) / seconds * 1e-6,
              static_cast<double>(s.rays.total()) / seconds * 1e-6,
              s.relative_error ? fmt::format(", relative error about {:.2g}", *s.relative_error) : "",
              s.complete ? "" : fmt::format(", incomplete: {}", s.halt_reason));

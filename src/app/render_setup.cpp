@@ -43,6 +43,8 @@ RenderOptions make_render_options(const RenderSettings& settings) {
     options.relative_error = settings.relative_error;
     if (settings.clamp_indirect > 0.0f) options.clamp_indirect = settings.clamp_indirect;
     options.brightest = static_cast<std::size_t>(settings.brightest);
+    options.adaptive = settings.adaptive && settings.relative_error > 0.0;
+    options.min_spp = static_cast<std::uint32_t>(settings.min_spp);
     return options;
 }
 

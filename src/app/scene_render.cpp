@@ -66,6 +66,7 @@ class SceneRender {
             options_.splat_window = {0, 0, options_.full_width, options_.full_height};
             options_.time_limit_seconds = 0.0;
             options_.relative_error = 0.0;
+            options_.adaptive = false;
             if (request.samples) options_.spp = request.samples->end - request.samples->begin;
         }
         integrator_ = create_integrator(scene_.settings);
@@ -182,6 +183,7 @@ class SceneRender {
             .splat_window = options_.splat_window.empty() ? options_.window : options_.splat_window,
             .first_sample = first_sample(),
             .every_other_pass = keeps_every_other_pass(),
+            .adaptive = options_.adaptive,
             // An image may have more samples than are asked for, but parts must not overlap.
             .most_spp = is_partial(output_) ? std::optional(options_.spp) : std::nullopt};
         std::optional<Checkpoint> kept;

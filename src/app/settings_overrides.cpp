@@ -166,9 +166,11 @@ void SettingsOverrides::add_options(CLI::App& command) {
     command
         .add_option("--error", relative_error,
                     "Start no new pass once the image's estimated relative error, the root of its relMSE, is at most "
-                    "this: 0.05 is a clean preview, 0.01 a clean image. Doubles the memory of the film")
+                    "this: 0.05 is a clean preview, 0.01 a clean image. Pixels get as many samples as they need, --spp "
+                    "at most (docs/adaptive.md). Doubles the memory of the film")
         ->check(real_range(1e-6, 1e3));
     add_firefly_options(command);
+    add_adaptive_options(command);
     command
         .add_option("--max-depth", max_depth, "Most edges of a path from camera to light; 1 is emission seen directly")
         ->check(CLI::Range(1, kMostEdges));
@@ -248,6 +250,18 @@ void SettingsOverrides::add_firefly_options(CLI::App& command) {
         ->check(CLI::Range(0, kMostBrightest));
 }
 
+void SettingsOverrides::add_adaptive_options(CLI::App& command) {
+    auto* const on = command.add_flag_callback(
+        "--adaptive", [this] { adaptive = true; },
+        "With --error, give every pixel as many samples as it needs, --spp at most (default)");
+    command
+        .add_flag_callback(
+            "--no-adaptive", [this] { adaptive = false; }, "With --error, give all pixels as many samples")
+        ->excludes(on);
+    command.add_option("--min-spp", min_spp, "Samples that every pixel gets before an adaptive render leaves any out")
+        ->check(CLI::Range(1, 1 << 24));
+}
+
 void SettingsOverrides::add_color_options(CLI::App& command) {
     command.add_option("--exposure", exposure, "Exposure of the preview image, stops")->check(real_range(-64.0, 64.0));
     command.add_option("--display", display, "OpenColorIO display that the preview image is for");
@@ -289,6 +303,8 @@ void SettingsOverrides::apply(SceneDesc& scene) const {
     set(clamp_indirect, settings.clamp_indirect, "/clamp_indirect", "--clamp-indirect");
     set(robust_buckets, settings.robust_buckets, "/robust", "--robust");
     set(brightest, settings.brightest, "/brightest", "--brightest");
+    set(adaptive, settings.adaptive, "/adaptive", "--no-adaptive");
+    set(min_spp, settings.min_spp, "/min_spp", "--min-spp");
     set(texture_memory, settings.texture_memory, "/texture_memory", "--texture-memory");
     settings.aovs.insert(settings.aovs.end(), aovs.begin(), aovs.end());
     set(aov_layout, settings.aov_layout, "/aov_layout", "--aov-layout");

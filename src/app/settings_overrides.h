@@ -41,6 +41,8 @@ struct SettingsOverrides {
     std::optional<float> clamp_indirect;
     std::optional<int> robust_buckets;
     std::optional<int> brightest;
+    std::optional<bool> adaptive;
+    std::optional<int> min_spp;
     std::optional<int> max_depth;
     std::optional<int> min_depth;
     std::optional<HeuristicType> heuristic;
@@ -70,6 +72,7 @@ struct SettingsOverrides {
 
   private:
     void add_firefly_options(CLI::App& command);
+    void add_adaptive_options(CLI::App& command);
     void add_color_options(CLI::App& command);
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <utility>
 
 namespace etendue {
@@ -15,6 +16,12 @@ double scale_of(const PixelSum& p) {
     const auto count = static_cast<double>(p.samples);
     const double weight = p.weight > 0.5 * count ? p.weight : count;
     return weight > 0.0 ? 1.0 / weight : 0.0;
+}
+
+/// sqrt(s / (1 - s)) for the share `part` / `whole`; 0 if it is none or all.
+double stretch_to_half(std::uint64_t part, std::uint64_t whole) {
+    if (part == 0 || part >= whole) return 0.0;
+    return std::sqrt(static_cast<double>(part) / static_cast<double>(whole - part));
 }
 
 }  // namespace
@@ -44,6 +51,17 @@ void Film::add(const TileBuffer& tile) {
         }
 }
 
+void Film::add(const TileBuffer& tile, std::span<const std::uint32_t> chosen) {
+    const PixelRect& rect = tile.rect();
+    const auto width = static_cast<std::uint32_t>(rect.width());
+    for (const std::uint32_t source : chosen) {
+        const std::size_t target =
+            index(rect.x0 + static_cast<int>(source % width), rect.y0 + static_cast<int>(source / width));
+        pixels_[target].add(tile.pixel(source));
+        layers_.add(target, tile.layers(), source);
+    }
+}
+
 void Film::add_splats(std::span<const std::vector<Splat>> lists, std::uint64_t light_paths, const PixelFilter& filter,
                       const ThreadPool& threads) {
     if (!splats_)
@@ -70,6 +88,33 @@ void Film::add(const Film& other) {
         splats_ = other.splats_;
 }
 
+Film Film::as_half(const Film& part) const {
+    assert(part.window_ == window_ && part.layers_.layout() == layers_.layout());
+    Film half = part;
+    const LayerLayout& layout = layers_.layout();
+    for (std::size_t i = 0; i < pixels_.size(); ++i) {
+        const PixelSum& all = pixels_[i];
+        const PixelSum& some = part.pixels_[i];
+        const double stretch = stretch_to_half(some.samples, all.samples);
+        const auto count = static_cast<double>(all.samples / 2);
+        const double all_scale = count * scale_of(all);
+        const double some_scale = count * scale_of(some);
+        const auto even = [&](double of_all, double of_some) {
+            return of_all * all_scale + stretch * (of_some * some_scale - of_all * all_scale);
+        };
+        half.pixels_[i] = {
+            even(all.r, some.r), even(all.g, some.g), even(all.b, some.b), even(all.alpha, some.alpha), count,
+            all.samples / 2};
+        const std::span<double> sums = half.layers_.sums(i);
+        for (std::size_t k = 0; k < layout.ray_sum(); ++k) sums[k] = even(layers_.sums(i)[k], part.layers_.sums(i)[k]);
+        if (layout.has_ray_counts && some.samples > 0)
+            sums[layout.ray_sum()] *= count / static_cast<double>(some.samples);
+    }
+    if (splats_ && part.splats_)
+        half.splats_ = splats_->as_half(*part.splats_, stretch_to_half(part.light_paths(), light_paths()));
+    return half;
+}
+
 void Film::restore(std::vector<PixelSum> sums, LayerBuffer layers, std::optional<SplatFilm> splats) {
     assert(sums.size() == pixels_.size() && layers.layout() == layers_.layout());
     pixels_ = std::move(sums);
@@ -92,6 +137,16 @@ std::uint64_t Film::sample_count() const {
     std::uint64_t count = 0;
     for (const PixelSum& p : pixels_) count += p.samples;
     return count;
+}
+
+std::array<double, 3> Film::eye_mean(int x, int y) const {
+    const PixelSum& p = pixels_[index(x, y)];
+    const double scale = scale_of(p);
+    return {p.r * scale, p.g * scale, p.b * scale};
+}
+
+std::array<double, 3> Film::light_mean(int x, int y) const {
+    return splats_ ? splats_->mean(x, y) : std::array<double, 3>{};
 }
 
 std::vector<float> Film::resolve_sums(std::size_t first, std::size_t count) const {

@@ -6,6 +6,7 @@
 #include "film/layers.h"
 #include "film/splat_film.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -82,6 +83,8 @@ class Film {
 
     /// Adds the pixels of a finished tile. Calls for tiles that do not overlap may run at the same time.
     void add(const TileBuffer& tile);
+    /// Adds only those of its pixels that are `chosen`: their indices in the tile.
+    void add(const TileBuffer& tile, std::span<const std::uint32_t> chosen);
     /// Adds what tiles have for any pixel, in the order of `lists`, from `light_paths` paths; seen through `filter`,
     /// which must be the same in all calls.
     void add_splats(std::span<const std::vector<Splat>> lists, std::uint64_t light_paths, const PixelFilter& filter,
@@ -89,6 +92,11 @@ class Film {
 
     /// Adds the sums of `other`, which has the same filter, splat window and layers, and a window inside this one's.
     void add(const Film& other);
+
+    /// What `part` might be if it held half of the samples and light paths of this film, of every pixel, in place of
+    /// the share of each that it does hold: off from the image by sqrt(s / (1 - s)) times what it is off, so that it
+    /// and the other half differ as two halves of as many samples do. What cannot be averaged is that of `part`.
+    [[nodiscard]] Film as_half(const Film& part) const;
 
     /// All that it holds: of the window, row by row, and the splats, if there have been any.
     [[nodiscard]] std::span<const PixelSum> sums() const { return pixels_; }
@@ -106,6 +114,13 @@ class Film {
     /// without samples are zero.
     [[nodiscard]] std::vector<float> resolve() const;
     [[nodiscard]] std::uint64_t sample_count() const;
+    /// Samples of the pixel in column `x` and row `y` of the full image.
+    [[nodiscard]] std::uint64_t sample_count(int x, int y) const { return pixels_[index(x, y)].samples; }
+    /// Means of red, green and blue of the same pixel: of what its own samples brought, and of what light paths did.
+    [[nodiscard]] std::array<double, 3> eye_mean(int x, int y) const;
+    [[nodiscard]] std::array<double, 3> light_mean(int x, int y) const;
+    /// Light paths that it has splats of; 0 if it has none.
+    [[nodiscard]] std::uint64_t light_paths() const { return splats_ ? splats_->light_paths() : 0; }
 
     /// Of the window, row by row: means of the light layer of this index, three floats a pixel, with its splats.
     [[nodiscard]] std::vector<float> resolve_light(std::size_t layer) const;

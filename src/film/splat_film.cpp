@@ -53,6 +53,12 @@ double SplatFilm::scale(double light_paths) const {
     return light_paths > 0.0 ? static_cast<double>(full_width_) * static_cast<double>(full_height_) / light_paths : 0.0;
 }
 
+std::array<double, 3> SplatFilm::mean(int x, int y) const {
+    const SplatSum& sum = pixels_[index(x, y, kBeauty)];
+    const double all = scale();
+    return {sum.r * all, sum.g * all, sum.b * all};
+}
+
 void SplatFilm::add(std::span<const std::vector<Splat>> lists, std::uint64_t light_paths, const ThreadPool& threads) {
     light_paths_ += light_paths;
     // Every thread goes through all splats for each of its bands.
@@ -110,6 +116,22 @@ void SplatFilm::add(const SplatFilm& other) {
         pixels_[i].g += other.pixels_[i].g;
         pixels_[i].b += other.pixels_[i].b;
     }
+}
+
+SplatFilm SplatFilm::as_half(const SplatFilm& part, double stretch) const {
+    assert(part.pixels_.size() == pixels_.size());
+    SplatFilm half = *this;
+    half.light_paths_ = light_paths_ / 2;
+    const auto paths = static_cast<double>(half.light_paths_);
+    const double of_all = light_paths_ > 0 ? paths / static_cast<double>(light_paths_) : 0.0;
+    const double of_some = part.light_paths_ > 0 ? paths / static_cast<double>(part.light_paths_) : 0.0;
+    const auto even = [&](double all, double some) { return all * of_all + stretch * (some * of_some - all * of_all); };
+    for (std::size_t i = 0; i < pixels_.size(); ++i) {
+        const SplatSum& all = pixels_[i];
+        const SplatSum& some = part.pixels_[i];
+        half.pixels_[i] = {even(all.r, some.r), even(all.g, some.g), even(all.b, some.b)};
+    }
+    return half;
 }
 
 void SplatFilm::restore(std::vector<SplatSum> sums, std::uint64_t light_paths) {

@@ -10,6 +10,7 @@
 #include "core/vec.h"
 #include "film/pixel_filter.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -51,6 +52,9 @@ class SplatFilm {
     /// Adds the sums of `other`, which has the same window and layers.
     void add(const SplatFilm& other);
 
+    /// Half of the light paths: the mean of these and `stretch` times what that of `part` is off from it.
+    [[nodiscard]] SplatFilm as_half(const SplatFilm& part, double stretch) const;
+
     /// Adds a layer to that of a `Film` whose `window` lies in this one's, `channels` floats a pixel, of which the
     /// first three are red, green and blue.
     void add_to(std::span<float> image, std::size_t channels, const PixelRect& window, std::size_t layer) const {
@@ -67,6 +71,8 @@ class SplatFilm {
     /// Layer by layer, each of the window, row by row.
     [[nodiscard]] std::span<const SplatSum> sums() const { return pixels_; }
     [[nodiscard]] std::uint64_t light_paths() const { return light_paths_; }
+    /// Of the image, red, green and blue, in column `x` and row `y` of the full image.
+    [[nodiscard]] std::array<double, 3> mean(int x, int y) const;
     /// Puts back what `sums` and `light_paths` of such a film have given.
     void restore(std::vector<SplatSum> sums, std::uint64_t light_paths);
 

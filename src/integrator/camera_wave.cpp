@@ -94,14 +94,17 @@ void add_to_bucket(const BucketLayers& buckets, const CameraSample& sample, cons
 
 void generate_camera_rays(const World& world, const TileJob& job, std::size_t first, std::span<CameraSample> samples,
                           std::span<Ray> rays) {
-    const std::size_t area = job.rect.area();
+    const std::size_t pixels = job.pixels.empty() ? job.rect.area() : job.pixels.size();
     for (std::size_t i = 0; i < rays.size(); ++i) {
         CameraSample& sample = samples[i];
-        sample.pixel = static_cast<std::uint32_t>((first + i) % area);
+        const std::size_t which = (first + i) % pixels;
+        const PixelJob pixel =
+            job.pixels.empty() ? PixelJob{static_cast<std::uint32_t>(which), job.first_sample} : job.pixels[which];
+        sample.pixel = pixel.pixel;
         const Vec2i position = pixel_position(job, sample.pixel);
         sample.key = {
             make_pixel_seed(job.seed, static_cast<std::uint32_t>(position.x), static_cast<std::uint32_t>(position.y)),
-            job.first_sample + static_cast<std::uint32_t>((first + i) / area)};
+            pixel.first_sample + static_cast<std::uint32_t>((first + i) / pixels)};
     }
     for (std::size_t begin = 0; begin < rays.size(); begin += CameraNumbers::kCapacity) {
         const std::size_t count = std::min(CameraNumbers::kCapacity, rays.size() - begin);

@@ -31,9 +31,9 @@ struct CameraSample {
     Vec2f lens{0.0f, 0.0f};   ///< chooses the point on the lens, in [0, 1)²
 };
 
-/// Samples are numbered sample by sample over the whole tile: neighbours in a wave are neighbours in the image.
+/// Samples are numbered sample by sample over all pixels of the job: neighbours in a wave are neighbours in the image.
 [[nodiscard]] inline std::size_t camera_sample_count(const TileJob& job) {
-    return job.rect.area() * job.sample_count;
+    return (job.pixels.empty() ? job.rect.area() : job.pixels.size()) * job.sample_count;
 }
 
 /// Makes the camera rays of samples [first, first + rays.size()) of the job.

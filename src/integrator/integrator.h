@@ -25,7 +25,14 @@
 
 namespace etendue {
 
-/// The samples to take: `sample_count` of every pixel of `rect`, beginning with index `first_sample`.
+/// A pixel that is to get samples: its index in the tile, row by row, and that of its first sample.
+struct PixelJob {
+    std::uint32_t pixel = 0;
+    std::uint32_t first_sample = 0;
+};
+
+/// The samples to take: `sample_count` of every pixel of `rect`, beginning with index `first_sample`, or of `pixels`
+/// alone, each beginning with its own.
 struct TileJob {
     PixelRect rect;
     PixelRect window;  ///< what splats may fall into; each of its pixels has a light path per sample
@@ -41,6 +48,7 @@ struct TileJob {
     /// kept. Direct is the light of paths C S* L and C S* . L: what the eye sees, mirrors and smooth glass apart, and
     /// what lights it without another bounce. All other light is indirect.
     float clamp_indirect = std::numeric_limits<float>::infinity();
+    std::span<const PixelJob> pixels{};   ///< empty for all
 };
 
 /// What rendering counts. One per thread, added up at the end.

@@ -58,6 +58,9 @@ std::string to_json(const RenderStatistics& s) {
     json["halt_reason"] = s.halt_reason;
     json["estimated_relative_error"] = s.relative_error ? Json(*s.relative_error) : Json();
     json["spp"] = {{"requested", s.spp_requested}, {"done", s.spp_done}};
+    json["adaptive"] = s.adaptive
+                           ? Json{{"least", s.adaptive->least}, {"mean", s.adaptive->mean}, {"most", s.adaptive->most}}
+                           : Json();
     json["samples"] = s.samples;
     json["samples_per_second"] = per_second(s.samples, s.render.wall);
     json["rays"] = {

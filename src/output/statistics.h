@@ -56,7 +56,14 @@ struct RenderStatistics {
     RayCounts rays;
     std::uint64_t samples = 0;  ///< in all pixels together
     int spp_requested = 0;
-    int spp_done = 0;  ///< finished passes
+    int spp_done = 0;  ///< that every pixel has
+    /// Samples of the pixel that has the fewest, of all on average and of the one that has most, if it is adaptive.
+    struct AdaptiveSpp {
+        std::uint32_t least = 0;
+        double mean = 0.0;
+        std::uint32_t most = 0;
+    };
+    std::optional<AdaptiveSpp> adaptive;
     bool complete = true;
     std::string halt_reason;               ///< why rendering ended
     std::optional<double> relative_error;  ///< estimated; if every other pass was kept for it

@@ -126,6 +126,22 @@ RenderCounters get_counters(Reader& in) {
     return counters;
 }
 
+void put_adaptive(Writer& out, const AdaptiveState& adaptive) {
+    out.put(adaptive.passes);
+    out.put(std::uint64_t{adaptive.samples.size()});
+    out.put(std::span<const std::uint32_t>(adaptive.samples));
+    out.put(std::uint64_t{adaptive.is_active.size()});
+    out.put(std::span<const std::uint8_t>(adaptive.is_active));
+}
+
+AdaptiveState get_adaptive(Reader& in) {
+    AdaptiveState adaptive;
+    adaptive.passes = in.get<std::uint32_t>();
+    adaptive.samples = in.get_many<std::uint32_t>(in.get<std::uint64_t>());
+    adaptive.is_active = in.get_many<std::uint8_t>(in.get<std::uint64_t>());
+    return adaptive;
+}
+
 void put_layers(Writer& out, const LayerBuffer& layers) {
     const LayerLayout& layout = layers.layout();
     for (const std::size_t count : {layout.light, layout.values, layout.nearest}) out.put(std::uint64_t{count});
@@ -230,6 +246,16 @@ std::uint64_t checked_size(const std::filesystem::path& path) {
     return content;
 }
 
+bool is_consistent(const AdaptiveState& adaptive, const RenderState& state) {
+    const std::size_t pixels = state.film.window().area();
+    if (adaptive.is_uniform()) return adaptive.passes == 0 && adaptive.is_active.empty();
+    const auto [least, most] = std::ranges::minmax(adaptive.samples);
+    return adaptive.samples.size() == pixels && least == state.spp_done &&
+           std::uint64_t{state.first_sample} + most + state.pass_size <= std::numeric_limits<std::uint32_t>::max() &&
+           (adaptive.is_active.empty() || (adaptive.is_active.size() == pixels && state.pass_size > 0)) &&
+           std::ranges::all_of(adaptive.is_active, [](auto is_active) { return is_active <= 1; });
+}
+
 /// What no render leaves behind, so that nobody need expect it. Numbers and windows may be any: only the hash is known
 /// to be right, and whoever writes a file can make one.
 bool is_consistent(const RenderState& state) {
@@ -240,6 +266,7 @@ bool is_consistent(const RenderState& state) {
     const std::size_t tiles = state.pass_size > 0 ? make_tiles(film.window()).size() : 0;
     if (state.tiles_done.size() != tiles || std::ranges::any_of(state.tiles_done, [](auto done) { return done > 1; }))
         return false;
+    if (!is_consistent(state.adaptive, state)) return false;
     const RenderCounters& counters = state.counters;
     if (counters.first_dropped.size() > counters.dropped || (counters.dropped > 0 && counters.first_dropped.empty()))
         return false;
@@ -283,6 +310,7 @@ void write_checkpoint(const std::filesystem::path& path, const RenderIdentity& i
             out.put(count);
         out.put(std::uint64_t{state.tiles_done.size()});
         out.put(std::span<const std::uint8_t>(state.tiles_done));
+        put_adaptive(out, state.adaptive);
         put_counters(out, state.counters);
         out.put(state.wall_seconds);
         out.put(state.cpu_seconds);
@@ -306,6 +334,7 @@ Checkpoint read_checkpoint(const std::filesystem::path& path) {
     in.get(std::span<std::uint32_t>(counts));
     const auto [first_sample, spp_done, every_other_spp, pass_size] = counts;
     std::vector<std::uint8_t> tiles_done = in.get_many<std::uint8_t>(in.get<std::uint64_t>());
+    AdaptiveState adaptive = get_adaptive(in);
     RenderCounters counters = get_counters(in);
     const auto wall_seconds = in.get<double>();
     const auto cpu_seconds = in.get<double>();
@@ -317,7 +346,8 @@ Checkpoint read_checkpoint(const std::filesystem::path& path) {
                       .counters = std::move(counters),
                       .wall_seconds = wall_seconds,
                       .cpu_seconds = cpu_seconds,
-                      .every_other_spp = every_other_spp};
+                      .every_other_spp = every_other_spp,
+                      .adaptive = std::move(adaptive)};
     if (in.get<std::uint64_t>() != 0) state.every_other_pass = get_film(in);
     if (in.left() != 0 || !is_consistent(state)) in.fail();
     return {std::move(identity), std::move(description), std::move(state)};

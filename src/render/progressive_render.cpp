@@ -1,6 +1,7 @@
 #include "render/progressive_render.h"
 
 #include "core/process_time.h"
+#include "integrator/camera_wave.h"
 #include "render/tiles.h"
 
 #include <algorithm>
@@ -39,12 +40,45 @@ ProgressiveRender::ProgressiveRender(const World& world, const Integrator& integ
 }
 
 bool ProgressiveRender::add_samples(std::uint32_t count, const StopPredicate& stop, const TileCallback& tile_done) {
+    if (state_.pass_size == 0) begin_pass(count);
+    return go_on(stop, tile_done);
+}
+
+bool ProgressiveRender::add_samples_to(std::vector<std::uint8_t> is_active, std::uint32_t count,
+                                       const StopPredicate& stop, const TileCallback& tile_done) {
+    if (state_.pass_size == 0) {
+        begin_pass(count);
+        AdaptiveState& adaptive = state_.adaptive;
+        if (adaptive.is_uniform()) adaptive.samples.assign(options_.window.area(), state_.spp_done);
+        adaptive.is_active = std::move(is_active);
+    }
+    return go_on(stop, tile_done);
+}
+
+void ProgressiveRender::begin_pass(std::uint32_t count) {
+    state_.pass_size = count;
+    state_.tiles_done.assign(tiles_.size(), 0);
+}
+
+void ProgressiveRender::finish_pass() {
+    AdaptiveState& adaptive = state_.adaptive;
+    const std::uint32_t count = std::exchange(state_.pass_size, 0);
+    state_.tiles_done.clear();
+    if (adaptive.is_uniform()) {
+        state_.spp_done += count;
+        return;
+    }
+    // Without a choice of pixels, all were active.
+    for (std::size_t p = 0; p < adaptive.samples.size(); ++p)
+        if (adaptive.is_active.empty() || adaptive.is_active[p] != 0) adaptive.samples[p] += count;
+    adaptive.is_active.clear();
+    ++adaptive.passes;
+    state_.spp_done = std::ranges::min(adaptive.samples);
+}
+
+bool ProgressiveRender::go_on(const StopPredicate& stop, const TileCallback& tile_done) {
     const auto start = Clock::now();
     const double cpu_start = process_cpu_seconds();
-    if (state_.pass_size == 0) {
-        state_.pass_size = count;
-        state_.tiles_done.assign(tiles_.size(), 0);
-    }
     // Splats are added in the order of the tiles, whatever the order in which these are rendered.
     for (std::size_t first = 0; first < tiles_.size() && !stop();) {
         const std::size_t left = tiles_.size() - first;
@@ -58,14 +92,43 @@ bool ProgressiveRender::add_samples(std::uint32_t count, const StopPredicate& st
     state_.wall_seconds += seconds_since(start);
     state_.cpu_seconds += process_cpu_seconds() - cpu_start;
     if (std::ranges::find(state_.tiles_done, 0) != state_.tiles_done.end()) return false;
-    if (second_film() != nullptr) state_.every_other_spp += state_.pass_size;
-    state_.spp_done += std::exchange(state_.pass_size, 0);
-    state_.tiles_done.clear();
+    if (state_.adaptive.is_uniform() && second_film() != nullptr) state_.every_other_spp += state_.pass_size;
+    finish_pass();
     return true;
 }
 
 Film* ProgressiveRender::second_film() {
-    return state_.every_other_pass && is_odd_pass(state_.next_sample()) ? &*state_.every_other_pass : nullptr;
+    const bool is_odd = state_.adaptive.is_uniform() ? is_odd_pass(state_.next_sample())
+                                                     : state_.adaptive.passes % 2 == 0;  // after one that was even
+    return state_.every_other_pass && is_odd ? &*state_.every_other_pass : nullptr;
+}
+
+void ProgressiveRender::choose_pixels(const PixelRect& rect, Worker& worker) const {
+    const AdaptiveState& adaptive = state_.adaptive;
+    const PixelRect& window = options_.window;
+    worker.pixels.clear();
+    worker.every_other_pixels.clear();
+    if (adaptive.is_uniform()) return;
+    std::uint32_t in_tile = 0;
+    for (int y = rect.y0; y < rect.y1; ++y)
+        for (int x = rect.x0; x < rect.x1; ++x, ++in_tile) {
+            const std::size_t p = static_cast<std::size_t>(y - window.y0) * static_cast<std::size_t>(window.width()) +
+                                  static_cast<std::size_t>(x - window.x0);
+            if (!adaptive.is_active.empty() && adaptive.is_active[p] == 0) continue;
+            worker.pixels.push_back({in_tile, state_.first_sample + adaptive.samples[p]});
+            // Whichever part has fewer, by counts that no other tile changes and no stop of the pass.
+            if (state_.every_other_pass &&
+                2 * state_.every_other_pass->sample_count(x, y) < state_.film.sample_count(x, y))
+                worker.every_other_pixels.push_back(in_tile);
+        }
+}
+
+void ProgressiveRender::add_tile(const Worker& worker, Film* second) {
+    state_.film.add(worker.tile);
+    if (!worker.every_other_pixels.empty())
+        state_.every_other_pass->add(worker.tile, worker.every_other_pixels);
+    else if (second != nullptr && state_.adaptive.is_uniform())
+        second->add(worker.tile);
 }
 
 std::size_t ProgressiveRender::splat_group_size() const {
@@ -90,6 +153,11 @@ void ProgressiveRender::render_group(std::size_t first, std::size_t size, const 
         // Splats of a tile after one that is missing would come too early.
         if (is_done != 0 || (!makes_splats && stop())) return;
         Worker& worker = workers_[static_cast<std::size_t>(slot)];
+        choose_pixels(tiles_[first + order[index]], worker);
+        if (!state_.adaptive.is_uniform() && worker.pixels.empty()) {
+            is_done = 1;
+            return;
+        }
         const TileJob job{tiles_[first + order[index]],
                           state_.film.splat_window(),
                           options_.full_width,
@@ -100,15 +168,15 @@ void ProgressiveRender::render_group(std::size_t first, std::size_t size, const 
                           options_.sequence,
                           &options_.filter,
                           options_.aovs.get(),
-                          options_.clamp_indirect};
+                          options_.clamp_indirect,
+                          worker.pixels};
         worker.counters.brightest.expect(options_.brightest, brightest_floor);
         const std::uint64_t rays_before = worker.counters.rays();
         worker.tile.reset(job.rect, state_.film.layers().layout());
         integrator_.render_tile(world_, job, *worker.scratch, worker.tile, worker.counters);
-        state_.film.add(worker.tile);
-        if (second != nullptr) second->add(worker.tile);
+        add_tile(worker, second);
         is_done = 1;
-        const std::uint64_t samples = job.rect.area() * job.sample_count;
+        const std::uint64_t samples = camera_sample_count(job);
         if (makes_splats) {
             splats_[order[index]].swap(worker.tile.splats());
             light_paths += samples;

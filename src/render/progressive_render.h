@@ -44,11 +44,20 @@ using TileCallback = std::function<void(std::uint64_t samples, std::uint64_t ray
 /// Asked from rendering threads whether to stop for now.
 using StopPredicate = std::function<bool()>;
 
+/// Of a render whose pixels need not have equally many samples. All of the window, row by row.
+struct AdaptiveState {
+    std::uint32_t passes = 0;               ///< finished ones that were adaptive
+    std::vector<std::uint32_t> samples{};   ///< that each pixel has from finished passes; empty: all have spp_done
+    std::vector<std::uint8_t> is_active{};  ///< 1 for the pixels of the pass under way; empty: all of them, or no pass
+
+    [[nodiscard]] bool is_uniform() const { return samples.empty(); }
+};
+
 /// How far a render has come: all that is needed to go on with it.
 struct RenderState {
     Film film;
     std::uint32_t first_sample = 0;          ///< index of the first sample of every pixel
-    std::uint32_t spp_done = 0;              ///< samples that every pixel has
+    std::uint32_t spp_done = 0;              ///< samples that every pixel has; some have more in an adaptive render
     std::uint32_t pass_size = 0;             ///< samples of the pass that was stopped; 0 if none was
     std::vector<std::uint8_t> tiles_done{};  ///< of that pass: 1 for those that have its samples
     RenderCounters counters{};
@@ -56,7 +65,8 @@ struct RenderState {
     double cpu_seconds = 0.0;   ///< the same, of all threads
     /// What every other pass gave, to be compared with the whole; kept if it is there from the beginning.
     std::optional<Film> every_other_pass{};
-    std::uint32_t every_other_spp = 0;  ///< samples per pixel in it
+    std::uint32_t every_other_spp = 0;  ///< samples per pixel in it, of those that all pixels got alike
+    AdaptiveState adaptive{};
 
     /// Index of the next sample of every pixel.
     [[nodiscard]] std::uint32_t next_sample() const { return first_sample + spp_done; }
@@ -78,6 +88,12 @@ class ProgressiveRender {
     /// `count`.
     bool add_samples(std::uint32_t count, const StopPredicate& stop, const TileCallback& tile_done = {});
 
+    /// The same for those pixels alone that are active: 1 for them, of the window, row by row; at least one. Every
+    /// pixel's samples are the first of its own sequence, however many others have. Of every other pass, each pixel's
+    /// own is kept apart, and every other light image. Tiles without active pixels cost nothing.
+    bool add_samples_to(std::vector<std::uint8_t> is_active, std::uint32_t count, const StopPredicate& stop,
+                        const TileCallback& tile_done = {});
+
     /// Of a pass that was stopped, what its complete tiles have is in the film.
     [[nodiscard]] const RenderState& state() const { return state_; }
     /// Moves the state out; nothing else may be called then.
@@ -89,13 +105,23 @@ class ProgressiveRender {
         std::unique_ptr<IntegratorScratch> scratch;
         TileBuffer tile;
         RenderCounters counters;
+        std::vector<PixelJob> pixels;                   ///< of the tile, if only some are active
+        std::vector<std::uint32_t> every_other_pixels;  ///< of these, those whose pass is kept apart
     };
 
     /// Tiles whose splats are added together: few enough for the render to stop within seconds. The image does not
     /// depend on it.
     [[nodiscard]] std::size_t splat_group_size() const;
-    /// The film of every other pass, during such a pass.
+    /// Begins a pass, unless one was stopped.
+    void begin_pass(std::uint32_t count);
+    void finish_pass();
+    bool go_on(const StopPredicate& stop, const TileCallback& tile_done);
+    /// The film of every other pass, if it gets all of this one, or its splats if only some pixels are active.
     [[nodiscard]] Film* second_film();
+    /// Fills the lists of `worker` with what is active of a tile.
+    void choose_pixels(const PixelRect& rect, Worker& worker) const;
+    /// Adds what `worker` has rendered, but for splats, which are added in the order of the tiles.
+    void add_tile(const Worker& worker, Film* second);
     void render_group(std::size_t first, std::size_t size, const StopPredicate& stop, const TileCallback& tile_done);
 
     const World& world_;

@@ -2,12 +2,14 @@
 
 #include "core/process_time.h"
 #include "film/error_estimate.h"
+#include "render/adaptive_pass.h"
 #include "render/tiles.h"
 
 #include <algorithm>
 #include <chrono>
 #include <mutex>
 #include <utility>
+#include <vector>
 
 namespace etendue {
 
@@ -58,22 +60,51 @@ class ProgressReporter {
     Clock::time_point last_report_ = start_;
 };
 
-/// Why no other pass is to begin after `now`, if so.
-std::optional<HaltReason> reached_limit(const RenderState& now, const RenderOptions& options) {
-    if (options.relative_error > 0.0) {
-        const std::optional<double> error = relative_error(now);
-        if (error && *error <= options.relative_error) return HaltReason::ErrorReached;
-    }
+/// Nothing as long as there are too few samples, or if every other pass is not kept.
+std::optional<ErrorEstimate> error_of(const RenderState& state) {
+    // Estimates from a few samples would end renders by luck.
+    constexpr std::uint32_t kFewest = 16;
+    const std::uint32_t other = state.spp_done - state.every_other_spp;
+    if (!state.every_other_pass || state.pass_size > 0 || state.every_other_spp < kFewest || other < kFewest)
+        return std::nullopt;
+    return estimate_errors(state.film, *state.every_other_pass);
+}
+
+/// Why no other pass is to begin after `now`, whose error that is, if so.
+std::optional<HaltReason> reached_limit(const RenderState& now, const std::optional<ErrorEstimate>& error,
+                                        const RenderOptions& options) {
+    if (error && error->relative_error() <= options.relative_error) return HaltReason::ErrorReached;
     if (options.time_limit_seconds > 0.0 && now.wall_seconds >= options.time_limit_seconds)
         return HaltReason::TimeLimit;
     return std::nullopt;
 }
 
-/// Samples of the pass that begins after `now`.
-std::uint32_t next_pass(const RenderState& now, const RenderOptions& options) {
-    const std::uint32_t count = pass_size(now.next_sample(), now.first_sample + options.spp);
-    if (options.time_limit_seconds <= 0.0) return count;
-    return fit_pass(count, now.spp_done, now.wall_seconds, options.time_limit_seconds);
+/// `wanted` samples of `pixels` pixels, or as many as fit before the limit of time.
+std::uint32_t fitting(std::uint32_t wanted, std::size_t pixels, const RenderState& now, const RenderOptions& options) {
+    if (options.time_limit_seconds <= 0.0) return wanted;
+    const std::uint64_t done = now.counters.samples / pixels;
+    return fit_pass(wanted, static_cast<std::uint32_t>(std::min<std::uint64_t>(done, ~std::uint32_t{0})),
+                    now.wall_seconds, options.time_limit_seconds);
+}
+
+/// What to do between passes.
+struct NextStep {
+    std::optional<HaltReason> halt{};       ///< nothing more
+    std::uint32_t count = 0;                ///< samples
+    std::vector<std::uint8_t> is_active{};  ///< of these pixels; empty for all
+};
+
+NextStep next_step(const RenderState& now, const RenderOptions& options) {
+    std::optional<ErrorEstimate> error;
+    if (options.relative_error > 0.0) error = error_of(now);
+    if (const auto limit = reached_limit(now, error, options)) return {.halt = limit};
+    if (!error || !options.adaptive || now.spp_done < options.min_spp) {
+        const std::uint32_t count = pass_size(now.next_sample(), now.first_sample + options.spp);
+        return {.count = fitting(count, options.window.area(), now, options)};
+    }
+    AdaptivePass pass = plan_adaptive_pass(now, *error, options.relative_error, options.spp);
+    if (pass.active == 0) return {.halt = HaltReason::SamplesDone};
+    return {.count = fitting(pass.count, pass.active, now, options), .is_active = std::move(pass.is_active)};
 }
 
 }  // namespace
@@ -102,13 +133,8 @@ ImageF rgba_image(const Film& film) {
 }
 
 std::optional<double> relative_error(const RenderState& state) {
-    // Estimates from a few samples would end renders by luck.
-    constexpr std::uint32_t kFewest = 16;
-    const std::uint32_t other = state.spp_done - state.every_other_spp;
-    if (!state.every_other_pass || state.pass_size > 0 || state.every_other_spp < kFewest || other < kFewest)
-        return std::nullopt;
-    return estimate_relative_error(state.film, *state.every_other_pass,
-                                   static_cast<double>(state.every_other_spp) / static_cast<double>(state.spp_done));
+    const std::optional<ErrorEstimate> error = error_of(state);
+    return error ? std::optional(error->relative_error()) : std::nullopt;
 }
 
 RenderResult render(const World& world, const Integrator& integrator, const RenderOptions& options,
@@ -120,6 +146,9 @@ RenderResult render(const World& world, const Integrator& integrator, const Rend
     const StopPredicate is_wanted = [&] {
         return stop.load(std::memory_order_relaxed) || (pause.is_due && pause.is_due());
     };
+    const TileCallback tile_done = [&](std::uint64_t samples, std::uint64_t rays) {
+        reporter.tile_done(samples, rays);
+    };
     HaltReason halt_reason = HaltReason::SamplesDone;
     // A pass that is under way is finished, whatever the limits say: no pixel is left with fewer samples than others.
     while (now.spp_done < options.spp || now.pass_size > 0) {
@@ -128,16 +157,16 @@ RenderResult render(const World& world, const Integrator& integrator, const Rend
             break;
         }
         if (pause.is_due && pause.is_due()) pause.act(now);
-        std::uint32_t count = 0;
-        if (now.pass_size == 0) {
-            if (const std::optional<HaltReason> limit = reached_limit(now, options)) {
-                halt_reason = *limit;
-                break;
-            }
-            count = next_pass(now, options);
+        NextStep next;
+        if (now.pass_size == 0) next = next_step(now, options);
+        if (next.halt) {
+            halt_reason = *next.halt;
+            break;
         }
-        rendering.add_samples(count, is_wanted,
-                              [&](std::uint64_t samples, std::uint64_t rays) { reporter.tile_done(samples, rays); });
+        if (next.is_active.empty())
+            rendering.add_samples(next.count, is_wanted, tile_done);
+        else
+            rendering.add_samples_to(std::move(next.is_active), next.count, is_wanted, tile_done);
     }
     reporter.finish();
     return {rendering.take_state(), halt_reason};

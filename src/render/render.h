@@ -20,6 +20,10 @@ struct RenderOptions : SamplingOptions {
     std::uint32_t spp = 64;
     double time_limit_seconds = 0.0;  ///< no pass starts after this; 0 for no limit
     double relative_error = 0.0;      ///< no pass starts once the estimate is below this; 0 for no limit
+    /// Once the error can be estimated, samples go where they lower it most, see plan_adaptive_pass. It needs a limit
+    /// of the error; `spp` is then the most that a pixel gets.
+    bool adaptive = false;
+    std::uint32_t min_spp = 0;  ///< that every pixel gets before
 };
 
 /// How far a render is.
@@ -56,12 +60,12 @@ struct RenderPause {
 };
 
 /// Renders `world`, beginning with `state`. A pass that was stopped is finished first, so that no pixel of what is
-/// returned has fewer samples than others unless it was interrupted; if `state` has more samples than are asked for, so
-/// has the result. The image is bit-identical for every thread count and tile order, and
-/// however often the render was stopped and gone on with. `stop` and `pause` are looked at before every tile (or group
-/// of tiles, see ProgressiveRender): when one of them says so, those under way are finished, and what there is is
-/// returned or shown to `pause`. The limit of time counts what `state` has taken; that of the error needs a state that
-/// keeps every other pass.
+/// returned has fewer samples than others unless it was interrupted or is adaptive; if `state` has more samples than
+/// are asked for, so has the result. The image is bit-identical for every thread count and tile order, and however
+/// often the render was stopped and gone on with. `stop` and `pause` are looked at before every tile (or group of
+/// tiles, see ProgressiveRender): when one of them says so, those under way are finished, and what there is is returned
+/// or shown to `pause`. The limit of time counts what `state` has taken; that of the error needs a state that keeps
+/// every other pass.
 [[nodiscard]] RenderResult render(const World& world, const Integrator& integrator, const RenderOptions& options,
                                   const ThreadPool& threads, const std::atomic<bool>& stop,
                                   const ProgressCallback& progress, const RenderPause& pause, RenderState state);

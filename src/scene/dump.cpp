@@ -261,8 +261,10 @@ void dump_settings(const RenderSettings& s, Out out) {
     if (s.robust_buckets > 0) fmt::format_to(out, ", mon:{}", s.robust_buckets);
     if (s.brightest != RenderSettings{}.brightest) fmt::format_to(out, ", {} brightest", s.brightest);
     fmt::format_to(out, "\n");
-    fmt::format_to(out, "sampling: {}, {} spp, seed {}, time limit {:g}, error {:g}\n",
+    fmt::format_to(out, "sampling: {}, {} spp, seed {}, time limit {:g}, error {:g}",
                    s.sampler == SamplerType::Sobol ? "sobol" : "random", s.spp, s.seed, s.time_limit, s.relative_error);
+    if (s.relative_error > 0.0 && s.adaptive) fmt::format_to(out, ", adaptive after {} spp", s.min_spp);
+    fmt::format_to(out, "\n");
     fmt::format_to(out, "film: {} x {}, filter {} radius {:g}\n", s.film.width, s.film.height, text(s.film.filter),
                    s.film.filter_radius);
     if (s.film.crop) fmt::format_to(out, "crop: {}\n", fmt::join(*s.film.crop, " "));

@@ -101,6 +101,8 @@ struct RenderSettings {
     float clamp_indirect = 0.0f;  ///< most of an indirect contribution, in units of the image; 0 for no limit
     int robust_buckets = 0;       ///< of the median of means; 0 for the mean
     int brightest = 8;            ///< how many of the brightest contributions to list, [0, kMostBrightest]
+    bool adaptive = true;         ///< with a relative error: pixels get samples as they need them
+    int min_spp = 48;             ///< samples that every pixel gets before, [1, 2^24]
     std::string camera;           ///< name of the camera; empty for the first
     std::string variant;  ///< KHR_materials_variants: name of the set of materials; empty for the file's default
     std::optional<double> time_code;   ///< seconds of the animation; of a sequence, where frame 0 is

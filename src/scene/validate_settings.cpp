@@ -166,6 +166,7 @@ void validate_settings(const SceneDesc& scene, ProblemList& problems) {
     check(settings.brightest, 0, kMostBrightest, "brightest", "/brightest");
     if (const int n = settings.robust_buckets; n != 0 && (n < kLeastBuckets || n > kMostBuckets || n % 2 == 0))
         problems.error(settings.at("/robust"), fmt::format("mon:{} is not {}", n, kRobustForm));
+    check(settings.min_spp, 1, kMaxSpp, "min_spp", "/min_spp");
     check(static_cast<double>(settings.color.exposure), -kMaxExposure, kMaxExposure, "exposure", "/color/exposure");
     if (!(settings.shutter.close >= settings.shutter.open))
         problems.error(settings.at("/shutter"), fmt::format("the shutter closes at {} before it opens at {}",

@@ -73,6 +73,20 @@ TEST(CheckpointFiles, SayWhatToDoWithoutWhatTheLimitOfErrorNeeds) {
     EXPECT_NE(message.find("leave them out, or start anew without --resume"), std::string::npos) << message;
 }
 
+TEST(CheckpointFiles, AreNotGoneOnWithUniformlyIfTheyAreAdaptive) {
+    const TestFolder folder;
+    const CheckpointFiles files(folder / "a.exr");
+    RenderState state = state_of(2);
+    state.adaptive = {.passes = 1, .samples = std::vector<std::uint32_t>(kWindow.area(), 2)};
+    state.adaptive.samples.back() = 18;
+    files.write(kIdentity, "", state);
+    const std::string message = message_of<SceneError>([&] { (void)files.read(expected(), true); });
+    EXPECT_NE(message.find("is of an adaptive render"), std::string::npos) << message;
+    CheckpointFiles::Expected adaptive = expected();
+    adaptive.adaptive = true;
+    EXPECT_EQ(files.read(adaptive, true)->state.adaptive.samples, state.adaptive.samples);
+}
+
 TEST(ReadPart, RefusesMoreSamplesThanAreAskedForAndThoseOfAPassUnderWay) {
     const TestFolder folder;
     RenderState state = state_of(6);

@@ -227,6 +227,24 @@ TEST_F(Continuation, StopsAtTheErrorThatWasAskedFor) {
     EXPECT_EQ(statistics["complete"], true);
 }
 
+TEST_F(Continuation, GivesPixelsDifferentNumbersOfSamplesUnlessToldNotTo) {
+    const auto statistics = [&](const Arguments& more) {
+        Arguments arguments = render(100000, "a.exr", {"--error", "0.008", "--json", "--quiet"});
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const ProgramResult result = run(arguments);
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        return json::parse(result.out);
+    };
+    const json adaptive = statistics({})["adaptive"];
+    ASSERT_TRUE(adaptive.is_object());
+    EXPECT_GE(adaptive["least"], 48);
+    EXPECT_LE(adaptive["most"], 100000);
+    EXPECT_LT(adaptive["least"].get<double>(), adaptive["mean"].get<double>());
+    EXPECT_LT(adaptive["mean"].get<double>(), adaptive["most"].get<double>());
+    EXPECT_TRUE(statistics({"--no-adaptive"})["adaptive"].is_null());
+    EXPECT_TRUE(statistics({"--min-spp", "100000"})["adaptive"].is_null());
+}
+
 TEST_F(Continuation, RefusesPartsThatDoNotBelongTogether) {
     const auto part = [&](const std::string& name, const Arguments& more) {
         Arguments arguments = render(16, name + ".partial", more);
@@ -261,6 +279,10 @@ TEST_F(Continuation, RefusesPartsThatDoNotBelongTogether) {
     const ProgramResult gap = run({"merge", "a.partial", "later.partial", "-o", "m.exr"});
     EXPECT_EQ(gap.exit_code, 0);
     EXPECT_NE(gap.err.find("note: no part has samples 8 to 9"), std::string::npos) << gap.err;
+    Checkpoint adaptive = read_checkpoint(work_ / "left.partial");
+    adaptive.state.adaptive = {.passes = 1, .samples = std::vector<std::uint32_t>(20 * 30, 16)};
+    write_checkpoint(work_ / "adaptive.partial", adaptive.identity, adaptive.description, adaptive.state);
+    refused({"adaptive", "right"}, "is of an adaptive render", "x.exr");
     write_file(work_ / "a.partial", read_file(work_ / "a.partial").substr(100));
     const ProgramResult damaged = run({"merge", "a.partial", "later.partial", "-o", "n.exr"});
     EXPECT_EQ(damaged.exit_code, 1);

@@ -41,6 +41,23 @@ TEST_F(CameraWave, EveryPixelGetsEachOfItsSamplesOnce) {
     EXPECT_EQ(seen.size(), job_.rect.area() * 6);
 }
 
+TEST_F(CameraWave, OnlyChosenPixelsGetSamplesEachItsOwn) {
+    generate(0, camera_sample_count(job_));
+    const std::vector<Ray> all = rays_;
+    const std::vector<PixelJob> chosen{{7, 5}, {19, 3}, {2, 100}};
+    job_.pixels = chosen;
+    job_.sample_count = 2;
+    ASSERT_EQ(camera_sample_count(job_), 6u);
+    generate(0, 6);
+    for (std::size_t i = 0; i < 6; ++i) {
+        EXPECT_EQ(samples_[i].pixel, chosen[i % 3].pixel);
+        EXPECT_EQ(samples_[i].key.index, chosen[i % 3].first_sample + i / 3);
+    }
+    // The rays that all pixels together got with these indices, from 3 on.
+    EXPECT_EQ(rays_[0].direction, all[2 * job_.rect.area() + 7].direction);
+    EXPECT_EQ(rays_[4].direction, all[1 * job_.rect.area() + 19].direction);
+}
+
 TEST_F(CameraWave, RaysPassThroughTheirPixels) {
     generate(0, camera_sample_count(job_));
     const Mat4f to_screen = world_to_screen(world_.camera());

@@ -26,6 +26,7 @@ RenderStatistics make_statistics() {
     s.halt_reason = "time limit";
     s.integrator = "bdpt";
     s.relative_error = 0.125;
+    s.adaptive = {.least = 8, .mean = 12.5, .most = 16};
     s.load = {0.25, 0.5};
     s.build = {1.0, 1.5};
     s.render = {2.0, 3.75};
@@ -72,7 +73,7 @@ TEST(StatisticsJson, HasEveryField) {
         "scene": "cornell-box", "integrator": "bdpt", "frame": 7, "time_code": 0.25, "settings_hash": "0123abcd",
         "light_units": "radiometric", "size": [64, 32], "full_size": [128, 96],
         "complete": false, "halt_reason": "time limit", "estimated_relative_error": 0.125,
-        "spp": {"requested": 16, "done": 8},
+        "spp": {"requested": 16, "done": 8}, "adaptive": {"least": 8, "mean": 12.5, "most": 16},
         "samples": 80, "samples_per_second": 40.0,
         "rays": {"camera": 100, "bounce": 250, "shadow": 50, "total": 400}, "rays_per_second": 200.0,
         "seconds": {"load": {"wall": 0.25, "cpu": 0.5}, "build": {"wall": 1.0, "cpu": 1.5},

@@ -134,6 +134,36 @@ TEST(Checkpoint, WhatDoesNotBelongTogetherIsRefused) {
                  IoError);
     EXPECT_THROW(read_after([](RenderState& state) { state.first_sample = ~0u - 3; }), IoError);
     EXPECT_NO_THROW(read_after([](RenderState& state) { state.first_sample = ~0u - 4; }));
+    const auto adaptive = [](RenderState& state) {
+        state.adaptive = {.passes = 1, .samples = std::vector<std::uint32_t>(state.film.window().area(), 4)};
+        state.adaptive.samples.back() = 20;
+    };
+    const auto adaptive_but = [&](const std::function<void(RenderState&)>& change) {
+        return [&adaptive, change](RenderState& state) {
+            adaptive(state);
+            change(state);
+        };
+    };
+    EXPECT_NO_THROW(read_after(adaptive));
+    EXPECT_THROW(read_after(adaptive_but([](RenderState& s) { s.adaptive.samples.pop_back(); })), IoError);
+    EXPECT_THROW(read_after(adaptive_but([](RenderState& s) { s.adaptive.samples.front() = 3; })), IoError);
+    EXPECT_THROW(read_after(adaptive_but([](RenderState& s) { s.adaptive.samples.clear(); })), IoError);
+    EXPECT_THROW(read_after(adaptive_but([](RenderState& s) { s.first_sample = ~0u - 19; })), IoError);
+    const auto all_active = [](RenderState& s) { s.adaptive.is_active.assign(s.film.window().area(), 1); };
+    EXPECT_THROW(read_after(adaptive_but(all_active)), IoError) << "no pass is under way";
+    const auto in_a_pass = [&](const std::function<void(RenderState&)>& change) {
+        read_after(
+            [&](RenderState& s) {
+                adaptive(s);
+                s.spp_done = 4;
+                all_active(s);
+                change(s);
+            },
+            2);
+    };
+    EXPECT_NO_THROW(in_a_pass([](RenderState&) {}));
+    EXPECT_THROW(in_a_pass([](RenderState& s) { s.adaptive.is_active.pop_back(); }), IoError);
+    EXPECT_THROW(in_a_pass([](RenderState& s) { s.adaptive.is_active.front() = 2; }), IoError);
     EXPECT_THROW(read_after([](RenderState& state) { state.counters.dropped = 1; }), IoError);
     EXPECT_THROW(read_after([](RenderState& state) { state.counters.first_dropped.push_back({}); }), IoError);
     EXPECT_THROW(read_after([](RenderState& state) { state.tiles_done.push_back(1); }), IoError);

@@ -369,6 +369,8 @@ void read_document(const Json& value, ProblemList& problems, RenderJson& out) {
             problems.error(object.at("robust"), fmt::format("'{}' is not {}", shown(robust), kRobustForm));
     }
     object.integer("brightest", 0, kMostBrightest, settings.brightest);
+    object.boolean("adaptive", settings.adaptive);
+    object.integer("min_spp", 1, kMaxSpp, settings.min_spp);
     read_aovs(object, settings);
     read_texture_memory(object, settings);
     read_film_size(object, settings.film);

@@ -48,7 +48,7 @@ TEST(RenderJson, EverySettingIsRead) {
     const Parsed parsed = parse(R"({
         "scene": "x.glb", "integrator": {"type": "direct", "max_depth": 7, "min_depth": 2, "roulette_depth": 3,
                        "heuristic": "balance", "strategy": [2, 3], "weighted": false, "connections": "cache:4"},
-        "sampler": "random", "spp": 9, "seed": 4294967295, "time": 1.5, "error": 0.25, "resolution": [30, 20], "crop": [1, 2, 3, 4],
+        "sampler": "random", "spp": 9, "seed": 4294967295, "time": 1.5, "error": 0.25, "adaptive": false, "min_spp": 70, "resolution": [30, 20], "crop": [1, 2, 3, 4],
         "light_units": "radiometric", "camera": "c", "lens_radius": 0.5, "focus_distance": 4,
         "film": {"filter": "mitchell", "filter_radius": 2.5},
         "environment": {"image": "i.exr", "color": [1, 2, 3], "scale": 4, "rotation": 5, "visible_to_camera": false},
@@ -70,6 +70,8 @@ TEST(RenderJson, EverySettingIsRead) {
     EXPECT_EQ(s.seed, 4294967295u);
     EXPECT_EQ(s.time_limit, 1.5);
     EXPECT_EQ(s.relative_error, 0.25);
+    EXPECT_FALSE(s.adaptive);
+    EXPECT_EQ(s.min_spp, 70);
     EXPECT_EQ(s.light_units, LightUnits::Radiometric);
     EXPECT_EQ(s.film.width, 30);
     EXPECT_EQ(s.film.height, 20);
