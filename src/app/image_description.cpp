@@ -67,18 +67,20 @@ OutputFrame to_frame(const Json& json) {
 }
 
 Json to_object(const AovOutput& aov) {
-    return {{"name", aov.name},   {"channels", aov.channels},     {"kind", static_cast<int>(aov.kind)},
-            {"first", aov.first}, {"background", aov.background}, {"is_float", aov.is_float}};
+    return {{"name", aov.name},        {"channels", aov.channels},     {"kind", static_cast<int>(aov.kind)},
+            {"first", aov.first},      {"background", aov.background}, {"is_float", aov.is_float},
+            {"manifest", aov.manifest}};
 }
 
 AovOutput to_aov(const Json& json) {
     AovOutput aov;
     json.at("name").get_to(aov.name);
     json.at("channels").get_to(aov.channels);
-    aov.kind = static_cast<AovKind>(std::clamp(json.at("kind").get<int>(), 0, static_cast<int>(AovKind::Rays)));
+    aov.kind = static_cast<AovKind>(std::clamp(json.at("kind").get<int>(), 0, static_cast<int>(AovKind::Matte)));
     json.at("first").get_to(aov.first);
     json.at("background").get_to(aov.background);
     json.at("is_float").get_to(aov.is_float);
+    aov.manifest = json.value("manifest", "");
     return aov;
 }
 
@@ -178,6 +180,7 @@ void resolve_layers(ImageDescription& description, const RenderState& state) {
     OutputLayer image{.name = "half", .channels = "RGBA", .is_color = true, .pixels = rgba_image(half)};
     frame.layers.push_back(std::move(image));
     for (const AovOutput& aov : description.aovs) {
+        if (aov.kind == AovKind::Matte) continue;  // nothing to denoise
         frame.layers.push_back(resolve_layer(half, aov));
         frame.layers.back().name.insert(0, "half.");
     }

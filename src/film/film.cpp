@@ -1,6 +1,7 @@
 #include "film/film.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <utility>
 
@@ -161,6 +162,21 @@ std::vector<float> Film::resolve_sample_counts() const {
     counts.reserve(pixels_.size());
     for (const PixelSum& p : pixels_) counts.push_back(static_cast<float>(p.samples));
     return counts;
+}
+
+std::vector<float> Film::resolve_matte(std::size_t matte, std::size_t ranks) const {
+    assert(matte < layers_.layout().mattes);
+    std::vector<float> values(pixels_.size() * ranks * 2, 0.0f);
+    for (std::size_t p = 0; p < pixels_.size(); ++p) {
+        const double scale = scale_of(pixels_[p]);
+        const std::vector<MatteShare> shares = layers_.mattes().ranked(p, matte);
+        for (std::size_t rank = 0; rank < std::min(ranks, shares.size()); ++rank) {
+            float* const value = &values[(p * ranks + rank) * 2];
+            value[0] = std::bit_cast<float>(shares[rank].id);
+            value[1] = static_cast<float>(shares[rank].weight * scale);
+        }
+    }
+    return values;
 }
 
 }  // namespace etendue

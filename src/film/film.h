@@ -120,6 +120,9 @@ class Film {
     /// Rays per sample. The film must have ray counts.
     [[nodiscard]] std::vector<float> resolve_ray_counts() const;
     [[nodiscard]] std::vector<float> resolve_sample_counts() const;
+    /// Of the matte of this index, the heaviest `ranks` ids of each pixel with their coverage, the share of the pixel's
+    /// weight: two floats a rank, the first of which has the id as its bits; zeros where there are fewer.
+    [[nodiscard]] std::vector<float> resolve_matte(std::size_t matte, std::size_t ranks) const;
 
   private:
     /// Of the pixel in column `x` and row `y` of the full image.

@@ -113,6 +113,7 @@ OIIO::ImageSpec make_spec(const ImagePart& part, const ImageWriteOptions& option
         if (renamed) attribute.name = kColorSpaceStandIn;
         add_attribute(spec, attribute);
     }
+    for (const ImageAttribute& attribute : part.attributes) add_attribute(spec, attribute);
     return spec;
 }
 

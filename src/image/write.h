@@ -49,6 +49,7 @@ struct ImagePart {
     const ImageF* image = nullptr;
     std::vector<std::string> channel_names{};  ///< in place of those of the options; empty for these
     std::vector<PixelDepth> channel_depths{};  ///< Half or Float of each channel; empty for that of the options
+    std::vector<ImageAttribute> attributes{};  ///< besides those of the options
 };
 
 /// Writes `parts`, at least one, as a multi-part EXR in the same way; `options` are those of all.

@@ -1,5 +1,7 @@
 #include "output/aov_output.h"
 
+#include "output/cryptomatte.h"
+
 #include <utility>
 #include <vector>
 
@@ -21,6 +23,8 @@ std::vector<float> resolve(const Film& film, const AovOutput& output) {
             return film.resolve_variance();
         case AovKind::Rays:
             return film.resolve_ray_counts();
+        case AovKind::Matte:
+            return film.resolve_matte(output.first, output.channels.size() / 2);
     }
     return {};
 }
@@ -30,6 +34,10 @@ std::vector<float> resolve(const Film& film, const AovOutput& output) {
 OutputLayer resolve_layer(const Film& film, const AovOutput& output) {
     OutputLayer layer{.name = output.name, .channels = output.channels, .is_float = output.is_float};
     layer.is_color = output.kind == AovKind::Layer || (output.kind == AovKind::Values && output.channels == "RGB");
+    if (output.kind == AovKind::Matte) {
+        layer.is_matte = true;
+        layer.attributes = matte_attributes(output.name, output.manifest);
+    }
     layer.pixels.width = film.window().width();
     layer.pixels.height = film.window().height();
     layer.pixels.channels = static_cast<int>(output.channels.size());

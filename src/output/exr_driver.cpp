@@ -1,6 +1,7 @@
 #include "output/exr_driver.h"
 
 #include "core/error.h"
+#include "output/cryptomatte.h"
 #include "output/output_space.h"
 #include "output/software_name.h"
 
@@ -66,9 +67,13 @@ ExrDriver::ExrDriver(std::filesystem::path path, ColorConfig config, PixelDepth 
     : path_(std::move(path)), config_(std::move(config)), depth_(depth) {}
 
 ImagePart ExrDriver::part_of(const OutputLayer& layer, bool with_name) const {
-    ImagePart part{.image = &layer.pixels};
+    ImagePart part{.image = &layer.pixels, .attributes = layer.attributes};
     for (const char channel : layer.channels) {
-        part.channel_names.push_back(with_name ? fmt::format("{}.{}", layer.name, channel) : std::string(1, channel));
+        if (layer.is_matte)
+            part.channel_names.push_back(matte_channel(layer.name, part.channel_names.size()));
+        else
+            part.channel_names.push_back(with_name ? fmt::format("{}.{}", layer.name, channel)
+                                                   : std::string(1, channel));
         part.channel_depths.push_back(layer.is_float ? PixelDepth::Float : depth_);
     }
     return part;
@@ -97,6 +102,7 @@ void ExrDriver::write(const OutputFrame& frame) {
                                   channels.channel_names.end());
         part.channel_depths.insert(part.channel_depths.end(), channels.channel_depths.begin(),
                                    channels.channel_depths.end());
+        part.attributes.insert(part.attributes.end(), layer.attributes.begin(), layer.attributes.end());
         all.channels += layer.pixels.channels;
     }
     const auto pixels = static_cast<std::size_t>(all.width) * static_cast<std::size_t>(all.height);

@@ -3,6 +3,7 @@
 
 #include "core/vec.h"
 #include "image/image.h"
+#include "image/write.h"
 
 #include <cstdint>
 #include <string>
@@ -13,9 +14,11 @@ namespace etendue {
 /// One of the layers of an image besides its colour.
 struct OutputLayer {
     std::string name{};
-    std::string channels{};  ///< a letter each
-    bool is_float = false;   ///< to be written as 32-bit floats, whatever the image is
-    bool is_color = false;   ///< in the working space; else numbers that mean the same in every space
+    std::string channels{};                    ///< a letter each
+    bool is_float = false;                     ///< to be written as 32-bit floats, whatever the image is
+    bool is_color = false;                     ///< in the working space; else numbers that mean the same in every space
+    bool is_matte = false;                     ///< its channels are those of `matte_channel`
+    std::vector<ImageAttribute> attributes{};  ///< of the file or part that has it
     ImageF pixels{};
 };
 

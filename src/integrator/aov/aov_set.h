@@ -13,6 +13,12 @@
 
 namespace etendue {
 
+/// The ids of what the first surfaces belong to: those of a Cryptomatte.
+struct MatteIds {
+    bool by_material = false;          ///< else by instance
+    std::vector<std::uint32_t> ids{};  ///< of each material or instance of the scene
+};
+
 struct AovSet {
     LayerLayout layout{};
     /// Of the light layers: the first ones are those of its expressions. Null if there are none.
@@ -23,8 +29,9 @@ struct AovSet {
     /// Of the first surface that the eye meets, in the order of their channels: averaged ones, and the nearest's.
     std::vector<FirstHitValue> values{};
     std::vector<FirstHitValue> nearest{};
+    std::vector<MatteIds> mattes{};  ///< as many as the layout has
 
-    [[nodiscard]] bool needs_first_hits() const { return !values.empty() || !nearest.empty(); }
+    [[nodiscard]] bool needs_first_hits() const { return !values.empty() || !nearest.empty() || !mattes.empty(); }
 
     /// How the automaton reads a light.
     struct Source {
