@@ -29,6 +29,7 @@ struct OtherSource {
 constexpr OtherSource kSamples{"samples", "samples of each pixel"};
 constexpr OtherSource kVariance{"variance", "variance of each pixel's mean, as if its samples were independent"};
 constexpr OtherSource kRays{"rays", "rays per sample of each pixel"};
+constexpr OtherSource kDeep{"deep", "a deep image, IMAGE.deep.exr, as --deep writes it"};
 /// Sources that stand for several.
 constexpr OtherSource kPasses{"passes", "the light in ten layers that add up to the image"};
 constexpr OtherSource kLights{"lights", "the light of each lamp, emitting object and the environment, by name"};
@@ -156,7 +157,12 @@ class Planner {
         }
         for (const MatteSource& matte : kMattes)
             if (matte.name == source) return add_matte(aov, matte);
-        std::vector<std::string_view> names{kSamples.name, kVariance.name, kRays.name,
+        if (source == kDeep.name) {
+            if (aov.name != aov.source) fail(aov, "a deep image is no layer: ask for 'deep', and it has that name");
+            set_.layout.is_deep = true;
+            return (void)add_output(aov, {aov.name, {}, AovKind::Deep, 0, 0.0f, true});
+        }
+        std::vector<std::string_view> names{kSamples.name, kVariance.name, kRays.name,     kDeep.name,
                                             kPasses.name,  kLights.name,   kDenoising.name};
         for (const UsualExpression& usual : usual_expressions()) names.push_back(usual.name);
         for (const FirstHitEntry& entry : first_hit_table()) names.push_back(entry.name);
@@ -285,7 +291,7 @@ std::string list_aov_sources() {
     };
     for (const OtherSource& source : {kPasses, kLights, kDenoising}) line(source.name, source.summary);
     for (const FirstHitEntry& entry : first_hit_table()) line(entry.name, entry.summary);
-    for (const OtherSource& source : {kSamples, kVariance, kRays}) line(source.name, source.summary);
+    for (const OtherSource& source : {kSamples, kVariance, kRays, kDeep}) line(source.name, source.summary);
     line(kCryptomatte.name, kCryptomatte.summary);
     for (const MatteSource& matte : kMattes) line(matte.name, matte.summary);
     for (const UsualExpression& usual : usual_expressions())

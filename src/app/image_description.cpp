@@ -76,7 +76,7 @@ AovOutput to_aov(const Json& json) {
     AovOutput aov;
     json.at("name").get_to(aov.name);
     json.at("channels").get_to(aov.channels);
-    aov.kind = static_cast<AovKind>(std::clamp(json.at("kind").get<int>(), 0, static_cast<int>(AovKind::Matte)));
+    aov.kind = static_cast<AovKind>(std::clamp(json.at("kind").get<int>(), 0, static_cast<int>(AovKind::Deep)));
     json.at("first").get_to(aov.first);
     json.at("background").get_to(aov.background);
     json.at("is_float").get_to(aov.is_float);
@@ -173,14 +173,19 @@ void describe_state(ImageDescription& description, const RenderState& state, boo
 void resolve_layers(ImageDescription& description, const RenderState& state) {
     OutputFrame& frame = description.frame;
     frame.layers.clear();
-    for (const AovOutput& aov : description.aovs) frame.layers.push_back(resolve_layer(state.film, aov));
+    for (const AovOutput& aov : description.aovs) {
+        if (aov.kind == AovKind::Deep)
+            frame.deep = resolve_deep_pixels(state.film);
+        else
+            frame.layers.push_back(resolve_layer(state.film, aov));
+    }
     if (!state.every_other_pass || state.every_other_spp == 0 || description.aovs.empty()) return;
     const Film& half = *state.every_other_pass;
     frame.half_share = static_cast<float>(state.every_other_spp) / static_cast<float>(state.spp_done);
     OutputLayer image{.name = "half", .channels = "RGBA", .is_color = true, .pixels = rgba_image(half)};
     frame.layers.push_back(std::move(image));
     for (const AovOutput& aov : description.aovs) {
-        if (aov.kind == AovKind::Matte) continue;  // nothing to denoise
+        if (aov.kind == AovKind::Matte || aov.kind == AovKind::Deep) continue;  // nothing to denoise
         frame.layers.push_back(resolve_layer(half, aov));
         frame.layers.back().name.insert(0, "half.");
     }

@@ -19,6 +19,7 @@ enum class AovKind {
     Variance,  ///< of each pixel's mean
     Rays,      ///< rays per sample
     Matte,     ///< ids and coverages, two ranks for each four channels: a Cryptomatte
+    Deep,      ///< no layer, but a file of its own
 };
 
 struct AovOutput {
@@ -33,5 +34,8 @@ struct AovOutput {
 
 /// The pixels of `output`, from a film that has them.
 [[nodiscard]] OutputLayer resolve_layer(const Film& film, const AovOutput& output);
+
+/// The depths of a film that has them.
+[[nodiscard]] DeepPixels resolve_deep_pixels(const Film& film);
 
 }  // namespace etendue

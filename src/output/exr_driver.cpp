@@ -132,7 +132,22 @@ void ExrDriver::write_layer(const OutputFrame& frame, const OutputLayer& layer) 
     write_parts(frame, std::array{part_of(layer, false)});
 }
 
+void ExrDriver::write_deep(const OutputFrame& frame) {
+    const DeepPixels& deep = frame.deep;
+    write_deep_image(path_,
+                     {.width = frame.pixels.width,
+                      .height = frame.pixels.height,
+                      .counts = deep.counts,
+                      .colors = deep.colors.pixels,
+                      .depths = deep.depths},
+                     options_of(frame));
+}
+
 void ExrDriver::write_parts(const OutputFrame& frame, std::span<const ImagePart> parts) {
+    write_image_parts(path_, parts, options_of(frame));
+}
+
+ImageWriteOptions ExrDriver::options_of(const OutputFrame& frame) const {
     ImageWriteOptions options;
     options.depth = depth_;
     options.attributes = make_attributes(frame, config_);
@@ -140,7 +155,7 @@ void ExrDriver::write_parts(const OutputFrame& frame, std::span<const ImagePart>
     options.offset_y = frame.crop_y;
     options.full_width = frame.full_width;
     options.full_height = frame.full_height;
-    write_image_parts(path_, parts, options);
+    return options;
 }
 
 }  // namespace etendue

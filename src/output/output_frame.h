@@ -22,11 +22,19 @@ struct OutputLayer {
     ImageF pixels{};
 };
 
+/// The depths of an image, in the space of its pixels.
+struct DeepPixels {
+    std::vector<std::uint32_t> counts{};  ///< of each pixel, row by row; none if the image is not deep
+    ImageF colors{};                      ///< r, g, b and a of each depth, in one row
+    std::vector<float> depths{};          ///< Z and ZBack of each
+};
+
 struct OutputFrame {
     /// 3 or 4 channels, linear in `working_space`, as large as the crop window. Alpha is associated (colour is already
     /// multiplied by it).
     ImageF pixels;
     std::vector<OutputLayer> layers;  ///< of the same size
+    DeepPixels deep;                  ///< of the same size
     /// Not 0: layers whose names begin with "half." are of this share of the samples, (0, 1).
     float half_share = 0.0f;
     int crop_x = 0;             ///< column of the first pixel in the full image

@@ -3,7 +3,7 @@
 // The file, little endian: the eight characters of kMagic; the names and values of the identity; the description;
 // counts and times; the tiles of the pass under way; the sums of the film and, if there are any, of the splats, as they
 // lie in memory; the same of every other pass if it is kept; and at the end an XXH3 hash, 16 bytes, of all that stands
-// before. 48 bytes a pixel, 72 with splats, twice that with every other pass.
+// before. 48 bytes a pixel, 72 with splats, and what layers take; twice that with every other pass.
 #pragma once
 
 #include "core/error.h"

@@ -9,13 +9,13 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <map>
+#include <numeric>
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -77,7 +77,7 @@ class Cryptomatte : public testing::Test {
         };
         for (int level = 0; level < 3; ++level)
             for (const std::string pair : {"RG", "BA"}) {
-                const std::string prefix = layer + "0" + std::to_string(level) + ".";
+                const std::string prefix = fmt::format("{}{:02}.", layer, level);
                 const std::size_t ids = channel(prefix + pair[0]);
                 const std::size_t coverages = channel(prefix + pair[1]);
                 EXPECT_LT(std::max(ids, coverages), channels) << prefix;
@@ -190,21 +190,35 @@ TEST_F(Cryptomatte, WhatIsWrongIsSaid) {
     EXPECT_NE(error("cryptomatte_objects", 3).find("did you mean 'cryptomatte_object'"), std::string::npos);
 }
 
-/// True if a program of that name can be run.
-bool is_there(const std::string& program) {
-    return std::system((program + " > /dev/null 2>&1").c_str()) != 127 * 256;
+/// True if `command` succeeds; what it prints goes to `output`.
+bool succeeds(const std::string& command, const fs::path& output) {
+    return std::system(fmt::format("{} > '{}' 2>&1", command, output.string()).c_str()) == 0;
 }
 
 TEST_F(Cryptomatte, IsReadByOpenExrsOwnTools) {
-    if (!is_there("exrheader")) GTEST_SKIP() << "no exrheader here";
+    const fs::path text = work_ / "said.txt";
+    if (!succeeds("command -v exrheader", text)) GTEST_SKIP() << "no exrheader here";
     ASSERT_EQ(render("h.exr", {"--aov", "cryptomatte_asset"}).exit_code, 0);
-    const std::string command =
-        "exrheader '" + (work_ / "h.exr").string() + "' > '" + (work_ / "header.txt").string() + "'";
-    ASSERT_EQ(std::system(command.c_str()), 0);
-    const std::string header = read_file(work_ / "header.txt");
+    ASSERT_TRUE(succeeds(fmt::format("exrheader '{}'", (work_ / "h.exr").string()), text));
+    const std::string header = read_file(text);
     EXPECT_NE(header.find("CryptoAsset00.R, 32-bit floating-point"), std::string::npos) << header;
     EXPECT_NE(header.find("cryptomatte/f42029d/manifest"), std::string::npos) << header;
     EXPECT_NE(header.find("zip"), std::string::npos) << header;
+}
+
+// A reader that shares no code with the program.
+TEST_F(Cryptomatte, IsReadByThePythonTool) {
+    const fs::path text = work_ / "said.txt";
+    if (!succeeds("command -v python3", text)) GTEST_SKIP() << "no python3 here";
+    ASSERT_EQ(render("t.exr", {"--aov", "cryptomatte"}).exit_code, 0);
+    const std::string tool =
+        fmt::format("python3 '{}/tools/extract_matte' '{}'", ETENDUE_SOURCE_DIR, (work_ / "t.exr").string());
+    ASSERT_TRUE(succeeds(tool, text)) << read_file(text);
+    const std::vector<double> near = extract(read_channels(work_ / "t.exr"), "CryptoObject", "3ae39a5", "near");
+    const double mean = std::accumulate(near.begin(), near.end(), 0.0) / static_cast<double>(near.size());
+    EXPECT_NE(read_file(text).find(fmt::format("{:9.6f}  near", mean)), std::string::npos) << read_file(text);
+    ASSERT_TRUE(succeeds(fmt::format("{} CryptoObject near '{}'", tool, (work_ / "near.png").string()), text))
+        << read_file(text);
 }
 
 }  // namespace

@@ -31,7 +31,9 @@ struct AovSet {
     std::vector<FirstHitValue> nearest{};
     std::vector<MatteIds> mattes{};  ///< as many as the layout has
 
-    [[nodiscard]] bool needs_first_hits() const { return !values.empty() || !nearest.empty() || !mattes.empty(); }
+    [[nodiscard]] bool needs_first_hits() const {
+        return !values.empty() || !nearest.empty() || !mattes.empty() || layout.is_deep;
+    }
 
     /// How the automaton reads a light.
     struct Source {

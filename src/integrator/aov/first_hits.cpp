@@ -128,9 +128,12 @@ void add_first_hits(const World& world, const TileJob& job, std::span<const Came
     const AovSet& aovs = *job.aovs;
     LayerBuffer& layers = tile.layers();
     const std::size_t first = aovs.layout.value_sums();
+    if (aovs.layout.is_deep) tile.depths().assign(samples.size(), kDeepBackground);
     std::vector<float> values;
     for (std::size_t i = 0; i < samples.size(); ++i) {
         if (!hits[i].valid()) continue;
+        if (aovs.layout.is_deep)
+            tile.depths()[i] = world.depth(rays[i].origin + rays[i].direction * hits[i].t, rays[i].time);
         add_mattes(world, aovs, samples[i], hits[i], layers.mattes());
         if (aovs.values.empty() && aovs.nearest.empty()) continue;
         FirstHit hit(world, job, samples[i], rays[i], hits[i]);

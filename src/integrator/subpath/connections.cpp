@@ -18,11 +18,12 @@ void Connections::to_sample(const Ray& ray, std::uint32_t slot, const Rgb& contr
 
 void Connections::to_film(const Ray& ray, std::uint32_t slot, const Splat& splat,
                           std::span<const ExpressionShare> shares) {
-    push(ray, {.value = splat.value, .position = splat.position, .slot = slot, .is_splat = true}, shares);
+    push(ray, {.value = splat.value, .position = splat.position, .depth = splat.depth, .slot = slot, .is_splat = true},
+         shares);
 }
 
 void Connections::splat(const Pending& pending, std::span<const ExpressionShare> shares, std::vector<Splat>& splats) {
-    splats.push_back({pending.position, pending.value});
+    splats.push_back({.position = pending.position, .value = pending.value, .depth = pending.depth});
     for (const ExpressionShare& part : shares)
         for (ExpressionMask left = part.expressions; left != 0; left &= left - 1)
             splats.push_back({pending.position, pending.value * part.share,
