@@ -50,7 +50,8 @@ constexpr std::array kMattes{
     MatteSource{"cryptomatte_material", "CryptoMaterial", "the same of materials", material_names, true},
     MatteSource{"cryptomatte_asset", "CryptoAsset", "the same of the topmost nodes", asset_names, false},
 };
-constexpr OtherSource kCryptomatte{"cryptomatte", "all three; :RANKS behind it for more or fewer than 6 ids a pixel"};
+constexpr OtherSource kCryptomatte{
+    "cryptomatte", "the three that follow; :RANKS behind one of them for another number of ids a pixel than 6"};
 constexpr int kUsualRanks = 6;
 constexpr int kMostRanks = 32;
 /// Larger manifests are left out: files are opened for their headers.

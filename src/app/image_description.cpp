@@ -179,7 +179,7 @@ void resolve_layers(ImageDescription& description, const RenderState& state) {
         else
             frame.layers.push_back(resolve_layer(state.film, aov));
     }
-    if (!state.every_other_pass || state.every_other_spp == 0 || description.aovs.empty()) return;
+    if (!state.every_other_pass || state.every_other_spp == 0 || frame.layers.empty()) return;
     const Film& half = *state.every_other_pass;
     frame.half_share = static_cast<float>(state.every_other_spp) / static_cast<float>(state.spp_done);
     OutputLayer image{.name = "half", .channels = "RGBA", .is_color = true, .pixels = rgba_image(half)};
