@@ -1,9 +1,12 @@
 #include "app/aov_setup.h"
 
+#include "app/matte_names.h"
 #include "integrator/integrator.h"
 #include "lightpath/usual_expressions.h"
+#include "output/cryptomatte.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <limits>
 #include <span>
@@ -29,11 +32,33 @@ constexpr OtherSource kVariance{"variance", "variance of each pixel's mean, as i
 constexpr OtherSource kRays{"rays", "rays per sample of each pixel"};
 constexpr OtherSource kMean{"mean", "mean of the samples, which the image is without --robust"};
 constexpr OtherSource kRemoved{"clamped", "light that --clamp-indirect took away"};
+constexpr OtherSource kDeep{"deep", "a deep image, IMAGE.deep.exr, as --deep writes it"};
 /// Sources that stand for several.
 constexpr OtherSource kPasses{"passes", "the light in ten layers that add up to the image"};
 constexpr OtherSource kLights{"lights", "the light of each lamp, emitting object and the environment, by name"};
 constexpr OtherSource kDenoising{"denoising",
                                  "what 'etendue denoise' needs: albedo, N, depth, and half of the samples"};
+
+/// Cryptomattes: by what their ids are told apart, and the layers that they are unless named otherwise.
+struct MatteSource {
+    std::string_view name;
+    std::string_view layer;
+    std::string_view summary;
+    std::vector<std::string> (*names)(const SceneDesc&);
+    bool by_material;
+};
+constexpr std::array kMattes{
+    MatteSource{"cryptomatte_object", "CryptoObject", "ids of objects and their coverage, by Cryptomatte", object_names,
+                false},
+    MatteSource{"cryptomatte_material", "CryptoMaterial", "the same of materials", material_names, true},
+    MatteSource{"cryptomatte_asset", "CryptoAsset", "the same of the topmost nodes", asset_names, false},
+};
+constexpr OtherSource kCryptomatte{
+    "cryptomatte", "the three that follow; :RANKS behind one of them for another number of ids a pixel than 6"};
+constexpr int kUsualRanks = 6;
+constexpr int kMostRanks = 32;
+/// Larger manifests are left out: files are opened for their headers.
+constexpr std::size_t kLargestManifest = std::size_t{16} << 20;
 
 PathNames names_in(const SceneDesc& scene) {
     PathNames names;
@@ -115,6 +140,8 @@ class Planner {
             plan_.has_halves = true;
             for (const FirstHitValue value : {FirstHitValue::Albedo, FirstHitValue::Normal, FirstHitValue::Depth})
                 add_first_hit(aov, std::string(first_hit_entry(value).name), first_hit_entry(value));
+        } else if (is_group && aov.source == kCryptomatte.name) {
+            for (const MatteSource& matte : kMattes) add_matte(aov, matte);
         } else {
             add_one(aov);
         }
@@ -146,10 +173,19 @@ class Planner {
             // Which light layer that is, is known once all expressions are.
             return (void)add_output(aov, {aov.name, "RGB", AovKind::Layer, kRemovedLayer});
         }
-        std::vector<std::string_view> names{kMean.name, kRemoved.name, kSamples.name, kVariance.name,
-                                            kRays.name, kPasses.name,  kLights.name,  kDenoising.name};
+        for (const MatteSource& matte : kMattes)
+            if (matte.name == source) return add_matte(aov, matte);
+        if (source == kDeep.name) {
+            if (aov.name != aov.source) fail(aov, "a deep image is no layer: ask for 'deep', and it has that name");
+            set_.layout.is_deep = true;
+            return (void)add_output(aov, {aov.name, {}, AovKind::Deep, 0, 0.0f, true});
+        }
+        std::vector<std::string_view> names{kMean.name,   kRemoved.name, kSamples.name, kVariance.name, kRays.name,
+                                            kDeep.name,   kPasses.name,  kLights.name,  kDenoising.name};
         for (const UsualExpression& usual : usual_expressions()) names.push_back(usual.name);
         for (const FirstHitEntry& entry : first_hit_table()) names.push_back(entry.name);
+        for (const MatteSource& matte : kMattes) names.push_back(matte.name);
+        names.push_back(kCryptomatte.name);
         fail(aov, fmt::format("there is no source '{}'; {}", source, name_hint(source, names)));
     }
 
@@ -181,6 +217,42 @@ class Planner {
         if (!add_output(aov, std::move(output))) return;
         count += entry.channels.size();
         (entry.is_nearest ? set_.nearest : set_.values).push_back(entry.value);
+    }
+
+    void add_matte(const AovDesc& aov, const MatteSource& matte) {
+        if (aov.is_float == false) fail(aov, "ids are 32-bit floats, and others in 16 bits: leave ':half' away");
+        const int ranks = aov.ranks.value_or(kUsualRanks);
+        if (ranks < 1 || ranks > kMostRanks) fail(aov, fmt::format("1 to {} ranks, not {}", kMostRanks, ranks));
+        LayerLayout& layout = set_.layout;
+        const std::vector<std::string> names = matte.names(scene_);
+        AovOutput output{
+            aov.name == aov.source ? std::string(matte.layer) : aov.name, {}, AovKind::Matte, layout.mattes};
+        output.is_float = true;
+        output.manifest = manifest_of(aov, names);
+        for (int rank = 0; rank < ranks; rank += 2) output.channels += "RGBA";
+        if (!add_output(aov, std::move(output))) return;
+        ++layout.mattes;
+        // Twice as many as are written, so that ids that come late may still become important.
+        layout.matte_slots = std::max(layout.matte_slots, static_cast<std::size_t>(2 * ranks));
+        MatteIds ids{.by_material = matte.by_material};
+        for (const std::string& name : names) ids.ids.push_back(matte_id(name));
+        set_.mattes.push_back(std::move(ids));
+    }
+
+    /// Empty if it would be too large. Notes names that cannot be told apart.
+    std::string manifest_of(const AovDesc& aov, const std::vector<std::string>& names) {
+        const std::vector<MatteCollision> collisions = matte_collisions(names);
+        if (!collisions.empty())
+            problems_.note(aov.location,
+                           fmt::format("{} names have the id of another, the first of them '{}' that of '{}': their "
+                                       "mattes are one",
+                                       collisions.size(), collisions.front().second, collisions.front().first));
+        std::string manifest = matte_manifest(names);
+        if (manifest.size() <= kLargestManifest) return manifest;
+        problems_.note(aov.location, fmt::format("a manifest of {} bytes is left out of the file; mattes can be picked "
+                                                 "in the image, but not by name",
+                                                 manifest.size()));
+        return {};
     }
 
     /// False if it is there already, as groups may ask for it.
@@ -249,7 +321,10 @@ std::string list_aov_sources() {
     };
     for (const OtherSource& source : {kPasses, kLights, kDenoising}) line(source.name, source.summary);
     for (const FirstHitEntry& entry : first_hit_table()) line(entry.name, entry.summary);
-    for (const OtherSource& source : {kSamples, kVariance, kRays, kMean, kRemoved}) line(source.name, source.summary);
+    for (const OtherSource& source : {kSamples, kVariance, kRays, kMean, kRemoved, kDeep})
+        line(source.name, source.summary);
+    line(kCryptomatte.name, kCryptomatte.summary);
+    for (const MatteSource& matte : kMattes) line(matte.name, matte.summary);
     for (const UsualExpression& usual : usual_expressions())
         line(usual.name, fmt::format("{} ({})", usual.summary, usual.expression));
     return list;

@@ -71,18 +71,20 @@ OutputFrame to_frame(const Json& json) {
 }
 
 Json to_object(const AovOutput& aov) {
-    return {{"name", aov.name},   {"channels", aov.channels},     {"kind", static_cast<int>(aov.kind)},
-            {"first", aov.first}, {"background", aov.background}, {"is_float", aov.is_float}};
+    return {{"name", aov.name},        {"channels", aov.channels},     {"kind", static_cast<int>(aov.kind)},
+            {"first", aov.first},      {"background", aov.background}, {"is_float", aov.is_float},
+            {"manifest", aov.manifest}};
 }
 
 AovOutput to_aov(const Json& json) {
     AovOutput aov;
     json.at("name").get_to(aov.name);
     json.at("channels").get_to(aov.channels);
-    aov.kind = static_cast<AovKind>(std::clamp(json.at("kind").get<int>(), 0, static_cast<int>(AovKind::Mean)));
+    aov.kind = static_cast<AovKind>(std::clamp(json.at("kind").get<int>(), 0, static_cast<int>(AovKind::Deep)));
     json.at("first").get_to(aov.first);
     json.at("background").get_to(aov.background);
     json.at("is_float").get_to(aov.is_float);
+    aov.manifest = json.value("manifest", "");
     return aov;
 }
 
@@ -231,8 +233,13 @@ void describe_state(ImageDescription& description, const RenderState& state, boo
 void resolve_layers(ImageDescription& description, const RenderState& state) {
     OutputFrame& frame = description.frame;
     frame.layers.clear();
-    for (const AovOutput& aov : description.aovs) frame.layers.push_back(resolve_layer(state.film, aov));
-    if (!state.every_other_pass || state.every_other_spp == 0 || description.aovs.empty()) return;
+    for (const AovOutput& aov : description.aovs) {
+        if (aov.kind == AovKind::Deep)
+            frame.deep = resolve_deep_pixels(state.film);
+        else
+            frame.layers.push_back(resolve_layer(state.film, aov));
+    }
+    if (!state.every_other_pass || state.every_other_spp == 0 || frame.layers.empty()) return;
     const bool is_adaptive = !state.adaptive.is_uniform();
     const std::optional<Film> evened =
         is_adaptive ? std::optional(state.film.as_half(*state.every_other_pass)) : std::nullopt;
@@ -242,6 +249,7 @@ void resolve_layers(ImageDescription& description, const RenderState& state) {
     OutputLayer image{.name = "half", .channels = "RGBA", .is_color = true, .pixels = rgba_image(half)};
     frame.layers.push_back(std::move(image));
     for (const AovOutput& aov : description.aovs) {
+        if (aov.kind == AovKind::Matte || aov.kind == AovKind::Deep) continue;  // nothing to denoise
         frame.layers.push_back(resolve_layer(half, aov));
         frame.layers.back().name.insert(0, "half.");
     }

@@ -19,7 +19,12 @@ namespace {
 void write_exr(const OutputPaths& paths, const OutputFrame& frame, AovLayout layout, const ColorConfig& colors,
                PixelDepth depth) {
     ExrDriver driver(paths.exr, colors, depth);
-    if (frame.layers.empty() || layout == AovLayout::Layers) return driver.write(frame);
+    if (!frame.deep.counts.empty()) {
+        std::filesystem::path path = paths.exr;
+        path.replace_extension(".deep.exr");
+        ExrDriver(path, colors, depth).write_deep(frame);
+    }
+    if (!frame.aces_container && (frame.layers.empty() || layout == AovLayout::Layers)) return driver.write(frame);
     if (layout == AovLayout::Parts) return driver.write_layers_as_parts(frame);
     for (const OutputLayer& layer : frame.layers) {
         std::filesystem::path path = paths.exr;
@@ -42,7 +47,7 @@ void write_image_files(const OutputPaths& paths, ImageDescription& image, const 
     std::error_code ignored;
     if (std::filesystem::is_regular_file(std::filesystem::symlink_status(paths.json, ignored)))
         std::filesystem::remove(paths.json, ignored);
-    if (image.frame.aces_container && image.frame.layers.empty()) {
+    if (image.frame.aces_container && image.frame.layers.empty() && image.frame.deep.counts.empty()) {
         AcesDriver(paths.exr, colors).write(image.frame);
     } else if (is_to_be_converted(image.frame)) {
         // The preview is made of what is in the working space.

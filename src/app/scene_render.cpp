@@ -22,6 +22,7 @@
 #include "render/render.h"
 #include "world/compile.h"
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -73,7 +74,7 @@ class SceneRender {
         aovs_ = make_aov_plan(scene_, problems_);
         report_problems();
         options_.aovs = aovs_.set;
-        if (scene_.settings.color.aces_container && aovs_.set && scene_.settings.aov_layout != AovLayout::Files)
+        if (scene_.settings.color.aces_container && has_layers() && scene_.settings.aov_layout != AovLayout::Files)
             throw SceneError(scene_.settings.at("/aov_layout"),
                              "an ACES container (SMPTE ST 2065-4) holds one image: write layers in files of their own "
                              "(--aov-layout files)");
@@ -109,6 +110,12 @@ class SceneRender {
     }
 
   private:
+    [[nodiscard]] bool has_layers() const {
+        return std::ranges::any_of(aovs_.outputs, [](const AovOutput& aov) { return aov.kind != AovKind::Deep; });
+    }
+
+    [[nodiscard]] bool is_deep() const { return aovs_.set && aovs_.set->layout.is_deep; }
+
     void report_problems() {
         for (; reported_ < problems_.all().size(); ++reported_)
             if (!request_.quiet) log_warning("{}", problems_.all()[reported_].str());
@@ -116,6 +123,11 @@ class SceneRender {
 
     void check_outputs() const {
         if (is_partial(output_)) {
+            const bool is_crop = options_.window != PixelRect{0, 0, options_.full_width, options_.full_height};
+            if (is_crop && is_deep() && integrator_->makes_splats())
+                throw SceneError({"--deep", {}},
+                                 "a part that is a crop has no depths of the light that falls into others: render "
+                                 "parts that are ranges of samples (--samples), or with 'path'");
             require_writable(output_);
             return;
         }

@@ -219,6 +219,10 @@ void SettingsOverrides::add_options(CLI::App& command) {
             "Layers as channels of the image (layers, default), as parts of its file (parts) or in files of their own "
             "(files)")
         ->check(CLI::IsMember(kAovLayouts));
+    command.add_flag_callback(
+        "--deep", [this] { deep = true; },
+        "Write a deep image beside the image, IMAGE.deep.exr: colour and opacity at up to 16 depths of each pixel "
+        "(docs/deep.md)");
     add_color_options(command);
     auto* half = command.add_flag_callback(
         "--half", [this] { depth = PixelDepth::Half; }, "Write 16-bit floats (default)");
@@ -307,6 +311,7 @@ void SettingsOverrides::apply(SceneDesc& scene) const {
     set(min_spp, settings.min_spp, "/min_spp", "--min-spp");
     set(texture_memory, settings.texture_memory, "/texture_memory", "--texture-memory");
     settings.aovs.insert(settings.aovs.end(), aovs.begin(), aovs.end());
+    if (deep) settings.aovs.push_back({.name = "deep", .source = "deep", .is_float = {}, .location = {"--deep", {}}});
     set(aov_layout, settings.aov_layout, "/aov_layout", "--aov-layout");
     set(exposure, settings.color.exposure, "/color/exposure", "--exposure");
     set(display, settings.color.display, "/color/display", "--display");

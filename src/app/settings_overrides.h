@@ -54,6 +54,7 @@ struct SettingsOverrides {
     std::optional<std::uint64_t> texture_memory;  ///< bytes
     std::vector<AovDesc> aovs;                    ///< besides those of the scene
     std::optional<AovLayout> aov_layout;
+    bool deep = false;
     std::optional<float> exposure;
     std::optional<std::string> display;
     std::optional<std::string> view;

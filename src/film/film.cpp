@@ -1,6 +1,7 @@
 #include "film/film.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <utility>
@@ -68,6 +69,31 @@ void Film::add_splats(std::span<const std::vector<Splat>> lists, std::uint64_t l
         splats_.emplace(full_width_, full_height_, splat_window_, filter, layers_.layout().light,
                         layers_.layout().has_moments);
     splats_->add(lists, light_paths, threads);
+    if (layers_.layout().is_deep) add_deep_splats(lists, filter, threads);
+}
+
+void Film::add_deep_splats(std::span<const std::vector<Splat>> lists, const PixelFilter& filter,
+                           const ThreadPool& threads) {
+    // Every thread goes through all splats for each of its bands.
+    const int bands = std::min(window_.height(), SplatFilm::kBandsPerThread * threads.thread_count());
+    threads.parallel_for(static_cast<std::size_t>(bands), [&](std::size_t band, int) {
+        const auto edge = [&](int i) { return window_.y0 + window_.height() * i / bands; };
+        const PixelRect pixels{window_.x0, edge(static_cast<int>(band)), window_.x1, edge(static_cast<int>(band) + 1)};
+        for (const std::vector<Splat>& list : lists)
+            for (const Splat& splat : list) {
+                if (splat.layer != SplatFilm::kBeauty || !reaches(pixels, filter, splat.position)) continue;
+                for (const ReachedPixel& reached : reached_pixels(pixels, filter, splat.position)) {
+                    const auto part = [&](float value) {
+                        return static_cast<double>(reached.weight) * static_cast<double>(value);
+                    };
+                    layers_.deep().add(index(reached.x, reached.y), {.front = -splat.depth,
+                                                                     .back = -splat.depth,
+                                                                     .splat_r = part(splat.value.r),
+                                                                     .splat_g = part(splat.value.g),
+                                                                     .splat_b = part(splat.value.b)});
+                }
+            }
+    });
 }
 
 void Film::add(const Film& other) {
@@ -216,6 +242,31 @@ std::vector<float> Film::resolve_sample_counts() const {
     counts.reserve(pixels_.size());
     for (const PixelSum& p : pixels_) counts.push_back(static_cast<float>(p.samples));
     return counts;
+}
+
+std::vector<std::vector<DeepSample>> Film::resolve_deep() const {
+    assert(layers_.layout().is_deep);
+    std::vector<std::vector<DeepSample>> image;
+    image.reserve(pixels_.size());
+    const double splat_scale = splats_ ? splats_->scale() : 0.0;
+    for (std::size_t p = 0; p < pixels_.size(); ++p)
+        image.push_back(deep_samples(layers_.deep().bins(p), scale_of(pixels_[p]), splat_scale));
+    return image;
+}
+
+std::vector<float> Film::resolve_matte(std::size_t matte, std::size_t ranks) const {
+    assert(matte < layers_.layout().mattes);
+    std::vector<float> values(pixels_.size() * ranks * 2, 0.0f);
+    for (std::size_t p = 0; p < pixels_.size(); ++p) {
+        const double scale = scale_of(pixels_[p]);
+        const std::vector<MatteShare> shares = layers_.mattes().ranked(p, matte);
+        for (std::size_t rank = 0; rank < std::min(ranks, shares.size()); ++rank) {
+            float* const value = &values[(p * ranks + rank) * 2];
+            value[0] = std::bit_cast<float>(shares[rank].id);
+            value[1] = static_cast<float>(shares[rank].weight * scale);
+        }
+    }
+    return values;
 }
 
 }  // namespace etendue

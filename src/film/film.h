@@ -63,12 +63,15 @@ class TileBuffer {
     [[nodiscard]] const LayerBuffer& layers() const { return layers_; }
     /// Light for any pixel of the image, of integrators that make such.
     [[nodiscard]] std::vector<Splat>& splats() { return splats_; }
+    /// Of the samples of a wave, what their camera rays have met; of deep images only.
+    [[nodiscard]] std::vector<float>& depths() { return depths_; }
 
   private:
     PixelRect rect_;
     std::vector<PixelSum> pixels_;
     LayerBuffer layers_;
     std::vector<Splat> splats_;
+    std::vector<float> depths_;
 };
 
 /// The image, or its crop window. Tiles of one pass do not overlap, so that they can be added from any thread in any
@@ -135,8 +138,16 @@ class Film {
     /// Rays per sample. The film must have ray counts.
     [[nodiscard]] std::vector<float> resolve_ray_counts() const;
     [[nodiscard]] std::vector<float> resolve_sample_counts() const;
+    /// Of each pixel of the window, row by row, its samples from front to back. The film must be deep.
+    [[nodiscard]] std::vector<std::vector<DeepSample>> resolve_deep() const;
+    /// Of the matte of this index, the heaviest `ranks` ids of each pixel with their coverage, the share of the pixel's
+    /// weight: two floats a rank, the first of which has the id as its bits; zeros where there are fewer.
+    [[nodiscard]] std::vector<float> resolve_matte(std::size_t matte, std::size_t ranks) const;
 
   private:
+    /// The splats of the image by their depths.
+    void add_deep_splats(std::span<const std::vector<Splat>> lists, const PixelFilter& filter,
+                         const ThreadPool& threads);
     /// Of the pixel in column `x` and row `y` of the full image.
     [[nodiscard]] std::size_t index(int x, int y) const;
     /// Means of the layers' sums [first, first + count).

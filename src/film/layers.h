@@ -2,6 +2,8 @@
 #pragma once
 
 #include "core/rgb.h"
+#include "film/deep.h"
+#include "film/mattes.h"
 
 #include <cstddef>
 #include <limits>
@@ -18,13 +20,16 @@ struct LayerLayout {
     std::size_t nearest = 0;      ///< numbers of the nearest sample
     bool has_moments = false;     ///< squares of radiance, for its variance: three sums
     bool has_ray_counts = false;  ///< rays that the samples of the pixel took
+    std::size_t mattes = 0;       ///< lists of ids, of Cryptomatte
+    std::size_t matte_slots = 0;  ///< ids in each of them, at most
+    bool is_deep = false;         ///< bins of depth
 
     [[nodiscard]] std::size_t value_sums() const { return 3 * light; }
     [[nodiscard]] std::size_t moment_sums() const { return value_sums() + values; }
     [[nodiscard]] std::size_t ray_sum() const { return moment_sums() + (has_moments ? 3 : 0); }
     /// Sums of a pixel, 8 bytes each; the functions above say where the later kinds begin.
     [[nodiscard]] std::size_t sums() const { return ray_sum() + (has_ray_counts ? 1 : 0); }
-    [[nodiscard]] bool empty() const { return sums() == 0 && nearest == 0; }
+    [[nodiscard]] bool empty() const { return sums() == 0 && nearest == 0 && mattes == 0 && !is_deep; }
     friend bool operator==(const LayerLayout&, const LayerLayout&) = default;
 };
 
@@ -42,6 +47,8 @@ class LayerBuffer {
         if (layout.nearest > 0)
             for (std::size_t p = 0; p < pixels; ++p)
                 nearest_[p * nearest_stride()] = std::numeric_limits<float>::infinity();
+        mattes_.reset(layout.mattes, layout.matte_slots, pixels);
+        deep_.reset(layout.is_deep ? pixels : 0);
     }
 
     [[nodiscard]] const LayerLayout& layout() const { return layout_; }
@@ -81,7 +88,14 @@ class LayerBuffer {
         for (std::size_t i = 0; i < to.size(); ++i) to[i] += from[i];
         if (layout_.nearest > 0)
             add_nearest(pixel, other.nearest_[other_pixel * nearest_stride()], other.nearest(other_pixel));
+        if (layout_.mattes > 0) mattes_.add(pixel, other.mattes_, other_pixel);
+        if (layout_.is_deep) deep_.add(pixel, other.deep_, other_pixel);
     }
+
+    [[nodiscard]] MatteBuffer& mattes() { return mattes_; }
+    [[nodiscard]] const MatteBuffer& mattes() const { return mattes_; }
+    [[nodiscard]] DeepBuffer& deep() { return deep_; }
+    [[nodiscard]] const DeepBuffer& deep() const { return deep_; }
 
     /// All numbers, pixel by pixel, and how to put them back.
     [[nodiscard]] std::span<const double> all_sums() const { return sums_; }
@@ -96,6 +110,8 @@ class LayerBuffer {
     LayerLayout layout_;
     std::vector<double> sums_;
     std::vector<float> nearest_;
+    MatteBuffer mattes_;
+    DeepBuffer deep_;
 };
 
 }  // namespace etendue

@@ -9,9 +9,6 @@ namespace etendue {
 
 namespace {
 
-/// Enough that bands with more splats do not keep the others waiting long.
-constexpr int kBandsPerThread = 4;
-
 float centre(int pixel) {
     return static_cast<float>(pixel) + 0.5f;
 }
@@ -32,6 +29,16 @@ bool reaches(const PixelRect& window, const PixelFilter& filter, const Vec2f& po
     const float r = filter.radius();
     return position.x > centre(window.x0) - r && position.x < centre(window.x1 - 1) + r &&
            position.y > centre(window.y0) - r && position.y < centre(window.y1 - 1) + r;
+}
+
+std::vector<ReachedPixel> reached_pixels(const PixelRect& window, const PixelFilter& filter, const Vec2f& position) {
+    const Reach columns(position.x, filter.radius(), window.x0, window.x1);
+    const Reach rows(position.y, filter.radius(), window.y0, window.y1);
+    std::vector<ReachedPixel> pixels;
+    for (int y = rows.begin; y < rows.end; ++y)
+        for (int x = columns.begin; x < columns.end; ++x)
+            pixels.push_back({x, y, filter.evaluate(centre(y) - position.y) * filter.evaluate(centre(x) - position.x)});
+    return pixels;
 }
 
 SplatFilm::SplatFilm(int full_width, int full_height, const PixelRect& window, const PixelFilter& filter,

@@ -23,6 +23,7 @@ struct Splat {
     Vec2f position;           ///< pixels of the full image, x right and y down from its corner
     Rgb value;                ///< of the integral over the film of area 1
     std::uint32_t layer = 0;  ///< of SplatFilm: the image, or one of the film's light layers
+    float depth = 0.0f;       ///< metres along the viewing direction, of what it shows; of deep images only
 };
 
 /// Sums of one pixel, in double because they grow. 24 bytes.
@@ -35,11 +36,23 @@ struct SplatSum {
 /// True if some pixel of `window` sees what falls on `position` through `filter`.
 [[nodiscard]] bool reaches(const PixelRect& window, const PixelFilter& filter, const Vec2f& position);
 
+/// A pixel of the full image that sees a splat, and the filter there.
+struct ReachedPixel {
+    int x = 0;
+    int y = 0;
+    float weight = 0.0f;
+};
+/// Those of `window` that see what falls on `position` through `filter`, row by row.
+[[nodiscard]] std::vector<ReachedPixel> reached_pixels(const PixelRect& window, const PixelFilter& filter,
+                                                       const Vec2f& position);
+
 /// Sums of splats, of the image and of the light layers of a film. 24 bytes a pixel and layer.
 class SplatFilm {
   public:
     static constexpr std::size_t kBeauty = 0;
     static constexpr std::size_t kFirstLayer = 1;
+    /// Enough that bands with more splats do not keep the others waiting long.
+    static constexpr int kBandsPerThread = 4;
 
     /// With moments it keeps the sums of the squares of what the splats of the image bring, in one more layer.
     SplatFilm(int full_width, int full_height, const PixelRect& window, const PixelFilter& filter,
@@ -68,6 +81,8 @@ class SplatFilm {
     void add_variance_to(std::span<float> variance, const PixelRect& window) const;
 
     [[nodiscard]] const PixelFilter& filter() const { return filter_; }
+    /// What the sums are to be multiplied by.
+    [[nodiscard]] double scale() const { return scale(static_cast<double>(light_paths_)); }
     /// Layer by layer, each of the window, row by row.
     [[nodiscard]] std::span<const SplatSum> sums() const { return pixels_; }
     [[nodiscard]] std::uint64_t light_paths() const { return light_paths_; }

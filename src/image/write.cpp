@@ -17,6 +17,7 @@
 #include <span>
 #include <string_view>
 
+#include <OpenImageIO/deepdata.h>
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
@@ -113,6 +114,7 @@ OIIO::ImageSpec make_spec(const ImagePart& part, const ImageWriteOptions& option
         if (renamed) attribute.name = kColorSpaceStandIn;
         add_attribute(spec, attribute);
     }
+    for (const ImageAttribute& attribute : part.attributes) add_attribute(spec, attribute);
     return spec;
 }
 
@@ -228,7 +230,48 @@ std::vector<unsigned char> encode(const std::filesystem::path& path, std::span<c
     return encoded;
 }
 
+/// The samples of all pixels, as OpenImageIO takes them.
+OIIO::DeepData deep_data(const DeepImageView& image, const OIIO::ImageSpec& spec) {
+    OIIO::DeepData data(spec);
+    data.set_all_samples(
+        OIIO::cspan<unsigned int>(image.counts.data(), static_cast<std::int64_t>(image.counts.size())));
+    std::size_t sample = 0;
+    for (std::size_t p = 0; p < image.counts.size(); ++p)
+        for (std::uint32_t s = 0; s < image.counts[p]; ++s, ++sample) {
+            const auto pixel = static_cast<std::int64_t>(p);
+            for (std::size_t c = 0; c < 4; ++c)
+                data.set_deep_value(pixel, static_cast<int>(c), static_cast<int>(s), image.colors[4 * sample + c]);
+            for (std::size_t c = 0; c < 2; ++c)
+                data.set_deep_value(pixel, static_cast<int>(4 + c), static_cast<int>(s), image.depths[2 * sample + c]);
+        }
+    return data;
+}
+
 }  // namespace
+
+void write_deep_image(const std::filesystem::path& path, const DeepImageView& image, const ImageWriteOptions& options) {
+    ImageF shape;
+    shape.width = image.width;
+    shape.height = image.height;
+    shape.channels = 6;
+    const ImagePart part{.image = &shape, .channel_names = {"R", "G", "B", "A", "Z", "ZBack"}};
+    ImageWriteOptions as_floats = options;
+    as_floats.depth = PixelDepth::Float;
+    configure_image_library();
+    OIIO::ImageSpec spec = make_spec(part, as_floats);
+    spec.deep = true;
+    spec.z_channel = 4;
+    if (options.compression == ExrCompression::Zip) spec.attribute("compression", "zips");  // what deep files may have
+    const MemoryFile file;
+    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("openexr");
+    if (!output) throw IoError(fmt::format("cannot write {}: {}", path.string(), OIIO::geterror()));
+    output->threads(1);
+    if (!output->open(file.name(), spec) || !output->write_deep_image(deep_data(image, spec)) || !output->close())
+        throw IoError(fmt::format("cannot write {}: {}", path.string(), output->geterror()));
+    std::vector<unsigned char> encoded = file.bytes();
+    rename_exr_attribute(encoded, kColorSpaceStandIn, kColorSpace);
+    write_bytes(path, std::as_bytes(std::span<const unsigned char>(encoded)));
+}
 
 void write_image_parts(const std::filesystem::path& path, std::span<const ImagePart> parts,
                        const ImageWriteOptions& options) {

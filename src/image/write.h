@@ -5,6 +5,7 @@
 #include "core/vec.h"
 #include "image/image.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -49,11 +50,24 @@ struct ImagePart {
     const ImageF* image = nullptr;
     std::vector<std::string> channel_names{};  ///< in place of those of the options; empty for these
     std::vector<PixelDepth> channel_depths{};  ///< Half or Float of each channel; empty for that of the options
+    std::vector<ImageAttribute> attributes{};  ///< besides those of the options
 };
 
 /// Writes `parts`, at least one, as a multi-part EXR in the same way; `options` are those of all.
 void write_image_parts(const std::filesystem::path& path, std::span<const ImagePart> parts,
                        const ImageWriteOptions& options);
+
+/// An image of any number of depths in each pixel.
+struct DeepImageView {
+    int width = 0;
+    int height = 0;
+    std::span<const std::uint32_t> counts{};  ///< of each pixel, row by row
+    std::span<const float> colors{};          ///< R, G, B and A of each depth, from front to back
+    std::span<const float> depths{};          ///< Z and ZBack of each
+};
+
+/// Writes a deep EXR of scanlines in the same way, whatever the options' depth in 32-bit floats.
+void write_deep_image(const std::filesystem::path& path, const DeepImageView& image, const ImageWriteOptions& options);
 
 /// The bytes of a PNG file of `image`, whose values lie in [0, 1] and are encoded for display. Throws IoError.
 [[nodiscard]] std::vector<unsigned char> encode_png(const ImageF& image);

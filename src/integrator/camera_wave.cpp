@@ -132,8 +132,17 @@ void accumulate(const TileJob& job, std::span<const CameraSample> samples, const
     for (std::size_t i = 0; i < samples.size(); ++i) {
         const CameraSample& sample = samples[i];
         const Rgb& radiance = light.radiance(i);
-        if (!accumulate(job, sample, radiance, alpha[i], tile, counters) || layout.sums() == 0) continue;
+        if (!accumulate(job, sample, radiance, alpha[i], tile, counters) || layout.empty()) continue;
         const auto weight = static_cast<double>(sample.weight);
+        if (layout.is_deep) {
+            const auto part = [weight](float value) { return weight * static_cast<double>(value); };
+            layers.deep().add(sample.pixel, {.front = tile.depths()[i],
+                                             .back = tile.depths()[i],
+                                             .alpha = part(alpha[i]),
+                                             .r = part(radiance.r),
+                                             .g = part(radiance.g),
+                                             .b = part(radiance.b)});
+        }
         const std::span<const Rgb> parts = light.layers(i);
         for (std::size_t layer = 0; layer < parts.size(); ++layer)
             layers.add_rgb(sample.pixel, 3 * layer, parts[layer], weight);

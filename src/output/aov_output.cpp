@@ -1,5 +1,7 @@
 #include "output/aov_output.h"
 
+#include "output/cryptomatte.h"
+
 #include <utility>
 #include <vector>
 
@@ -31,16 +33,39 @@ std::vector<float> resolve(const Film& film, const AovOutput& output) {
             return film.resolve_ray_counts();
         case AovKind::Mean:
             return resolve_mean(film);
+        case AovKind::Matte:
+            return film.resolve_matte(output.first, output.channels.size() / 2);
+        case AovKind::Deep:
+            break;
     }
     return {};
 }
 
 }  // namespace
 
+DeepPixels resolve_deep_pixels(const Film& film) {
+    DeepPixels deep;
+    for (const std::vector<DeepSample>& samples : film.resolve_deep()) {
+        deep.counts.push_back(static_cast<std::uint32_t>(samples.size()));
+        for (const DeepSample& s : samples) {
+            deep.colors.pixels.insert(deep.colors.pixels.end(), {s.r, s.g, s.b, s.alpha});
+            deep.depths.insert(deep.depths.end(), {s.front, s.back});
+        }
+    }
+    deep.colors.channels = 4;
+    deep.colors.width = static_cast<int>(deep.depths.size() / 2);
+    deep.colors.height = 1;
+    return deep;
+}
+
 OutputLayer resolve_layer(const Film& film, const AovOutput& output) {
     OutputLayer layer{.name = output.name, .channels = output.channels, .is_float = output.is_float};
     layer.is_color = output.kind == AovKind::Layer || output.kind == AovKind::Mean ||
                      (output.kind == AovKind::Values && output.channels == "RGB");
+    if (output.kind == AovKind::Matte) {
+        layer.is_matte = true;
+        layer.attributes = matte_attributes(output.name, output.manifest);
+    }
     layer.pixels.width = film.window().width();
     layer.pixels.height = film.window().height();
     layer.pixels.channels = static_cast<int>(output.channels.size());

@@ -19,18 +19,24 @@ enum class AovKind {
     Variance,  ///< of each pixel's mean
     Rays,      ///< rays per sample
     Mean,      ///< of the samples: the image, unless that is something else
+    Matte,     ///< ids and coverages, two ranks for each four channels: a Cryptomatte
+    Deep,      ///< no layer, but a file of its own
 };
 
 struct AovOutput {
     std::string name;
     std::string channels;  ///< a letter each
     AovKind kind = AovKind::Layer;
-    std::size_t first = 0;    ///< index of the light layer, or of the first number
+    std::size_t first = 0;    ///< index of the light layer or matte, or of the first number
     float background = 0.0f;  ///< where nothing was hit, of the nearest
     bool is_float = false;    ///< written as 32-bit floats; half floats are enough otherwise
+    std::string manifest{};   ///< of a matte, the names of its ids; empty if there are too many
 };
 
 /// The pixels of `output`, from a film that has them.
 [[nodiscard]] OutputLayer resolve_layer(const Film& film, const AovOutput& output);
+
+/// The depths of a film that has them.
+[[nodiscard]] DeepPixels resolve_deep_pixels(const Film& film);
 
 }  // namespace etendue

@@ -1,6 +1,7 @@
 #include "output/exr_driver.h"
 
 #include "core/error.h"
+#include "output/cryptomatte.h"
 #include "output/output_space.h"
 #include "output/software_name.h"
 
@@ -66,9 +67,13 @@ ExrDriver::ExrDriver(std::filesystem::path path, ColorConfig config, PixelDepth 
     : path_(std::move(path)), config_(std::move(config)), depth_(depth) {}
 
 ImagePart ExrDriver::part_of(const OutputLayer& layer, bool with_name) const {
-    ImagePart part{.image = &layer.pixels};
+    ImagePart part{.image = &layer.pixels, .attributes = layer.attributes};
     for (const char channel : layer.channels) {
-        part.channel_names.push_back(with_name ? fmt::format("{}.{}", layer.name, channel) : std::string(1, channel));
+        if (layer.is_matte)
+            part.channel_names.push_back(matte_channel(layer.name, part.channel_names.size()));
+        else
+            part.channel_names.push_back(with_name ? fmt::format("{}.{}", layer.name, channel)
+                                                   : std::string(1, channel));
         part.channel_depths.push_back(layer.is_float ? PixelDepth::Float : depth_);
     }
     return part;
@@ -97,6 +102,7 @@ void ExrDriver::write(const OutputFrame& frame) {
                                   channels.channel_names.end());
         part.channel_depths.insert(part.channel_depths.end(), channels.channel_depths.begin(),
                                    channels.channel_depths.end());
+        part.attributes.insert(part.attributes.end(), layer.attributes.begin(), layer.attributes.end());
         all.channels += layer.pixels.channels;
     }
     const auto pixels = static_cast<std::size_t>(all.width) * static_cast<std::size_t>(all.height);
@@ -126,7 +132,22 @@ void ExrDriver::write_layer(const OutputFrame& frame, const OutputLayer& layer) 
     write_parts(frame, std::array{part_of(layer, false)});
 }
 
+void ExrDriver::write_deep(const OutputFrame& frame) {
+    const DeepPixels& deep = frame.deep;
+    write_deep_image(path_,
+                     {.width = frame.pixels.width,
+                      .height = frame.pixels.height,
+                      .counts = deep.counts,
+                      .colors = deep.colors.pixels,
+                      .depths = deep.depths},
+                     options_of(frame));
+}
+
 void ExrDriver::write_parts(const OutputFrame& frame, std::span<const ImagePart> parts) {
+    write_image_parts(path_, parts, options_of(frame));
+}
+
+ImageWriteOptions ExrDriver::options_of(const OutputFrame& frame) const {
     ImageWriteOptions options;
     options.depth = depth_;
     options.attributes = make_attributes(frame, config_);
@@ -134,7 +155,7 @@ void ExrDriver::write_parts(const OutputFrame& frame, std::span<const ImagePart>
     options.offset_y = frame.crop_y;
     options.full_width = frame.full_width;
     options.full_height = frame.full_height;
-    write_image_parts(path_, parts, options);
+    return options;
 }
 
 }  // namespace etendue

@@ -24,11 +24,15 @@ class ExrDriver final : public OutputDriver {
     void write_layers_as_parts(const OutputFrame& frame);
     /// One layer of the frame, in the space that it is written in, in place of its pixels.
     void write_layer(const OutputFrame& frame, const OutputLayer& layer);
+    /// The frame's depths, in the space that it is written in: a deep file of R, G, B, A, Z and ZBack, all of them
+    /// 32-bit floats.
+    void write_deep(const OutputFrame& frame);
     /// `parts`, of the frame's size and in the space that it is written in, in place of its pixels: a multi-part file,
     /// unless it is one.
     void write_parts(const OutputFrame& frame, std::span<const ImagePart> parts);
 
   private:
+    [[nodiscard]] ImageWriteOptions options_of(const OutputFrame& frame) const;
     [[nodiscard]] ImagePart part_of(const OutputLayer& layer, bool with_name) const;
 
     std::filesystem::path path_;

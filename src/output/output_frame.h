@@ -3,6 +3,7 @@
 
 #include "core/vec.h"
 #include "image/image.h"
+#include "image/write.h"
 
 #include <cstdint>
 #include <string>
@@ -13,10 +14,19 @@ namespace etendue {
 /// One of the layers of an image besides its colour.
 struct OutputLayer {
     std::string name{};
-    std::string channels{};  ///< a letter each
-    bool is_float = false;   ///< to be written as 32-bit floats, whatever the image is
-    bool is_color = false;   ///< in the working space; else numbers that mean the same in every space
+    std::string channels{};                    ///< a letter each
+    bool is_float = false;                     ///< to be written as 32-bit floats, whatever the image is
+    bool is_color = false;                     ///< in the working space; else numbers that mean the same in every space
+    bool is_matte = false;                     ///< its channels are those of `matte_channel`
+    std::vector<ImageAttribute> attributes{};  ///< of the file or part that has it
     ImageF pixels{};
+};
+
+/// The depths of an image, in the space of its pixels.
+struct DeepPixels {
+    std::vector<std::uint32_t> counts{};  ///< of each pixel, row by row; none if the image is not deep
+    ImageF colors{};                      ///< r, g, b and a of each depth, in one row
+    std::vector<float> depths{};          ///< Z and ZBack of each
 };
 
 struct OutputFrame {
@@ -24,6 +34,7 @@ struct OutputFrame {
     /// multiplied by it).
     ImageF pixels;
     std::vector<OutputLayer> layers;  ///< of the same size
+    DeepPixels deep;                  ///< of the same size
     /// Not 0: layers whose names begin with "half." are of this share of the samples, (0, 1).
     float half_share = 0.0f;
     int crop_x = 0;             ///< column of the first pixel in the full image

@@ -18,6 +18,7 @@ void to_output_space(OutputFrame& frame, const ColorConfig& config) {
     convert_space(frame.pixels, frame.working_space, frame.output_space, config);
     for (OutputLayer& layer : frame.layers)
         if (layer.is_color) convert_space(layer.pixels, frame.working_space, frame.output_space, config);
+    if (!frame.deep.depths.empty()) convert_space(frame.deep.colors, frame.working_space, frame.output_space, config);
     frame.working_space = frame.output_space;
 }
 

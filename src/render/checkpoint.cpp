@@ -23,7 +23,8 @@ namespace etendue {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "checkpoints are written as numbers lie in memory");
-static_assert(sizeof(PixelSum) == 48 && sizeof(SplatSum) == 24, "sums have no padding, and old files hold them so");
+static_assert(sizeof(PixelSum) == 48 && sizeof(SplatSum) == 24 && sizeof(DeepBin) == 64,
+              "sums have no padding, and old files hold them so");
 
 constexpr std::array<char, 8> kMagic{'E', 'T', 'D', 'C', 'K', 'P', 'T', '3'};
 
@@ -147,8 +148,16 @@ void put_layers(Writer& out, const LayerBuffer& layers) {
     for (const std::size_t count : {layout.light, layout.values, layout.nearest}) out.put(std::uint64_t{count});
     out.put(std::uint64_t{layout.has_moments});
     out.put(std::uint64_t{layout.has_ray_counts});
+    for (const std::size_t count : {layout.mattes, layout.matte_slots, std::size_t{layout.is_deep}})
+        out.put(std::uint64_t{count});
     out.put(layers.all_sums());
     out.put(layers.all_nearest());
+    out.put(layers.mattes().all_ids());
+    out.put(layers.mattes().all_weights());
+    for (std::size_t p = 0; p < layers.deep().pixels(); ++p) {
+        out.put(std::uint64_t{layers.deep().bins(p).size()});
+        out.put(layers.deep().bins(p));
+    }
 }
 
 void put_film(Writer& out, const Film& film) {
@@ -188,17 +197,27 @@ PixelRect get_window(Reader& in, const PixelRect& frame) {
 
 LayerBuffer get_layers(Reader& in, std::size_t pixels) {
     constexpr std::uint64_t kMost = 4096;  // far more than can be asked for
-    std::array<std::uint64_t, 5> counts;
+    std::array<std::uint64_t, 8> counts;
     in.get(std::span<std::uint64_t>(counts));
     for (const std::uint64_t count : counts)
         if (count > kMost) in.fail();
-    const LayerLayout layout{counts[0], counts[1], counts[2], counts[3] != 0, counts[4] != 0};
+    const LayerLayout layout{counts[0],      counts[1], counts[2], counts[3] != 0,
+                             counts[4] != 0, counts[5], counts[6], counts[7] != 0};
     if (in.left() / sizeof(double) / std::max<std::size_t>(1, layout.sums()) < pixels ||
-        in.left() / sizeof(float) / (layout.nearest + 1) < pixels)
+        in.left() / sizeof(float) / (layout.nearest + 1) < pixels ||
+        (layout.is_deep && in.left() / sizeof(std::uint64_t) < pixels) ||
+        in.left() / sizeof(double) / std::max<std::size_t>(1, layout.mattes * layout.matte_slots) < pixels)
         in.fail();
     LayerBuffer layers(layout, pixels);
     in.get(layers.all_sums());
     in.get(layers.all_nearest());
+    in.get(layers.mattes().all_ids());
+    in.get(layers.mattes().all_weights());
+    for (std::size_t p = 0; p < layers.deep().pixels(); ++p) {
+        const auto count = in.get<std::uint64_t>();
+        if (count > 2 * DeepBuffer::kMostBins) in.fail();
+        layers.deep().restore(p, in.get_many<DeepBin>(count));
+    }
     return layers;
 }
 

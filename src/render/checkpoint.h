@@ -4,7 +4,8 @@
 // counts, the brightest contributions and times; the tiles of the pass under way; of an adaptive render the samples of
 // each pixel and which pixels the pass under way is for; the sums of the film and, if there are any, of the splats, as
 // they lie in memory; the same of every other pass if it is kept; and at the end an XXH3 hash, 16 bytes, of all that
-// stands before. 48 bytes a pixel, 72 with splats, twice that with every other pass, 5 more if it is adaptive.
+// stands before. 48 bytes a pixel, 72 with splats, and what layers take; twice that with every other pass, 5 more if it
+// is adaptive.
 #pragma once
 
 #include "core/error.h"

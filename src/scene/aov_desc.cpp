@@ -2,9 +2,24 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cstddef>
+#include <system_error>
+
+#include <fmt/format.h>
 
 namespace etendue {
+
+namespace {
+
+/// Of "cryptomatte", "NAME=cryptomatte_object" …; lights and expressions may have numbers behind colons of their own.
+bool has_ranks(std::string_view text) {
+    const std::size_t equals = text.find('=');
+    const std::string_view source = equals == std::string_view::npos ? text : text.substr(equals + 1);
+    return source.starts_with("cryptomatte") && source.find(':') == std::string_view::npos;
+}
+
+}  // namespace
 
 bool is_aov_name(std::string_view name) {
     constexpr std::size_t kLongest = 100;
@@ -20,6 +35,15 @@ std::optional<AovDesc> parse_aov(std::string_view text) {
             text.remove_suffix(std::string_view(suffix).size());
             break;
         }
+    const std::size_t colon = text.rfind(':');
+    if (colon != std::string_view::npos && has_ranks(text.substr(0, colon))) {
+        int ranks = 0;
+        const std::string_view digits = text.substr(colon + 1);
+        const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), ranks);
+        if (error != std::errc() || end != digits.data() + digits.size()) return std::nullopt;
+        aov.ranks = ranks;
+        text = text.substr(0, colon);
+    }
     const std::size_t equals = text.find('=');
     aov.name = text.substr(0, equals);
     aov.source = equals == std::string_view::npos ? aov.name : text.substr(equals + 1);
@@ -29,6 +53,7 @@ std::optional<AovDesc> parse_aov(std::string_view text) {
 
 std::string to_text(const AovDesc& aov) {
     std::string text = aov.name == aov.source ? aov.name : aov.name + "=" + aov.source;
+    if (aov.ranks) text += fmt::format(":{}", *aov.ranks);
     if (aov.is_float) text += *aov.is_float ? ":float" : ":half";
     return text;
 }

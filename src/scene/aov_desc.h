@@ -27,20 +27,22 @@ struct AovDesc {
     std::string name;              ///< of the layer: letters, digits, '_' and '-'
     std::string source;            ///< one that the program knows by name, "lpe:EXPRESSION" or "light:NAME"
     std::optional<bool> is_float;  ///< 32-bit or 16-bit floats; none for what suits the source
-    SourceLocation location;
+    std::optional<int> ranks{};    ///< of mattes: ids that are kept of a pixel
+    SourceLocation location{};
 
     friend bool operator==(const AovDesc& a, const AovDesc& b) {
-        return a.name == b.name && a.source == b.source && a.is_float == b.is_float;
+        return a.name == b.name && a.source == b.source && a.is_float == b.is_float && a.ranks == b.ranks;
     }
 };
 
 inline constexpr std::string_view kAovForm =
-    "SOURCE or NAME=SOURCE, with :half or :float behind it if wanted; NAME of letters, digits, '_' and '-'";
+    "SOURCE or NAME=SOURCE, with :half or :float behind it if wanted, of mattes :RANKS; NAME of letters, digits, '_' "
+    "and '-'";
 
 /// True for what layers may be called.
 [[nodiscard]] bool is_aov_name(std::string_view name);
 
-/// "depth", "N:float", "caustics=lpe:C D S+ L". Nothing if `text` has another form.
+/// "depth", "N:float", "caustics=lpe:C D S+ L", "cryptomatte:8". Nothing if `text` has another form.
 [[nodiscard]] std::optional<AovDesc> parse_aov(std::string_view text);
 /// The same backwards.
 [[nodiscard]] std::string to_text(const AovDesc& aov);

@@ -206,6 +206,12 @@ void dump_geometry(const SceneDesc& scene, Out out) {
                            p.colors.empty() ? "" : ", colours", text_of_motion(p.motion.size()));
         }
     }
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+        const NodeDesc& node = scene.nodes[i];
+        if (node.parent != NodeDesc::kNone)
+            fmt::format_to(out, "node {} \"{}\" below node {} \"{}\"\n", i, node.name, node.parent,
+                           scene.nodes[node.parent].name);
+    }
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
         const InstanceDesc& instance = scene.instances[i];
         fmt::format_to(out, "instance {} \"{}\": mesh {}, {}{}\n", i, instance.name, instance.mesh.index,

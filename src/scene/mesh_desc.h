@@ -57,6 +57,15 @@ using TransformMotion = std::vector<Mat4f>;
 /// Most moments of a motion, of transforms and of vertices: what Embree takes.
 inline constexpr std::size_t kMaxMotionSteps = 129;
 
+/// A place in the hierarchy of the scene file, for names: all transforms are those of the instances already.
+struct NodeDesc {
+    static constexpr std::uint32_t kNone = 0xffffffffu;
+
+    std::string name;
+    std::uint32_t parent = kNone;  ///< index into SceneDesc::nodes, smaller than its own; kNone at the top
+    std::uint32_t number = 0;      ///< of the node in the file
+};
+
 /// A mesh placed in the world. Meshes used once are baked, shared ones and those that move become instances of one BVH.
 struct InstanceDesc {
     std::string name;
@@ -64,6 +73,7 @@ struct InstanceDesc {
     Mat4f to_world;  ///< mesh space to world space, in the middle of the shutter; may mirror, must not be singular
     TransformMotion motion;
     SourceLocation location;
+    std::uint32_t node = NodeDesc::kNone;  ///< index into SceneDesc::nodes
 };
 
 }  // namespace etendue

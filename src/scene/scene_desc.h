@@ -28,6 +28,7 @@ struct SceneDesc {
     std::vector<MeshDesc> meshes;
     std::vector<std::string> animations;  ///< names of those that the file has
     std::vector<std::string> variants;    ///< names of the sets of materials that the file offers
+    std::vector<NodeDesc> nodes;          ///< parents before their children
     std::vector<InstanceDesc> instances;
     std::vector<CameraDesc> cameras;
     std::vector<IesProfileDesc> ies_profiles;

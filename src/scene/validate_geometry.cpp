@@ -99,12 +99,17 @@ void validate_meshes(const SceneDesc& scene, ProblemList& problems) {
 }
 
 void validate_instances(const SceneDesc& scene, ProblemList& problems) {
+    for (std::size_t n = 0; n < scene.nodes.size(); ++n)
+        if (scene.nodes[n].parent != NodeDesc::kNone && scene.nodes[n].parent >= n)
+            problems.error({scene.file.string(), {}}, fmt::format("node {} stands before its parent", n));
     for (const InstanceDesc& instance : scene.instances) {
         check_handle(instance.mesh, scene.meshes, "mesh", instance.location, problems);
         if (!is_invertible(instance.to_world)) {
             problems.error(instance.location, "the transform is singular, not affine or not finite");
         }
         check_motion(instance.motion, instance.location, problems);
+        if (instance.node != NodeDesc::kNone && instance.node >= scene.nodes.size())
+            problems.error(instance.location, fmt::format("node {} does not exist", instance.node));
     }
 }
 

@@ -222,6 +222,10 @@ class World {
     [[nodiscard]] std::uint32_t material_index(const SurfacePoint& point) const {
         return static_cast<std::uint32_t>(point.material - data_->materials.data());
     }
+    /// The same of the surface at `hit` (valid).
+    [[nodiscard]] std::uint32_t material_index(const Hit& hit) const {
+        return data_->geometries[hit.geometry].material;
+    }
     /// Distance of `point` from the camera as it is at `time`, metres along its viewing direction.
     [[nodiscard]] float depth(const Vec3f& point, float time) const;
     /// The light that the surface at `point` belongs to; kNone if it is not sampled.

@@ -6,10 +6,12 @@
 #include "support/temporary_folder.h"
 
 #include <atomic>
+#include <bit>
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <memory>
 #include <random>
 #include <string>
 #include <utility>
@@ -66,6 +68,43 @@ TEST_P(Checkpoints, GoOnToTheSameBytes) {
     const RenderResult whole = render_now(world, GetParam().c_str(), options, 2);
     EXPECT_TRUE(same_bytes(result.film.resolve(), whole.film.resolve()));
     EXPECT_EQ(result.counters.samples, whole.counters.samples);
+}
+
+/// All mattes and depths, as text that can be compared.
+std::string mattes_and_depths(const Film& film) {
+    std::string text;
+    for (const float value : film.resolve_matte(0, 4))
+        text += std::to_string(std::bit_cast<std::uint32_t>(value)) + " ";
+    for (const std::vector<DeepSample>& pixel : film.resolve_deep())
+        for (const DeepSample& s : pixel)
+            for (const float value : {s.r, s.g, s.b, s.alpha, s.front, s.back})
+                text += std::to_string(std::bit_cast<std::uint32_t>(value)) + " ";
+    return text;
+}
+
+TEST_P(Checkpoints, GoOnToTheSameMattesAndDepths) {
+    const TemporaryFolder folder;
+    const SceneDesc scene = busy_scene(70, 40);
+    auto aovs = std::make_shared<AovSet>();
+    aovs->layout.mattes = 1;
+    aovs->layout.matte_slots = 3;  // too few for some pixels
+    aovs->layout.is_deep = true;
+    MatteIds& ids = aovs->mattes.emplace_back();
+    for (std::uint32_t i = 0; i < scene.instances.size(); ++i) ids.ids.push_back(i + 1);
+    const World world = compile(scene);
+    const auto integrator = make_integrator(GetParam(), {});
+    RenderOptions options = options_for(70, 40, 9);
+    options.aovs = aovs;
+    const RenderState state = stopped(world, *integrator, options, integrator->makes_splats() ? 1 : 9);
+    const auto path = folder / "a.checkpoint";
+    write_checkpoint(path, kIdentity, "", state);
+    Checkpoint kept = read_checkpoint(path);
+    EXPECT_EQ(mattes_and_depths(kept.state.film), mattes_and_depths(state.film));
+    const ThreadPool pool(3);
+    const std::atomic<bool> never{false};
+    const RenderResult result = render(world, *integrator, options, pool, never, {}, {}, std::move(kept.state));
+    const RenderResult whole = render_now(world, GetParam().c_str(), options, 2);
+    EXPECT_EQ(mattes_and_depths(result.film), mattes_and_depths(whole.film));
 }
 
 INSTANTIATE_TEST_SUITE_P(Integrators, Checkpoints, testing::Values("path", "light", "bdpt"),

@@ -19,6 +19,20 @@ TEST(ParseAov, TakesNamesSourcesAndDepths) {
     EXPECT_EQ(parse_aov("Z=depth:half")->is_float, false);
 }
 
+TEST(ParseAov, TakesRanksOfMattesOnly) {
+    const auto mattes = parse_aov("ids=cryptomatte_object:8:float");
+    ASSERT_TRUE(mattes);
+    EXPECT_EQ(mattes->name, "ids");
+    EXPECT_EQ(mattes->source, "cryptomatte_object");
+    EXPECT_EQ(mattes->ranks, 8);
+    EXPECT_EQ(parse_aov("cryptomatte:4")->name, "cryptomatte");
+    EXPECT_EQ(parse_aov("cryptomatte")->ranks, std::nullopt);
+    EXPECT_EQ(parse_aov("key=light:8")->source, "light:8");
+    EXPECT_EQ(parse_aov("key=light:8")->ranks, std::nullopt);
+    for (const char* text : {"cryptomatte:", "cryptomatte:6x", "cryptomatte:6:6", "cryptomatte:99999999999"})
+        EXPECT_FALSE(parse_aov(text).has_value()) << text;
+}
+
 TEST(ParseAov, RefusesOtherForms) {
     for (const char* text : {"", "=depth", "Z=", "a.b=depth", "a b", ":half", "x=:float", "lpe:C L"})
         EXPECT_FALSE(parse_aov(text).has_value()) << text;
@@ -26,7 +40,7 @@ TEST(ParseAov, RefusesOtherForms) {
 }
 
 TEST(ParseAov, IsUndoneByToText) {
-    for (const char* text : {"depth", "N:half", "Z=depth:float", "c=lpe:C D S+ L"})
+    for (const char* text : {"depth", "N:half", "Z=depth:float", "c=lpe:C D S+ L", "x=cryptomatte_asset:8"})
         EXPECT_EQ(to_text(*parse_aov(text)), text);
 }
 

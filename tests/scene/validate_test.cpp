@@ -54,6 +54,11 @@ TEST(Validate, AcceptsLightsWithAProfile) {
 }
 
 const Defect kDefects[] = {
+    {"NodeMissing", "node 3 does not exist", [](SceneDesc& s) { s.instances[0].node = 3; }},
+    {"NodeBeforeItsParent", "node 0 stands before its parent",
+     [](SceneDesc& s) {
+         s.nodes = {{"a", 1, 0}, {"b", NodeDesc::kNone, 1}};
+     }},
     {"ProfileMissing", "IES profile 3 does not exist", [](SceneDesc& s) { s.lights[0].profile.index = 3; }},
     {"ProfileOfTheSun", "directional light has no position",
      [](SceneDesc& s) {

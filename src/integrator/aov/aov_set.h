@@ -16,6 +16,12 @@
 
 namespace etendue {
 
+/// The ids of what the first surfaces belong to: those of a Cryptomatte.
+struct MatteIds {
+    bool by_material = false;          ///< else by instance
+    std::vector<std::uint32_t> ids{};  ///< of each material or instance of the scene
+};
+
 struct AovSet {
     LayerLayout layout{};
     /// Of the light layers: the first ones are those of its expressions. Null if there are none.
@@ -33,6 +39,7 @@ struct AovSet {
     /// Of the first surface that the eye meets, in the order of their channels: averaged ones, and the nearest's.
     std::vector<FirstHitValue> values{};
     std::vector<FirstHitValue> nearest{};
+    std::vector<MatteIds> mattes{};  ///< as many as the layout has
 
     /// Puts buckets behind all layers that there are.
     void add_buckets(std::size_t count) {
@@ -41,7 +48,9 @@ struct AovSet {
         layout.values += buckets.value_count();
     }
 
-    [[nodiscard]] bool needs_first_hits() const { return !values.empty() || !nearest.empty(); }
+    [[nodiscard]] bool needs_first_hits() const {
+        return !values.empty() || !nearest.empty() || !mattes.empty() || layout.is_deep;
+    }
 
     /// How the automaton reads a light.
     struct Source {

@@ -111,6 +111,15 @@ class FirstHit {
     std::optional<Albedo> albedo_;
 };
 
+void add_mattes(const World& world, const AovSet& aovs, const CameraSample& sample, const Hit& hit,
+                MatteBuffer& mattes) {
+    for (std::size_t m = 0; m < aovs.mattes.size(); ++m) {
+        const MatteIds& matte = aovs.mattes[m];
+        const std::uint32_t index = matte.by_material ? world.material_index(hit) : hit.instance;
+        mattes.add(sample.pixel, m, matte.ids[index], static_cast<double>(sample.weight));
+    }
+}
+
 }  // namespace
 
 void add_first_hits(const World& world, const TileJob& job, std::span<const CameraSample> samples,
@@ -119,9 +128,14 @@ void add_first_hits(const World& world, const TileJob& job, std::span<const Came
     const AovSet& aovs = *job.aovs;
     LayerBuffer& layers = tile.layers();
     const std::size_t first = aovs.layout.value_sums();
+    if (aovs.layout.is_deep) tile.depths().assign(samples.size(), kDeepBackground);
     std::vector<float> values;
     for (std::size_t i = 0; i < samples.size(); ++i) {
         if (!hits[i].valid()) continue;
+        if (aovs.layout.is_deep)
+            tile.depths()[i] = world.depth(rays[i].origin + rays[i].direction * hits[i].t, rays[i].time);
+        add_mattes(world, aovs, samples[i], hits[i], layers.mattes());
+        if (aovs.values.empty() && aovs.nearest.empty()) continue;
         FirstHit hit(world, job, samples[i], rays[i], hits[i]);
         const std::uint32_t pixel = samples[i].pixel;
         values.clear();

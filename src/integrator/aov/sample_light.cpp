@@ -43,7 +43,9 @@ void SampleLight::add_watched(std::uint32_t slot, const Rgb& light, LightKind ki
 void SampleLight::add_splat(std::uint32_t slot, std::uint32_t sample, const Splat& splat, LightKind kind,
                             std::span<const ExpressionShare> shares, std::vector<Splat>& splats) {
     const auto leave = [&](const Rgb& value, std::size_t layer) {
-        splats.push_back({splat.position, value, static_cast<std::uint32_t>(SplatFilm::kFirstLayer + layer)});
+        splats.push_back({.position = splat.position,
+                          .value = value,
+                          .layer = static_cast<std::uint32_t>(SplatFilm::kFirstLayer + layer)});
     };
     Rgb value = splat.value;
     const Rgb as_sample = splat.value * splat_scale_;
@@ -55,7 +57,7 @@ void SampleLight::add_splat(std::uint32_t slot, std::uint32_t sample, const Spla
             if (aovs_ != nullptr && aovs_->removed_light) leave(splat.value - value, *aovs_->removed_light);
         }
     }
-    splats.push_back({splat.position, value});
+    splats.push_back({.position = splat.position, .value = value, .depth = splat.depth});
     for (const ExpressionShare& part : shares)
         for (ExpressionMask left = part.expressions; left != 0; left &= left - 1)
             leave(value * part.share, static_cast<std::size_t>(std::countr_zero(left)));

@@ -279,9 +279,10 @@ void BdptWave::connect_to_camera(const Context& context, const PathVertex& verte
         light_.words().end_at_camera(light_.words_after(vertex, view->direction), shares_);
     connections_.to_film(
         ray, vertex.slot,
-        {view->pixel, vertex.throughput * value.f_cos * vertex.transmittance(view->direction, view->distance) *
-                          context.wavelength_weight(vertex.slot, vertex.is_dispersed) *
-                          (view->camera.importance_area * share)},
+        {.position = view->pixel,
+         .value = vertex.throughput * value.f_cos * vertex.transmittance(view->direction, view->distance) *
+                  context.wavelength_weight(vertex.slot, vertex.is_dispersed) * (view->camera.importance_area * share),
+         .depth = view->depth},
         vertex.index > 1 ? LightKind::Indirect : LightKind::Direct, shares_);
     if (is_checked(samples_[vertex.slot], context.options))
         check(context, context.options, static_cast<std::size_t>(vertex.index) + 1, share, light_end(vertex.slot),

@@ -55,11 +55,13 @@ void LightWave::connect_lights(const SubpathJob& job) {
         shares_.clear();
         if (PathWords& words = subpaths_.words(); words.are_followed())
             words.end_at_camera(words.light_source(world, emission.light), shares_);
-        connections_.to_film(ray, slot,
-                             {view->pixel, radiance * transmittance(world, interior, view->distance) *
-                                               (view->camera.importance_area /
-                                                (emission.sample.pdf_position_area * emission.probability))},
-                             LightKind::Seen, shares_);
+        connections_.to_film(
+            ray, slot,
+            {.position = view->pixel,
+             .value = radiance * transmittance(world, interior, view->distance) *
+                      (view->camera.importance_area / (emission.sample.pdf_position_area * emission.probability)),
+             .depth = view->depth},
+            LightKind::Seen, shares_);
     }
 }
 
@@ -82,8 +84,10 @@ void LightWave::connect_vertices(const SubpathJob& job, TileBuffer& tile, Render
             subpaths_.words().end_at_camera(subpaths_.words_after(vertex, view->direction), shares_);
         connections_.to_film(
             ray, vertex.slot,
-            {view->pixel, vertex.throughput * scattered * job.wavelength_weight(vertex.slot, vertex.is_dispersed) *
-                              vertex.transmittance(view->direction, view->distance) * view->camera.importance_area},
+            {.position = view->pixel,
+             .value = vertex.throughput * scattered * job.wavelength_weight(vertex.slot, vertex.is_dispersed) *
+                      vertex.transmittance(view->direction, view->distance) * view->camera.importance_area,
+             .depth = view->depth},
             vertex.index > 1 ? LightKind::Indirect : LightKind::Direct, shares_);
         connections_.resolve_if_full(job.world, samples_, found_, tile, counters);
     }

@@ -3,6 +3,7 @@
 
 #include "core/ray.h"
 #include "film/splat_film.h"
+#include "integrator/aov/aov_set.h"
 #include "integrator/integrator.h"
 
 #include <optional>
@@ -15,6 +16,7 @@ struct CameraView {
     Vec2f pixel{0.0f, 0.0f};  ///< of the full image
     Vec3f direction{0.0f};    ///< unit, from the point to the lens
     float distance = 0.0f;    ///< metres
+    float depth = 0.0f;       ///< metres along the viewing direction; of deep images only
 };
 
 /// `lens` in [0, 1)²; nothing if no pixel of the window would show the point.
@@ -28,6 +30,7 @@ struct CameraView {
     const Vec3f to_lens = view.camera.lens - position;
     view.distance = length(to_lens);
     view.direction = to_lens * (1.0f / view.distance);
+    if (job.aovs != nullptr && job.aovs->layout.is_deep) view.depth = world.depth(position, time);
     return view;
 }
 

@@ -16,7 +16,14 @@ void Connections::to_sample(const Ray& ray, std::uint32_t slot, const Rgb& contr
 
 void Connections::to_film(const Ray& ray, std::uint32_t slot, const Splat& splat, LightKind kind,
                           std::span<const ExpressionShare> shares) {
-    push(ray, {.value = splat.value, .position = splat.position, .slot = slot, .is_splat = true, .kind = kind}, shares);
+    push(ray,
+         {.value = splat.value,
+          .position = splat.position,
+          .depth = splat.depth,
+          .slot = slot,
+          .is_splat = true,
+          .kind = kind},
+         shares);
 }
 
 void Connections::resolve(const World& world, std::span<const CameraSample> samples, SampleLight& light,
@@ -35,7 +42,7 @@ void Connections::resolve(const World& world, std::span<const CameraSample> samp
         if (!pending.is_splat)
             light.add(pending.slot, pending.value, pending.kind, shares);
         else if (is_finite(pending.value) && min_component(pending.value) >= 0.0f)
-            light.add_splat(pending.slot, samples[pending.slot].key.index, {pending.position, pending.value},
+            light.add_splat(pending.slot, samples[pending.slot].key.index, {.position = pending.position, .value = pending.value, .depth = pending.depth},
                             pending.kind, shares, tile.splats());
         else
             counters.drop({static_cast<int>(pending.position.x), static_cast<int>(pending.position.y),

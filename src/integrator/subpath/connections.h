@@ -37,6 +37,7 @@ class Connections {
     struct Pending {
         Rgb value;
         Vec2f position{0.0f, 0.0f};  ///< on the film, if it is a splat
+        float depth = 0.0f;          ///< of that
         std::uint32_t slot = 0;
         std::uint32_t end_of_shares = 0;  ///< its shares are those from where the one before has ended
         bool is_splat = false;

@@ -103,8 +103,23 @@ class Placer {
           problems_(problems),
           lights_(document, accessors, scene, problems) {}
 
+    /// Of every node that the scene shows, parents before their children.
+    void add_nodes(std::span<const int> parents) {
+        node_index_.assign(document_.model.nodes.size(), NodeDesc::kNone);
+        for (const PlacedNode& placed : nodes_.placed()) {
+            const auto node = static_cast<std::size_t>(placed.node);
+            node_index_[node] = static_cast<std::uint32_t>(scene_.nodes.size());
+            const int parent = parents[node];
+            scene_.nodes.push_back(
+                {document_.model.nodes[node].name,
+                 parent == kNoParent ? NodeDesc::kNone : node_index_[static_cast<std::size_t>(parent)],
+                 static_cast<std::uint32_t>(placed.node)});
+        }
+    }
+
     /// Of a node that is not visible only the camera is placed.
     void place(const PlacedNode& placed) {
+        current_ = node_index_[static_cast<std::size_t>(placed.node)];
         const tinygltf::Node& node = document_.model.nodes[static_cast<std::size_t>(placed.node)];
         const SourceLocation where = document_.at(fmt::format("/nodes/{}", placed.node));
         const std::span<const Mat4d> motion = nodes_.motion(placed.node);
@@ -165,7 +180,8 @@ class Placer {
                     std::span<const Mat4d> motion, const SourceLocation& where) {
         const MeshDesc& mesh = scene_.meshes[static_cast<std::size_t>(handle.index)];
         if (mesh.primitives.empty()) return;  // reported with the mesh
-        InstanceDesc instance{node.name.empty() ? mesh.name : node.name, handle, to_float(to_world), {}, where};
+        InstanceDesc instance{
+            node.name.empty() ? mesh.name : node.name, handle, to_float(to_world), {}, where, current_};
         if (!motion.empty()) instance.motion = thin_out(motion, bounds_of(handle));
         if (!is_invertible(instance.to_world) || !std::ranges::all_of(instance.motion, is_invertible)) {
             problems_.warning(where, "the node's transform is singular: its mesh is left out");
@@ -221,7 +237,9 @@ class Placer {
     SceneDesc& scene_;
     ProblemList& problems_;
     LightReader lights_;
-    std::map<std::int32_t, Bounds> bounds_;  ///< by mesh
+    std::vector<std::uint32_t> node_index_;    ///< of the file's nodes, in the scene's
+    std::uint32_t current_ = NodeDesc::kNone;  ///< the node that is placed, in the scene's
+    std::map<std::int32_t, Bounds> bounds_;    ///< by mesh
     std::size_t moving_lights_ = 0;
     std::set<std::string> camera_names_;
     std::map<std::string, int> last_number_;  ///< by name, so that finding a free one does not start over
@@ -246,6 +264,7 @@ void read_nodes(const GltfDocument& document, AccessorReader& accessors, std::sp
     const PosedNodes nodes(document, roots, parents, animation, settings, accessors, problems);
     MeshDeformer deformer(document, accessors, deformations, nodes, scene, problems);
     Placer placer(document, accessors, deformer, nodes, scene, problems);
+    placer.add_nodes(parents);
     for (const PlacedNode& placed : nodes.placed()) placer.place(placed);
     placer.report_moving_lights();
     if (scene.instances.empty()) problems.warning(document.at(""), "the scene shows no triangles");

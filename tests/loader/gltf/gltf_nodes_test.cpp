@@ -48,6 +48,29 @@ TEST(Nodes, ChildrenAreRelativeToTheirParent) {
     expect_near(origin(loaded.scene.instances.at(0).to_world), {1, 2, 2});
 }
 
+// For names of mattes: the hierarchy as the file has it, parents first, without what the scene does not show.
+TEST(Nodes, AreKeptWithTheirParents) {
+    const LoadedScene loaded = with_nodes({{{"mesh", 0}, {"name", "leaf"}},
+                                           {{"name", "unused"}},
+                                           {{"name", "top"}, {"children", {3}}},
+                                           {{"name", "middle"}, {"children", {0, 4}}},
+                                           {{"mesh", 0}}},
+                                          {2})
+                                   .load();
+    const std::vector<NodeDesc>& nodes = loaded.scene.nodes;
+    ASSERT_EQ(nodes.size(), 4u);
+    EXPECT_EQ(nodes[0].name, "top");
+    EXPECT_EQ(nodes[0].parent, NodeDesc::kNone);
+    EXPECT_EQ(nodes[0].number, 2u);
+    EXPECT_EQ(nodes[1].name, "middle");
+    EXPECT_EQ(nodes[1].parent, 0u);
+    ASSERT_EQ(loaded.scene.instances.size(), 2u);
+    EXPECT_EQ(nodes.at(loaded.scene.instances[0].node).name, "leaf");
+    EXPECT_EQ(nodes.at(loaded.scene.instances[0].node).parent, 1u);
+    EXPECT_EQ(nodes.at(loaded.scene.instances[1].node).number, 4u);
+    EXPECT_NE(dump(loaded.scene).find("node 2 \"leaf\" below node 1 \"middle\""), std::string::npos);
+}
+
 TEST(Nodes, RotationsAreNormalised) {
     const LoadedScene loaded = with_nodes({{{"mesh", 0}, {"rotation", {0, 0, 0, 5}}}}).load();
     EXPECT_EQ(loaded.scene.instances.at(0).to_world, Mat4f());

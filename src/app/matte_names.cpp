@@ -1,0 +1,118 @@
+#include "app/matte_names.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace etendue {
+
+namespace {
+
+/// Enough for what people build, and a bound on what a file of many deep nodes can make of it.
+constexpr std::size_t kMostParts = 32;
+
+std::string node_name(const NodeDesc& node) {
+    return node.name.empty() ? fmt::format("unnamed_node_{}", node.number) : clean_matte_name(node.name);
+}
+
+/// Of the instance alone, whatever others are called. Scenes that come from no file have no nodes.
+std::string own_name(const SceneDesc& scene, std::size_t index) {
+    const InstanceDesc& instance = scene.instances[index];
+    if (!instance.name.empty()) return clean_matte_name(instance.name);
+    return instance.node != NodeDesc::kNone ? node_name(scene.nodes[instance.node])
+                                            : fmt::format("unnamed_node_{}", index);
+}
+
+/// "top/middle/own".
+std::string path_name(const SceneDesc& scene, const InstanceDesc& instance, std::string own) {
+    if (instance.node == NodeDesc::kNone) return own;
+    std::uint32_t node = scene.nodes[instance.node].parent;
+    for (std::size_t parts = 1; node != NodeDesc::kNone && parts < kMostParts; ++parts) {
+        own.insert(0, node_name(scene.nodes[node]) + "/");
+        node = scene.nodes[node].parent;
+    }
+    return own;
+}
+
+}  // namespace
+
+std::string clean_matte_name(std::string_view name) {
+    constexpr std::size_t kLongest = 255;
+    const auto continues_character = [&](std::size_t i) {
+        return (static_cast<unsigned char>(name[i]) & 0xc0u) == 0x80u;  // of UTF-8
+    };
+    std::size_t size = std::min(name.size(), kLongest);
+    while (size > 0 && size < name.size() && continues_character(size)) --size;
+    std::string clean(name.substr(0, size));
+    for (char& c : clean)
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '_';
+    return clean;
+}
+
+std::vector<std::string> object_names(const SceneDesc& scene) {
+    const std::size_t count = scene.instances.size();
+    // Instances without a node are objects of their own.
+    const auto object_of = [&](std::size_t i) {
+        const std::uint32_t node = scene.instances[i].node;
+        return node != NodeDesc::kNone ? std::size_t{node} : scene.nodes.size() + i;
+    };
+    std::map<std::string, std::size_t> first_object;
+    std::set<std::string> repeated;
+    for (std::size_t i = 0; i < count; ++i) {
+        std::string own = own_name(scene, i);
+        const auto [known, is_new] = first_object.try_emplace(own, object_of(i));
+        if (!is_new && known->second != object_of(i)) repeated.insert(std::move(own));
+    }
+    std::vector<std::string> names;
+    std::map<std::size_t, std::string> name_of_object;
+    std::set<std::string> taken;
+    for (const auto& [name, ignored] : first_object)
+        if (!repeated.contains(name)) taken.insert(name);
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto [known, is_new] = name_of_object.try_emplace(object_of(i));
+        if (is_new) {
+            std::string name = own_name(scene, i);
+            if (repeated.contains(name)) {
+                const InstanceDesc& instance = scene.instances[i];
+                name = path_name(scene, instance, std::move(name));
+                const std::string path = name;
+                const bool has_node = instance.node != NodeDesc::kNone;
+                std::size_t number = has_node ? scene.nodes[instance.node].number : i;
+                while (!taken.insert(name).second) name = fmt::format("{}#{}", path, number++);
+            }
+            known->second = std::move(name);
+        }
+        names.push_back(known->second);
+    }
+    return names;
+}
+
+std::vector<std::string> asset_names(const SceneDesc& scene) {
+    // Parents stand before their children.
+    std::vector<std::uint32_t> top(scene.nodes.size());
+    for (std::uint32_t n = 0; n < top.size(); ++n)
+        top[n] = scene.nodes[n].parent == NodeDesc::kNone ? n : top[scene.nodes[n].parent];
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        const std::uint32_t node = scene.instances[i].node;
+        const bool is_below = node != NodeDesc::kNone && top[node] != node;
+        names.push_back(is_below ? node_name(scene.nodes[top[node]]) : own_name(scene, i));
+    }
+    return names;
+}
+
+std::vector<std::string> material_names(const SceneDesc& scene) {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        const std::string& name = scene.materials[i].name;
+        names.push_back(name.empty() ? fmt::format("unnamed_material_{}", i) : clean_matte_name(name));
+    }
+    return names;
+}
+
+}  // namespace etendue
