@@ -58,7 +58,7 @@ TEST_F(BatchPlanTest, SaysWhyAnImageIsStale) {
     EXPECT_EQ(reason(), "");
     EXPECT_EQ(reason(true), kForced);
     age(folder_ / "scene/triangle.bin", -10);
-    EXPECT_EQ(reason(), "input triangle.bin is newer");
+    EXPECT_EQ(reason(), "input triangle.bin has changed");
     render();
     options_.overrides.spp = 7;
     EXPECT_EQ(reason(), "settings changed");
