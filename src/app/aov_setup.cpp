@@ -9,6 +9,7 @@
 #include <array>
 #include <cctype>
 #include <limits>
+#include <set>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -60,11 +61,16 @@ constexpr int kMostRanks = 32;
 /// Larger manifests are left out: files are opened for their headers.
 constexpr std::size_t kLargestManifest = std::size_t{16} << 20;
 
+/// What expressions call a lamp or an object: those without a name have one together.
+std::string light_name(const std::string& name) {
+    return name.empty() ? "unnamed" : name;
+}
+
 PathNames names_in(const SceneDesc& scene) {
     PathNames names;
     for (const MaterialDesc& material : scene.materials) names.materials.push_back(material.name);
-    for (const LightDesc& light : scene.lights) names.lights.push_back(light.name);
-    for (const InstanceDesc& instance : scene.instances) names.lights.push_back(instance.name);
+    for (const LightDesc& light : scene.lights) names.lights.push_back(light_name(light.name));
+    for (const InstanceDesc& instance : scene.instances) names.lights.push_back(light_name(instance.name));
     names.lights.emplace_back("environment");
     return names;
 }
@@ -80,27 +86,43 @@ bool emits(const SceneDesc& scene, const InstanceDesc& instance) {
 /// Names of what shines, each once, in the order of the scene.
 std::vector<std::string> light_names(const SceneDesc& scene) {
     std::vector<std::string> names;
+    std::set<std::string> seen;
     const auto add = [&](const std::string& name) {
-        if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+        if (seen.insert(name).second) names.push_back(name);
     };
-    for (const LightDesc& light : scene.lights) add(light.name);
+    for (const LightDesc& light : scene.lights) add(light_name(light.name));
     for (const InstanceDesc& instance : scene.instances)
-        if (emits(scene, instance)) add(instance.name);
+        if (emits(scene, instance)) add(light_name(instance.name));
     if (scene.environment.enabled) add("environment");
     return names;
 }
 
-/// `name` with '_' in place of what layers may not be called.
-std::string layer_name(const std::string& name) {
-    std::string result = name.empty() ? "unnamed" : name;
-    for (char& c : result)
-        if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-') c = '_';
+/// `name` with '_' in place of each character that layers may not be called by; not too long for a file, and unlike
+/// what is in `taken`, where it is put.
+std::string layer_name(const std::string& name, std::set<std::string>& taken) {
+    constexpr std::size_t kMostCharacters = 100;
+    std::string plain;
+    for (const char c : name) {
+        const bool continues_character = (static_cast<unsigned char>(c) & 0xc0u) == 0x80u;  // in UTF-8
+        if (continues_character || plain.size() == kMostCharacters) continue;
+        plain += std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' ? c : '_';
+    }
+    std::string result = plain;
+    for (int i = 2; !taken.insert(result).second; ++i) result = fmt::format("{}_{}", plain, i);
     return result;
 }
 
-std::string light_expression(const std::string& name) {
+/// In a name, both kinds of quotes would end it: then * stands for them.
+std::string light_expression(std::string name) {
+    if (name.find('\'') != std::string::npos && name.find('"') != std::string::npos)
+        std::ranges::replace(name, '\'', '*');
     const char quote = name.find('\'') == std::string::npos ? '\'' : '"';
     return fmt::format("C .* <L{}{}{}>", quote, name, quote);
+}
+
+/// Channels of the file that the writer makes.
+bool is_reserved(const std::string& name) {
+    return name == "rgba" || name == "half" || name.starts_with("half.");
 }
 
 /// Makes the plan, layer by layer.
@@ -134,8 +156,9 @@ class Planner {
             for (const UsualExpression& usual : partition_expressions())
                 add_expression(aov, std::string(usual.name), std::string(usual.expression));
         } else if (is_group && aov.source == kLights.name) {
+            std::set<std::string> taken;
             for (const std::string& name : light_names(scene_))
-                add_expression(aov, "light_" + layer_name(name), light_expression(name));
+                add_expression(aov, "light_" + layer_name(name, taken), light_expression(name));
         } else if (is_group && aov.source == kDenoising.name) {
             plan_.has_halves = true;
             for (const FirstHitValue value : {FirstHitValue::Albedo, FirstHitValue::Normal, FirstHitValue::Depth})
@@ -180,8 +203,12 @@ class Planner {
             set_.layout.is_deep = true;
             return (void)add_output(aov, {aov.name, {}, AovKind::Deep, 0, 0.0f, true});
         }
-        std::vector<std::string_view> names{kMean.name,   kRemoved.name, kSamples.name, kVariance.name, kRays.name,
-                                            kDeep.name,   kPasses.name,  kLights.name,  kDenoising.name};
+        for (const std::string_view group : {kPasses.name, kLights.name, kDenoising.name, kCryptomatte.name})
+            if (source == group)
+                fail(aov, fmt::format("'{}' stands for several layers, which have names of their own: leave '{}=' away",
+                                      source, aov.name));
+        std::vector<std::string_view> names{kMean.name, kRemoved.name, kSamples.name, kVariance.name, kRays.name,
+                                            kDeep.name, kPasses.name,  kLights.name,  kDenoising.name};
         for (const UsualExpression& usual : usual_expressions()) names.push_back(usual.name);
         for (const FirstHitEntry& entry : first_hit_table()) names.push_back(entry.name);
         for (const MatteSource& matte : kMattes) names.push_back(matte.name);
@@ -194,7 +221,7 @@ class Planner {
         const IntegratorEntry* const entry = find_integrator(type);
         if (entry != nullptr && !entry->has_expressions)
             fail(aov, fmt::format("'{}' does not tell paths apart; path, direct, naive, light and bdpt do", type));
-        if (!add_output(aov, {name, "RGB", AovKind::Layer, expressions_.size()})) return;
+        if (!add_output(aov, {name, "RGB", AovKind::Layer, expressions_.size()}, text)) return;
         try {
             expressions_.push_back(parse_expression(text));
             // Alone, so that what is wrong with it is not blamed on another.
@@ -214,7 +241,7 @@ class Planner {
                          count,
                          entry.background,
                          entry.is_float};
-        if (!add_output(aov, std::move(output))) return;
+        if (!add_output(aov, std::move(output), entry.name)) return;
         count += entry.channels.size();
         (entry.is_nearest ? set_.nearest : set_.values).push_back(entry.value);
     }
@@ -230,7 +257,7 @@ class Planner {
         output.is_float = true;
         output.manifest = manifest_of(aov, names);
         for (int rank = 0; rank < ranks; rank += 2) output.channels += "RGBA";
-        if (!add_output(aov, std::move(output))) return;
+        if (!add_output(aov, std::move(output), fmt::format("{} {}", matte.name, ranks))) return;
         ++layout.mattes;
         // Twice as many as are written, so that ids that come late may still become important.
         layout.matte_slots = std::max(layout.matte_slots, static_cast<std::size_t>(2 * ranks));
@@ -255,18 +282,27 @@ class Planner {
         return {};
     }
 
-    /// False if it is there already, as groups may ask for it.
-    bool add_output(const AovDesc& aov, AovOutput output) {
+    /// False if it is there already, as groups may ask for it: of the same kind, with the same `detail`. Then the type
+    /// counts that was asked for by the layer's own name.
+    bool add_output(const AovDesc& aov, AovOutput output, std::string_view detail = {}) {
+        if (is_reserved(output.name)) fail(aov, fmt::format("the file has '{}' for itself", output.name));
         if (aov.is_float) output.is_float = *aov.is_float;
+        std::string content = fmt::format("{} {}", static_cast<int>(output.kind), detail);
         const auto same = std::ranges::find(plan_.outputs, output.name, &AovOutput::name);
         if (same == plan_.outputs.end()) {
             plan_.outputs.push_back(std::move(output));
-            origins_.push_back(&aov);
+            origins_.push_back({&aov, std::move(content)});
             return true;
         }
-        const AovDesc& earlier = *origins_[static_cast<std::size_t>(same - plan_.outputs.begin())];
+        Origin& origin = origins_[static_cast<std::size_t>(same - plan_.outputs.begin())];
+        const AovDesc& earlier = *origin.aov;
         const bool either_is_group = earlier.name != output.name || aov.name != output.name;
-        if (!(earlier == aov || either_is_group))
+        if (either_is_group && origin.content == content) {
+            if (aov.name == output.name) {
+                same->is_float = output.is_float;
+                origin.aov = &aov;
+            }
+        } else if (earlier != aov)
             fail(aov, fmt::format("there are two of this name, this one of '{}' and one of '{}' ({})", aov.source,
                                   earlier.source, earlier.location.str()));
         return false;
@@ -303,7 +339,12 @@ class Planner {
     ProblemList& problems_;
     AovPlan plan_;
     AovSet set_;
-    std::vector<const AovDesc*> origins_;  ///< of each output
+    /// Of each output.
+    struct Origin {
+        const AovDesc* aov;
+        std::string content;
+    };
+    std::vector<Origin> origins_;
     std::vector<PathExpression> expressions_;
     std::vector<const AovDesc*> expression_sources_;
 };

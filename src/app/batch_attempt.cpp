@@ -7,13 +7,16 @@
 #include "core/error.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <condition_variable>
 #include <csignal>
 #include <cstring>
 #include <mutex>
 #include <new>
+#include <optional>
 #include <stop_token>
+#include <string_view>
 #include <thread>
 
 #include <fmt/format.h>
@@ -22,7 +25,11 @@ namespace etendue {
 
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 constexpr std::chrono::milliseconds kBetweenLooks(100);
+/// Without a sign of progress since it was told to stop, a child is ended: longer than any file takes to be written.
+constexpr std::chrono::minutes kMostSilence(5);
 
 std::vector<std::string> child_arguments(const BatchTask& task, const BatchOptions& options,
                                          const AttemptOptions& how) {
@@ -36,9 +43,12 @@ std::vector<std::string> child_arguments(const BatchTask& task, const BatchOptio
 
 /// True if a failure with this message is one of memory.
 bool tells_of_memory(const std::deque<std::string>& messages) {
-    return std::ranges::any_of(messages, [](const std::string& line) {
-        return line.find("not enough memory") != std::string::npos || line.find("bad_alloc") != std::string::npos ||
-               line.find("annot allocate memory") != std::string::npos;
+    // Of this program, of the standard library, of the system, and of the loader, which starts programs.
+    constexpr std::array<std::string_view, 7> kWords{
+        "not enough memory",     "bad_alloc",          "annot allocate memory", "Resource temporarily unavailable",
+        "pthread_create failed", "failed to map segm", "cannot map zero-fill"};
+    return std::ranges::any_of(messages, [&](const std::string& line) {
+        return std::ranges::any_of(kWords, [&](std::string_view w) { return line.find(w) != std::string::npos; });
     });
 }
 
@@ -75,7 +85,7 @@ void judge_failure(const ChildProcess& child, const BatchOptions& options, Attem
         attempt.end = AttemptEnd::Invalid;
     } else if (end.signal == 0 && end.exit_code == static_cast<int>(ExitCode::UsageError)) {
         attempt.end = AttemptEnd::Hopeless;
-    } else if (end.signal != 0 && options.max_memory) {
+    } else if ((end.signal != 0 || !attempt.was_said) && options.max_memory) {
         attempt.error += fmt::format("; --max-memory {} may be the reason", options.max_memory_text);
     }
 }
@@ -101,21 +111,24 @@ Attempt attempt_in_child(const BatchTask& task, const BatchOptions& options, con
                          const AttemptCallbacks& callbacks) {
     ChildProcess child({.arguments = child_arguments(task, options, how), .memory_limit = options.max_memory});
     Attempt attempt;
+    std::optional<Clock::time_point> last_sign;  // of its going on since it was told to stop
     const auto on_progress = [&](const std::string& line) {
         const std::optional<ChildProgress> progress = parse_progress(line);
         if (!progress) return;
+        if (last_sign) last_sign = Clock::now();
         attempt.phase = progress->phase;
         callbacks.on_progress(*progress);
     };
-    bool was_told_to_stop = false;
     bool has_lock = true;
     while (child.wait(kBetweenLooks, callbacks.on_message, on_progress)) {
-        if (interrupt_requested() && !was_told_to_stop) {
+        if (interrupt_requested() && !last_sign) {
             // It may have got the signal itself, which is as good. A second one from the user ends this process, and
             // with it the child.
             child.send(interrupt_exit_code() == ExitCode::Terminated ? SIGTERM : SIGINT);
-            was_told_to_stop = true;
+            last_sign = Clock::now();
         }
+        // Libraries that were denied memory may wait for a lock for ever.
+        if (last_sign && Clock::now() - *last_sign > kMostSilence) child.send(SIGKILL);
         if (attempt.phase == "render" && preview_requested()) {
             clear_preview_request();
             child.send(SIGUSR1);

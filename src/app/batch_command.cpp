@@ -13,6 +13,7 @@
 #include "core/log.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <span>
@@ -28,6 +29,9 @@ namespace etendue {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Less may not be enough for the program and its libraries to say what is wrong: bytes.
+constexpr std::uint64_t kLeastMemoryLimit = std::uint64_t{256} << 20u;
 
 /// Makes the output directory. Throws IoError if nothing can be written in it: better now than after the first image.
 void prepare_output(const fs::path& output) {
@@ -118,6 +122,10 @@ void add_own_options(CLI::App& command, BatchOptions& options) {
                 options.max_memory_text = text;
                 if (!options.max_memory)
                     throw CLI::ValidationError("--max-memory", fmt::format("'{}' is not {}", text, kByteSizeForm));
+                if (*options.max_memory < kLeastMemoryLimit)
+                    throw CLI::ValidationError(
+                        "--max-memory", fmt::format("'{}' is less than {} MiB, which the program itself may need", text,
+                                                    kLeastMemoryLimit >> 20u));
             },
             "Memory that the render of an image may take, such as 8G; one that needs more fails, the others go on")
         ->excludes(in_process);
@@ -137,7 +145,7 @@ void add_batch_command(CLI::App& app, Action& action) {
     command->footer(
         "A scene directory holds a render.json or exactly one glTF file. Each image is rendered by a process of its "
         "own;\n"
-        "one that fails is reported and the others go on. Images that are newer than all of their inputs and were "
+        "one that fails is reported and the others go on. Images whose inputs have not changed and that were "
         "made\n"
         "with the same settings are skipped, and what was interrupted goes on where it was. Any number of 'etendue\n"
         "batch' may work on one output directory at once, also from several machines. What was done stands in\n"

@@ -43,13 +43,15 @@ void examine(PlannedUnit& unit, const BatchOptions& options, bool force, const L
         describe_unfinished(unit, *stale, history);
     } else if (force) {
         unit.reason = kForced;
+    } else if (const auto outdated = why_outdated(output, unit.task.job.scene)) {
+        unit.reason = outdated->reason;
     } else {
         try {
-            // Scenes that were rendered before: what might crash a process has had its chance to crash another one.
+            // Of files that were rendered before: what might crash a process has had its chance to crash another one.
             const SettingsOverrides overrides = overrides_of(unit.task.job, options.overrides);
             const PreparedScene prepared = prepare_scene(unit.task.job.scene, overrides);
             const std::string hash = settings_hash(prepared.scene, overrides.depth);
-            if (const auto outdated = why_outdated(output, prepared.scene.inputs, hash)) unit.reason = outdated->reason;
+            if (const auto changed = why_outdated(output, prepared.scene, hash)) unit.reason = changed->reason;
         } catch (const std::exception&) {
             unit.reason = "the scene cannot be loaded";
         }

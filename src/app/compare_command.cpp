@@ -113,7 +113,7 @@ ComparisonReport start_report(const CompareArguments& arguments, const Variant& 
     report.look = settings.color.look;
     report.exposure = static_cast<double>(settings.color.exposure);
     report.threads = threads.thread_count();
-    report.isa = ray_tracer_info().isa;
+    report.isa = variant.world->statistics().isa;
     report.libraries = library_versions();
     report.seconds = request.budget.seconds;
     report.spp = request.budget.spp;

@@ -122,6 +122,7 @@ bool denoise_layers(DenoiseInput& input, const DenoiseArguments& arguments) {
         std::size_t filled = 0;
         Halves halves = read_halves(input, layer, filled);
         report_filled(layer, filled, arguments);
+        if (is_black(halves)) continue;
         take_fireflies(halves, layer, arguments);
         const Planes denoised = denoise_nfor(halves, prepared, settings, threads);
         if (interrupt_requested()) return false;
@@ -205,7 +206,8 @@ void add_denoise_command(CLI::App& app, Action& action) {
             "--features", arguments->features,
             fmt::format("Layers that say where edges and textures are (default: those of {} that the file has)",
                         fmt::join(default_features(), ", ")))
-        ->delimiter(',');
+        ->delimiter(',')
+        ->allow_extra_args(false);
     command
         ->add_option("--radius", arguments->radius,
                      "Pixels that are looked at on each side of a pixel (default: 9). Time is as its square")

@@ -1,5 +1,6 @@
 #include "app/farm_needs.h"
 
+#include "app/aov_setup.h"
 #include "app/render_setup.h"
 #include "app/run_command.h"
 #include "core/error.h"
@@ -48,6 +49,13 @@ namespace {
 
 /// Bytes a pixel that writing an image takes beside its film: 124 less 48 were measured, from 500 x 500 to 2500 x 2500.
 constexpr double kWritingBytes = 80.0;
+/// The same of each channel of a layer, which is resolved, put beside the others, and made ready for the file.
+constexpr double kLayerWritingBytes = 3.0 * sizeof(float);
+
+double writing_bytes(const FilmSize& size) {
+    const double layers = static_cast<double>(size.channels - std::min<std::size_t>(size.channels, 4));
+    return static_cast<double>(size.pixels) * (kWritingBytes + kLayerWritingBytes * layers);
+}
 
 /// What schedulers take: far more than a year, and the safety that each has.
 TaskNeeds with_safety(double seconds, double bytes) {
@@ -59,13 +67,19 @@ TaskNeeds with_safety(double seconds, double bytes) {
 
 }  // namespace
 
-FilmSize film_size_of(const RenderSettings& settings) {
-    const RenderOptions options = make_render_options(settings);
-    const bool has_splats = create_integrator(settings)->makes_splats();
+FilmSize film_size_of(const SceneDesc& scene) {
+    const RenderOptions options = make_render_options(scene.settings);
+    const bool has_splats = create_integrator(scene.settings)->makes_splats();
     const auto all = PixelRect{0, 0, options.full_width, options.full_height}.area();
-    return {.pixels = options.window.area(),
-            .splat_pixels = has_splats ? all : 0,
-            .has_second_film = options.relative_error > 0.0};
+    ProblemList ignored;  // the tasks will say them
+    const AovPlan aovs = make_aov_plan(scene, ignored);
+    FilmSize size{.pixels = options.window.area(),
+                  .splat_pixels = has_splats ? all : 0,
+                  .has_second_film = options.relative_error > 0.0 || aovs.has_halves};
+    if (aovs.set) size.layers = aovs.set->layout;
+    for (const AovOutput& output : aovs.outputs) size.channels += output.channels.size();
+    if (aovs.has_halves) size.channels *= 2;
+    return size;
 }
 
 TaskNeeds merge_needs_of(const FilmSize& size, std::size_t parts) {
@@ -73,17 +87,19 @@ TaskNeeds merge_needs_of(const FilmSize& size, std::size_t parts) {
     constexpr double kStart = 0.223;
     constexpr double kPerMegapixel = 0.32;
     constexpr double kPerMegapixelAndPart = 0.122;
+    // They were measured without layers, and grow with the bytes that are read and the channels that are written.
     const double megapixels = static_cast<double>(size.pixels) * 1e-6;
-    const double seconds = kStart + megapixels * (kPerMegapixel + kPerMegapixelAndPart * static_cast<double>(parts));
-    return with_safety(seconds, 3.0 * static_cast<double>(size.bytes()));
+    const double reading = kPerMegapixelAndPart * static_cast<double>(parts) * static_cast<double>(size.all_bytes()) /
+                           static_cast<double>(std::max<std::uint64_t>(1, sizeof(PixelSum) * size.pixels));
+    const double writing = kPerMegapixel * static_cast<double>(size.channels) / 4.0;
+    return with_safety(kStart + megapixels * (writing + reading),
+                       3.0 * static_cast<double>(size.all_bytes()) + writing_bytes(size));
 }
 
-TaskNeeds needs_of(const RenderProbe& probe, const FilmSize& size, std::size_t parts, int threads) {
-    const double render =
-        probe.render_seconds * probe.threads / static_cast<double>(threads) / static_cast<double>(parts);
-    const double bytes = static_cast<double>(probe.peak_memory_bytes) +
-                         kWritingBytes * static_cast<double>(size.pixels) +
-                         (size.has_second_film ? static_cast<double>(size.bytes()) : 0.0);
+TaskNeeds needs_of(const RenderProbe& probe, const FilmSize& size, double share, int threads) {
+    const double render = probe.render_seconds * probe.threads / static_cast<double>(threads) * share;
+    const double bytes = static_cast<double>(probe.peak_memory_bytes) + writing_bytes(size) +
+                         static_cast<double>(size.all_bytes() - size.bytes());
     return with_safety(probe.start_seconds + render, bytes);
 }
 

@@ -2,7 +2,8 @@
 #pragma once
 
 #include "app/farm_plan.h"
-#include "scene/render_settings.h"
+#include "film/film.h"
+#include "scene/scene_desc.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -38,16 +39,24 @@ inline constexpr int kLeastMebibytes = 512;
 struct FilmSize {
     std::uint64_t pixels = 0;        ///< that are rendered
     std::uint64_t splat_pixels = 0;  ///< that splats are kept for; 0 without splats
-    bool has_second_film = false;    ///< for an estimate of the error
+    bool has_second_film = false;    ///< for an estimate of the error, or for denoising
+    LayerLayout layers{};
+    std::size_t channels = 4;  ///< of the image that is written
 
     /// Of the sums of one film.
-    [[nodiscard]] std::uint64_t bytes() const { return 48 * pixels + 24 * splat_pixels; }
+    [[nodiscard]] std::uint64_t bytes() const {
+        const std::size_t splat_layers = 1 + layers.light + (layers.has_moments ? 1 : 0);
+        return (sizeof(PixelSum) + layers.bytes()) * pixels + sizeof(SplatSum) * splat_layers * splat_pixels;
+    }
+    /// Of all films.
+    [[nodiscard]] std::uint64_t all_bytes() const { return (has_second_film ? 2 : 1) * bytes(); }
 };
-[[nodiscard]] FilmSize film_size_of(const RenderSettings& settings);
+/// Of the image of `scene`. Throws as make_aov_plan does.
+[[nodiscard]] FilmSize film_size_of(const SceneDesc& scene);
 
-/// For each of `parts` tasks with `threads` threads that share the samples of an image. A probe neither writes an image
-/// nor keeps what an estimate of the error needs: that comes on top of its memory.
-[[nodiscard]] TaskNeeds needs_of(const RenderProbe& probe, const FilmSize& size, std::size_t parts, int threads);
+/// For a task with `threads` threads that takes `share` of the samples of an image, (0, 1]. A probe neither writes an
+/// image nor keeps a second film: that comes on top of its memory.
+[[nodiscard]] TaskNeeds needs_of(const RenderProbe& probe, const FilmSize& size, double share, int threads);
 
 /// For the task that merges `parts` parts of an image: in memory are the sums, a part, and as much for reading it; the
 /// time is that of the model in docs/farm.md, three times, as for renders.

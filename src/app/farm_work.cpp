@@ -2,6 +2,7 @@
 
 #include "app/farm_leftovers.h"
 #include "app/farm_needs.h"
+#include "app/input_files.h"
 #include "app/interrupt.h"
 #include "app/output_paths.h"
 #include "app/prepared_scene.h"
@@ -31,15 +32,16 @@ PreparedScene prepare_job(const ImageJob& job, const SettingsOverrides& override
 /// A first look at the files saves most images from being loaded.
 bool is_done(const ImageJob& job, const SettingsOverrides& overrides) {
     const OutputPaths paths = OutputPaths::beside(job.output);
-    if (why_unfinished(paths)) return false;
+    if (why_unfinished(paths) || why_outdated(paths, job.scene)) return false;
     const PreparedScene prepared = prepare_job(job, overrides);
-    return !why_outdated(paths, prepared.scene.inputs, settings_hash(prepared.scene, overrides.depth));
+    return !why_outdated(paths, prepared.scene, settings_hash(prepared.scene, overrides.depth));
 }
 
 RenderIdentity identity_of(const ImageJob& job, const SettingsOverrides& overrides) {
     PreparedScene prepared = prepare_job(job, overrides);
     const std::string working_space = resolve_colors(prepared.scene.settings, ColorConfig::from_environment());
-    return render_identity(prepared.scene, working_space);
+    hash_inputs(prepared.scene, prepared.inputs);
+    return render_identity(prepared.scene, prepared.inputs, working_space);
 }
 
 /// What the images of one scene have in common.
@@ -120,10 +122,12 @@ class WorkFinder {
             scene.ranges = split_samples(static_cast<std::uint32_t>(settings.spp), request_.parts);
             if (scene.ranges.size() == 1) scene.ranges.clear();
         }
-        const FilmSize size = film_size_of(settings);
+        const FilmSize size = film_size_of(prepared.scene);
+        double share = scene.ranges.empty() ? 1.0 : 0.0;  // of the longest range
+        for (const SampleRange& range : scene.ranges)
+            share = std::max(share, static_cast<double>(range.end - range.begin) / settings.spp);
         if (!request_.task_minutes || !request_.task_memory)
-            scene.needs = needs_of(probe_scene(first, request_.farm.options), size,
-                                   std::max<std::size_t>(1, scene.ranges.size()), request_.farm.threads);
+            scene.needs = needs_of(probe_scene(first, request_.farm.options), size, share, request_.farm.threads);
         scene.merge_needs = merge_needs_of(size, scene.ranges.size());
         if (request_.task_minutes) {
             scene.needs.minutes = *request_.task_minutes;

@@ -27,9 +27,7 @@ void write_exr(const OutputPaths& paths, const OutputFrame& frame, AovLayout lay
     if (!frame.aces_container && (frame.layers.empty() || layout == AovLayout::Layers)) return driver.write(frame);
     if (layout == AovLayout::Parts) return driver.write_layers_as_parts(frame);
     for (const OutputLayer& layer : frame.layers) {
-        std::filesystem::path path = paths.exr;
-        path.replace_extension("." + layer.name + ".exr");
-        ExrDriver(path, colors, depth).write_layer(frame, layer);
+        ExrDriver(layer_path(paths.exr, layer.name), colors, depth).write_layer(frame, layer);
     }
     OutputFrame alone = frame;
     alone.layers.clear();
@@ -59,6 +57,10 @@ void write_image_files(const OutputPaths& paths, ImageDescription& image, const 
     }
     PreviewDriver(paths.png, colors).write(image.frame);
     if (beside) beside();
+    image.statistics.layer_files.clear();
+    if (image.aov_layout == AovLayout::Files)
+        for (const OutputLayer& layer : image.frame.layers)
+            image.statistics.layer_files.push_back(layer_path(paths.exr, layer.name).filename().string());
     image.statistics.write = timer.elapsed();
     image.statistics.peak_memory_bytes = peak_memory_bytes();
     write_text(paths.json, to_json(image.statistics));

@@ -78,7 +78,7 @@ ImageResult run_job(const ImageJob& job, const ImageJobOptions& options, const T
     PreparedScene prepared = prepare_scene(job.scene, request.overrides);
     const std::string hash = settings_hash(prepared.scene, request.overrides.depth);
     if (!options.force && !is_partial(job.output) &&
-        is_up_to_date(OutputPaths::beside(job.output), prepared.scene.inputs, hash)) {
+        is_up_to_date(OutputPaths::beside(job.output), job.scene, prepared.scene, hash)) {
         // Of a render that was stopped after its image was complete.
         CheckpointFiles(job.output).remove();
         return result;

@@ -13,7 +13,7 @@
 namespace etendue {
 
 std::map<std::string, std::string> library_versions() {
-    return {{"embree", ray_tracer_info().version},
+    return {{"embree", ray_tracer_version()},
             {"oneTBB", parallel_library_version()},
             {"OpenImageIO", image_library_version()},
             {"OpenColorIO", color_library_version()},

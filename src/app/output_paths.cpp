@@ -14,6 +14,11 @@ OutputPaths OutputPaths::beside(const std::filesystem::path& exr) {
     return paths;
 }
 
+std::filesystem::path layer_path(const std::filesystem::path& exr, const std::string& name) {
+    std::filesystem::path path = exr;
+    return path.replace_extension("." + name + ".exr");
+}
+
 bool is_partial(const std::filesystem::path& output) {
     return output.extension() == ".partial";
 }

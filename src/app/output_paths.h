@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace etendue {
 
@@ -12,6 +13,9 @@ struct OutputPaths {
 
     [[nodiscard]] static OutputPaths beside(const std::filesystem::path& exr);
 };
+
+/// Where the layer `name` of the image `exr` is written to if it has a file of its own.
+[[nodiscard]] std::filesystem::path layer_path(const std::filesystem::path& exr, const std::string& name);
 
 /// True for the name of a part: it ends in .partial.
 [[nodiscard]] bool is_partial(const std::filesystem::path& output);

@@ -1,5 +1,6 @@
 #include "app/prepared_scene.h"
 
+#include "app/input_files.h"
 #include "app/phase_timer.h"
 #include "color/color_config.h"
 #include "loader/loader.h"
@@ -13,8 +14,9 @@ namespace etendue {
 
 PreparedScene prepare_scene(const std::filesystem::path& path, const SettingsOverrides& overrides) {
     const PhaseTimer timer;
+    const auto started = std::filesystem::file_time_type::clock::now();
     LoadedScene loaded = load_scene(path, overrides.moment);
-    PreparedScene prepared{std::move(loaded.scene), std::move(loaded.problems), {}};
+    PreparedScene prepared{std::move(loaded.scene), std::move(loaded.problems), {}, {}};
     overrides.apply(prepared.scene);
     const std::filesystem::path colors = ColorConfig::environment_path();
     if (!colors.empty()) prepared.scene.inputs.push_back(colors);
@@ -22,6 +24,7 @@ PreparedScene prepare_scene(const std::filesystem::path& path, const SettingsOve
     const ProblemList remaining = validate(prepared.scene);
     if (remaining.has_errors()) throw SceneError(remaining);
     apply_variant(prepared.scene);
+    prepared.inputs = stamp_inputs(prepared.scene, started);
     prepared.load = timer.elapsed();
     return prepared;
 }

@@ -8,13 +8,15 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace etendue {
 
 /// A scene as it will be rendered: loaded, overridden, completed and validated.
 struct PreparedScene {
     SceneDesc scene;
-    ProblemList problems;  ///< notes and warnings
+    ProblemList problems;           ///< notes and warnings
+    std::vector<InputFile> inputs;  ///< as they were before they were read, without content
     PhaseTime load;
 };
 

@@ -204,7 +204,7 @@ void add_render_command(CLI::App& app, Action& action) {
     command->add_flag("--quiet", arguments->job.quiet, "No progress, notes or warnings; errors only");
     command->add_flag("--json", arguments->json, "Print the statistics as JSON on stdout; of a sequence, an array");
     command->footer(
-        "Options override render.json. Of a sequence, frames that are newer than all of their inputs and were made "
+        "Options override render.json. Of a sequence, frames whose inputs have not changed and that were made "
         "with\n"
         "the same settings are skipped. Ctrl-C writes a checkpoint and the image so far, marked incomplete: --resume "
         "goes\n"

@@ -36,15 +36,6 @@ bool is_setting(std::string_view line) {
     return false;
 }
 
-/// The same wherever the scene's directory lies and however it is named: the path from there, or the name alone of what
-/// lies elsewhere.
-std::string name_of(const std::filesystem::path& input, const std::filesystem::path& directory) {
-    const auto base = std::filesystem::weakly_canonical(directory.empty() ? "." : directory);
-    const std::filesystem::path path = std::filesystem::weakly_canonical(input).lexically_relative(base);
-    const bool is_inside = !path.empty() && *path.begin() != "..";
-    return (is_inside ? path : input.filename()).generic_string();
-}
-
 /// Up to the colon; of layers, with their names.
 std::string setting_name(const std::string& line) {
     return line.substr(0, line.find_first_of(line.starts_with("aov ") ? "=" : " :"));
@@ -52,19 +43,21 @@ std::string setting_name(const std::string& line) {
 
 }  // namespace
 
-RenderIdentity render_identity(const SceneDesc& scene, const std::string& working_space) {
+RenderIdentity render_identity(const SceneDesc& scene, std::span<const InputFile> inputs,
+                               const std::string& working_space) {
     RenderIdentity identity;
     identity["program"] = software_name();
     identity["working space"] = working_space;
     identity["seed"] = fmt::format("{}", scene.settings.seed);
     identity["sampler"] = scene.settings.sampler == SamplerType::Random ? "random" : "sobol";
     identity["textures"] = holds_textures_in_memory(scene) ? "in memory" : "in a cache (--texture-memory)";
-    for (const std::filesystem::path& input : scene.inputs) {
-        const std::string name = "content of " + name_of(input, scene.directory);
+    for (const InputFile& input : inputs) {
+        const std::filesystem::path path = input.path;
+        const std::string name = "content of " + (path.is_absolute() ? path.filename().string() : input.path);
         // Files outside of the scene's directory may have one name.
         std::string unique = name;
         for (int i = 2; identity.contains(unique); ++i) unique = fmt::format("{} ({})", name, i);
-        identity[unique] = hex(hash_file(input));
+        identity[unique] = input.content;
     }
     std::istringstream lines(dump(scene));
     ContentHash rest;

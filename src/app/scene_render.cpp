@@ -6,6 +6,7 @@
 #include "app/dropped_samples.h"
 #include "app/image_description.h"
 #include "app/image_files.h"
+#include "app/input_files.h"
 #include "app/interrupt.h"
 #include "app/library_versions.h"
 #include "app/output_paths.h"
@@ -25,6 +26,8 @@
 #include <algorithm>
 #include <memory>
 #include <utility>
+
+#include <fmt/format.h>
 
 namespace etendue {
 
@@ -80,6 +83,8 @@ class SceneRender {
                              "(--aov-layout files)");
         check_outputs();
         description_.statistics.load = prepared.load;
+        description_.statistics.inputs = std::move(prepared.inputs);
+        hash_inputs(scene_, description_.statistics.inputs);
         describe_scene();
     }
 
@@ -132,10 +137,24 @@ class SceneRender {
             return;
         }
         require_all_writable(paths_);
+        if (scene_.settings.aov_layout == AovLayout::Files)
+            for (const AovOutput& layer : aovs_.outputs) require_free(layer);
         if (request_.strategies.output.empty()) return;
         require_all_writable(OutputPaths::beside(request_.strategies.output));
         require_strategies(scene_.settings, {"--strategies-image", {}});
         check_strategies_request(request_.strategies, paths_, scene_.settings, options_, request_.overrides.depth);
+    }
+
+    /// Another image may have the name of a layer.
+    void require_free(const AovOutput& layer) const {
+        const std::filesystem::path path = layer_path(output_, layer.name);
+        require_writable(path);
+        const std::filesystem::path other = OutputPaths::beside(path).json;
+        if (std::filesystem::exists(other))
+            throw SceneError(scene_.settings.at("/aov_layout"),
+                             fmt::format("the layer '{}' would be written to {}, which is an image of its own, as {} "
+                                         "tells; give the layer another name, or use another layout",
+                                         layer.name, path.string(), other.string()));
     }
 
     void describe_scene() {
@@ -148,11 +167,10 @@ class SceneRender {
         s.light_units = light_units_name(scene_.settings.light_units);
         s.spp_requested = scene_.settings.spp;
         s.threads = threads_.thread_count();
-        s.isa = ray_tracer_info().isa;
         s.libraries = library_versions();
 
         const std::string working_space = resolve_colors(scene_.settings, colors_);
-        identity_ = render_identity(scene_, working_space);
+        identity_ = render_identity(scene_, s.inputs, working_space);
         settings_ = scene_.settings;
         OutputFrame& frame = description_.frame;
         description_.aovs = aovs_.outputs;
@@ -219,6 +237,7 @@ class SceneRender {
         const WorldStatistics from = world.statistics();
         RenderStatistics& s = description_.statistics;
         s.build = timer.elapsed();
+        s.isa = from.isa;
         s.bvh_bytes = from.bvh_bytes;
         s.bvh_build_seconds = from.bvh_build_seconds;
         s.triangles = from.triangles;

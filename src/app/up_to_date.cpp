@@ -1,8 +1,11 @@
 #include "app/up_to_date.h"
 
+#include "app/input_files.h"
+
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <set>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -40,6 +43,19 @@ Staleness cut_short(const nlohmann::json& statistics) {
             .done = std::min(done / requested, 1.0)};
 }
 
+/// None if the statistics do not tell.
+std::optional<std::vector<InputFile>> inputs_of(const nlohmann::json& statistics) try {
+    const auto list = value_of<nlohmann::json>(statistics, "inputs", &nlohmann::json::is_array);
+    if (!list) return std::nullopt;
+    std::vector<InputFile> files;
+    for (const nlohmann::json& entry : *list)
+        files.push_back({entry.at("path").get<std::string>(), entry.at("size").get<std::uint64_t>(),
+                         entry.at("modified").get<std::int64_t>(), entry.at("content").get<std::string>()});
+    return files;
+} catch (const nlohmann::json::exception&) {
+    return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<Staleness> why_unfinished(const OutputPaths& output) {
@@ -56,31 +72,40 @@ std::optional<Staleness> why_unfinished(const OutputPaths& output) {
     if (count > 0) return Staleness{.reason = missing + " is missing", .is_unfinished = true};
     const nlohmann::json statistics = read_statistics(output.json);
     if (value_of<bool>(statistics, "complete", &nlohmann::json::is_boolean) != true) return cut_short(statistics);
+    const auto layers = value_of<nlohmann::json>(statistics, "layer_files", &nlohmann::json::is_array);
+    for (const nlohmann::json& layer : layers.value_or(nlohmann::json::array())) {
+        if (!layer.is_string()) continue;
+        const fs::path name = fs::path(layer.get<std::string>()).filename();
+        if (!fs::exists(output.json.parent_path() / name, error))
+            return Staleness{.reason = name.string() + " is missing", .is_unfinished = true};
+    }
     return std::nullopt;
 }
 
-std::optional<Staleness> why_outdated(const OutputPaths& output, const std::vector<fs::path>& inputs,
-                                      const std::string& hash) {
+std::optional<Staleness> why_outdated(const OutputPaths& output, const fs::path& scene) {
+    const auto files = inputs_of(read_statistics(output.json));
+    if (!files) return Staleness{.reason = "its inputs are not known"};
     std::error_code error;
-    fs::file_time_type oldest = fs::file_time_type::max();
-    for (const fs::path& path : {output.exr, output.png, output.json}) {
-        const fs::file_time_type time = fs::last_write_time(path, error);
-        if (error) return Staleness{.reason = path.filename().string() + " is missing", .is_unfinished = true};
-        oldest = std::min(oldest, time);
-    }
-    for (const fs::path& input : inputs) {
-        const fs::file_time_type time = fs::last_write_time(input, error);
-        if (error) return Staleness{.reason = fmt::format("input {} is missing", input.filename().string())};
-        if (time >= oldest) return Staleness{.reason = fmt::format("input {} is newer", input.filename().string())};
-    }
-    const auto finished =
-        value_of<std::string>(read_statistics(output.json), "settings_hash", &nlohmann::json::is_string);
-    if (finished != hash) return Staleness{.reason = "settings changed"};
+    const fs::path directory = fs::is_directory(scene, error) ? scene : scene.parent_path();
+    for (const InputFile& file : *files)
+        if (const auto change = what_changed(file, directory)) return Staleness{.reason = *change};
     return std::nullopt;
 }
 
-bool is_up_to_date(const OutputPaths& output, const std::vector<fs::path>& inputs, const std::string& hash) {
-    return !why_unfinished(output) && !why_outdated(output, inputs, hash);
+std::optional<Staleness> why_outdated(const OutputPaths& output, const SceneDesc& scene, const std::string& hash) {
+    const nlohmann::json statistics = read_statistics(output.json);
+    std::set<std::string> known;
+    for (const InputFile& file : inputs_of(statistics).value_or(std::vector<InputFile>())) known.insert(file.path);
+    for (const fs::path& input : scene.inputs)
+        if (!known.contains(input_name(input, scene.directory)))
+            return Staleness{.reason = fmt::format("input {} is new", input.filename().string())};
+    if (value_of<std::string>(statistics, "settings_hash", &nlohmann::json::is_string) != hash)
+        return Staleness{.reason = "settings changed"};
+    return std::nullopt;
+}
+
+bool is_up_to_date(const OutputPaths& output, const fs::path& path, const SceneDesc& scene, const std::string& hash) {
+    return !why_unfinished(output) && !why_outdated(output, path) && !why_outdated(output, scene, hash);
 }
 
 }  // namespace etendue

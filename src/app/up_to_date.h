@@ -2,11 +2,11 @@
 #pragma once
 
 #include "app/output_paths.h"
+#include "scene/scene_desc.h"
 
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace etendue {
 
@@ -17,18 +17,21 @@ struct Staleness {
     double done = 0.0;           ///< part of its samples that an interrupted render has taken, [0, 1]
 };
 
-/// What the three files of `output` themselves say: one is missing, or they are of a render that was cut short. None if
-/// they are of one that was completed.
+/// What the files of `output` themselves say: one is missing, or they are of a render that was cut short. None if they
+/// are of one that was completed.
 [[nodiscard]] std::optional<Staleness> why_unfinished(const OutputPaths& output);
 
-/// Of a completed render, what its inputs and settings say: it must be newer than every file in `inputs`, and made with
-/// the settings whose hash is `hash`. None if it is.
-[[nodiscard]] std::optional<Staleness> why_outdated(const OutputPaths& output,
-                                                    const std::vector<std::filesystem::path>& inputs,
+/// Of a completed render, what the files say that it was made of: one has another content now, or is missing. No scene
+/// is loaded for it. `scene` is the directory or file of the scene. None if all are as they were.
+[[nodiscard]] std::optional<Staleness> why_outdated(const OutputPaths& output, const std::filesystem::path& scene);
+
+/// Of a completed render whose inputs are as they were, what the scene says that is loaded from them now: it is read
+/// from more files, or its settings have another hash than `hash`. None if neither.
+[[nodiscard]] std::optional<Staleness> why_outdated(const OutputPaths& output, const SceneDesc& scene,
                                                     const std::string& hash);
 
-/// True if there is no reason of either kind.
-[[nodiscard]] bool is_up_to_date(const OutputPaths& output, const std::vector<std::filesystem::path>& inputs,
+/// True if there is no reason of any kind; `path` is where `scene` was loaded from.
+[[nodiscard]] bool is_up_to_date(const OutputPaths& output, const std::filesystem::path& path, const SceneDesc& scene,
                                  const std::string& hash);
 
 }  // namespace etendue

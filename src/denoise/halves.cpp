@@ -1,8 +1,22 @@
 #include "denoise/halves.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace etendue {
+
+namespace {
+
+bool is_black(const Planes& planes) {
+    for (int plane = 0; plane < planes.count(); ++plane)
+        for (int y = 0; y < planes.height(); ++y)
+            if (!std::all_of(planes.row(plane, y), planes.row(plane, y) + planes.width(),
+                             [](float value) { return value == 0.0f; }))
+                return false;
+    return true;
+}
+
+}  // namespace
 
 Halves make_halves(const Planes& whole, Planes one_half, float share) {
     Halves halves;
@@ -12,6 +26,10 @@ Halves make_halves(const Planes& whole, Planes one_half, float share) {
     halves.b = combined(whole, halves.a, [share](float v, float a) { return (v - share * a) / (1.0f - share); });
     halves.variance = estimated_variance(halves.a, halves.b, share);
     return halves;
+}
+
+bool is_black(const Halves& halves) {
+    return is_black(halves.a) && is_black(halves.b);
 }
 
 Planes mean_of_all(const Planes& a, const Planes& b, float share) {

@@ -24,6 +24,9 @@ struct Halves {
 /// others' mean is b = (v - s a) / (1 - s). The border of `whole` is not read.
 [[nodiscard]] Halves make_halves(const Planes& whole, Planes one_half, float share);
 
+/// True if no sample brought anything: there is no noise to take out.
+[[nodiscard]] bool is_black(const Halves& halves);
+
 /// Of v = s a + (1 - s) b. With n samples of variance σ², Var(a) = σ²/(s n) and Var(b) = σ²/((1 - s) n), so that
 /// E[(a - b)²] = Var(v) / (s (1 - s)): (a - b)² s (1 - s) estimates Var(v) without bias. It has one degree of freedom
 /// only, and is averaged over the box of kVarianceRadius.

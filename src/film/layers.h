@@ -6,6 +6,7 @@
 #include "film/mattes.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
@@ -29,6 +30,12 @@ struct LayerLayout {
     [[nodiscard]] std::size_t ray_sum() const { return moment_sums() + (has_moments ? 3 : 0); }
     /// Sums of a pixel, 8 bytes each; the functions above say where the later kinds begin.
     [[nodiscard]] std::size_t sums() const { return ray_sum() + (has_ray_counts ? 1 : 0); }
+    /// Bytes of a pixel in a LayerBuffer, at most.
+    [[nodiscard]] std::size_t bytes() const {
+        return sums() * sizeof(double) + (nearest > 0 ? (nearest + 1) * sizeof(float) : 0) +
+               mattes * matte_slots * (sizeof(std::uint32_t) + sizeof(double)) +
+               (is_deep ? sizeof(std::vector<DeepBin>) + DeepBuffer::kMostBins * sizeof(DeepBin) : 0);
+    }
     [[nodiscard]] bool empty() const { return sums() == 0 && nearest == 0 && mattes == 0 && !is_deep; }
     friend bool operator==(const LayerLayout&, const LayerLayout&) = default;
 };

@@ -91,6 +91,7 @@ std::vector<ImageLayer> layers_of(Group group, const OpenImage& image) {
     const bool is_single = group.channels.size() == 1 && group.channels.front().suffix != "Y";
     if (!is_single && !add(LayerKind::Color, take(group.channels, {"R", "G", "B"}, "A")) &&
         !add(LayerKind::Vector, take(group.channels, {"X", "Y", "Z"})) &&
+        !add(LayerKind::Vector, take(group.channels, {"X", "Y"})) &&
         !add(LayerKind::Luminance, take(group.channels, {"Y"}, "A")))
         add(LayerKind::Vector, take(group.channels, {"U", "V"}));
     for (const Channel& channel : group.channels)

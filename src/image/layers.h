@@ -13,7 +13,7 @@ namespace etendue {
 enum class LayerKind {
     Color,      ///< R, G, B and perhaps A
     Luminance,  ///< Y and perhaps A
-    Vector,     ///< X, Y, Z, or U, V
+    Vector,     ///< X, Y, Z, or X, Y, or U, V
     Single,     ///< any one channel
 };
 

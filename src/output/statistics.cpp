@@ -41,6 +41,13 @@ Json to_object(const std::vector<BrightContribution>& brightest) {
     return list;
 }
 
+Json to_object(const std::vector<InputFile>& files) {
+    Json list = Json::array();
+    for (const InputFile& f : files)
+        list.push_back({{"path", f.path}, {"size", f.size}, {"modified", f.modified}, {"content", f.content}});
+    return list;
+}
+
 }  // namespace
 
 std::string to_json(const RenderStatistics& s) {
@@ -51,6 +58,8 @@ std::string to_json(const RenderStatistics& s) {
     json["frame"] = s.frame ? Json(*s.frame) : Json();
     json["time_code"] = s.time_code ? Json(*s.time_code) : Json();
     json["settings_hash"] = s.settings_hash;
+    json["inputs"] = to_object(s.inputs);
+    json["layer_files"] = s.layer_files;
     json["light_units"] = s.light_units;
     json["size"] = {s.width, s.height};
     json["full_size"] = {s.full_width, s.full_height};

@@ -41,12 +41,22 @@ struct BrightContribution {
     int edges = 0;
 };
 
+/// A file that the image depends on.
+struct InputFile {
+    std::string path;           ///< from the scene's directory, or absolute
+    std::uint64_t size = 0;     ///< bytes
+    std::int64_t modified = 0;  ///< nanoseconds of the file system's clock; 0: changed while it was read
+    std::string content;        ///< hash, in hexadecimal digits
+};
+
 struct RenderStatistics {
     std::string scene;
     std::string integrator;
     std::optional<int> frame;         ///< of a sequence
     std::optional<double> time_code;  ///< seconds of the animation that is shown
-    std::string settings_hash;        ///< equal for equal settings and inputs
+    std::string settings_hash;        ///< equal for equal settings
+    std::vector<InputFile> inputs;
+    std::vector<std::string> layer_files;  ///< names of what lies beside the image and belongs to it
     std::string light_units;  ///< of lamps: "photometric" (the image is in cd/m²) or "radiometric" (W/(m² sr))
     int width = 0;            ///< pixels rendered: the crop window's, or the image's
     int height = 0;

@@ -285,20 +285,14 @@ void EmbreeScene::occluded_packets(std::span<const Ray> rays, std::span<std::uin
     }
 }
 
-RayTracerInfo ray_tracer_info() {
-    RayTracerInfo info;
-    info.version = RTC_VERSION_STRING;
-    RTCDevice device = rtcNewDevice("start_threads=0,set_affinity=0");
-    if (!device) return info;
-    const auto supports = [&](RTCDeviceProperty property) { return rtcGetDeviceProperty(device, property) != 0; };
-    if (supports(RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED))
-        info.isa = "AVX-512";
-    else if (supports(RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED))
-        info.isa = "AVX/AVX2";
-    else
-        info.isa = "SSE";
-    rtcReleaseDevice(device);
-    return info;
+std::string EmbreeScene::instruction_set() const {
+    const auto supports = [&](RTCDeviceProperty property) { return rtcGetDeviceProperty(device_, property) != 0; };
+    if (supports(RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED)) return "AVX-512";
+    return supports(RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) ? "AVX/AVX2" : "SSE";
+}
+
+std::string ray_tracer_version() {
+    return RTC_VERSION_STRING;
 }
 
 }  // namespace etendue

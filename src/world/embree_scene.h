@@ -41,6 +41,7 @@ class EmbreeScene {
     [[nodiscard]] std::size_t bytes() const { return bytes_; }
     /// Seconds that all BVHs took to build.
     [[nodiscard]] double build_seconds() const { return build_seconds_; }
+    [[nodiscard]] std::string instruction_set() const;
     /// True if anything moves while the shutter is open.
     [[nodiscard]] bool has_motion() const { return has_motion_; }
 

@@ -333,6 +333,7 @@ WorldStatistics World::statistics() const {
     }
     s.instances = data_->instances.size();
     s.lights = data_->lights.size();
+    s.isa = data_->bvh->instruction_set();
     s.bvh_bytes = data_->bvh->bytes();
     s.bvh_build_seconds = data_->bvh->build_seconds();
     return s;

@@ -62,6 +62,7 @@ struct WorldStatistics {
     std::size_t instanced_triangles = 0;  ///< as seen, shared meshes as often as they are placed
     std::size_t instances = 0;
     std::size_t lights = 0;
+    std::string isa;  ///< the widest instruction set that rays are traced with here
     std::size_t bvh_bytes = 0;
     double bvh_build_seconds = 0.0;
     std::size_t geometry_bytes = 0;
@@ -285,11 +286,7 @@ class World {
     RayObserver* observer_ = nullptr;
 };
 
-/// Name and version of the ray tracing library, and the widest instruction set that it uses here.
-struct RayTracerInfo {
-    std::string version;
-    std::string isa;
-};
-[[nodiscard]] RayTracerInfo ray_tracer_info();
+/// Of the ray tracing library.
+[[nodiscard]] std::string ray_tracer_version();
 
 }  // namespace etendue

@@ -1,5 +1,6 @@
 #include "app/batch_plan.h"
 
+#include "app/input_files.h"
 #include "app/prepared_scene.h"
 #include "app/small_files.h"
 
@@ -27,15 +28,20 @@ class BatchPlanTest : public testing::Test {
     }
     /// As if it had been rendered with the options.
     void render(bool complete = true) {
-        const auto prepared = prepare_scene(folder_ / "scene", options_.overrides);
+        auto prepared = prepare_scene(folder_ / "scene", options_.overrides);
+        hash_inputs(prepared.scene, prepared.inputs);
+        json inputs = json::array();
+        for (const InputFile& file : prepared.inputs)
+            inputs.push_back(
+                {{"path", file.path}, {"size", file.size}, {"modified", file.modified}, {"content", file.content}});
         write_file(folder_ / "box.exr", "exr");
         write_file(folder_ / "box.png", "png");
         write_file(folder_ / "box.json",
                    json{{"complete", complete},
+                        {"inputs", inputs},
                         {"spp", {{"done", 12}, {"requested", 48}}},
                         {"settings_hash", settings_hash(prepared.scene, options_.overrides.depth)}}
                        .dump());
-        for (const char* name : {"scene.gltf", "render.json", "triangle.bin"}) age(folder_ / "scene" / name, 100);
     }
     static void age(const fs::path& file, int seconds) {
         fs::last_write_time(file, fs::file_time_type::clock::now() - std::chrono::seconds(seconds));
@@ -58,7 +64,9 @@ TEST_F(BatchPlanTest, SaysWhyAnImageIsStale) {
     EXPECT_EQ(reason(), "");
     EXPECT_EQ(reason(true), kForced);
     age(folder_ / "scene/triangle.bin", -10);
-    EXPECT_EQ(reason(), "input triangle.bin is newer");
+    EXPECT_EQ(reason(), "") << "another time is not another content";
+    write_file(folder_ / "scene/triangle.bin", read_file(folder_ / "scene/triangle.bin") + "more");
+    EXPECT_EQ(reason(), "input triangle.bin has changed");
     render();
     options_.overrides.spp = 7;
     EXPECT_EQ(reason(), "settings changed");
@@ -68,7 +76,7 @@ TEST_F(BatchPlanTest, SaysWhyAnImageIsStale) {
     EXPECT_EQ(reason(), "box.png is missing");
     render();
     write_file(folder_ / "scene/scene.gltf", "broken");
-    EXPECT_EQ(reason(), "the scene cannot be loaded");
+    EXPECT_EQ(reason(), "input scene.gltf has changed") << "it is not loaded here";
 }
 
 TEST_F(BatchPlanTest, SaysWhatCanBeGoneOnWith) {

@@ -357,6 +357,10 @@ TEST_F(CommandLine, BatchSkipsWhatIsUpToDate) {
     EXPECT_EQ(run_with({"--seed", "8"}), rendered);
     EXPECT_EQ(run_with({"--seed", "8"}), skipped);
     fs::last_write_time(one + "/triangle.bin", fs::file_time_type::clock::now() + std::chrono::seconds(2));
+    EXPECT_EQ(run_with({"--seed", "8"}), skipped) << "another time is not another content";
+    std::string settings = read_file(one + "/render.json");
+    settings.back() = ' ';
+    write_file(one + "/render.json", settings + "}");
     EXPECT_EQ(run_with({"--seed", "8"}), (Names{"one: rendered", "two: up to date"}));
 }
 

@@ -1,6 +1,8 @@
 #include "app/farm_plan.h"
 
 #include "app/farm_needs.h"
+#include "app/prepared_scene.h"
+#include "app/small_files.h"
 
 #include <algorithm>
 #include <set>
@@ -135,17 +137,40 @@ TEST(FarmPlan, MergesGetWhatTheyNeedThemselves) {
 TEST(FarmNeeds, OfMergesGrowWithPixelsAndParts) {
     EXPECT_EQ(merge_needs_of({.pixels = 1000}, 2), (TaskNeeds{kLeastMinutes, kLeastMebibytes}));
     constexpr std::uint64_t kPixels = 100'000'000;
-    // By hand: 3 x (0.223 + 100 x (0.32 + 0.122 x 300)) s, and 1.5 x 3 films of 48 bytes a pixel.
-    EXPECT_EQ(merge_needs_of({.pixels = kPixels}, 300), (TaskNeeds{185, 20600}));
-    EXPECT_EQ(merge_needs_of({.pixels = kPixels, .splat_pixels = kPixels}, 300), (TaskNeeds{185, 30900}));
+    // By hand: 3 x (0.223 + 100 x (0.32 + 0.122 x 300)) s, and 1.5 x (3 films of 48 bytes a pixel, and 80 to write it).
+    EXPECT_EQ(merge_needs_of({.pixels = kPixels}, 300), (TaskNeeds{185, 32044}));
+    // Parts are half as large again: 100 x 0.122 x 300 x 24 / 48 s and 1.5 x 3 x 24 bytes more.
+    EXPECT_EQ(merge_needs_of({.pixels = kPixels, .splat_pixels = kPixels}, 300), (TaskNeeds{277, 42344}));
+}
+
+TEST(FarmNeeds, OfLayersAreThoseOfTheirSumsAndChannels) {
+    const TestFolder folder;
+    write_scene(folder / "box", R"("aovs": ["passes", "depth", "variance", "denoising"], )");
+    const FilmSize path = film_size_of(prepare_scene(folder / "box", {}).scene);
+    EXPECT_TRUE(path.has_second_film);
+    // Ten layers of light, three sums of squares, two averaged features of three channels; the distance and a number.
+    EXPECT_EQ(path.layers.bytes(), 8u * (3 * 10 + 3 + 3 + 3) + 4u * 2);
+    EXPECT_EQ(path.bytes(), 16u * 12u * (48 + path.layers.bytes()));
+    EXPECT_EQ(path.channels, 2u * (4 + 30 + 1 + 3 + 3 + 3));
+    SettingsOverrides bdpt;
+    bdpt.integrator = "bdpt";
+    const FilmSize splats = film_size_of(prepare_scene(folder / "box", bdpt).scene);
+    EXPECT_EQ(splats.bytes() - path.bytes(), 16u * 12u * 24 * (1 + 10 + 1));
+    const RenderProbe probe{.render_seconds = 1.0};
+    const FilmSize plain{.pixels = 10'000'000};
+    FilmSize layered = path;
+    layered.pixels = plain.pixels;
+    EXPECT_GT(needs_of(probe, layered, 1.0, 1).mebibytes, 5 * needs_of(probe, plain, 1.0, 1).mebibytes);
+    EXPECT_GT(merge_needs_of(layered, 2).mebibytes, 5 * merge_needs_of(plain, 2).mebibytes);
+    EXPECT_GT(merge_needs_of(layered, 200).minutes, merge_needs_of(plain, 200).minutes);
 }
 
 TEST(FarmNeeds, OfRendersHaveRoomForWritingAndForASecondFilm) {
     const RenderProbe probe{.render_seconds = 10.0, .peak_memory_bytes = std::uint64_t{1} << 30};
     constexpr std::uint64_t kPixels = 50'000'000;
-    const TaskNeeds none = needs_of(probe, {}, 1, 1);
-    const TaskNeeds some = needs_of(probe, {.pixels = kPixels}, 1, 1);
-    const TaskNeeds two = needs_of(probe, {.pixels = kPixels, .has_second_film = true}, 1, 1);
+    const TaskNeeds none = needs_of(probe, {}, 1.0, 1);
+    const TaskNeeds some = needs_of(probe, {.pixels = kPixels}, 1.0, 1);
+    const TaskNeeds two = needs_of(probe, {.pixels = kPixels, .has_second_film = true}, 1.0, 1);
     EXPECT_EQ(none.mebibytes, 1536);
     EXPECT_GT(some.mebibytes, none.mebibytes);
     EXPECT_NEAR(two.mebibytes - some.mebibytes, 1.5 * 48.0 * kPixels / (1 << 20), 1.0);

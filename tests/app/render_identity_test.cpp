@@ -1,5 +1,6 @@
 #include "app/render_identity.h"
 
+#include "app/input_files.h"
 #include "app/prepared_scene.h"
 #include "app/small_files.h"
 #include "image/write.h"
@@ -20,6 +21,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
+RenderIdentity identity_of(const SceneDesc& scene, const std::string& working_space) {
+    std::vector<InputFile> inputs = stamp_inputs(scene, fs::file_time_type::clock::now());
+    hash_inputs(scene, inputs);
+    return render_identity(scene, inputs, working_space);
+}
+
 SceneDesc scene_at(const fs::path& directory) {
     return prepare_scene(directory, {}).scene;
 }
@@ -28,7 +35,7 @@ TEST(RenderIdentity, EverySettingThatSumsDependOnChangesItAndIsNamed) {
     const TestFolder folder;
     write_scene(folder / "box");
     const SceneDesc scene = scene_at(folder / "box");
-    const RenderIdentity identity = render_identity(scene, "ACEScg");
+    const RenderIdentity identity = identity_of(scene, "ACEScg");
     using Change = std::function<void(SceneDesc&)>;
     const std::vector<std::pair<std::string, Change>> changes{
         {"seed: ", [](SceneDesc& s) { s.settings.seed = 7; }},
@@ -59,16 +66,16 @@ TEST(RenderIdentity, EverySettingThatSumsDependOnChangesItAndIsNamed) {
     for (const auto& [name, change] : changes) {
         SceneDesc other = scene;
         change(other);
-        const std::string text = difference(identity, render_identity(other, "ACEScg"));
+        const std::string text = difference(identity, identity_of(other, "ACEScg"));
         EXPECT_NE(text.find(name), std::string::npos) << name << " is not in '" << text << "'";
     }
-    EXPECT_EQ(difference(identity, render_identity(scene, "lin_rec709")).substr(0, 14), "working space:");
+    EXPECT_EQ(difference(identity, identity_of(scene, "lin_rec709")).substr(0, 14), "working space:");
     // Those of bdpt alone differ from each other.
     const auto bdpt = [&](const Change& change) {
         SceneDesc other = scene;
         other.settings.integrator.type = "bdpt";
         change(other);
-        return render_identity(other, "ACEScg");
+        return identity_of(other, "ACEScg");
     };
     const RenderIdentity plain = bdpt([](SceneDesc&) {});
     EXPECT_NE(plain, bdpt([](SceneDesc& s) { s.settings.integrator.heuristic = HeuristicType::Balance; }));
@@ -94,21 +101,21 @@ TEST(RenderIdentity, HowLongAndHowItIsShownIsNoPartOfIt) {
     other.settings.film.crop = std::array{0, 0, 4, 4};
     other.settings.color.exposure = 2.0f;
     other.settings.texture_memory = 1u << 20;  // there are no textures
-    EXPECT_EQ(difference(render_identity(scene, "ACEScg"), render_identity(other, "ACEScg")), "");
+    EXPECT_EQ(difference(identity_of(scene, "ACEScg"), identity_of(other, "ACEScg")), "");
 }
 
 TEST(RenderIdentity, IsTheSameWhereverTheSceneLies) {
     const TestFolder folder;
     for (const char* place : {"box", "elsewhere/deep/box"}) write_scene(folder / place);
-    const RenderIdentity identity = render_identity(scene_at(folder / "box"), "ACEScg");
+    const RenderIdentity identity = identity_of(scene_at(folder / "box"), "ACEScg");
     EXPECT_TRUE(identity.contains("content of triangle.bin"));
-    EXPECT_EQ(difference(identity, render_identity(scene_at(folder / "elsewhere/deep/box"), "ACEScg")), "");
+    EXPECT_EQ(difference(identity, identity_of(scene_at(folder / "elsewhere/deep/box"), "ACEScg")), "");
     const fs::path relative = fs::relative(folder / "box");
-    EXPECT_EQ(difference(identity, render_identity(scene_at(relative), "ACEScg")), "");
+    EXPECT_EQ(difference(identity, identity_of(scene_at(relative), "ACEScg")), "");
     fs::create_directory_symlink(folder / "elsewhere/deep/box", folder / "box-link");
     SceneDesc linked = scene_at(folder / "box-link");
     linked.name = "box";
-    EXPECT_EQ(difference(identity, render_identity(linked, "ACEScg")), "");
+    EXPECT_EQ(difference(identity, identity_of(linked, "ACEScg")), "");
 }
 
 // Look-ups in both give slightly different values.
@@ -121,12 +128,12 @@ TEST(RenderIdentity, TexturesInACacheAreOthersThanTexturesInMemory) {
     for (const unsigned char byte : png) image.encoded.push_back(static_cast<std::byte>(byte));
     scene.textures.emplace_back().image.index = 0;
     scene.materials.front().base_color_texture.texture.index = 0;
-    const RenderIdentity in_memory = render_identity(scene, "ACEScg");
+    const RenderIdentity in_memory = identity_of(scene, "ACEScg");
     scene.settings.texture_memory = 64 * 64;  // less than its three channels
-    const RenderIdentity cached = render_identity(scene, "ACEScg");
+    const RenderIdentity cached = identity_of(scene, "ACEScg");
     EXPECT_EQ(difference(in_memory, cached), "textures: 'in memory' there, 'in a cache (--texture-memory)' here");
     scene.settings.texture_memory = 1u << 20;
-    EXPECT_EQ(difference(in_memory, render_identity(scene, "ACEScg")), "") << "how much memory there is is no matter";
+    EXPECT_EQ(difference(in_memory, identity_of(scene, "ACEScg")), "") << "how much memory there is is no matter";
 }
 
 TEST(RenderIdentity, FilesElsewhereGoByTheirNames) {
@@ -138,7 +145,7 @@ TEST(RenderIdentity, FilesElsewhereGoByTheirNames) {
         write_file(folder / place / "sky.exr", place);
         scene.inputs.push_back(folder / place / "sky.exr");
     }
-    const RenderIdentity identity = render_identity(scene, "ACEScg");
+    const RenderIdentity identity = identity_of(scene, "ACEScg");
     EXPECT_TRUE(identity.contains("content of sky.exr"));
     EXPECT_TRUE(identity.contains("content of sky.exr (2)"));
     EXPECT_NE(identity.at("content of sky.exr"), identity.at("content of sky.exr (2)"));

@@ -26,6 +26,14 @@ TEST(Halves, TheOtherHalfIsWhatTheWholeLacks) {
     }
 }
 
+TEST(Halves, AreBlackIfNeitherHasAnything) {
+    const Planes black = same_planes(7, 5, 3, [](int, int) { return 0.0f; });
+    const Planes spark = same_planes(7, 5, 3, [](int x, int y) { return x == 6 && y == 4 ? 1.0f : 0.0f; });
+    EXPECT_TRUE(is_black(make_halves(black, black, 0.5f)));
+    EXPECT_FALSE(is_black(make_halves(spark, black, 0.5f)));
+    EXPECT_FALSE(is_black(make_halves(mean_of_all(spark, black, 0.5f), spark, 0.5f)));
+}
+
 TEST(Halves, VarianceHasTheRightMeanForEveryShare) {
     const Planes grey = same_planes(128, 128, 1, [](int, int) { return 0.5f; });
     for (const float share : {0.5f, 0.25f, 0.8f}) {

@@ -48,9 +48,10 @@ float first(const std::filesystem::path& path, const std::string& layer, std::si
 
 TEST(Layers, AreChannelsWithOneNameBeforeTheDot) {
     const TemporaryFolder folder;
-    const auto path = write_channels(
-        folder / "a.exr", {"R", "G", "B", "A", "Z", "diffuse.R", "diffuse.G", "diffuse.B", "N.X", "N.Y", "N.Z",
-                           "depth.Z", "light.key.R", "light.key.G", "light.key.B", "uv.U", "uv.V", "odd.a", "odd.q"});
+    const auto path = write_channels(folder / "a.exr",
+                                     {"R",           "G",    "B",    "A",     "Z",       "diffuse.R",   "diffuse.G",
+                                      "diffuse.B",   "N.X",  "N.Y",  "N.Z",   "depth.Z", "light.key.R", "light.key.G",
+                                      "light.key.B", "uv.U", "uv.V", "odd.a", "odd.q",   "motion.X",    "motion.Y"});
     const LayeredImage image = read_layers(path);
     std::vector<std::pair<std::string, LayerKind>> found;
     for (const ImageLayer& layer : image.layers) found.emplace_back(layer.name, layer.kind);
@@ -61,6 +62,7 @@ TEST(Layers, AreChannelsWithOneNameBeforeTheDot) {
                                                                      {"depth", LayerKind::Single},
                                                                      {"diffuse", LayerKind::Color},
                                                                      {"light.key", LayerKind::Color},
+                                                                     {"motion", LayerKind::Vector},
                                                                      {"odd.a", LayerKind::Single},
                                                                      {"odd.q", LayerKind::Single},
                                                                      {"uv", LayerKind::Vector}}))

@@ -146,6 +146,15 @@ TEST(PathAutomaton, HasBounds) {
     EXPECT_THROW((void)automaton_of({"C .* D .{20} L"}), ExpressionError);
 }
 
+TEST(PathAutomaton, LayersOfManyMaterialsStayFew) {
+    // Which of them a path has met so far is all that there is to know.
+    std::vector<std::string> layers;
+    for (int i = 0; i < 8; ++i) layers.push_back("C .* <.'m" + std::to_string(i) + "'> .* L");
+    const PathAutomaton automaton = automaton_of(layers);
+    EXPECT_LE(automaton.eye_states(), 2 * 256 + 4);
+    EXPECT_LE(automaton.light_states(), 2 * 256 + 4);
+}
+
 TEST(PathAutomaton, TellsNamesThatNothingHas) {
     EXPECT_EQ(automaton_of({"C <RD'silver'> <L'key'>", "C <L'rim*'>"}).unmatched_names(),
               (std::vector<std::string>{"silver", "rim*"}));

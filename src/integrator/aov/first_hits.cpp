@@ -59,20 +59,26 @@ class FirstHit {
             case FirstHitValue::MaterialId:
                 return put({static_cast<float>(world_.material_index(point_) + 1)});
             case FirstHitValue::Motion: {
-                const Vec2f way = position_on_film(1.0f) - position_on_film(0.0f);
+                // What is behind the camera then has no place on the film.
+                const std::optional<Vec2f> first = position_on_film(0.0f);
+                const std::optional<Vec2f> last = position_on_film(1.0f);
+                const Vec2f way = first && last ? *last - *first : Vec2f(0.0f, 0.0f);
                 return put({way.x, way.y});
             }
         }
     }
 
   private:
-    /// Pixels from the corner of the full image, of this point of the surface at another time.
-    [[nodiscard]] Vec2f position_on_film(float time) const {
+    /// Pixels from the corner of the full image, of this point of the surface at another time; none if the camera
+    /// cannot see it then.
+    [[nodiscard]] std::optional<Vec2f> position_on_film(float time) const {
         Hit then = hit_;
         then.time = time;
         constexpr Vec2f kMiddleOfLens{0.5f, 0.5f};
-        const Vec2f film = world_.connect_to_camera(world_.surface_point(then).position, kMiddleOfLens, time).film;
-        return {film.x * static_cast<float>(job_.full_width), film.y * static_cast<float>(job_.full_height)};
+        const CameraConnection view = world_.connect_to_camera(world_.surface_point(then).position, kMiddleOfLens, time);
+        if (!(view.importance_area > 0.0f)) return std::nullopt;
+        return Vec2f(view.film.x * static_cast<float>(job_.full_width),
+                     view.film.y * static_cast<float>(job_.full_height));
     }
 
     const Albedo& albedo() {

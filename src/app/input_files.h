@@ -1,0 +1,31 @@
+// The files that a scene was read from, as they were: whether they are still what an image was made of.
+#pragma once
+
+#include "output/statistics.h"
+#include "scene/scene_desc.h"
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace etendue {
+
+/// Name, size and time of each input of `scene`, without content. One that has changed since `started`, when the first
+/// of them was read, has time 0: nobody knows what of it was read.
+[[nodiscard]] std::vector<InputFile> stamp_inputs(const SceneDesc& scene, std::filesystem::file_time_type started);
+
+/// Fills in the content of `files`, the stamps of the inputs of `scene`. A file that is another by now gets time 0.
+/// Throws IoError if one cannot be read.
+void hash_inputs(const SceneDesc& scene, std::span<InputFile> files);
+
+/// The same wherever the directory lies and however it is named: the path from there; of what lies elsewhere, where
+/// that is.
+[[nodiscard]] std::string input_name(const std::filesystem::path& input, const std::filesystem::path& directory);
+
+/// What is different about `file`, which was an input of a scene in `directory`: "input sky.exr has changed", or that
+/// it is missing. None if it has the same size and time, or else the same content.
+[[nodiscard]] std::optional<std::string> what_changed(const InputFile& file, const std::filesystem::path& directory);
+
+}  // namespace etendue
