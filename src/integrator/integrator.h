@@ -48,7 +48,7 @@ struct TileJob {
     /// kept. Direct is the light of paths C S* L and C S* . L: what the eye sees, mirrors and smooth glass apart, and
     /// what lights it without another bounce. All other light is indirect.
     float clamp_indirect = std::numeric_limits<float>::infinity();
-    std::span<const PixelJob> pixels{};   ///< empty for all
+    std::span<const PixelJob> pixels{};  ///< empty for all
 };
 
 /// What rendering counts. One per thread, added up at the end.

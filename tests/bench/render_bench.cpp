@@ -161,7 +161,7 @@ int main(int argc, char** argv) {
                               static_cast<double>(counters.shadow_rays)};
     constexpr const char* kNames[3] = {"camera", "bounce", "shadow"};
     fmt::print("{}: {}x{}, {} spp, {:.2f} rays per sample, embree {} {}\n", arguments.scene, arguments.width,
-               arguments.height, arguments.spp, rays / samples, ray_tracer_info().version, ray_tracer_info().isa);
+               arguments.height, arguments.spp, rays / samples, ray_tracer_version(), world.statistics().isa);
     fmt::print("{:<28}{:>10}{:>12}{:>12}\n", "bare Embree, 1 thread", "Mrays", "single M/s", "packet M/s");
     for (std::size_t k = 0; k < 3; ++k)
         fmt::print("  {:<26}{:>10.2f}{:>12.1f}{:>12.1f}\n", kNames[k], counts[k] * 1e-6, counts[k] / single[k] * 1e-6,

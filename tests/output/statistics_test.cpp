@@ -44,6 +44,8 @@ RenderStatistics make_statistics() {
     s.failed_texture_lookups = 6;
     s.dropped_samples = 3;
     s.first_dropped = {{1, 2, 3}, {4, 5, 6}};
+    s.inputs = {{"textures/sky.exr", 12, 34, "0123"}};
+    s.layer_files = {"box.depth.exr"};
     s.clamp_indirect = 0.5f;
     s.removed_share = 0.25;
     s.robust_buckets = 5;
@@ -71,7 +73,8 @@ TEST(StatisticsJson, HasEveryField) {
     const auto json = nlohmann::json::parse(to_json(make_statistics()));
     const auto expected = nlohmann::json::parse(R"({
         "scene": "cornell-box", "integrator": "bdpt", "frame": 7, "time_code": 0.25, "settings_hash": "0123abcd",
-        "light_units": "radiometric", "size": [64, 32], "full_size": [128, 96],
+        "inputs": [{"path": "textures/sky.exr", "size": 12, "modified": 34, "content": "0123"}],
+        "layer_files": ["box.depth.exr"], "light_units": "radiometric", "size": [64, 32], "full_size": [128, 96],
         "complete": false, "halt_reason": "time limit", "estimated_relative_error": 0.125,
         "spp": {"requested": 16, "done": 8}, "adaptive": {"least": 8, "mean": 12.5, "most": 16},
         "samples": 80, "samples_per_second": 40.0,

@@ -75,7 +75,8 @@ class FirstHit {
         Hit then = hit_;
         then.time = time;
         constexpr Vec2f kMiddleOfLens{0.5f, 0.5f};
-        const CameraConnection view = world_.connect_to_camera(world_.surface_point(then).position, kMiddleOfLens, time);
+        const CameraConnection view =
+            world_.connect_to_camera(world_.surface_point(then).position, kMiddleOfLens, time);
         if (!(view.importance_area > 0.0f)) return std::nullopt;
         return Vec2f(view.film.x * static_cast<float>(job_.full_width),
                      view.film.y * static_cast<float>(job_.full_height));

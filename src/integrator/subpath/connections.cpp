@@ -42,7 +42,8 @@ void Connections::resolve(const World& world, std::span<const CameraSample> samp
         if (!pending.is_splat)
             light.add(pending.slot, pending.value, pending.kind, shares);
         else if (is_finite(pending.value) && min_component(pending.value) >= 0.0f)
-            light.add_splat(pending.slot, samples[pending.slot].key.index, {.position = pending.position, .value = pending.value, .depth = pending.depth},
+            light.add_splat(pending.slot, samples[pending.slot].key.index,
+                            {.position = pending.position, .value = pending.value, .depth = pending.depth},
                             pending.kind, shares, tile.splats());
         else
             counters.drop({static_cast<int>(pending.position.x), static_cast<int>(pending.position.y),
