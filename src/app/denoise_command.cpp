@@ -16,9 +16,11 @@
 #include <chrono>
 #include <cstddef>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <new>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -34,6 +36,7 @@ namespace etendue {
 namespace {
 
 constexpr const char* kHalfShare = "etendue:halfShare";
+constexpr const char* kLightLayers = "etendue:lightLayers";
 constexpr const char* kDenoised = "etendue:denoised";
 
 struct DenoiseArguments {
@@ -55,13 +58,22 @@ struct DenoiseInput {
     float half_share = 0.5f;
 };
 
+/// The names that the file gives of its layers of light; none if it does not tell.
+std::optional<std::vector<std::string>> light_layers(const ChannelImage& file) {
+    const ImageAttribute* const attribute = file.find(kLightLayers);
+    const auto* const text = attribute != nullptr ? std::get_if<std::string>(&attribute->value) : nullptr;
+    if (text == nullptr) return std::nullopt;
+    std::istringstream words(*text);
+    return std::vector<std::string>(std::istream_iterator<std::string>(words), {});
+}
+
 DenoiseInput read_input(const DenoiseArguments& arguments) {
     try {
         DenoiseInput input;
         input.file = read_channels(std::filesystem::path(arguments.image));
         if (input.file.find(kDenoised)) throw std::invalid_argument("the image has been denoised already");
         const std::vector<std::string> features = arguments.features.empty() ? default_features() : arguments.features;
-        input.plan = plan_layers(input.file.channel_names, features, arguments.features);
+        input.plan = plan_layers(input.file.channel_names, light_layers(input.file), features, arguments.features);
         const ImageAttribute* share = input.file.find(kHalfShare);
         const auto* value = share ? std::get_if<float>(&share->value) : nullptr;
         if (!value || !(*value > 0.0f && *value < 1.0f))
@@ -145,7 +157,8 @@ void write_denoised(const DenoiseInput& input, const DenoiseArguments& arguments
     for (const int channel : input.plan.kept)
         options.channel_names.push_back(input.file.channel_names[static_cast<std::size_t>(channel)]);
     options.attributes = input.file.attributes;
-    std::erase_if(options.attributes, [](const ImageAttribute& a) { return a.name == kHalfShare; });
+    std::erase_if(options.attributes,
+                  [](const ImageAttribute& a) { return a.name == kHalfShare || a.name == kLightLayers; });
     options.attributes.push_back(
         {kDenoised, fmt::format("{}, radius {}, {}", arguments.method, arguments.radius, software_name())});
     const PixelRect& data = input.file.data_window;

@@ -19,16 +19,11 @@ namespace {
 void write_exr(const OutputPaths& paths, const OutputFrame& frame, AovLayout layout, const ColorConfig& colors,
                PixelDepth depth) {
     ExrDriver driver(paths.exr, colors, depth);
-    if (!frame.deep.counts.empty()) {
-        std::filesystem::path path = paths.exr;
-        path.replace_extension(".deep.exr");
-        ExrDriver(path, colors, depth).write_deep(frame);
-    }
+    if (!frame.deep.counts.empty()) ExrDriver(layer_path(paths.exr, "deep"), colors, depth).write_deep(frame);
     if (!frame.aces_container && (frame.layers.empty() || layout == AovLayout::Layers)) return driver.write(frame);
     if (layout == AovLayout::Parts) return driver.write_layers_as_parts(frame);
-    for (const OutputLayer& layer : frame.layers) {
+    for (const OutputLayer& layer : frame.layers)
         ExrDriver(layer_path(paths.exr, layer.name), colors, depth).write_layer(frame, layer);
-    }
     OutputFrame alone = frame;
     alone.layers.clear();
     if (frame.aces_container)
@@ -58,6 +53,8 @@ void write_image_files(const OutputPaths& paths, ImageDescription& image, const 
     PreviewDriver(paths.png, colors).write(image.frame);
     if (beside) beside();
     image.statistics.layer_files.clear();
+    if (!image.frame.deep.counts.empty())
+        image.statistics.layer_files.push_back(layer_path(paths.exr, "deep").filename().string());
     if (image.aov_layout == AovLayout::Files)
         for (const OutputLayer& layer : image.frame.layers)
             image.statistics.layer_files.push_back(layer_path(paths.exr, layer.name).filename().string());

@@ -23,7 +23,8 @@ struct Stamp {
 };
 
 std::int64_t nanoseconds(fs::file_time_type time) {
-    return std::chrono::duration_cast<std::chrono::nanoseconds>(time.time_since_epoch()).count();
+    const auto since_1970 = std::chrono::file_clock::to_sys(time).time_since_epoch();
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(since_1970).count();
 }
 
 /// None if there is no such file.

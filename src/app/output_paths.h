@@ -14,7 +14,7 @@ struct OutputPaths {
     [[nodiscard]] static OutputPaths beside(const std::filesystem::path& exr);
 };
 
-/// Where the layer `name` of the image `exr` is written to if it has a file of its own.
+/// Where the layer `name` of the image `exr` is written to if it has a file of its own; that of depths is "deep".
 [[nodiscard]] std::filesystem::path layer_path(const std::filesystem::path& exr, const std::string& name);
 
 /// True for the name of a part: it ends in .partial.

@@ -137,8 +137,8 @@ class SceneRender {
             return;
         }
         require_all_writable(paths_);
-        if (scene_.settings.aov_layout == AovLayout::Files)
-            for (const AovOutput& layer : aovs_.outputs) require_free(layer);
+        for (const AovOutput& layer : aovs_.outputs)
+            if (scene_.settings.aov_layout == AovLayout::Files || layer.kind == AovKind::Deep) require_free(layer);
         if (request_.strategies.output.empty()) return;
         require_all_writable(OutputPaths::beside(request_.strategies.output));
         require_strategies(scene_.settings, {"--strategies-image", {}});

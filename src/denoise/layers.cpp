@@ -74,8 +74,8 @@ std::vector<std::string> default_features() {
     return {"albedo", "N", "depth"};
 }
 
-LayerPlan plan_layers(std::span<const std::string> names, std::span<const std::string> features,
-                      std::span<const std::string> required) {
+LayerPlan plan_layers(std::span<const std::string> names, const std::optional<std::vector<std::string>>& lights,
+                      std::span<const std::string> features, std::span<const std::string> required) {
     const std::array<std::string, 3> rgb{"R", "G", "B"};
     Places places;
     std::map<std::string, std::vector<std::string>> layers;
@@ -90,7 +90,7 @@ LayerPlan plan_layers(std::span<const std::string> names, std::span<const std::s
     for (const char* name : {"R", "G", "B"})
         if (!places.contains(name)) throw std::invalid_argument(fmt::format("there is no channel {}", name));
     for (const auto& [layer, channels] : layers) {
-        if (contains(features, layer)) continue;
+        if (contains(features, layer) || (lights && !layer.empty() && !contains(*lights, layer))) continue;
         if (auto found = find_layer(places, layer, rgb)) plan.lights.push_back(std::move(*found));
     }
     if (plan.lights.empty() || !plan.lights.front().name.empty())

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -29,11 +30,12 @@ struct LayerPlan {
 [[nodiscard]] std::vector<std::string> default_features();
 
 /// Finds the layers among the channels `names` of a file. A layer of light is one that has NAME.R, NAME.G and NAME.B,
-/// and the same with the prefix kHalfPrefix; a feature is one of `features`, of up to four channels with their halves.
-/// What has no halves is kept as it is. Throws std::invalid_argument, with what to do about it, if there is no beauty
-/// with its half, a feature of `required` (a subset of `features`) is not there or not whole, or there are too many
-/// features.
-[[nodiscard]] LayerPlan plan_layers(std::span<const std::string> names, std::span<const std::string> features,
-                                    std::span<const std::string> required);
+/// and the same with the prefix kHalfPrefix, and is one of `lights` if these are known; a feature is one of `features`,
+/// of up to four channels with their halves. What has no halves is kept as it is. Throws std::invalid_argument, with
+/// what to do about it, if there is no beauty with its half, a feature of `required` (a subset of `features`) is not
+/// there or not whole, or there are too many features.
+[[nodiscard]] LayerPlan plan_layers(std::span<const std::string> names,
+                                    const std::optional<std::vector<std::string>>& lights,
+                                    std::span<const std::string> features, std::span<const std::string> required);
 
 }  // namespace etendue

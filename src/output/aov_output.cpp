@@ -60,8 +60,8 @@ DeepPixels resolve_deep_pixels(const Film& film) {
 
 OutputLayer resolve_layer(const Film& film, const AovOutput& output) {
     OutputLayer layer{.name = output.name, .channels = output.channels, .is_float = output.is_float};
-    layer.is_color = output.kind == AovKind::Layer || output.kind == AovKind::Mean ||
-                     (output.kind == AovKind::Values && output.channels == "RGB");
+    layer.is_light = output.kind == AovKind::Layer || output.kind == AovKind::Mean;
+    layer.is_color = layer.is_light || (output.kind == AovKind::Values && output.channels == "RGB");
     if (output.kind == AovKind::Matte) {
         layer.is_matte = true;
         layer.attributes = matte_attributes(output.name, output.manifest);

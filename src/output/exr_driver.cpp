@@ -56,7 +56,14 @@ std::vector<ImageAttribute> make_attributes(const OutputFrame& frame, const Colo
         {"etendue:complete", frame.complete ? 1 : 0},
         {"etendue:haltReason", frame.halt_reason},
     };
-    if (frame.half_share > 0.0f) attributes.push_back({"etendue:halfShare", frame.half_share});
+    if (frame.half_share > 0.0f) {
+        attributes.push_back({"etendue:halfShare", frame.half_share});
+        // Nothing else is to be denoised, whatever its channels are called.
+        std::string names;
+        for (const OutputLayer& layer : frame.layers)
+            if (layer.is_light && !layer.name.starts_with("half.")) names += (names.empty() ? "" : " ") + layer.name;
+        attributes.push_back({"etendue:lightLayers", names});
+    }
     add_chromaticities(config, space, attributes);
     return attributes;
 }

@@ -17,6 +17,7 @@ struct OutputLayer {
     std::string channels{};                    ///< a letter each
     bool is_float = false;                     ///< to be written as 32-bit floats, whatever the image is
     bool is_color = false;                     ///< in the working space; else numbers that mean the same in every space
+    bool is_light = false;                     ///< a part of the light of the image
     bool is_matte = false;                     ///< its channels are those of `matte_channel`
     std::vector<ImageAttribute> attributes{};  ///< of the file or part that has it
     ImageF pixels{};

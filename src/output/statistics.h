@@ -45,7 +45,7 @@ struct BrightContribution {
 struct InputFile {
     std::string path;           ///< from the scene's directory, or absolute
     std::uint64_t size = 0;     ///< bytes
-    std::int64_t modified = 0;  ///< nanoseconds of the file system's clock; 0: changed while it was read
+    std::int64_t modified = 0;  ///< nanoseconds since 1970, UTC; 0: changed while it was read
     std::string content;        ///< hash, in hexadecimal digits
 };
 

@@ -1,7 +1,10 @@
 // Which channels of a file are light, features and halves.
 #include "denoise/layers.h"
 
+#include <optional>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -20,7 +23,7 @@ Names with_halves(const Names& names) {
 
 std::string refusal(const Names& names, const Names& features = default_features(), const Names& required = {}) {
     try {
-        (void)plan_layers(names, features, required);
+        (void)plan_layers(names, std::nullopt, features, required);
     } catch (const std::invalid_argument& error) {
         return error.what();
     }
@@ -31,11 +34,27 @@ bool contains(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
 
+TEST(Layers, OnlyWhatTheFileSaysIsLight) {
+    Names names{"R", "G", "B", "half.R", "half.G", "half.B"};
+    for (const char* layer : {"variance", "caustics"})
+        for (const char* half : {"", "half."})
+            for (const char* channel : {"R", "G", "B"}) names.push_back(std::string(half) + layer + "." + channel);
+    const auto lights_of = [&](const std::optional<Names>& lights) {
+        Names found;
+        for (const LayerChannels& layer : plan_layers(names, lights, default_features(), {}).lights)
+            found.push_back(layer.name);
+        return found;
+    };
+    EXPECT_EQ(lights_of(std::nullopt), (Names{"", "caustics", "variance"}));
+    EXPECT_EQ(lights_of(Names{"caustics"}), (Names{"", "caustics"}));
+    EXPECT_EQ(lights_of(Names{}), Names{""});
+}
+
 TEST(Layers, AreFoundByTheirNames) {
     Names names = with_halves({"R", "G", "B", "albedo.R", "albedo.G", "albedo.B", "N.X", "N.Y", "N.Z", "depth.Z",
                                "diffuse.direct.R", "diffuse.direct.G", "diffuse.direct.B"});
     names.insert(names.end(), {"A", "id.R", "id.G", "id.B", "samples.Y"});
-    const LayerPlan plan = plan_layers(names, default_features(), {});
+    const LayerPlan plan = plan_layers(names, std::nullopt, default_features(), {});
     ASSERT_EQ(plan.lights.size(), 2u);
     EXPECT_EQ(plan.lights[0].name, "");
     EXPECT_EQ(plan.lights[0].whole, (std::vector<int>{0, 1, 2}));
@@ -50,7 +69,7 @@ TEST(Layers, AreFoundByTheirNames) {
 
 TEST(Layers, AnyLayerCanBeAFeature) {
     const Names names = with_halves({"R", "G", "B", "shadow.Y", "N.X", "N.Y", "N.Z"});
-    const LayerPlan plan = plan_layers(names, Names{"shadow"}, Names{"shadow"});
+    const LayerPlan plan = plan_layers(names, std::nullopt, Names{"shadow"}, Names{"shadow"});
     ASSERT_EQ(plan.features.size(), 1u);
     EXPECT_EQ(plan.features[0].name, "shadow");
     EXPECT_EQ(plan.lights.size(), 1u);
