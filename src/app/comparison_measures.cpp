@@ -101,7 +101,7 @@ void measure_convergence(VariantReport& report, const VariantRenders& renders, c
     for (std::size_t i = 0; i < renders.seeds.front().checkpoints.size(); ++i) {
         ConvergenceStep step{.spp = renders.seeds.front().checkpoints[i].spp};
         for (std::size_t seed = 0; seed < renders.seeds.size(); ++seed) {
-            const Checkpoint& checkpoint = renders.seeds[seed].checkpoints[i];
+            const Snapshot& checkpoint = renders.seeds[seed].checkpoints[i];
             step.seconds += checkpoint.seconds / static_cast<double>(renders.seeds.size());
             step.cpu_seconds += checkpoint.cpu_seconds / static_cast<double>(renders.seeds.size());
             add(step.errors, compute_error_metrics(store.get(checkpoint.image), reference.of_round(seed)));

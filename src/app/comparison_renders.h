@@ -20,7 +20,7 @@ struct RenderBudget {
 };
 
 /// An image on the way.
-struct Checkpoint {
+struct Snapshot {
     std::uint32_t spp = 0;
     double seconds = 0.0;  ///< of rendering alone
     double cpu_seconds = 0.0;
@@ -30,7 +30,7 @@ struct Checkpoint {
 /// One render with one seed.
 struct SeedRender {
     std::uint32_t seed = 0;
-    std::vector<Checkpoint> checkpoints{};  ///< the last is the finished image
+    std::vector<Snapshot> checkpoints{};  ///< the last is the finished image
     RenderCounters counters{};
 };
 
