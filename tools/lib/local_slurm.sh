@@ -97,13 +97,13 @@ start_slurm() {
     wait_for 60 nodes_are_idle || die "the nodes do not come up" "$(sinfo 2>&1)" "$(tail -n 5 "$SLURM_WORK"/*.out)"
 }
 
-# cluster_processes [NODE]: the ids of all processes of this cluster, or of one node and its tasks. The tasks come last:
+# find_processes tasks|all [NODE]: the ids of the processes of this cluster, or of one node. The tasks come last:
 # daemons that outlive them would tell how they ended.
-cluster_processes() {
+find_processes() {
     python3 - "$SLURM_WORK" "$@" <<'PYTHON'
 import os, sys
 
-work, node = sys.argv[1], sys.argv[2] if len(sys.argv) > 2 else None
+work, kind, node = sys.argv[1], sys.argv[2], sys.argv[3] if len(sys.argv) > 3 else None
 
 
 def environment(pid):
@@ -130,19 +130,33 @@ for pid in filter(str.isdigit, os.listdir("/proc")):
             daemons.append(pid)
     except OSError:
         continue  # it has ended, or is somebody else's
-for pid in daemons + tasks:
+for pid in tasks if kind == "tasks" else daemons + tasks:
     print(pid)
 PYTHON
 }
 
-# kill_node NODE: as if its power was cut.
-kill_node() {
-    local pids
-    # The tasks may start others between the look and the blow.
-    while mapfile -t pids < <(cluster_processes "$1") && [[ ${#pids[@]} -gt 0 ]]; do
-        kill -KILL "${pids[@]}" 2>/dev/null || true
+cluster_processes() { find_processes all "$@"; }
+cluster_tasks() { find_processes tasks "$@"; }
+
+# kill_working_node NODE: as if its power was cut while a task runs on it; fails if none begins within five minutes.
+# All of the node is stopped before the look whether a task is among it, so that none can end, and report it, in between.
+kill_working_node() {
+    local pids end=$((SECONDS + 300))
+    while [[ $SECONDS -lt $end ]]; do
+        mapfile -t pids < <(cluster_processes "$1")
+        kill -STOP "${pids[@]}" 2>/dev/null || true
+        if [[ -n $(cluster_tasks "$1") ]]; then
+            # Tasks may start others between the look and the blow.
+            while mapfile -t pids < <(cluster_processes "$1") && [[ ${#pids[@]} -gt 0 ]]; do
+                kill -KILL "${pids[@]}" 2>/dev/null || true
+            done
+            printf '    node %s is dead\n' "$1"
+            return 0
+        fi
+        kill -CONT "${pids[@]}" 2>/dev/null || true
+        sleep 0.1
     done
-    printf '    node %s is dead\n' "$1"
+    return 1
 }
 
 # stop_slurm: ends all that start_slurm has started.
