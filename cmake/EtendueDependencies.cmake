@@ -52,6 +52,8 @@ if("${ETENDUE_DRACO}" IS_NEWER_THAN "${etendue_draco_codec}")
 endif()
 add_library(etendue_draco STATIC IMPORTED GLOBAL)
 set_target_properties(etendue_draco PROPERTIES IMPORTED_LOCATION "${etendue_draco_codec}")
+# Intel Open Image Denoise, for 'etendue denoise --method oidn', where it is there.
+find_package(OpenImageDenoise QUIET)
 etendue_find(meshoptimizer libmeshoptimizer-dev)
 etendue_find(nlohmann_json nlohmann-json3-dev)
 etendue_find(fmt libfmt-dev)

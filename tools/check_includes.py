@@ -49,6 +49,7 @@ THIRD_PARTY = [
     (r"fmt/", ANY_ROOM, SHOWN),
     (r"spdlog/", "core", WRAPPED),
     (r"xxhash\.h", "core", WRAPPED),
+    (r"OpenImageDenoise/", "denoise", WRAPPED),
     (r"(tbb|oneapi)/", "core render", WRAPPED),
     (r"OpenImageIO/", "image texture", WRAPPED),
     (r"OpenColorIO/", "color", WRAPPED),

@@ -8,11 +8,13 @@
 #include "denoise/fireflies.h"
 #include "denoise/layers.h"
 #include "denoise/nfor.h"
+#include "denoise/oidn.h"
 #include "denoise/unusable_pixels.h"
 #include "image/read_channels.h"
 #include "output/software_name.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstddef>
 #include <filesystem>
@@ -38,6 +40,8 @@ namespace {
 constexpr const char* kHalfShare = "etendue:halfShare";
 constexpr const char* kLightLayers = "etendue:lightLayers";
 constexpr const char* kDenoised = "etendue:denoised";
+/// What the network knows.
+const std::vector<std::string> kOidnFeatures{"albedo", "N"};
 
 struct DenoiseArguments {
     std::string image;
@@ -72,8 +76,12 @@ DenoiseInput read_input(const DenoiseArguments& arguments) {
         DenoiseInput input;
         input.file = read_channels(std::filesystem::path(arguments.image));
         if (input.file.find(kDenoised)) throw std::invalid_argument("the image has been denoised already");
-        const std::vector<std::string> features = arguments.features.empty() ? default_features() : arguments.features;
-        input.plan = plan_layers(input.file.channel_names, light_layers(input.file), features, arguments.features);
+        const bool is_oidn = arguments.method == "oidn";
+        const std::vector<std::string> usual = is_oidn ? kOidnFeatures : default_features();
+        const std::vector<std::string> features = arguments.features.empty() ? usual : arguments.features;
+        input.plan = plan_layers(input.file.channel_names, light_layers(input.file), features, arguments.features,
+                                 is_oidn ? HalvesUse::None : HalvesUse::Needed);
+        if (is_oidn) return input;
         const ImageAttribute* share = input.file.find(kHalfShare);
         const auto* value = share ? std::get_if<float>(&share->value) : nullptr;
         if (!value || !(*value > 0.0f && *value < 1.0f))
@@ -118,7 +126,7 @@ void take_fireflies(Halves& light, const LayerChannels& layer, const DenoiseArgu
 }
 
 /// Denoises the layers of light in place. Returns false if it was interrupted.
-bool denoise_layers(DenoiseInput& input, const DenoiseArguments& arguments) {
+bool denoise_layers_nfor(DenoiseInput& input, const DenoiseArguments& arguments) {
     const ThreadPool threads(arguments.threads);
     const NforSettings settings{arguments.radius, &interrupt_requested()};
     std::vector<Halves> features;
@@ -143,6 +151,49 @@ bool denoise_layers(DenoiseInput& input, const DenoiseArguments& arguments) {
     return !interrupt_requested();
 }
 
+/// Three channels of finite values.
+ImageF read_channels_of(const ImageF& file, const LayerChannels& layer, const DenoiseArguments& arguments) {
+    if (layer.whole.size() != 3)
+        throw SceneError({arguments.image, {}}, fmt::format("the layer '{}' has not three channels", layer.name));
+    Planes planes(file, layer.whole);
+    Planes same = planes;
+    report_filled(layer, fill_unusable(planes, same), arguments);
+    ImageF image(file.width, file.height, 3);
+    planes.copy_to(image, std::array{0, 1, 2});
+    return image;
+}
+
+/// The same.
+bool denoise_layers_oidn(DenoiseInput& input, const DenoiseArguments& arguments) {
+    ImageF& pixels = input.file.pixels;
+    OidnFeatures features;
+    for (const LayerChannels& layer : input.plan.features) {
+        if (layer.name == "albedo") features.albedo = read_channels_of(pixels, layer, arguments);
+        if (layer.name == "N") features.normal = read_channels_of(pixels, layer, arguments);
+    }
+    for (const LayerChannels& layer : input.plan.lights) {
+        const ImageF light = read_channels_of(pixels, layer, arguments);
+        const auto denoised = denoise_oidn(light, features, {arguments.threads, &interrupt_requested()});
+        if (!denoised || interrupt_requested()) return false;
+        Planes(*denoised, std::array{0, 1, 2}).copy_to(pixels, layer.whole);
+    }
+    return true;
+}
+
+bool denoise_layers(DenoiseInput& input, const DenoiseArguments& arguments) {
+    return arguments.method == "oidn" ? denoise_layers_oidn(input, arguments) : denoise_layers_nfor(input, arguments);
+}
+
+/// Of a channel that is written. What is no light keeps its own: normals or mattes of 16 bits would be others.
+PixelDepth depth_of(const DenoiseInput& input, int channel, const DenoiseArguments& arguments) {
+    const auto has_it = [&](const LayerChannels& layer) {
+        return std::ranges::find(layer.whole, channel) != layer.whole.end();
+    };
+    const auto place = static_cast<std::size_t>(channel);
+    const bool is_light = std::ranges::any_of(input.plan.lights, has_it) || input.file.channel_names[place] == "A";
+    return is_light ? arguments.depth.value_or(input.file.depths[place]) : input.file.depths[place];
+}
+
 /// The channels that are kept, with the attributes of the file.
 void write_denoised(const DenoiseInput& input, const DenoiseArguments& arguments) {
     const ImageF& pixels = input.file.pixels;
@@ -153,21 +204,23 @@ void write_denoised(const DenoiseInput& input, const DenoiseArguments& arguments
                 input.plan.kept, image.pixel(x, y).begin(),
                 [source = pixels.pixel(x, y)](int channel) { return source[static_cast<std::size_t>(channel)]; });
     ImageWriteOptions options;
-    options.depth = arguments.depth.value_or(input.file.depth);
-    for (const int channel : input.plan.kept)
-        options.channel_names.push_back(input.file.channel_names[static_cast<std::size_t>(channel)]);
+    ImagePart part{.image = &image};
+    for (const int channel : input.plan.kept) {
+        part.channel_names.push_back(input.file.channel_names[static_cast<std::size_t>(channel)]);
+        part.channel_depths.push_back(depth_of(input, channel, arguments));
+    }
     options.attributes = input.file.attributes;
     std::erase_if(options.attributes,
                   [](const ImageAttribute& a) { return a.name == kHalfShare || a.name == kLightLayers; });
-    options.attributes.push_back(
-        {kDenoised, fmt::format("{}, radius {}, {}", arguments.method, arguments.radius, software_name())});
+    const std::string radius = arguments.method == "nfor" ? fmt::format(", radius {}", arguments.radius) : "";
+    options.attributes.push_back({kDenoised, fmt::format("{}{}, {}", arguments.method, radius, software_name())});
     const PixelRect& data = input.file.data_window;
     const PixelRect& display = input.file.display_window;
     options.offset_x = data.x0 - display.x0;
     options.offset_y = data.y0 - display.y0;
     options.full_width = display.width();
     options.full_height = display.height();
-    write_image(arguments.output, image, options);
+    write_image_parts(arguments.output, std::array{part}, options);
 }
 
 std::string layer_names(const std::vector<LayerChannels>& layers) {
@@ -178,11 +231,15 @@ std::string layer_names(const std::vector<LayerChannels>& layers) {
 }
 
 ExitCode run_denoise(const DenoiseArguments& arguments) {
-    if (arguments.method == "oidn")
+    if (arguments.method == "oidn" && !has_oidn())
         throw UsageError(
             "--method oidn: this program was built without Intel Open Image Denoise; '--method nfor' needs no library");
     if (std::filesystem::path(arguments.output).extension() != ".exr")
         throw UsageError(fmt::format("--output '{}' must end in .exr", arguments.output));
+    for (const std::string& feature : arguments.features)
+        if (arguments.method == "oidn" && std::ranges::find(kOidnFeatures, feature) == kOidnFeatures.end())
+            throw UsageError(fmt::format("--features {}: the network of '--method oidn' knows {} only", feature,
+                                         fmt::join(kOidnFeatures, " and ")));
     require_writable(arguments.output);
     try {
         const auto start = std::chrono::steady_clock::now();
@@ -211,8 +268,9 @@ void add_denoise_command(CLI::App& app, Action& action) {
     command->add_option("-o,--output", arguments->output, "EXR file to write")->required();
     command
         ->add_option("--method", arguments->method,
-                     "nfor (default): regression on features, without trained weights; oidn: Intel Open Image Denoise, "
-                     "in builds that have it (this one does not)")
+                     fmt::format("nfor (default): regression on features, without trained weights; oidn: Intel Open "
+                                 "Image Denoise, in builds that have it (this one {})",
+                                 has_oidn() ? "has" : "has not"))
         ->check(CLI::IsMember({"nfor", "oidn"}));
     command
         ->add_option(
@@ -226,10 +284,11 @@ void add_denoise_command(CLI::App& app, Action& action) {
                      "Pixels that are looked at on each side of a pixel (default: 9). Time is as its square")
         ->check(CLI::Range(1, kLargestWindowRadius));
     auto* half = command->add_flag_callback(
-        "--half", [arguments] { arguments->depth = PixelDepth::Half; }, "Write 16-bit floats (default: as the file)");
+        "--half", [arguments] { arguments->depth = PixelDepth::Half; },
+        "Write what is denoised as 16-bit floats (default: as in the file)");
     command
         ->add_flag_callback(
-            "--float", [arguments] { arguments->depth = PixelDepth::Float; }, "Write 32-bit floats")
+            "--float", [arguments] { arguments->depth = PixelDepth::Float; }, "The same as 32-bit floats")
         ->excludes(half);
     command->add_flag("--keep-fireflies", arguments->keep_fireflies,
                       fmt::format("Spread, and do not remove, what is more than {:g} times brighter in one half of the "

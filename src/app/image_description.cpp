@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "film/median_of_means.h"
+#include "output/input_file_json.h"
 #include "render/render.h"
 
 #include <algorithm>
@@ -88,27 +89,12 @@ AovOutput to_aov(const Json& json) {
     return aov;
 }
 
-Json to_object(const std::vector<InputFile>& files) {
-    Json list = Json::array();
-    for (const InputFile& f : files)
-        list.push_back({{"path", f.path}, {"size", f.size}, {"modified", f.modified}, {"content", f.content}});
-    return list;
-}
-
-std::vector<InputFile> to_inputs(const Json& list) {
-    std::vector<InputFile> files;
-    for (const Json& f : list)
-        files.push_back({f.at("path").get<std::string>(), f.at("size").get<std::uint64_t>(),
-                         f.at("modified").get<std::int64_t>(), f.at("content").get<std::string>()});
-    return files;
-}
-
 Json to_object(const RenderStatistics& s) {
     return {{"scene", s.scene},
             {"frame", s.frame ? Json(*s.frame) : Json()},
             {"time_code", s.time_code ? Json(*s.time_code) : Json()},
             {"settings_hash", s.settings_hash},
-            {"inputs", to_object(s.inputs)},
+            {"inputs", s.inputs},
             {"light_units", s.light_units},
             {"spp_requested", s.spp_requested},
             {"triangles", s.triangles},
@@ -123,7 +109,7 @@ RenderStatistics to_statistics(const Json& json) {
     if (!json.at("frame").is_null()) s.frame = json.at("frame").get<int>();
     if (!json.at("time_code").is_null()) s.time_code = json.at("time_code").get<double>();
     json.at("settings_hash").get_to(s.settings_hash);
-    s.inputs = to_inputs(json.at("inputs"));
+    json.at("inputs").get_to(s.inputs);
     json.at("light_units").get_to(s.light_units);
     json.at("spp_requested").get_to(s.spp_requested);
     json.at("triangles").get_to(s.triangles);

@@ -1,6 +1,7 @@
 #include "app/up_to_date.h"
 
 #include "app/input_files.h"
+#include "output/input_file_json.h"
 
 #include <algorithm>
 #include <array>
@@ -47,11 +48,7 @@ Staleness cut_short(const nlohmann::json& statistics) {
 std::optional<std::vector<InputFile>> inputs_of(const nlohmann::json& statistics) try {
     const auto list = value_of<nlohmann::json>(statistics, "inputs", &nlohmann::json::is_array);
     if (!list) return std::nullopt;
-    std::vector<InputFile> files;
-    for (const nlohmann::json& entry : *list)
-        files.push_back({entry.at("path").get<std::string>(), entry.at("size").get<std::uint64_t>(),
-                         entry.at("modified").get<std::int64_t>(), entry.at("content").get<std::string>()});
-    return files;
+    return list->get<std::vector<InputFile>>();
 } catch (const nlohmann::json::exception&) {
     return std::nullopt;
 }

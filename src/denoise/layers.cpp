@@ -28,16 +28,18 @@ std::pair<std::string, std::string> split(const std::string& name) {
     return {name.substr(0, dot), name.substr(dot + 1)};
 }
 
-/// The channels `names` of a layer and their halves; nothing unless all are there.
+/// The channels `names` of a layer and, if needed, their halves; nothing unless all are there.
 std::optional<LayerChannels> find_layer(const Places& places, const std::string& layer,
-                                        std::span<const std::string> names) {
+                                        std::span<const std::string> names, HalvesUse halves) {
     LayerChannels found{layer, {}, {}};
     for (const std::string& name : names) {
         const std::string whole = layer.empty() ? name : fmt::format("{}.{}", layer, name);
         const auto place = places.find(whole);
-        const auto half = places.find(std::string(kHalfPrefix) + whole);
-        if (place == places.end() || half == places.end()) return std::nullopt;
+        if (place == places.end()) return std::nullopt;
         found.whole.push_back(place->second);
+        if (halves == HalvesUse::None) continue;
+        const auto half = places.find(std::string(kHalfPrefix) + whole);
+        if (half == places.end()) return std::nullopt;
         found.half.push_back(half->second);
     }
     return found;
@@ -48,12 +50,13 @@ bool contains(std::span<const std::string> names, const std::string& name) {
 }
 
 void add_features(const Places& places, const std::map<std::string, std::vector<std::string>>& layers,
-                  std::span<const std::string> features, std::span<const std::string> required, LayerPlan& plan) {
+                  std::span<const std::string> features, std::span<const std::string> required, HalvesUse halves,
+                  LayerPlan& plan) {
     std::size_t count = 0;
     for (const std::string& feature : features) {
         const auto layer = layers.find(feature);
         const bool fits = layer != layers.end() && layer->second.size() <= kMostChannelsOfFeature;
-        auto found = fits ? find_layer(places, feature, layer->second) : std::nullopt;
+        auto found = fits ? find_layer(places, feature, layer->second, halves) : std::nullopt;
         if (!found && contains(required, feature))
             throw std::invalid_argument(
                 layer == layers.end() ? fmt::format("there is no layer '{}' to be a feature", feature)
@@ -75,7 +78,7 @@ std::vector<std::string> default_features() {
 }
 
 LayerPlan plan_layers(std::span<const std::string> names, const std::optional<std::vector<std::string>>& lights,
-                      std::span<const std::string> features, std::span<const std::string> required) {
+                      std::span<const std::string> features, std::span<const std::string> required, HalvesUse halves) {
     const std::array<std::string, 3> rgb{"R", "G", "B"};
     Places places;
     std::map<std::string, std::vector<std::string>> layers;
@@ -91,14 +94,15 @@ LayerPlan plan_layers(std::span<const std::string> names, const std::optional<st
         if (!places.contains(name)) throw std::invalid_argument(fmt::format("there is no channel {}", name));
     for (const auto& [layer, channels] : layers) {
         if (contains(features, layer) || (lights && !layer.empty() && !contains(*lights, layer))) continue;
-        if (auto found = find_layer(places, layer, rgb)) plan.lights.push_back(std::move(*found));
+        if (halves == HalvesUse::None && !lights && !layer.empty()) continue;
+        if (auto found = find_layer(places, layer, rgb, halves)) plan.lights.push_back(std::move(*found));
     }
     if (plan.lights.empty() || !plan.lights.front().name.empty())
         throw std::invalid_argument(fmt::format(
             "there are no channels {0}R, {0}G and {0}B, the image from half of the samples, which say how noisy it is; "
-            "render with '--aov denoising' to have them",
+            "render with '--aov denoising' and more than one sample to have them, and without '--aov-layout files'",
             kHalfPrefix));
-    add_features(places, layers, features, required, plan);
+    add_features(places, layers, features, required, halves, plan);
     return plan;
 }
 

@@ -13,7 +13,10 @@ namespace etendue {
 /// The prefix of channels that hold the mean of about half of the samples.
 inline constexpr std::string_view kHalfPrefix = "half.";
 
-/// Channels of one layer, as indices among those of the file, and those of its half in the same order.
+/// What a method needs to know of an image's noise.
+enum class HalvesUse { Needed, None };
+
+/// Channels of one layer, as indices among those of the file, and those of its half in the same order, if it is needed.
 struct LayerChannels {
     std::string name;  ///< empty for the beauty, whose channels are R, G and B
     std::vector<int> whole;
@@ -30,12 +33,14 @@ struct LayerPlan {
 [[nodiscard]] std::vector<std::string> default_features();
 
 /// Finds the layers among the channels `names` of a file. A layer of light is one that has NAME.R, NAME.G and NAME.B,
-/// and the same with the prefix kHalfPrefix, and is one of `lights` if these are known; a feature is one of `features`,
-/// of up to four channels with their halves. What has no halves is kept as it is. Throws std::invalid_argument, with
+/// and the same with the prefix kHalfPrefix if halves are needed, and is one of `lights` if these are known (if neither
+/// halves nor lights say what is light, only the beauty is); a feature is one of `features`, of up to four channels,
+/// with their halves if needed. What lacks a half that is needed is kept as it is. Throws std::invalid_argument, with
 /// what to do about it, if there is no beauty with its half, a feature of `required` (a subset of `features`) is not
 /// there or not whole, or there are too many features.
 [[nodiscard]] LayerPlan plan_layers(std::span<const std::string> names,
                                     const std::optional<std::vector<std::string>>& lights,
-                                    std::span<const std::string> features, std::span<const std::string> required);
+                                    std::span<const std::string> features, std::span<const std::string> required,
+                                    HalvesUse halves = HalvesUse::Needed);
 
 }  // namespace etendue

@@ -8,6 +8,7 @@
 #include <new>
 #include <optional>
 #include <set>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -56,6 +57,39 @@ void require_different(const std::vector<std::string>& names) {
         if (!known.insert(name).second) throw IoError(fmt::format("there are two channels '{}'", name));
 }
 
+void require_same_window(const OpenImage& open, const ImageInfo& first) {
+    require_acceptable(open);
+    if (describe(open).data_window != first.data_window)
+        throw IoError(fmt::format("its part '{}' has other pixels than the first: the data windows differ",
+                                  open.spec.get_string_attribute("oiio:subimagename", fmt::format("{}", open.part))));
+}
+
+/// Adds the channels of a part, without pixels, and what its header says.
+void add_part(const OIIO::ImageSpec& part, ChannelImage& image) {
+    for (int channel = 0; channel < part.nchannels; ++channel) {
+        image.channel_names.push_back(part.channel_name(channel));
+        const bool is_half = part.channelformat(channel) == OIIO::TypeDesc::HALF;
+        image.depths.push_back(is_half ? PixelDepth::Half : PixelDepth::Float);
+    }
+    for (const OIIO::ParamValue& parameter : part.extra_attribs) {
+        const std::string name = parameter.name().string();
+        if (is_about_storage(name) || image.find(name) != nullptr) continue;
+        if (auto attribute = to_attribute(parameter)) image.attributes.push_back(std::move(*attribute));
+    }
+}
+
+/// Puts the channels of all parts side by side.
+void read_parts(OIIO::ImageInput& input, std::span<const int> channels_of_part, ImageF& pixels) {
+    const auto stride = static_cast<OIIO::stride_t>(sizeof(float)) * pixels.channels;
+    float* place = pixels.pixels.data();
+    for (std::size_t part = 0; part < channels_of_part.size(); ++part) {
+        const int channels = channels_of_part[part];
+        if (!input.read_image(static_cast<int>(part), 0, 0, channels, OIIO::TypeDesc::FLOAT, place, stride))
+            throw_library_error(input, "the pixels are broken");
+        place += channels;
+    }
+}
+
 }  // namespace
 
 const ImageAttribute* ChannelImage::find(std::string_view name) const {
@@ -66,22 +100,26 @@ const ImageAttribute* ChannelImage::find(std::string_view name) const {
 ChannelImage read_channels(const ImageSource& source) {
     try {
         OpenImage open = open_image(source);
-        require_floats(open.spec);
-        require_different(open.spec.channelnames);
         const ImageInfo info = describe(open);
         ChannelImage image;
-        image.pixels = ImageF(open.spec.width, open.spec.height, open.spec.nchannels);
-        image.channel_names = open.spec.channelnames;
-        // The library's format of an image is that of its deepest channel.
-        image.depth = info.depth == TexelDepth::Half ? PixelDepth::Half : PixelDepth::Float;
+        std::vector<int> channels_of_part;
+        do {
+            require_same_window(open, info);
+            require_floats(open.spec);
+            add_part(open.spec, image);
+            channels_of_part.push_back(open.spec.nchannels);
+            if (image.channel_names.size() > kMostChannels)
+                throw IoError(fmt::format("it has more than {} channels", kMostChannels));
+        } while (seek_part(open, open.part + 1));
+        require_different(image.channel_names);
+        // All parts together may not claim more than the file can hold, either.
+        open.spec.nchannels = static_cast<int>(image.channel_names.size());
+        open.spec.channelformats.assign(image.channel_names.size(), OIIO::TypeDesc::HALF);
+        require_acceptable(open);
         image.data_window = info.data_window;
         image.display_window = info.display_window;
-        for (const OIIO::ParamValue& parameter : open.spec.extra_attribs) {
-            if (is_about_storage(parameter.name().string())) continue;
-            if (auto attribute = to_attribute(parameter)) image.attributes.push_back(std::move(*attribute));
-        }
-        if (!open.input->read_image(0, 0, 0, open.spec.nchannels, OIIO::TypeDesc::FLOAT, image.pixels.pixels.data()))
-            throw_library_error(*open.input, "the pixels are broken");
+        image.pixels = ImageF(info.width, info.height, open.spec.nchannels);
+        read_parts(*open.input, channels_of_part, image.pixels);
         return image;
     } catch (const std::bad_alloc&) {
         throw IoError("not enough memory to decode the image");

@@ -12,7 +12,7 @@ namespace etendue {
 struct ChannelImage {
     ImageF pixels;                           ///< all channels
     std::vector<std::string> channel_names;  ///< one for each, unlike all others; layers are written "layer.R"
-    PixelDepth depth = PixelDepth::Float;    ///< Half if all channels are, else Float
+    std::vector<PixelDepth> depths;          ///< Half or Float, of each
     PixelRect data_window;                   ///< as in ImageInfo
     PixelRect display_window;
     /// What `write_image` can write again: numbers, texts, matrices and eight floats of chromaticities, but not what
@@ -23,8 +23,12 @@ struct ChannelImage {
     [[nodiscard]] const ImageAttribute* find(std::string_view name) const;
 };
 
-/// Reads the first part of an OpenEXR file, or an image of another format whose channels are floats. Throws IoError as
-/// `read_image_info` does, and if a channel holds integers or two have one name.
+/// At most so many channels are read of one file.
+inline constexpr int kMostChannels = 4096;
+
+/// Reads all parts of an OpenEXR file, which must have the same data window, or an image of another format whose
+/// channels are floats. What the header of an earlier part says goes before that of a later one. Throws IoError as
+/// `read_image_info` does, and if a channel holds integers, two have one name or there are more than kMostChannels.
 [[nodiscard]] ChannelImage read_channels(const ImageSource& source);
 
 }  // namespace etendue

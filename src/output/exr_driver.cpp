@@ -56,8 +56,8 @@ std::vector<ImageAttribute> make_attributes(const OutputFrame& frame, const Colo
         {"etendue:complete", frame.complete ? 1 : 0},
         {"etendue:haltReason", frame.halt_reason},
     };
-    if (frame.half_share > 0.0f) {
-        attributes.push_back({"etendue:halfShare", frame.half_share});
+    if (frame.half_share > 0.0f) attributes.push_back({"etendue:halfShare", frame.half_share});
+    if (!frame.layers.empty()) {
         // Nothing else is to be denoised, whatever its channels are called.
         std::string names;
         for (const OutputLayer& layer : frame.layers)

@@ -1,5 +1,6 @@
 #include "output/statistics.h"
 
+#include "output/input_file_json.h"
 #include "output/software_name.h"
 
 #include <string>
@@ -41,13 +42,6 @@ Json to_object(const std::vector<BrightContribution>& brightest) {
     return list;
 }
 
-Json to_object(const std::vector<InputFile>& files) {
-    Json list = Json::array();
-    for (const InputFile& f : files)
-        list.push_back({{"path", f.path}, {"size", f.size}, {"modified", f.modified}, {"content", f.content}});
-    return list;
-}
-
 }  // namespace
 
 std::string to_json(const RenderStatistics& s) {
@@ -58,7 +52,7 @@ std::string to_json(const RenderStatistics& s) {
     json["frame"] = s.frame ? Json(*s.frame) : Json();
     json["time_code"] = s.time_code ? Json(*s.time_code) : Json();
     json["settings_hash"] = s.settings_hash;
-    json["inputs"] = to_object(s.inputs);
+    json["inputs"] = s.inputs;
     json["layer_files"] = s.layer_files;
     json["light_units"] = s.light_units;
     json["size"] = {s.width, s.height};

@@ -121,7 +121,7 @@ TEST_F(Denoise, DenoisesEveryLayerOfLightAndKeepsTheRest) {
     EXPECT_EQ(std::get<std::string>(after.find("etendue:scene")->value), "box");
     EXPECT_TRUE(contains(std::get<std::string>(after.find("etendue:denoised")->value), "nfor, radius 9"));
     EXPECT_FALSE(after.find("etendue:halfShare"));
-    EXPECT_EQ(after.depth, PixelDepth::Float);
+    EXPECT_EQ(after.depths, std::vector(after.depths.size(), PixelDepth::Float));
 }
 
 TEST_F(Denoise, IsTheSameForEveryNumberOfThreads) {
@@ -131,13 +131,57 @@ TEST_F(Denoise, IsTheSameForEveryNumberOfThreads) {
     EXPECT_EQ(read("one.exr").pixels.pixels, read("four.exr").pixels.pixels);
 }
 
-TEST_F(Denoise, WritesTheDepthOfTheFileUnlessToldOtherwise) {
-    const std::string half =
-        write("a.exr", TestImage({"R", "G", "B"}), {{"etendue:halfShare", 0.5f}}, PixelDepth::Half);
-    EXPECT_EQ(denoise({half, "-o", "half.exr"}).exit_code, 0);
-    EXPECT_EQ(read("half.exr").depth, PixelDepth::Half);
-    EXPECT_EQ(denoise({half, "-o", "float.exr", "--float"}).exit_code, 0);
-    EXPECT_EQ(read("float.exr").depth, PixelDepth::Float);
+TEST_F(Denoise, WritesTheDepthsOfTheFileUnlessToldOtherwise) {
+    const TestImage image({"R", "G", "B", "N.X", "N.Y", "N.Z"});
+    std::vector<PixelDepth> depths(image.names.size(), PixelDepth::Half);
+    for (std::size_t i = 0; i < depths.size(); ++i)
+        if (image.names[i].starts_with("N.")) depths[i] = PixelDepth::Float;
+    ImageWriteOptions options;
+    options.attributes = {{"etendue:halfShare", 0.5f}};
+    write_image_parts(
+        folder_ / "a.exr",
+        std::vector<ImagePart>{{.image = &image.pixels, .channel_names = image.names, .channel_depths = depths}},
+        options);
+    const auto depth_of = [&](const std::string& file, const std::string& channel) {
+        const ChannelImage written = read(file);
+        const auto place = std::ranges::find(written.channel_names, channel) - written.channel_names.begin();
+        return written.depths.at(static_cast<std::size_t>(place));
+    };
+    EXPECT_EQ(denoise({"../a.exr", "-o", "same.exr"}).exit_code, 0);
+    EXPECT_EQ(depth_of("same.exr", "G"), PixelDepth::Half);
+    EXPECT_EQ(depth_of("same.exr", "N.Y"), PixelDepth::Float);
+    EXPECT_EQ(denoise({"../a.exr", "-o", "float.exr", "--float"}).exit_code, 0);
+    EXPECT_EQ(depth_of("float.exr", "G"), PixelDepth::Float);
+    EXPECT_EQ(denoise({"../a.exr", "-o", "half.exr", "--half"}).exit_code, 0);
+    EXPECT_EQ(depth_of("half.exr", "G"), PixelDepth::Half);
+    EXPECT_EQ(depth_of("half.exr", "N.Y"), PixelDepth::Float) << "is no light";
+}
+
+TEST_F(Denoise, TakesFilesOfManyParts) {
+    const Names layers{"R", "G", "B", "N.X", "N.Y", "N.Z"};
+    const TestImage image(layers);
+    const auto part = [&](const std::string& name, std::size_t first, std::size_t end, ImageF& pixels) {
+        pixels = ImageF(image.pixels.width, image.pixels.height, static_cast<int>(end - first));
+        for (int y = 0; y < pixels.height; ++y)
+            for (int x = 0; x < pixels.width; ++x)
+                for (std::size_t c = first; c < end; ++c) pixels.pixel(x, y)[c - first] = image.pixels.pixel(x, y)[c];
+        return ImagePart{.name = name,
+                         .image = &pixels,
+                         .channel_names = Names(image.names.begin() + static_cast<std::ptrdiff_t>(first),
+                                                image.names.begin() + static_cast<std::ptrdiff_t>(end))};
+    };
+    ImageF rgb;
+    ImageF others;
+    const std::vector<ImagePart> parts{part("rgba", 0, 3, rgb), part("others", 3, image.names.size(), others)};
+    const ImageWriteOptions options{.depth = PixelDepth::Float, .attributes = {{"etendue:halfShare", 0.5f}}};
+    write_image_parts(folder_ / "parts.exr", parts, options);
+    write_image(folder_ / "one.exr", image.pixels,
+                {.depth = PixelDepth::Float, .channel_names = image.names, .attributes = options.attributes});
+    const ProgramResult result = denoise({"../parts.exr", "-o", "parts.exr"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(denoise({"../one.exr", "-o", "one.exr"}).exit_code, 0);
+    for (const std::string& name : layers)
+        EXPECT_EQ(channel(read("parts.exr"), name), channel(read("one.exr"), name)) << name;
 }
 
 TEST_F(Denoise, CountsAndFillsPixelsThatAreNotFinite) {

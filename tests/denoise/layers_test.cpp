@@ -50,6 +50,21 @@ TEST(Layers, OnlyWhatTheFileSaysIsLight) {
     EXPECT_EQ(lights_of(Names{}), Names{""});
 }
 
+TEST(Layers, WithoutHalvesOnlyWhatIsSaidToBeLight) {
+    const Names names{"R", "G", "B", "A", "albedo.R", "albedo.G", "albedo.B", "caustics.R", "caustics.G", "caustics.B"};
+    const auto plan_of = [&](const std::optional<Names>& lights) {
+        return plan_layers(names, lights, Names{"albedo", "N"}, {}, HalvesUse::None);
+    };
+    EXPECT_EQ(plan_of(std::nullopt).lights.size(), 1u) << "nobody knows what the others are";
+    const LayerPlan plan = plan_of(Names{"caustics"});
+    ASSERT_EQ(plan.lights.size(), 2u);
+    EXPECT_EQ(plan.lights[1].name, "caustics");
+    EXPECT_EQ(plan.lights[1].whole, (std::vector<int>{7, 8, 9}));
+    ASSERT_EQ(plan.features.size(), 1u);
+    EXPECT_EQ(plan.features[0].name, "albedo");
+    EXPECT_EQ(plan.kept.size(), names.size());
+}
+
 TEST(Layers, AreFoundByTheirNames) {
     Names names = with_halves({"R", "G", "B", "albedo.R", "albedo.G", "albedo.B", "N.X", "N.Y", "N.Z", "depth.Z",
                                "diffuse.direct.R", "diffuse.direct.G", "diffuse.direct.B"});

@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "image_test_files.h"
 
+#include <array>
 #include <variant>
 
 #include <gtest/gtest.h>
@@ -36,9 +37,60 @@ TEST(ReadChannels, EveryChannelByItsName) {
     ASSERT_EQ(read.channel_names.size(), 6u);
     for (std::size_t i = 0; i < names.size(); ++i)
         EXPECT_EQ(value_of(read, names[i], 3, 2), image.pixel(3, 2)[i]) << names[i];
-    EXPECT_EQ(read.depth, PixelDepth::Float);
+    EXPECT_EQ(read.depths, std::vector(6, PixelDepth::Float));
     write_image(folder / "b.exr", image, {.depth = PixelDepth::Half, .channel_names = names});
-    EXPECT_EQ(read_channels(folder / "b.exr").depth, PixelDepth::Half);
+    EXPECT_EQ(read_channels(folder / "b.exr").depths, std::vector(6, PixelDepth::Half));
+}
+
+TEST(ReadChannels, PartsStandSideBySide) {
+    const TemporaryFolder folder;
+    const ImageF color = counted(5, 4, 3);
+    ImageF normals = counted(5, 4, 3);
+    for (float& value : normals.pixels) value += 100.0f;
+    const std::vector<ImagePart> parts{
+        {.name = "rgba", .image = &color, .channel_names = {"R", "G", "B"}, .attributes = {{"etendue:a", 1}}},
+        {.name = "N",
+         .image = &normals,
+         .channel_names = {"N.X", "N.Y", "N.Z"},
+         .channel_depths = {PixelDepth::Float, PixelDepth::Float, PixelDepth::Float},
+         .attributes = {{"etendue:a", 2}, {"etendue:b", 3}}}};
+    write_image_parts(folder / "a.exr", parts, {.depth = PixelDepth::Half});
+    const ChannelImage read = read_channels(folder / "a.exr");
+    EXPECT_EQ(read.channel_names, (Names{"R", "G", "B", "N.X", "N.Y", "N.Z"}));
+    for (int y = 0; y < 4; ++y)
+        for (int x = 0; x < 5; ++x)
+            for (std::size_t c = 0; c < 3; ++c) {
+                EXPECT_EQ(read.pixels.pixel(x, y)[c], color.pixel(x, y)[c]);
+                EXPECT_EQ(read.pixels.pixel(x, y)[3 + c], normals.pixel(x, y)[c]);
+            }
+    EXPECT_EQ(read.depths, (std::vector{PixelDepth::Half, PixelDepth::Half, PixelDepth::Half, PixelDepth::Float,
+                                        PixelDepth::Float, PixelDepth::Float}));
+    ASSERT_TRUE(read.find("etendue:a") && read.find("etendue:b"));
+    EXPECT_EQ(std::get<int>(read.find("etendue:a")->value), 1) << "the first part goes before others";
+    EXPECT_EQ(std::get<int>(read.find("etendue:b")->value), 3);
+}
+
+TEST(ReadChannels, PartsOfOtherPixelsAreRefused) {
+    const TemporaryFolder folder;
+    std::array<OIIO::ImageSpec, 2> specs{OIIO::ImageSpec(5, 4, 3, OIIO::TypeDesc::FLOAT),
+                                         OIIO::ImageSpec(4, 4, 1, OIIO::TypeDesc::FLOAT)};
+    specs[1].channelnames = {"depth.Z"};
+    specs[1].full_width = 5;
+    specs[0].attribute("oiio:subimagename", "rgba");
+    specs[1].attribute("oiio:subimagename", "depth");
+    const std::vector<float> pixels(5 * 4 * 3);
+    const auto output = OIIO::ImageOutput::create("openexr");
+    ASSERT_TRUE(output->open(folder / "a.exr", 2, specs.data()) &&
+                output->write_image(OIIO::TypeDesc::FLOAT, pixels.data()) &&
+                output->open(folder / "a.exr", specs[1], OIIO::ImageOutput::AppendSubimage) &&
+                output->write_image(OIIO::TypeDesc::FLOAT, pixels.data()) && output->close())
+        << output->geterror();
+    try {
+        (void)read_channels(folder / "a.exr");
+        FAIL() << "it has two data windows";
+    } catch (const IoError& error) {
+        EXPECT_NE(std::string(error.what()).find("'depth'"), std::string::npos) << error.what();
+    }
 }
 
 TEST(ReadChannels, WhatIsSaidOfTheImageCanBeWrittenAgain) {
