@@ -1,6 +1,7 @@
 #include "app/aov_setup.h"
 
 #include "app/matte_names.h"
+#include "core/pointed_text.h"
 #include "integrator/integrator.h"
 #include "lightpath/usual_expressions.h"
 #include "output/cryptomatte.h"
@@ -227,7 +228,7 @@ class Planner {
             // Alone, so that what is wrong with it is not blamed on another.
             (void)PathAutomaton(std::span(expressions_).last(1), {});
         } catch (const ExpressionError& error) {
-            fail(aov, fmt::format("{}\n    {}\n    {:>{}}", error.what(), text, '^', error.offset() + 1));
+            fail(aov, fmt::format("{}\n{}", error.what(), pointed_text(text, error.offset(), 4)));
         }
         expression_sources_.push_back(&aov);
     }

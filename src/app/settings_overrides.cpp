@@ -210,7 +210,8 @@ void SettingsOverrides::add_options(CLI::App& command) {
     command
         .add_option_function<std::vector<std::string>>(
             "--aov", [this](const std::vector<std::string>& texts) { aovs = parse_aovs(texts); },
-            "Another layer to write: one of those that 'etendue render --help' lists, NAME=lpe:EXPRESSION or "
+            "Another layer to write, besides those of render.json: one of those that 'etendue render --help' lists, "
+            "NAME=lpe:EXPRESSION or "
             "NAME=light:NAME; :half or :float behind it says how. Can be given several times (docs/aovs.md)")
         ->allow_extra_args(false);
     command

@@ -1,5 +1,7 @@
 #include "lightpath/expression.h"
 
+#include "core/pointed_text.h"
+
 #include <array>
 #include <charconv>
 #include <optional>
@@ -162,7 +164,9 @@ class Parser {
         if (take('<')) return parse_labelled(begin);
         const std::optional<EventKinds> kinds = kinds_of_letter(peek());
         if (!kinds)
-            fail(fmt::format("'{}' is no event; events are C, E, L, O, B, D, G, S, R, T, V and .", peek()), at_);
+            fail(fmt::format("'{}' is no event; events are C, E, L, O, B, D, G, S, R, T, V and .",
+                             character_at(text_, at_)),
+                 at_);
         ++at_;
         return {*kinds, {}};
     }
