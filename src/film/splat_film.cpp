@@ -1,5 +1,8 @@
 #include "film/splat_film.h"
 
+#include "film/reach.h"
+#include "film/splat_bands.h"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -12,16 +15,6 @@ namespace {
 float centre(int pixel) {
     return static_cast<float>(pixel) + 0.5f;
 }
-
-/// Pixels [begin, end) within [low, high) whose centres lie within `radius` of `position`.
-struct Reach {
-    int begin;
-    int end;
-
-    Reach(float position, float radius, int low, int high)
-        : begin(std::max(low, static_cast<int>(std::ceil(position - 0.5f - radius)))),
-          end(std::min(high, static_cast<int>(std::floor(position - 0.5f + radius)) + 1)) {}
-};
 
 }  // namespace
 
@@ -68,21 +61,12 @@ std::array<double, 3> SplatFilm::mean(int x, int y) const {
 
 void SplatFilm::add(std::span<const std::vector<Splat>> lists, std::uint64_t light_paths, const ThreadPool& threads) {
     light_paths_ += light_paths;
-    // Every thread goes through all splats for each of its bands.
-    const int bands = std::min(window_.height(), kBandsPerThread * threads.thread_count());
-    threads.parallel_for(static_cast<std::size_t>(bands), [&](std::size_t band, int) {
-        const auto edge = [&](int i) { return window_.y0 + window_.height() * i / bands; };
-        add_rows(lists, edge(static_cast<int>(band)), edge(static_cast<int>(band) + 1));
+    const SplatBands bands(lists, window_, filter_.radius(), threads);
+    threads.parallel_for(bands.count(), [&](std::size_t band, int) {
+        const PixelRect pixels = bands.pixels(band);
+        std::vector<float> along_x;
+        bands.for_each(band, [&](const Splat& splat) { add_splat(splat, pixels.y0, pixels.y1, along_x); });
     });
-}
-
-void SplatFilm::add_rows(std::span<const std::vector<Splat>> lists, int y0, int y1) {
-    const float low = static_cast<float>(y0) + 0.5f - filter_.radius();
-    const float high = static_cast<float>(y1) - 0.5f + filter_.radius();
-    std::vector<float> along_x;
-    for (const std::vector<Splat>& list : lists)
-        for (const Splat& splat : list)
-            if (splat.position.y >= low && splat.position.y <= high) add_splat(splat, y0, y1, along_x);
 }
 
 void SplatFilm::add_splat(const Splat& splat, int y0, int y1, std::vector<float>& along_x) {

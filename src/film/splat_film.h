@@ -93,7 +93,6 @@ class SplatFilm {
 
   private:
     /// Adds what falls on rows [y0, y1) of the full image.
-    void add_rows(std::span<const std::vector<Splat>> lists, int y0, int y1);
     void add_splat(const Splat& splat, int y0, int y1, std::vector<float>& along_x);
     /// Of a pixel in the window, in column `x` and row `y` of the full image.
     [[nodiscard]] std::size_t index(int x, int y, std::size_t layer) const;

@@ -95,16 +95,19 @@ void add_to_bucket(const BucketLayers& buckets, const CameraSample& sample, cons
 void generate_camera_rays(const World& world, const TileJob& job, std::size_t first, std::span<CameraSample> samples,
                           std::span<Ray> rays) {
     const std::size_t pixels = job.pixels.empty() ? job.rect.area() : job.pixels.size();
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        CameraSample& sample = samples[i];
-        const std::size_t which = (first + i) % pixels;
+    std::size_t which = first % pixels;
+    auto round = static_cast<std::uint32_t>(first / pixels);
+    for (CameraSample& sample : samples.first(rays.size())) {
         const PixelJob pixel =
             job.pixels.empty() ? PixelJob{static_cast<std::uint32_t>(which), job.first_sample} : job.pixels[which];
         sample.pixel = pixel.pixel;
         const Vec2i position = pixel_position(job, sample.pixel);
         sample.key = {
             make_pixel_seed(job.seed, static_cast<std::uint32_t>(position.x), static_cast<std::uint32_t>(position.y)),
-            pixel.first_sample + static_cast<std::uint32_t>((first + i) / pixels)};
+            pixel.first_sample + round};
+        if (++which < pixels) continue;
+        which = 0;
+        ++round;
     }
     for (std::size_t begin = 0; begin < rays.size(); begin += CameraNumbers::kCapacity) {
         const std::size_t count = std::min(CameraNumbers::kCapacity, rays.size() - begin);

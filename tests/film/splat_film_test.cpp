@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -67,6 +68,21 @@ TEST(SplatFilm, ThreadsDoNotChangeABitAndACropIsThePartOfTheWhole) {
                               &whole[static_cast<std::size_t>(4 * (y * kWidth + crop.x0))],
                               static_cast<std::size_t>(4 * crop.width()) * sizeof(float)),
                   0);
+}
+
+TEST(SplatFilm, NothingIsLostOnTheEdgesOfBands) {
+    // Filters end at whole and at half pixels, and so do bands.
+    std::vector<std::vector<Splat>> splats(3);
+    for (int i = -16; i < 4 * kHeight + 16; ++i)
+        splats[static_cast<std::size_t>(i + 16) % 3].push_back({{20.25f, 0.25f * static_cast<float>(i)}, Rgb(1.0f)});
+    splats[1].push_back({{20.0f, std::numeric_limits<float>::quiet_NaN()}, Rgb(1.0f)});
+    splats[1].push_back({{20.0f, -std::numeric_limits<float>::infinity()}, Rgb(1.0f)});
+    for (const FilterShape shape : {FilterShape::Box, FilterShape::BlackmanHarris, FilterShape::Mitchell}) {
+        const PixelFilter filter(shape);
+        const std::vector<float> one = image_of(splats, kWhole, filter, 1);
+        for (const int threads : {2, 3, 4, 7, 16})
+            EXPECT_TRUE(same_bytes(one, image_of(splats, kWhole, filter, threads))) << threads;
+    }
 }
 
 TEST(SplatFilm, ReachIsWhatSomePixelSees) {

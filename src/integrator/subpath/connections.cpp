@@ -4,7 +4,7 @@ namespace etendue {
 
 void Connections::push(const Ray& ray, Pending pending, std::span<const ExpressionShare> shares) {
     rays_.push_back(ray);
-    shares_.insert(shares_.end(), shares.begin(), shares.end());
+    if (!shares.empty()) shares_.insert(shares_.end(), shares.begin(), shares.end());
     pending.end_of_shares = static_cast<std::uint32_t>(shares_.size());
     pending_.push_back(pending);
 }
