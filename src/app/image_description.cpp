@@ -1,15 +1,18 @@
 #include "app/image_description.h"
 
 #include "core/error.h"
+#include "core/log.h"
 #include "film/median_of_means.h"
 #include "output/input_file_json.h"
 #include "render/render.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cstddef>
 #include <exception>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -153,6 +156,58 @@ std::vector<BrightContribution> describe(std::span<const BrightSample> samples) 
     return list;
 }
 
+/// True if `aov` is made of what the layers have.
+bool is_in(const LayerLayout& layout, const AovOutput& aov) {
+    const std::size_t channels = aov.channels.size();
+    const auto has = [&](std::size_t count, std::size_t wanted) {
+        return aov.first < count && wanted <= count - aov.first;
+    };
+    switch (aov.kind) {
+        case AovKind::Layer:
+            return channels == 3 && has(layout.light, 1);
+        case AovKind::Values:
+            return channels > 0 && has(layout.values, channels);
+        case AovKind::Nearest:
+            return channels > 0 && has(layout.nearest, channels);
+        case AovKind::Samples:
+            return channels == 1;
+        case AovKind::Variance:
+            return channels == 3 && layout.has_moments;
+        case AovKind::Rays:
+            return channels == 1 && layout.has_ray_counts;
+        case AovKind::Mean:
+            return channels == 3;
+        case AovKind::Matte:
+            return channels > 0 && channels % 2 == 0 && channels / 2 <= layout.matte_slots && has(layout.mattes, 1);
+        case AovKind::Deep:
+            return layout.is_deep;
+    }
+    return false;
+}
+
+/// Files are named by layers.
+bool is_layer_name(const std::string& name) {
+    return !name.empty() && std::ranges::all_of(name, [](char c) {
+        return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-';
+    });
+}
+
+/// Anybody can write a file: throws std::invalid_argument if `description` speaks of layers that are not there.
+void require_fitting(const ImageDescription& description, const LayerLayout& layout) {
+    for (const AovOutput& aov : description.aovs) {
+        if (!is_layer_name(aov.name)) throw std::invalid_argument("a layer has a name that none may have");
+        if (!is_in(layout, aov)) throw std::invalid_argument(fmt::format("it does not have the layer '{}'", aov.name));
+    }
+    const BucketLayers& buckets = description.buckets;
+    const bool has_buckets =
+        buckets.first_light <= layout.light && buckets.count <= layout.light - buckets.first_light &&
+        buckets.first_value <= layout.values && buckets.count <= (layout.values - buckets.first_value) / 2;
+    if (buckets.count > 0 && !has_buckets)
+        throw std::invalid_argument(fmt::format("it does not have {} buckets", buckets.count));
+    if (description.removed_light && *description.removed_light >= layout.light)
+        throw std::invalid_argument("it does not have the layer of what a limit took away");
+}
+
 }  // namespace
 
 std::string to_text(const ImageDescription& description) {
@@ -169,20 +224,22 @@ std::string to_text(const ImageDescription& description) {
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-ImageDescription parse_description(const std::string& text, const std::filesystem::path& file) {
+ImageDescription parse_description(const std::string& text, const LayerLayout& layout,
+                                   const std::filesystem::path& file) {
     try {
         const Json json = Json::parse(text);
         ImageDescription description{
             .frame = to_frame(json.at("frame")), .aovs = {}, .statistics = to_statistics(json.at("statistics"))};
         for (const Json& aov : json.at("aovs")) description.aovs.push_back(to_aov(aov));
-        const int layout = json.at("aov_layout").get<int>();
+        const int files = json.at("aov_layout").get<int>();
         const Json& buckets = json.at("buckets");
         description.buckets = {buckets.at(0).get<std::size_t>(), buckets.at(1).get<std::size_t>(),
                                buckets.at(2).get<std::size_t>()};
         json.at("clamp_indirect").get_to(description.clamp_indirect);
         if (const Json& layer = json.at("removed_light"); !layer.is_null())
             description.removed_light = layer.get<std::size_t>();
-        description.aov_layout = kAovLayoutNames.at(static_cast<std::size_t>(layout)).second;
+        description.aov_layout = kAovLayoutNames.at(static_cast<std::size_t>(files)).second;
+        require_fitting(description, layout);
         return description;
     } catch (const std::exception& error) {
         throw IoError(fmt::format("{} does not say what image it is part of: {}", file.string(), error.what()));
@@ -225,14 +282,25 @@ void describe_state(ImageDescription& description, const RenderState& state, boo
     s.clamp_indirect = description.clamp_indirect;
     if (description.removed_light) s.removed_share = removed_share(film, *description.removed_light);
     s.robust_buckets = static_cast<int>(description.buckets.count);
+    s.robust_filled = static_cast<int>(std::min<std::uint64_t>(
+        description.buckets.count, std::ranges::min(film.sums(), {}, &PixelSum::samples).samples));
     if (const double mean = sum_of(film.resolve(), 4); s.robust_buckets > 0 && mean > 0.0)
         s.robust_removed_share = 1.0 - sum_of(frame.pixels.pixels, 4) / mean;
     s.brightest = describe(c.brightest.samples());
     s.adaptive.reset();
     if (!state.adaptive.is_uniform()) {
-        const auto [least, most] = std::ranges::minmax(state.adaptive.samples);
-        s.adaptive = {least, static_cast<double>(c.samples) / static_cast<double>(window.area()), most};
+        // As the pixels have them, those of a pass that was stopped too.
+        const auto [least, most] = std::ranges::minmax(film.sums(), {}, &PixelSum::samples);
+        s.adaptive = {static_cast<std::uint32_t>(least.samples),
+                      static_cast<double>(c.samples) / static_cast<double>(window.area()),
+                      static_cast<std::uint32_t>(most.samples)};
     }
+}
+
+void note_few_buckets(const RenderStatistics& statistics, const std::filesystem::path& output) {
+    if (statistics.robust_filled < statistics.robust_buckets)
+        log_warning("note: {}: mon:{} has only {} means to take the median of where pixels have as few samples",
+                    output.string(), statistics.robust_buckets, statistics.robust_filled);
 }
 
 void resolve_layers(ImageDescription& description, const RenderState& state) {
@@ -244,7 +312,9 @@ void resolve_layers(ImageDescription& description, const RenderState& state) {
         else
             frame.layers.push_back(resolve_layer(state.film, aov));
     }
-    if (!state.every_other_pass || state.every_other_spp == 0 || frame.layers.empty()) return;
+    // Means of half of the samples are no halves of a median of means.
+    const bool has_halves = state.every_other_pass && state.every_other_spp > 0 && description.buckets.count == 0;
+    if (!has_halves || frame.layers.empty()) return;
     const bool is_adaptive = !state.adaptive.is_uniform();
     const std::optional<Film> evened =
         is_adaptive ? std::optional(state.film.as_half(*state.every_other_pass)) : std::nullopt;

@@ -29,13 +29,18 @@ struct ImageDescription {
 /// As text that `parse_description` understands.
 [[nodiscard]] std::string to_text(const ImageDescription& description);
 
-/// Of `text`, which stood in `file`. Throws IoError if it is not what `to_text` writes.
-[[nodiscard]] ImageDescription parse_description(const std::string& text, const std::filesystem::path& file);
+/// Of `text`, which stood in `file` with a film of these layers. Throws IoError if it is not what `to_text` writes, or
+/// not of such a film.
+[[nodiscard]] ImageDescription parse_description(const std::string& text, const LayerLayout& layout,
+                                                 const std::filesystem::path& file);
 
 /// Puts in what the film and the counters of `state` say: pixels, window, samples, rays and seconds, and why rendering
 /// ended.
 void describe_state(ImageDescription& description, const RenderState& state, bool complete,
                     const std::string& halt_reason);
+
+/// Says in the log if the median of means of `output` is one of few means, or none: the fewer, the nearer to the mean.
+void note_few_buckets(const RenderStatistics& statistics, const std::filesystem::path& output);
 
 /// Puts in the layers of the film, and if the state has every other pass by itself, those of that.
 void resolve_layers(ImageDescription& description, const RenderState& state);

@@ -69,7 +69,8 @@ ExitCode run_merge(const MergeArguments& arguments) {
         if (!arguments.quiet) log_warning("note: {}", note);
     });
     const RenderState& state = merged.sum.state;
-    ImageDescription image = parse_description(merged.sum.description, arguments.parts.front());
+    ImageDescription image =
+        parse_description(merged.sum.description, state.film.layers().layout(), arguments.parts.front());
     image.statistics.load = timer.elapsed();
     const auto spp_requested = static_cast<std::uint32_t>(std::max(image.statistics.spp_requested, 0));
     const bool complete = is_whole(merged, spp_requested);
@@ -80,6 +81,7 @@ ExitCode run_merge(const MergeArguments& arguments) {
         write_checkpoint(output, merged.sum.identity, merged.sum.description, state);
     } else {
         if (!arguments.quiet) note_missing(merged, spp_requested);
+        if (!arguments.quiet) note_few_buckets(image.statistics, output);
         require_writable(paths.png);
         require_writable(paths.json);
         if (image.frame.aces_container && arguments.depth == PixelDepth::Float)

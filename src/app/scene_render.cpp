@@ -224,7 +224,7 @@ class SceneRender {
 
     /// Of a part that needs nothing to be done.
     [[nodiscard]] SceneRenderResult finished_part(const Checkpoint& kept) const {
-        ImageDescription description = parse_description(kept.description, output_);
+        ImageDescription description = parse_description(kept.description, kept.state.film.layers().layout(), output_);
         describe_state(description, kept.state, true, halt_reason_name(HaltReason::SamplesDone));
         return {std::move(description.statistics), output_, false, true};
     }
@@ -306,6 +306,7 @@ class SceneRender {
             if (complete) etendue::write_checkpoint(output_, identity_, to_text(description_), rendered);
             return;
         }
+        if (!request_.quiet) note_few_buckets(description_.statistics, output_);
         resolve_layers(description_, rendered);
         const PixelDepth depth = request_.overrides.depth;
         write_image_files(paths_, description_, colors_, depth, [&] {

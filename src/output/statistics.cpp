@@ -92,6 +92,7 @@ std::string to_json(const RenderStatistics& s) {
             : Json();
     json["robust"] = s.robust_buckets > 0
                          ? Json{{"estimate", "mon:" + std::to_string(s.robust_buckets)},
+                                {"least_buckets", s.robust_filled},
                                 {"removed_share", s.robust_removed_share ? Json(*s.robust_removed_share) : Json()}}
                          : Json();
     json["brightest"] = to_object(s.brightest);

@@ -102,6 +102,7 @@ struct RenderStatistics {
     float clamp_indirect = 0.0f;                 ///< limit of indirect contributions; 0 for none
     std::optional<double> removed_share;         ///< of all light, what that took away; if it is known
     int robust_buckets = 0;                      ///< of the median of means; 0 if the image is the mean
+    int robust_filled = 0;                       ///< buckets that have samples in every pixel
     std::optional<double> robust_removed_share;  ///< of the light that the mean has, what the median has not
     std::vector<BrightContribution> brightest;   ///< the brightest first
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <limits>
 #include <numeric>
 
@@ -49,21 +48,20 @@ std::vector<double> box_sums(std::span<const float> values, int width, int heigh
 /// Goals as a function of the one number that scales them.
 class Goals {
   public:
-    explicit Goals(const Allocation& allocation) : a_(allocation) {
+    explicit Goals(const Allocation& allocation)
+        : a_(allocation), variance_(allocation.variance.begin(), allocation.variance.end()) {
+        // Without noise of the eye's samples any distribution is as good; so it is where no pixel has a neighbour that
+        // would know of it.
+        if (std::ranges::all_of(variance_, [](float v) { return v == 0.0f; })) std::ranges::fill(variance_, 1.0f);
         double sum = 0.0;
         double predicted = 0.0;
+        weights_.reserve(variance_.size());
         for (std::size_t p = 0; p < a_.samples.size(); ++p) {
-            weights_.push_back(std::sqrt(a_.variance[p]));
+            weights_.push_back(std::sqrt(variance_[p]));
             sum += static_cast<double>(weights_[p]);
-            predicted += static_cast<double>(a_.variance[p]) / static_cast<double>(a_.samples[p]);
+            predicted += static_cast<double>(variance_[p]) / static_cast<double>(a_.samples[p]);
         }
-        const auto pixels = static_cast<double>(weights_.size());
-        mean_weight_ = sum / pixels;
-        // Without noise of the eye's samples any distribution is as good.
-        if (mean_weight_ == 0.0) {
-            std::ranges::fill(weights_, 1.0f);
-            mean_weight_ = 1.0;
-        }
+        mean_weight_ = sum / static_cast<double>(weights_.size());
         const auto least = static_cast<float>(kLeastShare * mean_weight_);
         for (float& weight : weights_) weight = std::max(weight, least);
         // The neighbourhood says how variances compare, what was measured how large they are.
@@ -81,7 +79,7 @@ class Goals {
         double samples = 0.0;
         for (std::size_t p = 0; p < weights_.size(); ++p) {
             const double goal = of(p, scale);
-            eye += static_cast<double>(a_.variance[p]) / goal;
+            eye += static_cast<double>(variance_[p]) / goal;
             samples += goal;
         }
         return eye * eye_scale_ + light_ / samples;
@@ -103,6 +101,7 @@ class Goals {
 
   private:
     const Allocation& a_;
+    std::vector<float> variance_;
     std::vector<float> weights_;
     double mean_weight_ = 0.0;
     double eye_scale_ = 0.0;
@@ -110,7 +109,8 @@ class Goals {
 };
 
 /// Makes those pixels active that `is_wanted`.
-void activate(AdaptivePass& pass, std::size_t pixels, const std::function<bool(std::size_t)>& is_wanted) {
+template <typename Predicate>
+void activate(AdaptivePass& pass, std::size_t pixels, const Predicate& is_wanted) {
     pass.is_active.resize(pixels);
     for (std::size_t p = 0; p < pixels; ++p) {
         pass.is_active[p] = is_wanted(p) ? 1 : 0;
@@ -167,7 +167,7 @@ AdaptivePass plan_adaptive_pass(const RenderState& state, const ErrorEstimate& e
                                                    .most = most});
     const auto missing = [&](std::size_t p) { return goals[p] - static_cast<float>(samples[p]); };
     const auto has_room = [&](std::size_t p, std::uint32_t count) { return samples[p] + count <= most; };
-    // Passes grow with the image, so that what is decided between them costs little however few pixels are active.
+    // Passes grow with the samples taken, so that there are few of them and what is decided between them costs little.
     const double mean = std::accumulate(samples.begin(), samples.end(), 0.0) / static_cast<double>(samples.size());
     constexpr double kPasses = 16.0;
     AdaptivePass pass;
@@ -183,6 +183,16 @@ AdaptivePass plan_adaptive_pass(const RenderState& state, const ErrorEstimate& e
     pass.count = std::min(pass.count, least_room);
     activate(pass, samples.size(), [&](std::size_t p) { return missing(p) > 0.0f && has_room(p, pass.count); });
     if (pass.active == 0) pass.is_active.clear();
+    return pass;
+}
+
+AdaptivePass pass_up_to(const AdaptiveState& state, std::uint32_t least) {
+    AdaptivePass pass;
+    std::uint32_t most = 0;
+    for (const std::uint32_t samples : state.samples)
+        if (samples < least) most = std::max(most, samples);
+    pass.count = least - most;
+    activate(pass, state.samples.size(), [&](std::size_t p) { return state.samples[p] < least; });
     return pass;
 }
 

@@ -50,4 +50,7 @@ struct AdaptivePass {
 [[nodiscard]] AdaptivePass plan_adaptive_pass(const RenderState& state, const ErrorEstimate& errors,
                                               double relative_error, std::uint32_t most);
 
+/// A pass of those pixels that have less than `least` samples, by which none of them gets more. At least one has less.
+[[nodiscard]] AdaptivePass pass_up_to(const AdaptiveState& state, std::uint32_t least);
+
 }  // namespace etendue

@@ -98,11 +98,15 @@ NextStep next_step(const RenderState& now, const RenderOptions& options) {
     std::optional<ErrorEstimate> error;
     if (options.relative_error > 0.0) error = error_of(now);
     if (const auto limit = reached_limit(now, error, options)) return {.halt = limit};
-    if (!error || !options.adaptive || now.spp_done < options.min_spp) {
+    const bool is_begun = !now.adaptive.is_uniform();
+    if (!error || !options.adaptive || (now.spp_done < options.min_spp && !is_begun)) {
         const std::uint32_t count = pass_size(now.next_sample(), now.first_sample + options.spp);
         return {.count = fitting(count, options.window.area(), now, options)};
     }
-    AdaptivePass pass = plan_adaptive_pass(now, *error, options.relative_error, options.spp);
+    // A render that is gone on with may have been adaptive from fewer samples on.
+    AdaptivePass pass = now.spp_done < options.min_spp
+                            ? pass_up_to(now.adaptive, std::min(options.min_spp, options.spp))
+                            : plan_adaptive_pass(now, *error, options.relative_error, options.spp);
     if (pass.active == 0) return {.halt = HaltReason::SamplesDone};
     return {.count = fitting(pass.count, pass.active, now, options), .is_active = std::move(pass.is_active)};
 }

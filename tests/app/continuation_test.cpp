@@ -245,6 +245,12 @@ TEST_F(Continuation, GivesPixelsDifferentNumbersOfSamplesUnlessToldNotTo) {
     EXPECT_TRUE(statistics({"--min-spp", "100000"})["adaptive"].is_null());
 }
 
+TEST_F(Continuation, ASinglePixelIsRenderedToItsErrorToo) {
+    const ProgramResult result = run(render(200, "one.exr", {"--crop", "28,15,29,16", "--error", "1e-6", "--json"}));
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(json::parse(result.out)["spp"]["done"], 200) << "an error that is out of reach takes all samples";
+}
+
 TEST_F(Continuation, RefusesPartsThatDoNotBelongTogether) {
     const auto part = [&](const std::string& name, const Arguments& more) {
         Arguments arguments = render(16, name + ".partial", more);

@@ -100,6 +100,25 @@ TEST_F(Fireflies, GoThroughPartsAsThroughOneRender) {
                 statistics("whole.json")["clamp_indirect"]["removed_share"].get<double>(), 1e-6);
 }
 
+TEST_F(Fireflies, AMedianHasNoHalves) {
+    render_well("a.exr", {"--robust", "mon:5", "--error", "0.01", "--spp", "64", "--aov", "mean"});
+    for (const std::string& name : read_channels(work_ / "a.exr").channel_names)
+        EXPECT_FALSE(name.starts_with("half.")) << name;
+    render_well("b.exr", {"--error", "0.01", "--spp", "64", "--aov", "mean"});
+    const auto names = read_channels(work_ / "b.exr").channel_names;
+    EXPECT_NE(std::ranges::find(names, "half.R"), names.end()) << "a mean has";
+}
+
+TEST_F(Fireflies, AMedianOfFewMeansSaysSo) {
+    render_well("a.exr", {"--robust", "mon:7"});
+    EXPECT_EQ(statistics("a.json")["robust"]["least_buckets"], 7);
+    render_well("a.partial", {"--robust", "mon:7", "--samples", "0:2"});
+    const ProgramResult merged = run_etendue({"merge", "a.partial", "-o", "b.exr"}, work_);
+    EXPECT_EQ(merged.exit_code, 0) << merged.err;
+    EXPECT_NE(merged.err.find("only 2 means"), std::string::npos) << merged.err;
+    EXPECT_EQ(statistics("b.json")["robust"]["least_buckets"], 2);
+}
+
 TEST_F(Fireflies, AreNotToBeControlledByWhatMakesNoSense) {
     expect_refused({"--robust", "mon:4"}, "N odd");
     expect_refused({"--robust", "median"}, "N odd");

@@ -49,6 +49,7 @@ RenderStatistics make_statistics() {
     s.clamp_indirect = 0.5f;
     s.removed_share = 0.25;
     s.robust_buckets = 5;
+    s.robust_filled = 4;
     s.robust_removed_share = 0.125;
     s.brightest = {
         {.x = 7,
@@ -86,7 +87,7 @@ TEST(StatisticsJson, HasEveryField) {
         "textures": {"count": 4, "held": "cached", "bytes": 5678, "cache_budget_bytes": 9000, "failed_lookups": 6},
         "dropped_samples": {"count": 3, "first": [{"x": 1, "y": 2, "sample": 3}, {"x": 4, "y": 5, "sample": 6}]},
         "clamp_indirect": {"limit": 0.5, "removed_share": 0.25},
-        "robust": {"estimate": "mon:5", "removed_share": 0.125},
+        "robust": {"estimate": "mon:5", "least_buckets": 4, "removed_share": 0.125},
         "brightest": [{"pixel": [7, 8], "sample": 9, "value": [4.0, 2.0, 1.0], "sample_pixel": [1, 2],
                        "strategy": [3, 1], "edges": 3, "path": "C D S O"},
                       {"pixel": [3, 4], "sample": 5, "value": [1.0, 1.0, 0.5], "strategy": null, "edges": null,

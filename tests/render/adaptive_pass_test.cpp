@@ -49,6 +49,22 @@ TEST(SampleGoals, AreThoseOfNeyman) {
     EXPECT_LE(error_of(variance, goals, 0.0), 0.01);
 }
 
+TEST(SampleGoals, WhereNobodyKnowsOfTheNoiseAllGetAsMuch) {
+    // A single pixel has no neighbour.
+    const std::vector<float> unknown{0.0f};
+    const std::vector<std::uint32_t> taken{48};
+    const Allocation one{.variance = unknown, .samples = taken, .eye_error = 0.01, .target = 0.0001, .most = kNoLimit};
+    EXPECT_NEAR(sample_goals(one).at(0), 4800.0f, 48.0f);
+}
+
+TEST(PassUpTo, GivesNobodyMoreThanAskedFor) {
+    const AdaptiveState state{.passes = 3, .samples = {48, 80, 64, 200}};
+    const AdaptivePass pass = pass_up_to(state, 96);
+    EXPECT_EQ(pass.is_active, (std::vector<std::uint8_t>{1, 1, 1, 0}));
+    EXPECT_EQ(pass.active, 3u);
+    EXPECT_EQ(pass.count, 16u);
+}
+
 TEST(SampleGoals, LightPathsOnlyScaleThem) {
     const std::vector<float> variance{1.0f, 4.0f, 9.0f, 16.0f};
     const std::vector<std::uint32_t> samples(4, 1);

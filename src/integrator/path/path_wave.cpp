@@ -349,10 +349,12 @@ void PathWave::queue_direct_light_in_medium(const Context& context, std::size_t 
 }
 
 void PathWave::add_light(const PathState& state, const Rgb& light, const AovSet::Source& source) {
+    const LightKind kind = kind_of_met_light(state);
+    if (!words_.are_followed()) return light_.add(state.slot, state.throughput * light, kind);
     // What is added at once stands behind what waits.
     const std::size_t kept = shares_.size();
-    if (words_.are_followed()) words_.end_at_light(state.words, source, shares_);
-    light_.add(state.slot, state.throughput * light, kind_of_met_light(state), std::span(shares_).subspan(kept));
+    words_.end_at_light(state.words, source, shares_);
+    light_.add(state.slot, state.throughput * light, kind, std::span(shares_).subspan(kept));
     shares_.resize(kept);
 }
 
