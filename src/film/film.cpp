@@ -79,10 +79,12 @@ void Film::add_deep_splats(std::span<const std::vector<Splat>> lists, const Pixe
     threads.parallel_for(static_cast<std::size_t>(bands), [&](std::size_t band, int) {
         const auto edge = [&](int i) { return window_.y0 + window_.height() * i / bands; };
         const PixelRect pixels{window_.x0, edge(static_cast<int>(band)), window_.x1, edge(static_cast<int>(band) + 1)};
+        std::vector<ReachedPixel> reached_pixels;
         for (const std::vector<Splat>& list : lists)
             for (const Splat& splat : list) {
-                if (splat.layer != SplatFilm::kBeauty || !reaches(pixels, filter, splat.position)) continue;
-                for (const ReachedPixel& reached : reached_pixels(pixels, filter, splat.position)) {
+                if (splat.layer != SplatFilm::kBeauty) continue;
+                find_reached_pixels(pixels, filter, splat.position, reached_pixels);
+                for (const ReachedPixel& reached : reached_pixels) {
                     const auto part = [&](float value) {
                         return static_cast<double>(reached.weight) * static_cast<double>(value);
                     };
