@@ -199,7 +199,7 @@ class SceneRender {
 
     [[nodiscard]] RenderState new_state() const {
         RenderState state{.film = make_film(options_), .first_sample = first_sample()};
-        if (keeps_every_other_pass()) state.every_other_pass = make_film(options_);
+        if (keeps_every_other_pass()) state.every_other_pass = make_second_film(options_);
         return state;
     }
 

@@ -101,7 +101,7 @@ void Film::add_deep_splats(std::span<const std::vector<Splat>> lists, const Pixe
 void Film::add(const Film& other) {
     const PixelRect& rect = other.window_;
     assert(intersection(rect, window_) == rect && other.splat_window_ == splat_window_ &&
-           other.layers_.layout() == layers_.layout());
+           other.layers_.layout().without_lists() == layers_.layout().without_lists());
     std::size_t source = 0;
     for (int y = rect.y0; y < rect.y1; ++y)
         for (int x = rect.x0; x < rect.x1; ++x, ++source) {
@@ -117,7 +117,7 @@ void Film::add(const Film& other) {
 }
 
 Film Film::as_half(const Film& part) const {
-    assert(part.window_ == window_ && part.layers_.layout() == layers_.layout());
+    assert(part.window_ == window_ && part.layers_.layout().without_lists() == layers_.layout().without_lists());
     Film half = part;
     const LayerLayout& layout = layers_.layout();
     for (std::size_t i = 0; i < pixels_.size(); ++i) {

@@ -95,6 +95,7 @@ class Film {
                     const ThreadPool& threads);
 
     /// Adds the sums of `other`, which has the same filter, splat window and layers, and a window inside this one's.
+    /// Either may be without mattes and depths.
     void add(const Film& other);
 
     /// What `part` might be if it held half of the samples and light paths of this film, of every pixel, in place of
