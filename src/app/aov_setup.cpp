@@ -10,6 +10,7 @@
 #include <array>
 #include <cctype>
 #include <limits>
+#include <map>
 #include <set>
 #include <span>
 #include <string_view>
@@ -140,6 +141,11 @@ class Planner {
                 settings.at("/robust"),
                 "layers for denoising hold half of the samples, and what is not in them is the other half: "
                 "that is so of means, and not of the medians of mon:N; leave one of both out");
+        if (set_.layout.is_deep && settings.robust_buckets > 0)
+            throw SceneError(settings.at("/robust"),
+                             "a deep image composites to the means of the samples, and the medians of mon:N are none: "
+                             "leave one of both out");
+        check_channels();
         finish_expressions();
         finish_fireflies();
         plan_.set = std::make_shared<AovSet>(std::move(set_));
@@ -201,6 +207,7 @@ class Planner {
             if (matte.name == source) return add_matte(aov, matte);
         if (source == kDeep.name) {
             if (aov.name != aov.source) fail(aov, "a deep image is no layer: ask for 'deep', and it has that name");
+            if (aov.is_float == false) fail(aov, "depths are 32-bit floats: leave ':half' away");
             set_.layout.is_deep = true;
             return (void)add_output(aov, {aov.name, {}, AovKind::Deep, 0, 0.0f, true});
         }
@@ -258,10 +265,11 @@ class Planner {
         output.is_float = true;
         output.manifest = manifest_of(aov, names);
         for (int rank = 0; rank < ranks; rank += 2) output.channels += "RGBA";
+        const std::size_t channels = output.channels.size();  // two of each rank, their number rounded up to even
         if (!add_output(aov, std::move(output), fmt::format("{} {}", matte.name, ranks))) return;
         ++layout.mattes;
-        // Twice as many as are written, so that ids that come late may still become important.
-        layout.matte_slots = std::max(layout.matte_slots, static_cast<std::size_t>(2 * ranks));
+        // Twice as many ids as are written, so that those that come late may still become important.
+        layout.matte_slots = std::max(layout.matte_slots, channels);
         MatteIds ids{.by_material = matte.by_material};
         for (const std::string& name : names) ids.ids.push_back(matte_id(name));
         set_.mattes.push_back(std::move(ids));
@@ -307,6 +315,28 @@ class Planner {
             fail(aov, fmt::format("there are two of this name, this one of '{}' and one of '{}' ({})", aov.source,
                                   earlier.source, earlier.location.str()));
         return false;
+    }
+
+    /// The ranks of a matte are in channels of layers NAME00, NAME01 …, which others may be called by. Also of layouts
+    /// in which both would have a place: programs put the parts of a file together.
+    void check_channels() const {
+        std::map<std::string, std::size_t> owners;
+        for (std::size_t i = 0; i < plan_.outputs.size(); ++i) {
+            const AovOutput& output = plan_.outputs[i];
+            for (std::size_t c = 0; c < output.channels.size(); ++c) {
+                const std::string channel = output.kind == AovKind::Matte
+                                                ? matte_channel(output.name, c)
+                                                : fmt::format("{}.{}", output.name, output.channels[c]);
+                const auto [owner, is_new] = owners.try_emplace(channel, i);
+                if (is_new) continue;
+                const AovOutput& other = plan_.outputs[owner->second];
+                throw SceneError(
+                    origins_[i].aov->location,
+                    fmt::format("layer '{}': its channel {} is one of layer '{}', too ({}): give one of "
+                                "both another name",
+                                output.name, channel, other.name, origins_[owner->second].aov->location.str()));
+            }
+        }
     }
 
     void finish_expressions() {

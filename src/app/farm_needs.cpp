@@ -21,7 +21,8 @@ RenderProbe parse_probe(const std::string& text) {
         const RenderProbe probe{.start_seconds = start,
                                 .render_seconds = json.at("estimated_seconds").get<double>() - start,
                                 .peak_memory_bytes = json.at("peak_memory_bytes").get<std::uint64_t>(),
-                                .threads = json.at("threads").get<int>()};
+                                .threads = json.at("threads").get<int>(),
+                                .deep_bytes = json.at("deep_bytes").get<std::uint64_t>()};
         if (probe.start_seconds >= 0.0 && probe.render_seconds >= 0.0 && probe.threads > 0) return probe;
     } catch (const nlohmann::json::exception& error) {
         throw IoError(fmt::format("the probe's answer cannot be read: {}", error.what()));
@@ -52,9 +53,13 @@ constexpr double kWritingBytes = 80.0;
 /// The same of each channel of a layer, which is resolved, put beside the others, and made ready for the file.
 constexpr double kLayerWritingBytes = 3.0 * sizeof(float);
 
+/// The same of the depths of a pixel, at most: resolved, put beside the others, and made ready for the file.
+constexpr double kDeepWritingBytes = 3.0 * sizeof(DeepSample) * DeepBuffer::kMostBins;
+
 double writing_bytes(const FilmSize& size) {
     const double layers = static_cast<double>(size.channels - std::min<std::size_t>(size.channels, 4));
-    return static_cast<double>(size.pixels) * (kWritingBytes + kLayerWritingBytes * layers);
+    return static_cast<double>(size.pixels) *
+           (kWritingBytes + kLayerWritingBytes * layers + (size.layers.is_deep ? kDeepWritingBytes : 0.0));
 }
 
 /// What schedulers take: far more than a year, and the safety that each has.
@@ -89,17 +94,18 @@ TaskNeeds merge_needs_of(const FilmSize& size, std::size_t parts) {
     constexpr double kPerMegapixelAndPart = 0.122;
     // They were measured without layers, and grow with the bytes that are read and the channels that are written.
     const double megapixels = static_cast<double>(size.pixels) * 1e-6;
-    const double reading = kPerMegapixelAndPart * static_cast<double>(parts) * static_cast<double>(size.all_bytes()) /
+    const double reading = kPerMegapixelAndPart * static_cast<double>(parts) * static_cast<double>(size.merge_bytes()) /
                            static_cast<double>(std::max<std::uint64_t>(1, sizeof(PixelSum) * size.pixels));
     const double writing = kPerMegapixel * static_cast<double>(size.channels) / 4.0;
     return with_safety(kStart + megapixels * (writing + reading),
-                       3.0 * static_cast<double>(size.all_bytes()) + writing_bytes(size));
+                       3.0 * static_cast<double>(size.merge_bytes()) + writing_bytes(size));
 }
 
 TaskNeeds needs_of(const RenderProbe& probe, const FilmSize& size, double share, int threads) {
     const double render = probe.render_seconds * probe.threads / static_cast<double>(threads) * share;
+    const std::uint64_t deep_growth = size.deep_bytes() - std::min(size.deep_bytes(), probe.deep_bytes);
     const double bytes = static_cast<double>(probe.peak_memory_bytes) + writing_bytes(size) +
-                         static_cast<double>(size.all_bytes() - size.bytes());
+                         static_cast<double>(deep_growth + size.second_bytes());
     return with_safety(probe.start_seconds + render, bytes);
 }
 

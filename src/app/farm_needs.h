@@ -18,6 +18,7 @@ struct RenderProbe {
     double render_seconds = 0.0;  ///< to render all samples with `threads` threads
     std::uint64_t peak_memory_bytes = 0;
     int threads = 1;
+    std::uint64_t deep_bytes = 0;  ///< of this memory, that of depths, which the first samples have not filled
 };
 
 /// Times as much as the probe tells: nodes may be slower than the machine that was probed on, other frames may need
@@ -43,19 +44,31 @@ struct FilmSize {
     LayerLayout layers{};
     std::size_t channels = 4;  ///< of the image that is written
 
-    /// Of the sums of one film.
-    [[nodiscard]] std::uint64_t bytes() const {
-        const std::size_t splat_layers = 1 + layers.light + (layers.has_moments ? 1 : 0);
-        return (sizeof(PixelSum) + layers.bytes()) * pixels + sizeof(SplatSum) * splat_layers * splat_pixels;
+    /// Of the sums of the film.
+    [[nodiscard]] std::uint64_t bytes() const { return bytes_with(layers); }
+    /// Of those of the second film, which has no mattes and depths; 0 if there is none.
+    [[nodiscard]] std::uint64_t second_bytes() const {
+        return has_second_film ? bytes_with(layers.without_lists()) : 0;
     }
-    /// Of all films.
-    [[nodiscard]] std::uint64_t all_bytes() const { return (has_second_film ? 2 : 1) * bytes(); }
+    /// What depths may take of that, at most.
+    [[nodiscard]] std::uint64_t deep_bytes() const {
+        return layers.is_deep ? DeepBuffer::most_bytes(splat_pixels > 0) * pixels : 0;
+    }
+    /// Of all films of a merge, whose second one has room for the same as the first.
+    [[nodiscard]] std::uint64_t merge_bytes() const { return (has_second_film ? 2 : 1) * bytes(); }
+
+  private:
+    [[nodiscard]] std::uint64_t bytes_with(const LayerLayout& layout) const {
+        const std::size_t splat_layers = 1 + layout.light + (layout.has_moments ? 1 : 0);
+        return (sizeof(PixelSum) + layout.bytes(splat_pixels > 0)) * pixels +
+               sizeof(SplatSum) * splat_layers * splat_pixels;
+    }
 };
 /// Of the image of `scene`. Throws as make_aov_plan does.
 [[nodiscard]] FilmSize film_size_of(const SceneDesc& scene);
 
 /// For a task with `threads` threads that takes `share` of the samples of an image, (0, 1]. A probe neither writes an
-/// image nor keeps a second film: that comes on top of its memory.
+/// image nor keeps a second film, and its depths may become many more: that comes on top of its memory.
 [[nodiscard]] TaskNeeds needs_of(const RenderProbe& probe, const FilmSize& size, double share, int threads);
 
 /// For the task that merges `parts` parts of an image: in memory are the sums, a part, and as much for reading it; the

@@ -2,12 +2,15 @@
 
 #include "app/peak_memory.h"
 #include "app/phase_timer.h"
+#include "app/up_to_date.h"
+#include "core/log.h"
 #include "core/write_file.h"
 #include "output/aces_driver.h"
 #include "output/exr_driver.h"
 #include "output/output_space.h"
 #include "output/preview_driver.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <system_error>
 
@@ -34,9 +37,10 @@ void write_exr(const OutputPaths& paths, const OutputFrame& frame, AovLayout lay
 
 }  // namespace
 
-void write_image_files(const OutputPaths& paths, ImageDescription& image, const ColorConfig& colors, PixelDepth depth,
-                       const std::function<void()>& beside) {
+std::vector<std::string> write_image_files(const OutputPaths& paths, ImageDescription& image, const ColorConfig& colors,
+                                           PixelDepth depth, const std::function<void()>& beside) {
     const PhaseTimer timer;
+    std::vector<std::string> earlier = listed_layer_files(paths);
     std::error_code ignored;
     if (std::filesystem::is_regular_file(std::filesystem::symlink_status(paths.json, ignored)))
         std::filesystem::remove(paths.json, ignored);
@@ -61,6 +65,16 @@ void write_image_files(const OutputPaths& paths, ImageDescription& image, const 
     image.statistics.write = timer.elapsed();
     image.statistics.peak_memory_bytes = peak_memory_bytes();
     write_text(paths.json, to_json(image.statistics));
+    std::erase_if(earlier, [&](const std::string& name) {
+        return std::ranges::find(image.statistics.layer_files, name) != image.statistics.layer_files.end() ||
+               !std::filesystem::exists(paths.exr.parent_path() / name, ignored);
+    });
+    return earlier;
+}
+
+void note_earlier_files(const std::vector<std::string>& names) {
+    for (const std::string& name : names)
+        log_warning("note: {} is of the image that was replaced, and still there", name);
 }
 
 }  // namespace etendue

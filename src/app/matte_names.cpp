@@ -39,6 +39,28 @@ std::string path_name(const SceneDesc& scene, const InstanceDesc& instance, std:
     return own;
 }
 
+/// Names of which none is there twice.
+class UniqueNames {
+  public:
+    void take(const std::string& name) { taken_.insert(name); }
+    /// `name`; where that is taken, '#' and `number` behind it, or a larger one if that is taken, too.
+    [[nodiscard]] std::string unlike_others(const std::string& name, std::size_t number) {
+        if (taken_.insert(name).second) return name;
+        std::string numbered = fmt::format("{}#{}", name, number);
+        if (taken_.insert(numbered).second) return numbered;
+        // No number is tried twice, or files of many such names would take time by the square of them.
+        std::size_t& next = next_[name];
+        next = std::max(next, number + 1);
+        do numbered = fmt::format("{}#{}", name, next++);
+        while (!taken_.insert(numbered).second);
+        return numbered;
+    }
+
+  private:
+    std::set<std::string> taken_;
+    std::map<std::string, std::size_t> next_;
+};
+
 }  // namespace
 
 std::string clean_matte_name(std::string_view name) {
@@ -70,9 +92,9 @@ std::vector<std::string> object_names(const SceneDesc& scene) {
     }
     std::vector<std::string> names;
     std::map<std::size_t, std::string> name_of_object;
-    std::set<std::string> taken;
+    UniqueNames unique;
     for (const auto& [name, ignored] : first_object)
-        if (!repeated.contains(name)) taken.insert(name);
+        if (!repeated.contains(name)) unique.take(name);
     for (std::size_t i = 0; i < count; ++i) {
         const auto [known, is_new] = name_of_object.try_emplace(object_of(i));
         if (is_new) {
@@ -80,10 +102,8 @@ std::vector<std::string> object_names(const SceneDesc& scene) {
             if (repeated.contains(name)) {
                 const InstanceDesc& instance = scene.instances[i];
                 name = path_name(scene, instance, std::move(name));
-                const std::string path = name;
                 const bool has_node = instance.node != NodeDesc::kNone;
-                std::size_t number = has_node ? scene.nodes[instance.node].number : i;
-                while (!taken.insert(name).second) name = fmt::format("{}#{}", path, number++);
+                name = unique.unlike_others(name, has_node ? scene.nodes[instance.node].number : i);
             }
             known->second = std::move(name);
         }
@@ -97,11 +117,22 @@ std::vector<std::string> asset_names(const SceneDesc& scene) {
     std::vector<std::uint32_t> top(scene.nodes.size());
     for (std::uint32_t n = 0; n < top.size(); ++n)
         top[n] = scene.nodes[n].parent == NodeDesc::kNone ? n : top[scene.nodes[n].parent];
+    // Without a name of its own, one is called by its mesh, as the object is, for all that is below it, too.
+    std::map<std::uint32_t, std::string> mesh_of_top;
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        const std::uint32_t node = scene.instances[i].node;
+        if (node != NodeDesc::kNone && top[node] == node && scene.nodes[node].name.empty())
+            mesh_of_top.try_emplace(node, own_name(scene, i));
+    }
     std::vector<std::string> names;
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
         const std::uint32_t node = scene.instances[i].node;
-        const bool is_below = node != NodeDesc::kNone && top[node] != node;
-        names.push_back(is_below ? node_name(scene.nodes[top[node]]) : own_name(scene, i));
+        if (node == NodeDesc::kNone) {
+            names.push_back(own_name(scene, i));
+            continue;
+        }
+        const auto mesh = mesh_of_top.find(top[node]);
+        names.push_back(mesh != mesh_of_top.end() ? mesh->second : node_name(scene.nodes[top[node]]));
     }
     return names;
 }
@@ -109,8 +140,13 @@ std::vector<std::string> asset_names(const SceneDesc& scene) {
 std::vector<std::string> material_names(const SceneDesc& scene) {
     std::vector<std::string> names;
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-        const std::string& name = scene.materials[i].name;
-        names.push_back(name.empty() ? fmt::format("unnamed_material_{}", i) : clean_matte_name(name));
+        const MaterialDesc& material = scene.materials[i];
+        // That of primitives without one stands behind those of the file, and nowhere in it.
+        const bool is_default = !material.location.file.empty() && material.location.pointer.empty();
+        if (!material.name.empty())
+            names.push_back(clean_matte_name(material.name));
+        else
+            names.push_back(is_default ? "default_material" : fmt::format("unnamed_material_{}", i));
     }
     return names;
 }

@@ -89,7 +89,9 @@ ExitCode run_merge(const MergeArguments& arguments) {
                 "--float: the parts were rendered for an ACES container (SMPTE ST 2065-4), which holds 16-bit floats");
         resolve_layers(image, state);
         image.statistics.libraries = library_versions();
-        write_image_files(paths, image, ColorConfig::from_environment(), arguments.depth);
+        const std::vector<std::string> earlier =
+            write_image_files(paths, image, ColorConfig::from_environment(), arguments.depth);
+        if (!arguments.quiet) note_earlier_files(earlier);
     }
     const PixelRect& window = state.film.window();
     if (!arguments.quiet)

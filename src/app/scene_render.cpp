@@ -199,7 +199,7 @@ class SceneRender {
 
     [[nodiscard]] RenderState new_state() const {
         RenderState state{.film = make_film(options_), .first_sample = first_sample()};
-        if (keeps_every_other_pass()) state.every_other_pass = make_film(options_);
+        if (keeps_every_other_pass()) state.every_other_pass = make_second_film(options_);
         return state;
     }
 
@@ -309,11 +309,12 @@ class SceneRender {
         if (!request_.quiet) note_few_buckets(description_.statistics, output_);
         resolve_layers(description_, rendered);
         const PixelDepth depth = request_.overrides.depth;
-        write_image_files(paths_, description_, colors_, depth, [&] {
+        const std::vector<std::string> earlier = write_image_files(paths_, description_, colors_, depth, [&] {
             if (!request_.strategies.output.empty() && complete)
                 write_strategies_image(request_.strategies, world, integrator_options(settings_), options_,
                                        description_.frame, colors_, depth, threads_, title(), request_.quiet);
         });
+        if (!request_.quiet) note_earlier_files(earlier);
     }
 
     [[nodiscard]] const std::string& title() const {

@@ -44,6 +44,14 @@ Staleness cut_short(const nlohmann::json& statistics) {
             .done = std::min(done / requested, 1.0)};
 }
 
+std::vector<std::string> layer_files_of(const nlohmann::json& statistics) {
+    std::vector<std::string> names;
+    const auto layers = value_of<nlohmann::json>(statistics, "layer_files", &nlohmann::json::is_array);
+    for (const nlohmann::json& layer : layers.value_or(nlohmann::json::array()))
+        if (layer.is_string()) names.push_back(fs::path(layer.get<std::string>()).filename().string());
+    return names;
+}
+
 /// None if the statistics do not tell.
 std::optional<std::vector<InputFile>> inputs_of(const nlohmann::json& statistics) try {
     const auto list = value_of<nlohmann::json>(statistics, "inputs", &nlohmann::json::is_array);
@@ -69,14 +77,14 @@ std::optional<Staleness> why_unfinished(const OutputPaths& output) {
     if (count > 0) return Staleness{.reason = missing + " is missing", .is_unfinished = true};
     const nlohmann::json statistics = read_statistics(output.json);
     if (value_of<bool>(statistics, "complete", &nlohmann::json::is_boolean) != true) return cut_short(statistics);
-    const auto layers = value_of<nlohmann::json>(statistics, "layer_files", &nlohmann::json::is_array);
-    for (const nlohmann::json& layer : layers.value_or(nlohmann::json::array())) {
-        if (!layer.is_string()) continue;
-        const fs::path name = fs::path(layer.get<std::string>()).filename();
+    for (const std::string& name : layer_files_of(statistics))
         if (!fs::exists(output.json.parent_path() / name, error))
-            return Staleness{.reason = name.string() + " is missing", .is_unfinished = true};
-    }
+            return Staleness{.reason = name + " is missing", .is_unfinished = true};
     return std::nullopt;
+}
+
+std::vector<std::string> listed_layer_files(const OutputPaths& output) {
+    return layer_files_of(read_statistics(output.json));
 }
 
 std::optional<Staleness> why_outdated(const OutputPaths& output, const fs::path& scene) {

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace etendue {
 
@@ -20,6 +21,10 @@ struct Staleness {
 /// What the files of `output` themselves say: one is missing, or they are of a render that was cut short. None if they
 /// are of one that was completed.
 [[nodiscard]] std::optional<Staleness> why_unfinished(const OutputPaths& output);
+
+/// Names of the layers and depths in files of their own that the statistics of `output` list, which lie beside the
+/// image; none if there are no statistics.
+[[nodiscard]] std::vector<std::string> listed_layer_files(const OutputPaths& output);
 
 /// Of a completed render, what the files say that it was made of: one has another content now, or is missing. No scene
 /// is loaded for it. `scene` is the directory or file of the scene. None if all are as they were.

@@ -15,6 +15,7 @@
 #include "output/software_name.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -76,8 +77,32 @@ auto of_option(const char* option, const auto& action) {
     }
 }
 
+/// True if `layer` has ranks of the Cryptomatte `matte`.
+bool has_ranks_of(const ImageLayer& layer, const std::string& matte) {
+    const std::string& channel = layer.channels.front();
+    const auto is_digit = [&](std::size_t i) { return std::isdigit(static_cast<unsigned char>(channel[i])) != 0; };
+    return channel.size() == matte.size() + 4 && channel.starts_with(matte) && is_digit(matte.size()) &&
+           is_digit(matte.size() + 1);
+}
+
+bool is_cryptomatte(const ImageLayer& layer, const LayeredImage& image) {
+    if (layer.kind != LayerKind::Color || layer.channels.size() != 4) return false;
+    // Not all files have the metadata.
+    return layer.name.find("Crypto") != std::string::npos ||
+           std::ranges::any_of(image.mattes, [&](const std::string& matte) { return has_ranks_of(layer, matte); });
+}
+
+/// Of a Cryptomatte of this name, if there is one: its heaviest two ids.
+std::optional<ImageLayer> first_ranks(const LayeredImage& image, const std::string& matte) {
+    if (std::ranges::find(image.mattes, matte) == image.mattes.end()) return std::nullopt;
+    for (const ImageLayer& layer : image.layers)
+        if (layer.channels.front() == matte + "00.R") return layer;
+    return std::nullopt;
+}
+
 ImageLayer chosen_layer(const LayeredImage& image, const ViewArguments& arguments) {
-    const auto layer = arguments.layer ? find_layer(image, *arguments.layer) : main_layer(image);
+    auto layer = arguments.layer ? find_layer(image, *arguments.layer) : main_layer(image);
+    if (!layer && arguments.layer) layer = first_ranks(image, *arguments.layer);
     if (!layer) {
         std::vector<std::string> names;
         for (const ImageLayer& known : image.layers) names.push_back(known.name.empty() ? "(main)" : known.name);
@@ -98,25 +123,20 @@ bool ends_with_id(std::string_view name) {
     return name == "id" || name == "ID" || name.ends_with("_id") || name.ends_with("Id") || name.ends_with("ID");
 }
 
-bool is_cryptomatte(const ImageLayer& layer) {
-    return layer.kind == LayerKind::Color && layer.name.find("Crypto") != std::string::npos &&
-           layer.channels.size() == 4;
-}
-
-bool is_colors(const ImageLayer& layer, const ViewArguments& arguments) {
+bool is_colors(const ImageLayer& layer, bool is_matte, const ViewArguments& arguments) {
     if (!arguments.input_space.empty() && layer.channels.size() >= 3) return true;
-    return (layer.kind == LayerKind::Color || layer.kind == LayerKind::Luminance) && !is_cryptomatte(layer);
+    return (layer.kind == LayerKind::Color || layer.kind == LayerKind::Luminance) && !is_matte;
 }
 
-DataStyle style_of(const ImageLayer& layer, const ImageF& image) {
-    if (is_cryptomatte(layer)) return DataStyle::Mattes;
+DataStyle style_of(const ImageLayer& layer, bool is_matte, const ImageF& image) {
+    if (is_matte) return DataStyle::Mattes;
     if (layer.kind == LayerKind::Single && (layer.is_integer || ends_with_id(layer.name))) return DataStyle::Ids;
     return style_of_values(image);
 }
 
-ImageF show_numbers(const ImageLayer& layer, const ImageF& image, const ViewArguments& arguments,
+ImageF show_numbers(const ImageLayer& layer, bool is_matte, const ImageF& image, const ViewArguments& arguments,
                     std::vector<ImageAttribute>& attributes) {
-    const DataStyle style = arguments.range ? DataStyle::Range : style_of(layer, image);
+    const DataStyle style = arguments.range ? DataStyle::Range : style_of(layer, is_matte, image);
     DataPicture picture = show_data(image, style, arguments.range);
     if (!arguments.quiet) {
         const bool is_asked =
@@ -215,7 +235,8 @@ ExitCode run_view(const ViewArguments& arguments) {
     const std::filesystem::path path = arguments.file;
     const LayeredImage file = of_file(arguments.file, [&] { return read_layers(path); });
     const ImageLayer layer = chosen_layer(file, arguments);
-    const bool colored = is_colors(layer, arguments);
+    const bool is_matte = is_cryptomatte(layer, file);
+    const bool colored = is_colors(layer, is_matte, arguments);
     if (colored) (void)display_view(arguments, colors.default_working_space(), colors);
     ImageF pixels = of_file(arguments.file, [&] { return read_layer(path, layer); });
 
@@ -223,7 +244,7 @@ ExitCode run_view(const ViewArguments& arguments) {
     options.depth = arguments.bits == 16 ? PixelDepth::UInt16 : PixelDepth::UInt8;
     const ImageInfo& part = file.parts[static_cast<std::size_t>(layer.part)];
     const ImageF shown = colored ? show_colors(std::move(pixels), part, arguments, colors, options.attributes)
-                                 : show_numbers(layer, pixels, arguments, options.attributes);
+                                 : show_numbers(layer, is_matte, pixels, arguments, options.attributes);
     options.attributes.push_back({"etendue:layer", layer.name});
     write_image(arguments.output, shown, options);
     return ExitCode::Success;
@@ -242,7 +263,8 @@ void add_options(CLI::App& command, ViewArguments& arguments) {
     command.add_option("file", arguments.file, "EXR or HDR file");
     command.add_option("-o,--output", arguments.output, "PNG file to write");
     command.add_option("--layer", arguments.layer,
-                       "Layer to show, or one channel by its whole name (default: the first layer of colours)");
+                       "Layer to show, one channel by its whole name, or a Cryptomatte (default: the first layer of "
+                       "colours)");
     command.add_option("--input-space", arguments.input_space,
                        "Colour space of the file (default: what the file says); also shows X, Y, Z as a colour");
     command.add_option("--display", arguments.display, "OpenColorIO display (default: the config's)");

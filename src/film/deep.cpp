@@ -60,11 +60,25 @@ void merge_what_overlaps(Bins& bins, BinRange range, std::size_t i) {
     for (; i > range.begin && overlap(bins[i - 1], bins[i]); --i) merge_with_next(bins, i - 1);
 }
 
-void merge_nearest(Bins& bins, const BinRange& range) {
+void insert(Bins& bins, std::size_t at, const DeepBin& bin) {
+    // By itself a vector would have room for twice as many as there may be.
+    constexpr std::size_t kMost = DeepBuffer::kMostBins;
+    if (bins.size() == bins.capacity())
+        bins.reserve(std::min(std::max<std::size_t>(1, 2 * bins.size()), bins.size() < kMost ? kMost : 2 * kMost));
+    bins.insert(bins.begin() + static_cast<std::ptrdiff_t>(at), bin);
+}
+
+/// Inserts `bin` before the bin `at` of a range that is full: of those that there are then, the two that are nearest
+/// each other become one.
+void insert_and_merge_nearest(Bins& bins, const BinRange& range, std::size_t at, const DeepBin& bin) {
+    const auto with_new = [&](std::size_t i) -> const DeepBin& { return i == at ? bin : bins[i < at ? i : i - 1]; };
     std::size_t nearest = range.begin;
-    for (std::size_t i = range.begin + 1; i + 1 < range.end; ++i)
-        if (spread(bins[i], bins[i + 1]) < spread(bins[nearest], bins[nearest + 1])) nearest = i;
-    merge_with_next(bins, nearest);
+    for (std::size_t i = range.begin + 1; i < range.end; ++i)
+        if (spread(with_new(i), with_new(i + 1)) < spread(with_new(nearest), with_new(nearest + 1))) nearest = i;
+    if (nearest == at) return bins[at].add(bin);
+    if (nearest + 1 == at) return bins[nearest].add(bin);
+    merge_with_next(bins, nearest < at ? nearest : nearest - 1);
+    insert(bins, nearest < at ? at - 1 : at, bin);
 }
 
 /// What a file holds, before what lies in front is taken into account.
@@ -118,7 +132,7 @@ void DeepBuffer::add(std::size_t pixel, const DeepBin& bin) {
     const bool of_splats = is_of_splats(bin);
     if (is_empty(bin)) return;
     Bins& bins = pixels_[pixel];
-    BinRange range = range_of(bins, of_splats);
+    const BinRange range = range_of(bins, of_splats);
     const auto place = [&](std::size_t index) { return bins.begin() + static_cast<std::ptrdiff_t>(index); };
     const auto after = std::lower_bound(place(range.begin), place(range.end), bin.front,
                                         [](const DeepBin& each, float front) { return each.front < front; });
@@ -130,12 +144,16 @@ void DeepBuffer::add(std::size_t pixel, const DeepBin& bin) {
     } else if (joins_next) {
         bins[i].add(bin);
     } else {
-        bins.insert(after, bin);
-        ++range.end;
+        return range.end - range.begin < kMostBins ? insert(bins, i, bin)
+                                                   : insert_and_merge_nearest(bins, range, i, bin);
     }
     merge_what_overlaps(bins, range, i);
-    range = range_of(bins, of_splats);
-    if (range.end - range.begin > kMostBins) merge_nearest(bins, range);
+}
+
+std::uint64_t DeepBuffer::bytes() const {
+    std::uint64_t sum = pixels_.size() * sizeof(Bins);
+    for (const Bins& bins : pixels_) sum += bins.capacity() * sizeof(DeepBin);
+    return sum;
 }
 
 std::vector<DeepSample> deep_samples(std::span<const DeepBin> bins, double scale, double splat_scale) {
@@ -153,11 +171,11 @@ std::vector<DeepSample> deep_samples(std::span<const DeepBin> bins, double scale
     double last_through = 1.0;
     for (const Part& part : parts) {
         const bool is_hidden = through < kOpaque && !samples.empty();
-        if (is_hidden)
-            samples.back().back = std::max(samples.back().back, part.front);
-        else
+        // What is hidden leaves its light with what hides it, and not its depth: a wall does not reach to the sky.
+        if (!is_hidden) {
             samples.push_back({.front = part.front, .back = part.back});
-        if (!is_hidden) last_through = std::max(through, kOpaque);
+            last_through = std::max(through, kOpaque);
+        }
         DeepSample& sample = samples.back();
         sample.r += static_cast<float>(part.r / last_through);
         sample.g += static_cast<float>(part.g / last_through);

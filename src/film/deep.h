@@ -50,6 +50,12 @@ class DeepBuffer {
         for (const DeepBin& bin : other.pixels_[other_pixel]) add(pixel, bin);
     }
     [[nodiscard]] std::span<const DeepBin> bins(std::size_t pixel) const { return pixels_[pixel]; }
+    /// Of all pixels, what they take in memory now.
+    [[nodiscard]] std::uint64_t bytes() const;
+    /// Of a pixel, at most; `with_splats` if it gets such.
+    [[nodiscard]] static constexpr std::size_t most_bytes(bool with_splats) {
+        return sizeof(std::vector<DeepBin>) + (with_splats ? 2 : 1) * kMostBins * sizeof(DeepBin);
+    }
     [[nodiscard]] std::size_t pixels() const { return pixels_.size(); }
     /// Puts back what `bins` has given.
     void restore(std::size_t pixel, std::vector<DeepBin> bins) { pixels_[pixel] = std::move(bins); }

@@ -79,10 +79,12 @@ void Film::add_deep_splats(std::span<const std::vector<Splat>> lists, const Pixe
     threads.parallel_for(static_cast<std::size_t>(bands), [&](std::size_t band, int) {
         const auto edge = [&](int i) { return window_.y0 + window_.height() * i / bands; };
         const PixelRect pixels{window_.x0, edge(static_cast<int>(band)), window_.x1, edge(static_cast<int>(band) + 1)};
+        std::vector<ReachedPixel> reached_pixels;
         for (const std::vector<Splat>& list : lists)
             for (const Splat& splat : list) {
-                if (splat.layer != SplatFilm::kBeauty || !reaches(pixels, filter, splat.position)) continue;
-                for (const ReachedPixel& reached : reached_pixels(pixels, filter, splat.position)) {
+                if (splat.layer != SplatFilm::kBeauty) continue;
+                find_reached_pixels(pixels, filter, splat.position, reached_pixels);
+                for (const ReachedPixel& reached : reached_pixels) {
                     const auto part = [&](float value) {
                         return static_cast<double>(reached.weight) * static_cast<double>(value);
                     };
@@ -99,7 +101,7 @@ void Film::add_deep_splats(std::span<const std::vector<Splat>> lists, const Pixe
 void Film::add(const Film& other) {
     const PixelRect& rect = other.window_;
     assert(intersection(rect, window_) == rect && other.splat_window_ == splat_window_ &&
-           other.layers_.layout() == layers_.layout());
+           other.layers_.layout().without_lists() == layers_.layout().without_lists());
     std::size_t source = 0;
     for (int y = rect.y0; y < rect.y1; ++y)
         for (int x = rect.x0; x < rect.x1; ++x, ++source) {
@@ -115,7 +117,7 @@ void Film::add(const Film& other) {
 }
 
 Film Film::as_half(const Film& part) const {
-    assert(part.window_ == window_ && part.layers_.layout() == layers_.layout());
+    assert(part.window_ == window_ && part.layers_.layout().without_lists() == layers_.layout().without_lists());
     Film half = part;
     const LayerLayout& layout = layers_.layout();
     for (std::size_t i = 0; i < pixels_.size(); ++i) {

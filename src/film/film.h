@@ -5,6 +5,7 @@
 #include "core/rgb.h"
 #include "film/layers.h"
 #include "film/splat_film.h"
+#include "film/wave_hits.h"
 
 #include <array>
 #include <cstddef>
@@ -63,15 +64,15 @@ class TileBuffer {
     [[nodiscard]] const LayerBuffer& layers() const { return layers_; }
     /// Light for any pixel of the image, of integrators that make such.
     [[nodiscard]] std::vector<Splat>& splats() { return splats_; }
-    /// Of the samples of a wave, what their camera rays have met; of deep images only.
-    [[nodiscard]] std::vector<float>& depths() { return depths_; }
+    /// Of the samples of a wave, what their camera rays have met; of layers that tell of it.
+    [[nodiscard]] WaveHits& wave_hits() { return wave_hits_; }
 
   private:
     PixelRect rect_;
     std::vector<PixelSum> pixels_;
     LayerBuffer layers_;
     std::vector<Splat> splats_;
-    std::vector<float> depths_;
+    WaveHits wave_hits_;
 };
 
 /// The image, or its crop window. Tiles of one pass do not overlap, so that they can be added from any thread in any
@@ -94,6 +95,7 @@ class Film {
                     const ThreadPool& threads);
 
     /// Adds the sums of `other`, which has the same filter, splat window and layers, and a window inside this one's.
+    /// Either may be without mattes and depths.
     void add(const Film& other);
 
     /// What `part` might be if it held half of the samples and light paths of this film, of every pixel, in place of

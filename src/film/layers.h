@@ -30,11 +30,19 @@ struct LayerLayout {
     [[nodiscard]] std::size_t ray_sum() const { return moment_sums() + (has_moments ? 3 : 0); }
     /// Sums of a pixel, 8 bytes each; the functions above say where the later kinds begin.
     [[nodiscard]] std::size_t sums() const { return ray_sum() + (has_ray_counts ? 1 : 0); }
-    /// Bytes of a pixel in a LayerBuffer, at most.
-    [[nodiscard]] std::size_t bytes() const {
+    /// Bytes of a pixel in a LayerBuffer, at most; `with_splats` if it gets such.
+    [[nodiscard]] std::size_t bytes(bool with_splats = false) const {
         return sums() * sizeof(double) + (nearest > 0 ? (nearest + 1) * sizeof(float) : 0) +
                mattes * matte_slots * (sizeof(std::uint32_t) + sizeof(double)) +
-               (is_deep ? sizeof(std::vector<DeepBin>) + DeepBuffer::kMostBins * sizeof(DeepBin) : 0);
+               (is_deep ? DeepBuffer::most_bytes(with_splats) : 0);
+    }
+    /// Without what is no mean, so that half of the samples have nothing to say of it.
+    [[nodiscard]] LayerLayout without_lists() const {
+        LayerLayout layout = *this;
+        layout.mattes = 0;
+        layout.matte_slots = 0;
+        layout.is_deep = false;
+        return layout;
     }
     [[nodiscard]] bool empty() const { return sums() == 0 && nearest == 0 && mattes == 0 && !is_deep; }
     friend bool operator==(const LayerLayout&, const LayerLayout&) = default;
@@ -88,15 +96,15 @@ class LayerBuffer {
         kept[0] = distance;
         for (std::size_t i = 0; i < values.size(); ++i) kept[i + 1] = values[i];
     }
-    /// Adds pixel `other_pixel` of `other`, which has the same layout, to `pixel`.
+    /// Adds pixel `other_pixel` of `other`, which has the same layout, to `pixel`; either may be without lists.
     void add(std::size_t pixel, const LayerBuffer& other, std::size_t other_pixel) {
         const std::span<const double> from = other.sums(other_pixel);
         const std::span<double> to = sums(pixel);
         for (std::size_t i = 0; i < to.size(); ++i) to[i] += from[i];
         if (layout_.nearest > 0)
             add_nearest(pixel, other.nearest_[other_pixel * nearest_stride()], other.nearest(other_pixel));
-        if (layout_.mattes > 0) mattes_.add(pixel, other.mattes_, other_pixel);
-        if (layout_.is_deep) deep_.add(pixel, other.deep_, other_pixel);
+        if (layout_.mattes > 0 && other.layout_.mattes > 0) mattes_.add(pixel, other.mattes_, other_pixel);
+        if (layout_.is_deep && other.layout_.is_deep) deep_.add(pixel, other.deep_, other_pixel);
     }
 
     [[nodiscard]] MatteBuffer& mattes() { return mattes_; }

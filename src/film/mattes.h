@@ -15,8 +15,9 @@ struct MatteShare {
 };
 
 /// For some pixels and each of some mattes (of objects, of materials …) a bounded list of ids with the sums of their
-/// filter weights. Where a pixel has more ids than the list has slots, the one with the least weight falls out; the
-/// weights of the others remain what they are. 12 bytes a pixel, matte and slot.
+/// filter weights. Where a pixel has more ids than the list has slots, the one with the least weight falls out for a
+/// heavier one; if it comes again, it begins at nothing. The weights of ids that never fell out are whole. 12 bytes a
+/// pixel, matte and slot.
 class MatteBuffer {
   public:
     /// Starts with nothing; memory is kept.

@@ -24,14 +24,16 @@ bool reaches(const PixelRect& window, const PixelFilter& filter, const Vec2f& po
            position.y > centre(window.y0) - r && position.y < centre(window.y1 - 1) + r;
 }
 
-std::vector<ReachedPixel> reached_pixels(const PixelRect& window, const PixelFilter& filter, const Vec2f& position) {
-    const Reach columns(position.x, filter.radius(), window.x0, window.x1);
+void find_reached_pixels(const PixelRect& window, const PixelFilter& filter, const Vec2f& position,
+                         std::vector<ReachedPixel>& reached) {
+    reached.clear();
     const Reach rows(position.y, filter.radius(), window.y0, window.y1);
-    std::vector<ReachedPixel> pixels;
+    if (rows.begin >= rows.end) return;  // of bands of an image, most do not see it
+    const Reach columns(position.x, filter.radius(), window.x0, window.x1);
     for (int y = rows.begin; y < rows.end; ++y)
         for (int x = columns.begin; x < columns.end; ++x)
-            pixels.push_back({x, y, filter.evaluate(centre(y) - position.y) * filter.evaluate(centre(x) - position.x)});
-    return pixels;
+            reached.push_back(
+                {x, y, filter.evaluate(centre(y) - position.y) * filter.evaluate(centre(x) - position.x)});
 }
 
 SplatFilm::SplatFilm(int full_width, int full_height, const PixelRect& window, const PixelFilter& filter,

@@ -42,9 +42,11 @@ struct ReachedPixel {
     int y = 0;
     float weight = 0.0f;
 };
-/// Those of `window` that see what falls on `position` through `filter`, row by row.
-[[nodiscard]] std::vector<ReachedPixel> reached_pixels(const PixelRect& window, const PixelFilter& filter,
-                                                       const Vec2f& position);
+/// Puts those of `window` that see what falls on `position` through `filter` into `reached`, row by row, in place of
+/// what it holds: the edge of the filter included, as in SplatFilm. Of windows that are parts of one, each pixel is in
+/// the list of its part alone.
+void find_reached_pixels(const PixelRect& window, const PixelFilter& filter, const Vec2f& position,
+                         std::vector<ReachedPixel>& reached);
 
 /// Sums of splats, of the image and of the light layers of a film. 24 bytes a pixel and layer.
 class SplatFilm {

@@ -118,6 +118,10 @@ std::string problem_of(const OpenImage& image) {
 /// What is read of one part.
 void add_part(const OpenImage& image, LayeredImage& result) {
     result.parts.push_back(describe(image));
+    for (const OIIO::ParamValue& attribute : image.spec.extra_attribs) {
+        const std::string_view key = attribute.name().c_str();
+        if (key.starts_with("cryptomatte/") && key.ends_with("/name")) result.mattes.push_back(attribute.get_string());
+    }
     const std::string problem = problem_of(image);
     for (Group& group : group_channels(image.spec))
         for (ImageLayer& layer : layers_of(std::move(group), image)) {

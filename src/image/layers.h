@@ -33,6 +33,8 @@ struct ImageLayer {
 struct LayeredImage {
     std::vector<ImageInfo> parts;
     std::vector<ImageLayer> layers;  ///< part by part, in the order of the file's channels
+    /// Names of Cryptomattes as their metadata have them: the ranks of NAME are layers of channels NAME00.R, NAME00.G …
+    std::vector<std::string> mattes{};
 };
 
 /// Reads the headers only. Throws IoError as `read_image_info` does; a part that cannot be read is a `problem` of its

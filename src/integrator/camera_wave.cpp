@@ -132,15 +132,17 @@ void accumulate(const TileJob& job, std::span<const CameraSample> samples, const
     offer_brightest(job, samples, light, counters);
     LayerBuffer& layers = tile.layers();
     const LayerLayout& layout = layers.layout();
+    const bool has_first_hits = job.aovs != nullptr && job.aovs->needs_first_hits();
     for (std::size_t i = 0; i < samples.size(); ++i) {
         const CameraSample& sample = samples[i];
         const Rgb& radiance = light.radiance(i);
         if (!accumulate(job, sample, radiance, alpha[i], tile, counters) || layout.empty()) continue;
         const auto weight = static_cast<double>(sample.weight);
+        if (has_first_hits) tile.wave_hits().add_to(layers, sample.pixel, i, weight);
         if (layout.is_deep) {
             const auto part = [weight](float value) { return weight * static_cast<double>(value); };
-            layers.deep().add(sample.pixel, {.front = tile.depths()[i],
-                                             .back = tile.depths()[i],
+            layers.deep().add(sample.pixel, {.front = tile.wave_hits().depth(i),
+                                             .back = tile.wave_hits().depth(i),
                                              .alpha = part(alpha[i]),
                                              .r = part(radiance.r),
                                              .g = part(radiance.g),

@@ -2,6 +2,7 @@
 
 #include "output/cryptomatte.h"
 
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -45,7 +46,13 @@ std::vector<float> resolve(const Film& film, const AovOutput& output) {
 
 DeepPixels resolve_deep_pixels(const Film& film) {
     DeepPixels deep;
-    for (const std::vector<DeepSample>& samples : film.resolve_deep()) {
+    const std::vector<std::vector<DeepSample>> image = film.resolve_deep();
+    std::size_t count = 0;
+    for (const std::vector<DeepSample>& samples : image) count += samples.size();
+    deep.counts.reserve(image.size());
+    deep.colors.pixels.reserve(4 * count);
+    deep.depths.reserve(2 * count);
+    for (const std::vector<DeepSample>& samples : image) {
         deep.counts.push_back(static_cast<std::uint32_t>(samples.size()));
         for (const DeepSample& s : samples) {
             deep.colors.pixels.insert(deep.colors.pixels.end(), {s.r, s.g, s.b, s.alpha});

@@ -15,12 +15,19 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+Film empty_film(const SamplingOptions& options, const LayerLayout& layout) {
+    return {options.full_width, options.full_height, options.window,
+            options.splat_window.empty() ? options.window : options.splat_window, layout};
+}
+
 }  // namespace
 
 Film make_film(const SamplingOptions& options) {
-    return {options.full_width, options.full_height, options.window,
-            options.splat_window.empty() ? options.window : options.splat_window,
-            options.aovs ? options.aovs->layout : LayerLayout{}};
+    return empty_film(options, options.aovs ? options.aovs->layout : LayerLayout{});
+}
+
+Film make_second_film(const SamplingOptions& options) {
+    return empty_film(options, options.aovs ? options.aovs->layout.without_lists() : LayerLayout{});
 }
 
 ProgressiveRender::ProgressiveRender(const World& world, const Integrator& integrator, const SamplingOptions& options,

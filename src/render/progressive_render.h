@@ -37,6 +37,8 @@ struct SamplingOptions {
 
 /// A film without samples for such a render.
 [[nodiscard]] Film make_film(const SamplingOptions& options);
+/// The same for every other pass: without mattes and depths, of which half of the samples are compared with nothing.
+[[nodiscard]] Film make_second_film(const SamplingOptions& options);
 
 /// Called from rendering threads whenever a tile is done, with what it took.
 using TileCallback = std::function<void(std::uint64_t samples, std::uint64_t rays)>;

@@ -436,6 +436,9 @@ TEST_F(Continuation, AProbeSaysWhatTheImageWouldTakeAndWritesNothing) {
                             1e5 * probe["seconds_per_spp"].get<double>();
     EXPECT_NEAR(probe["estimated_seconds"].get<double>(), expected, 1e-3 * expected);
     EXPECT_GT(probe["peak_memory_bytes"].get<double>(), 1e6);
+    EXPECT_EQ(probe["deep_bytes"], 0);
+    const ProgramResult deep = run({"render", (folder_ / "box").string(), "--deep", "--probe", "--quiet"});
+    EXPECT_GT(json::parse(deep.out)["deep_bytes"].get<int>(), 16 * 12 * 24) << deep.err;
     const ProgramResult part = run(render(100000, "a.partial", {"--samples", "64:96", "--probe", "--quiet"}));
     EXPECT_EQ(json::parse(part.out)["spp"], 32);
     EXPECT_TRUE(list(work_).empty());

@@ -7,10 +7,12 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <csignal>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
+#include <functional>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -53,11 +55,12 @@ class Cryptomatte : public testing::Test {
         fs::create_directories(work_);
         write_mattes_scene(folder_ / "cards");
     }
-    [[nodiscard]] ProgramResult render(const std::string& output, const Arguments& more) const {
+    [[nodiscard]] ProgramResult render(const std::string& output, const Arguments& more,
+                                       const std::function<void(int pid)>& while_running = {}) const {
         Arguments arguments{"render", (folder_ / "cards").string(), "--quiet", "-o", output};
         arguments.insert(arguments.end(), more.begin(), more.end());
         if (std::ranges::find(more, "--spp") == more.end()) arguments.insert(arguments.end(), {"--spp", "16"});
-        return run_etendue(arguments, work_);
+        return run_etendue(arguments, work_, while_running);
     }
     /// The text of an attribute, "" if there is none.
     [[nodiscard]] static std::string text(const ChannelImage& image, const std::string& name) {
@@ -154,10 +157,56 @@ TEST_F(Cryptomatte, HasAsManyRanksAsAreAskedFor) {
     EXPECT_FALSE(has("ids02.R"));
 }
 
-TEST_F(Cryptomatte, OfPartsAndOfRendersThatWereStoppedIsThatOfTheWhole) {
+TEST_F(Cryptomatte, OfRendersThatWereStoppedIsThatOfTheWhole) {
+    const Arguments settings{"--aov", "cryptomatte", "--aov",  "denoising", "--deep",
+                             "--spp", "1500",        "--size", "40x30",     "--float"};
+    const auto with = [&](const Arguments& more) {
+        Arguments all = settings;
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    };
+    ASSERT_EQ(render("whole.exr", settings).exit_code, 0);
+    const ProgramResult stopped = render("a.exr", with({"--checkpoint-every", "0.0003"}), [&](int pid) {
+        EXPECT_TRUE(wait_until([&] { return fs::exists(work_ / "a.checkpoint"); }));
+        kill(pid, SIGINT);
+    });
+    ASSERT_EQ(stopped.exit_code, 130) << stopped.err;
+    ASSERT_TRUE(fs::exists(work_ / "a.checkpoint")) << "it was not stopped in the middle";
+    ASSERT_EQ(render("a.exr", with({"--resume"})).exit_code, 0);
+    const ChannelImage whole = read_channels(work_ / "whole.exr");
+    const ChannelImage resumed = read_channels(work_ / "a.exr");
+    ASSERT_EQ(resumed.channel_names, whole.channel_names);
+    const auto bits = [](const ChannelImage& image) {
+        std::vector<std::uint32_t> all;
+        for (const float value : image.pixels.pixels) all.push_back(std::bit_cast<std::uint32_t>(value));
+        return all;
+    };
+    EXPECT_EQ(bits(resumed), bits(whole));
+}
+
+TEST_F(Cryptomatte, OfAdaptiveRendersAddUpToAlpha) {
+    ASSERT_EQ(render("e.exr", {"--aov", "cryptomatte", "--spp", "512", "--float", "--error", "0.05"}).exit_code, 0);
+    const nlohmann::json statistics = nlohmann::json::parse(read_file(work_ / "e.json"));
+    const ChannelImage image = read_channels(work_ / "e.exr");
+    const std::vector<double> near = extract(image, "CryptoObject", "3ae39a5", "near");
+    const std::vector<double> far = extract(image, "CryptoObject", "3ae39a5", "far \"one\"");
+    const std::size_t channels = image.channel_names.size();
+    const auto alpha =
+        static_cast<std::size_t>(std::ranges::find(image.channel_names, "A") - image.channel_names.begin());
+    double sum = 0.0;
+    for (std::size_t p = 0; p < near.size(); ++p) {
+        EXPECT_NEAR(near[p] + far[p], static_cast<double>(image.pixels.pixels[p * channels + alpha]), 1e-5) << p;
+        sum += near[p];
+    }
+    EXPECT_GT(sum, 5.0);
+    EXPECT_LT(statistics["adaptive"]["least"], statistics["adaptive"]["most"]);
+}
+
+TEST_F(Cryptomatte, OfPartsIsThatOfTheWhole) {
     for (const char* integrator : {"path", "bdpt"}) {
         const auto with = [&](const Arguments& more) {
-            Arguments all{"--aov", "cryptomatte", "--spp", "32", "--float", "--integrator", integrator};
+            Arguments all{"--aov", "cryptomatte", "--aov",   "denoising",    "--deep",
+                          "--spp", "32",          "--float", "--integrator", integrator};
             all.insert(all.end(), more.begin(), more.end());
             return all;
         };
@@ -190,6 +239,19 @@ TEST_F(Cryptomatte, WhatIsWrongIsSaid) {
     EXPECT_NE(error("cryptomatte_objects", 3).find("did you mean 'cryptomatte_object'"), std::string::npos);
 }
 
+// One of both would be gone from the file.
+TEST_F(Cryptomatte, ItsChannelsAreNoOtherLayers) {
+    for (const char* layout : {"layers", "parts", "files"})
+        for (const Arguments& layers :
+             {Arguments{"CryptoObject00=albedo", "cryptomatte_object"}, {"cryptomatte", "CryptoObject02=albedo"}}) {
+            const ProgramResult result =
+                render("e.exr", {"--aov", layers[0], "--aov", layers[1], "--aov-layout", layout});
+            EXPECT_EQ(result.exit_code, 3) << layers[0];
+            EXPECT_NE(result.err.find("its channel CryptoObject0"), std::string::npos) << result.err;
+        }
+    EXPECT_EQ(render("e.exr", {"--aov", "CryptoObject03=albedo", "--aov", "cryptomatte_object"}).exit_code, 0);
+}
+
 /// True if `command` succeeds; what it prints goes to `output`.
 bool succeeds(const std::string& command, const fs::path& output) {
     return std::system(fmt::format("{} > '{}' 2>&1", command, output.string()).c_str()) == 0;
@@ -206,6 +268,20 @@ TEST_F(Cryptomatte, IsReadByOpenExrsOwnTools) {
     EXPECT_NE(header.find("zip"), std::string::npos) << header;
 }
 
+// By what the metadata say, whatever the layer is called.
+TEST_F(Cryptomatte, IsViewedByItsName) {
+    for (const char* layout : {"layers", "parts"}) {
+        ASSERT_EQ(
+            render("v.exr", {"--aov", "ids=cryptomatte_object", "--aov", "albedo", "--aov-layout", layout}).exit_code,
+            0);
+        const ProgramResult viewed = run_etendue({"view", "v.exr", "-o", "ids.png", "--layer", "ids"}, work_);
+        ASSERT_EQ(viewed.exit_code, 0) << viewed.err;
+        EXPECT_NE(viewed.err.find("ids00: numbers"), std::string::npos) << viewed.err;
+    }
+    const ProgramResult none = run_etendue({"view", "v.exr", "-o", "ids.png", "--layer", "idx"}, work_);
+    EXPECT_EQ(none.exit_code, 3) << none.err;
+}
+
 // A reader that shares no code with the program.
 TEST_F(Cryptomatte, IsReadByThePythonTool) {
     const fs::path text = work_ / "said.txt";
@@ -219,6 +295,14 @@ TEST_F(Cryptomatte, IsReadByThePythonTool) {
     EXPECT_NE(read_file(text).find(fmt::format("{:9.6f}  near", mean)), std::string::npos) << read_file(text);
     ASSERT_TRUE(succeeds(fmt::format("{} CryptoObject near '{}'", tool, (work_ / "near.png").string()), text))
         << read_file(text);
+    const auto refused = [&](const std::string& command, const std::string& words) {
+        EXPECT_FALSE(succeeds(command, text));
+        EXPECT_NE(read_file(text).find(words), std::string::npos) << read_file(text);
+    };
+    refused(tool + " CryptoObjects near n.png", "there is no matte 'CryptoObjects'; there are Crypto");
+    refused(tool + " CryptoObject neat n.png", "'CryptoObject' has no name 'neat', of 2; did you mean 'near'?");
+    ASSERT_EQ(render("t.exr", {}).exit_code, 0);
+    refused(tool, "has no Cryptomatte");
 }
 
 }  // namespace

@@ -51,6 +51,22 @@ class DeepFiles : public testing::Test {
                                     OIIO::TypeDesc::FLOAT, pixels.data()));
         return pixels;
     }
+    /// Of each pixel, the depth of what lies at half of its alpha; 0 where there is nothing.
+    [[nodiscard]] std::vector<double> middle_depths(const std::string& file) const {
+        const OIIO::ImageBuf deep((work_ / file).string());
+        std::vector<double> depths;
+        for (int y = deep.ybegin(); y < deep.yend(); ++y)
+            for (int x = deep.xbegin(); x < deep.xend(); ++x) {
+                double alpha = 0.0;
+                double depth = 0.0;
+                for (int s = 0; s < deep.deep_samples(x, y) && alpha < 0.5; ++s) {
+                    alpha += (1.0 - alpha) * static_cast<double>(deep.deep_value(x, y, 0, 3, s));
+                    depth = static_cast<double>(deep.deep_value(x, y, 0, 4, s));
+                }
+                depths.push_back(depth);
+            }
+        return depths;
+    }
     void expect_flattens_to(const std::string& deep, const std::string& image) const {
         const ChannelImage expected = read_channels(work_ / image);
         const std::vector<float> flat = flattened(deep);
@@ -96,11 +112,43 @@ TEST_F(DeepFiles, OfPartsAreThoseOfTheWhole) {
             run_etendue({"merge", "a.partial", "b.partial", "-o", "merged.exr", "--float", "--quiet"}, work_);
         ASSERT_EQ(merged.exit_code, 0) << merged.err;
         expect_flattens_to("merged.deep.exr", "whole.exr");
+        const std::vector<double> depths = middle_depths("merged.deep.exr");
+        const std::vector<double> expected = middle_depths("whole.deep.exr");
+        ASSERT_EQ(depths.size(), expected.size());
+        EXPECT_GT(std::ranges::count_if(expected, [](double depth) { return depth > 0.0 && depth < 10.0; }), 10);
+        for (std::size_t p = 0; p < depths.size(); ++p) EXPECT_NEAR(depths[p], expected[p], 0.03 * expected[p]) << p;
     }
     const ProgramResult crop = render("c.partial", {"--integrator", "bdpt", "--crop", "0,0,8,8"});
     EXPECT_EQ(crop.exit_code, 3);
     EXPECT_NE(crop.err.find("--deep: a part that is a crop"), std::string::npos) << crop.err;
     EXPECT_EQ(render("c.partial", {"--integrator", "path", "--crop", "0,0,8,8"}).exit_code, 0);
+}
+
+TEST_F(DeepFiles, OfMediansAreRefused) {
+    const ProgramResult result = render("r.exr", {"--robust", "mon:5"});
+    EXPECT_EQ(result.exit_code, 3);
+    EXPECT_NE(result.err.find("a deep image composites to the means"), std::string::npos) << result.err;
+}
+
+TEST_F(DeepFiles, HaveNoHalfFloats) {
+    const ProgramResult result = render("r.exr", {"--aov", "deep:half"});
+    EXPECT_EQ(result.exit_code, 3);
+    EXPECT_NE(result.err.find("32-bit"), std::string::npos) << result.err;
+}
+
+TEST_F(DeepFiles, OfAnImageThatWasReplacedAreNoted) {
+    ASSERT_EQ(render("n.exr", {}).exit_code, 0);
+    const Arguments without{"render", (folder_ / "box").string(), "--spp", "2", "-o", "n.exr"};
+    const std::string note = "note: n.deep.exr is of the image that was replaced";
+    const ProgramResult replaced = run_etendue(without, work_);
+    ASSERT_EQ(replaced.exit_code, 0);
+    EXPECT_NE(replaced.err.find(note), std::string::npos) << replaced.err;
+    EXPECT_TRUE(fs::exists(work_ / "n.deep.exr"));
+    Arguments again = without;
+    again.emplace_back("--deep");
+    const ProgramResult with = run_etendue(again, work_);
+    EXPECT_EQ(with.err.find("note: n.deep.exr"), std::string::npos) << with.err;
+    EXPECT_EQ(run_etendue(again, work_).err.find("note: n.deep.exr"), std::string::npos) << "it is this image's";
 }
 
 /// True if `command` succeeds; what it prints goes to `output`.

@@ -165,6 +165,29 @@ TEST(FarmNeeds, OfLayersAreThoseOfTheirSumsAndChannels) {
     EXPECT_GT(merge_needs_of(layered, 200).minutes, merge_needs_of(plain, 200).minutes);
 }
 
+// A second of a long render has met few depths; the file is as large as the film.
+TEST(FarmNeeds, OfDeepImagesHaveRoomForTheDepthsThatAreToCome) {
+    constexpr std::uint64_t kPixels = 1'000'000;
+    const FilmSize path{.pixels = kPixels, .layers = {.is_deep = true}};
+    const FilmSize bdpt{.pixels = kPixels, .splat_pixels = kPixels, .layers = {.is_deep = true}};
+    EXPECT_EQ(path.deep_bytes(), kPixels * (24 + 16 * 64));
+    EXPECT_EQ(bdpt.deep_bytes(), kPixels * (24 + 32 * 64));
+    EXPECT_EQ(bdpt.bytes(), kPixels * (48 + 24) + bdpt.deep_bytes());
+    FilmSize halves = bdpt;
+    halves.has_second_film = true;
+    EXPECT_EQ(halves.second_bytes(), kPixels * (48 + 24)) << "half of the samples have no depths";
+    const auto mebibytes = [](const FilmSize& size, std::uint64_t deep_bytes) {
+        const RenderProbe probe{.peak_memory_bytes = std::uint64_t{1} << 30, .deep_bytes = deep_bytes};
+        return needs_of(probe, size, 1.0, 1).mebibytes;
+    };
+    const int plain = mebibytes({.pixels = kPixels}, 0);
+    const double writing = 3.0 * 16 * 24 * kPixels;
+    const auto growth = static_cast<double>(path.deep_bytes());
+    EXPECT_NEAR(mebibytes(path, 0) - plain, 1.5 * (growth + writing) / (1 << 20), 1.0);
+    EXPECT_NEAR(mebibytes(path, path.deep_bytes()) - plain, 1.5 * writing / (1 << 20), 1.0);
+    EXPECT_EQ(mebibytes(path, 2 * path.deep_bytes()), mebibytes(path, path.deep_bytes()));
+}
+
 TEST(FarmNeeds, OfRendersHaveRoomForWritingAndForASecondFilm) {
     const RenderProbe probe{.render_seconds = 10.0, .peak_memory_bytes = std::uint64_t{1} << 30};
     constexpr std::uint64_t kPixels = 50'000'000;

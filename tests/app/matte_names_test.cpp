@@ -1,8 +1,14 @@
 #include "app/matte_names.h"
 
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace etendue::test {
@@ -62,6 +68,33 @@ TEST(ObjectNames, OfDeepFilesAreBounded) {
     EXPECT_EQ(names[1], names[0] + "#999");
 }
 
+// Half of the nodes have the names that the numbers of the others would give.
+TEST(ObjectNames, OfManyThatAreTakenAreFoundSoon) {
+    constexpr std::uint32_t kCount = 15000;
+    std::vector<NodeDesc> nodes;
+    std::vector<Placed> placed;
+    for (std::uint32_t i = 0; i < 2 * kCount; ++i) {
+        const std::string name = i < kCount ? "n" : fmt::format("n#{}", i - kCount);
+        nodes.push_back({name, kTop, i});
+        placed.push_back({name, i});
+    }
+    const SceneDesc scene = scene_of(std::move(nodes), placed);
+    const auto start = std::chrono::steady_clock::now();
+    const Names names = object_names(scene);
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5)) << "by the square: more than a minute";
+    EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size());
+    EXPECT_EQ(names[0], "n");
+    EXPECT_EQ(names[1], fmt::format("n#{}", kCount));
+    EXPECT_EQ(names[kCount + 7], "n#7");
+}
+
+// A mesh of a topmost node without a name, and what is below that node.
+TEST(AssetNames, AreOneForANodeAndAllBelowIt) {
+    const SceneDesc scene = scene_of({{"", kTop, 0}, {"wheel", 0, 1}, {"", kTop, 2}, {"door", 2, 3}},
+                                     {{"wheel", 1}, {"body mesh", 0}, {"door", 3}});
+    EXPECT_EQ(asset_names(scene), (Names{"body mesh", "body mesh", "unnamed_node_2"}));
+}
+
 TEST(MatteNames, OfScenesThatComeFromNoFile) {
     SceneDesc scene = scene_of({}, {{"ball", kTop}, {"ball", kTop}, {"", kTop}});
     EXPECT_EQ(object_names(scene), (Names{"ball", "ball#1", "unnamed_node_2"}));
@@ -72,6 +105,9 @@ TEST(MaterialNames, AreThoseOfTheFile) {
     SceneDesc scene;
     for (const char* name : {"gold", "", "gold"}) scene.materials.emplace_back().name = name;
     EXPECT_EQ(material_names(scene), (Names{"gold", "unnamed_material_1", "gold"}));
+    for (std::size_t i = 0; i < 3; ++i) scene.materials[i].location = {"a.gltf", fmt::format("/materials/{}", i)};
+    scene.materials.emplace_back().location = {"a.gltf", {}};  // of primitives without one
+    EXPECT_EQ(material_names(scene), (Names{"gold", "unnamed_material_1", "gold", "default_material"}));
 }
 
 TEST(CleanMatteName, KeepsCharactersWhole) {

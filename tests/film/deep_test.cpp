@@ -89,6 +89,26 @@ TEST(DeepBuffer, JoinsTheNearestWhenItIsFullAndLosesNothing) {
     EXPECT_NEAR(red, 0.0, 1e-9);
 }
 
+// Else memory would be twice what is told of it.
+TEST(DeepBuffer, HasNoRoomForMoreThanThereMayBe) {
+    Random random(6);
+    for (const bool with_splats : {false, true}) {
+        DeepBuffer deep;
+        deep.reset(1);
+        for (int i = 0; i < 1000; ++i) {
+            deep.add(0, bin(1.0f + 100.0f * random.next(), 1.0));
+            if (with_splats) deep.add(0, bin(-1.0f - 100.0f * random.next(), 0.0, 0.0, 1.0));
+        }
+        EXPECT_EQ(deep.bytes(), DeepBuffer::most_bytes(with_splats));
+        DeepBuffer copy = deep;  // has no room to begin with
+        copy.reset(1);
+        for (int i = 0; i < 9; ++i) copy.add(0, bin(1.0f + static_cast<float>(i), 1.0));
+        DeepBuffer small = copy;
+        for (int i = 0; i < 1000; ++i) small.add(0, bin(1.0f + 100.0f * random.next(), 1.0));
+        EXPECT_EQ(small.bytes(), DeepBuffer::most_bytes(false));
+    }
+}
+
 // Tiles and splats come in turns that depend on how fast the machine is.
 TEST(DeepBuffer, DoesNotDependOnWhenSplatsCome) {
     std::vector<DeepBin> samples;
@@ -127,6 +147,16 @@ TEST(DeepSamples, AreAlphasOfWhatIsLeft) {
     EXPECT_FLOAT_EQ(samples[2].alpha, 1.0f);
     EXPECT_FLOAT_EQ(samples[2].r, 0.1f);
     EXPECT_EQ(samples[1].front, 2.0f);
+}
+
+// The sky that a filter's rounding leaves behind a wall does not make the wall as deep as the sky.
+TEST(DeepSamples, DoNotReachToWhatTheyHide) {
+    const std::vector<DeepBin> bins{bin(1.0f, 2.0, 0.2), bin(2.0f, 2.0 - 1e-6, 0.4), bin(kDeepBackground, 1e-5, 0.1)};
+    const std::vector<DeepSample> samples = deep_samples(bins, 0.25, 1.0);
+    ASSERT_EQ(samples.size(), 2u);
+    EXPECT_EQ(samples[1].front, 2.0f);
+    EXPECT_EQ(samples[1].back, 2.0f);
+    EXPECT_NEAR(flattened(samples)[0], 0.175, 1e-6) << "its light is not lost";
 }
 
 // Light without alpha, negative alpha and splats included.

@@ -3,6 +3,7 @@
 #include "support/random.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <vector>
 
@@ -100,6 +101,37 @@ TEST(Film, ManySmallSamplesAreNotLost) {
     }
     EXPECT_EQ(film.resolve(), (std::vector<float>{1.0f, 1.0f, 1.0f, 1.0f}));
     EXPECT_EQ(film.sample_count(), 2u * ((1u << 24) + 5u));
+}
+
+// Splats of which many lie where the filter of a pixel ends, which is where bands of the image end for some numbers of
+// threads.
+TEST(Film, DepthsOfSplatsAreTheSameForEveryNumberOfThreads) {
+    constexpr int kSide = 24;
+    const PixelFilter filter(FilterShape::BlackmanHarris);
+    Random random(4);
+    std::vector<std::vector<Splat>> lists(3);
+    for (std::vector<Splat>& list : lists)
+        for (int i = 0; i < 500; ++i) {
+            const float half_rows = std::floor(random.next() * 2.0f * (kSide + 4));
+            list.push_back({.position = {random.next() * kSide, 0.5f * half_rows - 2.0f},
+                            .value = {random.next(), random.next(), random.next()},
+                            .depth = 1.0f + 50.0f * random.next()});
+        }
+    const PixelRect window{0, 0, kSide, kSide};
+    const auto bins_of = [&](int threads) {
+        Film film(kSide, kSide, window, window, {.is_deep = true});
+        film.add_splats(lists, 1000, filter, ThreadPool(threads));
+        std::vector<double> numbers;
+        for (std::size_t p = 0; p < window.area(); ++p)
+            for (const DeepBin& bin : film.layers().deep().bins(p))
+                for (const double number : {static_cast<double>(bin.front), static_cast<double>(bin.back), bin.splat_r,
+                                            bin.splat_g, bin.splat_b})
+                    numbers.push_back(number);
+        return numbers;
+    };
+    const std::vector<double> one = bins_of(1);
+    EXPECT_GT(one.size(), 5u * 500);
+    for (const int threads : {2, 3, 4, 5, 7}) EXPECT_EQ(bins_of(threads), one) << threads;
 }
 
 TEST(TileBuffer, ResetForgets) {

@@ -118,42 +118,35 @@ class FirstHit {
     std::optional<Albedo> albedo_;
 };
 
-void add_mattes(const World& world, const AovSet& aovs, const CameraSample& sample, const Hit& hit,
-                MatteBuffer& mattes) {
+void find_ids(const World& world, const AovSet& aovs, const Hit& hit, std::span<std::uint32_t> ids) {
     for (std::size_t m = 0; m < aovs.mattes.size(); ++m) {
         const MatteIds& matte = aovs.mattes[m];
-        const std::uint32_t index = matte.by_material ? world.material_index(hit) : hit.instance;
-        mattes.add(sample.pixel, m, matte.ids[index], static_cast<double>(sample.weight));
+        ids[m] = matte.ids[matte.by_material ? world.material_index(hit) : hit.instance];
     }
 }
 
 }  // namespace
 
-void add_first_hits(const World& world, const TileJob& job, std::span<const CameraSample> samples,
-                    std::span<const Ray> rays, std::span<const Hit> hits, TileBuffer& tile) {
+void find_first_hits(const World& world, const TileJob& job, std::span<const CameraSample> samples,
+                     std::span<const Ray> rays, std::span<const Hit> hits, TileBuffer& tile) {
     if (job.aovs == nullptr || !job.aovs->needs_first_hits()) return;
     const AovSet& aovs = *job.aovs;
-    LayerBuffer& layers = tile.layers();
-    const std::size_t first = aovs.layout.value_sums();
-    if (aovs.layout.is_deep) tile.depths().assign(samples.size(), kDeepBackground);
+    WaveHits& found = tile.wave_hits();
+    // Behind the values of first hits are those of buckets, which know nothing of surfaces.
+    found.reset(aovs.layout, aovs.layout.values - aovs.buckets.value_count(), samples.size());
     std::vector<float> values;
     for (std::size_t i = 0; i < samples.size(); ++i) {
         if (!hits[i].valid()) continue;
+        found.set_distance(i, hits[i].t);
         if (aovs.layout.is_deep)
-            tile.depths()[i] = world.depth(rays[i].origin + rays[i].direction * hits[i].t, rays[i].time);
-        add_mattes(world, aovs, samples[i], hits[i], layers.mattes());
+            found.depth(i) = world.depth(rays[i].origin + rays[i].direction * hits[i].t, rays[i].time);
+        find_ids(world, aovs, hits[i], found.ids(i));
         if (aovs.values.empty() && aovs.nearest.empty()) continue;
         FirstHit hit(world, job, samples[i], rays[i], hits[i]);
-        const std::uint32_t pixel = samples[i].pixel;
         values.clear();
         for (const FirstHitValue value : aovs.values) hit.append(value, values);
-        const std::span<double> sums = layers.sums(pixel).subspan(first, values.size());
-        for (std::size_t v = 0; v < values.size(); ++v)
-            sums[v] += static_cast<double>(samples[i].weight) * static_cast<double>(values[v]);
-        if (aovs.nearest.empty()) continue;
-        values.clear();
         for (const FirstHitValue value : aovs.nearest) hit.append(value, values);
-        layers.add_nearest(pixel, hits[i].t, values);
+        std::ranges::copy(values, found.values(i).begin());
     }
 }
 

@@ -145,7 +145,7 @@ CameraConnection BdptWave::camera_of(const SubpathJob& job, const PathVertex& ey
 }
 
 void BdptWave::on_first_hits(std::span<const Ray> rays, std::span<const Hit> hits) {
-    add_first_hits(context_->world, context_->job, samples_, rays, hits, *tile_);
+    find_first_hits(context_->world, context_->job, samples_, rays, hits, *tile_);
 }
 
 void BdptWave::add(const SubpathState& state, const Rgb& light, double fewer_from_eye, const PathLightEnd& end,

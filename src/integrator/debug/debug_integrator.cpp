@@ -40,7 +40,7 @@ void DebugIntegrator::render_tile(const World& world, const TileJob& job, Integr
         generate_camera_rays(world, job, first, std::span(s.samples).first(count), rays);
         world.intersect(rays, hits, Coherence::Coherent);
         counters.camera_rays += count;
-        add_first_hits(world, job, std::span(s.samples).first(count), rays, hits, tile);
+        find_first_hits(world, job, std::span(s.samples).first(count), rays, hits, tile);
         s.found.reset(count, job, counters.brightest.threshold());
         for (std::uint32_t i = 0; i < count; ++i) {
             s.found.count_ray(i);

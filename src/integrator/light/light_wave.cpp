@@ -18,7 +18,7 @@ void LightWave::trace(const World& world, const TileJob& job, const PathLengths&
         hits_.resize(count);
         world.intersect(camera_rays_, hits_, Coherence::Coherent);
         counters.camera_rays += count;
-        add_first_hits(world, job, samples_, camera_rays_, hits_, tile);
+        find_first_hits(world, job, samples_, camera_rays_, hits_, tile);
     }
     if (world.has_lights()) trace_subpaths(world, job, options, tile, counters);
     // No path from the light tells what the camera sees through: the image is opaque.

@@ -94,8 +94,8 @@ void PathWave::trace(const World& world, const TileJob& job, const PathOptions& 
         if (light_.counts_rays())
             for (std::size_t i = 0; i < active_; ++i) light_.count_ray(states_[i].slot);
         if (depth == 1)
-            add_first_hits(world, job, std::span(samples_).first(count), std::span(rays_).first(count),
-                           std::span(hits_).first(count), tile);
+            find_first_hits(world, job, std::span(samples_).first(count), std::span(rays_).first(count),
+                            std::span(hits_).first(count), tile);
         const Context context{world, job, options, depth};
         draw_numbers(context);
         shade(context);

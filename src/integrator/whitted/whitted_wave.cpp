@@ -80,7 +80,7 @@ void WhittedWave::trace_batch(const Context& context, TileBuffer& tile, RenderCo
     }
     context.world.intersect(rays_, hits_, are_camera_rays ? Coherence::Coherent : Coherence::Incoherent);
     // The first batch has all camera rays, in the order of their samples.
-    if (are_camera_rays) add_first_hits(context.world, context.job, samples_, rays_, hits_, tile);
+    if (are_camera_rays) find_first_hits(context.world, context.job, samples_, rays_, hits_, tile);
     light_choice_.draw(context.job.sequence, keys_, kLightChoice);
     light_triangle_.draw(context.job.sequence, keys_, kLightTriangle);
     light_direction_.draw(context.job.sequence, keys_, kLightDirection);

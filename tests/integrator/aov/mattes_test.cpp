@@ -207,6 +207,39 @@ TEST(MattesOfEmptyBackgrounds, AddUpToAlpha) {
     }
 }
 
+// A lamp so bright that what single samples find of it on the wall is more than a float holds: they are dropped, and
+// with them all that they have met.
+TEST(MattesOfDroppedSamples, AreDroppedToo) {
+    SceneDesc scene = square_scene();
+    scene.environment.enabled = false;
+    add_object(scene, right_half(-50.0f), add_material(scene, diffuse(Rgb(0.9f))));
+    add_object(scene, quad({0, 3, 0}, {4, 0, 0}, {0, 0, 4}), add_material(scene, emissive(Rgb(3e38f))));
+    RenderOptions options = box_filtered(64);
+    auto aovs = std::make_shared<AovSet>(*object_mattes(scene.instances.size()));
+    aovs->layout.values = 1;
+    aovs->values = {FirstHitValue::ObjectId};
+    aovs->layout.nearest = 1;
+    aovs->nearest = {FirstHitValue::Depth};
+    options.aovs = aovs;
+    const World world = compile(std::move(scene));
+    const ThreadPool threads;
+    for (const char* integrator : {"path", "bdpt", "direct"}) {
+        const std::atomic<bool> stop{false};
+        const RenderResult rendered = render(world, *make_integrator(integrator, {}), options, threads, stop, {});
+        EXPECT_GT(rendered.counters.dropped, 64u) << integrator;
+        EXPECT_GT(rendered.film.sample_count(), 64u) << integrator;
+        const std::vector<float> image = rendered.film.resolve();
+        const std::vector<float> ranked = rendered.film.resolve_matte(0, 1);
+        const std::vector<float> numbers = rendered.film.resolve_values(0, 1);
+        const std::vector<float> depths = rendered.film.resolve_nearest(0, 1, -1.0f);
+        for (std::size_t p = 0; p < kSide * kSide; ++p) {
+            EXPECT_NEAR(ranked[2 * p + 1], image[4 * p + 3], 1e-6f) << integrator << p;
+            EXPECT_NEAR(numbers[p], image[4 * p + 3], 1e-6f) << "the wall is object 1";
+            EXPECT_EQ(depths[p] > 0.0f, image[4 * p + 3] > 0.0f);
+        }
+    }
+}
+
 TEST(MattesOfMaterials, AreByTheMaterialOfThePrimitive) {
     SceneDesc scene = square_scene();
     std::vector<PrimitiveDesc> halves{right_half(0.0f), quad({-50, 0, -kDistance}, {50, 0, 0}, {0, 50, 0})};
