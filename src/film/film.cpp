@@ -1,5 +1,7 @@
 #include "film/film.h"
 
+#include "film/splat_bands.h"
+
 #include <algorithm>
 #include <bit>
 #include <cassert>
@@ -74,27 +76,24 @@ void Film::add_splats(std::span<const std::vector<Splat>> lists, std::uint64_t l
 
 void Film::add_deep_splats(std::span<const std::vector<Splat>> lists, const PixelFilter& filter,
                            const ThreadPool& threads) {
-    // Every thread goes through all splats for each of its bands.
-    const int bands = std::min(window_.height(), SplatFilm::kBandsPerThread * threads.thread_count());
-    threads.parallel_for(static_cast<std::size_t>(bands), [&](std::size_t band, int) {
-        const auto edge = [&](int i) { return window_.y0 + window_.height() * i / bands; };
-        const PixelRect pixels{window_.x0, edge(static_cast<int>(band)), window_.x1, edge(static_cast<int>(band) + 1)};
+    const SplatBands bands(lists, window_, filter.radius(), threads);
+    threads.parallel_for(bands.count(), [&](std::size_t band, int) {
+        const PixelRect pixels = bands.pixels(band);
         std::vector<ReachedPixel> reached_pixels;
-        for (const std::vector<Splat>& list : lists)
-            for (const Splat& splat : list) {
-                if (splat.layer != SplatFilm::kBeauty) continue;
-                find_reached_pixels(pixels, filter, splat.position, reached_pixels);
-                for (const ReachedPixel& reached : reached_pixels) {
-                    const auto part = [&](float value) {
-                        return static_cast<double>(reached.weight) * static_cast<double>(value);
-                    };
-                    layers_.deep().add(index(reached.x, reached.y), {.front = -splat.depth,
-                                                                     .back = -splat.depth,
-                                                                     .splat_r = part(splat.value.r),
-                                                                     .splat_g = part(splat.value.g),
-                                                                     .splat_b = part(splat.value.b)});
-                }
+        bands.for_each(band, [&](const Splat& splat) {
+            if (splat.layer != SplatFilm::kBeauty) return;
+            find_reached_pixels(pixels, filter, splat.position, reached_pixels);
+            for (const ReachedPixel& reached : reached_pixels) {
+                const auto part = [&](float value) {
+                    return static_cast<double>(reached.weight) * static_cast<double>(value);
+                };
+                layers_.deep().add(index(reached.x, reached.y), {.front = -splat.depth,
+                                                                 .back = -splat.depth,
+                                                                 .splat_r = part(splat.value.r),
+                                                                 .splat_g = part(splat.value.g),
+                                                                 .splat_b = part(splat.value.b)});
             }
+        });
     });
 }
 

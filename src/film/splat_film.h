@@ -53,8 +53,6 @@ class SplatFilm {
   public:
     static constexpr std::size_t kBeauty = 0;
     static constexpr std::size_t kFirstLayer = 1;
-    /// Enough that bands with more splats do not keep the others waiting long.
-    static constexpr int kBandsPerThread = 4;
 
     /// With moments it keeps the sums of the squares of what the splats of the image bring, in one more layer.
     SplatFilm(int full_width, int full_height, const PixelRect& window, const PixelFilter& filter,
