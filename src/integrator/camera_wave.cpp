@@ -90,6 +90,32 @@ void add_to_bucket(const BucketLayers& buckets, const CameraSample& sample, cons
     values[buckets.count + bucket] += 1.0;
 }
 
+/// Adds what sample `slot` of a wave has found to the layers of its pixel.
+void add_to_layers(const TileJob& job, const CameraSample& sample, std::size_t slot, const SampleLight& light,
+                   float alpha, TileBuffer& tile) {
+    LayerBuffer& layers = tile.layers();
+    const LayerLayout& layout = layers.layout();
+    const Rgb& radiance = light.radiance(slot);
+    const auto weight = static_cast<double>(sample.weight);
+    if (job.aovs != nullptr && job.aovs->needs_first_hits())
+        tile.wave_hits().add_to(layers, sample.pixel, slot, weight);
+    if (layout.is_deep) {
+        const auto part = [weight](float value) { return weight * static_cast<double>(value); };
+        layers.deep().add(sample.pixel, {.front = tile.wave_hits().depth(slot),
+                                         .back = tile.wave_hits().depth(slot),
+                                         .alpha = part(alpha),
+                                         .r = part(radiance.r),
+                                         .g = part(radiance.g),
+                                         .b = part(radiance.b)});
+    }
+    const std::span<const Rgb> parts = light.layers(slot);
+    for (std::size_t layer = 0; layer < parts.size(); ++layer)
+        layers.add_rgb(sample.pixel, 3 * layer, parts[layer], weight);
+    if (job.aovs != nullptr && job.aovs->buckets.count > 0) add_to_bucket(job.aovs->buckets, sample, radiance, layers);
+    if (layout.has_moments) layers.add_rgb(sample.pixel, layout.moment_sums(), radiance * radiance, weight);
+    if (layout.has_ray_counts) layers.sums(sample.pixel)[layout.ray_sum()] += static_cast<double>(light.rays(slot));
+}
+
 }  // namespace
 
 void generate_camera_rays(const World& world, const TileJob& job, std::size_t first, std::span<CameraSample> samples,
@@ -130,32 +156,10 @@ bool accumulate(const TileJob& job, const CameraSample& sample, const Rgb& radia
 void accumulate(const TileJob& job, std::span<const CameraSample> samples, const SampleLight& light,
                 std::span<const float> alpha, TileBuffer& tile, RenderCounters& counters) {
     offer_brightest(job, samples, light, counters);
-    LayerBuffer& layers = tile.layers();
-    const LayerLayout& layout = layers.layout();
-    const bool has_first_hits = job.aovs != nullptr && job.aovs->needs_first_hits();
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-        const CameraSample& sample = samples[i];
-        const Rgb& radiance = light.radiance(i);
-        if (!accumulate(job, sample, radiance, alpha[i], tile, counters) || layout.empty()) continue;
-        const auto weight = static_cast<double>(sample.weight);
-        if (has_first_hits) tile.wave_hits().add_to(layers, sample.pixel, i, weight);
-        if (layout.is_deep) {
-            const auto part = [weight](float value) { return weight * static_cast<double>(value); };
-            layers.deep().add(sample.pixel, {.front = tile.wave_hits().depth(i),
-                                             .back = tile.wave_hits().depth(i),
-                                             .alpha = part(alpha[i]),
-                                             .r = part(radiance.r),
-                                             .g = part(radiance.g),
-                                             .b = part(radiance.b)});
-        }
-        const std::span<const Rgb> parts = light.layers(i);
-        for (std::size_t layer = 0; layer < parts.size(); ++layer)
-            layers.add_rgb(sample.pixel, 3 * layer, parts[layer], weight);
-        if (job.aovs != nullptr && job.aovs->buckets.count > 0)
-            add_to_bucket(job.aovs->buckets, sample, radiance, layers);
-        if (layout.has_moments) layers.add_rgb(sample.pixel, layout.moment_sums(), radiance * radiance, weight);
-        if (layout.has_ray_counts) layers.sums(sample.pixel)[layout.ray_sum()] += static_cast<double>(light.rays(i));
-    }
+    const bool has_layers = !tile.layers().layout().empty();
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        if (accumulate(job, samples[i], light.radiance(i), alpha[i], tile, counters) && has_layers)
+            add_to_layers(job, samples[i], i, light, alpha[i], tile);
 }
 
 }  // namespace etendue
