@@ -260,6 +260,8 @@ TEST_F(Continuation, RefusesPartsThatDoNotBelongTogether) {
     part("corner", {"--crop", "20,0,40,20"});
     part("short", {"--crop", "20,0,40,30", "--samples", "0:8"});
     part("later", {"--samples", "10:16"});
+    part("left-first", {"--crop", "0,0,20,30", "--samples", "0:8"});
+    part("right-last", {"--crop", "20,0,40,30", "--samples", "8:16"});
     const auto refused = [&](const Arguments& parts, const std::string& why, const std::string& output = "m.exr") {
         Arguments arguments{"merge"};
         for (const std::string& name : parts) arguments.push_back(name + ".partial");
@@ -276,6 +278,13 @@ TEST_F(Continuation, RefusesPartsThatDoNotBelongTogether) {
     refused({"left", "corner"}, "no part has pixel (20, 20)");
     refused({"left", "short"}, "8 samples each in all parts together, others have 16");
     refused({"a", "later"}, "can become an image only", "m.partial");
+    // Such a part would say that all of its pixels have samples 0 to 7.
+    refused({"left-first", "right-last"}, "can become an image only", "m.partial");
+    const ProgramResult apart = run({"merge", "left-first.partial", "right-last.partial", "-o", "apart.exr"});
+    EXPECT_EQ(apart.exit_code, 0);
+    EXPECT_NE(apart.err.find("the pixels 0,0,20,30 have samples 0 to 7 and the pixels 20,0,40,30 have 8 to 15"),
+              std::string::npos)
+        << apart.err;
     const ProgramResult gap = run({"merge", "a.partial", "later.partial", "-o", "m.exr"});
     EXPECT_EQ(gap.exit_code, 0);
     EXPECT_NE(gap.err.find("note: no part has samples 8 to 9"), std::string::npos) << gap.err;
