@@ -3,6 +3,7 @@
 
 #include "core/pixel_rect.h"
 #include "render/checkpoint.h"
+#include "render/render.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -46,6 +47,18 @@ class CheckpointFiles {
     std::filesystem::path newest_;
     std::filesystem::path previous_;
 };
+
+/// Of a render of an image by itself with `options`; `every_other_pass` for an estimate of its error or for denoising.
+/// `identity` outlives it.
+[[nodiscard]] CheckpointFiles::Expected expected_image(const RenderIdentity& identity, const RenderOptions& options,
+                                                       bool every_other_pass);
+
+/// Of a render of a part, from `first_sample` on.
+[[nodiscard]] CheckpointFiles::Expected expected_part(const RenderIdentity& identity, const RenderOptions& options,
+                                                      std::uint32_t first_sample, bool every_other_pass);
+
+/// True if a render can go on with `kept`.
+[[nodiscard]] bool is_of(const Checkpoint& kept, const CheckpointFiles::Expected& expected);
 
 /// The part in `file`; none if there is none, or, with a warning unless `quiet`, if it is damaged. Throws SceneError
 /// with every difference if it is of another render than what is expected: it took somebody's time.

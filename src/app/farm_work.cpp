@@ -1,5 +1,6 @@
 #include "app/farm_work.h"
 
+#include "app/aov_setup.h"
 #include "app/farm_leftovers.h"
 #include "app/farm_needs.h"
 #include "app/input_files.h"
@@ -37,11 +38,18 @@ bool is_done(const ImageJob& job, const SettingsOverrides& overrides) {
     return !why_outdated(paths, prepared.scene, settings_hash(prepared.scene, overrides.depth));
 }
 
-RenderIdentity identity_of(const ImageJob& job, const SettingsOverrides& overrides) {
+WantedImage wanted_image(const ImageJob& job, const SettingsOverrides& overrides) {
     PreparedScene prepared = prepare_job(job, overrides);
-    const std::string working_space = resolve_colors(prepared.scene.settings, ColorConfig::from_environment());
-    hash_inputs(prepared.scene, prepared.inputs);
-    return render_identity(prepared.scene, prepared.inputs, working_space);
+    SceneDesc& scene = prepared.scene;
+    WantedImage wanted;
+    // Before names are resolved, as `render` does.
+    wanted.settings_hash = settings_hash(scene, overrides.depth);
+    const std::string working_space = resolve_colors(scene.settings, ColorConfig::from_environment());
+    hash_inputs(scene, prepared.inputs);
+    wanted.identity = render_identity(scene, prepared.inputs, working_space);
+    wanted.has_halves = make_aov_plan(scene, prepared.problems).has_halves;
+    wanted.settings = std::move(scene.settings);
+    return wanted;
 }
 
 /// What the images of one scene have in common.
@@ -101,7 +109,7 @@ class WorkFinder {
         if (!needs) needs = needs_of_scene(job);
         FarmImage image{job, task.render_output, needs->ranges, {}, needs->needs, needs->merge_needs};
         FarmLeftovers leftovers = find_leftovers(image, request_.farm.output, [&] {
-            return request_.force ? RenderIdentity() : identity_of(job, request_.overrides);
+            return request_.force ? WantedImage() : wanted_image(job, request_.overrides);
         });
         work_.useless.insert(work_.useless.end(), leftovers.useless.begin(), leftovers.useless.end());
         // Tasks leave an image alone that looks finished to them.

@@ -65,14 +65,8 @@ class SceneRender {
           progress_pipe_(request.progress_descriptor) {
         progress_pipe_.enter("load");
         report_problems();
-        options_ = make_render_options(scene_.settings);
-        if (is_partial(output_)) {
-            options_.splat_window = {0, 0, options_.full_width, options_.full_height};
-            options_.time_limit_seconds = 0.0;
-            options_.relative_error = 0.0;
-            options_.adaptive = false;
-            if (request.samples) options_.spp = request.samples->end - request.samples->begin;
-        }
+        options_ = is_partial(output_) ? make_part_options(scene_.settings, request.samples)
+                                       : make_render_options(scene_.settings);
         integrator_ = create_integrator(scene_.settings);
         aovs_ = make_aov_plan(scene_, problems_);
         report_problems();
@@ -207,15 +201,9 @@ class SceneRender {
     [[nodiscard]] std::optional<Checkpoint> read_kept() const {
         if (!request_.resume) return std::nullopt;
         progress_pipe_.enter("resume");
-        const CheckpointFiles::Expected expected{
-            .identity = identity_,
-            .window = options_.window,
-            .splat_window = options_.splat_window.empty() ? options_.window : options_.splat_window,
-            .first_sample = first_sample(),
-            .every_other_pass = keeps_every_other_pass(),
-            .adaptive = options_.adaptive,
-            // An image may have more samples than are asked for, but parts must not overlap.
-            .most_spp = is_partial(output_) ? std::optional(options_.spp) : std::nullopt};
+        const CheckpointFiles::Expected expected =
+            is_partial(output_) ? expected_part(identity_, options_, first_sample(), keeps_every_other_pass())
+                                : expected_image(identity_, options_, keeps_every_other_pass());
         std::optional<Checkpoint> kept;
         if (is_partial(output_) && !request_.force) kept = read_part(output_, expected, request_.quiet);
         if (!kept) kept = checkpoints_.read(expected, request_.quiet);
