@@ -5,6 +5,7 @@
 #include "app/interrupt.h"
 #include "app/usage_error.h"
 #include "core/error.h"
+#include "render/checkpoint.h"
 
 #include <algorithm>
 #include <array>
@@ -167,6 +168,10 @@ Attempt attempt_here(const BatchTask& task, const BatchOptions& options, const A
                                             .title = title},
                                            threads);
         if (result.outcome == ImageOutcome::Interrupted) attempt.end = AttemptEnd::Interrupted;
+    } catch (const RefusedCheckpoint& error) {
+        attempt.end = AttemptEnd::Invalid;
+        attempt.phase = "resume";
+        attempt.error = error.what();
     } catch (const SceneError& error) {
         attempt.end = AttemptEnd::Invalid;
         attempt.error = error.what();

@@ -51,11 +51,11 @@ std::string why_refused(const Checkpoint& kept, const CheckpointFiles::Expected&
     return {};
 }
 
-/// Throws SceneError if `kept`, which stands in `path`, is not of what is expected.
+/// Throws RefusedCheckpoint if `kept`, which stands in `path`, is not of what is expected.
 void require_expected(const Checkpoint& kept, const CheckpointFiles::Expected& expected,
                       const std::filesystem::path& path, const char* what, const char* without) {
     const std::string why = why_refused(kept, expected, what, without);
-    if (!why.empty()) throw SceneError({path.string(), {}}, why);
+    if (!why.empty()) throw RefusedCheckpoint({path.string(), {}}, why);
 }
 
 /// Drops what is not needed.
@@ -117,8 +117,8 @@ std::optional<Checkpoint> CheckpointFiles::read(const Expected& expected, bool q
         return kept;
     }
     if (damage)
-        throw SceneError({},
-                         fmt::format("{}; no other checkpoint is left: start anew without --resume", damage->what()));
+        throw RefusedCheckpoint(
+            {}, fmt::format("{}; no other checkpoint is left: start anew without --resume", damage->what()));
     return std::nullopt;
 }
 

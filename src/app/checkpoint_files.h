@@ -34,8 +34,8 @@ class CheckpointFiles {
     void write(const RenderIdentity& identity, const std::string& description, const RenderState& state) const;
 
     /// The newest that is whole; none if there is no file. Warns of damaged ones, unless `quiet`, and replaces the
-    /// newest by the previous one if only that is whole. Throws IoError if all are damaged or that cannot be done,
-    /// SceneError with every difference if the checkpoint is of another render than what is expected.
+    /// newest by the previous one if only that is whole. Throws IoError if that cannot be done, RefusedCheckpoint if
+    /// all are damaged, or with every difference if the checkpoint is of another render than what is expected.
     [[nodiscard]] std::optional<Checkpoint> read(const Expected& expected, bool quiet) const;
 
     /// True if there is one.
@@ -60,8 +60,8 @@ class CheckpointFiles {
 /// True if a render can go on with `kept`.
 [[nodiscard]] bool is_of(const Checkpoint& kept, const CheckpointFiles::Expected& expected);
 
-/// The part in `file`; none if there is none, or, with a warning unless `quiet`, if it is damaged. Throws SceneError
-/// with every difference if it is of another render than what is expected: it took somebody's time.
+/// The part in `file`; none if there is none, or, with a warning unless `quiet`, if it is damaged. Throws
+/// RefusedCheckpoint with every difference if it is of another render than what is expected: it took somebody's time.
 [[nodiscard]] std::optional<Checkpoint> read_part(const std::filesystem::path& file,
                                                   const CheckpointFiles::Expected& expected, bool quiet);
 

@@ -41,6 +41,13 @@ class DamagedCheckpoint : public IoError {
     using IoError::IoError;
 };
 
+/// A checkpoint or part that is nothing to go on with, and what to do about it: others of the scene's images may be
+/// rendered all the same.
+class RefusedCheckpoint : public SceneError {
+  public:
+    using SceneError::SceneError;
+};
+
 /// Throws IoError if the file cannot be read, DamagedCheckpoint if it is damaged: it is never believed in part. Sizes
 /// that its bytes claim are checked before memory is taken for them, and that windows, counts and tiles belong
 /// together.
