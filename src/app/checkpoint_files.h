@@ -35,7 +35,8 @@ class CheckpointFiles {
 
     /// The newest that is whole; none if there is no file. Warns of damaged ones, unless `quiet`, and replaces the
     /// newest by the previous one if only that is whole. Throws IoError if that cannot be done, RefusedCheckpoint if
-    /// all are damaged, or with every difference if the checkpoint is of another render than what is expected.
+    /// all are damaged, or with every difference if the checkpoint is of another format or render than what is
+    /// expected.
     [[nodiscard]] std::optional<Checkpoint> read(const Expected& expected, bool quiet) const;
 
     /// True if there is one.

@@ -35,6 +35,8 @@ class LeftoverJudge {
         return true;
     } catch (const IoError&) {
         return false;  // damaged: as good as none
+    } catch (const RefusedCheckpoint&) {
+        return false;  // of another format
     }
 
   private:

@@ -1,4 +1,5 @@
 // Renders that are stopped and gone on with, and parts that are merged, from outside.
+#include "app/run_command.h"
 #include "app/run_program.h"
 #include "app/small_files.h"
 #include "render/checkpoint.h"
@@ -307,6 +308,29 @@ TEST_F(Continuation, RefusesTheCheckpointOfAnotherVersionAndSaysSo) {
     EXPECT_EQ(refused.exit_code, 3);
     EXPECT_NE(refused.err.find("program: 'etendue 0.0.1' there, '" + version + "' here"), std::string::npos)
         << refused.err;
+}
+
+/// As after a change of its code: a copy of the program has another build ID.
+TEST_F(Continuation, RefusesTheCheckpointOfAnotherBuildAndSaysSo) {
+    ASSERT_EQ(interrupt(render(1000000, "a.exr"), 60).exit_code, 130);
+    const std::string program = read_checkpoint(work_ / "a.checkpoint").identity.at("program");
+    const std::string digits = program.substr(program.rfind(' ') + 1);
+    ASSERT_EQ(digits.size(), 16u) << program;
+    std::string id;
+    for (std::size_t i = 0; i < digits.size(); i += 2)
+        id += static_cast<char>(std::stoi(digits.substr(i, 2), nullptr, 16));
+    std::string code = read_file(ETENDUE_PROGRAM);
+    const std::size_t place = code.find(id);
+    ASSERT_NE(place, std::string::npos);
+    code[place] = static_cast<char>(code[place] ^ 1);
+    const fs::path other = folder_ / "etendue";
+    write_file(other, code);
+    fs::permissions(other, fs::perms::owner_exec, fs::perm_options::add);
+    Arguments again = render(1000000, (work_ / "a.exr").string(), {"--resume", "--quiet"});
+    again.insert(again.begin(), other.string());
+    const CommandResult refused = run_command(again);
+    EXPECT_EQ(refused.exit_code, 3);
+    EXPECT_NE(refused.err.find("program: '" + program + "' there, '"), std::string::npos) << refused.err;
 }
 
 TEST_F(Continuation, GoesOnWithASceneThatWasMoved) {
