@@ -11,6 +11,7 @@
 #include "app/render_setup.h"
 #include "app/up_to_date.h"
 #include "color/color_config.h"
+#include "core/byte_size.h"
 #include "core/error.h"
 #include "core/log.h"
 
@@ -38,12 +39,13 @@ bool is_done(const ImageJob& job, const SettingsOverrides& overrides) {
     return !why_outdated(paths, prepared.scene, settings_hash(prepared.scene, overrides.depth));
 }
 
-WantedImage wanted_image(const ImageJob& job, const SettingsOverrides& overrides) {
+WantedImage wanted_image(const ImageJob& job, const SettingsOverrides& overrides, const std::string& texture_memory) {
     PreparedScene prepared = prepare_job(job, overrides);
     SceneDesc& scene = prepared.scene;
     WantedImage wanted;
     // Before names are resolved, as `render` does.
     wanted.settings_hash = settings_hash(scene, overrides.depth);
+    if (!scene.settings.texture_memory) scene.settings.texture_memory = parse_byte_size(texture_memory);
     const std::string working_space = resolve_colors(scene.settings, ColorConfig::from_environment());
     hash_inputs(scene, prepared.inputs);
     wanted.identity = render_identity(scene, prepared.inputs, working_space);
@@ -57,6 +59,7 @@ struct SceneNeeds {
     std::vector<SampleRange> ranges;
     TaskNeeds needs;
     TaskNeeds merge_needs;
+    std::string texture_memory;
 };
 
 class WorkFinder {
@@ -107,9 +110,10 @@ class WorkFinder {
             return;
         }
         if (!needs) needs = needs_of_scene(job);
-        FarmImage image{job, task.render_output, needs->ranges, {}, needs->needs, needs->merge_needs};
+        FarmImage image{job,          task.render_output, needs->ranges,        {},
+                        needs->needs, needs->merge_needs, needs->texture_memory};
         FarmLeftovers leftovers = find_leftovers(image, request_.farm.output, [&] {
-            return request_.force ? WantedImage() : wanted_image(job, request_.overrides);
+            return request_.force ? WantedImage() : wanted_image(job, request_.overrides, request_.texture_memory);
         });
         work_.useless.insert(work_.useless.end(), leftovers.useless.begin(), leftovers.useless.end());
         // Tasks leave an image alone that looks finished to them.
@@ -122,6 +126,7 @@ class WorkFinder {
         const PreparedScene prepared = prepare_job(first, request_.overrides);
         const RenderSettings& settings = prepared.scene.settings;
         SceneNeeds scene;
+        if (!settings.texture_memory) scene.texture_memory = request_.texture_memory;
         if (request_.parts > 1) {
             if (settings.time_limit > 0.0)
                 throw SceneError(settings.at("/time"), "a limit of time cannot be split; leave out --split-samples");

@@ -2,6 +2,7 @@
 #include "app/fake_slurm.h"
 #include "app/run_program.h"
 #include "app/small_files.h"
+#include "core/byte_size.h"
 
 #include <csignal>
 #include <filesystem>
@@ -133,6 +134,24 @@ TEST_F(Submit, TheProgramIsFoundFromWhereTasksRun) {
     own.insert(own.end(), {"--force"});
     const std::string found = read_file(fs::path(submitted(own)["directory"].get<std::string>()) / "render-0.tasks");
     EXPECT_TRUE(found.starts_with("exec 'etendue-2' render")) << "in PATH: " << found;
+}
+
+/// Nodes of different memory would hold textures in different ways, and their parts could not be merged.
+TEST_F(Submit, AllTasksGetTheSameMemoryForTextures) {
+    scene("a");
+    scene("b", R"("texture_memory": "64M",)");
+    const auto lines = [](const json& report) {
+        return read_file(fs::path(report["directory"].get<std::string>()) / "render-0.tasks");
+    };
+    const std::string own = lines(submitted(small_));
+    const std::string option = "--texture-memory '" + to_byte_size(physical_memory() / 2) + "'";
+    const std::size_t place = own.find(option);
+    EXPECT_NE(place, std::string::npos) << own;
+    EXPECT_EQ(own.find("--texture-memory", place + option.size()), std::string::npos) << "the scene b says: " << own;
+    std::vector<std::string> given = small_;
+    given.insert(given.end(), {"--texture-memory", "3G"});
+    const std::string asked = lines(submitted(given));
+    EXPECT_EQ(asked.find(option), std::string::npos) << asked;
 }
 
 TEST_F(Submit, FramesAreImagesOfTheirOwn) {
