@@ -99,6 +99,7 @@ void CheckpointFiles::write(const RenderIdentity& identity, const std::string& d
 
 std::optional<Checkpoint> CheckpointFiles::read(const Expected& expected, bool quiet) const {
     std::optional<DamagedCheckpoint> damage;
+    std::optional<IoError> unreadable;
     for (const std::filesystem::path& path : {newest_, previous_}) {
         std::error_code error;
         if (!std::filesystem::exists(path, error)) continue;
@@ -109,13 +110,20 @@ std::optional<Checkpoint> CheckpointFiles::read(const Expected& expected, bool q
             if (!quiet) log_warning("warning: {}", broken.what());
             damage = broken;
             continue;
+        } catch (const IoError& failure) {
+            if (!quiet) log_warning("warning: {}", failure.what());
+            unreadable = failure;
+            continue;
         }
         require_expected(*kept, expected, path, "checkpoint", "start anew without --resume");
         // Else the damaged one would become the previous one, in place of this.
         if (damage) rename_file(path, newest_);
+        // What cannot be read may not be replaced either, and that is no reason to do without both.
+        if (unreadable) std::filesystem::rename(path, newest_, error);
         simplify(kept->state, expected);
         return kept;
     }
+    if (unreadable) throw IoError(*unreadable);
     if (damage)
         throw RefusedCheckpoint(
             {}, fmt::format("{}; no other checkpoint is left: start anew without --resume", damage->what()));

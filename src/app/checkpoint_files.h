@@ -33,8 +33,9 @@ class CheckpointFiles {
     /// IoError.
     void write(const RenderIdentity& identity, const std::string& description, const RenderState& state) const;
 
-    /// The newest that is whole; none if there is no file. Warns of damaged ones, unless `quiet`, and replaces the
-    /// newest by the previous one if only that is whole. Throws IoError if that cannot be done, RefusedCheckpoint if
+    /// The newest that is whole; none if there is no file. Warns of those that are damaged or cannot be read, unless
+    /// `quiet`, and replaces the newest by the previous one if only that is whole. Throws IoError if a damaged one
+    /// cannot be replaced, or if one cannot be read and there is no other, RefusedCheckpoint if
     /// all are damaged, or with every difference if the checkpoint is of another format or render than what is
     /// expected.
     [[nodiscard]] std::optional<Checkpoint> read(const Expected& expected, bool quiet) const;
