@@ -297,6 +297,19 @@ TEST_F(Batch, AnInvalidSceneIsTriedOnceAndTheOthersAreRendered) {
     EXPECT_NE(result.out.find("camera_"), std::string::npos) << result.out;
 }
 
+TEST_F(Batch, TheOtherImagesOfAnInvalidSceneAreSaidNotToBeTried) {
+    add_scene("a", R"("camera_": 3,)");
+    EXPECT_EQ(run({"--frames", "1:3"}).exit_code, 1);
+    EXPECT_EQ(count("unit failed"), (std::map<std::string, int>{{"a.0001", 1}}));
+    EXPECT_EQ(count("unit not tried"), (std::map<std::string, int>{{"a.0002", 1}, {"a.0003", 1}}));
+    const json end = events("batch finished").front();
+    EXPECT_EQ(end["units"], 3);
+    EXPECT_EQ(end["failed"], 1);
+    EXPECT_EQ(end["not_tried"], 2);
+    const json plan = json::parse(run({"--frames", "1:3", "--dry-run", "--json"}).out);
+    EXPECT_EQ(plan["units"][1]["reason"], "was not tried last time, as its scene was invalid");
+}
+
 TEST_F(Batch, InputThatVanishesOrCannotBeDecodedFailsItsImageOnly) {
     add_slow_scene("a-slow", 1.5);
     add_scene("b-undecodable");
