@@ -48,7 +48,8 @@ struct AttemptCallbacks {
 [[nodiscard]] Attempt attempt_in_child(const BatchTask& task, const BatchOptions& options, const AttemptOptions& how,
                                        const AttemptCallbacks& callbacks);
 
-/// Renders it here. `title` stands before the progress bar; `keep_alive` is called from a thread of its own.
+/// Renders it here. `title` stands before the progress bar; `keep_alive` is called from a thread of its own;
+/// once it is false, rendering ends soon, and nothing is written any more.
 [[nodiscard]] Attempt attempt_here(const BatchTask& task, const BatchOptions& options, const AttemptOptions& how,
                                    const std::string& title, const std::function<bool()>& keep_alive,
                                    const ThreadPool& threads);

@@ -94,6 +94,7 @@ class SceneRender {
         find_brightest_paths(world, *integrator_, options_, rendered);
         report_dropped(rendered.counters, request_.scene, request_.overrides, settings_, settings_.color.working_space);
         fill_texture_statistics(world, description_.statistics);
+        require_not_lost();
         const bool interrupted = rendered.halt_reason == HaltReason::Interrupted;
         if (interrupted && rendered.counters.samples > 0) {
             const bool is_kept = write_checkpoint(rendered);
@@ -114,6 +115,12 @@ class SceneRender {
     }
 
     [[nodiscard]] bool is_deep() const { return aovs_.set && aovs_.set->layout.is_deep; }
+
+    [[nodiscard]] bool is_lost() const { return request_.is_lost != nullptr && *request_.is_lost; }
+
+    void require_not_lost() const {
+        if (is_lost()) throw LostRender();
+    }
 
     void report_problems() {
         for (; reported_ < problems_.all().size(); ++reported_)
@@ -246,8 +253,9 @@ class SceneRender {
             return request_.checkpoint_minutes > 0.0 &&
                    since_checkpoint.elapsed().wall >= request_.checkpoint_minutes * 60.0;
         };
-        const RenderPause pause{[&] { return preview_requested() || checkpoint_is_due(); },
+        const RenderPause pause{[&] { return preview_requested() || checkpoint_is_due() || is_lost(); },
                                 [&](const RenderState& now) {
+                                    require_not_lost();
                                     if (preview_requested()) write_preview(now);
                                     if (!checkpoint_is_due()) return;
                                     write_checkpoint(now);
