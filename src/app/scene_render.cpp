@@ -84,8 +84,7 @@ class SceneRender {
 
     SceneRenderResult run() {
         std::optional<Checkpoint> kept = read_kept();
-        if (kept && is_partial(output_) && kept->state.pass_size == 0 && kept->state.spp_done == options_.spp)
-            return finished_part(*kept);
+        if (kept && is_finished_part(*kept)) return finished_part(*kept);
         if (kept && !request_.quiet)
             log_info("{}: going on after {} of {} samples per pixel", output_.string(), kept->state.spp_done,
                      options_.spp);
@@ -215,6 +214,14 @@ class SceneRender {
         if (is_partial(output_) && !request_.force) kept = read_part(output_, expected, request_.quiet);
         if (!kept) kept = checkpoints_.read(expected, request_.quiet);
         return kept;
+    }
+
+    /// One that was to be shown otherwise has all samples but is written again: its merged image would be shown so,
+    /// too.
+    [[nodiscard]] bool is_finished_part(const Checkpoint& kept) const {
+        return is_partial(output_) && kept.state.pass_size == 0 && kept.state.spp_done == options_.spp &&
+               parse_description(kept.description, output_).statistics.settings_hash ==
+                   description_.statistics.settings_hash;
     }
 
     /// Of a part that needs nothing to be done.

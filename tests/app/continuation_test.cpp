@@ -356,6 +356,20 @@ TEST_F(Continuation, FewerSamplesThanThereAreEndWithWholePasses) {
     EXPECT_EQ(difference("a.exr", "whole.exr"), 0.0);
 }
 
+TEST_F(Continuation, AFinishedPartIsSaidToBeShownAsItIsAskedForNow) {
+    ASSERT_EQ(run(render(16, "a.partial", {"--samples", "0:16", "--quiet"})).exit_code, 0);
+    const Checkpoint before = read_checkpoint(work_ / "a.partial");
+    const Arguments bright = render(16, "a.partial", {"--samples", "0:16", "--exposure", "4", "--resume", "--quiet"});
+    ASSERT_EQ(run(bright).exit_code, 0);
+    const Checkpoint after = read_checkpoint(work_ / "a.partial");
+    EXPECT_EQ(json::parse(after.description)["frame"]["exposure"], 4.0);
+    EXPECT_EQ(after.state.film.resolve(), before.state.film.resolve());
+    EXPECT_EQ(after.state.counters.samples, before.state.counters.samples) << "none was rendered again";
+    const auto written = fs::last_write_time(work_ / "a.partial");
+    ASSERT_EQ(run(bright).exit_code, 0);
+    EXPECT_EQ(fs::last_write_time(work_ / "a.partial"), written) << "it is left alone";
+}
+
 TEST_F(Continuation, DoesNotReplaceAPartOfAnotherRenderUnlessForced) {
     const Arguments eight{"--samples", "0:8", "--resume", "--quiet"};
     ASSERT_EQ(run(render(16, "a.partial", eight)).exit_code, 0);
