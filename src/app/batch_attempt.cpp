@@ -5,9 +5,11 @@
 #include "app/interrupt.h"
 #include "app/usage_error.h"
 #include "core/error.h"
+#include "render/checkpoint.h"
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <csignal>
@@ -155,7 +157,10 @@ Attempt attempt_in_child(const BatchTask& task, const BatchOptions& options, con
 Attempt attempt_here(const BatchTask& task, const BatchOptions& options, const AttemptOptions& how,
                      const std::string& title, const std::function<bool()>& keep_alive, const ThreadPool& threads) {
     Attempt attempt{.end = AttemptEnd::Done};
-    const Repeater heart([&keep_alive] { static_cast<void>(keep_alive()); });
+    std::atomic<bool> is_lost = false;
+    const Repeater heart([&] {
+        if (!is_lost && !keep_alive()) is_lost = true;
+    });
     try {
         const ImageResult result = run_job(task.job,
                                            {.overrides = options.overrides,
@@ -164,9 +169,16 @@ Attempt attempt_here(const BatchTask& task, const BatchOptions& options, const A
                                             .make_directories = true,
                                             .checkpoint_minutes = options.checkpoint_minutes,
                                             .resume = how.resume,
-                                            .title = title},
+                                            .title = title,
+                                            .is_lost = &is_lost},
                                            threads);
         if (result.outcome == ImageOutcome::Interrupted) attempt.end = AttemptEnd::Interrupted;
+    } catch (const LostRender&) {
+        attempt.end = AttemptEnd::LockLost;
+    } catch (const RefusedCheckpoint& error) {
+        attempt.end = AttemptEnd::Invalid;
+        attempt.phase = "resume";
+        attempt.error = error.what();
     } catch (const SceneError& error) {
         attempt.end = AttemptEnd::Invalid;
         attempt.error = error.what();

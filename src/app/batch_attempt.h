@@ -29,7 +29,7 @@ struct Attempt {
     std::string error{};             ///< unless it is done or interrupted; any number of lines
     bool was_said = false;           ///< `error` is what its process had said, and `on_message` was told
     std::vector<std::string> log{};  ///< the last lines of its process, oldest first
-    std::string phase{};             ///< the last that its process told of
+    std::string phase{};  ///< the last that its process told of; here, only "resume" if the checkpoint was refused
 };
 
 struct AttemptOptions {
@@ -48,7 +48,8 @@ struct AttemptCallbacks {
 [[nodiscard]] Attempt attempt_in_child(const BatchTask& task, const BatchOptions& options, const AttemptOptions& how,
                                        const AttemptCallbacks& callbacks);
 
-/// Renders it here. `title` stands before the progress bar; `keep_alive` is called from a thread of its own.
+/// Renders it here. `title` stands before the progress bar; `keep_alive` is called from a thread of its own;
+/// once it is false, rendering ends soon, and nothing is written any more.
 [[nodiscard]] Attempt attempt_here(const BatchTask& task, const BatchOptions& options, const AttemptOptions& how,
                                    const std::string& title, const std::function<bool()>& keep_alive,
                                    const ThreadPool& threads);

@@ -25,9 +25,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::array<LedgerEventKind, 6> kKinds{LedgerEventKind::BatchStarted, LedgerEventKind::BatchFinished,
+constexpr std::array<LedgerEventKind, 7> kKinds{LedgerEventKind::BatchStarted, LedgerEventKind::BatchFinished,
                                                 LedgerEventKind::UnitStarted,  LedgerEventKind::UnitFinished,
-                                                LedgerEventKind::UnitFailed,   LedgerEventKind::UnitInterrupted};
+                                                LedgerEventKind::UnitFailed,   LedgerEventKind::UnitInterrupted,
+                                                LedgerEventKind::UnitNotTried};
 
 [[noreturn]] void throw_errno(const std::filesystem::path& path, int error) {
     throw IoError(fmt::format("cannot append to {}: {}", path.string(), std::generic_category().message(error)));
@@ -54,6 +55,7 @@ std::string to_line(const LedgerEvent& event) {
     if (event.kind == LedgerEventKind::BatchFinished) {
         json["rendered"] = event.rendered;
         json["failed"] = event.failed;
+        json["not_tried"] = event.not_tried;
     }
     return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -80,6 +82,8 @@ const char* event_name(LedgerEventKind kind) {
             return "unit failed";
         case LedgerEventKind::UnitInterrupted:
             return "unit interrupted";
+        case LedgerEventKind::UnitNotTried:
+            return "unit not tried";
     }
     return "?";
 }

@@ -12,7 +12,15 @@
 
 namespace etendue {
 
-enum class LedgerEventKind { BatchStarted, BatchFinished, UnitStarted, UnitFinished, UnitFailed, UnitInterrupted };
+enum class LedgerEventKind {
+    BatchStarted,
+    BatchFinished,
+    UnitStarted,
+    UnitFinished,
+    UnitFailed,
+    UnitInterrupted,
+    UnitNotTried
+};
 
 [[nodiscard]] const char* event_name(LedgerEventKind kind);
 
@@ -32,6 +40,7 @@ struct LedgerEvent {
     std::optional<std::size_t> units{};  ///< of a batch: all, and at its end those that
     std::size_t rendered = 0;            ///< it rendered
     std::size_t failed = 0;              ///< failed
+    std::size_t not_tried = 0;           ///< were not tried, since their scene is invalid
 };
 
 /// "2026-11-22T14:03:07.123Z": now, in UTC.

@@ -20,6 +20,8 @@ void describe_unfinished(PlannedUnit& unit, const Staleness& stale, const Ledger
     const LedgerHistory::Entry* const last = history.find(unit.task.id);
     unit.reason = stale.reason;
     if (last != nullptr && last->kind == LedgerEventKind::UnitFailed) unit.reason = "failed last time";
+    if (last != nullptr && last->kind == LedgerEventKind::UnitNotTried)
+        unit.reason = "was not tried last time, as its scene was invalid";
     if (!CheckpointFiles(unit.task.job.output).exist()) return;
     if (unit.reason == "never rendered") unit.reason = "was interrupted";
     unit.reason += ", goes on from a checkpoint";

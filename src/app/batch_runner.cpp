@@ -104,7 +104,8 @@ void BatchRunner::run() {
                    .seconds = seconds_since(start_),
                    .units = plan_.size(),
                    .rendered = totals(report_).rendered,
-                   .failed = failed_});
+                   .failed = failed_,
+                   .not_tried = not_tried_});
     write_reports(true);
     tidy();
 }
@@ -131,8 +132,7 @@ bool BatchRunner::work_on(std::size_t index) {
     bool is_over = true;
     try {
         if (invalid_scenes_.contains(planned.task.job.scene)) {
-            unit.outcome = UnitOutcome::NotStarted;
-            unit.error = "not tried: another image of the scene has shown that it is invalid";
+            give_up(index);
         } else if (LockAttempt got = locks_.take(planned.task.id); got.lock) {
             is_over = work_under(*got.lock, index);
         } else {
@@ -272,6 +272,17 @@ void BatchRunner::begin_record(std::size_t index, const BatchLock& lock) {
                    .attempt = report_.units[index].attempts,
                    .reason = planned.reason,
                    .taken_over_from = lock.dead_owner() ? lock.dead_owner()->str() : ""});
+}
+
+void BatchRunner::give_up(std::size_t index) {
+    BatchUnit& unit = report_.units[index];
+    unit.outcome = UnitOutcome::NotStarted;
+    unit.error = "not tried: another image of the scene has shown that it is invalid";
+    ++not_tried_;
+    books_.append({.kind = LedgerEventKind::UnitNotTried,
+                   .unit = plan_[index].task.id,
+                   .scene = unit.scene,
+                   .error = unit.error});
 }
 
 void BatchRunner::end_record(std::size_t index, const Attempt& result, double seconds, bool again) {

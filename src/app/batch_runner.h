@@ -49,6 +49,8 @@ class BatchRunner {
     /// What was said before is not said again.
     [[nodiscard]] std::string failure_in_words(const Attempt& attempt) const;
     void begin_record(std::size_t index, const BatchLock& lock);
+    /// Of an image whose scene is invalid, as another one has shown.
+    void give_up(std::size_t index);
     void end_record(std::size_t index, const Attempt& attempt, double seconds, bool again);
     void finish(std::size_t index, const Attempt& attempt, double seconds);
 
@@ -71,6 +73,7 @@ class BatchRunner {
     std::size_t stale_ = 0;
     std::size_t done_ = 0;  ///< of the stale ones
     std::size_t failed_ = 0;
+    std::size_t not_tried_ = 0;
     bool has_waited_ = false;
 };
 

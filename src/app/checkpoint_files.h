@@ -3,6 +3,7 @@
 
 #include "core/pixel_rect.h"
 #include "render/checkpoint.h"
+#include "render/render.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -32,9 +33,11 @@ class CheckpointFiles {
     /// IoError.
     void write(const RenderIdentity& identity, const std::string& description, const RenderState& state) const;
 
-    /// The newest that is whole; none if there is no file. Warns of damaged ones, unless `quiet`, and replaces the
-    /// newest by the previous one if only that is whole. Throws IoError if all are damaged or that cannot be done,
-    /// SceneError with every difference if the checkpoint is of another render than what is expected.
+    /// The newest that is whole; none if there is no file. Warns of those that are damaged or cannot be read, unless
+    /// `quiet`, and replaces the newest by the previous one if only that is whole. Throws IoError if a damaged one
+    /// cannot be replaced, or if one cannot be read and there is no other, RefusedCheckpoint if
+    /// all are damaged, or with every difference if the checkpoint is of another format or render than what is
+    /// expected.
     [[nodiscard]] std::optional<Checkpoint> read(const Expected& expected, bool quiet) const;
 
     /// True if there is one.
@@ -47,8 +50,20 @@ class CheckpointFiles {
     std::filesystem::path previous_;
 };
 
-/// The part in `file`; none if there is none, or, with a warning unless `quiet`, if it is damaged. Throws SceneError
-/// with every difference if it is of another render than what is expected: it took somebody's time.
+/// Of a render of an image by itself with `options`; `every_other_pass` for an estimate of its error or for denoising.
+/// `identity` outlives it.
+[[nodiscard]] CheckpointFiles::Expected expected_image(const RenderIdentity& identity, const RenderOptions& options,
+                                                       bool every_other_pass);
+
+/// Of a render of a part, from `first_sample` on.
+[[nodiscard]] CheckpointFiles::Expected expected_part(const RenderIdentity& identity, const RenderOptions& options,
+                                                      std::uint32_t first_sample, bool every_other_pass);
+
+/// True if a render can go on with `kept`.
+[[nodiscard]] bool is_of(const Checkpoint& kept, const CheckpointFiles::Expected& expected);
+
+/// The part in `file`; none if there is none, or, with a warning unless `quiet`, if it is damaged. Throws
+/// RefusedCheckpoint with every difference if it is of another render than what is expected: it took somebody's time.
 [[nodiscard]] std::optional<Checkpoint> read_part(const std::filesystem::path& file,
                                                   const CheckpointFiles::Expected& expected, bool quiet);
 

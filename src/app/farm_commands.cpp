@@ -22,6 +22,7 @@ std::string render_command(const FarmImage& image, const std::filesystem::path& 
     words.push_back({"--checkpoint-every", fmt::format("{}", options.checkpoint_minutes)});
     words.push_back({"--threads", fmt::format("{}", options.threads)});
     words.push_back({"--quiet", std::nullopt});
+    if (!image.texture_memory.empty()) words.push_back({"--texture-memory", image.texture_memory});
     words.insert(words.end(), options.options.begin(), options.options.end());
     return command_line(fmt::format("exec {} render", quoted(options.program.string())), words);
 }

@@ -1,9 +1,11 @@
 #include "app/farm_leftovers.h"
 
+#include "app/checkpoint_files.h"
+#include "app/image_description.h"
+#include "app/render_setup.h"
 #include "core/error.h"
 
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <system_error>
 
@@ -13,21 +15,50 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The samples in a file, if it is whole and of the render that is wanted.
-std::optional<SampleRange> samples_in(const fs::path& file, const RenderIdentity& identity) {
-    try {
+/// What is there of an image, as far as it is of use.
+class LeftoverJudge {
+  public:
+    LeftoverJudge(const FarmImage& image, const fs::path& folder, const WantedImage& wanted)
+        : image_(image), folder_(folder), wanted_(wanted) {}
+
+    /// True if a task goes on with the file, or needs not.
+    bool is_useful(const fs::path& file, std::vector<SampleRange>& missing) const try {
         const Checkpoint kept = read_checkpoint(file);
-        if (!difference(kept.identity, identity).empty()) return std::nullopt;
-        return SampleRange{kept.state.first_sample, kept.state.next_sample()};
+        if (file.parent_path() != folder_) return image_.ranges.empty() && is_of_image(kept);
+        const auto range = std::ranges::find(image_.ranges, kept.state.first_sample, &SampleRange::begin);
+        if (range == image_.ranges.end() || !is_of_part(kept, *range)) return false;
+        const bool is_finished =
+            file == part_file(folder_, image_.job, *range) && kept.state.next_sample() == range->end;
+        if (!is_finished) return true;
+        if (parse_description(kept.description, file).statistics.settings_hash != wanted_.settings_hash) return false;
+        std::erase(missing, *range);
+        return true;
     } catch (const IoError&) {
-        return std::nullopt;  // damaged: as good as none
+        return false;  // damaged: as good as none
+    } catch (const RefusedCheckpoint&) {
+        return false;  // of another format
     }
-}
+
+  private:
+    [[nodiscard]] bool is_of_image(const Checkpoint& kept) const {
+        const RenderOptions options = make_render_options(wanted_.settings);
+        return is_of(kept,
+                     expected_image(wanted_.identity, options, options.relative_error > 0.0 || wanted_.has_halves));
+    }
+    [[nodiscard]] bool is_of_part(const Checkpoint& kept, const SampleRange& range) const {
+        const RenderOptions options = make_part_options(wanted_.settings, range);
+        return is_of(kept, expected_part(wanted_.identity, options, range.begin, wanted_.has_halves));
+    }
+
+    const FarmImage& image_;
+    const fs::path& folder_;
+    const WantedImage& wanted_;
+};
 
 }  // namespace
 
 FarmLeftovers find_leftovers(const FarmImage& image, const fs::path& output,
-                             const std::function<RenderIdentity()>& identity) {
+                             const std::function<WantedImage()>& wanted) {
     const fs::path folder = parts_folder(output, image.job.output);
     std::vector<fs::path> files;
     std::error_code none;
@@ -40,18 +71,10 @@ FarmLeftovers find_leftovers(const FarmImage& image, const fs::path& output,
 
     FarmLeftovers leftovers{image.ranges, {}};
     if (files.empty()) return leftovers;
-    const RenderIdentity wanted = identity();
-    for (const fs::path& file : files) {
-        const std::optional<SampleRange> samples = samples_in(file, wanted);
-        const bool is_part = file.parent_path() == folder;
-        const auto range = std::ranges::find_if(image.ranges, [&](const SampleRange& r) {
-            return samples && samples->begin == r.begin && samples->end <= r.end;
-        });
-        const bool fits = is_part ? range != image.ranges.end() : samples && image.ranges.empty();
-        if (!fits) leftovers.useless.push_back(file);
-        if (fits && is_part && file == part_file(folder, image.job, *range) && samples->end == range->end)
-            std::erase(leftovers.missing, *range);
-    }
+    const WantedImage it = wanted();
+    const LeftoverJudge judge(image, folder, it);
+    for (const fs::path& file : files)
+        if (!judge.is_useful(file, leftovers.missing)) leftovers.useless.push_back(file);
     return leftovers;
 }
 

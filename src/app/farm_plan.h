@@ -34,6 +34,7 @@ struct FarmImage {
     std::vector<SampleRange> missing;     ///< of the parts that are not there yet
     TaskNeeds needs;                      ///< of each of its tasks that render
     TaskNeeds merge_needs{};              ///< of the one that merges its parts
+    std::string texture_memory{};         ///< --texture-memory of its renders; empty if the scene or the options say
 };
 
 struct FarmOptions {

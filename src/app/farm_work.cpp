@@ -1,5 +1,6 @@
 #include "app/farm_work.h"
 
+#include "app/aov_setup.h"
 #include "app/farm_leftovers.h"
 #include "app/farm_needs.h"
 #include "app/input_files.h"
@@ -10,6 +11,7 @@
 #include "app/render_setup.h"
 #include "app/up_to_date.h"
 #include "color/color_config.h"
+#include "core/byte_size.h"
 #include "core/error.h"
 #include "core/log.h"
 
@@ -37,11 +39,19 @@ bool is_done(const ImageJob& job, const SettingsOverrides& overrides) {
     return !why_outdated(paths, prepared.scene, settings_hash(prepared.scene, overrides.depth));
 }
 
-RenderIdentity identity_of(const ImageJob& job, const SettingsOverrides& overrides) {
+WantedImage wanted_image(const ImageJob& job, const SettingsOverrides& overrides, const std::string& texture_memory) {
     PreparedScene prepared = prepare_job(job, overrides);
-    const std::string working_space = resolve_colors(prepared.scene.settings, ColorConfig::from_environment());
-    hash_inputs(prepared.scene, prepared.inputs);
-    return render_identity(prepared.scene, prepared.inputs, working_space);
+    SceneDesc& scene = prepared.scene;
+    WantedImage wanted;
+    // Before names are resolved, as `render` does.
+    wanted.settings_hash = settings_hash(scene, overrides.depth);
+    if (!scene.settings.texture_memory) scene.settings.texture_memory = parse_byte_size(texture_memory);
+    const std::string working_space = resolve_colors(scene.settings, ColorConfig::from_environment());
+    hash_inputs(scene, prepared.inputs);
+    wanted.identity = render_identity(scene, prepared.inputs, working_space);
+    wanted.has_halves = make_aov_plan(scene, prepared.problems).has_halves;
+    wanted.settings = std::move(scene.settings);
+    return wanted;
 }
 
 /// What the images of one scene have in common.
@@ -49,6 +59,7 @@ struct SceneNeeds {
     std::vector<SampleRange> ranges;
     TaskNeeds needs;
     TaskNeeds merge_needs;
+    std::string texture_memory;
 };
 
 class WorkFinder {
@@ -99,9 +110,10 @@ class WorkFinder {
             return;
         }
         if (!needs) needs = needs_of_scene(job);
-        FarmImage image{job, task.render_output, needs->ranges, {}, needs->needs, needs->merge_needs};
+        FarmImage image{job,          task.render_output, needs->ranges,        {},
+                        needs->needs, needs->merge_needs, needs->texture_memory};
         FarmLeftovers leftovers = find_leftovers(image, request_.farm.output, [&] {
-            return request_.force ? RenderIdentity() : identity_of(job, request_.overrides);
+            return request_.force ? WantedImage() : wanted_image(job, request_.overrides, request_.texture_memory);
         });
         work_.useless.insert(work_.useless.end(), leftovers.useless.begin(), leftovers.useless.end());
         // Tasks leave an image alone that looks finished to them.
@@ -114,6 +126,7 @@ class WorkFinder {
         const PreparedScene prepared = prepare_job(first, request_.overrides);
         const RenderSettings& settings = prepared.scene.settings;
         SceneNeeds scene;
+        if (!settings.texture_memory) scene.texture_memory = request_.texture_memory;
         if (request_.parts > 1) {
             if (settings.time_limit > 0.0)
                 throw SceneError(settings.at("/time"), "a limit of time cannot be split; leave out --split-samples");

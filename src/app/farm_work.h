@@ -20,6 +20,9 @@ struct FarmRequest {
     std::optional<int> task_minutes;             ///< in place of what a probe says
     std::optional<std::uint64_t> task_memory{};  ///< bytes, the same
     bool force = false;                          ///< also what is up to date
+    /// For scenes that do not say: each node's own default would be another one, and parts of textures that some nodes
+    /// hold in memory and others in a cache do not belong together.
+    std::string texture_memory{};
 };
 
 struct FarmWork {

@@ -74,7 +74,8 @@ ImageResult run_job(const ImageJob& job, const ImageJobOptions& options, const T
                                .force = options.force,
                                .progress_descriptor = options.progress_descriptor,
                                .quiet = options.quiet,
-                               .title = options.title};
+                               .title = options.title,
+                               .is_lost = options.is_lost};
     PreparedScene prepared = prepare_scene(job.scene, request.overrides);
     const std::string hash = settings_hash(prepared.scene, request.overrides.depth);
     if (!options.force && !is_partial(job.output) &&

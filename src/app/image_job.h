@@ -5,6 +5,7 @@
 #include "app/settings_overrides.h"
 #include "core/parallel.h"
 
+#include <atomic>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -49,13 +50,14 @@ struct ImageJobOptions {
     SettingsOverrides overrides;
     bool force = false;  ///< also what is up to date
     bool quiet = false;
-    bool make_directories = false;         ///< for the output
-    double checkpoint_minutes = 0.0;       ///< as in SceneRenderRequest
-    bool resume = false;                   ///< the same
-    int progress_descriptor = -1;          ///< the same
-    StrategiesRequest strategies{};        ///< the same
-    std::optional<SampleRange> samples{};  ///< the same
-    std::string title{};                   ///< before the progress bar
+    bool make_directories = false;               ///< for the output
+    double checkpoint_minutes = 0.0;             ///< as in SceneRenderRequest
+    bool resume = false;                         ///< the same
+    int progress_descriptor = -1;                ///< the same
+    StrategiesRequest strategies{};              ///< the same
+    std::optional<SampleRange> samples{};        ///< the same
+    std::string title{};                         ///< before the progress bar
+    const std::atomic<bool>* is_lost = nullptr;  ///< as in SceneRenderRequest
 };
 
 /// Renders the image unless it is up to date. Throws what `prepare_scene` and `render_scene` throw.

@@ -94,7 +94,7 @@ void check_tiling(const Ranges& ranges, const PixelRect& bounds) {
                      static_cast<std::size_t>(bounds.y0) + hole / width));
 }
 
-/// Throws SceneError if the samples per pixel are not the same everywhere.
+/// Throws SceneError if the number of samples per pixel is not the same everywhere; notes if only the number is.
 void check_samples(Ranges& ranges, const std::function<void(const std::string&)>& note) {
     std::optional<std::uint32_t> common;
     for (auto& [window, parts] : ranges) {
@@ -105,6 +105,13 @@ void check_samples(Ranges& ranges, const std::function<void(const std::string&)>
                              text_of(window), count, *common));
         common = count;
     }
+    const auto& [first_window, first_parts] = *ranges.begin();
+    for (const auto& [window, parts] : ranges)
+        if (parts.front().begin != first_parts.front().begin || parts.back().end != first_parts.back().end)
+            return note(fmt::format(
+                "the pixels {} have samples {} to {} and the pixels {} have {} to {}: as many, but not the same ones",
+                text_of(first_window), first_parts.front().begin, first_parts.back().end - 1, text_of(window),
+                parts.front().begin, parts.back().end - 1));
 }
 
 /// Reads one part after the other, as what it must be to be added to the first.

@@ -21,10 +21,11 @@ struct MergedParts {
 };
 
 /// The sum of the parts in `files`, of which there is at least one: of their smallest common window, with as many
-/// samples per pixel as all that share a pixel have together. `note` is told what is odd but no error, such as a gap
-/// between ranges of samples. Throws SceneError, naming the files, if parts belong to different renders, have samples
-/// in common, have windows that overlap without being equal, are not finished, or leave pixels with fewer samples than
-/// others; IoError if one cannot be read. Holds one part at a time beside the sum.
+/// samples per pixel as all that share a pixel have together. `note` is told what is odd but no error: a gap
+/// between ranges of samples, or windows that do not have the same ones. Throws SceneError, naming the files, if parts
+/// belong to different renders, have samples in common, have windows that overlap without being equal, are not
+/// finished, or leave pixels with fewer samples than others; IoError if one cannot be read. Holds one part at a time
+/// beside the sum.
 [[nodiscard]] MergedParts merge_parts(std::span<const std::filesystem::path> files,
                                       const std::function<void(const std::string&)>& note);
 

@@ -30,8 +30,12 @@ PreparedScene prepare_scene(const std::filesystem::path& path, const SettingsOve
 }
 
 std::string settings_hash(const SceneDesc& scene, PixelDepth depth) {
+    std::string description = dump(scene);
+    constexpr std::string_view kTextureMemory = "\ntexture memory:";
+    if (const std::size_t begin = description.find(kTextureMemory); begin != std::string::npos)
+        description.erase(begin, description.find('\n', begin + 1) - begin);
     // FNV-1a, 64 bits, over the text form of the scene; nobody attacks it, it only has to tell settings apart.
-    const std::string text = fmt::format("{}\n{}\n{}\n{}", software_name(), dump(scene), static_cast<int>(depth),
+    const std::string text = fmt::format("{}\n{}\n{}\n{}", software_name(), description, static_cast<int>(depth),
                                          ColorConfig::environment_path().string());
     std::uint64_t hash = 0xcbf29ce484222325u;
     for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;

@@ -46,7 +46,7 @@ std::string setting_name(const std::string& line) {
 RenderIdentity render_identity(const SceneDesc& scene, std::span<const InputFile> inputs,
                                const std::string& working_space) {
     RenderIdentity identity;
-    identity["program"] = software_name();
+    identity["program"] = fmt::format("{}, build {}", software_name(), software_build());
     identity["working space"] = working_space;
     identity["seed"] = fmt::format("{}", scene.settings.seed);
     identity["sampler"] = scene.settings.sampler == SamplerType::Random ? "random" : "sobol";

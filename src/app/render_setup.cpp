@@ -48,6 +48,16 @@ RenderOptions make_render_options(const RenderSettings& settings) {
     return options;
 }
 
+RenderOptions make_part_options(const RenderSettings& settings, const std::optional<SampleRange>& samples) {
+    RenderOptions options = make_render_options(settings);
+    options.splat_window = {0, 0, options.full_width, options.full_height};
+    options.time_limit_seconds = 0.0;
+    options.relative_error = 0.0;
+    options.adaptive = false;
+    if (samples) options.spp = samples->end - samples->begin;
+    return options;
+}
+
 IntegratorOptions integrator_options(const RenderSettings& settings) {
     const IntegratorSettings& s = settings.integrator;
     IntegratorOptions options{

@@ -1,18 +1,25 @@
 // From settings to what renders them: options of the film, the sampler and the integrator, and the colour space.
 #pragma once
 
+#include "app/sample_ranges.h"
 #include "color/color_config.h"
 #include "integrator/integrator.h"
 #include "render/render.h"
 #include "scene/render_settings.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace etendue {
 
 /// What the settings ask of the film and the sampler.
 [[nodiscard]] RenderOptions make_render_options(const RenderSettings& settings);
+
+/// The same of a part of the image, of `samples` or of all: light subpaths shine on the whole image, and no limit but
+/// the number of samples ends it.
+[[nodiscard]] RenderOptions make_part_options(const RenderSettings& settings,
+                                              const std::optional<SampleRange>& samples);
 
 /// What the settings ask of the integrator.
 [[nodiscard]] IntegratorOptions integrator_options(const RenderSettings& settings);

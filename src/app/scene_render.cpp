@@ -65,14 +65,8 @@ class SceneRender {
           progress_pipe_(request.progress_descriptor) {
         progress_pipe_.enter("load");
         report_problems();
-        options_ = make_render_options(scene_.settings);
-        if (is_partial(output_)) {
-            options_.splat_window = {0, 0, options_.full_width, options_.full_height};
-            options_.time_limit_seconds = 0.0;
-            options_.relative_error = 0.0;
-            options_.adaptive = false;
-            if (request.samples) options_.spp = request.samples->end - request.samples->begin;
-        }
+        options_ = is_partial(output_) ? make_part_options(scene_.settings, request.samples)
+                                       : make_render_options(scene_.settings);
         integrator_ = create_integrator(scene_.settings);
         aovs_ = make_aov_plan(scene_, problems_);
         report_problems();
@@ -90,8 +84,7 @@ class SceneRender {
 
     SceneRenderResult run() {
         std::optional<Checkpoint> kept = read_kept();
-        if (kept && is_partial(output_) && kept->state.pass_size == 0 && kept->state.spp_done == options_.spp)
-            return finished_part(*kept);
+        if (kept && is_finished_part(*kept)) return finished_part(*kept);
         if (kept && !request_.quiet)
             log_info("{}: going on after {} of {} samples per pixel", output_.string(), kept->state.spp_done,
                      options_.spp);
@@ -100,6 +93,7 @@ class SceneRender {
         find_brightest_paths(world, *integrator_, options_, rendered);
         report_dropped(rendered.counters, request_.scene, request_.overrides, settings_, settings_.color.working_space);
         fill_texture_statistics(world, description_.statistics);
+        require_not_lost();
         const bool interrupted = rendered.halt_reason == HaltReason::Interrupted;
         if (interrupted && rendered.counters.samples > 0) {
             const bool is_kept = write_checkpoint(rendered);
@@ -120,6 +114,12 @@ class SceneRender {
     }
 
     [[nodiscard]] bool is_deep() const { return aovs_.set && aovs_.set->layout.is_deep; }
+
+    [[nodiscard]] bool is_lost() const { return request_.is_lost != nullptr && *request_.is_lost; }
+
+    void require_not_lost() const {
+        if (is_lost()) throw LostRender();
+    }
 
     void report_problems() {
         for (; reported_ < problems_.all().size(); ++reported_)
@@ -207,19 +207,21 @@ class SceneRender {
     [[nodiscard]] std::optional<Checkpoint> read_kept() const {
         if (!request_.resume) return std::nullopt;
         progress_pipe_.enter("resume");
-        const CheckpointFiles::Expected expected{
-            .identity = identity_,
-            .window = options_.window,
-            .splat_window = options_.splat_window.empty() ? options_.window : options_.splat_window,
-            .first_sample = first_sample(),
-            .every_other_pass = keeps_every_other_pass(),
-            .adaptive = options_.adaptive,
-            // An image may have more samples than are asked for, but parts must not overlap.
-            .most_spp = is_partial(output_) ? std::optional(options_.spp) : std::nullopt};
+        const CheckpointFiles::Expected expected =
+            is_partial(output_) ? expected_part(identity_, options_, first_sample(), keeps_every_other_pass())
+                                : expected_image(identity_, options_, keeps_every_other_pass());
         std::optional<Checkpoint> kept;
         if (is_partial(output_) && !request_.force) kept = read_part(output_, expected, request_.quiet);
         if (!kept) kept = checkpoints_.read(expected, request_.quiet);
         return kept;
+    }
+
+    /// One that was to be shown otherwise has all samples but is written again: its merged image would be shown so,
+    /// too.
+    [[nodiscard]] bool is_finished_part(const Checkpoint& kept) const {
+        return is_partial(output_) && kept.state.pass_size == 0 && kept.state.spp_done == options_.spp &&
+               parse_description(kept.description, output_).statistics.settings_hash ==
+                   description_.statistics.settings_hash;
     }
 
     /// Of a part that needs nothing to be done.
@@ -258,8 +260,9 @@ class SceneRender {
             return request_.checkpoint_minutes > 0.0 &&
                    since_checkpoint.elapsed().wall >= request_.checkpoint_minutes * 60.0;
         };
-        const RenderPause pause{[&] { return preview_requested() || checkpoint_is_due(); },
+        const RenderPause pause{[&] { return preview_requested() || checkpoint_is_due() || is_lost(); },
                                 [&](const RenderState& now) {
+                                    require_not_lost();
                                     if (preview_requested()) write_preview(now);
                                     if (!checkpoint_is_due()) return;
                                     write_checkpoint(now);

@@ -8,6 +8,8 @@
 #include "core/parallel.h"
 #include "output/statistics.h"
 
+#include <atomic>
+#include <exception>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -28,6 +30,14 @@ struct SceneRenderRequest {
     int progress_descriptor = -1;  ///< of a pipe that progress is written to as JSON; -1 for a bar on stderr
     bool quiet = false;
     std::string title{};  ///< before the progress bar
+    /// Becomes true when the image is another's to make: nothing is written any more then. Null if it never does.
+    const std::atomic<bool>* is_lost = nullptr;
+};
+
+/// Thrown by a render whose image has become another's to make.
+class LostRender : public std::exception {
+  public:
+    [[nodiscard]] const char* what() const noexcept override { return "another process makes the image"; }
 };
 
 struct SceneRenderResult {
@@ -40,7 +50,7 @@ struct SceneRenderResult {
 /// Compiles, renders and writes. When it is interrupted, the checkpoint is written, too, and the image marked
 /// incomplete; checkpoints are removed once the image is complete. Notes and warnings go to stderr unless `quiet`.
 /// Throws SceneError for what is wrong with the scene or its settings, or for a checkpoint or part of another render,
-/// IoError when a file cannot be written.
+/// IoError when a file cannot be written, LostRender when the image is lost.
 [[nodiscard]] SceneRenderResult render_scene(PreparedScene prepared, const SceneRenderRequest& request,
                                              const ThreadPool& threads);
 

@@ -13,6 +13,7 @@
 #include "core/byte_size.h"
 #include "core/error.h"
 #include "core/log.h"
+#include "world/compile.h"
 
 #include <cstdio>
 #include <filesystem>
@@ -237,6 +238,7 @@ void complete(SubmitArguments& arguments, std::vector<GivenOption> overrides) {
     if (farm.program.has_parent_path()) farm.program = fs::absolute(farm.program).lexically_normal();
     farm.options = options_of_tasks(std::move(overrides));
     farm.depth = arguments.request.overrides.depth;
+    arguments.request.texture_memory = to_byte_size(default_texture_memory());
     arguments.slurm.threads = farm.threads;
     // Slurm takes both in the names of log files for its own, and cannot be told otherwise.
     if (farm.output.string().find_first_of("\\%") != std::string::npos)

@@ -19,6 +19,12 @@ std::optional<std::uint64_t> parse_byte_size(std::string_view text) {
     return number << (10 * (unit + 1));
 }
 
+std::string to_byte_size(std::uint64_t bytes) {
+    constexpr std::uint64_t kMost = 999999;  // six digits
+    const std::uint64_t mebibytes = bytes >> 20u;
+    return mebibytes <= kMost ? std::to_string(mebibytes) + "M" : std::to_string(bytes >> 30u) + "G";
+}
+
 std::uint64_t physical_memory() {
     return static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
 }

@@ -296,6 +296,17 @@ bool is_consistent(const RenderState& state) {
            other.splat_window() == film.splat_window();
 }
 
+/// The last character of kMagic is the format. Before this is asked, the hash has told that the file is whole.
+void require_format(Reader& in, const std::filesystem::path& path) {
+    const auto magic = in.get<std::array<char, 8>>();
+    if (!std::equal(kMagic.begin(), kMagic.end() - 1, magic.begin())) in.fail();
+    if (magic != kMagic)
+        throw RefusedCheckpoint(
+            {path.string(), {}},
+            fmt::format("was written by another version of this program: format {} there, {} here; render it anew",
+                        magic.back(), kMagic.back()));
+}
+
 }  // namespace
 
 std::string difference(const RenderIdentity& kept, const RenderIdentity& wanted, const std::string& kept_place,
@@ -342,7 +353,7 @@ void write_checkpoint(const std::filesystem::path& path, const RenderIdentity& i
 
 Checkpoint read_checkpoint(const std::filesystem::path& path) {
     Reader in(path, checked_size(path));
-    if (in.get<std::array<char, 8>>() != kMagic) in.fail();
+    require_format(in, path);
     RenderIdentity identity;
     for (auto count = in.get<std::uint64_t>(); count > 0; --count) {
         std::string name = in.get_text();

@@ -27,10 +27,14 @@ XyzToWorking xyz_to_working(const ColorMatrix& from_rec709) {
 }
 
 std::uint64_t texture_budget(const SceneDesc& scene) {
-    return scene.settings.texture_memory.value_or(physical_memory() / 2);
+    return scene.settings.texture_memory.value_or(default_texture_memory());
 }
 
 }  // namespace
+
+std::uint64_t default_texture_memory() {
+    return physical_memory() / 2;
+}
 
 bool holds_textures_in_memory(const SceneDesc& scene) {
     if (scene.textures.empty()) return true;

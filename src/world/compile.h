@@ -7,6 +7,8 @@
 #include "scene/scene_desc.h"
 #include "world/world.h"
 
+#include <cstdint>
+
 namespace etendue {
 
 /// Compiles `scene`, which must have passed `validate`. Colours are converted to `working_space` (a canonical name of
@@ -15,6 +17,9 @@ namespace etendue {
 /// decoded, no camera) and IoError when Embree fails.
 [[nodiscard]] World compile_world(SceneDesc scene, const ColorConfig& colors, const std::string& working_space,
                                   const ThreadPool& threads, ProblemList& problems);
+
+/// Memory for decoded textures, bytes, of a scene that does not say: half of the machine's.
+[[nodiscard]] std::uint64_t default_texture_memory();
 
 /// True if the textures of `scene` will be held in memory, decoded, and not in a cache: if all of them fit into what
 /// its settings allow. Both give slightly different values. Reads the headers of its images; throws SceneError if it

@@ -297,6 +297,19 @@ TEST_F(Batch, AnInvalidSceneIsTriedOnceAndTheOthersAreRendered) {
     EXPECT_NE(result.out.find("camera_"), std::string::npos) << result.out;
 }
 
+TEST_F(Batch, TheOtherImagesOfAnInvalidSceneAreSaidNotToBeTried) {
+    add_scene("a", R"("camera_": 3,)");
+    EXPECT_EQ(run({"--frames", "1:3"}).exit_code, 1);
+    EXPECT_EQ(count("unit failed"), (std::map<std::string, int>{{"a.0001", 1}}));
+    EXPECT_EQ(count("unit not tried"), (std::map<std::string, int>{{"a.0002", 1}, {"a.0003", 1}}));
+    const json end = events("batch finished").front();
+    EXPECT_EQ(end["units"], 3);
+    EXPECT_EQ(end["failed"], 1);
+    EXPECT_EQ(end["not_tried"], 2);
+    const json plan = json::parse(run({"--frames", "1:3", "--dry-run", "--json"}).out);
+    EXPECT_EQ(plan["units"][1]["reason"], "was not tried last time, as its scene was invalid");
+}
+
 TEST_F(Batch, InputThatVanishesOrCannotBeDecodedFailsItsImageOnly) {
     add_slow_scene("a-slow", 1.5);
     add_scene("b-undecodable");
@@ -393,7 +406,18 @@ TEST_F(Batch, ASecondInterruptEndsEverythingAtOnce) {
     EXPECT_TRUE(wait_until([child] { return !fs::exists(fmt::format("/proc/{}", child)); }));
 }
 
-TEST_F(Batch, ACheckpointOfOtherSettingsIsNoObstacle) {
+/// Batches that render in processes of their own, and in this.
+class BatchEitherWay : public Batch, public testing::WithParamInterface<bool> {
+  protected:
+    [[nodiscard]] Names with(Names more) const {
+        if (GetParam()) more.emplace_back("--in-process");
+        return more;
+    }
+};
+INSTANTIATE_TEST_SUITE_P(Processes, BatchEitherWay, testing::Bool(),
+                         [](const auto& test) { return test.param ? "InProcess" : "InChildren"; });
+
+TEST_P(BatchEitherWay, ACheckpointOfOtherSettingsIsNoObstacle) {
     add_slow_scene("a", 60.0);
     const auto batch = start({"--checkpoint-every", "0.001"});
     ASSERT_TRUE(wait_until([&] { return fs::exists(work_ / "out/a.checkpoint"); }));
@@ -401,10 +425,24 @@ TEST_F(Batch, ACheckpointOfOtherSettingsIsNoObstacle) {
     (void)batch->wait();
     EXPECT_EQ(json::parse(run({"--dry-run", "--json"}).out)["units"][0]["reason"],
               "was interrupted, goes on from a checkpoint");
-    const ProgramResult result = run({"--seed", "99", "--spp", "4", "--retries", "0"});
+    const ProgramResult result = run(with({"--seed", "99", "--spp", "4", "--retries", "0"}));
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_NE(result.err.find("begins anew without the checkpoint"), std::string::npos) << result.err;
     EXPECT_EQ(json::parse(read_file(work_ / "out/a.json"))["spp"]["done"], 4);
+    expect_tidy();
+}
+
+/// And the other images of its scene are none of its business.
+TEST_P(BatchEitherWay, ADamagedCheckpointIsNoObstacle) {
+    add_scene("a");
+    (void)animated_scene((folder_ / "scenes/a").string());
+    fs::create_directories(work_ / "out");
+    for (const char* frame : {"1", "2"})
+        write_file(work_ / fmt::format("out/a.000{}.checkpoint", frame), "this is none, but long enough for a hash");
+    const ProgramResult result = run(with({"--frames", "1:2", "--retries", "0"}));
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(result.err.find("no other checkpoint is left"), std::string::npos) << result.err;
+    EXPECT_TRUE(fs::exists(work_ / "out/a.0002.exr"));
     expect_tidy();
 }
 

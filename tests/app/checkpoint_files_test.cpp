@@ -62,6 +62,22 @@ TEST(CheckpointFiles, WhatCannotBeRenamedIsAnErrorOfWriting) {
     EXPECT_EQ(files.read(expected(), true)->state.spp_done, 1u) << "the one before stays";
 }
 
+/// As where the disk has an error: a directory in its place opens, but has no bytes.
+TEST(CheckpointFiles, WhatCannotBeReadIsNoReasonToDoWithoutThePrevious) {
+    const TestFolder folder;
+    const CheckpointFiles files(folder / "a.exr");
+    files.write(kIdentity, "", state_of(1));
+    fs::rename(folder / "a.checkpoint", folder / "a.checkpoint.previous");
+    fs::create_directories(folder / "a.checkpoint");
+    EXPECT_EQ(files.read(expected(), true)->state.spp_done, 1u);
+    EXPECT_EQ(files.read(expected(), true)->state.spp_done, 1u) << "and again";
+    fs::remove(folder / "a.checkpoint.previous");
+    EXPECT_NE(message_of<IoError>([&] { (void)files.read(expected(), true); }).find("cannot read"), std::string::npos)
+        << "it may be readable the next time";
+    fs::remove(folder / "a.checkpoint");
+    EXPECT_EQ(files.read(expected(), true), std::nullopt);
+}
+
 TEST(CheckpointFiles, SayWhatToDoWithoutWhatTheLimitOfErrorNeeds) {
     const TestFolder folder;
     const CheckpointFiles files(folder / "a.exr");

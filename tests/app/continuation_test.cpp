@@ -1,4 +1,5 @@
 // Renders that are stopped and gone on with, and parts that are merged, from outside.
+#include "app/run_command.h"
 #include "app/run_program.h"
 #include "app/small_files.h"
 #include "render/checkpoint.h"
@@ -266,6 +267,8 @@ TEST_F(Continuation, RefusesPartsThatDoNotBelongTogether) {
     part("corner", {"--crop", "20,0,40,20"});
     part("short", {"--crop", "20,0,40,30", "--samples", "0:8"});
     part("later", {"--samples", "10:16"});
+    part("left-first", {"--crop", "0,0,20,30", "--samples", "0:8"});
+    part("right-last", {"--crop", "20,0,40,30", "--samples", "8:16"});
     const auto refused = [&](const Arguments& parts, const std::string& why, const std::string& output = "m.exr") {
         Arguments arguments{"merge"};
         for (const std::string& name : parts) arguments.push_back(name + ".partial");
@@ -282,6 +285,13 @@ TEST_F(Continuation, RefusesPartsThatDoNotBelongTogether) {
     refused({"left", "corner"}, "no part has pixel (20, 20)");
     refused({"left", "short"}, "8 samples each in all parts together, others have 16");
     refused({"a", "later"}, "can become an image only", "m.partial");
+    // Such a part would say that all of its pixels have samples 0 to 7.
+    refused({"left-first", "right-last"}, "can become an image only", "m.partial");
+    const ProgramResult apart = run({"merge", "left-first.partial", "right-last.partial", "-o", "apart.exr"});
+    EXPECT_EQ(apart.exit_code, 0);
+    EXPECT_NE(apart.err.find("the pixels 0,0,20,30 have samples 0 to 7 and the pixels 20,0,40,30 have 8 to 15"),
+              std::string::npos)
+        << apart.err;
     const ProgramResult gap = run({"merge", "a.partial", "later.partial", "-o", "m.exr"});
     EXPECT_EQ(gap.exit_code, 0);
     EXPECT_NE(gap.err.find("note: no part has samples 8 to 9"), std::string::npos) << gap.err;
@@ -306,6 +316,29 @@ TEST_F(Continuation, RefusesTheCheckpointOfAnotherVersionAndSaysSo) {
         << refused.err;
 }
 
+/// As after a change of its code: a copy of the program has another build ID.
+TEST_F(Continuation, RefusesTheCheckpointOfAnotherBuildAndSaysSo) {
+    ASSERT_EQ(interrupt(render(1000000, "a.exr"), 60).exit_code, 130);
+    const std::string program = read_checkpoint(work_ / "a.checkpoint").identity.at("program");
+    const std::string digits = program.substr(program.rfind(' ') + 1);
+    ASSERT_EQ(digits.size(), 16u) << program;
+    std::string id;
+    for (std::size_t i = 0; i < digits.size(); i += 2)
+        id += static_cast<char>(std::stoi(digits.substr(i, 2), nullptr, 16));
+    std::string code = read_file(ETENDUE_PROGRAM);
+    const std::size_t place = code.find(id);
+    ASSERT_NE(place, std::string::npos);
+    code[place] = static_cast<char>(code[place] ^ 1);
+    const fs::path other = folder_ / "etendue";
+    write_file(other, code);
+    fs::permissions(other, fs::perms::owner_exec, fs::perm_options::add);
+    Arguments again = render(1000000, (work_ / "a.exr").string(), {"--resume", "--quiet"});
+    again.insert(again.begin(), other.string());
+    const CommandResult refused = run_command(again);
+    EXPECT_EQ(refused.exit_code, 3);
+    EXPECT_NE(refused.err.find("program: '" + program + "' there, '"), std::string::npos) << refused.err;
+}
+
 TEST_F(Continuation, GoesOnWithASceneThatWasMoved) {
     ASSERT_EQ(interrupt(render(1000000, "a.exr"), 60).exit_code, 130);
     const int spp = json::parse(read_file(work_ / "a.json"))["spp"]["done"].get<int>() + 40;
@@ -327,6 +360,20 @@ TEST_F(Continuation, FewerSamplesThanThereAreEndWithWholePasses) {
     EXPECT_EQ(statistics["samples"], 40 * 30 * spp);
     ASSERT_EQ(run(render(spp, "whole.exr")).exit_code, 0);
     EXPECT_EQ(difference("a.exr", "whole.exr"), 0.0);
+}
+
+TEST_F(Continuation, AFinishedPartIsSaidToBeShownAsItIsAskedForNow) {
+    ASSERT_EQ(run(render(16, "a.partial", {"--samples", "0:16", "--quiet"})).exit_code, 0);
+    const Checkpoint before = read_checkpoint(work_ / "a.partial");
+    const Arguments bright = render(16, "a.partial", {"--samples", "0:16", "--exposure", "4", "--resume", "--quiet"});
+    ASSERT_EQ(run(bright).exit_code, 0);
+    const Checkpoint after = read_checkpoint(work_ / "a.partial");
+    EXPECT_EQ(json::parse(after.description)["frame"]["exposure"], 4.0);
+    EXPECT_EQ(after.state.film.resolve(), before.state.film.resolve());
+    EXPECT_EQ(after.state.counters.samples, before.state.counters.samples) << "none was rendered again";
+    const auto written = fs::last_write_time(work_ / "a.partial");
+    ASSERT_EQ(run(bright).exit_code, 0);
+    EXPECT_EQ(fs::last_write_time(work_ / "a.partial"), written) << "it is left alone";
 }
 
 TEST_F(Continuation, DoesNotReplaceAPartOfAnotherRenderUnlessForced) {

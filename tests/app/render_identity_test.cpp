@@ -136,6 +136,17 @@ TEST(RenderIdentity, TexturesInACacheAreOthersThanTexturesInMemory) {
     EXPECT_EQ(difference(in_memory, identity_of(scene, "ACEScg")), "") << "how much memory there is is no matter";
 }
 
+TEST(RenderIdentity, MemoryForTexturesMakesNoOtherImage) {
+    const TestFolder folder;
+    write_scene(folder / "box");
+    SceneDesc scene = scene_at(folder / "box");
+    const std::string without = settings_hash(scene, PixelDepth::Half);
+    scene.settings.texture_memory = 1u << 20;
+    EXPECT_EQ(settings_hash(scene, PixelDepth::Half), without);
+    scene.settings.seed = 7;
+    EXPECT_NE(settings_hash(scene, PixelDepth::Half), without);
+}
+
 TEST(RenderIdentity, FilesElsewhereGoByTheirNames) {
     const TestFolder folder;
     write_scene(folder / "box");

@@ -2,6 +2,7 @@
 #include "app/fake_slurm.h"
 #include "app/run_program.h"
 #include "app/small_files.h"
+#include "core/byte_size.h"
 
 #include <csignal>
 #include <filesystem>
@@ -135,6 +136,24 @@ TEST_F(Submit, TheProgramIsFoundFromWhereTasksRun) {
     EXPECT_TRUE(found.starts_with("exec 'etendue-2' render")) << "in PATH: " << found;
 }
 
+/// Nodes of different memory would hold textures in different ways, and their parts could not be merged.
+TEST_F(Submit, AllTasksGetTheSameMemoryForTextures) {
+    scene("a");
+    scene("b", R"("texture_memory": "64M",)");
+    const auto lines = [](const json& report) {
+        return read_file(fs::path(report["directory"].get<std::string>()) / "render-0.tasks");
+    };
+    const std::string own = lines(submitted(small_));
+    const std::string option = "--texture-memory '" + to_byte_size(physical_memory() / 2) + "'";
+    const std::size_t place = own.find(option);
+    EXPECT_NE(place, std::string::npos) << own;
+    EXPECT_EQ(own.find("--texture-memory", place + option.size()), std::string::npos) << "the scene b says: " << own;
+    std::vector<std::string> given = small_;
+    given.insert(given.end(), {"--texture-memory", "3G"});
+    const std::string asked = lines(submitted(given));
+    EXPECT_EQ(asked.find(option), std::string::npos) << asked;
+}
+
 TEST_F(Submit, FramesAreImagesOfTheirOwn) {
     scene("a");
     (void)animated_scene((folder_ / "scenes/a").string());
@@ -187,6 +206,60 @@ TEST_F(Submit, PartsOfOtherSettingsAreNotUsed) {
     other.insert(other.end(), {"--seed", "7"});
     EXPECT_EQ(submitted(other)["arrays"].size(), 4u);
     EXPECT_TRUE(fs::is_empty(out() / ".etendue/parts/a.exr"));
+}
+
+TEST_F(Submit, PartsOfOtherPixelsAreNotUsed) {
+    scene("a");
+    std::vector<std::string> crop = split_;
+    crop.insert(crop.end(), {"--crop", "0,0,8,12"});
+    for (const std::size_t left : {3u, 1u}) {
+        const json first = submitted(crop);
+        for (std::size_t i = 0; i < left; ++i)
+            EXPECT_EQ(slurm_.run_task(first["directory"].get<std::string>(), fmt::format("render-{}", i), 0).exit_code,
+                      0);
+        EXPECT_EQ(submitted(crop)["arrays"].size(), left == 3 ? 1u : 2u) << "they are of use to the same crop";
+        const json second = submitted(split_);
+        ASSERT_EQ(second["arrays"].size(), 4u) << left << " parts of a crop are left";
+        EXPECT_TRUE(fs::is_empty(out() / ".etendue/parts/a.exr"));
+        run_all(second);
+        EXPECT_EQ(json::parse(read_file(out() / "a.json"))["size"], (json{16, 12}));
+        fs::remove(out() / "a.json");
+    }
+}
+
+TEST_F(Submit, PartsOfAnImageThatIsShownOtherwiseAreNotUsed) {
+    scene("a");
+    const json first = submitted(split_);
+    for (const char* array : {"render-0", "render-1", "render-2"})
+        EXPECT_EQ(slurm_.run_task(first["directory"].get<std::string>(), array, 0).exit_code, 0);
+    std::vector<std::string> bright = split_;
+    bright.insert(bright.end(), {"--exposure", "4"});
+    run_all(submitted(bright));
+    EXPECT_EQ(submitted(bright)["up_to_date"], 1) << "it is what was asked for";
+}
+
+TEST_F(Submit, ACheckpointThatATaskWouldRefuseIsThrownAway) {
+    scene("a");
+    fs::create_directories(out());
+    const auto leave_checkpoint = [&] {
+        const std::string part = (out() / "a.partial").string();
+        EXPECT_EQ(run_etendue({"render", (folder_ / "scenes/a").string(), "-o", part, "--spp", "48", "--samples",
+                               "0:16", "--quiet"},
+                              work_)
+                      .exit_code,
+                  0);
+        fs::rename(part, out() / "a.checkpoint");
+    };
+    leave_checkpoint();
+    (void)submitted(small_);
+    EXPECT_TRUE(fs::exists(out() / "a.checkpoint")) << "the task goes on with it";
+    // It does not hold what an estimate of the error needs.
+    std::vector<std::string> limited = small_;
+    limited.insert(limited.end(), {"--error", "0.5"});
+    const json report = submitted(limited);
+    EXPECT_FALSE(fs::exists(out() / "a.checkpoint"));
+    run_all(report);
+    EXPECT_EQ(status().first, 0) << status().second.dump(1);
 }
 
 /// Slurm tells the shell alone by SIGUSR2 that its time is up. Of a task that is cancelled all processes get SIGTERM.

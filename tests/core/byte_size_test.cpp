@@ -20,6 +20,12 @@ TEST(ByteSize, EverythingElseIsRefused) {
         EXPECT_FALSE(parse_byte_size(bad)) << bad;
 }
 
+TEST(ByteSize, WhatIsWrittenIsReadAgain) {
+    EXPECT_EQ(to_byte_size((std::uint64_t{64} << 20) + 5), "64M");
+    EXPECT_EQ(to_byte_size(std::uint64_t{999999} << 20), "999999M");
+    EXPECT_EQ(to_byte_size(std::uint64_t{1000000} << 20), "976G");
+}
+
 TEST(ByteSize, TheMachineHasMemory) {
     EXPECT_GT(physical_memory(), std::uint64_t{64} << 20);
 }

@@ -1,5 +1,6 @@
 #include "render/checkpoint.h"
 
+#include "core/content_hash.h"
 #include "core/error.h"
 #include "core/write_file.h"
 #include "render/render_test_scene.h"
@@ -132,6 +133,38 @@ TEST(Checkpoint, DamageIsFound) {
     write_bytes(path, bytes);
     EXPECT_NO_THROW((void)read_checkpoint(path));
     EXPECT_THROW((void)read_checkpoint(folder / "missing"), IoError);
+}
+
+/// `bytes` with the hash that belongs to them at their end.
+std::vector<std::byte> with_hash(std::vector<std::byte> bytes) {
+    bytes.resize(bytes.size() - ContentHash::kSize);
+    ContentHash hash;
+    hash.add(bytes);
+    const ContentHash::Digest digest = hash.digest();
+    bytes.insert(bytes.end(), digest.begin(), digest.end());
+    return bytes;
+}
+
+TEST(Checkpoint, AnotherFormatIsNoDamage) {
+    const TemporaryFolder folder;
+    const auto path = folder / "a.checkpoint";
+    write_checkpoint(path, kIdentity, "", {.film = Film(2, 2, {0, 0, 2, 2}), .spp_done = 1});
+    std::vector<std::byte> bytes = read_all(path);
+    const char format = static_cast<char>(std::exchange(bytes[7], std::byte{'1'}));
+    write_bytes(path, with_hash(bytes));
+    try {
+        (void)read_checkpoint(path);
+        FAIL();
+    } catch (const RefusedCheckpoint& refused) {
+        EXPECT_NE(std::string(refused.what()).find(std::string("format 1 there, ") + format + " here"),
+                  std::string::npos)
+            << refused.what();
+    }
+    write_bytes(path, bytes);
+    EXPECT_THROW((void)read_checkpoint(path), DamagedCheckpoint) << "with a wrong hash";
+    bytes[6] = std::byte{'?'};
+    write_bytes(path, with_hash(bytes));
+    EXPECT_THROW((void)read_checkpoint(path), DamagedCheckpoint) << "no checkpoint at all";
 }
 
 // Such files have a right hash; what stands in them is what no render leaves behind.
