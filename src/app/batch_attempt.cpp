@@ -74,7 +74,12 @@ void judge_failure(const ChildProcess& child, const BatchOptions& options, Attem
     attempt.log.assign(child.last_messages().begin(), child.last_messages().end());
     attempt.error = error_of(child.last_messages());
     attempt.was_said = !attempt.error.empty() && end.signal == 0;
-    if (!attempt.was_said) attempt.error = end_in_words(end);
+    if (attempt.is_stalled)
+        attempt.error = fmt::format("it was ended because it showed no progress for {:g} minutes (--stall-minutes){}",
+                                    options.stall_minutes,
+                                    attempt.phase.empty() ? "" : fmt::format(", in phase '{}'", attempt.phase));
+    else if (!attempt.was_said)
+        attempt.error = end_in_words(end);
     if (interrupt_requested() && is_interrupt(end)) {
         attempt.end = AttemptEnd::Interrupted;
         attempt.error.clear();
@@ -113,24 +118,29 @@ Attempt attempt_in_child(const BatchTask& task, const BatchOptions& options, con
                          const AttemptCallbacks& callbacks) {
     ChildProcess child({.arguments = child_arguments(task, options, how), .memory_limit = options.max_memory});
     Attempt attempt;
-    std::optional<Clock::time_point> last_sign;  // of its going on since it was told to stop
+    Clock::time_point last_sign = Clock::now();  // of its going on
+    bool was_told_to_stop = false;
+    const std::chrono::duration<double, std::ratio<60>> stall_limit(options.stall_minutes);
     const auto on_progress = [&](const std::string& line) {
         const std::optional<ChildProgress> progress = parse_progress(line);
         if (!progress) return;
-        if (last_sign) last_sign = Clock::now();
+        last_sign = Clock::now();
         attempt.phase = progress->phase;
         callbacks.on_progress(*progress);
     };
     bool has_lock = true;
     while (child.wait(kBetweenLooks, callbacks.on_message, on_progress)) {
-        if (interrupt_requested() && !last_sign) {
+        if (interrupt_requested() && !was_told_to_stop) {
             // It may have got the signal itself, which is as good. A second one from the user ends this process, and
             // with it the child.
             child.send(interrupt_exit_code() == ExitCode::Terminated ? SIGTERM : SIGINT);
+            was_told_to_stop = true;
             last_sign = Clock::now();
         }
         // Libraries that were denied memory may wait for a lock for ever.
-        if (last_sign && Clock::now() - *last_sign > kMostSilence) child.send(SIGKILL);
+        const Clock::duration silence = Clock::now() - last_sign;
+        attempt.is_stalled = !was_told_to_stop && stall_limit.count() > 0.0 && silence > stall_limit;
+        if (attempt.is_stalled || (was_told_to_stop && silence > kMostSilence)) child.send(SIGKILL);
         if (attempt.phase == "render" && preview_requested()) {
             clear_preview_request();
             child.send(SIGUSR1);

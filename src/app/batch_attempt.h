@@ -29,7 +29,8 @@ struct Attempt {
     std::string error{};             ///< unless it is done or interrupted; any number of lines
     bool was_said = false;           ///< `error` is what its process had said, and `on_message` was told
     std::vector<std::string> log{};  ///< the last lines of its process, oldest first
-    std::string phase{};  ///< the last that its process told of; here, only "resume" if the checkpoint was refused
+    std::string phase{};      ///< the last that its process told of; here, only "resume" if the checkpoint was refused
+    bool is_stalled = false;  ///< it was ended because its process did not go on
 };
 
 struct AttemptOptions {

@@ -112,6 +112,11 @@ void add_own_options(CLI::App& command, BatchOptions& options) {
                     "Minutes between checkpoints, from which interrupted images go on; 0: none but when interrupted")
         ->check(real_range(0.0, 1e6))
         ->capture_default_str();
+    command
+        .add_option("--stall-minutes", options.stall_minutes,
+                    "Minutes without any progress after which the render of an image counts as crashed; 0: never")
+        ->check(real_range(0.0, 1e6))
+        ->capture_default_str();
     auto* in_process = command.add_flag("--in-process", options.in_process,
                                         "Render in this process instead of one for each image: a crash ends all");
     command

@@ -28,6 +28,7 @@ struct BatchOptions {
     bool in_process = false;
     int retries = 1;                            ///< of one image, after the first attempt
     double checkpoint_minutes = 5.0;            ///< 0: none
+    double stall_minutes = 30.0;                ///< without a sign of progress, until it is killed; 0: never
     std::optional<std::uint64_t> max_memory{};  ///< of the process that renders an image, bytes
     std::string max_memory_text{};              ///< as it was given
     bool quiet = false;

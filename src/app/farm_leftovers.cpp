@@ -30,7 +30,7 @@ class LeftoverJudge {
         const bool is_finished =
             file == part_file(folder_, image_.job, *range) && kept.state.next_sample() == range->end;
         if (!is_finished) return true;
-        if (parse_description(kept.description, file).statistics.settings_hash != wanted_.settings_hash) return false;
+        if (description_of(kept, file).statistics.settings_hash != wanted_.settings_hash) return false;
         std::erase(missing, *range);
         return true;
     } catch (const IoError&) {

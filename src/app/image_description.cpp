@@ -246,6 +246,10 @@ ImageDescription parse_description(const std::string& text, const LayerLayout& l
     }
 }
 
+ImageDescription description_of(const Checkpoint& kept, const std::filesystem::path& file) {
+    return parse_description(kept.description, kept.state.film.layers().layout(), file);
+}
+
 void describe_state(ImageDescription& description, const RenderState& state, bool complete,
                     const std::string& halt_reason) {
     const Film& film = state.film;

@@ -5,6 +5,7 @@
 #include "output/aov_output.h"
 #include "output/output_frame.h"
 #include "output/statistics.h"
+#include "render/checkpoint.h"
 #include "render/progressive_render.h"
 #include "scene/aov_desc.h"
 
@@ -33,6 +34,9 @@ struct ImageDescription {
 /// not of such a film.
 [[nodiscard]] ImageDescription parse_description(const std::string& text, const LayerLayout& layout,
                                                  const std::filesystem::path& file);
+
+/// Of a checkpoint or part that was read from `file`.
+[[nodiscard]] ImageDescription description_of(const Checkpoint& kept, const std::filesystem::path& file);
 
 /// Puts in what the film and the counters of `state` say: pixels, window, samples, rays and seconds, and why rendering
 /// ended.

@@ -69,8 +69,7 @@ ExitCode run_merge(const MergeArguments& arguments) {
         if (!arguments.quiet) log_warning("note: {}", note);
     });
     const RenderState& state = merged.sum.state;
-    ImageDescription image =
-        parse_description(merged.sum.description, state.film.layers().layout(), arguments.parts.front());
+    ImageDescription image = description_of(merged.sum, arguments.parts.front());
     image.statistics.load = timer.elapsed();
     const auto spp_requested = static_cast<std::uint32_t>(std::max(image.statistics.spp_requested, 0));
     const bool complete = is_whole(merged, spp_requested);

@@ -219,14 +219,14 @@ class SceneRender {
     /// One that was to be shown otherwise has all samples but is written again: its merged image would be shown so,
     /// too.
     [[nodiscard]] bool is_finished_part(const Checkpoint& kept) const {
-        return is_partial(output_) && kept.state.pass_size == 0 && kept.state.spp_done == options_.spp &&
-               parse_description(kept.description, output_).statistics.settings_hash ==
-                   description_.statistics.settings_hash;
+        return is_partial(output_) && std::filesystem::exists(output_) && kept.state.pass_size == 0 &&
+               kept.state.spp_done == options_.spp &&
+               description_of(kept, output_).statistics.settings_hash == description_.statistics.settings_hash;
     }
 
     /// Of a part that needs nothing to be done.
     [[nodiscard]] SceneRenderResult finished_part(const Checkpoint& kept) const {
-        ImageDescription description = parse_description(kept.description, kept.state.film.layers().layout(), output_);
+        ImageDescription description = description_of(kept, output_);
         describe_state(description, kept.state, true, halt_reason_name(HaltReason::SamplesDone));
         return {std::move(description.statistics), output_, false, true};
     }

@@ -270,6 +270,17 @@ TEST_F(Batch, ACrashIsRecordedAndTriedAgain) {
     EXPECT_EQ(count("unit finished"), (std::map<std::string, int>{{"a", 1}, {"b", 1}}));
 }
 
+TEST_F(Batch, WhatDoesNotGoOnIsEndedAndTriedAgain) {
+    add_slow_scene("a", 1.5);
+    const auto batch = start({"--stall-minutes", "0.05"});
+    kill(child_of(*batch), SIGSTOP);
+    const ProgramResult result = batch->wait();
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    ASSERT_EQ(events("unit failed").size(), 1u);
+    EXPECT_NE(events("unit failed").front()["error"].get<std::string>().find("no progress"), std::string::npos);
+    EXPECT_EQ(count("unit started"), (std::map<std::string, int>{{"a", 2}}));
+}
+
 TEST_F(Batch, ACrashThatIsNotTriedAgainFailsItsImageOnly) {
     add_slow_scene("a", 60.0);
     add_scene("b");
