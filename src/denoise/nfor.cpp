@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 namespace etendue {
@@ -17,8 +18,12 @@ constexpr NlMeansSettings kFeatureFilter{5, 3, 0.5f};
 constexpr NlMeansSettings kLastFeatureFilter{2, 3, 0.5f};
 /// Of the map of squared errors and of the choice between bandwidths.
 constexpr NlMeansSettings kErrorFilter{9, 1, 1.0f};
-/// The bandwidths k that are tried everywhere.
+/// The bandwidths k that are tried everywhere, the narrowest first.
 constexpr std::array<float, 2> kBandwidths{0.5f, 1.0f};
+/// What is chosen among, pixel by pixel: an image filtered with each bandwidth, and the one that is not filtered.
+constexpr std::size_t kCandidates = kBandwidths.size() + 1;
+/// Of the image's mean: in darker places, errors are not counted relative to the light that there is.
+constexpr float kRelativeErrorFloor = 0.1f;
 
 bool stopped(const NforSettings& settings) {
     return settings.stop != nullptr && *settings.stop;
@@ -86,21 +91,70 @@ Planes squared_error(const Halves& light, const Filtered& filtered) {
     });
 }
 
-/// In [0, 1]: 0 where the first bandwidth has the smaller error, 1 where the second.
-Planes bandwidth_choice(const Halves& light, const Halves& compressed_light, const std::array<Filtered, 2>& filtered,
-                        const ThreadPool& threads) {
-    const Planes mean = mean_of_all(compressed_light.a, compressed_light.b, light.share);
-    const NlMeansGuide guide{mean, compressed_light.variance};
-    const Planes narrow = nl_means(squared_error(light, filtered[0]), guide, kErrorFilter, threads);
-    const Planes wide = nl_means(squared_error(light, filtered[1]), guide, kErrorFilter, threads);
-    const Planes choice = combined(narrow, wide, [](float n, float w) { return n < w ? 0.0f : 1.0f; });
-    return nl_means(choice, guide, kErrorFilter, threads);
+/// What squared errors are multiplied by to be relative: 1 / Σ (v / ε + 1)², the sum over the channels. Without, the
+/// error of a lamp's edge, a million times that of a wall, would choose for all walls around. v is the lesser of the
+/// narrowest filter's light and the mean of 3 × 3 pixels of the input: where a filter has spread a lamp over its wall,
+/// its error counts as on a wall.
+Planes error_scale(const Planes& input, const Planes& narrowest) {
+    const Planes box = box_filtered(input, 1);
+    const float floor = kRelativeErrorFloor * mean_of(input);
+    return make_planes(input.width(), input.height(), 1, [&](int, int x, int y) {
+        const auto square_of = [&](const Planes& planes) {
+            float sum = 0.0f;
+            for (int plane = 0; plane < planes.count(); ++plane) {
+                const float value = std::abs(planes.row(plane, y)[x]) / floor + 1.0f;
+                sum += value * value;
+            }
+            return sum;
+        };
+        return 1.0f / std::min(square_of(box), square_of(narrowest));
+    });
 }
 
-Planes mixed(const Planes& narrow, const Planes& wide, const Planes& choice) {
-    return make_planes(narrow.width(), narrow.height(), narrow.count(), [&](int plane, int x, int y) {
-        const float t = choice.row(0, y)[x];
-        return (1.0f - t) * narrow.row(plane, y)[x] + t * wide.row(plane, y)[x];
+/// How much of each candidate each pixel is to be, in [0, 1]; the sum of them is 1. Of which the estimated relative
+/// error is least, smoothed. The input, filtered by nothing, is a candidate like the others, and its `squared_error` is
+/// its variance: so no pixel is filtered where that is expected to make it worse.
+std::array<Planes, kCandidates> candidate_shares(const Halves& light, const Halves& compressed_light,
+                                                 const std::array<Filtered, kCandidates>& candidates,
+                                                 const ThreadPool& threads) {
+    const Planes mean = mean_of_all(compressed_light.a, compressed_light.b, light.share);
+    const NlMeansGuide guide{mean, compressed_light.variance};
+    const Planes scale = error_scale(mean_of_all(light.a, light.b, light.share),
+                                     mean_of_all(candidates[0].a, candidates[0].b, light.share));
+    std::array<Planes, kCandidates> errors;
+    for (std::size_t i = 0; i < kCandidates; ++i) {
+        const Planes relative = combined(squared_error(light, candidates[i]), scale,
+                                         [](float error, float factor) { return error * factor; });
+        errors[i] = nl_means(relative, guide, kErrorFilter, threads);
+    }
+    std::array<Planes, kCandidates> shares;
+    for (std::size_t i = 0; i < kCandidates; ++i) {
+        const Planes is_best = make_planes(mean.width(), mean.height(), 1, [&](int, int x, int y) {
+            const auto error_of = [&](const Planes& error) { return error.row(0, y)[x]; };
+            return std::ranges::min_element(errors, {}, error_of) - errors.begin() == std::ptrdiff_t(i) ? 1.0f : 0.0f;
+        });
+        shares[i] = nl_means(is_best, guide, kErrorFilter, threads);
+    }
+    return shares;
+}
+
+/// The sum of the candidates, one half of each, times their shares.
+Planes mixed(const std::array<Filtered, kCandidates>& candidates, Planes Filtered::*half,
+             const std::array<Planes, kCandidates>& shares) {
+    const Planes& first = candidates[0].*half;
+    return make_planes(first.width(), first.height(), first.count(), [&](int plane, int x, int y) {
+        float sum = 0.0f;
+        for (std::size_t i = 0; i < kCandidates; ++i)
+            sum += shares[i].row(0, y)[x] * (candidates[i].*half).row(plane, y)[x];
+        return sum;
+    });
+}
+
+/// `filtered`, and `input` as far as it is not to be filtered.
+Planes guarded(const Planes& filtered, const Planes& input, const Planes& share_of_input) {
+    return make_planes(filtered.width(), filtered.height(), filtered.count(), [&](int plane, int x, int y) {
+        const float t = share_of_input.row(0, y)[x];
+        return (1.0f - t) * filtered.row(plane, y)[x] + t * input.row(plane, y)[x];
     });
 }
 
@@ -182,14 +236,15 @@ Planes denoise_nfor(const Halves& light, const PreparedFeatures& features, const
     const Planes input = mean_of_all(light.a, light.b, light.share);
     const float brightness = mean_of(input);
     const Halves guide = compressed(light, brightness);
-    std::array<Filtered, 2> filtered;
+    std::array<Filtered, kCandidates> candidates;
     for (std::size_t i = 0; i < kBandwidths.size() && !stopped(settings); ++i)
-        filtered[i] = regress(light, guide, features, settings.radius, kBandwidths[i], threads);
+        candidates[i] = regress(light, guide, features, settings.radius, kBandwidths[i], threads);
     if (stopped(settings)) return {};
-    const Planes choice = bandwidth_choice(light, guide, filtered, threads);
+    candidates.back() = {light.a, light.b};
+    const std::array<Planes, kCandidates> shares = candidate_shares(light, guide, candidates, threads);
     const Halves mixture{
-        light.share, mixed(filtered[0].a, filtered[1].a, choice), mixed(filtered[0].b, filtered[1].b, choice), {}};
-    filtered = {};
+        light.share, mixed(candidates, &Filtered::a, shares), mixed(candidates, &Filtered::b, shares), {}};
+    candidates = {};
     // Section 5.4: what noise is left is known from the difference of the halves, and is taken from their mean.
     const Halves last_guide = compressed(mixture, brightness);
     if (stopped(settings)) return {};
@@ -197,6 +252,8 @@ Planes denoise_nfor(const Halves& light, const PreparedFeatures& features, const
     const Planes last_mean = mean_of_all(last_guide.a, last_guide.b, light.share);
     Planes denoised = collaborative_regression({target, {last_mean, last_guide.variance}, features.both},
                                                {settings.radius, kLargestPatchRadius, 1.0f}, threads);
+    // The last regression must not spread what was left as it is, either.
+    denoised = guarded(denoised, input, shares.back());
     clamp_below(denoised, input);
     return denoised;
 }

@@ -34,9 +34,9 @@ struct PreparedFeatures {
 [[nodiscard]] PreparedFeatures prepare_features(const std::vector<Halves>& features, int width, int height,
                                                 const NforSettings& settings, const ThreadPool& threads);
 
-/// The layer of light `light`, of 3 planes, denoised: sections 5.2 to 5.4. Exactly the same for every number of
-/// threads. No value is below the least of the mean of both halves, or 0 if that is less: light does not become
-/// negative.
+/// The layer of light `light`, of 3 planes, denoised: sections 5.2 to 5.4. Pixels of which the halves say that they
+/// would become worse stay as they are. Exactly the same for every number of threads. No value is below the least of
+/// the mean of both halves, or 0 if that is less: light does not become negative.
 [[nodiscard]] Planes denoise_nfor(const Halves& light, const PreparedFeatures& features, const NforSettings& settings,
                                   const ThreadPool& threads);
 

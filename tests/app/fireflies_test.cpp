@@ -133,6 +133,15 @@ TEST_F(Fireflies, AreNotToBeControlledByWhatMakesNoSense) {
     expect_refused({"--brightest", "2000"}, "--brightest");
 }
 
+TEST_F(Fireflies, WhatHasNoEffectIsNoted) {
+    const std::string without = "note: --min-spp has no effect";
+    EXPECT_NE(render("a.exr", {"--min-spp", "64"}).err.find(without), std::string::npos);
+    EXPECT_EQ(render("a.exr", {"--min-spp", "64", "--error", "0.5"}).err.find(without), std::string::npos);
+    const std::string direct_only = "note: --clamp-indirect has no effect";
+    EXPECT_NE(render("a.exr", {"--clamp-indirect", "1", "--max-depth", "2"}).err.find(direct_only), std::string::npos);
+    EXPECT_EQ(render("a.exr", {"--clamp-indirect", "1", "--max-depth", "3"}).err.find(direct_only), std::string::npos);
+}
+
 TEST_F(Fireflies, CanBeControlledByRenderJson) {
     write_scene(folder_ / "box", R"("clamp_indirect": 0.02, "robust": "mon:3", "brightest": 2,)");
     render_well("a.exr", {});

@@ -123,6 +123,36 @@ TEST(Nfor, ALampDoesNotShineIntoItsWall) {
         }
 }
 
+/// The mean of ((value - truth) / (truth + 0.1))² over the pixels that are not in the lamp of the tests below.
+double relative_error_of_walls(const Planes& planes, const Planes& truth) {
+    double sum = 0.0;
+    int count = 0;
+    for (int y = 0; y < planes.height(); ++y)
+        for (int x = 0; x < planes.width(); ++x) {
+            const auto r = double(truth.row(0, y)[x]);
+            if (r > 100.0) continue;
+            const double relative = (double(planes.row(0, y)[x]) - r) / (r + 0.1);
+            sum += relative * relative;
+            ++count;
+        }
+    return sum / count;
+}
+
+TEST(Nfor, ALampThatOneHalfHasMissedIsNotSpread) {
+    // A little lamp, far brighter than all else. Samples of one half alone fall into the pixels of its edge, so that
+    // patches of the other half do not tell them from the wall.
+    const Planes truth =
+        same_planes(64, 64, 3, [](int x, int y) { return x >= 31 && x <= 33 && y >= 31 && y <= 33 ? 5000.0f : 0.5f; });
+    Halves light = noisy_halves(truth, 0.2f, 14);
+    for (int plane = 0; plane < 3; ++plane)
+        for (int y = 31; y <= 33; ++y)
+            for (int x = 31; x <= 33; ++x)
+                if (x != 32 || y != 32) (((x + y) % 2 == 0) ? light.a : light.b).row(plane, y)[x] = 0.5f;
+    light = make_halves(mean_of_all(light.a, light.b, light.share), light.a, light.share);
+    const Planes input = mean_of_all(light.a, light.b, light.share);
+    EXPECT_LT(relative_error_of_walls(denoised(light, {}), truth), relative_error_of_walls(input, truth));
+}
+
 TEST(Nfor, EmptyFeaturesAndNothingToDo) {
     const Planes black = same_planes(20, 20, 3, [](int, int) { return 0.0f; });
     const Halves light = noisy_halves(black, 0.0f, 11);
