@@ -4,16 +4,25 @@
 
 namespace etendue {
 
-float reverse_pdf_of_lobe(const Bsdf& bsdf, const Vec3f& wo, const Vec3f& wi) {
+namespace {
+
+float pdf_of_lobe(const Bsdf& bsdf, const Vec3f& wo, const Vec3f& wi) {
+    // The lobe that most surfaces have, and half of what it does is not for the density.
+    if (const auto* lobe = std::get_if<MetallicRoughness>(&bsdf)) return lobe->pdf_solid_angle(wo, wi);
     // Densities are the same in both modes.
-    constexpr TransportMode kAny = TransportMode::Importance;
-    if (wi.z > 0.0f || is_two_sided_interface(bsdf)) return evaluate_bsdf(bsdf, wi, wo, kAny).pdf_solid_angle;
+    return evaluate_bsdf(bsdf, wo, wi, TransportMode::Importance).pdf_solid_angle;
+}
+
+}  // namespace
+
+float reverse_pdf_of_lobe(const Bsdf& bsdf, const Vec3f& wo, const Vec3f& wi) {
+    if (wi.z > 0.0f || is_two_sided_interface(bsdf)) return pdf_of_lobe(bsdf, wi, wo);
     // Lobes that do not tell sides apart are turned to face where the walk comes from.
     const Vec3f from = turned_about_y(wi);
     const Vec3f to = turned_about_y(wo);
     if (const auto* layered = std::get_if<LayeredSurface>(&bsdf))
-        return layered->from_behind().evaluate(from, to, kAny).pdf_solid_angle;
-    return evaluate_bsdf(bsdf, from, to, kAny).pdf_solid_angle;
+        return layered->from_behind().evaluate(from, to, TransportMode::Importance).pdf_solid_angle;
+    return pdf_of_lobe(bsdf, from, to);
 }
 
 Rgb diffuse_share(const Bsdf& bsdf, const Vec3f& wo, const Vec3f& wi, TransportMode mode) {

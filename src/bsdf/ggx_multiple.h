@@ -18,7 +18,7 @@ struct GgxMultiple {
     float b_squared;
     float log_range;
 
-    explicit GgxMultiple(float alpha) : b_squared(4.0f * alpha * alpha), log_range(std::log1p(1.0f / b_squared)) {}
+    explicit GgxMultiple(float alpha) : b_squared(4.0f * alpha * alpha), log_range(std::log(1.0f + 1.0f / b_squared)) {}
 
     /// Density of `sample`, 1/sr, for a direction with cosine `cos_theta` >= 0.
     [[nodiscard]] float pdf_solid_angle(float cos_theta) const {

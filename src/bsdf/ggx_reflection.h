@@ -58,10 +58,15 @@ struct GgxReflection {
         if (missing_average > 0.0f)
             value.multiple =
                 (1.0f - albedo_o.single) * (1.0f - value.albedo_i.single) * wi.z * kInvPi / missing_average;
-        const float p_multiple = multiple_probability();
-        value.pdf_solid_angle = (1.0f - p_multiple) * ggx.g1(wo) * d / (4.0f * wo.z) +
-                                p_multiple * multiple_directions.pdf_solid_angle(wi.z);
+        value.pdf_solid_angle = pdf_solid_angle(wo, wi, d);
         return value;
+    }
+
+    /// Density of `sample`, 1/sr, where `d` is that of the facets that reflect wo to wi.
+    [[nodiscard]] float pdf_solid_angle(const Vec3f& wo, const Vec3f& wi, float d) const {
+        const float p_multiple = multiple_probability();
+        return (1.0f - p_multiple) * ggx.g1(wo) * d / (4.0f * wo.z) +
+               p_multiple * multiple_directions.pdf_solid_angle(wi.z);
     }
 
     /// A direction with the density that `evaluate` states; wi.z <= 0 means that it went below the surface.

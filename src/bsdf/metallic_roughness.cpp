@@ -137,6 +137,15 @@ MetallicRoughness::Value evaluate_below(const Layers& layers, const Vec3f& wo, c
     return value;
 }
 
+float pdf_of_layers(const Layers& layers, const Vec3f& wo, const Vec3f& wi) {
+    const bool above = wi.z > 0.0f;
+    const Vec3f w{wi.x, wi.y, std::abs(wi.z)};
+    const float pdf = (above ? layers.p_diffuse : layers.p_diffuse_below) * cosine_hemisphere_pdf_solid_angle(w);
+    const float p_around = above ? layers.p_specular : layers.p_transmitted;
+    if (layers.smooth || p_around == 0.0f) return pdf;
+    return pdf + p_around * layers.reflection.pdf_solid_angle(wo, w, layers.reflection.ggx.d(normalize(wo + w)));
+}
+
 BsdfSample sample_smooth(const Layers& layers, const Vec3f& wo, bool transmit) {
     if (transmit)
         return {.wi = -wo,
@@ -159,6 +168,11 @@ bool MetallicRoughness::has_non_delta() const {
 MetallicRoughness::Value MetallicRoughness::evaluate_parts(const Vec3f& wo, const Vec3f& wi) const {
     if (wo.z <= 0.0f || wi.z == 0.0f) return {};
     return evaluate_layers(Layers(*this, wo), wo, wi);
+}
+
+float MetallicRoughness::pdf_solid_angle(const Vec3f& wo, const Vec3f& wi) const {
+    if (wo.z <= 0.0f || wi.z == 0.0f) return 0.0f;
+    return pdf_of_layers(Layers(*this, wo), wo, wi);
 }
 
 float MetallicRoughness::passed_by_specular(float cos_theta) const {

@@ -47,6 +47,8 @@ struct MetallicRoughness {
         float pdf_solid_angle = 0.0f;
     };
     [[nodiscard]] Value evaluate_parts(const Vec3f& wo, const Vec3f& wi) const;
+    /// The density of `evaluate` alone.
+    [[nodiscard]] float pdf_solid_angle(const Vec3f& wo, const Vec3f& wi) const;
 
     /// Share of light with cosine `cos_theta` that the dielectric's specular layer lets through to what lies under it.
     [[nodiscard]] float passed_by_specular(float cos_theta) const;

@@ -1,6 +1,5 @@
 #include "texture/mip_chain.h"
 
-#include "texture/srgb.h"
 #include "texture/wrap.h"
 
 #include <algorithm>
@@ -87,15 +86,6 @@ ImageF halve(int width, int height, int channels, const Fetch& fetch) {
     return half;
 }
 
-/// The texel that begins at `values`.
-template <typename T>
-Texel read_texel(const T* values, int channels, bool curved) {
-    std::array<float, 4> c{};
-    for (int i = 0; i < channels; ++i)
-        c[static_cast<std::size_t>(i)] = decode(values[i], curved && !is_alpha(i, channels));
-    return make_texel(channels, c.data());
-}
-
 /// `a` where both are equal, without rounding.
 Texel mix(const Texel& a, const Texel& b, float t) {
     return {lerp(a.rgb, b.rgb, t), a.alpha + (b.alpha - a.alpha) * t};
@@ -119,7 +109,8 @@ std::uint64_t mip_texel_count(int width, int height) {
     return count;
 }
 
-MipChain::MipChain(std::vector<NativeImage> levels, Encoding encoding, MipLevels wanted) : encoding_(encoding) {
+MipChain::MipChain(std::vector<NativeImage> levels, Encoding encoding, MipLevels wanted)
+    : encoding_(encoding), decoding8_(encoding == Encoding::Srgb ? &srgb_decoding8() : &linear_decoding8()) {
     std::visit(
         [&]<typename T>(const Image<T>& image) {
             channels_ = image.channels;
@@ -172,47 +163,78 @@ void MipChain::add_levels(std::vector<T>& values) {
     }
 }
 
+// Which depth and how many channels is asked once for all texels of a look-up: what reads them knows both.
 Texel MipChain::sample(Vec2f uv, float level, bool nearest, const TextureOptions& options) const {
+    return std::visit(
+        [&](const auto& values) {
+            switch (channels_) {
+                case 1:
+                    return sample_levels<1>(values.data(), uv, level, nearest, options);
+                case 2:
+                    return sample_levels<2>(values.data(), uv, level, nearest, options);
+                case 3:
+                    return sample_levels<3>(values.data(), uv, level, nearest, options);
+                default:
+                    return sample_levels<4>(values.data(), uv, level, nearest, options);
+            }
+        },
+        values_);
+}
+
+template <int Channels, typename T>
+Texel MipChain::sample_levels(const T* values, Vec2f uv, float level, bool nearest,
+                              const TextureOptions& options) const {
     const float within = std::min(level, static_cast<float>(levels_.size() - 1));
     const float lower = std::floor(within);
     const float fraction = within - lower;
-    const auto first = static_cast<std::size_t>(lower);
-    const Texel fine = sample_level(uv, first, nearest, options);
+    const Level* const first = &levels_[static_cast<std::size_t>(lower)];
+    const Texel fine = sample_level<Channels>(values, uv, *first, nearest, options);
     if (fraction == 0.0f) return fine;
-    return mix(fine, sample_level(uv, first + 1, nearest, options), fraction);
+    return mix(fine, sample_level<Channels>(values, uv, *(first + 1), nearest, options), fraction);
 }
 
-Texel MipChain::sample_level(Vec2f uv, std::size_t level, bool nearest, const TextureOptions& options) const {
-    const Level& size = levels_[level];
-    const float x = reduce_coordinate(uv.x, options.wrap_u) * static_cast<float>(size.width);
-    const float y = reduce_coordinate(uv.y, options.wrap_v) * static_cast<float>(size.height);
-    const auto column = [&](int i) { return static_cast<std::size_t>(wrap_index(i, size.width, options.wrap_u)); };
-    const auto row = [&](int i) {
-        return static_cast<std::size_t>(wrap_index(i, size.height, options.wrap_v)) *
-               static_cast<std::size_t>(size.width);
+template <int Channels, typename T>
+Texel MipChain::sample_level(const T* values, Vec2f uv, const Level& level, bool nearest,
+                             const TextureOptions& options) const {
+    const T* const texels = values + level.first;
+    const float x = reduce_coordinate(uv.x, options.wrap_u) * static_cast<float>(level.width);
+    const float y = reduce_coordinate(uv.y, options.wrap_v) * static_cast<float>(level.height);
+    const auto column = [&](int i) {
+        return texels + static_cast<std::size_t>(wrap_index(i, level.width, options.wrap_u)) * Channels;
     };
-    const auto channels = static_cast<std::size_t>(channels_);
-    const bool curved = encoding_ == Encoding::Srgb;
-    return std::visit(
-        [&](const auto& values) {
-            const auto* const texels = values.data() + size.first;
-            const auto texel = [&](std::size_t index) {
-                return read_texel(texels + index * channels, channels_, curved);
-            };
-            if (nearest) return texel(row(static_cast<int>(std::floor(y))) + column(static_cast<int>(std::floor(x))));
-            // Texel centres lie at half-integers.
-            const float left = std::floor(x - 0.5f);
-            const float top = std::floor(y - 0.5f);
-            const float fx = x - 0.5f - left;
-            const float fy = y - 0.5f - top;
-            const std::size_t column0 = column(static_cast<int>(left));
-            const std::size_t column1 = column(static_cast<int>(left) + 1);
-            const std::size_t row0 = row(static_cast<int>(top));
-            const std::size_t row1 = row(static_cast<int>(top) + 1);
-            return mix(mix(texel(row0 + column0), texel(row0 + column1), fx),
-                       mix(texel(row1 + column0), texel(row1 + column1), fx), fy);
-        },
-        values_);
+    const auto row = [&](int i) {
+        return static_cast<std::size_t>(wrap_index(i, level.height, options.wrap_v)) *
+               static_cast<std::size_t>(level.width) * Channels;
+    };
+    if (nearest)
+        return read_texel<Channels>(column(static_cast<int>(std::floor(x))) + row(static_cast<int>(std::floor(y))));
+    // Texel centres lie at half-integers.
+    const float left = std::floor(x - 0.5f);
+    const float top = std::floor(y - 0.5f);
+    const float fx = x - 0.5f - left;
+    const float fy = y - 0.5f - top;
+    const T* const column0 = column(static_cast<int>(left));
+    const T* const column1 = column(static_cast<int>(left) + 1);
+    const std::size_t row0 = row(static_cast<int>(top));
+    const std::size_t row1 = row(static_cast<int>(top) + 1);
+    return mix(mix(read_texel<Channels>(column0 + row0), read_texel<Channels>(column1 + row0), fx),
+               mix(read_texel<Channels>(column0 + row1), read_texel<Channels>(column1 + row1), fx), fy);
+}
+
+template <int Channels, typename T>
+Texel MipChain::read_texel(const T* texel) const {
+    if constexpr (Channels == 1) return {Rgb(decode_color(texel[0])), 1.0f};
+    if constexpr (Channels == 2) return {Rgb(decode_color(texel[0])), decode(texel[1], false)};
+    if constexpr (Channels == 3)
+        return {{decode_color(texel[0]), decode_color(texel[1]), decode_color(texel[2])}, 1.0f};
+    if constexpr (Channels == 4)
+        return {{decode_color(texel[0]), decode_color(texel[1]), decode_color(texel[2])}, decode(texel[3], false)};
+}
+
+template <typename T>
+float MipChain::decode_color(T value) const {
+    if constexpr (std::is_same_v<T, std::uint8_t>) return (*decoding8_)[value];
+    return decode(value, encoding_ == Encoding::Srgb);
 }
 
 Texel MipChain::mean() const {

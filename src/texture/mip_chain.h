@@ -3,6 +3,7 @@
 
 #include "core/vec.h"
 #include "image/image.h"
+#include "texture/srgb.h"
 #include "texture/texture_options.h"
 
 #include <array>
@@ -51,10 +52,20 @@ class MipChain {
     std::vector<T> take_levels(std::vector<NativeImage>& images);
     template <typename T>
     void add_levels(std::vector<T>& values);
-    [[nodiscard]] Texel sample_level(Vec2f uv, std::size_t level, bool nearest, const TextureOptions& options) const;
+    template <int Channels, typename T>
+    [[nodiscard]] Texel sample_levels(const T* values, Vec2f uv, float level, bool nearest,
+                                      const TextureOptions& options) const;
+    template <int Channels, typename T>
+    [[nodiscard]] Texel sample_level(const T* values, Vec2f uv, const Level& level, bool nearest,
+                                     const TextureOptions& options) const;
+    template <int Channels, typename T>
+    [[nodiscard]] Texel read_texel(const T* texel) const;
+    template <typename T>
+    [[nodiscard]] float decode_color(T value) const;
 
     int channels_ = 0;
     Encoding encoding_ = Encoding::Linear;
+    const Decoding8* decoding8_ = nullptr;  ///< of colour in 8 bits
     std::vector<Level> levels_;
     Values values_;
 };

@@ -33,9 +33,18 @@ float srgb_from_linear(float linear) {
     return static_cast<float>(v <= 0.0031308 ? v * 12.92 : 1.055 * std::pow(v, 1.0 / 2.4) - 0.055);
 }
 
-float linear_from_srgb8(std::uint8_t encoded) {
-    static const std::array<float, 256> table = decode_all(std::array<float, 256>{}, 0.0, 255.0);
-    return table[encoded];
+const Decoding8& srgb_decoding8() {
+    static const Decoding8 table = decode_all(Decoding8{}, 0.0, 255.0);
+    return table;
+}
+
+const Decoding8& linear_decoding8() {
+    static const Decoding8 table = [] {
+        Decoding8 shares{};
+        for (std::size_t i = 0; i < shares.size(); ++i) shares[i] = static_cast<float>(i) * (1.0f / 255.0f);
+        return shares;
+    }();
+    return table;
 }
 
 float linear_from_srgb16(std::uint16_t encoded) {

@@ -15,6 +15,8 @@ namespace etendue {
         case Wrap::Clamp:
             return std::clamp(i, 0, size - 1);
         case Wrap::Repeat: {
+            // Coordinates are reduced to less than two images beforehand, and a division takes longer than the rest.
+            if (i >= size && i < 2 * size) return i - size;
             const int remainder = i % size;
             return remainder < 0 ? remainder + size : remainder;
         }

@@ -48,6 +48,13 @@ struct GltfLayers {
     TextureSlot clearcoat_texture;
     float clearcoat_roughness = 0.0f;
     TextureSlot clearcoat_roughness_texture;
+
+    [[nodiscard]] bool is_textured() const {
+        return diffuse_transmission_texture.valid() || diffuse_transmission_color_texture.valid() ||
+               anisotropy_texture.valid() || iridescence_texture.valid() || film_thickness_texture.valid() ||
+               sheen_color_texture.valid() || sheen_roughness_texture.valid() || clearcoat_texture.valid() ||
+               clearcoat_roughness_texture.valid();
+    }
 };
 
 /// Factors of glTF's metallic-roughness model whose textures are looked up at each hit.
@@ -67,6 +74,11 @@ struct GltfModel {
     bool refracts = false;  ///< the surface of a closed body rather than a thin sheet
     float ior = 1.5f;       ///< against vacuum
     std::optional<GltfLayers> layers;
+
+    [[nodiscard]] bool is_textured() const {
+        return base_color_texture.valid() || metallic_roughness_texture.valid() || specular_texture.valid() ||
+               specular_color_texture.valid() || transmission_texture.valid() || (layers && layers->is_textured());
+    }
 };
 
 enum class AlphaTest { Opaque, Mask, Blend };
@@ -74,6 +86,8 @@ enum class AlphaTest { Opaque, Mask, Blend };
 struct Material {
     /// Either a lobe that is the same everywhere, or the model to evaluate.
     std::variant<Bsdf, GltfModel> model;
+    /// What the model evaluates to with vacuum around it, if that is the same at every point. The World finds out.
+    std::optional<Bsdf> uniform;
 
     Rgb emission;  ///< radiance in W/(m² sr): working space, or linear Rec.709 if there is a texture
     TextureSlot emission_texture;

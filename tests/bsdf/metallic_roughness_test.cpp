@@ -6,6 +6,7 @@
 #include "support/random.h"
 
 #include <cmath>
+#include <variant>
 
 #include <gtest/gtest.h>
 
@@ -38,6 +39,24 @@ TEST(MetallicRoughness, IsAMixOfDielectricAndMetal) {
             ASSERT_NEAR(got.b, expected.b, 1e-4f * expected.b + 1e-6f);
         }
     }
+}
+
+TEST(MetallicRoughness, TheDensityAloneIsThatOfTheValue) {
+    Random random(17);
+    int checked = 0;
+    for (const BsdfSetting& setting : all_bsdf_settings()) {
+        const auto* lobe = std::get_if<MetallicRoughness>(&setting.bsdf);
+        if (lobe == nullptr) continue;
+        for (const Vec3f& wo : outgoing_directions(setting.bsdf))
+            for (int i = 0; i < 50; ++i) {
+                const Vec3f wi = normalize({random.next() - 0.5f, random.next() - 0.5f, random.next() - 0.5f});
+                const float expected = lobe->evaluate(wo, wi, setting.mode).pdf_solid_angle;
+                ASSERT_NEAR(lobe->pdf_solid_angle(wo, wi), expected, 1e-6f * expected) << setting.name;
+                ++checked;
+            }
+    }
+    EXPECT_GT(checked, 0);
+    EXPECT_EQ(MetallicRoughness{}.pdf_solid_angle({0, 0, -1}, {0, 0, 1}), 0.0f);
 }
 
 TEST(MetallicRoughness, AMetalIsARoughConductorWithSchlicksFresnel) {

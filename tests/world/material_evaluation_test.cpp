@@ -244,6 +244,66 @@ TEST_F(MaterialEvaluation, ACoatDoesNotShowTheReliefBelowIt) {
     EXPECT_NEAR(point.coat_normal.z, 1.0f, 1e-6f);
 }
 
+/// Whether the quad's lobe at its middle was made for that point, rather than once for all points.
+bool is_made_for_the_point(const World& world, float relative_ior) {
+    Bsdf storage;
+    const Hit hit = intersect(world, Ray{.origin = {0.1f, 0.1f, 0}, .direction = {0, 0, -1}});
+    return &world.bsdf(world.surface_point(hit), {0.0f, 0.0f, 1.0f}, relative_ior, storage) == &storage;
+}
+
+TEST_F(MaterialEvaluation, WhatIsTheSameEverywhereIsEvaluatedOnce) {
+    MaterialDesc material;
+    material.base_color = {0.8f, 0.6f, 0.1f};
+    material.roughness = 0.6f;
+    material.metallic = 0.3f;
+    material.specular = 0.7f;
+    material.iridescence.factor = 0.5f;
+    const World world = world_with(material);
+    EXPECT_FALSE(is_made_for_the_point(world, 0.0f));
+    const MetallicRoughness lobe = lobe_at(world, 0.1f, 0.1f);
+    EXPECT_EQ(lobe.base, material.base_color);
+    EXPECT_FLOAT_EQ(lobe.alpha_x, 0.36f);
+    EXPECT_EQ(lobe.metallic, 0.3f);
+    EXPECT_EQ(lobe.f90, 0.7f);
+    EXPECT_EQ(lobe.film.strength, 0.5f);
+    // Converts with the world's matrix, so that this must not be one that was moved from.
+    EXPECT_LT(max_component(lobe.film.reflectance(lobe.f0, 0.5f)), 1.0f);
+    EXPECT_GT(max_component(lobe.film.reflectance(lobe.f0, 0.5f)), 0.0f);
+}
+
+TEST_F(MaterialEvaluation, WhatVariesWithVertexColoursIsEvaluatedAtEachPoint) {
+    surface_.colors = {
+        {1.0f, 0.0f, 0.0f, 1.0f}, {1.0f, 0.0f, 0.0f, 1.0f}, {0.0f, 1.0f, 0.0f, 1.0f}, {0.0f, 1.0f, 0.0f, 1.0f}};
+    const World world = world_with({});
+    EXPECT_TRUE(is_made_for_the_point(world, 0.0f));
+    EXPECT_FALSE(lobe_at(world, 0.1f, 0.9f).base == lobe_at(world, 0.1f, -0.9f).base);
+}
+
+TEST_F(MaterialEvaluation, WhatVariesWithATextureIsEvaluatedAtEachPoint) {
+    MaterialDesc material;
+    material.transmission_texture.texture = texture(1, {{128, 0, 0, 255}});
+    EXPECT_TRUE(is_made_for_the_point(world_with(material), 0.0f));
+}
+
+TEST_F(MaterialEvaluation, ABodysInterfaceIsEvaluatedForWhatIsAroundIt) {
+    MaterialDesc material;
+    material.transmission = 1.0f;
+    material.metallic = 0.0f;
+    material.roughness = 0.0f;
+    material.ior = 1.5f;
+    material.volume.closed = true;
+    const World world = world_with(material);
+    EXPECT_FALSE(is_made_for_the_point(world, 1.5f));
+    EXPECT_TRUE(is_made_for_the_point(world, 1.2f));
+    Bsdf storage;
+    const Hit hit = intersect(world, Ray{.origin = {0.1f, 0.1f, 0}, .direction = {0, 0, -1}});
+    const auto ior = [&](float relative) {
+        return std::get<SmoothDielectric>(world.bsdf(world.surface_point(hit), {0, 0, 1}, relative, storage)).ior;
+    };
+    EXPECT_EQ(ior(1.5f), 1.5f);
+    EXPECT_EQ(ior(1.2f), 1.2f);
+}
+
 }  // namespace
 
 }  // namespace etendue::test
