@@ -29,7 +29,7 @@ struct ConstantEnvironment {
 };
 
 /// An image, importance-sampled in two dimensions by its bilinear reconstruction's mean over each cell, times the sine
-/// of the polar angle. A texel costs 12 bytes for its colour and 4 for its density.
+/// of the polar angle. A texel costs 12 bytes for its colour and 5 for its density.
 class ImageEnvironment {
   public:
     /// `image` has 3 linear channels in the working space, already scaled; `rotation` in radians about +Y,

@@ -29,6 +29,15 @@ bool is_delta_light(const Light& light) {
            std::holds_alternative<ProfileLight>(light) || std::holds_alternative<DirectionalLight>(light);
 }
 
+std::size_t light_bytes(const Light& light) {
+    return std::visit(
+        [](const auto& one) -> std::size_t {
+            if constexpr (requires { one.bytes(); }) return one.bytes();
+            return 0;
+        },
+        light);
+}
+
 bool is_at_infinity(const Light& light) {
     return std::holds_alternative<DirectionalLight>(light) || std::holds_alternative<ConstantEnvironment>(light) ||
            std::holds_alternative<ImageEnvironment>(light);
@@ -36,6 +45,17 @@ bool is_at_infinity(const Light& light) {
 
 float light_power(const Light& light, float scene_radius) {
     return std::visit([&](const auto& l) { return l.power(scene_radius); }, light);
+}
+
+std::optional<LightBounds> light_bounds(const Light& light) {
+    return std::visit(
+        [](const auto& l) -> std::optional<LightBounds> {
+            if constexpr (requires { l.bounds(); })
+                return l.bounds();
+            else
+                return std::nullopt;
+        },
+        light);
 }
 
 Rgb environment_radiance(const Light& light, const Vec3f& direction) {

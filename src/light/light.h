@@ -1,17 +1,19 @@
 // All lights, and the choice between them.
 //
 // To add another: a struct with `sample(point, u)`, `sample_emission(u, scene)` with its `emission_pdf(direction, cos,
-// scene)` and `power(scene_radius)`, its place in the variant, one case in world/compile_lights.cpp, one in
-// is_delta_light() if it is a delta, and its row in tests/light.
+// scene)` and `power(scene_radius)`, `bounds()` unless it is at infinity, its place in the variant, one case in
+// world/compile_lights.cpp, one in is_delta_light() if it is a delta, and its row in tests/light.
 #pragma once
 
 #include "light/environment_light.h"
+#include "light/light_bounds.h"
 #include "light/mesh_light.h"
 #include "light/profile_light.h"
 #include "light/punctual_light.h"
 #include "sampling/alias_table.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <variant>
 #include <vector>
@@ -33,11 +35,16 @@ using Light = std::variant<PointLight, SpotLight, ProfileLight, DirectionalLight
 [[nodiscard]] float emission_pdf(const Light& light, const Vec3f& direction, float cos_light, const SceneSphere& scene);
 /// True if it has no extent, in space or in direction, so that no ray meets it by chance.
 [[nodiscard]] bool is_delta_light(const Light& light);
+/// Bytes that it holds beside itself: triangles, images and tables.
+[[nodiscard]] std::size_t light_bytes(const Light& light);
 /// True if it shines from infinitely far away.
 [[nodiscard]] bool is_at_infinity(const Light& light);
 
 /// Emitted power in watts, mean of the channels; lights at infinity count what crosses a disk of `scene_radius` metres.
 [[nodiscard]] float light_power(const Light& light, float scene_radius);
+
+/// Where it is and where it shines, unless at infinity.
+[[nodiscard]] std::optional<LightBounds> light_bounds(const Light& light);
 
 /// Radiance from infinity along `-direction`; zero for lights that are no environment.
 [[nodiscard]] Rgb environment_radiance(const Light& light, const Vec3f& direction);
@@ -55,6 +62,7 @@ class LightSelector {
     [[nodiscard]] AliasTable::Choice sample(Vec2f u) const { return table_.sample(u); }
     [[nodiscard]] float probability(std::size_t light) const { return table_.probability(light); }
     [[nodiscard]] bool empty() const { return table_.empty(); }
+    [[nodiscard]] std::size_t bytes() const { return table_.bytes(); }
 
   private:
     AliasTable table_;

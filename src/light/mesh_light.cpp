@@ -5,6 +5,9 @@
 #include "core/ray.h"
 #include "sampling/warp.h"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace etendue {
@@ -91,6 +94,26 @@ float MeshLight::pdf_solid_angle(float distance, float cos_light) const {
 
 float MeshLight::power(float) const {
     return kPi * area_ * average(mean_radiance_) * (two_sided_ ? 2.0f : 1.0f);
+}
+
+LightBounds MeshLight::bounds() const {
+    LightBounds bounds;
+    bounds.power = static_cast<double>(power(0.0f));
+    Vec3d facing(0.0);
+    for (std::size_t i = 0; i < triangles_.size(); ++i) {
+        const LightTriangle& t = triangles_[i];
+        for (const Vec3f& p : {t.p0, t.p0 + t.edge1, t.p0 + t.edge2}) bounds.box.extend(p);
+        facing += Vec3d(fronts_[i].normal) * static_cast<double>(by_area_.probability(i));
+    }
+    EmissionCone& cone = bounds.cone;
+    cone = {.axis = Vec3f(facing.normalized()), .theta_e = 0.5 * std::numbers::pi, .two_sided = two_sided_};
+    if (!(facing.length() > 0.0)) cone.theta_o = std::numbers::pi;
+    for (std::size_t i = 0; i < triangles_.size(); ++i) {
+        if (!(by_area_.probability(i) > 0.0f)) continue;
+        const auto cosine = static_cast<double>(dot(fronts_[i].normal, cone.axis));
+        cone.theta_o = std::max(cone.theta_o, std::acos(std::clamp(cosine, -1.0, 1.0)));
+    }
+    return bounds;
 }
 
 }  // namespace etendue

@@ -4,7 +4,9 @@
 // the same code that evaluates it where a ray hits, so that both strategies of MIS agree.
 #pragma once
 
+#include "core/vector_bytes.h"
 #include "light/emission_sample.h"
+#include "light/light_bounds.h"
 #include "light/light_sample.h"
 #include "sampling/alias_table.h"
 
@@ -38,11 +40,14 @@ class MeshLight {
     [[nodiscard]] EmissionSample sample_emission(const EmissionNumbers& u, const SceneSphere& scene) const;
     [[nodiscard]] float emission_pdf(const Vec3f& direction, float cos_light, const SceneSphere& scene) const;
     [[nodiscard]] float power(float scene_radius) const;
+    /// As if every point of it shone as much as any other.
+    [[nodiscard]] LightBounds bounds() const;
 
     [[nodiscard]] float area() const { return area_; }
     /// True if `radiance` of a sample is right as it is; false if the World must evaluate it at the sampled point.
     [[nodiscard]] bool is_uniform() const { return is_uniform_; }
     [[nodiscard]] std::span<const LightTriangle> triangles() const { return triangles_; }
+    [[nodiscard]] std::size_t bytes() const { return vector_bytes(triangles_, fronts_) + by_area_.bytes(); }
 
   private:
     struct Front {

@@ -33,6 +33,12 @@ EmissionSample ProfileLight::sample_emission(const EmissionNumbers& u, const Sce
     return sample;
 }
 
+LightBounds ProfileLight::bounds() const {
+    const Vec3f position = std::visit([](const auto& l) { return l.position; }, lamp);
+    return bounds_of_point(position, {.axis = -frame.normal, .theta_o = std::acos(static_cast<double>(cos_emission()))},
+                           power(0.0f));
+}
+
 float ProfileLight::power(float) const {
     constexpr int kSteps = 1024;
     const SpotLight* spot = std::get_if<SpotLight>(&lamp);

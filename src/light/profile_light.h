@@ -23,6 +23,8 @@ struct ProfileLight {
     /// By a rule of 1,024 points over the vertical angle: near enough for a choice, and exact to some 1e-5 for profiles
     /// as they are measured.
     [[nodiscard]] float power(float scene_radius) const;
+    /// All directions within the cone into which there is any light count alike.
+    [[nodiscard]] LightBounds bounds() const;
 
   private:
     /// Of the cone into which the profile, and the spot, have any light.

@@ -4,6 +4,8 @@
 #include "sampling/warp.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace etendue {
 
@@ -44,6 +46,10 @@ float PointLight::power(float) const {
     return 4.0f * kPi * average(intensity);
 }
 
+LightBounds PointLight::bounds() const {
+    return bounds_of_point(position, {.theta_o = std::numbers::pi}, power(0.0f));
+}
+
 float SpotLight::falloff(float cos_angle) const {
     // Equal cones, also those that only single precision makes equal, are a hard edge; the ramp is never over nothing.
     if (cos_angle >= cos_inner) return 1.0f;
@@ -74,6 +80,15 @@ float SpotLight::power(float) const {
     return 2.0f * kPi * average(intensity) * (1.0f - cos_inner + (cos_inner - cos_outer) / 3.0f);
 }
 
+LightBounds SpotLight::bounds() const {
+    const double inner = std::acos(static_cast<double>(std::clamp(cos_inner, -1.0f, 1.0f)));
+    const double outer = std::acos(static_cast<double>(std::clamp(cos_outer, -1.0f, 1.0f)));
+    // The angle of emission ends at a right one.
+    const double theta_e = std::clamp(outer - inner, 0.0, 0.5 * std::numbers::pi);
+    return bounds_of_point(position, {.axis = axis, .theta_o = std::max(inner, outer - theta_e), .theta_e = theta_e},
+                           power(0.0f));
+}
+
 LightSample DirectionalLight::sample(const Vec3f&, Vec2f) const {
     LightSample sample;
     sample.wi = -direction;
@@ -94,6 +109,14 @@ float DirectionalLight::emission_pdf(const Vec3f&, float, const SceneSphere& sce
 
 float DirectionalLight::power(float scene_radius) const {
     return kPi * scene_radius * scene_radius * average(irradiance);
+}
+
+LightBounds bounds_of_point(const Vec3f& position, const EmissionCone& cone, float power) {
+    LightBounds bounds;
+    bounds.box.extend(position);
+    bounds.cone = cone;
+    bounds.power = static_cast<double>(power);
+    return bounds;
 }
 
 namespace {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "light/emission_sample.h"
+#include "light/light_bounds.h"
 #include "light/light_sample.h"
 
 namespace etendue {
@@ -15,6 +16,7 @@ struct PointLight {
     [[nodiscard]] EmissionSample sample_emission(const EmissionNumbers& u, const SceneSphere& scene) const;
     [[nodiscard]] float emission_pdf(const Vec3f& direction, float cos_light, const SceneSphere& scene) const;
     [[nodiscard]] float power(float scene_radius) const;
+    [[nodiscard]] LightBounds bounds() const;
 };
 
 /// A point that radiates into a cone. Between the two cones intensity falls off as KHR_lights_punctual recommends: the
@@ -31,6 +33,7 @@ struct SpotLight {
     [[nodiscard]] EmissionSample sample_emission(const EmissionNumbers& u, const SceneSphere& scene) const;
     [[nodiscard]] float emission_pdf(const Vec3f& direction, float cos_light, const SceneSphere& scene) const;
     [[nodiscard]] float power(float scene_radius) const;
+    [[nodiscard]] LightBounds bounds() const;
 };
 
 /// Parallel light from infinitely far away.
@@ -43,6 +46,9 @@ struct DirectionalLight {
     [[nodiscard]] float emission_pdf(const Vec3f& direction, float cos_light, const SceneSphere& scene) const;
     [[nodiscard]] float power(float scene_radius) const;
 };
+
+/// Of a light at `position` that shines as `cone` and `power` say.
+[[nodiscard]] LightBounds bounds_of_point(const Vec3f& position, const EmissionCone& cone, float power);
 
 /// The part of an emission sample that all lights at a point share: a direction within the cone around the unit `axis`
 /// whose half angle has the cosine `cos_max`, uniformly; without the radiance.

@@ -29,6 +29,7 @@ class AliasTable {
     [[nodiscard]] float probability(std::size_t index) const { return bins_[index].probability; }
     [[nodiscard]] std::size_t size() const { return bins_.size(); }
     [[nodiscard]] bool empty() const { return bins_.empty(); }
+    [[nodiscard]] std::size_t bytes() const { return bins_.capacity() * sizeof(Bin); }
 
   private:
     struct Bin {

@@ -3,11 +3,15 @@
 #include "sampling/warp.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace etendue {
 
 namespace {
+
+/// So many intervals share an entry of the guide, or up to half as many.
+constexpr std::size_t kIntervalsPerStart = 4;
 
 /// The interval that holds `x`. In double precision the product is exact, so that no x belongs to a neighbour.
 std::size_t cell(float x, std::size_t count) {
@@ -28,12 +32,28 @@ Distribution1D::Distribution1D(std::span<const float> weights) : cdf_(weights.si
         cdf_[i + 1] = static_cast<float>(std::min(running, 1.0));
     }
     cdf_.back() = 1.0f;
+
+    const std::size_t starts = std::max<std::size_t>(1, std::bit_ceil(weights.size()) / kIntervalsPerStart);
+    guide_.reserve(starts + 1);
+    std::size_t index = 0;
+    for (std::size_t i = 0; i <= starts; ++i) {
+        const float u = static_cast<float>(i) / static_cast<float>(starts);
+        while (index + 1 < weights.size() && cdf_[index + 1] <= u) ++index;
+        guide_.push_back(static_cast<std::uint32_t>(index));
+    }
+}
+
+std::size_t Distribution1D::find(float u) const {
+    // Exact, since the number of starts is a power of two.
+    const std::size_t start = cell(u, guide_.size() - 1);
+    const auto first = cdf_.begin() + 1;
+    const auto above = std::upper_bound(first + guide_[start], first + guide_[start + 1], u);
+    return static_cast<std::size_t>(above - first);
 }
 
 Distribution1D::Sample Distribution1D::sample(float u) const {
     // The first value above u ends the interval; intervals of zero width are never chosen.
-    const auto above = std::upper_bound(cdf_.begin() + 1, cdf_.end() - 1, u);
-    const auto index = static_cast<std::size_t>(above - cdf_.begin()) - 1;
+    const std::size_t index = find(u);
     const float mass = cdf_[index + 1] - cdf_[index];
     const float within = mass > 0.0f ? std::clamp((u - cdf_[index]) / mass, 0.0f, kOneMinusEpsilon) : 0.5f;
     const auto count = static_cast<float>(size());
@@ -84,7 +104,7 @@ Vec2f Distribution2D::inverse(Vec2f position) const {
 }
 
 std::size_t Distribution2D::bytes() const {
-    return (rows_.empty() ? 0 : rows_.size() * (rows_.front().size() + 1) + rows_.size() + 1) * sizeof(float);
+    return rows_.empty() ? 0 : rows_.size() * rows_.front().bytes() + marginal_.bytes();
 }
 
 }  // namespace etendue

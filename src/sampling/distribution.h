@@ -5,12 +5,14 @@
 #include "core/vec.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
 namespace etendue {
 
-/// Density on [0,1) that is constant on n equal intervals. 4 bytes an interval.
+/// Density on [0,1) that is constant on n equal intervals. 4 bytes an interval, and 1 to 2 for where to begin to look
+/// (the cutpoints of Chen and Asau, "On Generating Random Variates from an Empirical Distribution", 1974).
 class Distribution1D {
   public:
     Distribution1D() = default;
@@ -30,8 +32,15 @@ class Distribution1D {
     /// Mean of the weights: the integral over [0,1) of the function that they describe.
     [[nodiscard]] double integral() const { return integral_; }
 
+    [[nodiscard]] std::size_t bytes() const { return cdf_.size() * sizeof(float) + guide_.size() * sizeof(guide_[0]); }
+
   private:
+    /// The interval that `u` falls into: as many values of cdf_ but the first are at most u, other than the last.
+    [[nodiscard]] std::size_t find(float u) const;
+
     std::vector<float> cdf_;  ///< size() + 1 values from 0 to 1
+    /// `find` of the multiples of a power of two's inverse, from 0 to 1.
+    std::vector<std::uint32_t> guide_;
     double integral_ = 0.0;
 };
 

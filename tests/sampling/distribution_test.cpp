@@ -2,6 +2,7 @@
 
 #include "support/chi2.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <vector>
@@ -57,6 +58,33 @@ TEST(Distribution1D, SamplesInvertAndHaveTheirDensity) {
             // x has 24 bits, of which an interval among n keeps 24 - log2(n) for its inside.
             ASSERT_NEAR(distribution.inverse(sample.x), u, 1e-6f * (1.0f + sample.pdf));
         }
+    }
+}
+
+/// The interval by a search through the whole distribution function.
+std::size_t searched_interval(const std::vector<float>& cdf, float u) {
+    const auto above = std::upper_bound(cdf.begin() + 1, cdf.end() - 1, u);
+    return static_cast<std::size_t>(above - cdf.begin()) - 1;
+}
+
+// Also where u lies on a border or next to one: of an interval, and of what shares an entry of the guide.
+TEST(Distribution1D, TheGuideLeadsToTheIntervalOfASearch) {
+    for (const std::vector<float>& weights : weight_lists()) {
+        const Distribution1D distribution(weights);
+        std::vector<float> cdf{0.0f};
+        double running = 0.0;
+        const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+        for (const float weight : weights) {
+            running += static_cast<double>(weight) / total;
+            cdf.push_back(static_cast<float>(std::min(running, 1.0)));
+        }
+        std::vector<float> numbers = cdf;
+        for (int i = 0; i < 4096; ++i) numbers.push_back(static_cast<float>(i) / 4096.0f);
+        for (const float u : numbers)
+            for (const float near : {std::nextafter(u, 0.0f), u, std::nextafter(u, 1.0f)})
+                if (near < 1.0f) {
+                    ASSERT_EQ(distribution.sample(near).index, searched_interval(cdf, near)) << "u = " << near;
+                }
     }
 }
 
@@ -188,8 +216,12 @@ TEST(Distribution2D, KeepsStratification) {
 }
 
 TEST(Distribution2D, CountsItsBytes) {
+    // 4 bytes a value of a distribution function, which has one more than there are intervals, and the same for the
+    // guide's, which begins with one for four intervals.
     const Distribution2D distribution(std::vector<float>(12, 1.0f), 4, 3);
-    EXPECT_EQ(distribution.bytes(), (3u * 5u + 4u) * sizeof(float));
+    EXPECT_EQ(distribution.bytes(), 3u * (5u + 2u) * 4u + (4u + 2u) * 4u);
+    const Distribution2D wide(std::vector<float>(2048, 1.0f), 1024, 2);
+    EXPECT_EQ(wide.bytes(), 2u * (1025u + 257u) * 4u + (3u + 2u) * 4u);
 }
 
 }  // namespace

@@ -1,0 +1,97 @@
+// The choice of a light for a point: by power, distance and orientation, in a time that grows with the logarithm of
+// their number.
+//
+// Lights that are not at infinity are the leaves of a binary tree. From its root on, one of a node's two children is
+// chosen, each with a probability in proportion to what it may bring to the point,
+//
+//   importance = power / measure × max(cos theta', floor) / d²
+//   theta' = max(0, theta - theta_o - theta_b),    only the floor if theta' > theta_e
+//
+// with theta between the axis of the node's normals and the direction from the middle of its box to the point, theta_o
+// the half angle of the cone around them, theta_b the angle that a sphere around the box is seen under, and theta_e how
+// far from a normal light leaves (Conty Estevez and Kulla, "Importance Sampling of Many Lights with Adaptive Tree
+// Splitting", HPG 2018, equation 3; the bound on theta' is also that of Pharr, Jakob and Humphreys, "Physically Based
+// Rendering", 4th edition, section 12.6.3). Different from there: power goes over the measure of its cone, which makes
+// it an intensity, so that a spot, a point and a surface compare. And d² is the product of the distances of the
+// nearest and the farthest point of the node's box, which makes 1/d² the mean over lights along a line through the
+// point; the first is at least the root of a fiftieth of the diagonal's square over the number of lights, as the
+// nearest of many is near. With the distance of the middle instead, the node among whose lamps a point lies would count
+// too little, and that at every level. The receiver's normal is left out: the density is a function of the point alone,
+// which both ends of a bidirectional path can ask for.
+//
+// Lights at infinity are chosen beside the tree, in proportion to their irradiance against the importance of the root,
+// but with a probability within [1/10, 9/10]; between them, power decides. Of each side, one choice in ten is uniform
+// over the lights that have any power, as what counts may be hidden behind something.
+//
+// The tree is built from the top: nodes are split where, of 12 bins along each axis, the cost is least (ibid., equation
+// 2), below a depth of 32 in halves, so that 64 bits hold the way to any leaf. Memory: 64 bytes a node, of which n
+// lights have 2n - 1, and 20 a light. Built by one thread, so that every build of the same lights is the same.
+#pragma once
+
+#include "light/light.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace etendue {
+
+class LightTree {
+  public:
+    LightTree() = default;
+    /// `scene_radius` in metres, for the power of lights at infinity. n log n steps.
+    LightTree(std::span<const Light> lights, float scene_radius);
+
+    struct Choice {
+        std::uint32_t light;
+        float probability;
+    };
+    /// A light for `point`; `u` in [0, 1)², both of whose numbers are used as the digits of one. Must not be empty.
+    [[nodiscard]] Choice sample(const Vec3f& point, Vec2f u) const;
+    /// With what probability `sample` chooses the light of this index; to the bit what `sample` says.
+    [[nodiscard]] float probability(const Vec3f& point, std::size_t light) const;
+    [[nodiscard]] bool empty() const { return places_.empty(); }
+    [[nodiscard]] std::size_t bytes() const;
+
+  private:
+    static constexpr std::uint32_t kNone = 0xffffffffu;
+
+    struct alignas(64) Node {
+        Vec3f low, high;  ///< of its box
+        Vec3f axis;
+        float squared_spacing;  ///< m², see the importance
+        float intensity;        ///< along the axis, W/sr
+        float cos_o, sin_o, cos_e;
+        std::uint32_t next;  ///< the first of two children that lie side by side, or the light's place in `chosen_`
+        bool is_leaf;
+        bool two_sided;
+
+        [[nodiscard]] double importance(const Vec3f& point) const;
+    };
+    /// Where a light is found.
+    struct Place {
+        std::uint64_t trail = 0;      ///< from the lowest bit on: 1 where the way from the root takes the second child
+        std::uint32_t index = kNone;  ///< in `far_`, if it is at infinity; kNone if it has no power
+        bool is_far = false;
+    };
+    struct Leaf;
+
+    static Node make_node(const LightBounds& bounds);
+    void build(std::uint32_t node, std::span<Leaf> leaves, std::uint64_t trail, int depth);
+    /// Probability of the first child of `node`.
+    [[nodiscard]] double first_share(const Node& node, const Vec3f& point) const;
+    /// Of taking one at infinity; 0 or 1 if there are none, or no others.
+    [[nodiscard]] double far_share(const Vec3f& point) const;
+    /// The probability of a near light to which `by_tree` is that of the walk.
+    [[nodiscard]] float near_probability(double far_share, double by_tree) const;
+
+    std::vector<Node> nodes_;
+    std::vector<Place> places_;        ///< of each light
+    std::vector<std::uint32_t> near_;  ///< lights with power that are in the tree
+    std::vector<std::uint32_t> far_;   ///< and those at infinity
+    std::vector<double> far_ends_;     ///< sums of the probabilities of `far_`
+    double far_irradiance_ = 0.0;      ///< W/m²
+};
+
+}  // namespace etendue

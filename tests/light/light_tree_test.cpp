@@ -1,0 +1,286 @@
+#include "light/light_tree.h"
+
+#include "support/chi2.h"
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace etendue::test {
+
+namespace {
+
+constexpr float kSceneRadius = 10.0f;
+
+Vec3f random_point(Random& random, float size) {
+    const Vec2f xy = random.next_2d();
+    return Vec3f(xy.x - 0.5f, xy.y - 0.5f, random.next() - 0.5f) * size;
+}
+
+Vec3f random_axis(Random& random) {
+    Vec3f axis;
+    do {
+        axis = random_point(random, 2.0f);
+    } while (!(length_squared(axis) > 0.01f));
+    return normalize(axis);
+}
+
+/// Like the temperatures of lamps, powers span orders of magnitude.
+float random_power(Random& random) {
+    return std::exp2(10.0f * random.next() - 5.0f);
+}
+
+MeshLight random_mesh(Random& random) {
+    std::vector<LightTriangle> triangles;
+    const Vec3f corner = random_point(random, 8.0f);
+    const float size = 0.05f + random.next();
+    for (int i = 0; i < 3; ++i)
+        triangles.push_back(
+            {corner + random_point(random, size), random_axis(random) * size, random_axis(random) * size});
+    const Rgb radiance(random_power(random));
+    return {triangles, radiance, radiance, random.next() < 0.5f, random.next() < 0.5f, true, Vec3f(0.0f)};
+}
+
+Light random_light(Random& random) {
+    const float which = random.next();
+    if (which < 0.3f) return PointLight{random_point(random, 8.0f), Rgb(random_power(random))};
+    if (which < 0.7f) return random_mesh(random);
+    const float cos_outer = 2.0f * random.next() - 1.0f;
+    return SpotLight{.position = random_point(random, 8.0f),
+                     .axis = random_axis(random),
+                     .intensity = Rgb(random_power(random)),
+                     .cos_inner = cos_outer + (1.0f - cos_outer) * random.next() * 0.9f,
+                     .cos_outer = cos_outer};
+}
+
+std::vector<Light> random_lights(std::size_t count, std::uint32_t seed) {
+    Random random(seed);
+    std::vector<Light> lights;
+    while (lights.size() < count) lights.push_back(random_light(random));
+    return lights;
+}
+
+/// Some at infinity, one without power, and several in one place, where no split tells them apart.
+std::vector<Light> lights_of_all_kinds() {
+    std::vector<Light> lights = random_lights(40, 3);
+    lights.emplace_back(DirectionalLight{{0, -1, 0}, Rgb(0.5f)});
+    lights.emplace_back(PointLight{{1, 1, 1}, Rgb(0.0f)});
+    lights.emplace_back(ConstantEnvironment{Rgb(0.1f)});
+    for (int i = 0; i < 5; ++i) lights.emplace_back(PointLight{{2, 2, 2}, Rgb(1.0f)});
+    return lights;
+}
+
+/// Lamps along a line, side by side.
+std::vector<Light> row_of_lamps(std::size_t count) {
+    std::vector<Light> lights;
+    for (std::size_t i = 0; i < count; ++i)
+        lights.emplace_back(PointLight{{static_cast<float>(i), 2.0f, 0.0f}, Rgb(1.0f)});
+    return lights;
+}
+
+TEST(LightTree, ProbabilitiesAddUpToOne) {
+    for (const std::size_t count : {1u, 2u, 3u, 17u, 1000u}) {
+        const std::vector<Light> lights = count == 17 ? lights_of_all_kinds() : random_lights(count, 1);
+        const LightTree tree(lights, kSceneRadius);
+        Random random(2);
+        for (int i = 0; i < 200; ++i) {
+            const Vec3f point = random_point(random, i % 2 == 0 ? 8.0f : 1000.0f);
+            double sum = 0.0;
+            for (std::size_t light = 0; light < lights.size(); ++light)
+                sum += static_cast<double>(tree.probability(point, light));
+            EXPECT_NEAR(sum, 1.0, 1e-5) << count << " lights, " << point;
+        }
+    }
+}
+
+// False-positive rate of the whole table: kFamilyLevel.
+TEST(LightTree, ChoosesWithTheProbabilitiesItStates) {
+    const std::vector<std::vector<Light>> scenes = {random_lights(2, 4), lights_of_all_kinds(), random_lights(300, 5),
+                                                    row_of_lamps(64)};
+    constexpr int kPoints = 8;
+    constexpr int kSamples = 40'000;
+    const double level = sidak_level(kFamilyLevel, scenes.size() * kPoints);
+    Random random(6);
+    for (const std::vector<Light>& lights : scenes) {
+        const LightTree tree(lights, kSceneRadius);
+        for (int p = 0; p < kPoints; ++p) {
+            const Vec3f point = random_point(random, 8.0f);
+            std::vector<double> expected;
+            for (std::size_t i = 0; i < lights.size(); ++i)
+                expected.push_back(kSamples * static_cast<double>(tree.probability(point, i)));
+            std::vector<double> observed(lights.size());
+            for (int i = 0; i < kSamples; ++i) {
+                const LightTree::Choice choice = tree.sample(point, random.next_2d());
+                EXPECT_EQ(choice.probability, tree.probability(point, choice.light));
+                ++observed[choice.light];
+            }
+            const Chi2Result result = chi2_counts(observed, expected);
+            EXPECT_GT(result.p_value, level) << lights.size() << " lights, " << point << '\n' << result.str();
+        }
+    }
+}
+
+// Far lamps of a hundred thousand share what digits the numbers have.
+TEST(LightTree, NumbersReachEveryLightOfMany) {
+    constexpr std::size_t kCount = 100'000;
+    const LightTree tree(row_of_lamps(kCount), kSceneRadius);
+    const Vec3f point(50'000.0f, 0.0f, 0.0f);
+    Random random(7);
+    constexpr int kSamples = 200'000;
+    constexpr std::size_t kCells = 50;
+    std::vector<double> expected(kCells);
+    std::vector<double> observed(kCells);
+    for (std::size_t i = 0; i < kCount; ++i)
+        expected[i % kCells] += kSamples * static_cast<double>(tree.probability(point, i));
+    for (int i = 0; i < kSamples; ++i) {
+        const LightTree::Choice choice = tree.sample(point, random.next_2d());
+        ++observed[choice.light % kCells];
+    }
+    const Chi2Result result = chi2_counts(observed, expected);
+    EXPECT_GT(result.p_value, kFamilyLevel) << result.str();
+}
+
+TEST(LightTree, NoLightThatContributesIsImpossible) {
+    std::vector<Light> lights = lights_of_all_kinds();
+    Random random(8);
+    // Of these, some lie above a point and shine on it, and others below.
+    for (int i = 0; i < 200; ++i)
+        lights.emplace_back(SpotLight{random_point(random, 8.0f), {0, -1, 0}, Rgb(1.0f), 0.2f, 0.05f});
+    const LightTree tree(lights, kSceneRadius);
+    int lit = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const Vec3f point = random_point(random, i % 2 == 0 ? 8.0f : 100.0f);
+        for (std::size_t light = 0; light < lights.size(); ++light) {
+            const LightSample sample = sample_light(lights[light], point, random.next_2d(), random.next_2d());
+            if (is_black(sample.radiance)) continue;
+            ++lit;
+            EXPECT_GT(tree.probability(point, light), 0.0f) << "light " << light << ", " << point;
+        }
+    }
+    EXPECT_GT(lit, 40'000);
+    EXPECT_EQ(tree.probability(Vec3f(0.0f), 41), 0.0f) << "a light without power";
+}
+
+// No importance but of those that can shine there: without their own floor and the uniform choices the others have
+// none.
+TEST(LightTree, PrefersWhatIsNearAndFacesThePoint) {
+    const auto spot = [](const Vec3f& position, const Vec3f& axis, float intensity) {
+        return SpotLight{position, axis, Rgb(intensity), 0.9f, 0.7f};
+    };
+    const std::vector<Light> lights = {
+        spot({0, 1, 0}, {0, -1, 0}, 1.0f),  // near, faces the point
+        spot({0, 1, 0}, {0, 1, 0}, 1.0f),   // near, turned away
+        spot({0, 9, 0}, {0, -1, 0}, 1.0f),  // far
+        spot({0, 9, 0}, {0, -1, 0}, 8.0f),  // far and strong
+    };
+    const LightTree tree(lights, kSceneRadius);
+    const auto probability = [&](std::size_t light) { return tree.probability(Vec3f(0.0f), light); };
+    EXPECT_GT(probability(0), 0.6f);
+    EXPECT_LT(probability(1), 0.03f);
+    EXPECT_GT(probability(3) - 0.025f, 4.0f * (probability(2) - 0.025f));
+}
+
+// The point of it all: where many lamps stand about, what is chosen brings nearly the same whichever it is.
+TEST(LightTree, WeighsLampsAsTheyContribute) {
+    constexpr std::size_t kCount = 10'000;
+    std::vector<Light> lights;
+    for (std::size_t i = 0; i < kCount; ++i)
+        lights.emplace_back(PointLight{{static_cast<float>(i % 100), 2.0f, static_cast<float>(i / 100)}, Rgb(1.0f)});
+    const LightTree tree(lights, 100.0f);
+    const LightSelector by_power(lights, 100.0f);
+    Random random(9);
+    double tree_variance = 0.0;
+    double power_variance = 0.0;
+    for (int p = 0; p < 20; ++p) {
+        const Vec3f point(20.0f + 60.0f * random.next(), 0.0f, 20.0f + 60.0f * random.next());
+        double sum = 0.0;
+        double with_tree = 0.0;
+        double with_power = 0.0;
+        for (std::size_t i = 0; i < kCount; ++i) {
+            const auto arrives =
+                static_cast<double>(average(sample_light(lights[i], point, {0.5f, 0.5f}, {0.5f, 0.5f}).radiance));
+            sum += arrives;
+            with_tree += arrives * arrives / static_cast<double>(tree.probability(point, i));
+            with_power += arrives * arrives / static_cast<double>(by_power.probability(i));
+        }
+        tree_variance += with_tree / (sum * sum) - 1.0;
+        power_variance += with_power / (sum * sum) - 1.0;
+    }
+    EXPECT_LT(tree_variance, 0.05 * power_variance);
+    EXPECT_LT(tree_variance / 20.0, 1.0);
+}
+
+TEST(LightTree, OneLightIsCertain) {
+    const std::vector<Light> point = {PointLight{{1, 2, 3}, Rgb(1.0f)}};
+    const std::vector<Light> sky = {ConstantEnvironment{Rgb(0.1f)}};
+    for (const std::vector<Light>& lights : {point, sky}) {
+        const LightTree tree(lights, kSceneRadius);
+        for (const Vec2f& u : {Vec2f(0.0f, 0.0f), Vec2f(0.3f, 0.9f), Vec2f(0x1.fffffep-1f, 0x1.fffffep-1f)}) {
+            EXPECT_EQ(tree.sample(Vec3f(0.0f), u).light, 0u);
+            EXPECT_EQ(tree.sample(Vec3f(0.0f), u).probability, 1.0f);
+        }
+        EXPECT_EQ(tree.probability({1, 2, 3}, 0), 1.0f);
+    }
+    EXPECT_TRUE(LightTree({}, 1.0f).empty());
+}
+
+TEST(LightTree, NeitherTheSkyNorLampsStarve) {
+    for (const float sky : {1e-6f, 1e6f}) {
+        const std::vector<Light> lights = {PointLight{{0, 1, 0}, Rgb(1.0f)}, ConstantEnvironment{Rgb(sky)}};
+        const LightTree tree(lights, kSceneRadius);
+        EXPECT_NEAR(tree.probability(Vec3f(0.0f), 0), sky < 1.0f ? 0.9f : 0.1f, 1e-6f);
+        EXPECT_NEAR(tree.probability(Vec3f(0.0f), 1), sky < 1.0f ? 0.1f : 0.9f, 1e-6f);
+    }
+}
+
+TEST(LightTree, WithoutPowerAllAreEquallyLikely) {
+    const std::vector<Light> lights = {PointLight{{0, 0, 0}, Rgb(0.0f)}, PointLight{{0, 0, 0}, Rgb(0.0f)}};
+    const LightTree tree(lights, 1.0f);
+    for (std::size_t i = 0; i < lights.size(); ++i) EXPECT_NEAR(tree.probability({1, 1, 1}, i), 0.5f, 1e-6f);
+}
+
+TEST(LightTree, ManyLightsAreBuiltInBoundedTimeAndMemory) {
+    constexpr std::size_t kCount = 100'000;
+    const std::vector<Light> lights = random_lights(kCount, 10);
+    const auto begin = std::chrono::steady_clock::now();
+    const LightTree tree(lights, kSceneRadius);
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+    // Some twenty times what it takes: what is meant is a growth other than n log n.
+    EXPECT_LT(seconds.count(), 20.0);
+    EXPECT_LE(tree.bytes(), 160 * kCount);
+    std::printf("%.0f bytes and %.2f us a light\n", static_cast<double>(tree.bytes()) / kCount,
+                seconds.count() * 1e6 / kCount);
+}
+
+// Lamps whose places halve make the deepest tree there is.
+TEST(LightTree, HoldsTheWayToTheDeepestLeaf) {
+    std::vector<Light> lights;
+    float x = 1.0f;
+    for (int i = 0; i < 140; ++i, x *= 0.5f) lights.emplace_back(PointLight{{x, 0, 0}, Rgb(1.0f)});
+    const LightTree tree(lights, kSceneRadius);
+    Random random(11);
+    for (int i = 0; i < 20'000; ++i) {
+        const LightTree::Choice choice = tree.sample({0, 0, 1e-3f}, random.next_2d());
+        ASSERT_LT(choice.light, lights.size());
+        EXPECT_EQ(choice.probability, tree.probability({0, 0, 1e-3f}, choice.light));
+    }
+}
+
+TEST(LightTree, IsTheSameEveryTime) {
+    const std::vector<Light> lights = random_lights(2000, 12);
+    const LightTree one(lights, kSceneRadius);
+    const LightTree other(lights, kSceneRadius);
+    Random random(13);
+    for (int i = 0; i < 20; ++i) {
+        const Vec3f point = random_point(random, 8.0f);
+        for (std::size_t light = 0; light < lights.size(); ++light)
+            ASSERT_EQ(one.probability(point, light), other.probability(point, light));
+    }
+}
+
+}  // namespace
+
+}  // namespace etendue::test
