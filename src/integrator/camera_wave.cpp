@@ -8,11 +8,6 @@ namespace etendue {
 
 namespace {
 
-Vec2i pixel_position(const TileJob& job, std::uint32_t pixel) {
-    const auto width = static_cast<std::uint32_t>(job.rect.width());
-    return {job.rect.x0 + static_cast<int>(pixel % width), job.rect.y0 + static_cast<int>(pixel / width)};
-}
-
 /// Random numbers of a few camera rays, drawn together.
 class CameraNumbers {
   public:

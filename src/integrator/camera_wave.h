@@ -36,6 +36,12 @@ struct CameraSample {
     return (job.pixels.empty() ? job.rect.area() : job.pixels.size()) * job.sample_count;
 }
 
+/// Where pixel `pixel` of the job's tile is in the full image.
+[[nodiscard]] inline Vec2i pixel_position(const TileJob& job, std::uint32_t pixel) {
+    const auto width = static_cast<std::uint32_t>(job.rect.width());
+    return {job.rect.x0 + static_cast<int>(pixel % width), job.rect.y0 + static_cast<int>(pixel / width)};
+}
+
 /// Makes the camera rays of samples [first, first + rays.size()) of the job.
 void generate_camera_rays(const World& world, const TileJob& job, std::size_t first, std::span<CameraSample> samples,
                           std::span<Ray> rays);

@@ -8,9 +8,7 @@ void RenderCounters::drop(const DroppedSample& sample) {
 }
 
 void RenderCounters::add(const RenderCounters& other) {
-    camera_rays += other.camera_rays;
-    bounce_rays += other.bounce_rays;
-    shadow_rays += other.shadow_rays;
+    rays.add(other.rays);
     samples += other.samples;
     dropped += other.dropped;
     for (const DroppedSample& sample : other.first_dropped)

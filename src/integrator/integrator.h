@@ -9,6 +9,7 @@
 #include "integrator/aov/aov_set.h"
 #include "integrator/bright_sample.h"
 #include "integrator/heuristic.h"
+#include "integrator/ray_kind.h"
 #include "integrator/strategy.h"
 #include "sampling/sampler.h"
 #include "world/world.h"
@@ -24,6 +25,8 @@
 #include <vector>
 
 namespace etendue {
+
+class WaveProfile;
 
 /// A pixel that is to get samples: its index in the tile, row by row, and that of its first sample.
 struct PixelJob {
@@ -49,13 +52,12 @@ struct TileJob {
     /// what lights it without another bounce. All other light is indirect.
     float clamp_indirect = std::numeric_limits<float>::infinity();
     std::span<const PixelJob> pixels{};  ///< empty for all
+    WaveProfile* profile = nullptr;      ///< of the thread that renders; null if nobody asks
 };
 
 /// What rendering counts. One per thread, added up at the end.
 struct RenderCounters {
-    std::uint64_t camera_rays = 0;
-    std::uint64_t bounce_rays = 0;
-    std::uint64_t shadow_rays = 0;
+    RaysByKind rays;
     std::uint64_t samples = 0;
     std::uint64_t dropped = 0;
     std::vector<DroppedSample> first_dropped;  ///< at most kMaxLocated
@@ -63,7 +65,6 @@ struct RenderCounters {
 
     static constexpr std::size_t kMaxLocated = 8;
 
-    [[nodiscard]] std::uint64_t rays() const { return camera_rays + bounce_rays + shadow_rays; }
     void drop(const DroppedSample& sample);
     void add(const RenderCounters& other);
 };
@@ -88,6 +89,8 @@ struct IntegratorOptions {
 class IntegratorScratch {
   public:
     virtual ~IntegratorScratch() = default;
+    /// That it holds.
+    [[nodiscard]] virtual std::size_t bytes() const = 0;
 };
 
 class Integrator {

@@ -66,8 +66,10 @@ std::string to_json(const RenderStatistics& s) {
                            : Json();
     json["samples"] = s.samples;
     json["samples_per_second"] = per_second(s.samples, s.render.wall);
-    json["rays"] = {
-        {"camera", s.rays.camera}, {"bounce", s.rays.bounce}, {"shadow", s.rays.shadow}, {"total", s.rays.total()}};
+    json["rays"] = {{"camera", s.rays.camera},         {"bounce", s.rays.bounce},
+                    {"shadow", s.rays.shadow},         {"light_subpath", s.rays.light_subpath},
+                    {"connection", s.rays.connection}, {"light_to_camera", s.rays.light_to_camera},
+                    {"total", s.rays.total()}};
     json["rays_per_second"] = per_second(s.rays.total(), s.render.wall);
     json["seconds"] = {{"load", to_object(s.load)},
                        {"build", to_object(s.build)},

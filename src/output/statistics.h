@@ -16,8 +16,13 @@ struct RayCounts {
     std::uint64_t camera = 0;
     std::uint64_t bounce = 0;
     std::uint64_t shadow = 0;
+    std::uint64_t light_subpath = 0;
+    std::uint64_t connection = 0;
+    std::uint64_t light_to_camera = 0;
 
-    [[nodiscard]] std::uint64_t total() const { return camera + bounce + shadow; }
+    [[nodiscard]] std::uint64_t total() const {
+        return camera + bounce + shadow + light_subpath + connection + light_to_camera;
+    }
 };
 
 /// Seconds that a phase took on the clock, and on all processors together.

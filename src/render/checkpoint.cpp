@@ -26,7 +26,7 @@ static_assert(std::endian::native == std::endian::little, "checkpoints are writt
 static_assert(sizeof(PixelSum) == 48 && sizeof(SplatSum) == 24 && sizeof(DeepBin) == 64,
               "sums have no padding, and old files hold them so");
 
-constexpr std::array<char, 8> kMagic{'E', 'T', 'D', 'C', 'K', 'P', 'T', '3'};
+constexpr std::array<char, 8> kMagic{'E', 'T', 'D', 'C', 'K', 'P', 'T', '4'};
 
 /// Writes and hashes.
 class Writer {
@@ -101,9 +101,9 @@ class Reader {
 };
 
 void put_counters(Writer& out, const RenderCounters& counters) {
-    for (const std::uint64_t count :
-         {counters.camera_rays, counters.bounce_rays, counters.shadow_rays, counters.samples, counters.dropped})
-        out.put(count);
+    out.put(std::span<const std::uint64_t>(counters.rays.counts));
+    out.put(counters.samples);
+    out.put(counters.dropped);
     out.put(std::uint64_t{counters.first_dropped.size()});
     out.put(std::span<const DroppedSample>(counters.first_dropped));
     out.put(std::uint64_t{counters.brightest.capacity()});
@@ -113,9 +113,9 @@ void put_counters(Writer& out, const RenderCounters& counters) {
 
 RenderCounters get_counters(Reader& in) {
     RenderCounters counters;
-    for (std::uint64_t* count :
-         {&counters.camera_rays, &counters.bounce_rays, &counters.shadow_rays, &counters.samples, &counters.dropped})
-        *count = in.get<std::uint64_t>();
+    in.get(std::span<std::uint64_t>(counters.rays.counts));
+    counters.samples = in.get<std::uint64_t>();
+    counters.dropped = in.get<std::uint64_t>();
     counters.first_dropped = in.get_many<DroppedSample>(in.get<std::uint64_t>());
     const auto capacity = in.get<std::uint64_t>();
     std::vector<BrightSample> brightest = in.get_many<BrightSample>(in.get<std::uint64_t>());

@@ -2,6 +2,7 @@
 
 #include "core/process_time.h"
 #include "integrator/camera_wave.h"
+#include "render/render_profile.h"
 #include "render/tiles.h"
 
 #include <algorithm>
@@ -44,6 +45,12 @@ ProgressiveRender::ProgressiveRender(const World& world, const Integrator& integ
       tiles_(make_tiles(options.window)),
       workers_(static_cast<std::size_t>(threads.thread_count())) {
     for (Worker& worker : workers_) worker.scratch = integrator.make_scratch();
+}
+
+std::size_t ProgressiveRender::scratch_bytes() const {
+    std::size_t bytes = 0;
+    for (const Worker& worker : workers_) bytes += worker.scratch->bytes();
+    return bytes;
 }
 
 bool ProgressiveRender::add_samples(std::uint32_t count, const StopPredicate& stop, const TileCallback& tile_done) {
@@ -165,34 +172,48 @@ void ProgressiveRender::render_group(std::size_t first, std::size_t size, const 
             is_done = 1;
             return;
         }
-        const TileJob job{tiles_[first + order[index]],
-                          state_.film.splat_window(),
-                          options_.full_width,
-                          options_.full_height,
-                          state_.next_sample(),
-                          state_.pass_size,
-                          options_.seed,
-                          options_.sequence,
-                          &options_.filter,
-                          options_.aovs.get(),
-                          options_.clamp_indirect,
-                          worker.pixels};
+        TileJob job{tiles_[first + order[index]],
+                    state_.film.splat_window(),
+                    options_.full_width,
+                    options_.full_height,
+                    state_.next_sample(),
+                    state_.pass_size,
+                    options_.seed,
+                    options_.sequence,
+                    &options_.filter,
+                    options_.aovs.get(),
+                    options_.clamp_indirect,
+                    worker.pixels};
         worker.counters.brightest.expect(options_.brightest, brightest_floor);
-        const std::uint64_t rays_before = worker.counters.rays();
+        RenderProfile* const profile = options_.profile;
+        double start = 0.0;
+        if (profile != nullptr) {
+            job.profile = &profile->wave(slot);
+            job.profile->skip();
+            start = profile->now();
+        }
+        const std::uint64_t rays_before = worker.counters.rays.total();
         worker.tile.reset(job.rect, state_.film.layers().layout());
         integrator_.render_tile(world_, job, *worker.scratch, worker.tile, worker.counters);
         add_tile(worker, second);
         is_done = 1;
         const std::uint64_t samples = camera_sample_count(job);
+        if (profile != nullptr) {
+            job.profile->stamp(Stage::Film);
+            profile->add_tile({job.rect, slot, job.first_sample, samples, start, profile->now()});
+        }
         if (makes_splats) {
             splats_[order[index]].swap(worker.tile.splats());
             light_paths += samples;
         }
-        if (tile_done) tile_done(samples, worker.counters.rays() - rays_before);
+        if (tile_done) tile_done(samples, worker.counters.rays.total() - rays_before);
     });
+    const auto splats_start = Clock::now();
     if (makes_splats)
         for (Film* film : {&state_.film, second})
             if (film != nullptr) film->add_splats(splats_, light_paths, options_.filter, threads_);
+    if (makes_splats && options_.profile != nullptr)
+        options_.profile->add_splatting(seconds_since(splats_start) * threads_.thread_count());
     for (std::vector<Splat>& list : splats_) list.clear();
 }
 

@@ -17,6 +17,8 @@
 
 namespace etendue {
 
+class RenderProfile;
+
 /// What samples are taken, and of which pixels.
 struct SamplingOptions {
     int full_width = 1024;
@@ -32,6 +34,7 @@ struct SamplingOptions {
     std::uint32_t tile_order_seed = 0;
     std::shared_ptr<const AovSet> aovs{};                           ///< layers to keep besides the image; null for none
     float clamp_indirect = std::numeric_limits<float>::infinity();  ///< as in TileJob
+    RenderProfile* profile = nullptr;  ///< for as many threads as render; null if nobody asks
     std::size_t brightest = 0;  ///< how many of the brightest contributions to remember, [0, BrightestSamples::kMost]
 };
 
@@ -98,6 +101,8 @@ class ProgressiveRender {
 
     /// Of a pass that was stopped, what its complete tiles have is in the film.
     [[nodiscard]] const RenderState& state() const { return state_; }
+    /// That all threads keep between tiles, without the tiles themselves.
+    [[nodiscard]] std::size_t scratch_bytes() const;
     /// Moves the state out; nothing else may be called then.
     [[nodiscard]] RenderState take_state() { return std::move(state_); }
 

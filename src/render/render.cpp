@@ -26,7 +26,7 @@ class ProgressReporter {
           total_samples_(total_samples),
           seconds_before_(before.wall_seconds),
           samples_(before.counters.samples),
-          rays_(before.counters.rays()) {}
+          rays_(before.counters.rays.total()) {}
 
     void tile_done(std::uint64_t samples, std::uint64_t rays) {
         if (!callback_) return;

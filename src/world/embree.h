@@ -38,7 +38,11 @@ inline void intersect1(RTCScene scene, Context& context, RTCRayHit& ray) {
     RTCIntersectArguments arguments = intersect_arguments(context, false);
     rtcIntersect1(scene, &ray, &arguments);
 }
-inline void intersect16(const int* valid, RTCScene scene, Context& context, bool coherent, RTCRayHit16& rays) {
+inline void intersect(const int* valid, RTCScene scene, Context& context, bool coherent, RTCRayHit8& rays) {
+    RTCIntersectArguments arguments = intersect_arguments(context, coherent);
+    rtcIntersect8(valid, scene, &rays, &arguments);
+}
+inline void intersect(const int* valid, RTCScene scene, Context& context, bool coherent, RTCRayHit16& rays) {
     RTCIntersectArguments arguments = intersect_arguments(context, coherent);
     rtcIntersect16(valid, scene, &rays, &arguments);
 }
@@ -46,7 +50,11 @@ inline void occluded1(RTCScene scene, Context& context, RTCRay& ray) {
     RTCOccludedArguments arguments = occluded_arguments(context);
     rtcOccluded1(scene, &ray, &arguments);
 }
-inline void occluded16(const int* valid, RTCScene scene, Context& context, RTCRay16& rays) {
+inline void occluded(const int* valid, RTCScene scene, Context& context, RTCRay8& rays) {
+    RTCOccludedArguments arguments = occluded_arguments(context);
+    rtcOccluded8(valid, scene, &rays, &arguments);
+}
+inline void occluded(const int* valid, RTCScene scene, Context& context, RTCRay16& rays) {
     RTCOccludedArguments arguments = occluded_arguments(context);
     rtcOccluded16(valid, scene, &rays, &arguments);
 }
@@ -62,13 +70,19 @@ inline void init_context(Context& context, bool coherent) {
 inline void intersect1(RTCScene scene, Context& context, RTCRayHit& ray) {
     rtcIntersect1(scene, &context, &ray);
 }
-inline void intersect16(const int* valid, RTCScene scene, Context& context, bool /*coherent*/, RTCRayHit16& rays) {
+inline void intersect(const int* valid, RTCScene scene, Context& context, bool /*coherent*/, RTCRayHit8& rays) {
+    rtcIntersect8(valid, scene, &context, &rays);
+}
+inline void intersect(const int* valid, RTCScene scene, Context& context, bool /*coherent*/, RTCRayHit16& rays) {
     rtcIntersect16(valid, scene, &context, &rays);
 }
 inline void occluded1(RTCScene scene, Context& context, RTCRay& ray) {
     rtcOccluded1(scene, &context, &ray);
 }
-inline void occluded16(const int* valid, RTCScene scene, Context& context, RTCRay16& rays) {
+inline void occluded(const int* valid, RTCScene scene, Context& context, RTCRay8& rays) {
+    rtcOccluded8(valid, scene, &context, &rays);
+}
+inline void occluded(const int* valid, RTCScene scene, Context& context, RTCRay16& rays) {
     rtcOccluded16(valid, scene, &context, &rays);
 }
 

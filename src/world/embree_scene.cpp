@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "sampling/hash.h"
+#include "world/embree_query.h"
 
 #include <algorithm>
 #include <atomic>
@@ -14,13 +15,6 @@
 namespace etendue {
 
 namespace {
-
-/// What a filter function needs beside the hit: the scene, and the rays of the batch for their alpha keys.
-struct QueryContext {
-    embree::Context base;  // first, so that Embree's pointer to it is a pointer to this
-    const EmbreeScene* scene;
-    const Ray* rays;
-};
 
 /// Lets rays pass partly transparent surfaces with the probability of their transparency. The decision is a hash of the
 /// ray's key and the triangle, so that a ray decides the same way however often Embree asks.
@@ -49,48 +43,6 @@ std::atomic<std::size_t>& memory_counter(void* pointer) {
 bool count_memory(void* counter, ssize_t bytes, bool /*post*/) {
     memory_counter(counter).fetch_add(static_cast<std::size_t>(bytes), std::memory_order_relaxed);
     return true;
-}
-
-RTCRay make_ray(const Ray& ray, unsigned int id) {
-    RTCRay r{};
-    r.org_x = ray.origin.x;
-    r.org_y = ray.origin.y;
-    r.org_z = ray.origin.z;
-    r.dir_x = ray.direction.x;
-    r.dir_y = ray.direction.y;
-    r.dir_z = ray.direction.z;
-    r.tfar = ray.t_max;
-    r.time = ray.time;
-    r.mask = 0xffffffffu;
-    r.id = id;
-    return r;
-}
-
-constexpr std::size_t kPacket = 16;
-
-/// Rays `first` … of the batch as a packet; lanes beyond the end are invalid.
-struct PacketMask {
-    alignas(64) int valid[kPacket];
-};
-
-void fill_packet(std::span<const Ray> rays, std::size_t first, RTCRay16& packet, PacketMask& mask) {
-    const std::size_t count = std::min(kPacket, rays.size() - first);
-    for (std::size_t lane = 0; lane < kPacket; ++lane) {
-        const Ray& ray = rays[first + std::min(lane, count - 1)];
-        mask.valid[lane] = lane < count ? -1 : 0;
-        packet.org_x[lane] = ray.origin.x;
-        packet.org_y[lane] = ray.origin.y;
-        packet.org_z[lane] = ray.origin.z;
-        packet.tnear[lane] = 0.0f;
-        packet.dir_x[lane] = ray.direction.x;
-        packet.dir_y[lane] = ray.direction.y;
-        packet.dir_z[lane] = ray.direction.z;
-        packet.time[lane] = ray.time;
-        packet.tfar[lane] = ray.t_max;
-        packet.mask[lane] = 0xffffffffu;
-        packet.id[lane] = static_cast<unsigned int>(first + lane);
-        packet.flags[lane] = 0;
-    }
 }
 
 }  // namespace
@@ -205,19 +157,37 @@ void EmbreeScene::set_opacity(OpacityFunction function, const void* world) {
 }
 
 void EmbreeScene::intersect(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence, QueryForm form) const {
-    if (form == QueryForm::Single)
-        intersect_single(rays, hits);
-    else
-        // The coherent traversal pays within one level (4 to 5 times a single ray against 1.8 on the Cornell box) and
-        // costs where packets meet instances (0.8 against 1.4 on ten thousand of them).
-        intersect_packets(rays, hits, coherence == Coherence::Coherent && shared_.empty() && !has_motion_);
+    switch (form) {
+        case QueryForm::Single:
+            intersect_single(rays, hits);
+            break;
+        case QueryForm::Packet8:
+            intersect_packets<8>(rays, hits, takes_as_coherent(coherence));
+            break;
+        case QueryForm::Best:
+        case QueryForm::Packet16:
+            intersect_packets<16>(rays, hits, takes_as_coherent(coherence));
+            break;
+    }
 }
 
 void EmbreeScene::occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, QueryForm form) const {
-    if (form == QueryForm::Single)
-        occluded_single(rays, occluded);
-    else
-        occluded_packets(rays, occluded);
+    switch (form) {
+        case QueryForm::Single:
+            occluded_single(rays, occluded);
+            break;
+        case QueryForm::Packet8:
+            occluded_packets<8>(rays, occluded);
+            break;
+        case QueryForm::Best:
+        case QueryForm::Packet16:
+            occluded_packets<16>(rays, occluded);
+            break;
+    }
+}
+
+bool EmbreeScene::takes_as_coherent(Coherence coherence) const {
+    return coherence == Coherence::Coherent && shared_.empty() && !has_motion_;
 }
 
 Hit EmbreeScene::make_hit(float t, float u, float v, unsigned int triangle, unsigned int inner, unsigned int instance,
@@ -233,26 +203,23 @@ void EmbreeScene::intersect_single(std::span<const Ray> rays, std::span<Hit> hit
     embree::init_context(context.base, false);
     RTCRayHit query;
     for (std::size_t i = 0; i < rays.size(); ++i) {
-        query.ray = make_ray(rays[i], static_cast<unsigned int>(i));
-        query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-        query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+        query = make_ray_hit(rays[i], static_cast<unsigned int>(i));
         embree::intersect1(top_, context.base, query);
         hits[i] = make_hit(query.ray.tfar, query.hit.u, query.hit.v, query.hit.primID, query.hit.geomID,
                            query.hit.instID[0], rays[i].time);
     }
 }
 
+template <std::size_t Width>
 void EmbreeScene::intersect_packets(std::span<const Ray> rays, std::span<Hit> hits, bool coherent) const {
     QueryContext context{{}, this, rays.data()};
     embree::init_context(context.base, coherent);
-    PacketMask mask;
-    RTCRayHit16 packet;
-    for (std::size_t first = 0; first < rays.size(); first += kPacket) {
-        fill_packet(rays, first, packet.ray, mask);
-        std::fill_n(packet.hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
-        std::fill_n(packet.hit.instID[0], kPacket, RTC_INVALID_GEOMETRY_ID);
-        embree::intersect16(mask.valid, top_, context.base, coherent, packet);
-        const std::size_t count = std::min(kPacket, rays.size() - first);
+    PacketMask<Width> mask;
+    typename Packet<Width>::RayHits packet;
+    for (std::size_t first = 0; first < rays.size(); first += Width) {
+        fill_packet<Width>(rays, first, packet, mask);
+        embree::intersect(mask.valid, top_, context.base, coherent, packet);
+        const std::size_t count = std::min(Width, rays.size() - first);
         for (std::size_t lane = 0; lane < count; ++lane)
             hits[first + lane] =
                 make_hit(packet.ray.tfar[lane], packet.hit.u[lane], packet.hit.v[lane], packet.hit.primID[lane],
@@ -272,15 +239,16 @@ void EmbreeScene::occluded_single(std::span<const Ray> rays, std::span<std::uint
     }
 }
 
+template <std::size_t Width>
 void EmbreeScene::occluded_packets(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const {
     QueryContext context{{}, this, rays.data()};
     embree::init_context(context.base, false);
-    PacketMask mask;
-    RTCRay16 packet;
-    for (std::size_t first = 0; first < rays.size(); first += kPacket) {
-        fill_packet(rays, first, packet, mask);
-        embree::occluded16(mask.valid, top_, context.base, packet);
-        const std::size_t count = std::min(kPacket, rays.size() - first);
+    PacketMask<Width> mask;
+    typename Packet<Width>::Rays packet;
+    for (std::size_t first = 0; first < rays.size(); first += Width) {
+        fill_packet<Width>(rays, first, packet, mask);
+        embree::occluded(mask.valid, top_, context.base, packet);
+        const std::size_t count = std::min(Width, rays.size() - first);
         for (std::size_t lane = 0; lane < count; ++lane) occluded[first + lane] = packet.tfar[lane] < 0.0f ? 1 : 0;
     }
 }

@@ -2,6 +2,7 @@
 
 #include "bsdf/ggx.h"
 #include "core/position_error.h"
+#include "core/vector_bytes.h"
 #include "world/cone_section.h"
 #include "world/embree_scene.h"
 #include "world/gltf_surface.h"
@@ -13,6 +14,7 @@
 #include <map>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace etendue {
 
@@ -40,6 +42,25 @@ bool is_specular(const Material& material) {
             model.layers->clearcoat_roughness * model.layers->clearcoat_roughness < kSmoothAlpha);
 }
 
+/// True if what the model evaluates to depends on nothing about a point but its vertex colour. A coat has a normal of
+/// its own, which differs from the base's by rounding at least.
+bool is_uniform(const GltfModel& model) {
+    return !model.is_textured() && !(model.layers && model.layers->clearcoat > 0.0f);
+}
+
+/// Evaluates the materials that are the same everywhere, once for all points.
+void evaluate_uniform_materials(WorldData& data) {
+    std::vector<bool> is_colored(data.materials.size());
+    for (const Geometry& geometry : data.geometries)
+        if (!geometry.colors.empty()) is_colored[geometry.material] = true;
+    for (std::size_t i = 0; i < data.materials.size(); ++i) {
+        Material& material = data.materials[i];
+        const GltfModel* model = std::get_if<GltfModel>(&material.model);
+        if (model != nullptr && is_uniform(*model) && !is_colored[i])
+            material.uniform = evaluate_gltf_surface(data, *model, SurfacePoint{}, 0.0f, false);
+    }
+}
+
 /// The interface of a dielectric between other indices than it was made for.
 Bsdf with_relative_ior(const Bsdf& bsdf, float relative_ior) {
     constexpr float kSameIor = 1e-4f;
@@ -47,11 +68,6 @@ Bsdf with_relative_ior(const Bsdf& bsdf, float relative_ior) {
     if (const auto* rough = std::get_if<RoughDielectric>(&bsdf); rough != nullptr && !is_same)
         return RoughDielectric::make(relative_ior, rough->alpha_x, rough->alpha_y);
     return SmoothDielectric{.ior = is_same ? 1.0f : relative_ior};
-}
-
-template <typename T>
-std::size_t vector_bytes(const std::vector<T>& v) {
-    return v.capacity() * sizeof(T);
 }
 
 }  // namespace
@@ -62,8 +78,11 @@ WorldData::WorldData(WorldData&&) noexcept = default;
 WorldData& WorldData::operator=(WorldData&&) noexcept = default;
 
 World::World(WorldData data)
-    : data_(std::make_unique<WorldData>(std::move(data))), selector_(data_->lights, radius_of(data_->bounds)) {
+    : data_(std::make_unique<WorldData>(std::move(data))),
+      selector_(data_->lights, radius_of(data_->bounds)),
+      tree_(data_->lights, radius_of(data_->bounds)) {
     data_->bvh->set_opacity(opacity_callback, data_.get());
+    evaluate_uniform_materials(*data_);
     has_motion_ = data_->bvh->has_motion() || !data_->camera_motion.empty();
     has_transparency_ = std::any_of(data_->materials.begin(), data_->materials.end(),
                                     [](const Material& m) { return m.alpha_test != AlphaTest::Opaque; });
@@ -96,13 +115,15 @@ World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 
 void World::intersect(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence, QueryForm form) const {
-    if (observer_) observer_->on_intersect(rays, coherence);
     data_->bvh->intersect(rays, hits, coherence, form);
 }
 
 void World::occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, QueryForm form) const {
-    if (observer_) observer_->on_occluded(rays);
     data_->bvh->occluded(rays, occluded, form);
+}
+
+double World::replay(std::span<const Ray> rays, bool occlusion, Coherence coherence, QueryForm form) const {
+    return data_->bvh->replay(rays, occlusion, coherence, form);
 }
 
 SurfacePoint World::surface_point(const Hit& hit) const {
@@ -122,6 +143,9 @@ float World::mean_curvature(const SurfacePoint& point) const {
 const Bsdf& World::bsdf(const SurfacePoint& point, const Vec3f& wo, float relative_ior, Bsdf& storage) const {
     const Material& material = *point.material;
     if (const auto* model = std::get_if<GltfModel>(&material.model)) {
+        // Only a body's interface depends on what is around it.
+        const bool as_in_vacuum = !model->refracts || relative_ior == 0.0f || relative_ior == model->ior;
+        if (material.uniform && as_in_vacuum) return *material.uniform;
         storage = evaluate_gltf_surface(*data_, *model, point, relative_ior, dot(wo, point.geometric_normal) < 0.0f);
         return storage;
     }
@@ -208,13 +232,13 @@ Interior World::interior_at(const Vec3f& point) const {
 }
 
 ChosenLight World::sample_light(const Vec3f& point, const LightNumbers& u) const {
-    const AliasTable::Choice choice = selector_.sample(u.light);
-    const Light& light = data_->lights[choice.index];
-    ChosenLight chosen{etendue::sample_light(light, point, u.triangle, u.direction), choice.probability, choice.index};
+    const LightTree::Choice choice = tree_.sample(point, u.light);
+    const Light& light = data_->lights[choice.light];
+    ChosenLight chosen{etendue::sample_light(light, point, u.triangle, u.direction), choice.probability, choice.light};
     LightSample& sample = chosen.sample;
     sample.pdf_solid_angle *= choice.probability;
-    if (!is_black(sample.radiance) && has_uneven_emission(choice.index))
-        sample.radiance = mesh_emission(choice.index, sample.triangle, sample.barycentric, -sample.wi);
+    if (!is_black(sample.radiance) && has_uneven_emission(choice.light))
+        sample.radiance = mesh_emission(choice.light, sample.triangle, sample.barycentric, -sample.wi);
     return chosen;
 }
 
@@ -263,16 +287,17 @@ std::uint32_t World::light_at(const SurfacePoint& point) const {
     return data_->light_of_slot[instance.first_light_slot + point.geometry - instance.first_geometry];
 }
 
-float World::emitter_pdf_solid_angle(const SurfacePoint& point, const Vec3f& direction, float distance) const {
+float World::emitter_pdf_solid_angle(const Vec3f& from, const SurfacePoint& point, const Vec3f& direction,
+                                     float distance) const {
     const std::uint32_t light = light_at(point);
     if (light == kNone) return 0.0f;
     const float cos_light = -dot(direction, point.geometric_normal);
     return std::get<MeshLight>(data_->lights[light]).pdf_solid_angle(distance, cos_light) *
-           selector_.probability(light);
+           light_probability(from, light);
 }
 
 float World::emitter_pdf_area(std::uint32_t light) const {
-    return selector_.probability(light) / std::get<MeshLight>(data_->lights[light]).area();
+    return 1.0f / std::get<MeshLight>(data_->lights[light]).area();
 }
 
 Rgb World::environment_radiance(const Vec3f& direction) const {
@@ -281,8 +306,7 @@ Rgb World::environment_radiance(const Vec3f& direction) const {
 
 float World::environment_pdf_solid_angle(const Vec3f& direction) const {
     if (!has_environment()) return 0.0f;
-    return etendue::environment_pdf_solid_angle(data_->lights[data_->environment], direction) *
-           selector_.probability(data_->environment);
+    return etendue::environment_pdf_solid_angle(data_->lights[data_->environment], direction);
 }
 
 Camera World::camera_at(float time) const {
@@ -313,11 +337,8 @@ WorldStatistics World::statistics() const {
     WorldStatistics s;
     for (const Geometry& g : data_->geometries) {
         s.triangles += g.triangles.size();
-        s.geometry_bytes += vector_bytes(g.positions) + vector_bytes(g.normals) + vector_bytes(g.tangents) +
-                            vector_bytes(g.uv0) + vector_bytes(g.uv1) + vector_bytes(g.colors) +
-                            vector_bytes(g.triangles);
-        for (const VertexStep& step : g.motion)
-            s.geometry_bytes += vector_bytes(step.positions) + vector_bytes(step.normals);
+        s.geometry_bytes += vector_bytes(g.positions, g.normals, g.tangents, g.uv0, g.uv1, g.colors, g.triangles);
+        for (const VertexStep& step : g.motion) s.geometry_bytes += vector_bytes(step.positions, step.normals);
     }
     for (const Instance& instance : data_->instances)
         for (std::uint32_t g = 0; g < instance.geometry_count; ++g)
@@ -333,6 +354,9 @@ WorldStatistics World::statistics() const {
     }
     s.instances = data_->instances.size();
     s.lights = data_->lights.size();
+    s.light_bytes =
+        selector_.bytes() + tree_.bytes() + vector_bytes(data_->lights, data_->emitter_of_light, data_->light_of_slot);
+    for (const Light& light : data_->lights) s.light_bytes += light_bytes(light);
     s.isa = data_->bvh->instruction_set();
     s.bvh_bytes = data_->bvh->bytes();
     s.bvh_build_seconds = data_->bvh->build_seconds();

@@ -9,6 +9,7 @@
 #include "core/ray.h"
 #include "core/ray_cone.h"
 #include "light/light.h"
+#include "light/light_tree.h"
 #include "texture/texture.h"
 #include "world/body.h"
 #include "world/geometry.h"
@@ -45,16 +46,7 @@ enum class Coherence {
 };
 
 /// How a batch goes through Embree. The default is what measured best for its coherence; benchmarks compare.
-enum class QueryForm { Best, Single, Packet16 };
-
-/// Sees every batch of rays before it is traced: for benchmarks that replay a render's rays. Called from the threads
-/// that render.
-class RayObserver {
-  public:
-    virtual ~RayObserver() = default;
-    virtual void on_intersect(std::span<const Ray> rays, Coherence coherence) = 0;
-    virtual void on_occluded(std::span<const Ray> rays) = 0;
-};
+enum class QueryForm { Best, Single, Packet8, Packet16 };
 
 /// Counts and sizes for reports.
 struct WorldStatistics {
@@ -66,6 +58,7 @@ struct WorldStatistics {
     std::size_t bvh_bytes = 0;
     double bvh_build_seconds = 0.0;
     std::size_t geometry_bytes = 0;
+    std::size_t light_bytes = 0;  ///< of lights, the image of an environment included, and of the choice between them
     std::size_t textures = 0;
     std::size_t texture_bytes = 0;             ///< held in memory: all of them, or tiles in the cache
     bool textures_cached = false;              ///< some did not fit, so that all come through a cache
@@ -147,8 +140,9 @@ class World {
                    QueryForm form = QueryForm::Best) const;
     /// 1 where something lies within (0, t_max], else 0; `occluded` is as long as `rays`.
     void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, QueryForm form = QueryForm::Best) const;
-    /// `observer` must outlive its use; null to stop observing. Not while another thread renders.
-    void set_observer(RayObserver* observer) { observer_ = observer; }
+    /// Seconds that bare Embree takes to trace `rays`, without what it takes to hand them over or to look at what they
+    /// hit: the ceiling for any renderer. `occlusion`: whether they only ask if something is in the way.
+    [[nodiscard]] double replay(std::span<const Ray> rays, bool occlusion, Coherence coherence, QueryForm form) const;
 
     /// The surface at `hit` (valid), whose textures are read at a point.
     [[nodiscard]] SurfacePoint surface_point(const Hit& hit) const;
@@ -199,9 +193,15 @@ class World {
     /// True if some surface that emits is met by chance only: it moves while the shutter is open, or is beyond the most
     /// triangles that are sampled.
     [[nodiscard]] bool has_unsampled_emitters() const { return data_->has_unsampled_emitters; }
-    /// Light arriving at `point` from a light chosen by power.
+    /// Light arriving at `point` from a light chosen for it by the light tree.
     [[nodiscard]] ChosenLight sample_light(const Vec3f& point, const LightNumbers& u) const;
-    /// A ray that leaves a light, chosen as `sample_light` does with `u_light` in [0, 1)²; it has that time.
+    /// Probability with which `sample_light` chooses the light of this index for `point`.
+    [[nodiscard]] float light_probability(const Vec3f& point, std::uint32_t light) const {
+        return tree_.probability(point, light);
+    }
+    /// Probability with which `sample_emission` chooses it.
+    [[nodiscard]] float emission_probability(std::uint32_t light) const { return selector_.probability(light); }
+    /// A ray that leaves a light, chosen by power with `u_light` in [0, 1)²; it has that time.
     [[nodiscard]] Emission sample_emission(Vec2f u_light, const EmissionNumbers& u, float time) const;
     /// Radiance and cosine towards `direction` of the point at which an emission starts, W/(m² sr); black for lights
     /// without a surface.
@@ -235,18 +235,18 @@ class World {
     [[nodiscard]] std::uint32_t environment() const { return data_->environment; }
     /// The bodies that the light of this index shines in.
     [[nodiscard]] const Interior& light_interior(std::uint32_t light) const { return light_interiors_[light]; }
-    /// Density, choice included, with which `sample_light` would have picked the direction that hit the emitter `point`
-    /// at `distance`. 0 if it is no sampled light.
-    [[nodiscard]] float emitter_pdf_solid_angle(const SurfacePoint& point, const Vec3f& direction,
+    /// Density, choice included, with which `sample_light` at `from` would have picked the direction that hit the
+    /// emitter `point` at `distance`. 0 if it is no sampled light.
+    [[nodiscard]] float emitter_pdf_solid_angle(const Vec3f& from, const SurfacePoint& point, const Vec3f& direction,
                                                 float distance) const;
 
-    /// Density per area, 1/m², choice included, with which both kinds of samples pick a point of the mesh light of this
-    /// index.
+    /// Density per area, 1/m², without the choice, with which both kinds of samples pick a point of the mesh light of
+    /// this index.
     [[nodiscard]] float emitter_pdf_area(std::uint32_t light) const;
 
     [[nodiscard]] bool has_environment() const { return data_->environment != kNone; }
     [[nodiscard]] Rgb environment_radiance(const Vec3f& direction) const;
-    /// Density, choice included.
+    /// Density with which both kinds of samples pick `direction`, without the choice of the environment.
     [[nodiscard]] float environment_pdf_solid_angle(const Vec3f& direction) const;
     [[nodiscard]] bool environment_visible_to_camera() const { return data_->environment_visible; }
 
@@ -273,7 +273,8 @@ class World {
 
     // On the heap, so that Embree's callbacks keep their pointer to it when a World is moved.
     std::unique_ptr<WorldData> data_;
-    LightSelector selector_;
+    LightSelector selector_;  ///< of emission
+    LightTree tree_;          ///< of light for a point
     bool has_motion_ = false;
     bool has_transparency_ = false;
     bool has_delta_lights_ = false;
@@ -283,7 +284,6 @@ class World {
     bool has_lights_in_media_ = false;
     Interior camera_interior_;
     std::vector<Interior> light_interiors_;  ///< of each light; only if there are bodies
-    RayObserver* observer_ = nullptr;
 };
 
 /// Of the ray tracing library.

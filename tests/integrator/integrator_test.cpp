@@ -8,15 +8,15 @@ namespace {
 
 TEST(RenderCounters, AddUp) {
     RenderCounters a;
-    a.camera_rays = 1;
-    a.bounce_rays = 20;
-    a.shadow_rays = 300;
+    a.rays[RayKind::Primary] = 1;
+    a.rays[RayKind::Bounce] = 20;
+    a.rays[RayKind::Shadow] = 300;
     a.samples = 5;
     RenderCounters b = a;
-    b.camera_rays = 7;
+    b.rays[RayKind::Primary] = 7;
     a.add(b);
-    EXPECT_EQ(a.camera_rays, 8u);
-    EXPECT_EQ(a.rays(), 8u + 40u + 600u);
+    EXPECT_EQ(a.rays[RayKind::Primary], 8u);
+    EXPECT_EQ(a.rays.total(), 8u + 40u + 600u);
     EXPECT_EQ(a.samples, 10u);
 }
 

@@ -60,7 +60,7 @@ TEST_P(Checkpoints, GoOnToTheSameBytes) {
     EXPECT_EQ(kept.description, "what it is");
     EXPECT_EQ(kept.state.spp_done, state.spp_done);
     EXPECT_EQ(kept.state.tiles_done, state.tiles_done);
-    EXPECT_EQ(kept.state.counters.rays(), state.counters.rays());
+    EXPECT_EQ(kept.state.counters.rays.total(), state.counters.rays.total());
     EXPECT_EQ(kept.state.wall_seconds, state.wall_seconds);
     EXPECT_TRUE(same_bytes(kept.state.film.resolve(), state.film.resolve()));
     const ThreadPool pool(3);

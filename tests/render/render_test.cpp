@@ -43,7 +43,7 @@ TEST_P(Determinism, ThreadsAndTileOrderDoNotChangeABit) {
             options.tile_order_seed = order;
             const RenderResult again = render_now(world, integrator, options, threads);
             EXPECT_TRUE(same_bytes(again.film.resolve(), image)) << threads << " threads, tile order " << order;
-            EXPECT_EQ(again.counters.rays(), reference.counters.rays());
+            EXPECT_EQ(again.counters.rays.total(), reference.counters.rays.total());
         }
     // The image is one: it has light, darkness, and pixels that are partly covered.
     std::set<float> alphas;
@@ -115,7 +115,7 @@ TEST_P(SplatDeterminism, ThreadsAndTileOrderDoNotChangeABit) {
                 options.tile_order_seed = order;
                 const RenderResult again = render_now(world, integrator, options, threads);
                 EXPECT_TRUE(same_bytes(again.film.resolve(), image)) << threads << " threads, tile order " << order;
-                EXPECT_EQ(again.counters.rays(), reference.counters.rays());
+                EXPECT_EQ(again.counters.rays.total(), reference.counters.rays.total());
             }
         options.seed = 6;
         EXPECT_FALSE(same_bytes(render_now(world, integrator, options, 2).film.resolve(), image));
@@ -136,12 +136,12 @@ TEST(Render, CountsSamplesAndRays) {
     EXPECT_EQ(result.spp_done, 7u);
     EXPECT_EQ(result.counters.samples, 50u * 40u * 7u);
     EXPECT_EQ(result.film.sample_count(), 50u * 40u * 7u);
-    EXPECT_EQ(result.counters.camera_rays, 50u * 40u * 7u);
-    EXPECT_GT(result.counters.bounce_rays, 0u);
-    EXPECT_GT(result.counters.shadow_rays, 0u);
+    EXPECT_EQ(result.counters.rays[RayKind::Primary], 50u * 40u * 7u);
+    EXPECT_GT(result.counters.rays[RayKind::Bounce], 0u);
+    EXPECT_GT(result.counters.rays[RayKind::Shadow], 0u);
     EXPECT_EQ(result.counters.dropped, 0u);
     EXPECT_GT(result.wall_seconds, 0.0);
-    EXPECT_EQ(render_now(world, "naive", options, 2).counters.shadow_rays, 0u);
+    EXPECT_EQ(render_now(world, "naive", options, 2).counters.rays[RayKind::Shadow], 0u);
 }
 
 TEST(Render, ProgressGrowsAndEndsAtOne) {
@@ -152,7 +152,7 @@ TEST(Render, ProgressGrowsAndEndsAtOne) {
     ASSERT_FALSE(reports.empty());
     EXPECT_DOUBLE_EQ(reports.back().fraction, 1.0);
     EXPECT_EQ(reports.back().samples, result.counters.samples);
-    EXPECT_EQ(reports.back().rays, result.counters.rays());
+    EXPECT_EQ(reports.back().rays, result.counters.rays.total());
     for (std::size_t i = 1; i < reports.size(); ++i) {
         EXPECT_GE(reports[i].fraction, reports[i - 1].fraction);
         EXPECT_GE(reports[i].seconds, reports[i - 1].seconds);

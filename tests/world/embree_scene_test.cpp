@@ -132,7 +132,7 @@ std::vector<Ray> random_rays(std::uint32_t seed, std::size_t count) {
     return rays;
 }
 
-constexpr QueryForm kForms[] = {QueryForm::Best, QueryForm::Single, QueryForm::Packet16};
+constexpr QueryForm kForms[] = {QueryForm::Best, QueryForm::Single, QueryForm::Packet8, QueryForm::Packet16};
 constexpr Coherence kCoherences[] = {Coherence::Coherent, Coherence::Incoherent};
 
 TEST(EmbreeScene, FindsTheNearestTriangleOfASearchThroughAll) {

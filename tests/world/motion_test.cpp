@@ -212,7 +212,7 @@ TEST(Motion, LightsThatMoveAreLeftToChance) {
     ASSERT_TRUE(hit.valid());
     const SurfacePoint point = world.surface_point(hit);
     EXPECT_EQ(world.emission(point, {0, 0, 1}), Rgb(2.0f));
-    EXPECT_EQ(world.emitter_pdf_solid_angle(point, ray.direction, hit.t), 0.0f);
+    EXPECT_EQ(world.emitter_pdf_solid_angle(ray.origin, point, ray.direction, hit.t), 0.0f);
 }
 
 TEST(MotionSegment, TimesFallBetweenSteps) {

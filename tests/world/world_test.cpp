@@ -67,7 +67,7 @@ TEST(World, LightSamplesAndHitsAgree) {
             const float cosine = abs_dot(point.geometric_normal, sample.wi);
             if (cosine < 0.02f) continue;
             EXPECT_EQ(world.emission(point, -sample.wi), sample.radiance);
-            const float pdf = world.emitter_pdf_solid_angle(point, sample.wi, sample.distance);
+            const float pdf = world.emitter_pdf_solid_angle(from, point, sample.wi, sample.distance);
             if (is_black(sample.radiance)) {
                 ++dark;
                 EXPECT_EQ(pdf, 0.0f);

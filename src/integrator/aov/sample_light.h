@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/rgb.h"
+#include "core/vector_bytes.h"
 #include "integrator/aov/path_words.h"
 #include "integrator/integrator.h"
 
@@ -51,6 +52,7 @@ class SampleLight {
         return std::span(layers_).subspan(slot * layer_count_, layer_count_);
     }
     [[nodiscard]] std::uint32_t rays(std::size_t slot) const { return rays_.empty() ? 0 : rays_[slot]; }
+    [[nodiscard]] std::size_t bytes() const { return vector_bytes(radiance_, layers_, rays_, bright_); }
     /// What was put aside.
     [[nodiscard]] std::span<const BrightLight> bright() const { return bright_; }
 

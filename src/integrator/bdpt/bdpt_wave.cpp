@@ -2,7 +2,7 @@
 
 #include "integrator/aov/first_hits.h"
 #include "integrator/connecting_ray.h"
-#include "integrator/subpath/camera_splat.h"
+#include "integrator/profile/wave_profile.h"
 
 #include <algorithm>
 #include <cassert>
@@ -73,6 +73,13 @@ float BdptWave::weight(const BdptOptions& options, double fewer_from_light, doub
     return options.weighted ? static_cast<float>(1.0 / (1.0 + fewer_from_light + fewer_from_eye)) : 1.0f;
 }
 
+std::size_t BdptWave::bytes() const {
+    return sizeof *this +
+           vector_bytes(samples_, camera_rays_, alpha_, shares_, cache_, to_lights_, to_cameras_, between_) +
+           found_.bytes() + eye_.bytes() + light_.bytes() + to_light_.bytes() + to_camera_.bytes() +
+           light_connections_.bytes() + camera_connections_.bytes() + vertex_connections_.bytes();
+}
+
 void BdptWave::trace(const World& world, const TileJob& job, const BdptOptions& options, std::size_t first,
                      std::size_t count, TileBuffer& tile, RenderCounters& counters) {
     samples_.resize(count);
@@ -89,30 +96,34 @@ void BdptWave::trace(const World& world, const TileJob& job, const BdptOptions& 
     context_ = nullptr;
     tile_ = nullptr;
     if (world.has_lights()) {
-        const auto resolve_if_full = [&] { connections_.resolve_if_full(world, samples_, found_, tile, counters); };
         light_.trace(context, roulette_depth_at_light, nullptr, found_, counters);
         cache_.clear();
         if (options.cached_connections > 0)
             for (const PathVertex& vertex : light_.vertices())
                 if (vertex.is_connectible && context.is_shared(vertex)) cache_.push_back(&vertex);
         to_light_.collect(context, SubpathEnd::AtEye, eye_.vertices());
-        for (std::size_t v = 0; v < to_light_.size(); ++v) {
-            const PathVertex& vertex = to_light_[v];
-            const auto [light, triangle, direction] = to_light_.numbers(v);
-            connect_to_light(context, vertex, {light, triangle, direction});
-            connect_to_own(context, vertex);
-            if (context.is_shared(vertex)) connect_to_cache(context, vertex, options.cached_connections);
-            resolve_if_full();
+        stamp(job.profile, Stage::Numbers);
+        const auto resolve_if_full = [&](Connections& connections) {
+            if (connections.is_full()) connections.resolve(world, job, samples_, found_, tile, counters);
+        };
+        for (std::size_t begin = 0; begin < to_light_.size(); begin += kBlock) {
+            const std::size_t end = std::min(begin + kBlock, to_light_.size());
+            connect_to_lights(context, begin, end);
+            resolve_if_full(light_connections_);
+            connect_to_vertices(context, begin, end);
+            resolve_if_full(vertex_connections_);
         }
         to_camera_.collect(context, SubpathEnd::AtLight, light_.vertices());
-        for (std::size_t v = 0; v < to_camera_.size(); ++v) {
-            const auto [lens] = to_camera_.numbers(v);
-            connect_to_camera(context, to_camera_[v], lens);
-            resolve_if_full();
+        stamp(job.profile, Stage::Numbers);
+        for (std::size_t begin = 0; begin < to_camera_.size(); begin += kBlock) {
+            connect_to_camera(context, begin, std::min(begin + kBlock, to_camera_.size()));
+            resolve_if_full(camera_connections_);
         }
-        connections_.resolve(world, samples_, found_, tile, counters);
+        for (Connections* connections : {&light_connections_, &vertex_connections_, &camera_connections_})
+            connections->resolve(world, job, samples_, found_, tile, counters);
     }
     accumulate(job, samples_, found_, alpha_, tile, counters);
+    stamp(job.profile, Stage::Film);
 }
 
 void BdptWave::check(const SubpathJob& job, const BdptOptions& options, std::size_t s, float weight,
@@ -152,6 +163,7 @@ void BdptWave::on_first_hits(std::span<const Ray> rays, std::span<const Hit> hit
 void BdptWave::add(const SubpathState& state, const Rgb& light, double fewer_from_eye, const PathLightEnd& end,
                    const AovSet::Source& source) {
     const Context& context = *context_;
+    if (context.job.profile != nullptr && state.index > kDirectlySeen) ++context.job.profile->use().bsdf_met_light;
     if (!is_wanted(context.options, {.s = 0, .t = state.index + 1})) return;
     const float share = weight(context.options, 0.0, fewer_from_eye);
     shares_.clear();
@@ -164,6 +176,15 @@ void BdptWave::add(const SubpathState& state, const Rgb& light, double fewer_fro
     }
 }
 
+double BdptWave::fewer_than_light(const SubpathState& state, std::uint32_t light, float pdf, float emission_pdf,
+                                  const SubpathDensities& arrived) const {
+    const World& world = context_->world;
+    const Raised& raised = context_->raised;
+    const double sampled = raised(static_cast<double>(pdf * world.light_probability(state.from, light)));
+    const double emitted = raised(static_cast<double>(pdf * world.emission_probability(light)));
+    return sampled * arrived.a + emitted * arrived.b * raised(static_cast<double>(emission_pdf));
+}
+
 void BdptWave::on_emitter(const SubpathState& state, const SurfacePoint& point, const Vec3f& direction,
                           const SubpathDensities& arrived) {
     if (state.edges < context_->lengths.min_depth) return;
@@ -174,9 +195,8 @@ void BdptWave::on_emitter(const SubpathState& state, const SurfacePoint& point, 
     const std::uint32_t light = world.light_at(point);
     if (state.index > kDirectlySeen && light != kNone) {
         const float cos_light = -dot(direction, point.geometric_normal);
-        const Raised& raised = context_->raised;
-        fewer = raised(static_cast<double>(world.emitter_pdf_area(light))) *
-                arrived.fewer(raised, static_cast<double>(world.emission_pdf(light, -direction, cos_light)));
+        fewer = fewer_than_light(state, light, world.emitter_pdf_area(light),
+                                 world.emission_pdf(light, -direction, cos_light), arrived);
     }
     add(state, emitted, fewer,
         {.light = light,
@@ -205,34 +225,54 @@ void BdptWave::on_escape(const SubpathState& state, const Vec3f& direction) {
     double fewer = 0.0;
     if (!is_direct) {
         // The vertex is a direction: its density is per solid angle on both sides, and so is that of the light.
-        const Raised& raised = context_->raised;
         DepartingDensities departing = state.departing;
         departing.is_from_infinity = false;
-        const SubpathDensities arrived = departing.arrive(raised, 1.0, 1.0);
-        fewer = raised(static_cast<double>(world.environment_pdf_solid_angle(direction))) *
-                arrived.fewer(raised, static_cast<double>(world.emission_pdf(world.environment(), -direction, 1.0f)));
+        fewer = fewer_than_light(state, world.environment(), world.environment_pdf_solid_angle(direction),
+                                 world.emission_pdf(world.environment(), -direction, 1.0f),
+                                 departing.arrive(context_->raised, 1.0, 1.0));
     }
     add(state, world.environment_radiance(direction), fewer,
         {.light = world.environment(), .direction = -direction, .is_reached_directly = state.is_direct},
         eye_.words().environment_source());
 }
 
-void BdptWave::connect_to_light(const Context& context, const PathVertex& vertex, const LightNumbers& numbers) {
-    if (!is_wanted(context.lengths, vertex.next_edges) || !is_wanted(context.options, {.s = 1, .t = vertex.index + 1}))
-        return;
+void BdptWave::connect_to_lights(const Context& context, std::size_t first, std::size_t last) {
+    WaveProfile* const profile = context.job.profile;
+    to_lights_.clear();
+    for (std::size_t v = first; v < last; ++v) {
+        const PathVertex& vertex = to_light_[v];
+        if (!is_wanted(context.lengths, vertex.next_edges) ||
+            !is_wanted(context.options, {.s = 1, .t = vertex.index + 1}))
+            continue;
+        const auto [light, triangle, direction] = to_light_.numbers(v);
+        to_lights_.push_back({&vertex, context.world.sample_light(vertex.position, {light, triangle, direction}), {}});
+    }
+    if (profile != nullptr) profile->use().light_samples += to_lights_.size();
+    stamp(profile, Stage::LightSampling);
+    for (ToLight& connection : to_lights_)
+        if (const LightSample& light = connection.chosen.sample; !is_black(light.radiance))
+            connection.scattered = connection.vertex->evaluate_both_ways(light.wi, TransportMode::Radiance);
+    stamp(profile, Stage::Material);
+    for (const ToLight& connection : to_lights_)
+        if (!is_black(connection.scattered.f_cos)) weigh(context, connection);
+    stamp(profile, Stage::Mis);
+}
+
+void BdptWave::weigh(const Context& context, const ToLight& connection) {
     const World& world = context.world;
-    const ChosenLight chosen = world.sample_light(vertex.position, numbers);
+    const PathVertex& vertex = *connection.vertex;
+    const ChosenLight& chosen = connection.chosen;
     const LightSample& light = chosen.sample;
-    if (is_black(light.radiance)) return;
-    const Scattering::TwoWayValue value = vertex.evaluate_both_ways(light.wi, TransportMode::Radiance);
-    if (is_black(value.f_cos)) return;
+    const Scattering::TwoWayValue& value = connection.scattered;
     const Raised& raised = context.raised;
     const bool at_infinity = std::isinf(light.distance);
     const float arriving = world.emission_pdf(chosen.light, -light.wi, light.cos_light) * vertex.cosine(light.wi);
     const double from_light =
         static_cast<double>(at_infinity ? arriving : arriving / (light.distance * light.distance));
-    const double fewer_from_eye =
-        raised(from_light) * vertex.densities.fewer(raised, static_cast<double>(value.reverse_pdf_solid_angle));
+    // The strategies with more vertices from the light have chosen it for its emission, not for this vertex.
+    const auto chosen_for_emission = static_cast<double>(world.emission_probability(chosen.light));
+    const double fewer_from_eye = raised(chosen_for_emission / static_cast<double>(chosen.probability) * from_light) *
+                                  vertex.densities.fewer(raised, static_cast<double>(value.reverse_pdf_solid_angle));
     const double fewer_from_light =
         light.is_delta ? 0.0 : raised(static_cast<double>(value.pdf_solid_angle / light.pdf_solid_angle));
     const float share = weight(context.options, fewer_from_light, fewer_from_eye);
@@ -244,11 +284,11 @@ void BdptWave::connect_to_light(const Context& context, const PathVertex& vertex
     if (eye_.words().are_followed())
         eye_.words().end_at_light(vertex.words, vertex.event(light.wi, TransportMode::Radiance),
                                   eye_.words().light_source(world, chosen.light), shares_);
-    connections_.to_sample(ray, vertex.slot,
-                           vertex.throughput * value.f_cos * light.radiance *
-                               vertex.transmittance(light.wi, light.distance) *
-                               context.wavelength_weight(vertex.slot, vertex.is_dispersed) * (share / density),
-                           vertex.is_seen_directly ? LightKind::Direct : LightKind::Indirect, shares_);
+    light_connections_.to_sample(ray, vertex.slot,
+                                 vertex.throughput * value.f_cos * light.radiance *
+                                     vertex.transmittance(light.wi, light.distance) *
+                                     context.wavelength_weight(vertex.slot, vertex.is_dispersed) * (share / density),
+                                 vertex.is_seen_directly ? LightKind::Direct : LightKind::Indirect, shares_);
     if (is_checked(samples_[vertex.slot], context.options))
         check(context, context.options, 1, share,
               {.light = chosen.light,
@@ -258,48 +298,87 @@ void BdptWave::connect_to_light(const Context& context, const PathVertex& vertex
               nullptr, &vertex, camera_of(context, vertex));
 }
 
-void BdptWave::connect_to_camera(const Context& context, const PathVertex& vertex, Vec2f lens) {
-    if (!is_wanted(context.lengths, vertex.next_edges) || !is_wanted(context.options, {.s = vertex.index + 1, .t = 1}))
-        return;
-    const float time = context.camera_rays[vertex.slot].time;
-    const auto view = view_from_camera(context.world, context.job, vertex.position, lens, time);
-    if (!view) return;
-    const Scattering::TwoWayValue value = vertex.evaluate_both_ways(view->direction, TransportMode::Importance);
-    if (is_black(value.f_cos)) return;
+void BdptWave::connect_to_camera(const Context& context, std::size_t first, std::size_t last) {
+    WaveProfile* const profile = context.job.profile;
+    to_cameras_.clear();
+    for (std::size_t v = first; v < last; ++v) {
+        const PathVertex& vertex = to_camera_[v];
+        if (!is_wanted(context.lengths, vertex.next_edges) ||
+            !is_wanted(context.options, {.s = vertex.index + 1, .t = 1}))
+            continue;
+        const auto [lens] = to_camera_.numbers(v);
+        const auto view =
+            view_from_camera(context.world, context.job, vertex.position, lens, context.camera_rays[vertex.slot].time);
+        if (view) to_cameras_.push_back({&vertex, *view, {}});
+    }
+    stamp(profile, Stage::Mis);
+    for (ToCamera& connection : to_cameras_)
+        connection.scattered =
+            connection.vertex->evaluate_both_ways(connection.view.direction, TransportMode::Importance);
+    stamp(profile, Stage::Material);
+    for (const ToCamera& connection : to_cameras_)
+        if (!is_black(connection.scattered.f_cos)) weigh(context, connection);
+    stamp(profile, Stage::Mis);
+}
+
+void BdptWave::weigh(const Context& context, const ToCamera& connection) {
+    const PathVertex& vertex = *connection.vertex;
+    const CameraView& view = connection.view;
+    const Scattering::TwoWayValue& value = connection.scattered;
     const Raised& raised = context.raised;
     const double from_eye = context.samples_per_light_path() *
-                            static_cast<double>(view->camera.importance_area * vertex.cosine(view->direction));
+                            static_cast<double>(view.camera.importance_area * vertex.cosine(view.direction));
     const double fewer =
         raised(from_eye) * vertex.densities.fewer(raised, static_cast<double>(value.reverse_pdf_solid_angle));
     const float share = weight(context.options, fewer, 0.0);
-    Ray ray = connecting_ray(vertex.origin(view->direction), view->camera.lens);
-    ray.time = time;
+    Ray ray = connecting_ray(vertex.origin(view.direction), view.camera.lens);
+    ray.time = context.camera_rays[vertex.slot].time;
     ray.alpha_key = context.connection_key(SubpathEnd::AtLight, vertex.index, vertex.slot);
     shares_.clear();
     if (light_.words().are_followed())
-        light_.words().end_at_camera(light_.words_after(vertex, view->direction), shares_);
-    connections_.to_film(
+        light_.words().end_at_camera(light_.words_after(vertex, view.direction), shares_);
+    camera_connections_.to_film(
         ray, vertex.slot,
-        {.position = view->pixel,
-         .value = vertex.throughput * value.f_cos * vertex.transmittance(view->direction, view->distance) *
-                  context.wavelength_weight(vertex.slot, vertex.is_dispersed) * (view->camera.importance_area * share),
-         .depth = view->depth},
+        {.position = view.pixel,
+         .value = vertex.throughput * value.f_cos * vertex.transmittance(view.direction, view.distance) *
+                  context.wavelength_weight(vertex.slot, vertex.is_dispersed) * (view.camera.importance_area * share),
+         .depth = view.depth},
         vertex.index > 1 ? LightKind::Indirect : LightKind::Direct, shares_);
     if (is_checked(samples_[vertex.slot], context.options))
         check(context, context.options, static_cast<std::size_t>(vertex.index) + 1, share, light_end(vertex.slot),
-              &vertex, nullptr, view->camera);
+              &vertex, nullptr, view.camera);
 }
 
-void BdptWave::connect_to_own(const Context& context, const PathVertex& eye) {
+void BdptWave::connect_to_vertices(const Context& context, std::size_t first, std::size_t last) {
+    WaveProfile* const profile = context.job.profile;
+    between_.clear();
+    for (std::size_t v = first; v < last; ++v) {
+        const PathVertex& eye = to_light_[v];
+        find_own(context, eye);
+        if (context.is_shared(eye)) find_cached(context, eye, context.options.cached_connections);
+    }
+    stamp(profile, Stage::Mis);
+    for (Between& connection : between_) {
+        connection.at_eye = connection.eye->evaluate_both_ways(connection.w, TransportMode::Radiance);
+        if (!is_black(connection.at_eye.f_cos))
+            connection.at_light = connection.light->evaluate_both_ways(-connection.w, TransportMode::Importance);
+    }
+    stamp(profile, Stage::Material);
+    for (const Between& connection : between_)
+        if (!is_black(connection.at_light.f_cos)) weigh(context, connection);
+    stamp(profile, Stage::Mis);
+}
+
+void BdptWave::find_own(const Context& context, const PathVertex& eye) {
     const bool has_cache = context.is_shared(eye);
     for (std::uint32_t i = light_.last_vertex(eye.slot); i != PathVertex::kNoVertex;) {
         const PathVertex& light = light_.vertices()[i];
-        if (light.is_connectible && !(has_cache && context.is_shared(light))) connect(context, eye, light, 1.0f);
+        if (light.is_connectible && !(has_cache && context.is_shared(light))) find(context, eye, light, 1.0f);
         i = light.previous;
     }
 }
 
-void BdptWave::connect_to_cache(const Context& context, const PathVertex& eye, int count) {
+void BdptWave::find_cached(const Context& context, const PathVertex& eye, int count) {
     if (cache_.empty()) return;
     const auto size = static_cast<float>(cache_.size());
     const float step = size / static_cast<float>(count);
@@ -309,11 +388,11 @@ void BdptWave::connect_to_cache(const Context& context, const PathVertex& eye, i
     const float u = sample_2d(context.job.sequence, key, kCacheDimension + static_cast<std::uint32_t>(eye.index)).x;
     for (int i = 0; i < count; ++i) {
         const auto drawn = static_cast<std::size_t>((static_cast<float>(i) + u) * step);
-        connect(context, eye, *cache_[std::min(drawn, cache_.size() - 1)], scale);
+        find(context, eye, *cache_[std::min(drawn, cache_.size() - 1)], scale);
     }
 }
 
-void BdptWave::connect(const Context& context, const PathVertex& eye, const PathVertex& light, float scale) {
+void BdptWave::find(const Context& context, const PathVertex& eye, const PathVertex& light, float scale) {
     if (!is_wanted(context.lengths, eye.next_edges + light.next_edges - 1) ||
         !is_wanted(context.options, {.s = light.index + 1, .t = eye.index + 1}))
         return;
@@ -321,14 +400,16 @@ void BdptWave::connect(const Context& context, const PathVertex& eye, const Path
     if (!eye.may_scatter(to_light) || !light.may_scatter(-to_light)) return;
     const float squared = length_squared(to_light);
     if (!(squared > 0.0f)) return;
-    const float distance = std::sqrt(squared);
-    const Vec3f w = to_light * (1.0f / distance);
+    const Vec3f w = to_light * (1.0f / std::sqrt(squared));
     // Between different media lies a boundary, which no connection passes.
     if (eye.medium(w) != light.medium(-w)) return;
-    const Scattering::TwoWayValue at_eye = eye.evaluate_both_ways(w, TransportMode::Radiance);
-    if (is_black(at_eye.f_cos)) return;
-    const Scattering::TwoWayValue at_light = light.evaluate_both_ways(-w, TransportMode::Importance);
-    if (is_black(at_light.f_cos)) return;
+    between_.push_back({.eye = &eye, .light = &light, .w = w, .squared = squared, .scale = scale});
+}
+
+void BdptWave::weigh(const Context& context, const Between& connection) {
+    const auto& [eye_vertex, light_vertex, w, squared, scale, at_eye, at_light] = connection;
+    const PathVertex& eye = *eye_vertex;
+    const PathVertex& light = *light_vertex;
     const Raised& raised = context.raised;
     const double from_eye = static_cast<double>(at_eye.pdf_solid_angle * light.cosine(w) / squared);
     const double from_light = static_cast<double>(at_light.pdf_solid_angle * eye.cosine(w) / squared);
@@ -344,9 +425,9 @@ void BdptWave::connect(const Context& context, const PathVertex& eye, const Path
     shares_.clear();
     if (eye_.words().are_followed())
         eye_.words().join(eye_.words_after(eye, w), light_.words(), light_.words_after(light, -w), shares_);
-    connections_.to_sample(
+    vertex_connections_.to_sample(
         ray, eye.slot,
-        eye.throughput * at_eye.f_cos * at_light.f_cos * light.throughput * eye.transmittance(w, distance) *
+        eye.throughput * at_eye.f_cos * at_light.f_cos * light.throughput * eye.transmittance(w, std::sqrt(squared)) *
             context.wavelength_weight(eye.slot, eye.is_dispersed || light.is_dispersed) * (scale * share / squared),
         LightKind::Indirect, shares_);
     if (is_checked(samples_[eye.slot], context.options))

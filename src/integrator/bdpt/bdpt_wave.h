@@ -3,11 +3,13 @@
 
 #include "integrator/bdpt/bdpt_options.h"
 #include "integrator/bdpt/reference_weights.h"
+#include "integrator/subpath/camera_splat.h"
 #include "integrator/subpath/connectible_vertices.h"
 #include "integrator/subpath/connections.h"
 #include "integrator/subpath/subpath_wave.h"
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace etendue {
@@ -17,6 +19,10 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
     /// Samples in a wave. A vertex takes 208 bytes, and 248 more for a lobe that was evaluated there: the ten or so of
     /// a sample stay in a cache of 2 MiB until they are connected.
     static constexpr std::size_t kCapacity = 512;
+    /// Vertices whose connections go from one stage to the next together.
+    static constexpr std::size_t kBlock = 64;
+
+    [[nodiscard]] std::size_t bytes() const override;
 
     /// Traces samples [first, first + count) of the job, count <= kCapacity.
     void trace(const World& world, const TileJob& job, const BdptOptions& options, std::size_t first, std::size_t count,
@@ -39,19 +45,50 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
     void on_unlit(const SubpathState& state, const SurfacePoint& point, const Vec3f& direction) override;
     void on_escape(const SubpathState& state, const Vec3f& direction) override;
     void on_first_hits(std::span<const Ray> rays, std::span<const Hit> hits) override;
+    /// Of a subpath that has met a point of `light`, or at infinity a direction: the sum over the strategies with fewer
+    /// vertices from the eye. `pdf` is the density of that point or direction without the choice of the light,
+    /// `emission_pdf` that of the ray from there.
+    [[nodiscard]] double fewer_than_light(const SubpathState& state, std::uint32_t light, float pdf, float emission_pdf,
+                                          const SubpathDensities& arrived) const;
     void add(const SubpathState& state, const Rgb& light, double fewer_from_eye, const PathLightEnd& end,
              const AovSet::Source& source);
 
-    /// s = 1: to a point on a light that is sampled for the vertex.
-    void connect_to_light(const Context& context, const PathVertex& vertex, const LightNumbers& numbers);
-    /// t = 1: to a point on the lens that is sampled for the vertex.
-    void connect_to_camera(const Context& context, const PathVertex& vertex, Vec2f lens);
-    /// s > 1, t > 1: to all of the sample's own light subpath that the cache does not have.
-    void connect_to_own(const Context& context, const PathVertex& eye);
-    /// To `count` vertices drawn from the cache, in place of all that it has of an average light subpath.
-    void connect_to_cache(const Context& context, const PathVertex& eye, int count);
-    /// `scale` is how many connections this one stands for.
-    void connect(const Context& context, const PathVertex& eye, const PathVertex& light, float scale);
+    // Connections on their way through the stages.
+    struct ToLight {
+        const PathVertex* vertex = nullptr;
+        ChosenLight chosen{};
+        Scattering::TwoWayValue scattered{};
+    };
+    struct ToCamera {
+        const PathVertex* vertex = nullptr;
+        CameraView view{};
+        Scattering::TwoWayValue scattered{};
+    };
+    struct Between {
+        const PathVertex* eye = nullptr;
+        const PathVertex* light = nullptr;
+        Vec3f w{0.0f};         ///< unit, from `eye` to `light`
+        float squared = 0.0f;  ///< of the distance, m²
+        float scale = 1.0f;    ///< how many connections this one stands for
+        Scattering::TwoWayValue at_eye{};
+        Scattering::TwoWayValue at_light{};
+    };
+
+    /// s = 1 of eye vertices [first, last): to points on lights that are sampled for them.
+    void connect_to_lights(const Context& context, std::size_t first, std::size_t last);
+    /// t = 1 of light vertices [first, last): to points on the lens that are sampled for them.
+    void connect_to_camera(const Context& context, std::size_t first, std::size_t last);
+    /// s > 1, t > 1 of eye vertices [first, last).
+    void connect_to_vertices(const Context& context, std::size_t first, std::size_t last);
+    /// All of the sample's own light subpath that the cache does not have.
+    void find_own(const Context& context, const PathVertex& eye);
+    /// `count` vertices drawn from the cache, in place of all that it has of an average light subpath.
+    void find_cached(const Context& context, const PathVertex& eye, int count);
+    void find(const Context& context, const PathVertex& eye, const PathVertex& light, float scale);
+    // With what both ends scatter: weights, and the rays that will tell.
+    void weigh(const Context& context, const ToLight& connection);
+    void weigh(const Context& context, const ToCamera& connection);
+    void weigh(const Context& context, const Between& connection);
 
     /// Of a strategy, from the ratios of those with fewer vertices on one side.
     [[nodiscard]] static float weight(const BdptOptions& options, double fewer_from_light, double fewer_from_eye);
@@ -75,7 +112,14 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
     VerticesToCamera to_camera_;
     /// Light vertices that eye vertices of any sample may be connected to, if options ask for that.
     std::vector<const PathVertex*> cache_;
-    Connections connections_;
+    // Of the block at hand.
+    std::vector<ToLight> to_lights_;
+    std::vector<ToCamera> to_cameras_;
+    std::vector<Between> between_;
+    // That wait for their rays.
+    Connections light_connections_{RayKind::Shadow};
+    Connections camera_connections_{RayKind::LightToCamera};
+    Connections vertex_connections_{RayKind::Connection};
     const Context* context_ = nullptr;  ///< of the call of `trace` under way, for what eye subpaths find
     TileBuffer* tile_ = nullptr;        ///< the same
 };

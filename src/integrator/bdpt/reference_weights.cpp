@@ -33,15 +33,22 @@ class Path {
 
     [[nodiscard]] std::size_t inner_count() const { return inner_.size(); }
 
-    /// Per area, vertex `i` from the light's side. Deltas have their share of `delta` instead of a density.
+    /// Per area, the vertex on the light, as the strategy with `s` > 0 vertices from the light makes it: if it is the
+    /// only one it was sampled for the next, else for where its ray goes.
+    [[nodiscard]] double on_light(std::size_t s) const {
+        const World& world = job_.world;
+        if (end_.light == kNone) return 0.0;
+        const auto chosen = static_cast<double>(s == 1 ? world.light_probability(inner_.front()->position, end_.light)
+                                                       : world.emission_probability(end_.light));
+        // What only one direction or one point is made of has no density but that of the choice.
+        if (!world.can_be_hit(end_.light)) return chosen;
+        return chosen * static_cast<double>(at_infinity_ ? world.environment_pdf_solid_angle(-end_.direction)
+                                                         : world.emitter_pdf_area(end_.light));
+    }
+
+    /// Per area, vertex `i` > 0 from the light's side. Deltas have their share of `delta` instead of a density.
     [[nodiscard]] double from_light(std::size_t i) const {
         const World& world = job_.world;
-        if (i == 0) {
-            if (end_.light == kNone) return 0.0;
-            if (!world.can_be_hit(end_.light)) return 1.0;  // the same for all strategies that there are
-            return static_cast<double>(at_infinity_ ? world.environment_pdf_solid_angle(-end_.direction)
-                                                    : world.emitter_pdf_area(end_.light));
-        }
         if (end_.light == kNone) return 0.0;
         const PathVertex& vertex = *inner_[i - 1];
         if (i == 1) {
@@ -129,7 +136,8 @@ std::vector<double> reference_weights(const SubpathJob& job, const CompletePath&
         if (s > 0 && !path.connects(s)) continue;
         // In logarithms: products of densities leave the range of numbers.
         double logarithm = 0.0;
-        for (std::size_t i = 0; i < s; ++i) logarithm += std::log(path.from_light(i));
+        if (s > 0) logarithm += std::log(path.on_light(s));
+        for (std::size_t i = 1; i < s; ++i) logarithm += std::log(path.from_light(i));
         for (std::size_t i = s; i < last; ++i) logarithm += std::log(path.from_eye(i));
         densities[s] = logarithm;
     }

@@ -2,6 +2,7 @@
 
 #include "integrator/aov/first_hits.h"
 #include "integrator/camera_wave.h"
+#include "integrator/ray_batch.h"
 #include "integrator/scattered_cone.h"
 #include "world/scattering.h"
 
@@ -18,6 +19,10 @@ struct DebugScratch final : IntegratorScratch {
     SampleLight found;
     std::vector<float> alpha = std::vector<float>(kCapacity);
     std::vector<Hit> hits = std::vector<Hit>(kCapacity);
+
+    [[nodiscard]] std::size_t bytes() const override {
+        return sizeof *this + vector_bytes(samples, rays, alpha, hits) + found.bytes();
+    }
 };
 
 /// Samples per hit of the albedo estimate; its noise averages out over the pixel's samples.
@@ -38,8 +43,7 @@ void DebugIntegrator::render_tile(const World& world, const TileJob& job, Integr
         const auto rays = std::span(s.rays).first(count);
         const auto hits = std::span(s.hits).first(count);
         generate_camera_rays(world, job, first, std::span(s.samples).first(count), rays);
-        world.intersect(rays, hits, Coherence::Coherent);
-        counters.camera_rays += count;
+        intersect_batch(world, job, RayKind::Primary, rays, hits, counters);
         find_first_hits(world, job, std::span(s.samples).first(count), rays, hits, tile);
         s.found.reset(count, job, counters.brightest.threshold());
         for (std::uint32_t i = 0; i < count; ++i) {

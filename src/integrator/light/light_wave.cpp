@@ -2,10 +2,17 @@
 
 #include "integrator/aov/first_hits.h"
 #include "integrator/connecting_ray.h"
+#include "integrator/profile/wave_profile.h"
+#include "integrator/ray_batch.h"
 #include "integrator/subpath/camera_splat.h"
 #include "integrator/walk.h"
 
 namespace etendue {
+
+std::size_t LightWave::bytes() const {
+    return sizeof *this + vector_bytes(samples_, camera_rays_, hits_, alpha_, shares_) + found_.bytes() +
+           subpaths_.bytes() + to_camera_.bytes() + keys_.bytes() + lens_.bytes() + connections_.bytes();
+}
 
 void LightWave::trace(const World& world, const TileJob& job, const PathLengths& options, std::size_t first,
                       std::size_t count, TileBuffer& tile, RenderCounters& counters) {
@@ -16,14 +23,15 @@ void LightWave::trace(const World& world, const TileJob& job, const PathLengths&
     found_.reset(count, job, counters.brightest.threshold());
     if (job.aovs != nullptr && job.aovs->needs_first_hits()) {
         hits_.resize(count);
-        world.intersect(camera_rays_, hits_, Coherence::Coherent);
-        counters.camera_rays += count;
+        intersect_batch(world, job, RayKind::Primary, camera_rays_, hits_, counters);
         find_first_hits(world, job, samples_, camera_rays_, hits_, tile);
     }
+    stamp(job.profile, Stage::Generate);
     if (world.has_lights()) trace_subpaths(world, job, options, tile, counters);
     // No path from the light tells what the camera sees through: the image is opaque.
     alpha_.assign(count, 1.0f);
     accumulate(job, samples_, found_, alpha_, tile, counters);
+    stamp(job.profile, Stage::Film);
 }
 
 void LightWave::trace_subpaths(const World& world, const TileJob& job, const PathLengths& options, TileBuffer& tile,
@@ -32,7 +40,8 @@ void LightWave::trace_subpaths(const World& world, const TileJob& job, const Pat
     subpaths_.trace(subpath_job, options.roulette_depth, nullptr, found_, counters);
     if (options.min_depth <= 1) connect_lights(subpath_job);
     connect_vertices(subpath_job, tile, counters);
-    connections_.resolve(world, samples_, found_, tile, counters);
+    stamp(job.profile, Stage::Material);
+    connections_.resolve(world, job, samples_, found_, tile, counters);
 }
 
 void LightWave::connect_lights(const SubpathJob& job) {
@@ -89,7 +98,9 @@ void LightWave::connect_vertices(const SubpathJob& job, TileBuffer& tile, Render
                       vertex.transmittance(view->direction, view->distance) * view->camera.importance_area,
              .depth = view->depth},
             vertex.index > 1 ? LightKind::Indirect : LightKind::Direct, shares_);
-        connections_.resolve_if_full(job.world, samples_, found_, tile, counters);
+        if (!connections_.is_full()) continue;
+        stamp(job.job.profile, Stage::Material);
+        connections_.resolve(job.world, job.job, samples_, found_, tile, counters);
     }
 }
 

@@ -14,6 +14,8 @@ class LightWave final : public IntegratorScratch {
   public:
     static constexpr std::size_t kCapacity = 2048;
 
+    [[nodiscard]] std::size_t bytes() const override;
+
     /// Traces one subpath for each of the samples [first, first + count) of the job, count <= kCapacity.
     void trace(const World& world, const TileJob& job, const PathLengths& options, std::size_t first, std::size_t count,
                TileBuffer& tile, RenderCounters& counters);
@@ -35,7 +37,7 @@ class LightWave final : public IntegratorScratch {
     VerticesToCamera to_camera_;
     SampleKeys keys_;
     NumberPairs lens_;  ///< for the points of the lights
-    Connections connections_;
+    Connections connections_{RayKind::LightToCamera};
 };
 
 }  // namespace etendue

@@ -8,7 +8,10 @@
 #include "integrator/aov/sample_light.h"
 #include "integrator/camera_wave.h"
 #include "integrator/path/path_integrator.h"
+#include "integrator/profile/wave_profile.h"
+#include "world/scattering.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -17,8 +20,6 @@
 
 namespace etendue {
 
-class Scattering;
-
 /// A path under way; its ray stands beside it in `PathWave::rays`.
 struct PathState {
     Rgb throughput{1.0f};
@@ -26,6 +27,7 @@ struct PathState {
     /// must not see.
     float eta_scale = 1.0f;
     float pdf_solid_angle = 0.0f;  ///< of the ray's direction; not meaningful after a delta
+    Vec3f from{0.0f};              ///< where it has that from, metres; not meaningful after a delta
     float wavelength_nm = 0.0f;    ///< nanometres once a dispersive body has refracted it, 0 for all wavelengths
     RayCone cone;                  ///< around the ray; followed only where there are textures to filter
     WordRange words;               ///< what it has been so far, if that is followed
@@ -51,14 +53,32 @@ struct PendingLight {
     LightKind kind = LightKind::Direct;
 };
 
+/// A path whose ray has hit a surface, between the stages of its shading.
+struct ShadedPath {
+    SurfacePoint point;
+    std::optional<Crossing> crossing;
+    Wavelength wavelength{};  ///< that it goes on with, and its weight
+    bool chooses_wavelength = false;
+    bool samples_light = false;
+    Bsdf storage;
+    std::optional<Scattering> scattering;
+    ChosenLight light;
+    BsdfValue towards_light;
+    BsdfSample sample;
+};
+
 /// Structure-of-arrays state of a wave. About 200 bytes a path, 250 among bodies.
 class PathWave final : public IntegratorScratch {
   public:
     /// Paths in a wave: enough to fill ray packets after many have ended, and about 400 KiB, a fifth of an L2 cache of
     /// 2 MiB.
     static constexpr std::size_t kCapacity = 2048;
+    /// Paths that go from one stage of shading to the next together: what lies between the stages stays in the
+    /// first-level cache.
+    static constexpr std::size_t kBlock = 64;
 
     PathWave();
+    [[nodiscard]] std::size_t bytes() const override;
 
     /// Traces samples [first, first + count) of the job, count <= kCapacity.
     void trace(const World& world, const TileJob& job, const PathOptions& options, std::size_t first, std::size_t count,
@@ -75,23 +95,30 @@ class PathWave final : public IntegratorScratch {
     /// Random numbers of all active paths for this bounce, many at a time.
     void draw_numbers(const Context& context);
     void shade(const Context& context);
-    /// Advances path `i`; returns false if it ends.
-    bool shade_path(const Context& context, std::size_t i, PathStep& next);
+    /// Advances paths [first, first + count), count <= kBlock, stage by stage, and moves those that go on to where
+    /// `kept` says.
+    void shade_block(const Context& context, std::size_t first, std::size_t count, std::size_t& kept);
+    /// Finds out where path `first` + `k` is; true if it is on a surface that may scatter it.
+    bool set_up(const Context& context, std::size_t first, std::size_t k);
+    /// Looks up textures and makes the lobes of path `i`.
+    void make_scattering(const Context& context, std::size_t i, ShadedPath& path);
+    /// What the surface scatters towards the light, and where else to.
+    void evaluate(std::size_t i, ShadedPath& path) const;
     /// Takes path `i` through the medium that its ray is in; true if it scatters there.
     bool scatter_in_medium(const Context& context, std::size_t i, PathStep& next);
     /// Takes path `i` through a boundary that another body hides.
     void pass_hidden(const Context& context, std::size_t i, const SurfacePoint& point, const Crossing& crossing,
                      PathStep& next);
-    bool scatter_at_surface(const Context& context, std::size_t i, const SurfacePoint& point,
-                            const std::optional<Crossing>& crossing, PathStep& next);
+    /// Takes path `i` where the sample of its BSDF says; false if it ends.
+    bool scatter_at_surface(const Context& context, std::size_t i, const ShadedPath& path, PathStep& next);
     /// Russian roulette; divides the throughput of those that survive by their chance.
     bool survives(const Context& context, std::size_t i, PathState& state) const;
+    /// Tells the profile, if there is one, of the end of path `i`.
+    void end_path(const Context& context, std::size_t i, PathEnding ending) const;
     void add_environment(const Context& context, const PathState& state, const Ray& ray);
     void add_emission(const Context& context, const PathState& state, const Ray& ray, const Hit& hit,
                       const SurfacePoint& point);
-    void queue_direct_light(const Context& context, std::size_t i, const SurfacePoint& point,
-                            const Scattering& scattering, const std::optional<Crossing>& crossing,
-                            const Rgb& wavelength_weight);
+    void queue_direct_light(const Context& context, std::size_t i, const ShadedPath& path);
     void queue_direct_light_in_medium(const Context& context, std::size_t i, const Vec3f& position,
                                       const HomogeneousMedium& medium);
     [[nodiscard]] ChosenLight sample_light(const Context& context, std::size_t i, const Vec3f& position) const;
@@ -101,7 +128,7 @@ class PathWave final : public IntegratorScratch {
     /// Adds `light` that the path has met.
     void add_light(const PathState& state, const Rgb& light, const AovSet::Source& source);
     [[nodiscard]] std::uint32_t alpha_key(const Context& context, std::size_t i) const;
-    void add_unoccluded(const World& world, RenderCounters& counters);
+    void add_unoccluded(const World& world, const TileJob& job, RenderCounters& counters);
 
     /// Pairs of random numbers, one of each kind per path.
     struct Numbers {
@@ -109,6 +136,7 @@ class PathWave final : public IntegratorScratch {
         std::vector<float> y;
 
         [[nodiscard]] Vec2f pair(std::size_t i) const { return {x[i], y[i]}; }
+        [[nodiscard]] std::size_t bytes() const { return vector_bytes(x, y); }
     };
     void draw(const Context& context, std::uint32_t dimension, Numbers& numbers);
 
@@ -132,6 +160,10 @@ class PathWave final : public IntegratorScratch {
     std::vector<ExpressionShare> shares_;  ///< of `pending_`, and of light that was met just now
     PathWords words_;
     std::vector<std::uint8_t> occluded_;
+    // Of the block that is shaded.
+    std::vector<ShadedPath> block_;
+    std::array<PathStep, kBlock> next_;
+    std::array<bool, kBlock> goes_on_{};
     // By slot, that is, by camera sample.
     std::vector<CameraSample> samples_;
     SampleLight light_;

@@ -43,6 +43,11 @@ class ConnectibleVertices {
         for (std::size_t kind = 0; kind < pairs.size(); ++kind) pairs[kind] = numbers_[kind][i];
         return pairs;
     }
+    [[nodiscard]] std::size_t bytes() const {
+        std::size_t bytes = vector_bytes(vertices_) + keys_.bytes();
+        for (const NumberPairs& pairs : numbers_) bytes += pairs.bytes();
+        return bytes;
+    }
 
   private:
     static constexpr std::array kKinds{Kinds...};

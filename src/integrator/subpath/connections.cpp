@@ -1,5 +1,8 @@
 #include "integrator/subpath/connections.h"
 
+#include "integrator/profile/wave_profile.h"
+#include "integrator/ray_batch.h"
+
 namespace etendue {
 
 void Connections::push(const Ray& ray, Pending pending, std::span<const ExpressionShare> shares) {
@@ -26,12 +29,11 @@ void Connections::to_film(const Ray& ray, std::uint32_t slot, const Splat& splat
          shares);
 }
 
-void Connections::resolve(const World& world, std::span<const CameraSample> samples, SampleLight& light,
-                          TileBuffer& tile, RenderCounters& counters) {
+void Connections::resolve(const World& world, const TileJob& job, std::span<const CameraSample> samples,
+                          SampleLight& light, TileBuffer& tile, RenderCounters& counters) {
     if (rays_.empty()) return;
     occluded_.resize(rays_.size());
-    world.occluded(rays_, occluded_);
-    counters.shadow_rays += rays_.size();
+    occluded_batch(world, job, kind_, rays_, occluded_, counters);
     const std::span<const ExpressionShare> all_shares(shares_);
     for (std::size_t i = 0, first = 0; i < pending_.size(); ++i) {
         const Pending& pending = pending_[i];
@@ -52,6 +54,7 @@ void Connections::resolve(const World& world, std::span<const CameraSample> samp
     rays_.clear();
     pending_.clear();
     shares_.clear();
+    stamp(job.profile, Stage::Splat);
 }
 
 }  // namespace etendue

@@ -14,6 +14,9 @@ namespace etendue {
 
 class Connections {
   public:
+    /// `kind` is that of their rays.
+    explicit Connections(RayKind kind) : kind_(kind) {}
+
     /// To the light of sample `slot`. `shares` are those of expressions.
     void to_sample(const Ray& ray, std::uint32_t slot, const Rgb& contribution, LightKind kind,
                    std::span<const ExpressionShare> shares);
@@ -22,13 +25,11 @@ class Connections {
                  std::span<const ExpressionShare> shares);
 
     /// Traces all rays and adds what arrives, in the order of the calls above.
-    void resolve(const World& world, std::span<const CameraSample> samples, SampleLight& light, TileBuffer& tile,
-                 RenderCounters& counters);
-    /// Resolves once there are enough to fill a batch.
-    void resolve_if_full(const World& world, std::span<const CameraSample> samples, SampleLight& light,
-                         TileBuffer& tile, RenderCounters& counters) {
-        if (rays_.size() >= kBatch) resolve(world, samples, light, tile, counters);
-    }
+    void resolve(const World& world, const TileJob& job, std::span<const CameraSample> samples, SampleLight& light,
+                 TileBuffer& tile, RenderCounters& counters);
+    [[nodiscard]] std::size_t bytes() const { return vector_bytes(rays_, pending_, shares_, occluded_); }
+    /// True once there are enough to fill a batch.
+    [[nodiscard]] bool is_full() const { return rays_.size() >= kBatch; }
 
   private:
     /// Rays traced together: enough for full packets, and their 36 bytes each stay in a cache of 1 MiB.
@@ -45,6 +46,7 @@ class Connections {
     };
     void push(const Ray& ray, Pending pending, std::span<const ExpressionShare> shares);
 
+    RayKind kind_;
     std::vector<Ray> rays_;
     std::vector<Pending> pending_;
     std::vector<ExpressionShare> shares_;

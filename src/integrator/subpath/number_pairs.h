@@ -1,6 +1,7 @@
 // Pairs of random numbers for many paths at once.
 #pragma once
 
+#include "core/vector_bytes.h"
 #include "sampling/sampler.h"
 
 #include <cstddef>
@@ -22,6 +23,7 @@ class SampleKeys {
         indices_.push_back(key.index);
     }
     [[nodiscard]] std::size_t size() const { return indices_.size(); }
+    [[nodiscard]] std::size_t bytes() const { return vector_bytes(pixel_seeds_, indices_); }
     [[nodiscard]] SampleKey operator[](std::size_t i) const { return {pixel_seeds_[i], indices_[i]}; }
     [[nodiscard]] std::span<const std::uint32_t> pixel_seeds() const { return pixel_seeds_; }
     [[nodiscard]] std::span<const std::uint32_t> indices() const { return indices_; }
@@ -50,6 +52,7 @@ class NumberPairs {
         y_.resize(count);
     }
     [[nodiscard]] Vec2f operator[](std::size_t i) const { return {x_[i], y_[i]}; }
+    [[nodiscard]] std::size_t bytes() const { return vector_bytes(x_, y_); }
 
   private:
     std::vector<float> x_;

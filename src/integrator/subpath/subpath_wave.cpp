@@ -1,5 +1,6 @@
 #include "integrator/subpath/subpath_wave.h"
 
+#include "integrator/ray_batch.h"
 #include "integrator/walk.h"
 
 #include <algorithm>
@@ -57,29 +58,37 @@ void SubpathWave::trace(const SubpathJob& job, int roulette_depth, LightFinder* 
         begin_at_eye(job);
     else
         begin_at_lights(job);
+    stamp(job.job.profile, Stage::Generate);
     for (bounce_ = 1; !states_.empty(); ++bounce_) {
         hits_.resize(rays_.size());
         const bool from_camera = end_ == SubpathEnd::AtEye && bounce_ == 1;
-        job.world.intersect(rays_, hits_, from_camera ? Coherence::Coherent : Coherence::Incoherent);
-        (from_camera ? counters.camera_rays : counters.bounce_rays) += rays_.size();
+        const RayKind kind = end_ == SubpathEnd::AtLight ? RayKind::LightSubpath
+                             : from_camera               ? RayKind::Primary
+                                                         : RayKind::Bounce;
+        intersect_batch(job.world, job.job, kind, rays_, hits_, counters);
         if (light.counts_rays())
             for (const SubpathState& state : states_) light.count_ray(state.slot);
         if (from_camera && finder != nullptr) finder->on_first_hits(rays_, hits_);
+        stamp(job.job.profile, Stage::HitSetup);
         draw_numbers(job);
+        stamp(job.job.profile, Stage::Numbers);
         std::size_t kept = 0;
-        for (std::size_t i = 0; i < states_.size(); ++i) {
-            if (!advance(job, finder, i)) continue;
-            if (job.world.has_transparency())
-                rays_[i].alpha_key = sample_bits(keys_[i], subpath_dimension(end_, bounce_, BounceNumbers::Alpha));
-            states_[kept] = states_[i];
-            rays_[kept] = rays_[i];
-            if (!interiors_.empty()) interiors_[kept] = interiors_[i];
-            ++kept;
-        }
+        for (std::size_t first = 0; first < states_.size(); first += kBlock)
+            advance_block(job, finder, first, std::min(kBlock, states_.size() - first), kept);
         states_.resize(kept);
         rays_.resize(kept);
     }
     words_of_vertices_ = words_.size();
+}
+
+std::size_t SubpathWave::bytes() const {
+    std::size_t bytes = sizeof *this +
+                        vector_bytes(states_, rays_, hits_, interiors_, emissions_, last_vertex_, vertices_) +
+                        keys_.bytes() + bsdfs_.size() * sizeof(Bsdf);
+    for (const NumberPairs* numbers :
+         {&scattering_, &choices_, &medium_, &light_choice_, &triangle_, &position_, &direction_})
+        bytes += numbers->bytes();
+    return bytes;
 }
 
 WordRange SubpathWave::words_after(const PathVertex& vertex, const Vec3f& w) {
@@ -153,36 +162,124 @@ void SubpathWave::draw_numbers(const SubpathJob& job) {
     if (job.world.has_bodies()) draw(BounceNumbers::Medium, medium_);
 }
 
-bool SubpathWave::advance(const SubpathJob& job, LightFinder* finder, std::size_t i) {
+void SubpathWave::advance_block(const SubpathJob& job, LightFinder* finder, std::size_t first, std::size_t count,
+                                std::size_t& kept) {
     const World& world = job.world;
+    WaveProfile* const profile = job.job.profile;
+    std::array<std::uint8_t, kBlock> on_surface;
+    std::size_t surfaces = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+        goes_on_[k] = false;
+        if (set_up(job, first + k, block_[k]))
+            on_surface[surfaces++] = static_cast<std::uint8_t>(k);
+        else
+            goes_on_[k] = hits_[first + k].valid();
+    }
+    stamp(profile, Stage::HitSetup);
+    if (finder != nullptr)
+        for (std::size_t k = 0; k < count; ++k)
+            if (!goes_on_[k]) find_light(*finder, first + k, block_[k]);
+    stamp(profile, Stage::Emission);
+    std::size_t vertices = 0;
+    for (std::size_t s = 0; s < surfaces; ++s) {
+        const std::uint8_t k = on_surface[s];
+        if (make_vertex(job, first + k, block_[k])) on_surface[vertices++] = k;
+    }
+    stamp(profile, Stage::Textures);
+    const TransportMode mode = end_ == SubpathEnd::AtEye ? TransportMode::Radiance : TransportMode::Importance;
+    for (std::size_t v = 0; v < vertices; ++v) {
+        ShadedSubpath& path = block_[on_surface[v]];
+        const std::size_t i = first + on_surface[v];
+        path.sample = vertices_[path.vertex].surface->sample(choices_[i].x, scattering_[i], mode);
+    }
+    stamp(profile, Stage::Material);
+    for (std::size_t v = 0; v < vertices; ++v)
+        goes_on_[on_surface[v]] = scatter_at_surface(job, first + on_surface[v], block_[on_surface[v]]);
+    for (std::size_t k = 0; k < count; ++k) {
+        const std::size_t i = first + k;
+        if (!goes_on_[k] || !survives(job, i)) continue;
+        if (world.has_transparency())
+            rays_[i].alpha_key = sample_bits(keys_[i], subpath_dimension(end_, bounce_, BounceNumbers::Alpha));
+        states_[kept] = states_[i];
+        rays_[kept] = rays_[i];
+        if (!interiors_.empty()) interiors_[kept] = interiors_[i];
+        ++kept;
+    }
+    stamp(profile, Stage::Roulette);
+}
+
+bool SubpathWave::set_up(const SubpathJob& job, std::size_t i, ShadedSubpath& path) {
+    const World& world = job.world;
+    if (!hits_[i].valid()) {
+        end_path(job, i, PathEnding::Escaped);
+        return false;
+    }
+    if (world.has_bodies() && scatter_in_medium(job, i)) return false;
+    path.point = world.surface_point(hits_[i]);
+    path.arrived = arrive(job, i, path.point.position, abs_dot(rays_[i].direction, path.point.geometric_normal));
+    path.crossing.reset();
+    if (world.has_bodies() && world.is_boundary(path.point)) path.crossing = world.crossing(path.point, interiors_[i]);
+    return true;
+}
+
+void SubpathWave::find_light(LightFinder& finder, std::size_t i, const ShadedSubpath& path) const {
+    const SubpathState& state = states_[i];
+    const Vec3f& direction = rays_[i].direction;
+    if (!hits_[i].valid()) return finder.on_escape(state, direction);
+    if (path.point.material->emits) finder.on_emitter(state, path.point, direction, path.arrived);
+    if (path.point.material->unlit && !(path.crossing && path.crossing->is_hidden))
+        finder.on_unlit(state, path.point, direction);
+}
+
+bool SubpathWave::make_vertex(const SubpathJob& job, std::size_t i, ShadedSubpath& path) {
     SubpathState& state = states_[i];
     Ray& ray = rays_[i];
-    if (!hits_[i].valid()) {
-        if (finder != nullptr) finder->on_escape(state, ray.direction);
+    const SurfacePoint& point = path.point;
+    if (path.crossing && path.crossing->is_hidden) {
+        // No connection passes a boundary.
+        state.departing.is_connectible = false;
+        state.is_direct = false;
+        interiors_[i] = beyond(*path.crossing, point, ray.direction);
+        ray.origin = offset_origin(point.position, point.geometric_normal, point.clearance, ray.direction);
+        goes_on_[static_cast<std::size_t>(&path - block_.data())] = true;
         return false;
-    }
-    if (world.has_bodies() && scatter_in_medium(job, i)) return survives(i);
-    const SurfacePoint point = world.surface_point(hits_[i]);
-    const SubpathDensities arrived = arrive(job, i, point.position, abs_dot(ray.direction, point.geometric_normal));
-    if (finder != nullptr && point.material->emits) finder->on_emitter(state, point, ray.direction, arrived);
-    std::optional<Crossing> crossing;
-    if (world.has_bodies() && world.is_boundary(point)) {
-        crossing = world.crossing(point, interiors_[i]);
-        if (crossing->is_hidden) {
-            // No connection passes a boundary.
-            state.departing.is_connectible = false;
-            state.is_direct = false;
-            interiors_[i] = beyond(*crossing, point, ray.direction);
-            ray.origin = offset_origin(point.position, point.geometric_normal, point.clearance, ray.direction);
-            return survives(i);
-        }
     }
     if (point.material->unlit) {
-        if (finder != nullptr) finder->on_unlit(state, point, ray.direction);
+        end_path(job, i, PathEnding::Unlit);
         return false;
     }
-    if (state.edges >= job.lengths.max_depth) return false;
-    return scatter_at_surface(job, i, point, crossing, arrived) && survives(i);
+    if (state.edges >= job.lengths.max_depth) {
+        end_path(job, i, PathEnding::TooLong);
+        return false;
+    }
+    const World& world = job.world;
+    const std::optional<Crossing>& crossing = path.crossing;
+    const Vec3f wo = -ray.direction;
+    float relative_ior = 0.0f;
+    if (crossing) {
+        state.is_dispersed = state.is_dispersed || crossing->disperses();
+        relative_ior = crossing->relative_ior(state.is_dispersed ? job.wavelength(state.slot).nm : 0.0f);
+    }
+    if (bsdf_count_ == bsdfs_.size()) bsdfs_.emplace_back();
+    Bsdf& storage = bsdfs_[bsdf_count_];
+    const Bsdf& bsdf = world.bsdf(point, wo, relative_ior, storage);
+    if (&bsdf == &storage) ++bsdf_count_;
+    path.vertex = static_cast<std::uint32_t>(vertices_.size());
+    PathVertex& vertex = store(state);
+    const Scattering& scattering = vertex.surface.emplace(bsdf, point.shading, point.geometric_normal, wo);
+    vertex.position = point.position;
+    vertex.wo = wo;
+    vertex.label = words_.label(world, point);
+    vertex.geometric_normal = point.geometric_normal;
+    vertex.clearance = point.clearance;
+    vertex.densities = path.arrived;
+    vertex.next_edges = state.edges + 1;
+    vertex.is_connectible = scattering.has_non_delta();
+    if (world.has_bodies()) {
+        vertex.outside = world.medium(crossing ? crossing->outside : interiors_[i]);
+        vertex.inside = world.medium(crossing ? crossing->inside : interiors_[i]);
+    }
+    return end_ == SubpathEnd::AtEye || state.edges + edges_to_connect(world) <= job.lengths.max_depth;
 }
 
 SubpathDensities SubpathWave::arrive(const SubpathJob& job, std::size_t i, const Vec3f& position, float cosine) const {
@@ -198,43 +295,32 @@ SubpathDensities SubpathWave::arrive(const SubpathJob& job, std::size_t i, const
         return departing.arrive(job.raised, 1.0, cos_arriving);
     }
     const Vec3f way = position - state.from;
-    return state.departing.arrive(job.raised, static_cast<double>(length_squared(way)), cos_arriving);
+    SubpathDensities arrived =
+        state.departing.arrive(job.raised, static_cast<double>(length_squared(way)), cos_arriving);
+    if (end_ == SubpathEnd::AtLight && state.index == 1) {
+        // A light that is sampled for this vertex is chosen in another way than this one was.
+        const Emission& emission = emissions_[state.slot];
+        arrived.a *= job.raised(static_cast<double>(job.world.light_probability(position, emission.light)) /
+                                static_cast<double>(emission.probability));
+    }
+    return arrived;
 }
 
-bool SubpathWave::scatter_at_surface(const SubpathJob& job, std::size_t i, const SurfacePoint& point,
-                                     const std::optional<Crossing>& crossing, const SubpathDensities& arrived) {
-    const World& world = job.world;
+bool SubpathWave::scatter_at_surface(const SubpathJob& job, std::size_t i, const ShadedSubpath& path) {
     SubpathState& state = states_[i];
     Ray& ray = rays_[i];
-    const Vec3f wo = -ray.direction;
-    float relative_ior = 0.0f;
-    if (crossing) {
-        state.is_dispersed = state.is_dispersed || crossing->disperses();
-        relative_ior = crossing->relative_ior(state.is_dispersed ? job.wavelength(state.slot).nm : 0.0f);
-    }
-    if (bsdf_count_ == bsdfs_.size()) bsdfs_.emplace_back();
-    Bsdf& storage = bsdfs_[bsdf_count_];
-    const Bsdf& bsdf = world.bsdf(point, wo, relative_ior, storage);
-    const Scattering scattering(bsdf, point.shading, point.geometric_normal, wo);
-    if (&bsdf == &storage) ++bsdf_count_;
-    PathVertex& vertex = store(state);
-    vertex.position = point.position;
-    vertex.wo = wo;
-    vertex.surface = scattering;
-    vertex.label = words_.label(world, point);
-    vertex.geometric_normal = point.geometric_normal;
-    vertex.clearance = point.clearance;
-    vertex.densities = arrived;
-    vertex.next_edges = state.edges + 1;
-    vertex.is_connectible = scattering.has_non_delta();
-    if (world.has_bodies()) {
-        vertex.outside = world.medium(crossing ? crossing->outside : interiors_[i]);
-        vertex.inside = world.medium(crossing ? crossing->inside : interiors_[i]);
-    }
-    if (end_ == SubpathEnd::AtLight && state.edges + edges_to_connect(world) > job.lengths.max_depth) return false;
+    const SurfacePoint& point = path.point;
+    const BsdfSample& sample = path.sample;
+    PathVertex& vertex = vertices_[path.vertex];
+    const Scattering& scattering = *vertex.surface;
+    const SubpathDensities& arrived = path.arrived;
     const TransportMode mode = end_ == SubpathEnd::AtEye ? TransportMode::Radiance : TransportMode::Importance;
-    const BsdfSample sample = scattering.sample(choices_[i].x, scattering_[i], mode);
-    if (is_black(sample.weight)) return false;
+    if (job.job.profile != nullptr) ++job.job.profile->use().bsdf_samples;
+    if (is_black(sample.weight)) {
+        if (job.job.profile != nullptr) ++job.job.profile->use().bsdf_absorbed;
+        end_path(job, i, PathEnding::Absorbed);
+        return false;
+    }
     vertex.is_left_by_delta = sample.is_delta;
     if (sample.is_delta) vertex.delta_reverse_ratio = scattering.reverse_density_ratio(sample);
     state.throughput *= sample.weight;
@@ -255,7 +341,7 @@ bool SubpathWave::scatter_at_surface(const SubpathJob& job, std::size_t i, const
     ++state.edges;
     ray.origin = offset_origin(point.position, point.geometric_normal, point.clearance, sample.wi);
     ray.direction = sample.wi;
-    if (crossing) interiors_[i] = beyond(*crossing, point, sample.wi);
+    if (path.crossing) interiors_[i] = beyond(*path.crossing, point, sample.wi);
     return true;
 }
 
@@ -292,11 +378,22 @@ void SubpathWave::follow_words(SubpathState& state, const VertexEvent& event) {
                                             : words_.scatter_from_light(state.words, event);
 }
 
-bool SubpathWave::survives(std::size_t i) {
+void SubpathWave::end_path(const SubpathJob& job, std::size_t i, PathEnding ending) const {
+    WaveProfile* const profile = job.job.profile;
+    if (profile == nullptr || end_ != SubpathEnd::AtEye) return;
+    const CameraSample& sample = job.samples[states_[i].slot];
+    const Vec2i pixel = pixel_position(job.job, sample.pixel);
+    profile->end_path(ending, {pixel.x, pixel.y, sample.key.index, bounce_});
+}
+
+bool SubpathWave::survives(const SubpathJob& job, std::size_t i) {
     if (bounce_ < roulette_depth_) return true;
     SubpathState& state = states_[i];
     const float survival = std::min(most_survival(bounce_), max_component(state.throughput) * state.roulette_scale);
-    if (choices_[i].y >= survival) return false;
+    if (choices_[i].y >= survival) {
+        end_path(job, i, PathEnding::Roulette);
+        return false;
+    }
     state.throughput *= 1.0f / survival;
     return true;
 }

@@ -5,9 +5,11 @@
 #include "core/ray.h"
 #include "core/rgb.h"
 #include "integrator/camera_wave.h"
+#include "integrator/profile/wave_profile.h"
 #include "integrator/subpath/number_pairs.h"
 #include "integrator/subpath/path_vertex.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -88,6 +90,15 @@ class LightFinder {
     virtual void on_first_hits(std::span<const Ray> rays, std::span<const Hit> hits) = 0;
 };
 
+/// A subpath whose ray has hit a surface, between the stages of its shading.
+struct ShadedSubpath {
+    SurfacePoint point;
+    SubpathDensities arrived;
+    std::optional<Crossing> crossing;
+    std::uint32_t vertex = PathVertex::kNoVertex;  ///< that was stored for it
+    BsdfSample sample;
+};
+
 class SubpathWave {
   public:
     explicit SubpathWave(SubpathEnd end) : end_(end) {}
@@ -96,6 +107,8 @@ class SubpathWave {
     /// former calls are gone. `finder` may be null for lights. Rays are counted in `light`.
     void trace(const SubpathJob& job, int roulette_depth, LightFinder* finder, SampleLight& light,
                RenderCounters& counters);
+
+    [[nodiscard]] std::size_t bytes() const;
 
     /// Where the subpaths from lights began, by slot.
     [[nodiscard]] std::span<const Emission> emissions() const { return emissions_; }
@@ -112,14 +125,26 @@ class SubpathWave {
     void begin_at_eye(const SubpathJob& job);
     void begin_at_lights(const SubpathJob& job);
     void draw_numbers(const SubpathJob& job);
-    /// Advances subpath `i`; false if it ends.
-    bool advance(const SubpathJob& job, LightFinder* finder, std::size_t i);
+    /// Subpaths that go from one stage of shading to the next together, as in PathWave.
+    static constexpr std::size_t kBlock = 64;
+    /// Advances subpaths [first, first + count), count <= kBlock, stage by stage, and moves those that go on to where
+    /// `kept` says.
+    void advance_block(const SubpathJob& job, LightFinder* finder, std::size_t first, std::size_t count,
+                       std::size_t& kept);
+    /// Finds out where subpath `i` is; false if it is on no surface: it left the scene, or a medium has scattered it.
+    bool set_up(const SubpathJob& job, std::size_t i, ShadedSubpath& path);
+    /// What light there is at its end.
+    void find_light(LightFinder& finder, std::size_t i, const ShadedSubpath& path) const;
+    /// Stores the vertex with its lobes, if the subpath may have one more; false if it ends, or only passes through.
+    bool make_vertex(const SubpathJob& job, std::size_t i, ShadedSubpath& path);
     bool scatter_in_medium(const SubpathJob& job, std::size_t i);
-    bool scatter_at_surface(const SubpathJob& job, std::size_t i, const SurfacePoint& point,
-                            const std::optional<Crossing>& crossing, const SubpathDensities& arrived);
+    /// Takes the subpath where the sample of the BSDF at its vertex says; false if it ends.
+    bool scatter_at_surface(const SubpathJob& job, std::size_t i, const ShadedSubpath& path);
     [[nodiscard]] SubpathDensities arrive(const SubpathJob& job, std::size_t i, const Vec3f& position,
                                           float cosine) const;
-    [[nodiscard]] bool survives(std::size_t i);
+    [[nodiscard]] bool survives(const SubpathJob& job, std::size_t i);
+    /// Tells the profile, if there is one, of the end of eye subpath `i`.
+    void end_path(const SubpathJob& job, std::size_t i, PathEnding ending) const;
     /// Takes the subpath's words past a vertex.
     void follow_words(SubpathState& state, const VertexEvent& event);
     /// The next vertex, with what the state knows of it.
@@ -135,6 +160,9 @@ class SubpathWave {
     std::vector<Interior> interiors_;  ///< only if the World has bodies
     SampleKeys keys_;
     NumberPairs scattering_, choices_, medium_;
+    // Of the block that advances.
+    std::array<ShadedSubpath, kBlock> block_;
+    std::array<bool, kBlock> goes_on_{};
     // By slot.
     NumberPairs light_choice_, triangle_, position_, direction_;  ///< of where subpaths from lights begin
     std::vector<Emission> emissions_;

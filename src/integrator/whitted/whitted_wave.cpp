@@ -2,6 +2,7 @@
 
 #include "integrator/aov/first_hits.h"
 #include "integrator/connecting_ray.h"
+#include "integrator/ray_batch.h"
 #include "integrator/scattered_cone.h"
 #include "integrator/walk.h"
 #include "world/scattering.h"
@@ -41,6 +42,13 @@ LightKind kind_of(const WhittedBranch& branch) {
 
 }  // namespace
 
+std::size_t WhittedWave::bytes() const {
+    return sizeof *this +
+           vector_bytes(waiting_, batch_, rays_, hits_, shadow_rays_, contributions_, lit_slots_, occluded_, samples_,
+                        alpha_) +
+           keys_.bytes() + light_choice_.bytes() + light_triangle_.bytes() + light_direction_.bytes() + found_.bytes();
+}
+
 void WhittedWave::trace(const World& world, const TileJob& job, const PathLengths& lengths, std::size_t first,
                         std::size_t count, TileBuffer& tile, RenderCounters& counters) {
     samples_.resize(count);
@@ -76,9 +84,9 @@ void WhittedWave::trace_batch(const Context& context, TileBuffer& tile, RenderCo
         keys_.push_back({batch_[i].seed, samples_[batch_[i].slot].key.index});
         are_camera_rays = are_camera_rays && batch_[i].rays == 1;
         found_.count_ray(batch_[i].slot);
-        (batch_[i].rays == 1 ? counters.camera_rays : counters.bounce_rays) += 1;
     }
-    context.world.intersect(rays_, hits_, are_camera_rays ? Coherence::Coherent : Coherence::Incoherent);
+    intersect_batch(context.world, context.job, are_camera_rays ? RayKind::Primary : RayKind::Bounce, rays_, hits_,
+                    counters);
     // The first batch has all camera rays, in the order of their samples.
     if (are_camera_rays) find_first_hits(context.world, context.job, samples_, rays_, hits_, tile);
     light_choice_.draw(context.job.sequence, keys_, kLightChoice);
@@ -88,7 +96,7 @@ void WhittedWave::trace_batch(const Context& context, TileBuffer& tile, RenderCo
     contributions_.clear();
     lit_slots_.clear();
     for (std::size_t i = 0; i < count; ++i) shade(context, i);
-    add_unoccluded(context.world, counters);
+    add_unoccluded(context, counters);
 }
 
 void WhittedWave::shade(const Context& context, std::size_t i) {
@@ -227,11 +235,10 @@ void WhittedWave::add_environment(const Context& context, const WhittedBranch& b
         found_.add(branch.slot, branch.throughput * world.environment_radiance(branch.ray.direction), kind_of(branch));
 }
 
-void WhittedWave::add_unoccluded(const World& world, RenderCounters& counters) {
+void WhittedWave::add_unoccluded(const Context& context, RenderCounters& counters) {
     if (shadow_rays_.empty()) return;
     occluded_.resize(shadow_rays_.size());
-    world.occluded(shadow_rays_, occluded_);
-    counters.shadow_rays += shadow_rays_.size();
+    occluded_batch(context.world, context.job, RayKind::Shadow, shadow_rays_, occluded_, counters);
     for (std::size_t i = 0; i < shadow_rays_.size(); ++i) {
         found_.count_ray(lit_slots_[i]);
         if (occluded_[i] == 0) found_.add(lit_slots_[i], contributions_[i], LightKind::Direct);

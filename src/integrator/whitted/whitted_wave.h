@@ -37,6 +37,8 @@ class WhittedWave final : public IntegratorScratch {
     /// Camera samples in a wave, and rays in a batch.
     static constexpr std::size_t kCapacity = 2048;
 
+    [[nodiscard]] std::size_t bytes() const override;
+
     /// Traces samples [first, first + count) of the job, count <= kCapacity.
     void trace(const World& world, const TileJob& job, const PathLengths& lengths, std::size_t first, std::size_t count,
                TileBuffer& tile, RenderCounters& counters);
@@ -58,7 +60,7 @@ class WhittedWave final : public IntegratorScratch {
     void queue_direct_light(const Context& context, std::size_t i, const SurfacePoint& point,
                             const Scattering& scattering, const std::optional<Crossing>& crossing, const Rgb& factor);
     void add_environment(const Context& context, const WhittedBranch& branch);
-    void add_unoccluded(const World& world, RenderCounters& counters);
+    void add_unoccluded(const Context& context, RenderCounters& counters);
     /// One that goes on from `i` as its child number `child`, without ray, throughput and edges.
     [[nodiscard]] WhittedBranch grow(const Context& context, std::size_t i, std::uint32_t child) const;
     /// Keeps `branch` for a later batch, unless it ends here.

@@ -158,7 +158,8 @@ TEST(RayCounts, AddUpToAllRays) {
         const RenderResult result = render_layers(world, integrator, room, aovs, 1);
         double rays = 0.0;
         for (const float each : result.film.resolve_ray_counts()) rays += static_cast<double>(each);
-        EXPECT_NEAR(rays * room.spp, static_cast<double>(result.counters.rays()), 1e-6 * rays * room.spp) << integrator;
+        EXPECT_NEAR(rays * room.spp, static_cast<double>(result.counters.rays.total()), 1e-6 * rays * room.spp)
+            << integrator;
     }
 }
 

@@ -22,7 +22,7 @@ TEST(DebugIntegrator, NormalsAreMappedToTheUnitCube) {
     EXPECT_NEAR(result.mean.g, 0.5f, 1e-5f);
     EXPECT_NEAR(result.mean.b, 1.0f, 1e-5f);
     EXPECT_EQ(result.alpha, 1.0);
-    EXPECT_EQ(result.counters.shadow_rays + result.counters.bounce_rays, 0u);
+    EXPECT_EQ(result.counters.rays.total(), result.counters.rays[RayKind::Primary]);
 }
 
 TEST(DebugIntegrator, AlbedoIsTheScatteredShare) {

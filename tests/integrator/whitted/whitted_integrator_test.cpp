@@ -157,8 +157,8 @@ TEST(Whitted, FollowsBothRaysOfAnInterface) {
     const World world = compile(std::move(scene));
     const TileResult whitted = render_tile(world, WhittedIntegrator({}), 64);
     EXPECT_NEAR(whitted.mean.g, 1.0f, 1e-3f);
-    EXPECT_GT(whitted.counters.bounce_rays, 4 * whitted.counters.camera_rays);
-    EXPECT_EQ(whitted.counters.shadow_rays, 0u);
+    EXPECT_GT(whitted.counters.rays[RayKind::Bounce], 4 * whitted.counters.rays[RayKind::Primary]);
+    EXPECT_EQ(whitted.counters.rays[RayKind::Shadow], 0u);
 }
 
 TEST(Whitted, LeavesIndirectLightOutAndSaysSo) {

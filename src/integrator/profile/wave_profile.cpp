@@ -1,0 +1,68 @@
+#include "integrator/profile/wave_profile.h"
+
+#include "core/process_time.h"
+
+#include <algorithm>
+#include <chrono>
+#include <tuple>
+
+namespace etendue {
+
+namespace {
+
+/// Longer paths first, and those of one length by their places: no matter which thread traced them.
+bool is_before(const LongPath& a, const LongPath& b) {
+    return std::tuple(-a.rays, a.y, a.x, a.sample) < std::tuple(-b.rays, b.y, b.x, b.sample);
+}
+
+void keep(std::vector<LongPath>& longest, const LongPath& path) {
+    longest.insert(std::ranges::upper_bound(longest, path, is_before), path);
+    if (longest.size() > WaveProfile::kLongPaths) longest.pop_back();
+}
+
+}  // namespace
+
+WaveProfile::WaveProfile(std::size_t recorded_rays)
+    : lengths_(static_cast<std::size_t>(kMostRays) + 1), recorders_(kRayKinds, RayRecorder(recorded_rays)) {}
+
+void WaveProfile::end_path(PathEnding ending, const LongPath& path) {
+    ++endings_[static_cast<std::size_t>(ending)];
+    ++lengths_[static_cast<std::size_t>(std::clamp(path.rays, 0, kMostRays))];
+    if (longest_.size() < kLongPaths || is_before(path, longest_.back())) keep(longest_, path);
+}
+
+void WaveProfile::add(const WaveProfile& other) {
+    stamps_ += other.stamps_;
+    if (other.scale_.is_older_than(scale_)) scale_ = other.scale_;
+    for (std::size_t i = 0; i < kStages; ++i) ticks_[i] += other.ticks_[i];
+    for (std::size_t i = 0; i < kRayKinds; ++i) {
+        ticks_of_kind_[i] += other.ticks_of_kind_[i];
+        recorders_[i].add(other.recorders_[i]);
+    }
+    hits_.add(other.hits_);
+    for (std::size_t i = 0; i < kPathEndings; ++i) endings_[i] += other.endings_[i];
+    for (std::size_t i = 0; i < lengths_.size(); ++i) lengths_[i] += other.lengths_[i];
+    for (const LongPath& path : other.longest_) keep(longest_, path);
+    use_.light_samples += other.use_.light_samples;
+    use_.shadow_rays += other.use_.shadow_rays;
+    use_.shadow_unoccluded += other.use_.shadow_unoccluded;
+    use_.bsdf_samples += other.use_.bsdf_samples;
+    use_.bsdf_absorbed += other.use_.bsdf_absorbed;
+    use_.bsdf_met_light += other.use_.bsdf_met_light;
+}
+
+std::vector<std::uint64_t> WaveProfile::path_lengths() const {
+    std::size_t size = lengths_.size();
+    while (size > 0 && lengths_[size - 1] == 0) --size;
+    return {lengths_.begin(), lengths_.begin() + static_cast<std::ptrdiff_t>(size)};
+}
+
+double WaveProfile::seconds_per_stamp() {
+    constexpr int kStamps = 100000;
+    WaveProfile profile(0);
+    const auto start = std::chrono::steady_clock::now();
+    for (int i = 0; i < kStamps; ++i) profile.stamp(Stage::Film);
+    return seconds_since(start) / kStamps;
+}
+
+}  // namespace etendue

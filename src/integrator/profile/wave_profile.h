@@ -1,0 +1,132 @@
+// What the waves of one thread do and how long it takes, for `etendue profile`. Renders have none.
+#pragma once
+
+#include "core/ray.h"
+#include "core/tick_clock.h"
+#include "integrator/profile/ray_recorder.h"
+#include "integrator/profile/stage.h"
+#include "integrator/ray_kind.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace etendue {
+
+/// Why eye paths end.
+enum class PathEnding : std::uint8_t {
+    Escaped,   ///< into the environment, or out of the scene
+    Absorbed,  ///< a sample of the BSDF with no weight
+    Roulette,
+    TooLong,  ///< the limit of its length
+    Unlit,    ///< a surface that only shows its colour
+    Count
+};
+inline constexpr std::size_t kPathEndings = static_cast<std::size_t>(PathEnding::Count);
+inline constexpr std::array<std::string_view, kPathEndings> kPathEndingNames{
+    "left the scene", "absorbed by a surface", "Russian roulette", "longest path allowed", "unlit surface"};
+
+/// How useful samples are.
+struct SampleUse {
+    std::uint64_t light_samples = 0;      ///< of next-event estimation
+    std::uint64_t shadow_rays = 0;        ///< that they led to
+    std::uint64_t shadow_unoccluded = 0;  ///< of these
+    std::uint64_t bsdf_samples = 0;
+    std::uint64_t bsdf_absorbed = 0;   ///< without weight
+    std::uint64_t bsdf_met_light = 0;  ///< whose rays met a lamp or an environment that shines
+};
+
+/// An eye path that was longer than most.
+struct LongPath {
+    int x = 0;  ///< the pixel of its sample
+    int y = 0;
+    std::uint32_t sample = 0;  ///< index in the pixel
+    int rays = 0;
+};
+
+class WaveProfile {
+  public:
+    /// Lengths that are told apart; longer paths are counted with the longest.
+    static constexpr int kMostRays = 256;
+    /// Long paths that are remembered.
+    static constexpr std::size_t kLongPaths = 16;
+
+    /// `recorded_rays` is about how many rays of each kind are kept.
+    explicit WaveProfile(std::size_t recorded_rays);
+
+    /// What was done since the last stamp is nobody's.
+    void skip() { last_ = ticks_now(); }
+    /// All that was done since the last stamp was `stage`.
+    void stamp(Stage stage) { ticks_[static_cast<std::size_t>(stage)] += lap(); }
+    /// The same of rays that were traced.
+    void stamp(Stage stage, RayKind kind) {
+        const std::uint64_t elapsed = lap();
+        ticks_[static_cast<std::size_t>(stage)] += elapsed;
+        ticks_of_kind_[static_cast<std::size_t>(kind)] += elapsed;
+    }
+    /// Keeps some of them for the replay.
+    void record(RayKind kind, std::span<const Ray> rays) {
+        recorders_[static_cast<std::size_t>(kind)].offer(rays);
+        skip();
+    }
+    /// `count` rays of a kind met something.
+    void count_hits(RayKind kind, std::uint64_t count) { hits_[kind] += count; }
+    /// An eye path came to its end.
+    void end_path(PathEnding ending, const LongPath& path);
+    [[nodiscard]] SampleUse& use() { return use_; }
+
+    /// Adds what another thread has found.
+    void add(const WaveProfile& other);
+
+    [[nodiscard]] double seconds(Stage stage) const { return in_seconds(ticks_[static_cast<std::size_t>(stage)]); }
+    [[nodiscard]] double seconds(RayKind kind) const {
+        return in_seconds(ticks_of_kind_[static_cast<std::size_t>(kind)]);
+    }
+    /// Stamps that were taken.
+    [[nodiscard]] std::uint64_t stamps() const { return stamps_; }
+    [[nodiscard]] std::uint64_t hits(RayKind kind) const { return hits_[kind]; }
+    [[nodiscard]] std::uint64_t paths(PathEnding ending) const { return endings_[static_cast<std::size_t>(ending)]; }
+    /// Eye paths by the rays they took; as long as it has to be.
+    [[nodiscard]] std::vector<std::uint64_t> path_lengths() const;
+    /// The longest, the longest of all first.
+    [[nodiscard]] std::span<const LongPath> longest() const { return longest_; }
+    [[nodiscard]] const SampleUse& use() const { return use_; }
+    [[nodiscard]] const RayRecorder& recorder(RayKind kind) const { return recorders_[static_cast<std::size_t>(kind)]; }
+
+    /// Seconds that one stamp takes, measured now.
+    [[nodiscard]] static double seconds_per_stamp();
+
+  private:
+    [[nodiscard]] std::uint64_t lap() {
+        const std::uint64_t now = ticks_now();
+        ++stamps_;
+        return now - std::exchange(last_, now);
+    }
+    [[nodiscard]] double in_seconds(std::uint64_t ticks) const {
+        return scale_.seconds_per_tick() * static_cast<double>(ticks);
+    }
+
+    TickScale scale_;
+    std::uint64_t last_ = ticks_now();
+    std::uint64_t stamps_ = 0;
+    std::array<std::uint64_t, kStages> ticks_{};
+    std::array<std::uint64_t, kRayKinds> ticks_of_kind_{};
+    RaysByKind hits_;
+    std::array<std::uint64_t, kPathEndings> endings_{};
+    std::vector<std::uint64_t> lengths_;
+    std::vector<LongPath> longest_;
+    SampleUse use_;
+    std::vector<RayRecorder> recorders_;  ///< of each kind
+};
+
+/// `stamp` where there is a profile.
+inline void stamp(WaveProfile* profile, Stage stage) {
+    if (profile != nullptr) [[unlikely]]
+        profile->stamp(stage);
+}
+
+}  // namespace etendue

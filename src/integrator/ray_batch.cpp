@@ -1,0 +1,31 @@
+#include "integrator/ray_batch.h"
+
+#include "integrator/profile/wave_profile.h"
+
+#include <algorithm>
+
+namespace etendue {
+
+void intersect_batch(const World& world, const TileJob& job, RayKind kind, std::span<const Ray> rays,
+                     std::span<Hit> hits, RenderCounters& counters) {
+    WaveProfile* profile = job.profile;
+    if (profile != nullptr) profile->record(kind, rays);
+    world.intersect(rays, hits, kind == RayKind::Primary ? Coherence::Coherent : Coherence::Incoherent);
+    counters.rays[kind] += rays.size();
+    if (profile == nullptr) return;
+    profile->stamp(Stage::Intersect, kind);
+    profile->count_hits(kind, static_cast<std::uint64_t>(std::ranges::count_if(hits, &Hit::valid)));
+}
+
+void occluded_batch(const World& world, const TileJob& job, RayKind kind, std::span<const Ray> rays,
+                    std::span<std::uint8_t> occluded, RenderCounters& counters) {
+    WaveProfile* profile = job.profile;
+    if (profile != nullptr) profile->record(kind, rays);
+    world.occluded(rays, occluded);
+    counters.rays[kind] += rays.size();
+    if (profile == nullptr) return;
+    profile->stamp(Stage::Occluded, kind);
+    profile->count_hits(kind, static_cast<std::uint64_t>(std::ranges::count(occluded, 1)));
+}
+
+}  // namespace etendue

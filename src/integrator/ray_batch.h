@@ -1,0 +1,20 @@
+// How integrators trace: batches of one kind of rays, counted, and timed where a profile is wanted.
+#pragma once
+
+#include "integrator/integrator.h"
+#include "integrator/ray_kind.h"
+
+#include <cstdint>
+#include <span>
+
+namespace etendue {
+
+/// The nearest surfaces along rays of one kind; `hits` is as long as `rays`.
+void intersect_batch(const World& world, const TileJob& job, RayKind kind, std::span<const Ray> rays,
+                     std::span<Hit> hits, RenderCounters& counters);
+
+/// 1 where something is in the way of a ray, else 0; `occluded` is as long as `rays`.
+void occluded_batch(const World& world, const TileJob& job, RayKind kind, std::span<const Ray> rays,
+                    std::span<std::uint8_t> occluded, RenderCounters& counters);
+
+}  // namespace etendue

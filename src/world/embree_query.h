@@ -1,0 +1,99 @@
+// Our rays as Embree takes them, one by one and in packets.
+#pragma once
+
+#include "core/ray.h"
+#include "world/embree.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+
+namespace etendue {
+
+class EmbreeScene;
+
+/// What a filter function needs beside the hit: the scene, and the rays of the batch for their alpha keys.
+struct QueryContext {
+    embree::Context base;  // first, so that Embree's pointer to it is a pointer to this
+    const EmbreeScene* scene;
+    const Ray* rays;
+};
+
+/// `id` is the ray's index in its batch.
+[[nodiscard]] inline RTCRay make_ray(const Ray& ray, unsigned int id) {
+    RTCRay r{};
+    r.org_x = ray.origin.x;
+    r.org_y = ray.origin.y;
+    r.org_z = ray.origin.z;
+    r.dir_x = ray.direction.x;
+    r.dir_y = ray.direction.y;
+    r.dir_z = ray.direction.z;
+    r.tfar = ray.t_max;
+    r.time = ray.time;
+    r.mask = 0xffffffffu;
+    r.id = id;
+    return r;
+}
+
+/// The same with a hit that is none yet.
+[[nodiscard]] inline RTCRayHit make_ray_hit(const Ray& ray, unsigned int id) {
+    RTCRayHit query;
+    query.ray = make_ray(ray, id);
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    return query;
+}
+
+/// Embree's types of packets.
+template <std::size_t Width>
+struct Packet;
+template <>
+struct Packet<8> {
+    using Rays = RTCRay8;
+    using RayHits = RTCRayHit8;
+};
+template <>
+struct Packet<16> {
+    using Rays = RTCRay16;
+    using RayHits = RTCRayHit16;
+};
+
+/// Which lanes have rays.
+template <std::size_t Width>
+struct PacketMask {
+    alignas(64) int valid[Width];
+};
+
+/// Rays `first` … of the batch as a packet; lanes beyond the end are invalid.
+template <std::size_t Width>
+void fill_packet(std::span<const Ray> rays, std::size_t first, typename Packet<Width>::Rays& packet,
+                 PacketMask<Width>& mask) {
+    const std::size_t count = std::min(Width, rays.size() - first);
+    for (std::size_t lane = 0; lane < Width; ++lane) {
+        const Ray& ray = rays[first + std::min(lane, count - 1)];
+        mask.valid[lane] = lane < count ? -1 : 0;
+        packet.org_x[lane] = ray.origin.x;
+        packet.org_y[lane] = ray.origin.y;
+        packet.org_z[lane] = ray.origin.z;
+        packet.tnear[lane] = 0.0f;
+        packet.dir_x[lane] = ray.direction.x;
+        packet.dir_y[lane] = ray.direction.y;
+        packet.dir_z[lane] = ray.direction.z;
+        packet.time[lane] = ray.time;
+        packet.tfar[lane] = ray.t_max;
+        packet.mask[lane] = 0xffffffffu;
+        packet.id[lane] = static_cast<unsigned int>(first + lane);
+        packet.flags[lane] = 0;
+    }
+}
+
+/// The same with hits that are none yet.
+template <std::size_t Width>
+void fill_packet(std::span<const Ray> rays, std::size_t first, typename Packet<Width>::RayHits& packet,
+                 PacketMask<Width>& mask) {
+    fill_packet<Width>(rays, first, packet.ray, mask);
+    std::fill_n(packet.hit.geomID, Width, RTC_INVALID_GEOMETRY_ID);
+    std::fill_n(packet.hit.instID[0], Width, RTC_INVALID_GEOMETRY_ID);
+}
+
+}  // namespace etendue

@@ -1,0 +1,73 @@
+// A sample of rays: what is kept, and that every segment has the same chance.
+#include "integrator/profile/ray_recorder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace etendue::test {
+
+namespace {
+
+/// Rays that tell their number.
+std::vector<Ray> numbered(std::size_t first, std::size_t count) {
+    std::vector<Ray> rays(count);
+    for (std::size_t i = 0; i < count; ++i) rays[i].t_max = static_cast<float>(first + i);
+    return rays;
+}
+
+TEST(RayRecorder, KeepsAllWhileThereIsRoomAndNeighboursTogether) {
+    RayRecorder recorder(2048);
+    recorder.offer(numbered(0, 300));
+    recorder.offer(numbered(300, 10));
+    ASSERT_EQ(recorder.segments().size(), 3u);
+    EXPECT_EQ(recorder.segments()[0].size(), RayRecorder::kSegment);
+    EXPECT_EQ(recorder.segments()[1].size(), 300 - RayRecorder::kSegment);
+    EXPECT_EQ(recorder.segments()[2].size(), 10u);
+    EXPECT_EQ(recorder.ray_count(), 310u);
+    std::size_t next = 0;
+    for (const std::vector<Ray>& segment : recorder.segments())
+        for (const Ray& ray : segment) EXPECT_EQ(ray.t_max, static_cast<float>(next++));
+}
+
+TEST(RayRecorder, EverySegmentIsKeptWithTheSameChance) {
+    // 8 of 64 segments, by 4,000 recorders that have seen other numbers of segments before.
+    constexpr std::size_t kSegments = 64;
+    constexpr std::size_t kKept = 8;
+    constexpr int kTrials = 4000;
+    std::vector<int> kept(kSegments, 0);
+    for (int trial = 0; trial < kTrials; ++trial) {
+        RayRecorder recorder(kKept * RayRecorder::kSegment);
+        // The choice is a hash of the numbers of segments: what was offered before shifts them.
+        for (int before = 0; before < trial; ++before) recorder.offer(numbered(1000000, 1));
+        for (std::size_t s = 0; s < kSegments; ++s) recorder.offer(numbered(s, 1));
+        for (const std::vector<Ray>& segment : recorder.segments())
+            if (segment.front().t_max < 1000.0f) ++kept[static_cast<std::size_t>(segment.front().t_max)];
+    }
+    double expected = 0.0;
+    double variance = 0.0;
+    for (int trial = 0; trial < kTrials; ++trial) {
+        const double chance = std::min(
+            1.0, static_cast<double>(kKept) / static_cast<double>(static_cast<std::size_t>(trial) + kSegments));
+        expected += chance;
+        variance += chance * (1.0 - chance);
+    }
+    // Whether two of them are kept is correlated negatively: their sum varies less than that of independent ones.
+    const double all = std::accumulate(kept.begin(), kept.end(), 0.0);
+    EXPECT_NEAR(all, kSegments * expected, 4.5 * std::sqrt(kSegments * variance));
+    // 4.5 standard deviations, 65 times: false alarms below 5e-4.
+    for (std::size_t s = 0; s < kSegments; ++s) EXPECT_NEAR(kept[s], expected, 4.5 * std::sqrt(variance)) << s;
+}
+
+TEST(RayRecorder, NothingIsKeptWithoutRoom) {
+    RayRecorder recorder(0);
+    recorder.offer(numbered(0, 1000));
+    EXPECT_EQ(recorder.ray_count(), 0u);
+}
+
+}  // namespace
+
+}  // namespace etendue::test

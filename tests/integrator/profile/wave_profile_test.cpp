@@ -1,0 +1,91 @@
+// What is counted and timed of waves.
+#include "integrator/profile/wave_profile.h"
+
+#include <chrono>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+namespace etendue::test {
+
+namespace {
+
+void wait() {
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+}
+
+TEST(WaveProfile, TimeBelongsToTheStageThatEnds) {
+    WaveProfile profile(0);
+    profile.skip();
+    wait();
+    profile.stamp(Stage::Textures);
+    wait();
+    profile.skip();
+    wait();
+    profile.stamp(Stage::Occluded, RayKind::Shadow);
+    EXPECT_GE(profile.seconds(Stage::Textures), 0.0019);
+    EXPECT_GE(profile.seconds(Stage::Occluded), 0.0019);
+    EXPECT_NEAR(profile.seconds(Stage::Occluded), profile.seconds(RayKind::Shadow), 1e-4);
+    EXPECT_EQ(profile.seconds(RayKind::Bounce), 0.0);
+    EXPECT_EQ(profile.seconds(Stage::Film), 0.0);
+    EXPECT_EQ(profile.stamps(), 2u) << "what is skipped is no stage";
+}
+
+TEST(WaveProfile, AStampTakesLessThanAMicrosecond) {
+    const double seconds = WaveProfile::seconds_per_stamp();
+    EXPECT_GT(seconds, 0.0);
+    EXPECT_LT(seconds, 1e-6);
+}
+
+TEST(WaveProfile, PathsEndWithTheirLengths) {
+    WaveProfile profile(0);
+    profile.end_path(PathEnding::Roulette, {.x = 1, .y = 2, .sample = 3, .rays = 4});
+    profile.end_path(PathEnding::Roulette, {.rays = 1});
+    profile.end_path(PathEnding::Escaped, {.rays = 4});
+    EXPECT_EQ(profile.paths(PathEnding::Roulette), 2u);
+    EXPECT_EQ(profile.paths(PathEnding::Escaped), 1u);
+    EXPECT_EQ(profile.path_lengths(), (std::vector<std::uint64_t>{0, 1, 0, 0, 2}));
+    ASSERT_EQ(profile.longest().size(), 3u);
+    EXPECT_EQ(profile.longest()[2].rays, 1);
+    profile.end_path(PathEnding::Unlit, {.rays = 1000000});
+    EXPECT_EQ(profile.path_lengths().size(), static_cast<std::size_t>(WaveProfile::kMostRays) + 1);
+    EXPECT_EQ(profile.longest().front().rays, 1000000);
+}
+
+TEST(WaveProfile, TheLongestPathsDoNotDependOnWhoTracedThem) {
+    WaveProfile whole(0);
+    WaveProfile parts[2] = {WaveProfile(0), WaveProfile(0)};
+    for (int i = 0; i < 100; ++i) {
+        const LongPath path{.x = 100 - i, .y = i % 7, .sample = 0, .rays = (i * 37) % 10};
+        whole.end_path(PathEnding::TooLong, path);
+        parts[i % 3 == 0 ? 1 : 0].end_path(PathEnding::TooLong, path);
+    }
+    parts[0].add(parts[1]);
+    ASSERT_EQ(parts[0].longest().size(), WaveProfile::kLongPaths);
+    ASSERT_EQ(whole.longest().size(), WaveProfile::kLongPaths);
+    for (std::size_t i = 0; i < WaveProfile::kLongPaths; ++i) {
+        EXPECT_EQ(parts[0].longest()[i].x, whole.longest()[i].x);
+        EXPECT_EQ(parts[0].longest()[i].rays, whole.longest()[i].rays);
+    }
+    EXPECT_EQ(parts[0].paths(PathEnding::TooLong), 100u);
+}
+
+TEST(WaveProfile, SumsAreOfAllThreads) {
+    WaveProfile a(1024);
+    WaveProfile b(1024);
+    const std::vector<Ray> rays(10);
+    a.record(RayKind::Bounce, rays);
+    b.record(RayKind::Bounce, rays);
+    a.count_hits(RayKind::Bounce, 3);
+    b.count_hits(RayKind::Bounce, 4);
+    b.use().light_samples = 5;
+    a.add(b);
+    EXPECT_EQ(a.recorder(RayKind::Bounce).ray_count(), 20u);
+    EXPECT_EQ(a.recorder(RayKind::Shadow).ray_count(), 0u);
+    EXPECT_EQ(a.hits(RayKind::Bounce), 7u);
+    EXPECT_EQ(a.use().light_samples, 5u);
+}
+
+}  // namespace
+
+}  // namespace etendue::test

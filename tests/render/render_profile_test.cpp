@@ -1,0 +1,109 @@
+// Renders that are profiled: the same image, and figures that belong together.
+#include "render/render_profile.h"
+
+#include "render/render_test_scene.h"
+
+#include <gtest/gtest.h>
+
+namespace etendue::test {
+
+namespace {
+
+class Profiled : public testing::TestWithParam<const char*> {};
+
+TEST_P(Profiled, TheImageIsTheSameAndTheFiguresAddUp) {
+    constexpr int kWidth = 100;
+    constexpr int kHeight = 70;
+    constexpr int kThreads = 2;
+    constexpr std::size_t kRecorded = 2048;
+    const World world = compile(busy_scene(kWidth, kHeight));
+    const ThreadPool pool(kThreads);
+    const std::atomic<bool> stop{false};
+    // Paths short enough for some to end by it.
+    const auto integrator = make_integrator(GetParam(), {.lengths = {.max_depth = 5}});
+    const auto render_with = [&](const RenderOptions& o) { return render(world, *integrator, o, pool, stop, {}); };
+    RenderOptions options = options_for(kWidth, kHeight, 6);
+    const RenderResult plain = render_with(options);
+    RenderProfile profile(kThreads, kRecorded);
+    options.profile = &profile;
+    const RenderResult profiled = render_with(options);
+    EXPECT_TRUE(same_bytes(profiled.film.resolve(), plain.film.resolve()));
+    EXPECT_EQ(profiled.counters.rays.counts, plain.counters.rays.counts);
+
+    const WaveProfile waves = profile.total();
+    double seconds = profile.splat_seconds();
+    for (std::size_t i = 0; i < kStages; ++i) seconds += waves.seconds(static_cast<Stage>(i));
+    EXPECT_LE(seconds, kThreads * profiled.wall_seconds);
+    EXPECT_GT(seconds, 0.0);
+    double tracing = 0.0;
+    for (std::size_t i = 0; i < kRayKinds; ++i) {
+        const auto kind = static_cast<RayKind>(i);
+        const std::uint64_t rays = profiled.counters.rays[kind];
+        EXPECT_LE(waves.hits(kind), rays);
+        EXPECT_EQ(waves.seconds(kind) > 0.0, rays > 0) << kRayKindNames[i];
+        EXPECT_EQ(waves.recorder(kind).ray_count() > 0, rays > 0) << kRayKindNames[i];
+        EXPECT_LE(waves.recorder(kind).ray_count(), std::min<std::uint64_t>(rays, kThreads * kRecorded));
+        tracing += waves.seconds(kind);
+    }
+    EXPECT_NEAR(tracing, waves.seconds(Stage::Intersect) + waves.seconds(Stage::Occluded), 1e-3 * tracing);
+
+    std::uint64_t ended = 0;
+    for (std::size_t i = 0; i < kPathEndings; ++i) ended += waves.paths(static_cast<PathEnding>(i));
+    std::uint64_t lengths = 0;
+    for (const std::uint64_t count : waves.path_lengths()) lengths += count;
+    EXPECT_EQ(lengths, ended);
+    const bool has_eye_paths = std::string(GetParam()) != "light";
+    EXPECT_EQ(ended, has_eye_paths ? profiled.counters.samples : 0u) << "every eye path has one end";
+    if (has_eye_paths) {
+        std::uint64_t rays = 0;
+        for (std::size_t n = 0; n < waves.path_lengths().size(); ++n) rays += n * waves.path_lengths()[n];
+        EXPECT_EQ(rays, profiled.counters.rays[RayKind::Primary] + profiled.counters.rays[RayKind::Bounce]);
+    }
+
+    std::uint64_t pixels = 0;
+    for (const TileTime& tile : profile.tiles()) {
+        EXPECT_LE(tile.start, tile.end);
+        EXPECT_GE(tile.slot, 0);
+        EXPECT_LT(tile.slot, kThreads);
+        pixels += tile.samples;
+    }
+    EXPECT_EQ(pixels, profiled.counters.samples);
+}
+
+INSTANTIATE_TEST_SUITE_P(Integrators, Profiled, testing::Values("path", "naive", "light", "bdpt"),
+                         [](const auto& one) { return std::string(one.param); });
+
+TEST(RenderProfile, IsOfAllThreads) {
+    RenderProfile profile(2, 0);
+    profile.wave(0).end_path(PathEnding::Escaped, {.rays = 1});
+    profile.wave(1).end_path(PathEnding::Escaped, {.rays = 2});
+    profile.add_tile({.rect = {0, 0, 1, 1}, .slot = 1, .start = 1.0, .end = 2.0});
+    profile.add_tile({.rect = {1, 0, 2, 1}, .slot = 0, .start = 0.5, .end = 3.0});
+    profile.add_splatting(0.25);
+    profile.add_splatting(0.5);
+    EXPECT_EQ(profile.total().paths(PathEnding::Escaped), 2u);
+    EXPECT_EQ(profile.total().path_lengths(), (std::vector<std::uint64_t>{0, 1, 1}));
+    EXPECT_EQ(profile.splat_seconds(), 0.75);
+    ASSERT_EQ(profile.tiles().size(), 2u);
+    EXPECT_EQ(profile.tiles().front().slot, 0) << "by their beginnings";
+}
+
+TEST(RayKinds, EachIntegratorTracesItsOwn) {
+    const World world = compile(busy_scene(40, 30));
+    const auto kinds_of = [&](const char* integrator) {
+        const RaysByKind rays = render_now(world, integrator, options_for(40, 30, 2), 1).counters.rays;
+        std::string kinds;
+        for (std::size_t i = 0; i < kRayKinds; ++i)
+            if (rays[static_cast<RayKind>(i)] > 0) kinds += std::string(kRayKindNames[i]) + " ";
+        return kinds;
+    };
+    EXPECT_EQ(kinds_of("naive"), "camera bounce ");
+    EXPECT_EQ(kinds_of("path"), "camera bounce shadow ");
+    EXPECT_EQ(kinds_of("light"), "light-subpath light-to-camera ");
+    EXPECT_EQ(kinds_of("bdpt"), "camera bounce shadow light-subpath connection light-to-camera ");
+    EXPECT_EQ(kinds_of("normals"), "camera ");
+}
+
+}  // namespace
+
+}  // namespace etendue::test
