@@ -23,6 +23,26 @@ function filled(node, attributes, children) {
 
 const named = (name) => element("bdi", { class: "name" }, name);
 
+/** The section `id`, shown. */
+function section(id) {
+  byId(id).hidden = false;
+  return byId(id);
+}
+
+/** A table; `rows` are arrays of cells, each null, text, a node or [text, class]; the first heads its row. */
+function table(heads, rows) {
+  const cell = (content, column) => {
+    const [value, style] = Array.isArray(content) && content.length === 2 && typeof content[1] === "string"
+      ? content : [content, null];
+    const attributes = { class: style || null, scope: column === 0 ? "row" : null };
+    return element(column === 0 ? "th" : "td", attributes, value ?? UNKNOWN);
+  };
+  return element("div", { class: "scroll", tabindex: "0", role: "group", "aria-label": "Table" },
+    element("table", {},
+      element("thead", {}, element("tr", {}, heads.map((head) => element("th", { scope: "col" }, head)))),
+      element("tbody", {}, rows.map((row) => element("tr", {}, row.map(cell))))));
+}
+
 function facts(rows) {
   const shown = rows.filter(([, value]) => value !== null && value !== undefined && value !== "");
   return element("dl", { class: "facts" },
@@ -64,6 +84,38 @@ function formatSeconds(value) {
   return `${format(value / unit)}\u202f${name}`;
 }
 
+function formatBytes(value) {
+  if (!known(value)) return UNKNOWN;
+  const [size, name] = [[2 ** 40, "TiB"], [2 ** 30, "GiB"], [2 ** 20, "MiB"]].find(([unit]) => value >= unit) ??
+    [2 ** 10, "KiB"];
+  const amount = value / size;
+  return `${amount.toFixed(amount < 10 ? 2 : amount < 100 ? 1 : 0)}\u202f${name}`;
+}
+
+const formatRate = (value) => (known(value) ? `${formatCount(value)}/s` : UNKNOWN);
+const formatDate = (text) => (text ?? "").replace("T", " ").replace(/(\.\d+)?Z$/, " UTC");
+const counted = (count, noun) => `${format(count)} ${count === 1 ? noun : `${noun}s`}`;
+
+// ---- Drawings ----
+
+const line = (x1, y1, x2, y2, attributes) => drawing("line", { x1, y1, x2, y2, ...attributes });
+const words = (x, y, text, attributes = {}) => drawing("text", { x, y, ...attributes }, text);
+
+function shortened(text, length) {
+  const letters = [...text];
+  return letters.length > length ? `${letters.slice(0, length - 1).join("")}…` : text;
+}
+
+const MAGMA = ["#000004", "#140e36", "#3b0f70", "#641a80", "#8c2981", "#b73779", "#de4968", "#f7705c", "#fe9f6d",
+  "#fecf92", "#fcfdbf"];
+
+/** A bar of colours between two texts. */
+function colourScale(low, high, colours = MAGMA) {
+  const style = `background: linear-gradient(to right, ${colours.join(",")})`;
+  return element("span", { class: "scale" }, low,
+    element("span", { class: "bar", role: "img", "aria-label": "colour scale", style }), high);
+}
+
 // ---- Commands and files ----
 
 async function copy(code, button) {
@@ -82,8 +134,11 @@ function command(text) {
   return element("div", { class: "command" }, code, button);
 }
 
-function saveReport() {
+function saveReport(name) {
   const url = URL.createObjectURL(new Blob([byId("report").textContent], { type: "application/json" }));
-  element("a", { href: url, download: "report.json" }).click();
+  element("a", { href: url, download: name }).click();
   URL.revokeObjectURL(url);
 }
+
+const saveButton = (name) => element("p", {},
+  element("button", { id: "save", click: () => saveReport(name) }, `Save the figures as ${name}`));

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <stdexcept>
 
+#include <nlohmann/json.hpp>
+
 namespace etendue {
 
 namespace {
@@ -28,6 +30,12 @@ std::string to_base64(std::span<const unsigned char> bytes) {
         for (std::size_t j = 0; j < 4; ++j) text += j <= count ? kDigits[group >> (6 * (3 - j)) & 63u] : '=';
     }
     return text;
+}
+
+std::string png_urls(const std::map<std::string, std::vector<unsigned char>>& images) {
+    nlohmann::json urls = nlohmann::json::object();
+    for (const auto& [key, png] : images) urls[key] = "data:image/png;base64," + to_base64(png);
+    return urls.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 std::string for_script(std::string_view json) {

@@ -8,5 +8,6 @@ namespace etendue {
 /// HTML with @REPORT@ and @IMAGES@ where JSON is to stand.
 [[nodiscard]] std::string_view comparison_page_template();
 [[nodiscard]] std::string_view batch_page_template();
+[[nodiscard]] std::string_view profile_page_template();
 
 }  // namespace etendue

@@ -1,5 +1,7 @@
 #include "report/batch_report.h"
 
+#include "support/page_script.h"
+
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -43,10 +45,8 @@ BatchReport small_report() {
     return report;
 }
 
-/// What stands in the element with this id.
 Json script(const std::string& page, const std::string& id) {
-    const std::size_t begin = page.find('>', page.find("id=\"" + id + "\" type")) + 1;
-    return Json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+    return Json::parse(test::page_script(page, id));
 }
 
 TEST(BatchTotals, CountOutcomesAndSumUpWhatThisBatchRendered) {

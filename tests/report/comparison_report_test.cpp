@@ -1,5 +1,7 @@
 #include "report/comparison_report.h"
 
+#include "support/page_script.h"
+
 #include <cmath>
 #include <limits>
 #include <string>
@@ -102,18 +104,12 @@ TEST(ComparisonReport, OnlyComparableImagesCanDisagree) {
     EXPECT_TRUE(report.agrees()) << "not tested";
 }
 
-/// What stands in the element with this id.
-std::string script(const std::string& page, const std::string& id) {
-    const std::size_t begin = page.find('>', page.find("id=\"" + id + "\"")) + 1;
-    return page.substr(begin, page.find("</script>", begin) - begin);
-}
-
 TEST(ComparisonPage, HoldsTheReportAndItsImages) {
     ComparisonReport report = small_report();
     report.variants[0].name = "</script><b>@IMAGES@ \"quoted\"";
     const std::string page = make_page(report, {{"image/a", {0, 1, 2, 255}}, {"image/b", {0xfb, 0xff}}});
-    EXPECT_EQ(Json::parse(script(page, "report")), Json::parse(to_json(report)));
-    const Json images = Json::parse(script(page, "images"));
+    EXPECT_EQ(Json::parse(test::page_script(page, "report")), Json::parse(to_json(report)));
+    const Json images = Json::parse(test::page_script(page, "images"));
     EXPECT_EQ(images["image/a"], "data:image/png;base64,AAEC/w==");
     EXPECT_EQ(images["image/b"], "data:image/png;base64,+/8=");
     EXPECT_EQ(page.find("@REPORT@"), std::string::npos);

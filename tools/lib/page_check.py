@@ -22,8 +22,8 @@ def photograph(browser, url, shots, widths):
             yield f"the page is {wide} pixels wide in a window of {width}"
 
 
-def main(description, check):
-    """`check(browser, url, report, shots)` yields the faults of a page. Returns the exit status."""
+def main(description, check, data_name="report.json"):
+    """`check(browser, url, report, shots)` yields the faults of a page beside its data. Returns the exit status."""
     parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("directory", type=Path, metavar="DIR", help="a report")
     parser.add_argument("-o", "--output", type=Path, metavar="SHOTS", help="default: DIR/screenshots")
@@ -32,7 +32,7 @@ def main(description, check):
     if not program:
         parser.error("there is no browser; on Debian: apt-get install chromium")
     page = arguments.directory.resolve() / "index.html"
-    data = arguments.directory / "report.json"
+    data = arguments.directory / data_name
     for file in (page, data):
         if not file.is_file():
             parser.error(f"there is no {file}")

@@ -1,0 +1,179 @@
+#include "report/profile_comparison.h"
+
+#include "report/profile_figures.h"
+#include "report/profile_report.h"
+#include "report/student_t.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include <fmt/format.h>
+
+namespace etendue {
+
+namespace {
+
+/// Mean and variance of what a repetition took of one sample, in logarithms.
+struct LogTimes {
+    double mean = std::numeric_limits<double>::quiet_NaN();
+    double variance = std::numeric_limits<double>::quiet_NaN();  ///< unknown of fewer than two
+    double count = 0.0;
+};
+
+LogTimes log_times(const ProfileRun& run) {
+    LogTimes times{.count = static_cast<double>(run.cpu_seconds.size())};
+    const auto logarithm = [&](double seconds) { return std::log(seconds / static_cast<double>(run.samples)); };
+    double sum = 0.0;
+    for (const double seconds : run.cpu_seconds) sum += logarithm(seconds);
+    times.mean = sum / times.count;
+    double squares = 0.0;
+    for (const double seconds : run.cpu_seconds) squares += std::pow(logarithm(seconds) - times.mean, 2.0);
+    if (times.count > 1.0) times.variance = squares / (times.count - 1.0);
+    return times;
+}
+
+/// Half the interval of the logarithm of the ratio; NaN if a side has fewer than two repetitions.
+double welch_margin(const LogTimes& a, const LogTimes& b, double confidence) {
+    const double error_a = a.variance / a.count, error_b = b.variance / b.count;
+    const double squared = error_a + error_b;
+    // Also where nothing varies, and Student's distribution has no degrees of freedom.
+    if (!(squared > 0.0)) return squared;
+    const double degrees =
+        squared * squared / (error_a * error_a / (a.count - 1.0) + error_b * error_b / (b.count - 1.0));
+    return student_quantile(confidence, degrees) * std::sqrt(squared);
+}
+
+ProfileVerdict verdict_of(const ComparedRun& run, double tolerance) {
+    if (!std::isfinite(run.low) || !std::isfinite(run.high)) return ProfileVerdict::NotKnown;
+    if (run.low > 1.0 + tolerance) return ProfileVerdict::Slower;
+    if (run.high < 1.0 / (1.0 + tolerance)) return ProfileVerdict::Faster;
+    return ProfileVerdict::NoDifference;
+}
+
+ComparedRun compare_run(const ProfileRun& before, const ProfileRun& now, const ProfileComparisonOptions& options) {
+    const LogTimes a = log_times(before), b = log_times(now);
+    ComparedRun run{.integrator = now.integrator,
+                    .threads = now.threads,
+                    .before = std::exp(a.mean),
+                    .now = std::exp(b.mean),
+                    .repetitions_before = before.cpu_seconds.size(),
+                    .repetitions_now = now.cpu_seconds.size(),
+                    .ratio = std::exp(b.mean - a.mean)};
+    const double margin = welch_margin(a, b, options.confidence);
+    run.low = std::exp(b.mean - a.mean - margin);
+    run.high = std::exp(b.mean - a.mean + margin);
+    run.verdict = verdict_of(run, options.tolerance);
+    for (const RayKindReport& kind : now.kinds)
+        for (const RayKindReport& earlier : before.kinds)
+            if (earlier.kind == kind.kind)
+                run.rays_per_second.push_back({kind.kind, "rays/s", rays_per_second(earlier), rays_per_second(kind)});
+    return run;
+}
+
+/// Why nothing can be said of the two; empty if it can.
+std::string difference_of_work(const ProfileReport& before, const ProfileReport& now) {
+    if (before.scene != now.scene)
+        return fmt::format("the baseline is of the scene '{}', not of '{}'", before.scene, now.scene);
+    if (before.width != now.width || before.height != now.height)
+        return fmt::format("the baseline has {} x {} pixels, not {} x {}", before.width, before.height, now.width,
+                           now.height);
+    if (before.max_depth != now.max_depth)
+        return fmt::format("paths of the baseline have up to {} edges, not {}", before.max_depth, now.max_depth);
+    if (before.bvh.instanced_triangles != now.bvh.instanced_triangles)
+        return fmt::format("the scene has changed: the baseline's has {} triangles, not {}",
+                           before.bvh.instanced_triangles, now.bvh.instanced_triangles);
+    return {};
+}
+
+void note_difference(std::vector<std::string>& notes, const char* what, const std::string& before,
+                     const std::string& now) {
+    if (before != now) notes.push_back(fmt::format("{}: '{}' before, '{}' now", what, before, now));
+}
+
+std::vector<std::string> circumstances(const ProfileReport& before, const ProfileReport& now) {
+    std::vector<std::string> notes;
+    note_difference(notes, "another processor", before.processor, now.processor);
+    note_difference(notes, "another instruction set", before.isa, now.isa);
+    note_difference(notes, "another ray tracer", before.ray_tracer, now.ray_tracer);
+    note_difference(notes, "another BVH", before.bvh.quality, now.bvh.quality);
+    return notes;
+}
+
+std::string run_name(const ProfileRun& run) {
+    return fmt::format("{} on {} thread{}", run.integrator, run.threads, run.threads == 1 ? "" : "s");
+}
+
+const ProfileRun* find(const std::vector<ProfileRun>& runs, const ProfileRun& like) {
+    const auto found = std::find_if(runs.begin(), runs.end(), [&](const ProfileRun& run) {
+        return run.integrator == like.integrator && run.threads == like.threads;
+    });
+    return found == runs.end() ? nullptr : &*found;
+}
+
+void add_missing(std::vector<std::string>& notes, const std::vector<ProfileRun>& runs,
+                 const std::vector<ProfileRun>& others, const char* where) {
+    for (const ProfileRun& run : runs)
+        if (find(others, run) == nullptr) notes.push_back(fmt::format("{} is {}", run_name(run), where));
+}
+
+std::vector<ComparedFigure> figures(const ProfileReport& before, const ProfileReport& now) {
+    const auto bytes = [](std::uint64_t count) { return static_cast<double>(count); };
+    return {{"load", "s", sum_of(before.load), sum_of(now.load)},
+            {"first pixel", "s", before.first_pixel_seconds, now.first_pixel_seconds},
+            {"BVH build", "s", before.bvh.build_seconds, now.bvh.build_seconds},
+            {"BVH", "bytes", bytes(before.bvh.bytes), bytes(now.bvh.bytes)},
+            {"peak memory", "bytes", bytes(before.peak_memory_bytes), bytes(now.peak_memory_bytes)}};
+}
+
+}  // namespace
+
+const char* verdict_name(ProfileVerdict verdict) {
+    switch (verdict) {
+        case ProfileVerdict::Slower:
+            return "slower";
+        case ProfileVerdict::Faster:
+            return "faster";
+        case ProfileVerdict::NoDifference:
+            return "no significant difference";
+        case ProfileVerdict::NotKnown:
+            break;
+    }
+    return "not known";
+}
+
+bool ProfileComparison::has_regression() const {
+    return std::any_of(runs.begin(), runs.end(),
+                       [](const ComparedRun& run) { return run.verdict == ProfileVerdict::Slower; });
+}
+
+ProfileComparison compare_profiles(const ProfileBaseline& before, const ProfileReport& now,
+                                   const ProfileComparisonOptions& options) {
+    ProfileComparison comparison{.baseline_created = before.created,
+                                 .baseline_program = before.program,
+                                 .refusal = difference_of_work(before, now),
+                                 .options = options};
+    if (!comparison.refusal.empty()) return comparison;
+    comparison.notes = circumstances(before, now);
+    for (const ProfileRun& run : now.runs) {
+        const ProfileRun* const earlier = find(before.runs, run);
+        if (earlier == nullptr) continue;
+        comparison.runs.push_back(compare_run(*earlier, run, options));
+        if (earlier->spp != run.spp)
+            comparison.notes.push_back(
+                fmt::format("{} took {} samples per pixel before, {} now: times are compared "
+                            "per sample",
+                            run_name(run), earlier->spp, run.spp));
+        if (comparison.runs.back().verdict == ProfileVerdict::NotKnown)
+            comparison.notes.push_back(fmt::format(
+                "of {} nothing is concluded: that takes two repetitions or more on both sides", run_name(run)));
+    }
+    add_missing(comparison.notes, before.runs, now.runs, "in the baseline only");
+    add_missing(comparison.notes, now.runs, before.runs, "not in the baseline");
+    if (comparison.runs.empty())
+        comparison.refusal = "the baseline has no run of the same integrator on the same number of threads";
+    comparison.figures = figures(before, now);
+    return comparison;
+}
+
+}  // namespace etendue

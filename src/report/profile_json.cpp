@@ -1,0 +1,222 @@
+#include "report/profile_figures.h"
+#include "report/profile_report.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+namespace etendue {
+
+namespace {
+
+/// Writes numbers that are not finite as null.
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kExpensiveTiles = 10;
+
+std::string text_of(const Json& json) {
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+bool fits_a_line(const Json& json) {
+    return std::none_of(json.begin(), json.end(), [](const Json& member) { return member.is_structured(); });
+}
+
+/// What has no parts of its own stands on one line: a run has thousands of tiles of eight numbers each.
+void write(std::string& text, const Json& json, std::size_t indent) {
+    if (!json.is_structured() || fits_a_line(json)) {
+        text += text_of(json);
+        return;
+    }
+    text += json.is_object() ? '{' : '[';
+    const char* separator = "\n";
+    for (const auto& member : json.items()) {
+        text += separator + std::string(indent + 1, ' ');
+        if (json.is_object()) text += text_of(member.key()) + ": ";
+        write(text, member.value(), indent + 1);
+        separator = ",\n";
+    }
+    text += '\n' + std::string(indent, ' ');
+    text += json.is_object() ? '}' : ']';
+}
+
+Json to_object(const RayKindReport& kind);
+Json to_object(const TileReport& tile);
+Json to_object(const TileCost& tile);
+Json to_object(const LongPathReport& path);
+Json to_object(const ProfileRun& run);
+Json to_object(const ComparedFigure& figure);
+Json to_object(const ComparedRun& run);
+
+template <typename Value>
+Json array(const std::vector<Value>& values) {
+    Json json = Json::array();
+    for (const Value& value : values) json.push_back(to_object(value));
+    return json;
+}
+
+Json named(const std::vector<NamedValue>& values, const char* unit) {
+    Json json = Json::array();
+    for (const NamedValue& value : values) json.push_back({{"name", value.name}, {unit, value.value}});
+    return json;
+}
+
+/// The same of numbers that are whole.
+Json counted(const std::vector<NamedValue>& values, const char* unit) {
+    Json json = named(values, unit);
+    for (Json& value : json)
+        if (value[unit] >= 0.0 && value[unit] < 1e18)
+            value[unit] = static_cast<std::uint64_t>(value[unit].get<double>());
+    return json;
+}
+
+Json window(const PixelRect& rect) {
+    return {rect.x0, rect.y0, rect.x1, rect.y1};
+}
+
+/// A text that may be missing.
+Json known(const std::string& text) {
+    return text.empty() ? Json() : Json(text);
+}
+
+Json to_object(const RayKindReport& kind) {
+    return {{"kind", kind.kind},           {"rays", kind.rays},
+            {"seconds", kind.seconds},     {"rays_per_second", rays_per_second(kind)},
+            {"hit_share", kind.hit_share}, {"recorded", kind.recorded},
+            {"single", kind.single},       {"packet8", kind.packet8},
+            {"packet16", kind.packet16}};
+}
+
+/// [x0, y0, x1, y1, thread, first sample, start, end]
+Json to_object(const TileReport& tile) {
+    return {tile.rect.x0, tile.rect.y0,      tile.rect.x1, tile.rect.y1,
+            tile.thread,  tile.first_sample, tile.start,   tile.end};
+}
+
+Json to_object(const TileCost& tile) {
+    return {{"rect", window(tile.rect)}, {"seconds", tile.seconds}, {"share", tile.share}};
+}
+
+Json to_object(const LongPathReport& path) {
+    return {{"x", path.x}, {"y", path.y}, {"sample", path.sample}, {"vertices", path.vertices}};
+}
+
+Json to_object(const ProfileRun& run) {
+    return {
+        {"integrator", run.integrator},
+        {"threads", run.threads},
+        {"spp", run.spp},
+        {"seconds", run.seconds},
+        {"cpu_seconds", run.cpu_seconds},
+        {"instrumented_seconds", run.instrumented_seconds},
+        {"samples", run.samples},
+        {"samples_per_second", samples_per_second(run)},
+        {"rays", run.rays},
+        {"rays_per_second", rays_per_second(run)},
+        {"efficiency_single", run.efficiency_single},
+        {"efficiency_best", run.efficiency_best},
+        {"parallel_efficiency", run.parallel_efficiency},
+        {"load_imbalance", run.load_imbalance},
+        {"tracing_share", tracing_share(run)},
+        {"timing_share", run.timing_share},
+        {"kinds", array(run.kinds)},
+        {"stages", named(run.stages, "seconds")},
+        {"endings", counted(run.endings, "paths")},
+        {"path_lengths", run.path_lengths},
+        {"longest", array(run.longest)},
+        {"shadow_unoccluded", run.shadow_unoccluded},
+        {"light_sampling_used", run.light_sampling_used},
+        {"bsdf_met_light", run.bsdf_met_light},
+        {"bsdf_absorbed", run.bsdf_absorbed},
+        {"hardware",
+         {{"counters", counted(run.hardware.values, "count")}, {"unavailable", known(run.hardware.unavailable)}}},
+        {"heat_map", {{"file", known(run.heat_map)}, {"key", heat_map_key(run)}, {"seconds_high", run.heat_map_high}}},
+        {"expensive_tiles", array(most_expensive_tiles(run, kExpensiveTiles))},
+        {"tiles", array(run.tiles)}};
+}
+
+Json to_object(const ComparedFigure& figure) {
+    return {{"name", figure.name},
+            {"unit", figure.unit},
+            {"before", figure.before},
+            {"now", figure.now},
+            {"ratio", rate(figure.now, figure.before)}};
+}
+
+Json to_object(const ComparedRun& run) {
+    return {{"integrator", run.integrator},
+            {"threads", run.threads},
+            {"verdict", verdict_name(run.verdict)},
+            {"ratio", run.ratio},
+            {"low", run.low},
+            {"high", run.high},
+            {"cpu_seconds_per_sample", {{"before", run.before}, {"now", run.now}}},
+            {"repetitions", {{"before", run.repetitions_before}, {"now", run.repetitions_now}}},
+            {"rays_per_second", array(run.rays_per_second)}};
+}
+
+Json to_object(const ProfileComparison& comparison) {
+    return {{"baseline", {{"created", comparison.baseline_created}, {"program", comparison.baseline_program}}},
+            {"refusal", known(comparison.refusal)},
+            {"regression", comparison.has_regression()},
+            {"tolerance", comparison.options.tolerance},
+            {"confidence", comparison.options.confidence},
+            {"notes", comparison.notes},
+            {"runs", array(comparison.runs)},
+            {"figures", array(comparison.figures)}};
+}
+
+Json to_object(const BvhReport& bvh) {
+    const auto triangles = static_cast<double>(bvh.triangles);
+    return {{"build_seconds", bvh.build_seconds},
+            {"triangles", bvh.triangles},
+            {"instanced_triangles", bvh.instanced_triangles},
+            {"instances", bvh.instances},
+            {"bytes", bvh.bytes},
+            {"triangles_per_second", rate(triangles, bvh.build_seconds)},
+            {"bytes_per_triangle", rate(static_cast<double>(bvh.bytes), triangles)},
+            {"quality", bvh.quality}};
+}
+
+std::string lines(const Json& json) {
+    std::string text;
+    write(text, json, 0);
+    return text + '\n';
+}
+
+}  // namespace
+
+std::string to_json(const ProfileComparison& comparison) {
+    return lines(to_object(comparison));
+}
+
+std::string to_json(const ProfileReport& report) {
+    return lines({{"format", kProfileFormat},
+                  {"program", report.program},
+                  {"created", report.created},
+                  {"command", report.command},
+                  {"scene",
+                   {{"name", report.scene},
+                    {"path", report.scene_path},
+                    {"width", report.width},
+                    {"height", report.height},
+                    {"max_depth", report.max_depth},
+                    {"seed", report.seed}}},
+                  {"machine",
+                   {{"processor", report.processor},
+                    {"processors", report.processors},
+                    {"isa", report.isa},
+                    {"ray_tracer", report.ray_tracer}}},
+                  {"load",
+                   {{"phases", named(report.load, "seconds")},
+                    {"seconds", sum_of(report.load)},
+                    {"first_pixel_seconds", report.first_pixel_seconds}}},
+                  {"bvh", to_object(report.bvh)},
+                  {"memory", {{"owners", counted(report.memory, "bytes")}, {"peak_bytes", report.peak_memory_bytes}}},
+                  {"notes", report.notes},
+                  {"against", report.against ? to_object(*report.against) : Json()},
+                  {"runs", array(report.runs)}});
+}
+
+}  // namespace etendue

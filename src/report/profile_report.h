@@ -1,0 +1,151 @@
+// What `etendue profile` has measured: where the time of a render goes, next to what bare Embree needs for its rays.
+//
+// A plain description, in the order of the report. Numbers that are not known are NaN, and null in JSON. Times of
+// stages, tiles and repetitions are seconds.
+#pragma once
+
+#include "core/pixel_rect.h"
+#include "report/profile_comparison.h"
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace etendue {
+
+/// A number with a name, in the order of the report: a phase of loading and its seconds, an owner of memory and its
+/// bytes, a reason why paths end and how many did.
+struct NamedValue {
+    std::string name{};
+    double value = 0.0;
+};
+
+/// Rays of one kind: "camera", "bounce", "shadow", "light-subpath", "connection", "light-to-camera".
+struct RayKindReport {
+    std::string kind{};
+    std::uint64_t rays = 0;      ///< counted where they are traced
+    double seconds = 0.0;        ///< of all threads, that the renderer spent tracing them
+    std::uint64_t recorded = 0;  ///< of them, those that bare Embree traced again
+    /// Rays per second of one thread that traces the recorded rays again and does nothing else, 0 if none were.
+    double single = 0.0;  ///< rtcIntersect1 or rtcOccluded1
+    double packet8 = 0.0;
+    double packet16 = 0.0;
+    double hit_share = std::numeric_limits<double>::quiet_NaN();  ///< of the rays, those that met something, [0, 1]
+};
+
+/// A tile of one pass.
+struct TileReport {
+    PixelRect rect{};
+    int thread = 0;
+    std::uint32_t first_sample = 0;
+    double start = 0.0;  ///< since the run began
+    double end = 0.0;
+};
+
+/// A sample whose path was among the longest.
+struct LongPathReport {
+    int x = 0;
+    int y = 0;
+    std::uint32_t sample = 0;
+    int vertices = 0;
+};
+
+/// What the processor counted while the render ran; empty where the kernel does not allow it.
+struct HardwareCounters {
+    std::vector<NamedValue> values{};  ///< "cycles", "instructions", "cache-misses", …
+    std::string unavailable{};         ///< a sentence; empty if there are values
+};
+
+/// One integrator on one number of threads.
+struct ProfileRun {
+    std::string integrator{};
+    int threads = 1;
+    std::uint32_t spp = 0;
+    std::vector<double> seconds{};      ///< of each repetition without any instrument, all of the same samples
+    std::vector<double> cpu_seconds{};  ///< the same, of all threads
+    double instrumented_seconds = 0.0;  ///< of the repetition in which stages were timed and rays recorded
+    std::uint64_t samples = 0;          ///< of one repetition
+    std::uint64_t rays = 0;
+    std::vector<RayKindReport> kinds{};  ///< those that the integrator traces
+    std::vector<NamedValue> stages{};    ///< seconds of all threads, in the order of the wave; "other" is the last
+    double timing_share = 0.0;           ///< of the threads' time that the time stamps themselves took, [0, 1]
+    /// Time that bare Embree takes for exactly these rays over the time that the render took, medians of the
+    /// repetitions: as single rays, and in the form that is fastest for each kind.
+    double efficiency_single = std::numeric_limits<double>::quiet_NaN();
+    double efficiency_best = std::numeric_limits<double>::quiet_NaN();
+    double parallel_efficiency = std::numeric_limits<double>::quiet_NaN();  ///< speed over threads × that of one thread
+    double load_imbalance = 0.0;                ///< longest time that a thread rendered over the mean of all, minus 1
+    std::vector<TileReport> tiles{};            ///< of the instrumented repetition
+    std::vector<NamedValue> endings{};          ///< why paths end, and how many did
+    std::vector<std::uint64_t> path_lengths{};  ///< eye paths that took as many rays as the index says
+    std::vector<LongPathReport> longest{};
+    double shadow_unoccluded = std::numeric_limits<double>::quiet_NaN();  ///< share of shadow rays
+    double light_sampling_used =
+        std::numeric_limits<double>::quiet_NaN();  ///< share of light samples that made a shadow ray
+    double bsdf_met_light = std::numeric_limits<double>::quiet_NaN();  ///< share of scattered rays that met light
+    double bsdf_absorbed = std::numeric_limits<double>::quiet_NaN();   ///< share of BSDF samples of weight zero
+    HardwareCounters hardware{};
+    std::string heat_map{};  ///< name of the EXR beside the report: rays per pixel and seconds per pixel
+    /// Seconds of a pixel that the last colour of its picture stands for; the first is 0.
+    double heat_map_high = std::numeric_limits<double>::quiet_NaN();
+};
+
+struct BvhReport {
+    double build_seconds = 0.0;
+    std::uint64_t triangles = 0;            ///< stored
+    std::uint64_t instanced_triangles = 0;  ///< as seen
+    std::uint64_t instances = 0;
+    std::uint64_t bytes = 0;
+    std::string quality{};  ///< "medium, robust"
+};
+
+/// Of profile.json: changes when the meaning of a key does.
+inline constexpr int kProfileFormat = 1;
+
+struct ProfileReport {
+    std::string program{};
+    std::string created{};  ///< ISO 8601, UTC
+    std::string command{};
+    std::string scene{};
+    std::string scene_path{};
+    int width = 0;
+    int height = 0;
+    int max_depth = 0;
+    std::uint32_t seed = 0;
+    std::string processor{};  ///< its model
+    int processors = 0;
+    std::string isa{};
+    std::string ray_tracer{};
+    std::vector<NamedValue> load{};    ///< phases from the start of the process, seconds
+    double first_pixel_seconds = 0.0;  ///< from the start of the process to the end of a first sample of every pixel
+    BvhReport bvh{};
+    std::vector<NamedValue> memory{};  ///< owners and bytes
+    std::uint64_t peak_memory_bytes = 0;
+    std::vector<std::string> notes{};
+    std::vector<ProfileRun> runs{};  ///< by integrator, then by threads
+    std::optional<ProfileComparison> against{};
+};
+
+/// docs/profile.md describes it.
+[[nodiscard]] std::string to_json(const ProfileReport& report);
+
+/// Tables for a terminal, of at most 100 columns.
+[[nodiscard]] std::string to_table(const ProfileReport& report);
+
+/// The tiles of each thread in the Trace Event Format of Chrome, which Perfetto opens: one process for each run.
+[[nodiscard]] std::string to_chrome_trace(const ProfileReport& report);
+
+/// PNG files by keys, which `heat_map_key` makes.
+using ProfileImages = std::map<std::string, std::vector<unsigned char>>;
+
+/// "heat/path-2" for the heat map of `path` on two threads.
+[[nodiscard]] std::string heat_map_key(const ProfileRun& run);
+
+/// One HTML file that shows the report and needs nothing else.
+[[nodiscard]] std::string make_profile_page(const ProfileReport& report, const ProfileImages& images);
+
+}  // namespace etendue

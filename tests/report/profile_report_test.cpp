@@ -1,0 +1,186 @@
+#include "report/profile_report.h"
+
+#include "report/profile_figures.h"
+#include "report/profile_fixture.h"
+#include "report/text_table.h"
+#include "support/page_script.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace etendue {
+
+namespace {
+
+using Json = nlohmann::json;
+using test::made_up_profile;
+
+TEST(ProfileFigures, FollowFromWhatWasMeasured) {
+    const ProfileRun run = made_up_profile().runs[0];
+    EXPECT_EQ(median({3.0, 1.0, 2.0}), 2.0);
+    EXPECT_EQ(median({4.0, 1.0, 2.0, 3.0}), 2.5);
+    EXPECT_TRUE(std::isnan(median({})));
+    EXPECT_EQ(rays_per_second(run), 3000.0) << "6000 rays in the median of 1, 2 and 4 s";
+    EXPECT_EQ(samples_per_second(run), 500.0);
+    EXPECT_EQ(rays_per_second(run.kinds[0]), 2000.0);
+    EXPECT_EQ(tracing_share(run), 0.5);
+    EXPECT_TRUE(std::isnan(tracing_share({}))) << "not timed";
+    EXPECT_TRUE(std::isnan(rate(1.0, 0.0)));
+}
+
+TEST(ProfileFigures, TilesCostWhatAllTheirPassesDo) {
+    const ProfileRun run = made_up_profile().runs[0];
+    const std::vector<TileCost> tiles = most_expensive_tiles(run, 9);
+    ASSERT_EQ(tiles.size(), 2u);
+    EXPECT_EQ(tiles[0].rect, (PixelRect{0, 0, 32, 32}));
+    EXPECT_EQ(tiles[0].seconds, 1.0);
+    EXPECT_DOUBLE_EQ(tiles[0].share, 2.0 / 3.0);
+    EXPECT_EQ(tiles[1].rect, (PixelRect{32, 0, 64, 32}));
+    EXPECT_EQ(most_expensive_tiles(run, 1).size(), 1u);
+}
+
+TEST(ProfileJson, HoldsWhatWasMeasured) {
+    const Json json = Json::parse(to_json(made_up_profile()));
+    EXPECT_EQ(json["format"], 1);
+    EXPECT_EQ(
+        json["scene"],
+        Json({{"name", "box"}, {"path", "scenes/box"}, {"width", 64}, {"height", 32}, {"max_depth", 12}, {"seed", 7}}));
+    EXPECT_EQ(json["machine"]["isa"], "AVX2");
+    EXPECT_EQ(json["load"]["phases"][1], Json({{"name", "compile"}, {"seconds", 0.5}}));
+    EXPECT_EQ(json["load"]["seconds"], 0.75);
+    EXPECT_EQ(json["bvh"]["triangles_per_second"], 2000.0);
+    EXPECT_EQ(json["bvh"]["bytes_per_triangle"], 64.0);
+    EXPECT_EQ(json["memory"]["owners"][0]["bytes"], 1048576.0);
+    EXPECT_EQ(json["memory"]["peak_bytes"], 3u << 20);
+    EXPECT_TRUE(json["against"].is_null());
+    ASSERT_EQ(json["runs"].size(), 2u);
+    const Json& run = json["runs"][1];
+    EXPECT_EQ(run["threads"], 2);
+    EXPECT_EQ(run["cpu_seconds"].size(), 3u);
+    EXPECT_EQ(run["rays_per_second"], 3000.0);
+    EXPECT_EQ(run["kinds"][0]["packet16"], 1.6e4);
+    EXPECT_EQ(run["kinds"][0]["rays_per_second"], 2000.0);
+    EXPECT_EQ(run["stages"][2], Json({{"name", "occluded"}, {"seconds", 1.0}}));
+    EXPECT_EQ(run["tracing_share"], 0.5);
+    EXPECT_EQ(run["tiles"][2], Json({0, 0, 32, 32, 1, 1, 0.5, 1.25}));
+    EXPECT_EQ(run["expensive_tiles"][0]["rect"], Json({0, 0, 32, 32}));
+    EXPECT_EQ(run["path_lengths"], Json({0, 600, 300, 100}));
+    EXPECT_EQ(run["longest"][0]["vertices"], 9);
+    EXPECT_EQ(run["endings"][1], Json({{"name", "roulette"}, {"paths", 250.0}}));
+    EXPECT_EQ(run["hardware"]["counters"][1]["count"], 3e9);
+    EXPECT_EQ(run["heat_map"]["key"], "heat/path-2");
+}
+
+TEST(ProfileJson, WhatIsNotKnownIsNull) {
+    ProfileReport report = made_up_profile();
+    report.runs[0].seconds.clear();
+    report.first_pixel_seconds = std::numeric_limits<double>::infinity();
+    report.bvh = {};
+    const Json json = Json::parse(to_json(report));
+    const Json& run = json["runs"][0];
+    for (const char* key : {"efficiency_best", "parallel_efficiency", "rays_per_second", "bsdf_met_light"})
+        EXPECT_TRUE(run.contains(key) && run[key].is_null()) << key;
+    EXPECT_TRUE(run["kinds"][1]["hit_share"].is_null());
+    EXPECT_TRUE(run["hardware"]["unavailable"].is_null());
+    EXPECT_TRUE(json["load"]["first_pixel_seconds"].is_null());
+    EXPECT_TRUE(json["bvh"]["triangles_per_second"].is_null());
+    EXPECT_TRUE(Json::parse(to_json(ProfileReport{}))["runs"].empty());
+}
+
+TEST(ProfileJson, TakesAnyBytes) {
+    ProfileReport report = made_up_profile();
+    report.scene = "\xff\"</script>";
+    EXPECT_EQ(Json::parse(to_json(report))["scene"]["name"], "\xef\xbf\xbd\"</script>");
+}
+
+TEST(ProfileJson, StandsOnFewLines) {
+    ProfileReport report = made_up_profile();
+    const auto lines = [&] {
+        const std::string text = to_json(report);
+        return std::count(text.begin(), text.end(), '\n');
+    };
+    const auto before = lines();
+    report.runs[0].tiles.resize(1003, report.runs[0].tiles[0]);
+    EXPECT_EQ(lines(), before + 1000) << "a tile, a line";
+}
+
+std::size_t longest_line(const std::string& text) {
+    std::istringstream lines(text);
+    std::size_t longest = 0;
+    for (std::string line; std::getline(lines, line);) longest = std::max(longest, line.size());
+    return longest;
+}
+
+TEST(ProfileTable, SaysWhereTheTimeGoes) {
+    const std::string table = to_table(made_up_profile());
+    for (const char* text : {"path, 2 threads", "camera", "intersect", "16.7%", "########", "0.62", "1.00 MiB",
+                             "most expensive tiles: (0, 0) 1.00 s (66.7%)", "9 vertices at (3, 4), sample 5",
+                             "cycles 2.00 G", "875 ms", "64 bytes a triangle"})
+        EXPECT_NE(table.find(text), std::string::npos) << text << " is missing in\n" << table;
+    EXPECT_EQ(table.find("nan"), std::string::npos) << table;
+}
+
+TEST(ProfileTable, FitsATerminal) {
+    ProfileReport report = made_up_profile();
+    report.processor = std::string(90, 'x');
+    report.notes.push_back(std::string(300, 'y'));
+    report.runs[0].integrator = "a-name-of-an-integrator-that-is-far-longer-than-any";
+    report.runs[0].stages.push_back({std::string(80, 'z'), 1.0});
+    report.runs[0].hardware = {{},
+                               "the kernel does not lend its counters to programs without privileges: " +
+                                   std::string("perf_event_paranoid is 3")};
+    report.against = compare_profiles(report, report);
+    EXPECT_LE(longest_line(to_table(report)), kMostColumns);
+    EXPECT_FALSE(to_table(ProfileReport{}).empty());
+}
+
+TEST(TextTable, AlignsColumnsAndBreaksLines) {
+    EXPECT_EQ(aligned({{"a", "1"}, {"\xc3\xa9\xc3\xa9", "22"}}, 1), " a    1\n \xc3\xa9\xc3\xa9  22\n");
+    const std::string text = wrapped("word " + std::string(120, 'x') + " end", 3);
+    EXPECT_EQ(text, "word\n   " + std::string(97, 'x') + "\n   " + std::string(23, 'x') + " end\n");
+}
+
+TEST(ProfileTrace, NamesRunsAndTheirThreads) {
+    const Json trace = Json::parse(to_chrome_trace(made_up_profile()));
+    std::vector<std::string> processes, threads;
+    int tiles = 0;
+    for (const Json& event : trace["traceEvents"]) {
+        if (event["name"] == "process_name") processes.push_back(event["args"]["name"]);
+        if (event["name"] == "thread_name" && event["pid"] == 2) threads.push_back(event["args"]["name"]);
+        if (event["ph"] != "X") continue;
+        ++tiles;
+        for (const char* key : {"name", "pid", "tid", "ts", "dur", "args"})
+            EXPECT_TRUE(event.contains(key)) << key << ", which every complete event must have";
+    }
+    EXPECT_EQ(processes, (std::vector<std::string>{"path, 1 thread", "path, 2 threads"}));
+    EXPECT_EQ(threads, (std::vector<std::string>{"thread 0", "thread 1"}));
+    EXPECT_EQ(tiles, 6);
+    const Json& last = trace["traceEvents"].back();
+    EXPECT_EQ(last["ts"], 5e5) << "microseconds";
+    EXPECT_EQ(last["dur"], 7.5e5);
+    EXPECT_EQ(last["args"]["rect"], Json({0, 0, 32, 32}));
+    EXPECT_EQ(last["args"]["first sample"], 1);
+}
+
+TEST(ProfileTrace, IsEmptyWithoutRuns) {
+    EXPECT_TRUE(Json::parse(to_chrome_trace({}))["traceEvents"].empty());
+}
+
+TEST(ProfilePage, HoldsTheReportAndItsImages) {
+    ProfileReport report = made_up_profile();
+    report.scene = "</script><b>@IMAGES@ \"quoted\"";
+    const std::string page = make_profile_page(report, {{"heat/path-2", {0xfb, 0xff}}});
+    EXPECT_EQ(Json::parse(test::page_script(page, "report")), Json::parse(to_json(report)));
+    EXPECT_EQ(Json::parse(test::page_script(page, "images"))["heat/path-2"], "data:image/png;base64,+/8=");
+    for (const char* place : {"@STYLE@", "@SCRIPT@", "@REPORT@"}) EXPECT_EQ(page.find(place), std::string::npos);
+}
+
+}  // namespace
+
+}  // namespace etendue
