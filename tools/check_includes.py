@@ -60,7 +60,7 @@ THIRD_PARTY = [
     (r"CLI/", "app", WRAPPED),
     # The processor and the operating system.
     (r"[a-z]+mmintrin\.h|immintrin\.h", ANY_ROOM, SHOWN),
-    (r"(unistd|elf|fcntl|link|poll|pthread|pwd|sched|spawn)\.h|sys/", ANY_ROOM, WRAPPED),
+    (r"(unistd|elf|fcntl|link|poll|pthread|pwd|sched|spawn)\.h|linux/|sys/", ANY_ROOM, WRAPPED),
 ]
 STANDARD = re.compile(r"[a-z][a-z0-9_]*$")  # <vector>, <cstdint>: no slash, no suffix
 

@@ -10,7 +10,6 @@
 #include <array>
 #include <cctype>
 #include <limits>
-#include <map>
 #include <set>
 #include <span>
 #include <string_view>
@@ -127,6 +126,12 @@ bool is_reserved(const std::string& name) {
     return name == "rgba" || name == "half" || name.starts_with("half.");
 }
 
+/// True if `name` is that of the Cryptomatte `matte` and digits behind it.
+bool is_rank_of(std::string_view matte, std::string_view name) {
+    if (!name.starts_with(matte) || name.size() == matte.size()) return false;
+    return std::ranges::all_of(name.substr(matte.size()), [](char c) { return c >= '0' && c <= '9'; });
+}
+
 /// Makes the plan, layer by layer.
 class Planner {
   public:
@@ -145,7 +150,7 @@ class Planner {
             throw SceneError(settings.at("/robust"),
                              "a deep image composites to the means of the samples, and the medians of mon:N are none: "
                              "leave one of both out");
-        check_channels();
+        check_names();
         finish_expressions();
         finish_fireflies();
         plan_.set = std::make_shared<AovSet>(std::move(set_));
@@ -317,25 +322,27 @@ class Planner {
         return false;
     }
 
-    /// The ranks of a matte are in channels of layers NAME00, NAME01 …, which others may be called by. Also of layouts
-    /// in which both would have a place: programs put the parts of a file together.
-    void check_channels() const {
-        std::map<std::string, std::size_t> owners;
+    /// The ranks of a matte are in channels of layers NAME00, NAME01 …, which others may be called by. Programs take
+    /// all that looks so for ranks, of however many there are, and put the parts of a file together, so that this holds
+    /// in all layouts.
+    void check_names() const {
         for (std::size_t i = 0; i < plan_.outputs.size(); ++i) {
             const AovOutput& output = plan_.outputs[i];
-            for (std::size_t c = 0; c < output.channels.size(); ++c) {
-                const std::string channel = output.kind == AovKind::Matte
-                                                ? matte_channel(output.name, c)
-                                                : fmt::format("{}.{}", output.name, output.channels[c]);
-                const auto [owner, is_new] = owners.try_emplace(channel, i);
-                if (is_new) continue;
-                const AovOutput& other = plan_.outputs[owner->second];
-                throw SceneError(
-                    origins_[i].aov->location,
-                    fmt::format("layer '{}': its channel {} is one of layer '{}', too ({}): give one of "
-                                "both another name",
-                                output.name, channel, other.name, origins_[owner->second].aov->location.str()));
-            }
+            for (std::size_t m = 0; m < plan_.outputs.size(); ++m)
+                if (plan_.outputs[m].kind == AovKind::Matte && is_rank_of(plan_.outputs[m].name, output.name))
+                    throw SceneError(
+                        origins_[i].aov->location,
+                        fmt::format("layer '{}': programs would take it for a part of the Cryptomatte '{}' ({}): give "
+                                    "one of both another name",
+                                    output.name, plan_.outputs[m].name, origins_[m].aov->location.str()));
+            if (output.kind == AovKind::Matte) continue;
+            for (const MatteSource& matte : kMattes)
+                if (output.name == matte.layer || is_rank_of(matte.layer, output.name))
+                    throw SceneError(
+                        origins_[i].aov->location,
+                        fmt::format("layer '{}': programs would take it for a part of a Cryptomatte, which "
+                                    "'{}' is: give it another name",
+                                    output.name, matte.name));
         }
     }
 

@@ -22,6 +22,7 @@ void add_denoise_command(CLI::App& app, Action& action);
 void add_diff_command(CLI::App& app, Action& action);
 void add_view_command(CLI::App& app, Action& action);
 void add_compare_command(CLI::App& app, Action& action);
+void add_profile_command(CLI::App& app, Action& action);
 void add_merge_command(CLI::App& app, Action& action);
 void add_submit_command(CLI::App& app, Action& action);
 

@@ -10,6 +10,7 @@
 #include "app/image_pair.h"
 #include "app/interrupt.h"
 #include "app/library_versions.h"
+#include "app/output_directory.h"
 #include "app/render_setup.h"
 #include "core/log.h"
 #include "core/write_file.h"
@@ -25,7 +26,6 @@
 #include <set>
 #include <span>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -169,18 +169,6 @@ std::optional<Reference> find_reference(const CompareArguments& arguments, Reque
                                                              requested.variant->name, requested.seconds, seed)});
 }
 
-/// Makes the directory and returns the files that the report will be in. Throws IoError if they could not be written.
-std::array<std::filesystem::path, 2> prepare_output(const std::filesystem::path& directory) {
-    std::error_code error;
-    std::filesystem::create_directories(directory, error);
-    if (!std::filesystem::is_directory(directory))
-        throw IoError(fmt::format("cannot make the directory {}: {}", directory.string(),
-                                  error ? error.message() : "there is something else of that name"));
-    std::array files{directory / "report.json", directory / "index.html"};
-    for (const std::filesystem::path& file : files) require_writable(file);
-    return files;
-}
-
 void require_regions_within(const std::vector<NamedRegion>& regions, const PixelRect& window) {
     for (const NamedRegion& region : regions)
         if (intersection(region.pixels, window) != region.pixels)
@@ -203,7 +191,7 @@ ExitCode run_compare(const CompareArguments& arguments) {
     RequestedReference requested = requested_reference(arguments, variants, request.budget, colors);
     if (!arguments.quiet)
         for (const std::string& note : requested.notes) log_warning("note: {}", note);
-    const auto [json_file, page_file] = prepare_output(arguments.output);
+    const std::vector<std::filesystem::path> files = prepare_directory(arguments.output, {"report.json", "index.html"});
     ImageStore store(arguments.output, window.width(), window.height(), 3);
     const std::vector<VariantRenders> renders = render_variants(variants, request, store, threads);
     const std::size_t rounds = renders.front().seeds.size();
@@ -242,11 +230,11 @@ ExitCode run_compare(const CompareArguments& arguments) {
     if (bdpt != variants.end() && arguments.longest_strategy > 0)
         add_strategies(pictures, report, *bdpt, arguments.longest_strategy, view, context, arguments.quiet);
 
-    write_text(json_file, to_json(report));
-    write_text(page_file, make_page(report, pictures));
+    write_text(files[0], to_json(report));
+    write_text(files[1], make_page(report, pictures));
     if (!arguments.quiet) {
         print_summary(report, notes_said);
-        log_info("{}", page_file.string());
+        log_info("{}", files[1].string());
     }
     if (arguments.json) std::fputs(to_json(report).c_str(), stdout);
     if (interrupt_requested()) return interrupt_exit_code();

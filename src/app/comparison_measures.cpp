@@ -78,7 +78,7 @@ VariantReport describe(const Variant& variant, const VariantRenders& renders, co
         report.spp = seed.checkpoints.back().spp;
         report.seconds.values.push_back(seed.checkpoints.back().seconds);
         report.cpu_seconds.values.push_back(seed.checkpoints.back().cpu_seconds);
-        rays += static_cast<double>(seed.counters.rays());
+        rays += static_cast<double>(seed.counters.rays.total());
         samples += static_cast<double>(seed.counters.samples);
         report.dropped_samples += seed.counters.dropped;
     }

@@ -59,7 +59,7 @@ class TimedRender {
         display_.update({.fraction = fraction < 1.0 ? fraction : 1.0,
                          .seconds = seconds(),
                          .samples = area_ * spp(),
-                         .rays = state().counters.rays()});
+                         .rays = state().counters.rays.total()});
         return done;
     }
 

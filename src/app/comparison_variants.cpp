@@ -145,8 +145,9 @@ std::vector<Variant> make_variants(const std::filesystem::path& scene, std::span
             for (const Problem& problem : prepared.problems.all()) log_warning("{}", problem.str());
         complete(variant);
         if (!quiet)
-            for (const std::string& note : variant.integrator->ineffective_options(*variant.world))
-                log_warning("note: {}: {}", variant.name, note);
+            for (const auto& notes : {variant.integrator->ineffective_options(*variant.world),
+                                      ineffective_settings(variant.settings, variant.world->has_bodies())})
+                for (const std::string& note : notes) log_warning("note: {}: {}", variant.name, note);
         if (!variants.empty()) require_comparable(variants.front(), variant);
         if (!quiet)
             for (const std::string& missing : variant.cannot_find) log_warning("note: {}: {}", variant.name, missing);

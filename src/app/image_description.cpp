@@ -274,7 +274,12 @@ void describe_state(ImageDescription& description, const RenderState& state, boo
     s.height = window.height();
     s.full_width = film.full_width();
     s.full_height = film.full_height();
-    s.rays = {c.camera_rays, c.bounce_rays, c.shadow_rays};
+    s.rays = {.camera = c.rays[RayKind::Primary],
+              .bounce = c.rays[RayKind::Bounce],
+              .shadow = c.rays[RayKind::Shadow],
+              .light_subpath = c.rays[RayKind::LightSubpath],
+              .connection = c.rays[RayKind::Connection],
+              .light_to_camera = c.rays[RayKind::LightToCamera]};
     s.samples = c.samples;
     s.spp_done = static_cast<int>(state.spp_done);
     s.complete = complete;

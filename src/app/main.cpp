@@ -57,6 +57,7 @@ int main(int argc, char** argv) {
         "  etendue diff box.exr reference.exr --metric flip --map flip.png\n"
         "  etendue view box.exr -o box.png --exposure 1\n"
         "  etendue compare scenes/caustic-glass --integrators path,bdpt -o report\n"
+        "  etendue profile scenes/cornell-box -o profile\n"
         "  etendue denoise noisy.exr -o box.exr\n"
         "  etendue merge a.partial b.partial -o box.exr\n"
         "  etendue submit scenes -o /shared/out --scheduler slurm\n\n"
@@ -69,6 +70,7 @@ int main(int argc, char** argv) {
     add_diff_command(app, action);
     add_view_command(app, action);
     add_compare_command(app, action);
+    add_profile_command(app, action);
     add_merge_command(app, action);
     add_submit_command(app, action);
     // CLI11 would only say that a command is missing.

@@ -81,9 +81,10 @@ void require_strategies(const RenderSettings& settings, const SourceLocation& as
 
 namespace {
 
+constexpr int kShortestIndirect = 3;  // edges
+
 /// Throws SceneError for what could have no effect with the integrator `entry`.
 void require_fireflies(const RenderSettings& settings, const IntegratorEntry& entry) {
-    constexpr int kShortestIndirect = 3;  // edges
     if (settings.clamp_indirect > 0.0f && (!entry.has_expressions || entry.longest_path < kShortestIndirect))
         throw SceneError(settings.at("/clamp_indirect"),
                          fmt::format("'{}' finds no indirect light that could be limited; path, naive, light and bdpt "
@@ -118,6 +119,24 @@ std::unique_ptr<const Integrator> create_integrator(const RenderSettings& settin
                          fmt::format("no integrator is named '{}'; {}", s.type, name_hint(s.type, names)));
     if (s.strategy) require_strategies(settings, settings.at("/integrator/strategy"));
     return integrator;
+}
+
+std::vector<std::string> ineffective_settings(const RenderSettings& settings, bool has_bodies) {
+    std::vector<std::string> sentences;
+    // A render.json may well hold these for when --error is given.
+    const auto without_error = [&](const char* pointer, std::string_view option) {
+        if (settings.relative_error == 0.0 && settings.options.contains(pointer))
+            sentences.push_back(fmt::format("{} has no effect without an error to reach (--error)", option));
+    };
+    without_error("/min_spp", "--min-spp");
+    without_error("/adaptive", settings.adaptive ? "--adaptive" : "--no-adaptive");
+    if (settings.clamp_indirect > 0.0f && settings.integrator.max_depth < kShortestIndirect && !has_bodies)
+        sentences.push_back(fmt::format(
+            "{} has no effect: paths have at most {} (--max-depth), and indirect light takes {}",
+            settings.at("/clamp_indirect").str(),
+            settings.integrator.max_depth == 1 ? "1 edge" : fmt::format("{} edges", settings.integrator.max_depth),
+            kShortestIndirect));
+    return sentences;
 }
 
 namespace {

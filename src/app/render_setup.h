@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace etendue {
 
@@ -32,6 +33,11 @@ void require_strategies(const RenderSettings& settings, const SourceLocation& as
 
 /// The integrator that the settings ask for. Throws SceneError with the nearest name if there is none of that name.
 [[nodiscard]] std::unique_ptr<const Integrator> create_integrator(const RenderSettings& settings);
+
+/// One sentence for each thing that was asked for and has no effect beside the other settings: options of adaptive
+/// sampling without an error to reach, and a limit of indirect light where all paths are too short to be any.
+/// `has_bodies`: the scene's paths may scatter in media, which adds no edges to them.
+[[nodiscard]] std::vector<std::string> ineffective_settings(const RenderSettings& settings, bool has_bodies);
 
 /// Puts the config's defaults where `settings` name no space, display or view, and checks that everything exists.
 /// Returns the working space; the settings name that of the EXR, too. Throws SceneError with the setting's location.

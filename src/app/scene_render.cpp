@@ -248,7 +248,8 @@ class SceneRender {
         description_.frame.world_to_camera = world_to_camera(world.camera());
         description_.frame.world_to_screen = world_to_screen(world.camera());
         if (!request_.quiet)
-            for (const auto& notes : {integrator_->unreachable_light(world), integrator_->ineffective_options(world)})
+            for (const auto& notes : {integrator_->unreachable_light(world), integrator_->ineffective_options(world),
+                                      ineffective_settings(settings_, world.has_bodies())})
                 for (const std::string& note : notes) log_warning("note: {}", note);
         return world;
     }

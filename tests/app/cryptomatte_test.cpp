@@ -239,17 +239,31 @@ TEST_F(Cryptomatte, WhatIsWrongIsSaid) {
     EXPECT_NE(error("cryptomatte_objects", 3).find("did you mean 'cryptomatte_object'"), std::string::npos);
 }
 
-// One of both would be gone from the file.
+// One of both would be gone from the file, or be read as ranks of a matte.
 TEST_F(Cryptomatte, ItsChannelsAreNoOtherLayers) {
     for (const char* layout : {"layers", "parts", "files"})
-        for (const Arguments& layers :
-             {Arguments{"CryptoObject00=albedo", "cryptomatte_object"}, {"cryptomatte", "CryptoObject02=albedo"}}) {
+        for (const Arguments& layers : {Arguments{"CryptoObject00=albedo", "cryptomatte_object"},
+                                        {"cryptomatte", "CryptoObject02=albedo"},
+                                        {"CryptoObject00=depth", "cryptomatte"},
+                                        {"cryptomatte_object", "CryptoObject03=albedo"},
+                                        {"ids=cryptomatte_object", "ids1=N"},
+                                        {"ids00=cryptomatte_material", "ids=cryptomatte_object"}}) {
             const ProgramResult result =
                 render("e.exr", {"--aov", layers[0], "--aov", layers[1], "--aov-layout", layout});
             EXPECT_EQ(result.exit_code, 3) << layers[0];
-            EXPECT_NE(result.err.find("its channel CryptoObject0"), std::string::npos) << result.err;
+            EXPECT_NE(result.err.find("a part of the Cryptomatte '"), std::string::npos) << result.err;
         }
-    EXPECT_EQ(render("e.exr", {"--aov", "CryptoObject03=albedo", "--aov", "cryptomatte_object"}).exit_code, 0);
+    EXPECT_EQ(render("e.exr", {"--aov", "CryptoObject_3=albedo", "--aov", "cryptomatte_object"}).exit_code, 0);
+}
+
+TEST_F(Cryptomatte, NothingElseHasItsName) {
+    for (const char* layer : {"CryptoObject00=depth", "CryptoMaterial01=N", "CryptoAsset=albedo"}) {
+        const ProgramResult result = render("e.exr", {"--aov", layer});
+        EXPECT_EQ(result.exit_code, 3) << layer;
+        EXPECT_NE(result.err.find("a part of a Cryptomatte"), std::string::npos) << result.err;
+    }
+    EXPECT_EQ(render("e.exr", {"--aov", "CryptoObject=cryptomatte_object"}).exit_code, 0);
+    EXPECT_EQ(render("e.exr", {"--aov", "Crypto00=depth"}).exit_code, 0);
 }
 
 /// True if `command` succeeds; what it prints goes to `output`.

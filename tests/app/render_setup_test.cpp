@@ -37,6 +37,35 @@ TEST(CreateIntegrator, OnlyThoseWithStrategiesShowOne) {
     EXPECT_NE(create_integrator(settings), nullptr);
 }
 
+TEST(IneffectiveSettings, OptionsOfAdaptiveSamplingNeedAnError) {
+    RenderSettings settings;
+    EXPECT_TRUE(ineffective_settings(settings, false).empty());
+    settings.options = {{"/min_spp", "--min-spp"}, {"/adaptive", "--no-adaptive"}};
+    const std::vector<std::string> notes = ineffective_settings(settings, false);
+    ASSERT_EQ(notes.size(), 2u);
+    EXPECT_EQ(notes[0], "--min-spp has no effect without an error to reach (--error)");
+    EXPECT_EQ(notes[1], "--adaptive has no effect without an error to reach (--error)");
+    settings.adaptive = false;
+    EXPECT_EQ(ineffective_settings(settings, false)[1].find("--no-adaptive"), 0u);
+    settings.relative_error = 0.1;
+    EXPECT_TRUE(ineffective_settings(settings, false).empty());
+}
+
+TEST(IneffectiveSettings, IndirectLightTakesThreeEdges) {
+    RenderSettings settings;
+    settings.integrator.max_depth = 2;
+    EXPECT_TRUE(ineffective_settings(settings, false).empty());
+    settings.clamp_indirect = 1.0f;
+    settings.options["/clamp_indirect"] = "--clamp-indirect";
+    const std::vector<std::string> notes = ineffective_settings(settings, false);
+    ASSERT_EQ(notes.size(), 1u);
+    EXPECT_NE(notes[0].find("--clamp-indirect has no effect: paths have at most 2 edges"), std::string::npos)
+        << notes[0];
+    EXPECT_TRUE(ineffective_settings(settings, true).empty()) << "media add no edges";
+    settings.integrator.max_depth = 3;
+    EXPECT_TRUE(ineffective_settings(settings, false).empty());
+}
+
 }  // namespace
 
 }  // namespace etendue::test

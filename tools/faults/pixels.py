@@ -7,7 +7,7 @@ ZIP, ZIP_ROWS = 3, 16
 PNG = b"\x89PNG\r\n\x1a\n"
 
 
-def _exr_attributes(data):
+def exr_attributes(data):
     """The values of the header by name, and where it ends."""
     attributes, at = {}, len(EXR_OF_ONE_PART)
     while data[at]:
@@ -24,7 +24,7 @@ def exr_pixels(data):
     """Channels, data window and pixels, compressed as they are."""
     if not data.startswith(EXR_OF_ONE_PART):
         raise ValueError("no EXR file of one part, stored by rows")
-    attributes, at = _exr_attributes(data)
+    attributes, at = exr_attributes(data)
     if attributes["compression"] != bytes((ZIP,)):
         raise ValueError("not compressed as Etendue does it")
     _, first, _, last = struct.unpack("<4i", attributes["dataWindow"])

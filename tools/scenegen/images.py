@@ -5,18 +5,21 @@ import zlib
 from array import array
 from math import cos, pi, sin
 
-_EXR_HALF = 1
+# Pixel types: number in the header, bytes, format of struct.
+_EXR_HALF, _EXR_FLOAT = (1, 2, "e"), (2, 4, "f")
 
 
-def exr(width, height, pixels):
-    """Bytes of an uncompressed OpenEXR file of half-floats in linear Rec.709.
+def exr(width, height, pixels, full_floats=False):
+    """Bytes of an uncompressed OpenEXR file of half-floats, or of `full_floats` of 32 bits, in linear Rec.709.
 
-    `pixels` are R, G, B per pixel, rows from the top. Values must be finite and below 65504.
+    `pixels` are R, G, B per pixel, rows from the top. Values must be finite, and as half-floats below 65504.
     """
+    number, size, letter = _EXR_FLOAT if full_floats else _EXR_HALF
+
     def attribute(name, kind, value):
         return name.encode() + b"\0" + kind.encode() + b"\0" + struct.pack("<i", len(value)) + value
 
-    channels = b"".join(name + b"\0" + struct.pack("<iB3xii", _EXR_HALF, 0, 1, 1) for name in (b"B", b"G", b"R"))
+    channels = b"".join(name + b"\0" + struct.pack("<iB3xii", number, 0, 1, 1) for name in (b"B", b"G", b"R"))
     channels += b"\0"
     window = struct.pack("<4i", 0, 0, width - 1, height - 1)
     header = struct.pack("<ii", 20000630, 2) + b"".join((
@@ -32,13 +35,13 @@ def exr(width, height, pixels):
         attribute("screenWindowWidth", "float", struct.pack("<f", 1.0)))) + b"\0"
 
     # One block per scan line: its number, its size, then each channel's values in alphabetical order.
-    line_size = width * 3 * 2
+    line_size = width * 3 * size
     first_block = len(header) + 8 * height
     offsets = struct.pack(f"<{height}Q", *(first_block + y * (8 + line_size) for y in range(height)))
     lines = []
     for y in range(height):
         row = pixels[3 * width * y:3 * width * (y + 1)]
-        lines.append(struct.pack(f"<ii{3 * width}e", y, line_size, *row[2::3], *row[1::3], *row[0::3]))
+        lines.append(struct.pack(f"<ii{3 * width}{letter}", y, line_size, *row[2::3], *row[1::3], *row[0::3]))
     return header + offsets + b"".join(lines)
 
 

@@ -1,0 +1,310 @@
+// etendue profile: where the time of a render goes, next to what bare Embree needs for its rays.
+#include "app/commands.h"
+#include "app/comparison_variants.h"
+#include "app/given_options.h"
+#include "app/interrupt.h"
+#include "app/output_directory.h"
+#include "app/peak_memory.h"
+#include "app/phase_timer.h"
+#include "app/prepared_scene.h"
+#include "app/profile_runs.h"
+#include "app/render_setup.h"
+#include "core/log.h"
+#include "core/process_time.h"
+#include "core/write_file.h"
+#include "image/write.h"
+#include "metrics/color_map.h"
+#include "output/software_name.h"
+#include "render/progressive_render.h"
+#include "report/profile_comparison.h"
+#include "report/profile_report.h"
+#include "world/compile.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+namespace etendue {
+
+namespace {
+
+constexpr double kDefaultSeconds = 1.0;
+constexpr int kDefaultRepetitions = 5;
+
+struct ProfileArguments {
+    std::string scene;
+    std::string output;
+    std::vector<std::string> integrators{"path", "bdpt"};
+    std::vector<int> threads;  ///< empty for 1 and all
+    std::optional<double> seconds;
+    int repetitions = kDefaultRepetitions;
+    std::string against;
+    double tolerance = ProfileComparisonOptions{}.tolerance;
+    SettingsOverrides overrides;
+    std::string command;
+    bool quiet = false;
+    bool json = false;
+};
+
+std::vector<int> thread_counts(const ProfileArguments& arguments) {
+    if (!arguments.threads.empty()) return arguments.threads;
+    const ThreadPool all;
+    return all.thread_count() > 1 ? std::vector{1, all.thread_count()} : std::vector{1};
+}
+
+std::string read_text(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::ostringstream text;
+    text << file.rdbuf();
+    if (!file) throw IoError(fmt::format("cannot read {}", path.string()));
+    return std::move(text).str();
+}
+
+/// As the system calls it; empty if it does not.
+std::string processor_name() {
+    std::ifstream file("/proc/cpuinfo");
+    for (std::string line; std::getline(file, line);)
+        if (line.starts_with("model name")) {
+            const std::size_t name = line.find_first_not_of(": \t", line.find(':'));
+            return name == std::string::npos ? "" : line.substr(name);
+        }
+    return {};
+}
+
+/// Loading and compiling, phase by phase.
+class LoadedScene {
+  public:
+    LoadedScene(const ProfileArguments& arguments, const ColorConfig& colors, const ThreadPool& threads,
+                ProfileReport& report) {
+        report.load.push_back({"start of the process", seconds_since_process_start()});
+        PreparedScene prepared = prepare_scene(arguments.scene, arguments.overrides);
+        report.load.push_back({"files", prepared.load.wall});
+        const std::string working_space = resolve_colors(prepared.scene.settings, colors);
+        settings = prepared.scene.settings;
+        report.scene = prepared.scene.name;
+        const PhaseTimer timer;
+        world = std::make_unique<const World>(
+            compile_world(std::move(prepared.scene), colors, working_space, threads, prepared.problems));
+        const double build = timer.elapsed().wall;
+        const WorldStatistics of_world = world->statistics();
+        report.load.push_back({"materials, lights and textures", build - of_world.bvh_build_seconds});
+        report.load.push_back({"BVH", of_world.bvh_build_seconds});
+        if (!arguments.quiet)
+            for (const Problem& problem : prepared.problems.all()) log_warning("{}", problem.str());
+    }
+
+    RenderSettings settings;
+    std::unique_ptr<const World> world;
+};
+
+/// One sample of every pixel, as a user waits for it.
+void time_first_pixels(const World& world, RenderSettings settings, const ProfileArguments& arguments,
+                       const ThreadPool& threads, ProfileReport& report) {
+    settings.integrator.type = arguments.integrators.front();
+    const auto integrator = create_integrator(settings);
+    ProgressiveRender render(world, *integrator, make_render_options(settings), threads);
+    render.add_samples(1, [] { return interrupt_requested().load(); });
+    report.load.push_back({"first sample of every pixel", render.state().wall_seconds});
+    report.first_pixel_seconds = seconds_since_process_start();
+}
+
+void describe(ProfileReport& report, const ProfileArguments& arguments, const RenderSettings& settings,
+              const World& world) {
+    const WorldStatistics of_world = world.statistics();
+    report.program = software_name();
+    report.created = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}",
+                                 fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())));
+    report.command = arguments.command;
+    report.scene_path = arguments.scene;
+    report.width = settings.film.width;
+    report.height = settings.film.height;
+    report.max_depth = settings.integrator.max_depth;
+    report.seed = settings.seed;
+    report.processor = processor_name();
+    report.processors = static_cast<int>(std::thread::hardware_concurrency());
+    report.isa = of_world.isa;
+    report.ray_tracer = "Embree " + ray_tracer_version();
+    report.bvh = {.build_seconds = of_world.bvh_build_seconds,
+                  .triangles = of_world.triangles,
+                  .instanced_triangles = of_world.instanced_triangles,
+                  .instances = of_world.instances,
+                  .bytes = of_world.bvh_bytes,
+                  .quality = "medium, robust"};
+}
+
+void describe_memory(ProfileReport& report, const World& world, const ProfileRuns& runs) {
+    const WorldStatistics of_world = world.statistics();
+    const auto bytes = [](std::size_t value) { return static_cast<double>(value); };
+    report.memory = {{"geometry", bytes(of_world.geometry_bytes)},
+                     {"BVH", bytes(of_world.bvh_bytes)},
+                     {"textures", bytes(of_world.texture_bytes)},
+                     {"lights", bytes(of_world.light_bytes)},
+                     {"film", bytes(runs.film_bytes)},
+                     {"waves", bytes(runs.wave_bytes)}};
+    report.peak_memory_bytes = peak_memory_bytes();
+}
+
+/// Writes the map's EXR, and keeps its picture for the page.
+void write_costs(const std::filesystem::path& directory, const PixelRect& window, const CostMap& costs,
+                 ProfileReport& report, ProfileImages& images) {
+    ImageF both(window.width(), window.height(), 2);
+    ImageF seconds(window.width(), window.height(), 1);
+    for (std::size_t p = 0; p < costs.rays.size(); ++p) {
+        both.pixels[2 * p] = costs.rays[p];
+        both.pixels[2 * p + 1] = seconds.pixels[p] = costs.seconds[p];
+    }
+    // A few pixels that cost far more than all others would leave these black.
+    std::vector<float> sorted = costs.seconds;
+    const auto high = sorted.begin() + static_cast<std::ptrdiff_t>(static_cast<double>(sorted.size() - 1) * 0.995);
+    std::ranges::nth_element(sorted, high);
+    const ImageF picture = paint_magma(seconds, static_cast<double>(*high));
+    const auto most_threads = std::ranges::max_element(
+        report.runs, {}, [&](const ProfileRun& run) { return run.integrator == costs.integrator ? run.threads : 0; });
+    const std::filesystem::path stem = directory / fmt::format("heat-{}-{}", costs.integrator, most_threads->threads);
+    write_image(stem.string() + ".exr", both, {.depth = PixelDepth::Float, .channel_names = {"rays", "seconds"}});
+    write_image(stem.string() + ".png", picture, {.depth = PixelDepth::UInt8});
+    most_threads->heat_map = stem.filename().string() + ".exr";
+    most_threads->heat_map_high = static_cast<double>(*high);
+    images[heat_map_key(*most_threads)] = encode_png(picture);
+}
+
+ExitCode run_profile(const ProfileArguments& arguments) {
+    ProfileReport report;
+    std::optional<ProfileBaseline> baseline;
+    if (!arguments.against.empty()) baseline = parse_profile(read_text(arguments.against), arguments.against);
+    const std::filesystem::path directory = arguments.output;
+    const std::vector<std::filesystem::path> files =
+        prepare_directory(directory, {"profile.json", "trace.json", "index.html"});
+    const FlushDenormals flush_denormals;
+    const ColorConfig colors = ColorConfig::from_environment();
+    const std::vector<int> threads = thread_counts(arguments);
+    const ThreadPool all(std::ranges::max(threads));
+    const LoadedScene loaded(arguments, colors, all, report);
+    describe(report, arguments, loaded.settings, *loaded.world);
+    time_first_pixels(*loaded.world, loaded.settings, arguments, all, report);
+
+    const ProfileRequest request{.integrators = arguments.integrators,
+                                 .threads = threads,
+                                 .seconds = arguments.seconds.value_or(kDefaultSeconds),
+                                 .spp = arguments.overrides.spp
+                                            ? std::optional(static_cast<std::uint32_t>(*arguments.overrides.spp))
+                                            : std::nullopt,
+                                 .repetitions = arguments.repetitions,
+                                 .quiet = arguments.quiet};
+    ProfileRuns measured = measure_runs(*loaded.world, loaded.settings, request);
+    if (measured.interrupted) return interrupt_exit_code();
+    report.runs = std::move(measured.runs);
+    describe_memory(report, *loaded.world, measured);
+    ProfileImages images;
+    for (const CostMap& costs : measured.costs)
+        write_costs(directory, make_render_options(loaded.settings).window, costs, report, images);
+    if (baseline) report.against = compare_profiles(*baseline, report, {.tolerance = arguments.tolerance});
+
+    write_text(files[0], to_json(report));
+    write_text(files[1], to_chrome_trace(report));
+    write_text(files[2], make_profile_page(report, images));
+    if (arguments.json)
+        std::fputs(to_json(report).c_str(), stdout);
+    else if (!arguments.quiet)
+        std::fputs(to_table(report).c_str(), stdout);
+    std::fflush(stdout);
+    if (!arguments.quiet) log_info("{}", files[2].string());
+    if (!report.against) return ExitCode::Success;
+    if (!report.against->refusal.empty()) {
+        log_error("error: {}: {}", arguments.against, report.against->refusal);
+        return ExitCode::InvalidScene;
+    }
+    return report.against->has_regression() ? ExitCode::DiffFailed : ExitCode::Success;
+}
+
+void add_profile_options(CLI::App& command, ProfileArguments& arguments) {
+    command.add_option("scene", arguments.scene, "Scene directory, .gltf or .glb")->required();
+    command
+        .add_option("-o,--output", arguments.output,
+                    "Directory for profile.json, index.html, trace.json and heat maps; made if it is missing")
+        ->required()
+        ->check(CLI::Validator([](const std::string& text) { return std::string(text.empty() ? "it is empty" : ""); },
+                               "DIR"));
+    command
+        .add_option("--integrators", arguments.integrators,
+                    "Algorithms to measure, separated by commas (default: path,bdpt)")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->check(CLI::IsMember(integrator_names()));
+    command
+        .add_option("--threads", arguments.threads,
+                    "Numbers of threads to measure each on, separated by commas (default: 1 and one per processor)")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->check(CLI::Range(1, 4096));
+    command
+        .add_option("--seconds", arguments.seconds,
+                    "Time of each repetition, about (default: 1); --spp says how many samples instead")
+        ->check(real_range(1e-3, 1e6));
+    command.add_option("--repeat", arguments.repetitions, "Repetitions of each run (default: 5)")
+        ->check(CLI::Range(1, 1000));
+    auto* against = command
+                        .add_option("--against", arguments.against,
+                                    "An earlier profile.json: exit code 1 if any run takes significantly more "
+                                    "processor time")
+                        ->check(CLI::ExistingFile);
+    command
+        .add_option("--tolerance", arguments.tolerance,
+                    "How much slower counts as none for --against, relative (default: 0.02)")
+        ->check(real_range(0.0, 10.0))
+        ->needs(against);
+    command.add_flag("--quiet", arguments.quiet, "No progress, notes or tables; errors only");
+    command.add_flag("--json", arguments.json, "Print profile.json on stdout in place of the tables");
+}
+
+void require_different_names(const std::vector<std::string>& names) {
+    std::set<std::string> known;
+    for (const std::string& name : names)
+        if (!known.insert(name).second) throw CLI::ValidationError("--integrators", "'" + name + "' is named twice");
+}
+
+}  // namespace
+
+void add_profile_command(CLI::App& app, Action& action) {
+    auto arguments = std::make_shared<ProfileArguments>();
+    CLI::App* command =
+        app.add_subcommand("profile", "Measure where the time of a render goes, and how fast Embree alone would be");
+    add_profile_options(*command, *arguments);
+    arguments->overrides.add_options(*command);
+    hide_options_of_render(*command);
+    command->footer(
+        "Repetitions of all runs take turns. A last one of each has its stages timed and some of its rays recorded,\n"
+        "which bare Embree then traces again: what it needs for them, over what the render took, is the efficiency.\n"
+        "trace.json opens in Perfetto or chrome://tracing. Other options override render.json.\n\n"
+        "Examples:\n"
+        "  etendue profile scenes/cornell-box -o profile\n"
+        "  etendue profile scenes/caustic-glass --integrators bdpt --threads 1,2 --seconds 5 -o profile\n"
+        "  etendue profile scenes/cornell-box --against before/profile.json --repeat 15 -o after");
+    command->callback([arguments, command, &action] {
+        refuse_options_of_render(*command, false);
+        if (arguments->overrides.spp && arguments->seconds)
+            throw CLI::ValidationError("--seconds", "cannot be given with --spp: one of them ends a render");
+        require_different_names(arguments->integrators);
+        if (std::set(arguments->threads.begin(), arguments->threads.end()).size() != arguments->threads.size())
+            throw CLI::ValidationError("--threads", "a number of threads is given twice");
+        const std::vector<const CLI::Option*> all = std::as_const(*command).get_options();
+        arguments->command = command_line("etendue profile", given_options(all));
+        action = [arguments] { return run_profile(*arguments); };
+    });
+}
+
+}  // namespace etendue

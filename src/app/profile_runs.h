@@ -1,0 +1,48 @@
+// Renders that are measured: how fast they are by themselves, and then where their time goes.
+#pragma once
+
+#include "core/parallel.h"
+#include "render/render.h"
+#include "report/profile_report.h"
+#include "scene/render_settings.h"
+#include "world/world.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace etendue {
+
+struct ProfileRequest {
+    std::vector<std::string> integrators{};
+    std::vector<int> threads{};          ///< of each integrator's runs
+    double seconds = 1.0;                ///< of each repetition, about
+    std::optional<std::uint32_t> spp{};  ///< in place of them
+    int repetitions = 1;
+    bool quiet = false;
+};
+
+/// What a pixel has cost, of one integrator.
+struct CostMap {
+    std::string integrator{};
+    std::vector<float> rays{};     ///< of a sample, pixel by pixel of the window
+    std::vector<float> seconds{};  ///< of a sample: those of the pixel's tile, shared out by rays
+};
+
+struct ProfileRuns {
+    std::vector<ProfileRun> runs{};  ///< by integrator, then by threads
+    std::vector<CostMap> costs{};    ///< of each integrator
+    std::size_t film_bytes = 0;      ///< of the largest
+    std::size_t wave_bytes = 0;      ///< of all threads, of the largest
+    bool interrupted = false;        ///< there may be fewer repetitions then, or none
+};
+
+/// Measures every integrator on every number of threads. Repetitions of all runs take turns, so that what else the
+/// machine does falls on all alike; each takes the same samples. After them each run renders once more with its stages
+/// timed and some of its rays recorded, which bare Embree then traces again on as many threads.
+[[nodiscard]] ProfileRuns measure_runs(const World& world, const RenderSettings& settings,
+                                       const ProfileRequest& request);
+
+}  // namespace etendue
