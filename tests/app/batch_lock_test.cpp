@@ -136,7 +136,7 @@ TEST_F(BatchLockTest, OnlyOneOfManyTakesOverWhatADeadOneLeft) {
         const auto tried = [&](int i) { return folder_ / fmt::format("tried {} {}", round, i); };
         for (int i = 0; i < kProcesses; ++i) {
             (void)run_forked([&] {
-                while (!fs::exists(begin)) usleep(100);
+                if (!wait_until([&] { return fs::exists(begin); }, std::chrono::microseconds(100))) return 0;
                 const LockAttempt got = locks_.take(image);
                 write_file(tried(i), "");
                 // Who ends too early is dead, and others may take over.

@@ -11,6 +11,7 @@
 #include <memory>
 #include <set>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -76,15 +77,19 @@ class Batch : public testing::Test {
         for (const json& event : events(kind)) ++counts[event["unit"].get<std::string>()];
         return counts;
     }
-    /// The process that renders for the batch, once it is ready for signals.
+    /// The process that renders for the batch, once it is ready for signals. Throws if there is none: a signal to
+    /// process 0 would go to these tests.
     [[nodiscard]] static int child_of(const RunningProgram& batch) {
+        const std::string command_of_batch = command_of(batch.pid());
         int child = 0;
         const bool found = wait_until([&] {
             const std::vector<int> children = children_of(batch.pid());
-            if (!children.empty()) child = children.front();
-            return (child != 0 && handles_interrupt(child)) || batch.has_ended();
+            child = children.empty() ? 0 : children.front();
+            // Until its exec it is a copy of the batch, handlers and all, and the batch waits for it.
+            return (child != 0 && command_of(child) != command_of_batch && handles_interrupt(child)) ||
+                   batch.has_ended();
         });
-        EXPECT_TRUE(found && child != 0);
+        if (!found || child == 0) throw std::runtime_error("no process renders for the batch: " + batch.messages());
         return child;
     }
     /// Nothing is left but images and what tells of them.

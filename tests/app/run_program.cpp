@@ -6,6 +6,7 @@
 #include <csignal>
 #include <cstdio>
 #include <fstream>
+#include <iterator>
 #include <thread>
 #include <utility>
 
@@ -19,16 +20,14 @@ namespace etendue::test {
 
 namespace {
 
-[[noreturn]] void become_etendue(const std::vector<std::string>& arguments, const std::filesystem::path& directory,
+/// After fork other threads are gone while what they locked stays locked: only system calls may be made.
+[[noreturn]] void become_etendue(char* const* argv, const std::filesystem::path& directory,
                                  const std::filesystem::path& out, const std::filesystem::path& err) {
-    std::vector<char*> argv{const_cast<char*>("etendue")};
-    for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
-    argv.push_back(nullptr);
     const int out_file = open(out.c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0600);
     const int err_file = open(err.c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0600);
     const bool ready = out_file >= 0 && err_file >= 0 && dup2(out_file, STDOUT_FILENO) >= 0 &&
                        dup2(err_file, STDERR_FILENO) >= 0 && chdir(directory.c_str()) == 0;
-    if (ready) execv(ETENDUE_PROGRAM, argv.data());
+    if (ready) execv(ETENDUE_PROGRAM, argv);
     _exit(127);
 }
 
@@ -40,8 +39,11 @@ RunningProgram::RunningProgram(const std::vector<std::string>& arguments, const 
     const std::string name = fmt::format("{}.{}", directory.string(), static_cast<const void*>(this));
     out_ = name + ".out";
     err_ = name + ".err";
+    std::vector<char*> argv{const_cast<char*>("etendue")};
+    for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+    argv.push_back(nullptr);
     pid_ = fork();
-    if (pid_ == 0) become_etendue(arguments, directory, out_, err_);
+    if (pid_ == 0) become_etendue(argv.data(), directory, out_, err_);
 }
 
 RunningProgram::~RunningProgram() {
@@ -65,6 +67,14 @@ std::string RunningProgram::messages() const {
 }
 
 ProgramResult RunningProgram::wait() {
+    // Far longer than any test's program takes: a test that hangs has to say which it is.
+    constexpr int kPatience = 5;
+    bool ended = false;
+    for (int i = 0; i < kPatience && !ended; ++i) ended = wait_until([this] { return has_ended(); });
+    if (!ended) {
+        ADD_FAILURE() << "process " << pid_ << " has not ended in " << kPatience << " minutes: " << messages();
+        send(SIGKILL);
+    }
     int status = 0;
     waitpid(std::exchange(pid_, -1), &status, 0);
     ProgramResult result;
@@ -84,6 +94,11 @@ bool handles_interrupt(int pid) {
     return false;
 }
 
+std::string command_of(int pid) {
+    std::ifstream file(fmt::format("/proc/{}/cmdline", pid));
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
 std::vector<int> children_of(int pid) {
     std::vector<int> children;
     for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
@@ -100,12 +115,13 @@ std::vector<int> children_of(int pid) {
     return children;
 }
 
-bool wait_until(const std::function<bool()>& is_true) {
-    for (int i = 0; i < 6000; ++i) {
-        if (is_true()) return true;
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+bool wait_until(const std::function<bool()>& is_true, std::chrono::microseconds interval) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    while (!is_true()) {
+        if (std::chrono::steady_clock::now() > end) return false;
+        std::this_thread::sleep_for(interval);
     }
-    return false;
+    return true;
 }
 
 ProgramResult run_etendue(const std::vector<std::string>& arguments, const std::filesystem::path& directory,

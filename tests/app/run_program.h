@@ -1,6 +1,7 @@
 // Runs the etendue program as a user would.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -45,8 +46,12 @@ class RunningProgram {
 /// Process ids of the children of the process `pid`.
 [[nodiscard]] std::vector<int> children_of(int pid);
 
-/// Waits for at most a minute until `is_true`; says whether it became so.
-[[nodiscard]] bool wait_until(const std::function<bool()>& is_true);
+/// The words that the process `pid` was started with, each ended by a zero.
+[[nodiscard]] std::string command_of(int pid);
+
+/// Waits for at most a minute until `is_true`, which is asked once in every `interval`; says whether it became so.
+[[nodiscard]] bool wait_until(const std::function<bool()>& is_true,
+                              std::chrono::microseconds interval = std::chrono::milliseconds(10));
 
 /// Runs `etendue arguments...` in `directory`. `while_running` is called with the process id once the program handles
 /// SIGINT, if it gets that far.
