@@ -42,9 +42,13 @@ inline constexpr float kInvPi = 0.31830988618379067154f;
 [[nodiscard]] inline Vec3f normalize(const Vec3f& v) {
     return v * (1.0f / length(v));
 }
-/// Unit normal of the triangle with these two edges, not parallel: counter-clockwise is the front. The edges are scaled
-/// first, as the squares of small or large triangles' areas are beyond single precision.
+/// Unit normal of the triangle with these two edges, not parallel: counter-clockwise is the front.
 [[nodiscard]] inline Vec3f triangle_normal(const Vec3f& edge1, const Vec3f& edge2) {
+    const Vec3f normal = cross(edge1, edge2);
+    const float squared = length_squared(normal);
+    constexpr float kLeast = 1e-24f, kMost = 1e30f;
+    if (squared > kLeast && squared < kMost) return normal * (1.0f / std::sqrt(squared));
+    // The squares of small or large triangles' areas are beyond single precision.
     return normalize(cross(edge1 * (1.0f / max_abs(edge1)), edge2 * (1.0f / max_abs(edge2))));
 }
 

@@ -76,10 +76,10 @@ struct ProfileComparison {
 ///     exp(m₂ − m₁ ± t e),
 /// t the two-sided quantile of Student's distribution with e⁴ / ((s₁²/n₁)²/(n₁−1) + (s₂²/n₂)²/(n₂−1)) degrees of
 /// freedom (B. L. Welch, "The generalization of 'Student's' problem when several different population variances are
-/// involved", Biometrika 34, 1947). A program that has
-/// not changed is called slower with probability (1 − confidence) / 2 for each run if repetitions are many,
-/// independent, and vary normally in logarithms, and the tolerance is 0. Of 3 to 10 that was measured as 0.020 to 0.036
-/// for a confidence of 0.95; a tolerance makes it less (docs/profile.md).
+/// involved", Biometrika 34, 1947). A program that has not changed is called slower with probability
+/// (1 − confidence) / 2 for each run if repetitions are many, independent, and vary normally in logarithms, and the
+/// tolerance is 0. Of 3 to 10 that was measured as 0.020 to 0.036 for a confidence of 0.95; a tolerance makes it less
+/// (docs/profile.md).
 [[nodiscard]] ProfileComparison compare_profiles(const ProfileBaseline& before, const ProfileReport& now,
                                                  const ProfileComparisonOptions& options = {});
 

@@ -74,8 +74,9 @@ struct DepartingDensities {
         const double per_area = is_from_infinity ? 1.0 : 1.0 / squared_distance;
         const double next = raised(pdf_forward * cos_arriving * per_area);
         if (!(next > 0.0)) return {};
+        const double inverse = 1.0 / next;
         const double back = is_from_infinity ? 1.0 : raised(cosine * per_area);
-        return {is_connectible ? 1.0 / next : 0.0, back * d / next};
+        return {is_connectible ? inverse : 0.0, back * d * inverse};
     }
 };
 
