@@ -15,22 +15,28 @@ enum class TransportMode {
 };
 
 /// A lobe's value for a pair of directions. Delta parts of a lobe are not in it.
-struct BsdfValue {
-    Rgb f_cos;                     ///< BSDF times |cos theta_i|, 1/sr
-    float pdf_solid_angle = 0.0f;  ///< density with which `sample` picks wi given wo, non-delta parts only
+/// A template of its lane type, see core/lane.h.
+template <typename T>
+struct BasicBsdfValue {
+    BasicRgb<T> f_cos;        ///< BSDF times |cos theta_i|, 1/sr
+    T pdf_solid_angle{0.0f};  ///< density with which `sample` picks wi given wo, non-delta parts only
 };
+using BsdfValue = BasicBsdfValue<float>;
 
 /// A sampled direction. An all-zero `weight` means that nothing was scattered.
-struct BsdfSample {
-    Vec3f wi{0.0f};
-    Rgb weight;                    ///< f |cos theta_i| / pdf; for a delta part, its albedo over its probability
-    float pdf_solid_angle = 0.0f;  ///< of all non-delta parts together; not meaningful if `is_delta`
-    bool is_delta = false;
+/// A template of its lane type, see core/lane.h.
+template <typename T>
+struct BasicBsdfSample {
+    Imath::Vec3<T> wi{T(0.0f)};
+    BasicRgb<T> weight;       ///< f |cos theta_i| / pdf; for a delta part, its albedo over its probability
+    T pdf_solid_angle{0.0f};  ///< of all non-delta parts together; not meaningful if `is_delta`
+    bool is_delta = false;    ///< as all lanes are
     bool is_transmission = false;
-    float eta = 1.0f;  ///< index on wi's side over the index on wo's side, for Russian roulette
+    T eta{1.0f};  ///< index on wi's side over the index on wo's side, for Russian roulette
     /// Of a delta: probability of choosing it on the way back, from wi, over that of having chosen it from wo.
-    float reverse_choice_ratio = 1.0f;
+    T reverse_choice_ratio{1.0f};
 };
+using BsdfSample = BasicBsdfSample<float>;
 
 /// Where `w` points in the frame of the surface's other side, which is turned about y.
 [[nodiscard]] inline Vec3f turned_about_y(const Vec3f& w) {

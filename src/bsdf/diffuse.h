@@ -8,25 +8,24 @@
 
 namespace etendue {
 
-struct Diffuse {
-    Rgb albedo{0.5f};  ///< reflected share per channel, [0, 1]
+/// A template of its lane type, see core/lane.h.
+template <typename T>
+struct BasicDiffuse {
+    BasicRgb<T> albedo{T(0.5f)};  ///< reflected share per channel, [0, 1]
 
-    [[nodiscard]] BsdfValue evaluate(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const;
-    [[nodiscard]] BsdfSample sample(const Vec3f& wo, float u_lobe, Vec2f u, TransportMode mode) const;
+    [[nodiscard]] BasicBsdfValue<T> evaluate(const Imath::Vec3<T>& wo, const Imath::Vec3<T>& wi, TransportMode) const {
+        const T pdf = select(wo.z > T(0.0f), cosine_hemisphere_pdf_solid_angle(wi), T(0.0f));
+        return {albedo * pdf, pdf};
+    }
+    [[nodiscard]] BasicBsdfSample<T> sample(const Imath::Vec3<T>& wo, float /*u_lobe*/, const Imath::Vec2<T>& u,
+                                            TransportMode) const {
+        const Imath::Vec3<T> wi = square_to_cosine_hemisphere(u);
+        const T scatters = select(wo.z > T(0.0f) && wi.z > T(0.0f), T(1.0f), T(0.0f));
+        return {.wi = wi, .weight = albedo * scatters, .pdf_solid_angle = cosine_hemisphere_pdf_solid_angle(wi)};
+    }
     [[nodiscard]] bool has_non_delta() const { return true; }
 };
 
-inline BsdfValue Diffuse::evaluate(const Vec3f& wo, const Vec3f& wi, TransportMode) const {
-    if (wo.z <= 0.0f || wi.z <= 0.0f) return {};
-    const float pdf = cosine_hemisphere_pdf_solid_angle(wi);
-    return {albedo * pdf, pdf};
-}
-
-inline BsdfSample Diffuse::sample(const Vec3f& wo, float, Vec2f u, TransportMode) const {
-    if (wo.z <= 0.0f) return {};
-    const Vec3f wi = square_to_cosine_hemisphere(u);
-    if (wi.z <= 0.0f) return {};
-    return {.wi = wi, .weight = albedo, .pdf_solid_angle = cosine_hemisphere_pdf_solid_angle(wi)};
-}
+using Diffuse = BasicDiffuse<float>;
 
 }  // namespace etendue

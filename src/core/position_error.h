@@ -17,16 +17,19 @@ namespace etendue {
 /// Relative error of the sums involved: 16 roundings.
 inline constexpr float kPositionError = 16.0f * 0.5f * std::numeric_limits<float>::epsilon();
 
-[[nodiscard]] inline Vec3f abs_components(const Vec3f& v) {
-    return {std::abs(v.x), std::abs(v.y), std::abs(v.z)};
+template <typename T = float>
+[[nodiscard]] inline Imath::Vec3<T> abs_components(const Imath::Vec3<T>& v) {
+    return {abs(v.x), abs(v.y), abs(v.z)};
 }
-[[nodiscard]] inline Vec3f max_components(const Vec3f& a, const Vec3f& b) {
-    return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
+template <typename T = float>
+[[nodiscard]] inline Imath::Vec3<T> max_components(const Imath::Vec3<T>& a, const Imath::Vec3<T>& b) {
+    return {max(a.x, b.x), max(a.y, b.y), max(a.z, b.z)};
 }
 
 /// Error per axis, metres, of points between vertices whose coordinates are at most `extent` from zero.
-[[nodiscard]] inline Vec3f position_error(const Vec3f& extent) {
-    return extent * kPositionError;
+template <typename T = float>
+[[nodiscard]] inline Imath::Vec3<T> position_error(const Imath::Vec3<T>& extent) {
+    return extent * T(kPositionError);
 }
 
 /// The same after the transform `m` from mesh to world space; `extent` is in mesh space.
@@ -41,9 +44,10 @@ inline constexpr float kPositionError = 16.0f * 0.5f * std::numeric_limits<float
 
 /// Distance along the unit normal `n`, metres, that clears an error per axis. Not zero: a ray that starts exactly in a
 /// surface must not meet it.
-[[nodiscard]] inline float clearance(const Vec3f& n, const Vec3f& error) {
+template <typename T = float>
+[[nodiscard]] inline T clearance(const Imath::Vec3<T>& n, const Imath::Vec3<T>& error) {
     constexpr float kLeast = 1e-9f;
-    return std::max(kLeast, dot(abs_components(n), error));
+    return max(T(kLeast), dot(abs_components(n), error));
 }
 
 }  // namespace etendue

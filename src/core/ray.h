@@ -23,8 +23,10 @@ static_assert(sizeof(Ray) == 36);
 
 /// The point `distance` metres off the surface at `p`, on the side of the unit geometric normal `n` towards which
 /// `direction` points.
-[[nodiscard]] inline Vec3f offset_origin(const Vec3f& p, const Vec3f& n, float distance, const Vec3f& direction) {
-    return p + n * (dot(n, direction) >= 0.0f ? distance : -distance);
+template <typename T>
+[[nodiscard]] inline Imath::Vec3<T> offset_origin(const Imath::Vec3<T>& p, const Imath::Vec3<T>& n, T distance,
+                                                  const Imath::Vec3<T>& direction) {
+    return p + n * select(dot(n, direction) >= T(0.0f), distance, -distance);
 }
 
 }  // namespace etendue

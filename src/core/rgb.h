@@ -1,52 +1,46 @@
 // A colour triple: linear, in the working space unless a name says otherwise.
 #pragma once
 
+#include "core/lane.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace etendue {
 
-struct Rgb {
-    float r = 0.0f;
-    float g = 0.0f;
-    float b = 0.0f;
+/// A template of its lane type, see core/lane.h.
+template <typename T>
+struct BasicRgb {
+    T r{0.0f};
+    T g{0.0f};
+    T b{0.0f};
 
-    constexpr Rgb() = default;
-    constexpr explicit Rgb(float v) : r(v), g(v), b(v) {}
-    constexpr Rgb(float red, float green, float blue) : r(red), g(green), b(blue) {}
+    constexpr BasicRgb() = default;
+    constexpr explicit BasicRgb(T v) : r(v), g(v), b(v) {}
+    constexpr BasicRgb(T red, T green, T blue) : r(red), g(green), b(blue) {}
 
-    constexpr Rgb& operator+=(const Rgb& o) { return *this = {r + o.r, g + o.g, b + o.b}; }
-    constexpr Rgb& operator-=(const Rgb& o) { return *this = {r - o.r, g - o.g, b - o.b}; }
-    constexpr Rgb& operator*=(const Rgb& o) { return *this = {r * o.r, g * o.g, b * o.b}; }
-    constexpr Rgb& operator*=(float s) { return *this = {r * s, g * s, b * s}; }
+    constexpr BasicRgb& operator+=(const BasicRgb& o) { return *this = {r + o.r, g + o.g, b + o.b}; }
+    constexpr BasicRgb& operator-=(const BasicRgb& o) { return *this = {r - o.r, g - o.g, b - o.b}; }
+    constexpr BasicRgb& operator*=(const BasicRgb& o) { return *this = {r * o.r, g * o.g, b * o.b}; }
+    constexpr BasicRgb& operator*=(T s) { return *this = {r * s, g * s, b * s}; }
 
-    friend constexpr bool operator==(const Rgb&, const Rgb&) = default;
+    [[nodiscard]] friend constexpr bool operator==(const BasicRgb&, const BasicRgb&) = default;
+    [[nodiscard]] friend constexpr BasicRgb operator+(BasicRgb a, const BasicRgb& b) { return a += b; }
+    [[nodiscard]] friend constexpr BasicRgb operator-(BasicRgb a, const BasicRgb& b) { return a -= b; }
+    [[nodiscard]] friend constexpr BasicRgb operator*(BasicRgb a, const BasicRgb& b) { return a *= b; }
+    [[nodiscard]] friend constexpr BasicRgb operator*(BasicRgb a, T s) { return a *= s; }
+    [[nodiscard]] friend constexpr BasicRgb operator*(T s, BasicRgb a) { return a *= s; }
+    [[nodiscard]] friend constexpr BasicRgb operator/(const BasicRgb& a, const BasicRgb& b) {
+        return {a.r / b.r, a.g / b.g, a.b / b.b};
+    }
+    [[nodiscard]] friend constexpr BasicRgb operator/(const BasicRgb& a, T s) { return a * (T(1.0f) / s); }
 };
 
-[[nodiscard]] constexpr Rgb operator+(Rgb a, const Rgb& b) {
-    return a += b;
-}
-[[nodiscard]] constexpr Rgb operator-(Rgb a, const Rgb& b) {
-    return a -= b;
-}
-[[nodiscard]] constexpr Rgb operator*(Rgb a, const Rgb& b) {
-    return a *= b;
-}
-[[nodiscard]] constexpr Rgb operator*(Rgb a, float s) {
-    return a *= s;
-}
-[[nodiscard]] constexpr Rgb operator*(float s, Rgb a) {
-    return a *= s;
-}
-[[nodiscard]] constexpr Rgb operator/(const Rgb& a, const Rgb& b) {
-    return {a.r / b.r, a.g / b.g, a.b / b.b};
-}
-[[nodiscard]] constexpr Rgb operator/(const Rgb& a, float s) {
-    return a * (1.0f / s);
-}
+using Rgb = BasicRgb<float>;
 
-[[nodiscard]] constexpr float max_component(const Rgb& c) {
-    return std::max(c.r, std::max(c.g, c.b));
+template <typename T = float>
+[[nodiscard]] constexpr T max_component(const BasicRgb<T>& c) {
+    return max(c.r, max(c.g, c.b));
 }
 [[nodiscard]] constexpr float min_component(const Rgb& c) {
     return std::min(c.r, std::min(c.g, c.b));
@@ -57,8 +51,9 @@ struct Rgb {
     return (c.r + c.g + c.b) * (1.0f / 3.0f);
 }
 
-[[nodiscard]] constexpr bool is_black(const Rgb& c) {
-    return c.r == 0.0f && c.g == 0.0f && c.b == 0.0f;
+template <typename T = float>
+[[nodiscard]] constexpr auto is_black(const BasicRgb<T>& c) {
+    return c.r == T(0.0f) && c.g == T(0.0f) && c.b == T(0.0f);
 }
 
 [[nodiscard]] inline bool is_finite(const Rgb& c) {

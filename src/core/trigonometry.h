@@ -8,16 +8,21 @@
 
 namespace etendue {
 
-struct SinCos {
-    float sin;
-    float cos;
+/// A template of its lane type, see core/lane.h.
+template <typename T>
+struct BasicSinCos {
+    T sin;
+    T cos;
 };
+using SinCos = BasicSinCos<float>;
 
 /// Of an angle in [-pi/4, pi/4] radians; error below 1e-7 (Taylor series, the next term is 2e-9).
-[[nodiscard]] inline SinCos sin_cos_octant(float x) {
-    const float x2 = x * x;
-    const float s = x * (1.0f + x2 * (-1.0f / 6.0f + x2 * (1.0f / 120.0f + x2 * (-1.0f / 5040.0f + x2 / 362880.0f))));
-    const float c = 1.0f + x2 * (-0.5f + x2 * (1.0f / 24.0f + x2 * (-1.0f / 720.0f + x2 / 40320.0f)));
+template <typename T>
+[[nodiscard]] inline BasicSinCos<T> sin_cos_octant(T x) {
+    const T x2 = x * x;
+    const T s =
+        x * (1.0f + x2 * (-1.0f / 6.0f + x2 * (1.0f / 120.0f + x2 * (-1.0f / 5040.0f + x2 * (1.0f / 362880.0f)))));
+    const T c = 1.0f + x2 * (-0.5f + x2 * (1.0f / 24.0f + x2 * (-1.0f / 720.0f + x2 * (1.0f / 40320.0f))));
     return {s, c};
 }
 

@@ -1,6 +1,8 @@
 // Vectors, matrices and the few functions on them that every room uses. Storage and matrix algebra are Imath's.
 #pragma once
 
+#include "core/lane.h"
+
 #include <cmath>
 
 #include <Imath/ImathMatrix.h>
@@ -21,39 +23,45 @@ using Mat4f = Imath::M44f;
 inline constexpr float kPi = 3.14159265358979323846f;
 inline constexpr float kInvPi = 0.31830988618379067154f;
 
-[[nodiscard]] inline float dot(const Vec3f& a, const Vec3f& b) {
+// Templates of their lane type, see core/lane.h; a list in braces is a Vec3f.
+
+template <typename T = float>
+[[nodiscard]] inline T dot(const Imath::Vec3<T>& a, const Imath::Vec3<T>& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
-[[nodiscard]] inline Vec3f cross(const Vec3f& a, const Vec3f& b) {
+template <typename T = float>
+[[nodiscard]] inline Imath::Vec3<T> cross(const Imath::Vec3<T>& a, const Imath::Vec3<T>& b) {
     return a.cross(b);
 }
-[[nodiscard]] inline float length_squared(const Vec3f& v) {
+template <typename T = float>
+[[nodiscard]] inline T length_squared(const Imath::Vec3<T>& v) {
     return dot(v, v);
 }
-[[nodiscard]] inline float length(const Vec3f& v) {
-    return std::sqrt(length_squared(v));
+template <typename T = float>
+[[nodiscard]] inline T length(const Imath::Vec3<T>& v) {
+    return sqrt(length_squared(v));
 }
 
 /// Largest absolute value of the components.
-[[nodiscard]] inline float max_abs(const Vec3f& v) {
-    return std::max(std::abs(v.x), std::max(std::abs(v.y), std::abs(v.z)));
+template <typename T = float>
+[[nodiscard]] inline T max_abs(const Imath::Vec3<T>& v) {
+    return max(abs(v.x), max(abs(v.y), abs(v.z)));
 }
 /// `v` scaled to length 1; undefined for a zero vector.
-[[nodiscard]] inline Vec3f normalize(const Vec3f& v) {
-    return v * (1.0f / length(v));
+template <typename T = float>
+[[nodiscard]] inline Imath::Vec3<T> normalize(const Imath::Vec3<T>& v) {
+    return v * (T(1.0f) / length(v));
 }
-/// Unit normal of the triangle with these two edges, not parallel: counter-clockwise is the front.
-[[nodiscard]] inline Vec3f triangle_normal(const Vec3f& edge1, const Vec3f& edge2) {
-    const Vec3f normal = cross(edge1, edge2);
-    const float squared = length_squared(normal);
-    constexpr float kLeast = 1e-24f, kMost = 1e30f;
-    if (squared > kLeast && squared < kMost) return normal * (1.0f / std::sqrt(squared));
-    // The squares of small or large triangles' areas are beyond single precision.
-    return normalize(cross(edge1 * (1.0f / max_abs(edge1)), edge2 * (1.0f / max_abs(edge2))));
+/// Unit normal of the triangle with these two edges, not parallel: counter-clockwise is the front. The edges are scaled
+/// first, as the squares of small or large triangles' areas are beyond single precision.
+template <typename T = float>
+[[nodiscard]] inline Imath::Vec3<T> triangle_normal(const Imath::Vec3<T>& edge1, const Imath::Vec3<T>& edge2) {
+    return normalize(cross(edge1 * (T(1.0f) / max_abs(edge1)), edge2 * (T(1.0f) / max_abs(edge2))));
 }
 
-[[nodiscard]] inline float abs_dot(const Vec3f& a, const Vec3f& b) {
-    return std::abs(dot(a, b));
+template <typename T = float>
+[[nodiscard]] inline T abs_dot(const Imath::Vec3<T>& a, const Imath::Vec3<T>& b) {
+    return abs(dot(a, b));
 }
 
 /// A point through an affine transform.

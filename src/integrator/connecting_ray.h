@@ -9,16 +9,31 @@
 
 namespace etendue {
 
-/// From `origin` to just before `end`; both are clear of their surfaces.
+/// A template of its lane type, see core/lane.h.
+template <typename T>
+struct Connection {
+    Imath::Vec3<T> direction;  ///< unit; any if there is no distance
+    T t_max;                   ///< metres
+
+    /// From `origin` to just before `end`; both are clear of their surfaces.
+    Connection(const Imath::Vec3<T>& origin, const Imath::Vec3<T>& end) : direction(end - origin) {
+        // What rounding may add to the length; the end is clear of its surface by more than its own rounding.
+        constexpr float kBeforeEnd = 1.0f - 8.0f * std::numeric_limits<float>::epsilon();
+        const T distance = length(direction);
+        const auto apart = distance > T(0.0f);
+        const T scale = select(apart, 1.0f / distance, T(0.0f));
+        direction = {direction.x * scale, direction.y * scale, select(apart, direction.z * scale, T(1.0f))};
+        t_max = distance * kBeforeEnd;
+    }
+};
+
+/// The ray of a `Connection`.
 [[nodiscard]] inline Ray connecting_ray(const Vec3f& origin, const Vec3f& end) {
-    // What rounding may add to the length; the end is clear of its surface by more than its own rounding.
-    constexpr float kBeforeEnd = 1.0f - 8.0f * std::numeric_limits<float>::epsilon();
+    const Connection<float> connection(origin, end);
     Ray ray;
     ray.origin = origin;
-    const Vec3f to_end = end - origin;
-    const float distance = length(to_end);
-    if (distance > 0.0f) ray.direction = to_end * (1.0f / distance);
-    ray.t_max = distance * kBeforeEnd;
+    ray.direction = connection.direction;
+    ray.t_max = connection.t_max;
     return ray;
 }
 

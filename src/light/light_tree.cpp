@@ -88,10 +88,12 @@ LightTree::LightTree(std::span<const Light> lights, float scene_radius) : places
     if (!far_ends_.empty()) far_ends_.back() = 1.0;
     const auto radius = static_cast<double>(scene_radius);
     far_irradiance_ = far_power / (std::numbers::pi * radius * radius);
+    if (leaves.empty() && far_.size() == 1) single_ = far_.front();
     if (leaves.empty()) return;
     nodes_.reserve(2 * leaves.size() - 1);
     nodes_.emplace_back();
     build(0, leaves, 0, 0);
+    if (far_.empty() && near_.size() == 1 && std::isfinite(nodes_.front().intensity)) single_ = near_.front();
 }
 
 LightTree::Node LightTree::make_node(const LightBounds& bounds) {
@@ -241,6 +243,7 @@ float LightTree::near_probability(double far_share, double by_tree) const {
 }
 
 LightTree::Choice LightTree::sample(const Vec3f& point, Vec2f u) const {
+    if (single_ != kNone) return {single_, 1.0f};
     double rest = joined(u);
     const double far = far_share(point);
     if (takes_first(rest, far)) {
@@ -267,6 +270,7 @@ LightTree::Choice LightTree::sample(const Vec3f& point, Vec2f u) const {
 float LightTree::probability(const Vec3f& point, std::size_t light) const {
     const Place& place = places_[light];
     if (place.index == kNone) return 0.0f;
+    if (single_ != kNone) return 1.0f;
     const double far = far_share(point);
     if (place.is_far) {
         const double begin = place.index > 0 ? far_ends_[place.index - 1] : 0.0;

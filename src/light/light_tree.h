@@ -92,6 +92,7 @@ class LightTree {
     std::vector<std::uint32_t> far_;   ///< and those at infinity
     std::vector<double> far_ends_;     ///< sums of the probabilities of `far_`
     double far_irradiance_ = 0.0;      ///< W/m²
+    std::uint32_t single_ = kNone;     ///< the one light that has any power, if there is no other
 };
 
 }  // namespace etendue

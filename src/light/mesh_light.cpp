@@ -2,7 +2,6 @@
 
 #include "core/frame.h"
 #include "core/position_error.h"
-#include "core/ray.h"
 #include "sampling/warp.h"
 
 #include <algorithm>
@@ -36,23 +35,18 @@ MeshLight::MeshLight(std::vector<LightTriangle> triangles, Rgb radiance, Rgb mea
 }
 
 LightSample MeshLight::sample(const Vec3f& point, Vec2f u_triangle, Vec2f u) const {
-    const AliasTable::Choice choice = by_area_.sample(u_triangle);
-    const LightTriangle& t = triangles_[choice.index];
-    const Vec2f b = square_to_triangle(u);
-    const Vec3f on_light = t.p0 + t.edge1 * b.x + t.edge2 * b.y;
-    const Vec3f to_light = on_light - point;
-    const float squared = length_squared(to_light);
-    if (!(squared > 0.0f)) return {};
+    const std::uint32_t triangle = choose_triangle(u_triangle);
+    const LightTriangleSample<float> on_triangle = front(triangle).sample(point, u);
+    if (!(on_triangle.distance > 0.0f)) return {};
     LightSample sample;
-    sample.distance = std::sqrt(squared);
-    sample.wi = to_light * (1.0f / sample.distance);
-    const Front& front = fronts_[choice.index];
-    sample.cos_light = -dot(sample.wi, front.normal);
-    sample.pdf_solid_angle = pdf_solid_angle(sample.distance, sample.cos_light);
-    sample.triangle = choice.index;
-    sample.barycentric = b;
+    sample.distance = on_triangle.distance;
+    sample.wi = on_triangle.wi;
+    sample.cos_light = on_triangle.cos_light;
+    sample.pdf_solid_angle = on_triangle.pdf_solid_angle;
+    sample.triangle = triangle;
+    sample.barycentric = on_triangle.barycentric;
     if (!(sample.pdf_solid_angle > 0.0f)) return sample;
-    sample.end = offset_origin(on_light, front.normal, front.clearance, -sample.wi);
+    sample.end = on_triangle.end;
     sample.radiance = radiance_;
     return sample;
 }
@@ -88,8 +82,10 @@ float MeshLight::emission_pdf(const Vec3f&, float cos_light, const SceneSphere&)
 }
 
 float MeshLight::pdf_solid_angle(float distance, float cos_light) const {
-    const float cosine = two_sided_ ? std::abs(cos_light) : cos_light;
-    return cosine > 0.0f ? distance * distance / (area_ * cosine) : 0.0f;
+    LightTriangleFront<float> any{};
+    any.area = area_;
+    any.back = two_sided_ ? 1.0f : 0.0f;
+    return any.pdf_solid_angle(distance, cos_light);
 }
 
 float MeshLight::power(float) const {

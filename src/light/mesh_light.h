@@ -4,11 +4,13 @@
 // the same code that evaluates it where a ray hits, so that both strategies of MIS agree.
 #pragma once
 
+#include "core/ray.h"
 #include "core/vector_bytes.h"
 #include "light/emission_sample.h"
 #include "light/light_bounds.h"
 #include "light/light_sample.h"
 #include "sampling/alias_table.h"
+#include "sampling/warp.h"
 
 #include <cstdint>
 #include <span>
@@ -19,6 +21,46 @@ namespace etendue {
 /// A triangle in world space.
 struct LightTriangle {
     Vec3f p0, edge1, edge2;
+};
+
+/// A point of a triangle of a mesh light as the lit point sees it. A template of its lane type, see core/lane.h.
+template <typename T>
+struct LightTriangleSample {
+    Imath::Vec2<T> barycentric;
+    Imath::Vec3<T> wi;  ///< unit, towards the light; not meaningful at a distance of 0
+    T distance;         ///< metres
+    T cos_light;        ///< between -wi and the normal of the front
+    T pdf_solid_angle;  ///< 0 where nothing is emitted towards the point
+    Imath::Vec3<T> end;
+};
+
+/// A triangle of a mesh light with all that sampling it needs. A template of its lane type, see core/lane.h.
+template <typename T>
+struct LightTriangleFront {
+    Imath::Vec3<T> p0, edge1, edge2;
+    Imath::Vec3<T> normal;  ///< unit, of the front
+    T clearance;            ///< metres, as in SurfacePoint
+    T area;                 ///< of the whole mesh, m²
+    T back;                 ///< share of the front's radiance that the back emits: 1 if two-sided, else 0
+
+    /// d² / (A |cos|), 0 where nothing is emitted. `cos_light` as in the sample.
+    [[nodiscard]] T pdf_solid_angle(T distance, T cos_light) const {
+        const T cosine = max(cos_light, -cos_light * back);
+        return select(cosine > T(0.0f), distance * distance / (area * cosine), T(0.0f));
+    }
+    /// `u` in [0, 1)².
+    [[nodiscard]] LightTriangleSample<T> sample(const Imath::Vec3<T>& point, const Imath::Vec2<T>& u) const {
+        LightTriangleSample<T> s;
+        s.barycentric = square_to_triangle(u);
+        const Imath::Vec3<T> on_light = p0 + edge1 * s.barycentric.x + edge2 * s.barycentric.y;
+        const Imath::Vec3<T> to_light = on_light - point;
+        s.distance = length(to_light);
+        s.wi = to_light * (1.0f / s.distance);
+        s.cos_light = -dot(s.wi, normal);
+        s.pdf_solid_angle = pdf_solid_angle(s.distance, s.cos_light);
+        s.end = offset_origin(on_light, normal, clearance, -s.wi);
+        return s;
+    }
 };
 
 class MeshLight {
@@ -33,6 +75,15 @@ class MeshLight {
 
     /// `u_triangle` chooses the triangle, `u` the point in it; both in [0, 1)².
     [[nodiscard]] LightSample sample(const Vec3f& point, Vec2f u_triangle, Vec2f u) const;
+    /// The triangle that `sample` chooses with `u_triangle`.
+    [[nodiscard]] std::uint32_t choose_triangle(Vec2f u_triangle) const { return by_area_.sample(u_triangle).index; }
+    [[nodiscard]] LightTriangleFront<float> front(std::uint32_t triangle) const {
+        const LightTriangle& t = triangles_[triangle];
+        const Front& front = fronts_[triangle];
+        return {t.p0, t.edge1, t.edge2, front.normal, front.clearance, area_, two_sided_ ? 1.0f : 0.0f};
+    }
+    /// Of the front.
+    [[nodiscard]] const Rgb& radiance() const { return radiance_; }
     /// Density of `sample` for a hit at `distance`, where `cos_light` is the cosine between the geometric normal and
     /// the direction back to the lit point: d² / (A |cos|). 0 for the back of a one-sided light.
     [[nodiscard]] float pdf_solid_angle(float distance, float cos_light) const;

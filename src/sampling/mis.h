@@ -10,8 +10,9 @@ namespace etendue {
 }
 
 /// Power heuristic with exponent 2, equation 9.9. Written as a ratio, so that large densities do not overflow.
-[[nodiscard]] constexpr float power_heuristic(float pdf, float other_pdf) {
-    const float ratio = other_pdf / pdf;
+template <typename T>
+[[nodiscard]] constexpr T power_heuristic(T pdf, T other_pdf) {
+    const T ratio = other_pdf / pdf;
     return 1.0f / (1.0f + ratio * ratio);
 }
 

@@ -2,7 +2,8 @@
 //
 // Notation: `square_to_x(u)` maps u in [0,1)² to the domain x, `x_pdf(p)` is the density of the result in the measure
 // that the name states, `x_to_square(p)` is the inverse. Sources: Shirley and Chiu, "A Low Distortion Map Between Disk
-// and Square" (JGT 2(3), 1997); pbrt, 4th edition, appendix A.5.
+// and Square" (JGT 2(3), 1997); pbrt, 4th edition, appendix A.5. Some are templates of their lane type, see
+// core/lane.h.
 #pragma once
 
 #include "core/trigonometry.h"
@@ -16,14 +17,15 @@ namespace etendue {
 inline constexpr float kOneMinusEpsilon = 0x1.fffffep-1f;
 
 /// To the unit disk, concentric.
-[[nodiscard]] inline Vec2f square_to_disk(Vec2f u) {
-    const float a = 2.0f * u.x - 1.0f;
-    const float b = 2.0f * u.y - 1.0f;
-    if (a == 0.0f && b == 0.0f) return {0.0f, 0.0f};
-    const bool wide = std::abs(a) > std::abs(b);
-    const float r = wide ? a : b;
-    const SinCos angle = sin_cos_octant((kPi / 4.0f) * ((wide ? b : a) / r));
-    return wide ? Vec2f(r * angle.cos, r * angle.sin) : Vec2f(r * angle.sin, r * angle.cos);
+template <typename T = float>
+[[nodiscard]] inline Imath::Vec2<T> square_to_disk(const Imath::Vec2<T>& u) {
+    const T a = 2.0f * u.x - 1.0f;
+    const T b = 2.0f * u.y - 1.0f;
+    const auto flat = abs(a) > abs(b);
+    const T r = select(flat, a, b);
+    const T quotient = select(flat, b, a) / select(r == T(0.0f), T(1.0f), r);
+    const BasicSinCos<T> angle = sin_cos_octant((kPi / 4.0f) * quotient);
+    return {r * select(flat, angle.cos, angle.sin), r * select(flat, angle.sin, angle.cos)};
 }
 [[nodiscard]] inline float disk_pdf_area(Vec2f p) {
     return p.x * p.x + p.y * p.y <= 1.0f ? kInvPi : 0.0f;
@@ -51,12 +53,14 @@ inline constexpr float kOneMinusEpsilon = 0x1.fffffep-1f;
 }
 
 /// To the hemisphere around +z, density proportional to the cosine.
-[[nodiscard]] inline Vec3f square_to_cosine_hemisphere(Vec2f u) {
-    const Vec2f d = square_to_disk(u);
-    return {d.x, d.y, std::sqrt(std::max(0.0f, 1.0f - d.x * d.x - d.y * d.y))};
+template <typename T = float>
+[[nodiscard]] inline Imath::Vec3<T> square_to_cosine_hemisphere(const Imath::Vec2<T>& u) {
+    const Imath::Vec2<T> d = square_to_disk(u);
+    return {d.x, d.y, sqrt(max(T(0.0f), 1.0f - d.x * d.x - d.y * d.y))};
 }
-[[nodiscard]] inline float cosine_hemisphere_pdf_solid_angle(const Vec3f& w) {
-    return std::max(0.0f, w.z) * kInvPi;
+template <typename T = float>
+[[nodiscard]] inline T cosine_hemisphere_pdf_solid_angle(const Imath::Vec3<T>& w) {
+    return max(T(0.0f), w.z) * kInvPi;
 }
 [[nodiscard]] inline Vec2f cosine_hemisphere_to_square(const Vec3f& w) {
     return disk_to_square({w.x, w.y});
@@ -107,13 +111,12 @@ inline constexpr float kOneMinusEpsilon = 0x1.fffffep-1f;
 
 /// To a triangle, uniformly: the barycentric coordinates of its second and third vertex. Low-distortion map without a
 /// square root (Heitz, "A Low-Distortion Map Between Triangle and Square", 2019).
-[[nodiscard]] inline Vec2f square_to_triangle(Vec2f u) {
-    if (u.y > u.x) {
-        const float x = u.x * 0.5f;
-        return {x, u.y - x};
-    }
-    const float y = u.y * 0.5f;
-    return {u.x - y, y};
+template <typename T = float>
+[[nodiscard]] inline Imath::Vec2<T> square_to_triangle(const Imath::Vec2<T>& u) {
+    // Half of the smaller number stays, and goes from the larger.
+    const T half = 0.5f * min(u.x, u.y);
+    const auto above = u.y > u.x;
+    return {select(above, half, u.x - half), select(above, u.y - half, half)};
 }
 [[nodiscard]] inline Vec2f triangle_to_square(Vec2f b) {
     return b.y > b.x ? Vec2f{2.0f * b.x, b.y + b.x} : Vec2f{b.x + b.y, 2.0f * b.y};

@@ -71,16 +71,19 @@ void fill_packet(std::span<const Ray> rays, std::size_t first, typename Packet<W
     const std::size_t count = std::min(Width, rays.size() - first);
     for (std::size_t lane = 0; lane < Width; ++lane) {
         const Ray& ray = rays[first + std::min(lane, count - 1)];
-        mask.valid[lane] = lane < count ? -1 : 0;
         packet.org_x[lane] = ray.origin.x;
         packet.org_y[lane] = ray.origin.y;
         packet.org_z[lane] = ray.origin.z;
-        packet.tnear[lane] = 0.0f;
         packet.dir_x[lane] = ray.direction.x;
         packet.dir_y[lane] = ray.direction.y;
         packet.dir_z[lane] = ray.direction.z;
         packet.time[lane] = ray.time;
         packet.tfar[lane] = ray.t_max;
+    }
+    // What does not come from the rays, in loops of its own, which are vectorised.
+    for (std::size_t lane = 0; lane < Width; ++lane) {
+        mask.valid[lane] = lane < count ? -1 : 0;
+        packet.tnear[lane] = 0.0f;
         packet.mask[lane] = 0xffffffffu;
         packet.id[lane] = static_cast<unsigned int>(first + lane);
         packet.flags[lane] = 0;

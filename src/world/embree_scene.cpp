@@ -5,6 +5,7 @@
 #include "world/embree_query.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstddef>
@@ -214,11 +215,14 @@ template <std::size_t Width>
 void EmbreeScene::intersect_packets(std::span<const Ray> rays, std::span<Hit> hits, bool coherent) const {
     QueryContext context{{}, this, rays.data()};
     embree::init_context(context.base, coherent);
-    PacketMask<Width> mask;
-    typename Packet<Width>::RayHits packet;
-    for (std::size_t first = 0; first < rays.size(); first += Width) {
-        fill_packet<Width>(rays, first, packet, mask);
-        embree::intersect(mask.valid, top_, context.base, coherent, packet);
+    // The next packet is filled before this one is traced: Embree would wait for what was just stored piece by piece.
+    std::array<PacketMask<Width>, 2> masks;
+    std::array<typename Packet<Width>::RayHits, 2> packets;
+    fill_packet<Width>(rays, 0, packets[0], masks[0]);
+    for (std::size_t first = 0, now = 0; first < rays.size(); first += Width, now = 1 - now) {
+        if (first + Width < rays.size()) fill_packet<Width>(rays, first + Width, packets[1 - now], masks[1 - now]);
+        auto& packet = packets[now];
+        embree::intersect(masks[now].valid, top_, context.base, coherent, packet);
         const std::size_t count = std::min(Width, rays.size() - first);
         for (std::size_t lane = 0; lane < count; ++lane)
             hits[first + lane] =
@@ -243,11 +247,13 @@ template <std::size_t Width>
 void EmbreeScene::occluded_packets(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const {
     QueryContext context{{}, this, rays.data()};
     embree::init_context(context.base, false);
-    PacketMask<Width> mask;
-    typename Packet<Width>::Rays packet;
-    for (std::size_t first = 0; first < rays.size(); first += Width) {
-        fill_packet<Width>(rays, first, packet, mask);
-        embree::occluded(mask.valid, top_, context.base, packet);
+    std::array<PacketMask<Width>, 2> masks;
+    std::array<typename Packet<Width>::Rays, 2> packets;
+    fill_packet<Width>(rays, 0, packets[0], masks[0]);
+    for (std::size_t first = 0, now = 0; first < rays.size(); first += Width, now = 1 - now) {
+        if (first + Width < rays.size()) fill_packet<Width>(rays, first + Width, packets[1 - now], masks[1 - now]);
+        auto& packet = packets[now];
+        embree::occluded(masks[now].valid, top_, context.base, packet);
         const std::size_t count = std::min(Width, rays.size() - first);
         for (std::size_t lane = 0; lane < count; ++lane) occluded[first + lane] = packet.tfar[lane] < 0.0f ? 1 : 0;
     }

@@ -5,6 +5,7 @@
 #include "world/interpolation.h"
 #include "world/material_evaluation.h"
 #include "world/motion.h"
+#include "world/triangle_point.h"
 #include "world/world.h"
 
 #include <array>
@@ -82,9 +83,10 @@ SurfacePoint make_point(const WorldData& data, std::uint32_t instance_index, std
     const Vec3f p0 = deforms ? moved.p[0] : geometry.positions[triangle[0]];
     const Vec3f e1 = (deforms ? moved.p[1] : geometry.positions[triangle[1]]) - p0;
     const Vec3f e2 = (deforms ? moved.p[2] : geometry.positions[triangle[2]]) - p0;
-    point.position = p0 + e1 * barycentric.x + e2 * barycentric.y;
-    Vec3f geometric = triangle_normal(e1, e2);
-    Vec3f extent = max_components(abs_components(p0), max_components(abs_components(p0 + e1), abs_components(p0 + e2)));
+    const TrianglePoint<float> on_triangle(p0, e1, e2, barycentric);
+    point.position = on_triangle.position;
+    Vec3f geometric = on_triangle.normal;
+    Vec3f extent = on_triangle.extent;
     if (deforms) extent = max_components(extent, moved.extent);
     const bool is_smooth = !(deforms ? geometry.motion.front().normals : geometry.normals).empty();
     Vec3f shading = !is_smooth ? geometric
@@ -126,12 +128,7 @@ SurfacePoint make_point(const WorldData& data, std::uint32_t instance_index, std
         };
         add_footprints(geometry, to_scene(e1), to_scene(e2), section, point);
     }
-    Vec3f normal = point.geometric_normal;
-    if (is_smooth) {
-        // Interpolated normals can cancel out or point to the back; the triangle's own then stands in.
-        const float shading_length = length(shading);
-        if (shading_length > 0.0f && dot(shading, normal) > 0.0f) normal = shading * (1.0f / shading_length);
-    }
+    const Vec3f normal = is_smooth ? usable_normal(shading, point.geometric_normal) : point.geometric_normal;
     point.shading =
         length_squared(tangent) > 0.0f ? Frame::from_normal_and_tangent(normal, tangent) : Frame::from_normal(normal);
     if (material.needs_tangents() || material.has_coat) apply_relief(data, material, bitangent_sign, point);

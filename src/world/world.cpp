@@ -6,6 +6,7 @@
 #include "world/cone_section.h"
 #include "world/embree_scene.h"
 #include "world/gltf_surface.h"
+#include "world/interpolation.h"
 #include "world/material_evaluation.h"
 #include "world/motion.h"
 
@@ -61,6 +62,25 @@ void evaluate_uniform_materials(WorldData& data) {
     }
 }
 
+/// See World::plain_lobe; by geometry.
+std::vector<const Diffuse*> find_plain_lobes(const WorldData& data) {
+    std::vector<const Diffuse*> lobes(data.geometries.size(), nullptr);
+    if (!data.textures.empty()) return lobes;
+    for (const Instance& instance : data.instances) {
+        if (!instance.baked || instance.motion != kNone) continue;
+        for (std::uint32_t g = 0; g < instance.geometry_count; ++g) {
+            const Geometry& geometry = data.geometries[instance.first_geometry + g];
+            const Material& material = data.materials[geometry.material];
+            const Bsdf* lobe = std::get_if<Bsdf>(&material.model);
+            const bool is_bare = !material.emits && !material.unlit && !material.has_coat &&
+                                 !material.needs_tangents() && material.filling == kNone;
+            if (lobe != nullptr && is_bare && geometry.tangents.empty() && geometry.motion.empty())
+                lobes[instance.first_geometry + g] = std::get_if<Diffuse>(lobe);
+        }
+    }
+    return lobes;
+}
+
 /// The interface of a dielectric between other indices than it was made for.
 Bsdf with_relative_ior(const Bsdf& bsdf, float relative_ior) {
     constexpr float kSameIor = 1e-4f;
@@ -83,6 +103,7 @@ World::World(WorldData data)
       tree_(data_->lights, radius_of(data_->bounds)) {
     data_->bvh->set_opacity(opacity_callback, data_.get());
     evaluate_uniform_materials(*data_);
+    plain_lobes_ = find_plain_lobes(*data_);
     has_motion_ = data_->bvh->has_motion() || !data_->camera_motion.empty();
     has_transparency_ = std::any_of(data_->materials.begin(), data_->materials.end(),
                                     [](const Material& m) { return m.alpha_test != AlphaTest::Opaque; });
@@ -134,6 +155,14 @@ SurfacePoint World::surface_point(const Hit& hit) const {
 SurfacePoint World::surface_point(const Hit& hit, const Ray& ray, const RayCone& cone) const {
     return make_surface_point(*data_, hit.instance, hit.geometry, hit.triangle, {hit.u, hit.v}, hit.time,
                               ConeSection{ray.direction, std::abs(cone.width_at(hit.t))});
+}
+
+HitTriangle World::hit_triangle(const Hit& hit) const {
+    const Geometry& geometry = data_->geometries[hit.geometry];
+    const auto& triangle = geometry.triangles[hit.triangle];
+    const Vec3f& p0 = geometry.positions[triangle[0]];
+    return {p0, geometry.positions[triangle[1]] - p0, geometry.positions[triangle[2]] - p0,
+            geometry.normals.empty() ? Vec3f(0.0f) : interpolate(geometry.normals, triangle, {hit.u, hit.v})};
 }
 
 float World::mean_curvature(const SurfacePoint& point) const {
@@ -231,8 +260,7 @@ Interior World::interior_at(const Vec3f& point) const {
     return interior;
 }
 
-ChosenLight World::sample_light(const Vec3f& point, const LightNumbers& u) const {
-    const LightTree::Choice choice = tree_.sample(point, u.light);
+ChosenLight World::sample_light(const LightTree::Choice& choice, const Vec3f& point, const LightNumbers& u) const {
     const Light& light = data_->lights[choice.light];
     ChosenLight chosen{etendue::sample_light(light, point, u.triangle, u.direction), choice.probability, choice.light};
     LightSample& sample = chosen.sample;

@@ -128,6 +128,12 @@ struct LightNumbers {
     Vec2f direction;  ///< where on it, or from where
 };
 
+/// A triangle that was hit, with the normal that its vertices' make there; zero where it is flat.
+struct HitTriangle {
+    Vec3f p0, edge1, edge2;
+    Vec3f shading_normal;
+};
+
 class World {
   public:
     explicit World(WorldData data);
@@ -148,6 +154,15 @@ class World {
     [[nodiscard]] SurfacePoint surface_point(const Hit& hit) const;
     /// The surface at `hit`, whose textures are filtered for `ray`, which hit it, with `cone` around it.
     [[nodiscard]] SurfacePoint surface_point(const Hit& hit, const Ray& ray, const RayCone& cone) const;
+    /// The lobe of a surface that is the same matte one everywhere, as most are: it neither emits nor moves, is placed
+    /// once, has no relief, and nothing in the scene is textured. Null where it is any other. What such a surface is
+    /// at a point, the functions of world/triangle_point.h say.
+    [[nodiscard]] const Diffuse* plain_lobe(const Hit& hit) const { return plain_lobes_[hit.geometry]; }
+    [[nodiscard]] HitTriangle hit_triangle(const Hit& hit) const;
+    /// Names a plain surface; of no other use than that.
+    [[nodiscard]] const Material* material(const Hit& hit) const {
+        return &data_->materials[data_->geometries[hit.geometry].material];
+    }
     /// Of the surface around `point`, 1/m, positive where its front is convex; for `RayCone`s that are mirrored there.
     [[nodiscard]] float mean_curvature(const SurfacePoint& point) const;
     /// False if nothing is textured, so that rays need no cones.
@@ -194,7 +209,18 @@ class World {
     /// triangles that are sampled.
     [[nodiscard]] bool has_unsampled_emitters() const { return data_->has_unsampled_emitters; }
     /// Light arriving at `point` from a light chosen for it by the light tree.
-    [[nodiscard]] ChosenLight sample_light(const Vec3f& point, const LightNumbers& u) const;
+    [[nodiscard]] ChosenLight sample_light(const Vec3f& point, const LightNumbers& u) const {
+        return sample_light(choose_light(point, u.light), point, u);
+    }
+    /// Its two halves: the choice, and light from what was chosen.
+    [[nodiscard]] LightTree::Choice choose_light(const Vec3f& point, Vec2f u) const { return tree_.sample(point, u); }
+    [[nodiscard]] ChosenLight sample_light(const LightTree::Choice& choice, const Vec3f& point,
+                                           const LightNumbers& u) const;
+    /// The mesh light of this index if it shines evenly, else null.
+    [[nodiscard]] const MeshLight* even_mesh_light(std::uint32_t light) const {
+        const MeshLight* mesh = std::get_if<MeshLight>(&data_->lights[light]);
+        return mesh != nullptr && mesh->is_uniform() ? mesh : nullptr;
+    }
     /// Probability with which `sample_light` chooses the light of this index for `point`.
     [[nodiscard]] float light_probability(const Vec3f& point, std::uint32_t light) const {
         return tree_.probability(point, light);
@@ -282,6 +308,7 @@ class World {
     bool has_unlit_surfaces_ = false;
     bool has_scattering_bodies_ = false;
     bool has_lights_in_media_ = false;
+    std::vector<const Diffuse*> plain_lobes_;  ///< by geometry
     Interior camera_interior_;
     std::vector<Interior> light_interiors_;  ///< of each light; only if there are bodies
 };

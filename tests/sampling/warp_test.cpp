@@ -28,7 +28,7 @@ DirectionWarp cone_warp(float cos_max) {
 }
 
 std::vector<DirectionWarp> direction_warps() {
-    return {{"cosine hemisphere", square_to_cosine_hemisphere,
+    return {{"cosine hemisphere", square_to_cosine_hemisphere<float>,
              [](const Vec3f& w) { return static_cast<double>(cosine_hemisphere_pdf_solid_angle(w)); },
              cosine_hemisphere_to_square},
             {"sphere", square_to_sphere, [](const Vec3f&) { return static_cast<double>(sphere_pdf_solid_angle()); },

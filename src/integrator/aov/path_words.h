@@ -29,6 +29,11 @@ struct VertexEvent {
 [[nodiscard]] VertexEvent surface_event(const Scattering& scattering, const Vec3f& wi, bool is_delta,
                                         TransportMode mode, std::uint16_t label);
 
+/// The same at a matte surface.
+[[nodiscard]] inline VertexEvent matte_event(std::uint16_t label) {
+    return {.event = ScatterEvent::ReflectDiffuse, .other = ScatterEvent::ReflectGlossy, .label = label};
+}
+
 /// A word that a path may be, by the automaton's state after it.
 struct WordShare {
     PathAutomaton::State state = 0;

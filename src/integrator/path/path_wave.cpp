@@ -148,12 +148,12 @@ void PathWave::shade(const Context& context) {
 void PathWave::shade_block(const Context& context, std::size_t first, std::size_t count, std::size_t& kept) {
     const World& world = context.world;
     WaveProfile* const profile = context.job.profile;
-    std::array<std::uint8_t, kBlock> on_surface;
-    std::size_t surfaces = 0;
+    surfaces_ = 0;
     for (std::size_t k = 0; k < count; ++k) {
         goes_on_[k] = false;
-        if (set_up(context, first, k)) on_surface[surfaces++] = static_cast<std::uint8_t>(k);
+        if (set_up(context, first, k)) on_surface_[surfaces_++] = static_cast<std::uint8_t>(k);
     }
+    set_up_plain(context, first);
     stamp(profile, Stage::HitSetup);
     for (std::size_t k = 0; k < count; ++k) {
         const std::size_t i = first + k;
@@ -165,24 +165,32 @@ void PathWave::shade_block(const Context& context, std::size_t first, std::size_
     }
     stamp(profile, Stage::Emission);
     const auto for_surfaces = [&](const auto& visit) {
-        for (std::size_t s = 0; s < surfaces; ++s) visit(first + on_surface[s], block_[on_surface[s]]);
+        for (std::size_t lane = 0; lane < surfaces_; ++lane)
+            visit(first + on_surface_[lane], lane, block_[on_surface_[lane]]);
     };
-    for_surfaces([&](std::size_t i, ShadedPath& path) { make_scattering(context, i, path); });
+    for_surfaces([&](std::size_t i, std::size_t lane, ShadedPath& path) { make_scattering(context, i, lane, path); });
     stamp(profile, Stage::Textures);
-    for_surfaces([&](std::size_t i, ShadedPath& path) {
-        if (path.samples_light) path.light = sample_light(context, i, path.point.position);
-    });
+    sample_lights(context, first);
     stamp(profile, Stage::LightSampling);
-    for_surfaces([&](std::size_t i, ShadedPath& path) { evaluate(i, path); });
+    evaluate_matte(first);
+    for_surfaces([&](std::size_t i, std::size_t, ShadedPath& path) {
+        if (!path.is_matte) evaluate(i, path);
+    });
     stamp(profile, Stage::Material);
-    for_surfaces([&](std::size_t i, const ShadedPath& path) {
-        if (path.samples_light) queue_direct_light(context, i, path);
+    lanes_.weigh_light(surfaces_);
+    for_surfaces([&](std::size_t i, std::size_t lane, const ShadedPath& path) {
+        if (!path.samples_light) return;
+        if (path.is_matte)
+            queue_matte(context, i, lane, path);
+        else
+            queue_direct_light(context, i, path);
     });
     stamp(profile, Stage::Mis);
-    for (std::size_t s = 0; s < surfaces; ++s) {
-        const std::size_t k = on_surface[s];
-        goes_on_[k] = scatter_at_surface(context, first + k, block_[k], next_[k]);
-    }
+    for_surfaces([&](std::size_t i, std::size_t lane, const ShadedPath& path) {
+        PathStep& next = next_[i - first];
+        goes_on_[i - first] =
+            path.is_matte ? scatter_at_matte(context, i, lane, path, next) : scatter_at_surface(context, i, path, next);
+    });
     for (std::size_t k = 0; k < count; ++k) {
         const std::size_t i = first + k;
         if (!goes_on_[k] || !survives(context, i, next_[k].state)) continue;
@@ -214,6 +222,14 @@ bool PathWave::set_up(const Context& context, std::size_t first, std::size_t k) 
         return false;
     }
     const PathState& state = states_[i];
+    path.plain = world.plain_lobe(hit);
+    if (path.plain != nullptr) {
+        path.point.material = world.material(hit);
+        path.crossing.reset();
+        if (state.edges < context.options.lengths.max_depth) return true;
+        end_path(context, i, PathEnding::TooLong);
+        return false;
+    }
     path.point = world.surface_point(hit, rays_[i], state.cone);
     path.crossing.reset();
     if (world.has_bodies() && world.is_boundary(path.point)) {
@@ -236,10 +252,37 @@ bool PathWave::set_up(const Context& context, std::size_t first, std::size_t k) 
     return false;
 }
 
-void PathWave::make_scattering(const Context& context, std::size_t i, ShadedPath& path) {
+void PathWave::set_up_plain(const Context& context, std::size_t first) {
+    bool any = false;
+    for (std::size_t lane = 0; lane < surfaces_; ++lane) {
+        const std::size_t k = on_surface_[lane];
+        if (block_[k].plain == nullptr) continue;
+        any = true;
+        const Hit& hit = hits_[first + k];
+        const HitTriangle triangle = context.world.hit_triangle(hit);
+        lanes_.p0.set(lane, triangle.p0);
+        lanes_.edge1.set(lane, triangle.edge1);
+        lanes_.edge2.set(lane, triangle.edge2);
+        lanes_.triangle_normal.set(lane, triangle.shading_normal);
+        lanes_.u.set(lane, {hit.u, hit.v});
+    }
+    if (any) lanes_.set_up_points(surfaces_);
+}
+
+void PathWave::make_scattering(const Context& context, std::size_t i, std::size_t lane, ShadedPath& path) {
     const World& world = context.world;
     const PathState& state = states_[i];
     const Vec3f wo = -rays_[i].direction;
+    const auto set_matte = [&](const Diffuse& lobe) {
+        path.is_matte = true;
+        lanes_.wo.set(lane, wo);
+        lanes_.albedo.set(lane, lobe.albedo);
+        lanes_.throughput.set(lane, state.throughput);
+    };
+    path.samples_light =
+        context.options.sample_lights && world.has_lights() && state.edges + 1 >= context.options.lengths.min_depth;
+    if (path.plain != nullptr) return set_matte(*path.plain);
+    lanes_.position.set(lane, path.point.position);
     // Where the index depends on the wavelength, a path of all of them takes one to go on with.
     path.wavelength = {state.wavelength_nm, Rgb(1.0f)};
     path.chooses_wavelength = path.crossing && path.crossing->disperses() && state.wavelength_nm == 0.0f;
@@ -250,9 +293,81 @@ void PathWave::make_scattering(const Context& context, std::size_t i, ShadedPath
                                                  .x);
     const Bsdf& bsdf = world.bsdf(path.point, wo,
                                   path.crossing ? path.crossing->relative_ior(path.wavelength.nm) : 0.0f, path.storage);
+    path.is_matte = false;
+    if (const auto* diffuse = std::get_if<Diffuse>(&bsdf); diffuse != nullptr && !path.crossing) {
+        const SurfacePoint& point = path.point;
+        lanes_.geometric_normal.set(lane, point.geometric_normal);
+        lanes_.clearance.set(lane, point.clearance);
+        lanes_.tangent.set(lane, point.shading.tangent);
+        lanes_.bitangent.set(lane, point.shading.bitangent);
+        lanes_.normal.set(lane, point.shading.normal);
+        return set_matte(*diffuse);
+    }
     path.scattering.emplace(bsdf, path.point.shading, path.point.geometric_normal, wo);
-    path.samples_light = context.options.sample_lights && path.scattering->has_non_delta() && world.has_lights() &&
-                         state.edges + 1 >= context.options.lengths.min_depth;
+    path.samples_light = path.samples_light && path.scattering->has_non_delta();
+}
+
+void PathWave::sample_lights(const Context& context, std::size_t first) {
+    const World& world = context.world;
+    bool any_mesh_lit = false;
+    for (std::size_t lane = 0; lane < surfaces_; ++lane) {
+        const std::size_t i = first + on_surface_[lane];
+        ShadedPath& path = block_[on_surface_[lane]];
+        path.is_mesh_lit = false;
+        lanes_.light_pdf.set(lane, 0.0f);
+        if (!path.samples_light) continue;
+        const Vec3f position = lanes_.position[lane];
+        const LightTree::Choice choice = world.choose_light(position, light_choice_.pair(i));
+        const MeshLight* mesh = world.even_mesh_light(choice.light);
+        if (mesh == nullptr) {
+            path.light = world.sample_light(choice, position,
+                                            {light_choice_.pair(i), light_triangle_.pair(i), light_direction_.pair(i)});
+            continue;
+        }
+        any_mesh_lit = true;
+        path.is_mesh_lit = true;
+        path.light.probability = choice.probability;
+        path.light.light = choice.light;
+        const LightTriangleFront<float> front = mesh->front(mesh->choose_triangle(light_triangle_.pair(i)));
+        lanes_.p0.set(lane, front.p0);
+        lanes_.edge1.set(lane, front.edge1);
+        lanes_.edge2.set(lane, front.edge2);
+        lanes_.triangle_normal.set(lane, front.normal);
+        lanes_.light_clearance.set(lane, front.clearance);
+        lanes_.light_area.set(lane, front.area);
+        lanes_.light_back.set(lane, front.back);
+        lanes_.light_probability.set(lane, choice.probability);
+        lanes_.light_radiance.set(lane, mesh->radiance());
+        lanes_.light_by_chance.set(lane, 1.0f);
+        lanes_.u.set(lane, light_direction_.pair(i));
+    }
+    if (any_mesh_lit) lanes_.sample_mesh_lights(surfaces_);
+    for (std::size_t lane = 0; lane < surfaces_; ++lane) {
+        ShadedPath& path = block_[on_surface_[lane]];
+        if (path.is_matte == path.is_mesh_lit) continue;
+        LightSample& light = path.light.sample;
+        if (path.is_mesh_lit) {
+            light.wi = lanes_.light_wi[lane];
+            light.distance = lanes_.light_distance[lane];
+            light.end = lanes_.light_end[lane];
+            light.pdf_solid_angle = lanes_.light_pdf[lane];
+            light.radiance = light.pdf_solid_angle > 0.0f ? lanes_.light_radiance[lane] : Rgb();
+            light.is_delta = false;
+        } else if (path.samples_light) {
+            lanes_.light_wi.set(lane, light.wi);
+            lanes_.light_distance.set(lane, light.distance);
+            lanes_.light_end.set(lane, light.end);
+            lanes_.light_pdf.set(lane, light.is_delta ? path.light.probability : light.pdf_solid_angle);
+            lanes_.light_by_chance.set(lane, light.is_delta ? 0.0f : 1.0f);
+            lanes_.light_radiance.set(lane, light.radiance);
+        }
+    }
+}
+
+void PathWave::evaluate_matte(std::size_t first) {
+    for (std::size_t lane = 0; lane < surfaces_; ++lane)
+        lanes_.u.set(lane, bsdf_direction_.pair(first + on_surface_[lane]));
+    lanes_.evaluate_matte(surfaces_);
 }
 
 void PathWave::evaluate(std::size_t i, ShadedPath& path) const {
@@ -261,24 +376,57 @@ void PathWave::evaluate(std::size_t i, ShadedPath& path) const {
     path.sample = path.scattering->sample(choices_.x[i], bsdf_direction_.pair(i), TransportMode::Radiance);
 }
 
+bool PathWave::scatter(const Context& context, std::size_t i, const Vec3f& position, const BsdfSample& sample,
+                       PathStep& next) const {
+    WaveProfile* const profile = context.job.profile;
+    if (profile != nullptr) ++profile->use().bsdf_samples;
+    if (is_black(sample.weight)) {
+        if (profile != nullptr) ++profile->use().bsdf_absorbed;
+        end_path(context, i, PathEnding::Absorbed);
+        return false;
+    }
+    PathState& state = next.state;
+    state = states_[i];
+    state.throughput *= sample.weight;
+    state.pdf_solid_angle = sample.pdf_solid_angle;
+    state.from = position;
+    state.after_delta = sample.is_delta;
+    state.is_direct = state.only_delta;
+    state.only_delta = state.only_delta && sample.is_delta;
+    ++state.edges;
+    next.ray.direction = sample.wi;
+    next.ray.alpha_key = alpha_key(context, i);
+    return true;
+}
+
+bool PathWave::scatter_at_matte(const Context& context, std::size_t i, std::size_t lane, const ShadedPath& path,
+                                PathStep& next) {
+    const World& world = context.world;
+    BsdfSample sample;
+    sample.wi = lanes_.next_direction[lane];
+    sample.weight = lanes_.next_weight[lane];
+    sample.pdf_solid_angle = lanes_.next_pdf[lane];
+    if (!scatter(context, i, lanes_.position[lane], sample, next)) return false;
+    if (words_.are_followed())
+        next.state.words = words_.scatter_from_eye(states_[i].words, matte_event(words_.label(world, path.point)));
+    if (world.has_textures())
+        next.state.cone = scattered_cone(world, path.point, rays_[i].direction, states_[i].cone.at(hits_[i].t), sample);
+    next.ray.origin = lanes_.next_origin[lane];
+    if (world.has_bodies()) next.interior = interiors_[i];
+    return true;
+}
+
 bool PathWave::scatter_at_surface(const Context& context, std::size_t i, const ShadedPath& path, PathStep& next) {
     const World& world = context.world;
     const PathState& state = states_[i];
     const SurfacePoint& point = path.point;
     const Scattering& scattering = *path.scattering;
     const BsdfSample& sample = path.sample;
-    if (context.job.profile != nullptr) ++context.job.profile->use().bsdf_samples;
-    if (is_black(sample.weight)) {
-        if (context.job.profile != nullptr) ++context.job.profile->use().bsdf_absorbed;
-        end_path(context, i, PathEnding::Absorbed);
-        return false;
-    }
-    next.state = state;
+    if (!scatter(context, i, point.position, sample, next)) return false;
     if (words_.are_followed())
         next.state.words = words_.scatter_from_eye(
             state.words,
             surface_event(scattering, sample.wi, sample.is_delta, TransportMode::Radiance, words_.label(world, point)));
-    next.state.throughput *= sample.weight;
     const auto* mirror = path.chooses_wavelength && sample.is_delta && !sample.is_transmission
                              ? std::get_if<SmoothDielectric>(&scattering.bsdf())
                              : nullptr;
@@ -294,18 +442,10 @@ bool PathWave::scatter_at_surface(const Context& context, std::size_t i, const S
         next.state.throughput *= path.wavelength.weight;
         next.state.wavelength_nm = path.wavelength.nm;
     }
-    next.state.pdf_solid_angle = sample.pdf_solid_angle;
-    next.state.from = point.position;
-    next.state.after_delta = sample.is_delta;
-    next.state.is_direct = state.only_delta;
-    next.state.only_delta = state.only_delta && sample.is_delta;
     if (sample.is_transmission) next.state.eta_scale *= sample.eta * sample.eta;
     if (world.has_textures())
         next.state.cone = scattered_cone(world, point, rays_[i].direction, state.cone.at(hits_[i].t), sample);
-    ++next.state.edges;
     next.ray.origin = offset_origin(point.position, point.geometric_normal, point.clearance, sample.wi);
-    next.ray.direction = sample.wi;
-    next.ray.alpha_key = alpha_key(context, i);
     if (world.has_bodies()) next.interior = path.crossing ? beyond(*path.crossing, point, sample.wi) : interiors_[i];
     return true;
 }
@@ -427,6 +567,20 @@ void PathWave::queue_direct_light(const Context& context, std::size_t i, const S
           words_.are_followed() ? surface_event(*path.scattering, light.wi, false, TransportMode::Radiance,
                                                 words_.label(context.world, point))
                                 : VertexEvent{});
+}
+
+void PathWave::queue_matte(const Context& context, std::size_t i, std::size_t lane, const ShadedPath& path) {
+    if (context.job.profile != nullptr) ++context.job.profile->use().light_samples;
+    Rgb contribution = lanes_.contribution[lane];
+    if (is_black(contribution)) return;
+    if (context.world.has_bodies())
+        contribution *= transmittance(context.world, interiors_[i], lanes_.light_distance[lane]);
+    Ray ray;
+    ray.origin = lanes_.shadow_origin[lane];
+    ray.direction = lanes_.shadow_direction[lane];
+    ray.t_max = lanes_.shadow_t_max[lane];
+    queue(context, i, ray, contribution, path.light.light,
+          words_.are_followed() ? matte_event(words_.label(context.world, path.point)) : VertexEvent{});
 }
 
 void PathWave::queue_direct_light_in_medium(const Context& context, std::size_t i, const Vec3f& position,

@@ -7,6 +7,7 @@
 #include "integrator/aov/path_words.h"
 #include "integrator/aov/sample_light.h"
 #include "integrator/camera_wave.h"
+#include "integrator/path/block_lanes.h"
 #include "integrator/path/path_integrator.h"
 #include "integrator/profile/wave_profile.h"
 #include "world/scattering.h"
@@ -53,15 +54,18 @@ struct PendingLight {
     LightKind kind = LightKind::Direct;
 };
 
-/// A path whose ray has hit a surface, between the stages of its shading.
+/// A path whose ray has hit a surface, between the stages of its shading, with what is not in `BlockLanes`.
 struct ShadedPath {
-    SurfacePoint point;
+    SurfacePoint point;              ///< of a plain surface, its material only
+    const Diffuse* plain = nullptr;  ///< see World::plain_lobe
+    bool is_matte = false;           ///< scattered by a diffuse lobe, which is evaluated for many paths at once
+    bool is_mesh_lit = false;        ///< by an even mesh light, which is sampled for many at once
     std::optional<Crossing> crossing;
     Wavelength wavelength{};  ///< that it goes on with, and its weight
     bool chooses_wavelength = false;
     bool samples_light = false;
     Bsdf storage;
-    std::optional<Scattering> scattering;
+    std::optional<Scattering> scattering;  ///< unless matte
     ChosenLight light;
     BsdfValue towards_light;
     BsdfSample sample;
@@ -75,7 +79,7 @@ class PathWave final : public IntegratorScratch {
     static constexpr std::size_t kCapacity = 2048;
     /// Paths that go from one stage of shading to the next together: what lies between the stages stays in the
     /// first-level cache.
-    static constexpr std::size_t kBlock = 64;
+    static constexpr std::size_t kBlock = kBlockLanes;
 
     PathWave();
     [[nodiscard]] std::size_t bytes() const override;
@@ -100,10 +104,15 @@ class PathWave final : public IntegratorScratch {
     void shade_block(const Context& context, std::size_t first, std::size_t count, std::size_t& kept);
     /// Finds out where path `first` + `k` is; true if it is on a surface that may scatter it.
     bool set_up(const Context& context, std::size_t first, std::size_t k);
+    /// Points on plain surfaces, all at once.
+    void set_up_plain(const Context& context, std::size_t first);
     /// Looks up textures and makes the lobes of path `i`.
-    void make_scattering(const Context& context, std::size_t i, ShadedPath& path);
+    void make_scattering(const Context& context, std::size_t i, std::size_t lane, ShadedPath& path);
+    /// Samples a light for each path that asks for one.
+    void sample_lights(const Context& context, std::size_t first);
     /// What the surface scatters towards the light, and where else to.
     void evaluate(std::size_t i, ShadedPath& path) const;
+    void evaluate_matte(std::size_t first);
     /// Takes path `i` through the medium that its ray is in; true if it scatters there.
     bool scatter_in_medium(const Context& context, std::size_t i, PathStep& next);
     /// Takes path `i` through a boundary that another body hides.
@@ -111,6 +120,11 @@ class PathWave final : public IntegratorScratch {
                      PathStep& next);
     /// Takes path `i` where the sample of its BSDF says; false if it ends.
     bool scatter_at_surface(const Context& context, std::size_t i, const ShadedPath& path, PathStep& next);
+    bool scatter_at_matte(const Context& context, std::size_t i, std::size_t lane, const ShadedPath& path,
+                          PathStep& next);
+    /// What both have in common: `next` after `sample` at `position`. False if nothing was scattered.
+    bool scatter(const Context& context, std::size_t i, const Vec3f& position, const BsdfSample& sample,
+                 PathStep& next) const;
     /// Russian roulette; divides the throughput of those that survive by their chance.
     bool survives(const Context& context, std::size_t i, PathState& state) const;
     /// Tells the profile, if there is one, of the end of path `i`.
@@ -119,6 +133,7 @@ class PathWave final : public IntegratorScratch {
     void add_emission(const Context& context, const PathState& state, const Ray& ray, const Hit& hit,
                       const SurfacePoint& point);
     void queue_direct_light(const Context& context, std::size_t i, const ShadedPath& path);
+    void queue_matte(const Context& context, std::size_t i, std::size_t lane, const ShadedPath& path);
     void queue_direct_light_in_medium(const Context& context, std::size_t i, const Vec3f& position,
                                       const HomogeneousMedium& medium);
     [[nodiscard]] ChosenLight sample_light(const Context& context, std::size_t i, const Vec3f& position) const;
@@ -162,6 +177,9 @@ class PathWave final : public IntegratorScratch {
     std::vector<std::uint8_t> occluded_;
     // Of the block that is shaded.
     std::vector<ShadedPath> block_;
+    std::array<std::uint8_t, kBlock> on_surface_{};  ///< places in the block of the paths on surfaces, which have lanes
+    std::size_t surfaces_ = 0;
+    BlockLanes lanes_;
     std::array<PathStep, kBlock> next_;
     std::array<bool, kBlock> goes_on_{};
     // By slot, that is, by camera sample.

@@ -1,0 +1,80 @@
+#include "integrator/path/block_lanes.h"
+
+#include "core/ray.h"
+#include "integrator/connecting_ray.h"
+#include "light/mesh_light.h"
+#include "sampling/mis.h"
+#include "world/matte_scattering.h"
+#include "world/triangle_point.h"
+
+#include <limits>
+
+namespace etendue {
+
+using WideVec3 = Imath::Vec3<Wide>;
+
+void BlockLanes::set_up_points(std::size_t count) {
+    for (std::size_t l = 0; l < count; l += Wide::kWidth) {
+        const TrianglePoint<Wide> point(p0.load(l), edge1.load(l), edge2.load(l), u.load(l));
+        position.store(l, point.position);
+        geometric_normal.store(l, point.normal);
+        clearance.store(l, etendue::clearance(point.normal, position_error(point.extent)));
+        const auto frame = BasicFrame<Wide>::from_normal(usable_normal(triangle_normal.load(l), point.normal));
+        tangent.store(l, frame.tangent);
+        bitangent.store(l, frame.bitangent);
+        normal.store(l, frame.normal);
+    }
+}
+
+void BlockLanes::sample_mesh_lights(std::size_t count) {
+    for (std::size_t l = 0; l < count; l += Wide::kWidth) {
+        const LightTriangleFront<Wide> front{
+            p0.load(l),         edge1.load(l),     edge2.load(l), triangle_normal.load(l), light_clearance.load(l),
+            light_area.load(l), light_back.load(l)};
+        const LightTriangleSample<Wide> sample = front.sample(position.load(l), u.load(l));
+        light_wi.store(l, sample.wi);
+        light_end.store(l, sample.end);
+        light_distance.store(l, sample.distance);
+        light_pdf.store(l, sample.pdf_solid_angle * light_probability.load(l));
+    }
+}
+
+void BlockLanes::evaluate_matte(std::size_t count) {
+    for (std::size_t l = 0; l < count; l += Wide::kWidth) {
+        const OrientedSurface<Wide> surface({tangent.load(l), bitangent.load(l), normal.load(l)},
+                                            geometric_normal.load(l), wo.load(l), true);
+        const BasicDiffuse<Wide> lobe{albedo.load(l)};
+        const BasicBsdfValue<Wide> value = etendue::evaluate_matte(surface, lobe, light_wi.load(l));
+        f_cos.store(l, value.f_cos);
+        pdf.store(l, value.pdf_solid_angle);
+        const BasicBsdfSample<Wide> sample = sample_matte(surface, lobe, u.load(l));
+        next_direction.store(l, sample.wi);
+        next_weight.store(l, sample.weight);
+        next_pdf.store(l, sample.pdf_solid_angle);
+        next_origin.store(l, offset_origin(position.load(l), geometric_normal.load(l), clearance.load(l), sample.wi));
+    }
+}
+
+void BlockLanes::weigh_light(std::size_t count) {
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    for (std::size_t l = 0; l < count; l += Wide::kWidth) {
+        const Wide by_light = light_pdf.load(l);
+        const Wide weight = power_heuristic(by_light, pdf.load(l) * light_by_chance.load(l)) / by_light;
+        // What is no number goes on, to be counted with what it makes of its sample.
+        const auto is_dark = by_light <= Wide(0.0f) || is_black(f_cos.load(l));
+        const BasicRgb<Wide> arriving = throughput.load(l) * f_cos.load(l) * light_radiance.load(l) * weight;
+        contribution.store(l, {select(is_dark, Wide(0.0f), arriving.r), select(is_dark, Wide(0.0f), arriving.g),
+                               select(is_dark, Wide(0.0f), arriving.b)});
+        const WideVec3 wi = light_wi.load(l);
+        const WideVec3 origin = offset_origin(position.load(l), geometric_normal.load(l), clearance.load(l), wi);
+        shadow_origin.store(l, origin);
+        const Connection<Wide> connection(origin, light_end.load(l));
+        const auto is_far = light_distance.load(l) == Wide(kInfinity);
+        shadow_direction.store(
+            l, {select(is_far, wi.x, connection.direction.x), select(is_far, wi.y, connection.direction.y),
+                select(is_far, wi.z, connection.direction.z)});
+        shadow_t_max.store(l, select(is_far, Wide(kInfinity), connection.t_max));
+    }
+}
+
+}  // namespace etendue

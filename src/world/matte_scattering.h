@@ -1,0 +1,30 @@
+// What `Scattering` does with the diffuse lobe, for lanes of any width: radiance only.
+#pragma once
+
+#include "bsdf/diffuse.h"
+#include "world/oriented_surface.h"
+
+namespace etendue {
+
+/// f cos theta_i and the density of `sample_matte`; zero where the leak rule says so.
+template <typename T>
+[[nodiscard]] inline BasicBsdfValue<T> evaluate_matte(const OrientedSurface<T>& surface, const BasicDiffuse<T>& lobe,
+                                                      const Imath::Vec3<T>& wi) {
+    const Imath::Vec3<T> wi_local = surface.frame.to_local(wi);
+    const BasicBsdfValue<T> value = lobe.evaluate(surface.wo_local, wi_local, TransportMode::Radiance);
+    const T scatters = select(surface.wo_agrees && surface.agrees(wi, wi_local), T(1.0f), T(0.0f));
+    return {value.f_cos * scatters, value.pdf_solid_angle * scatters};
+}
+
+/// wi of the result is in world space; the weight is zero where nothing is scattered. `u` in [0, 1)².
+template <typename T>
+[[nodiscard]] inline BasicBsdfSample<T> sample_matte(const OrientedSurface<T>& surface, const BasicDiffuse<T>& lobe,
+                                                     const Imath::Vec2<T>& u) {
+    BasicBsdfSample<T> sample = lobe.sample(surface.wo_local, 0.0f, u, TransportMode::Radiance);
+    const Imath::Vec3<T> wi_local = sample.wi;
+    sample.wi = surface.frame.to_world(wi_local);
+    sample.weight *= select(surface.wo_agrees && surface.agrees(sample.wi, wi_local), T(1.0f), T(0.0f));
+    return sample;
+}
+
+}  // namespace etendue

@@ -1,0 +1,132 @@
+#include "core/wide.h"
+
+#include "core/frame.h"
+#include "core/position_error.h"
+#include "core/ray.h"
+#include "core/rgb.h"
+#include "core/trigonometry.h"
+#include "support/lanes.h"
+
+#include <array>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+namespace etendue::test {
+
+namespace {
+
+template <typename T, std::size_t N>
+Imath::Vec3<T> vec(const std::array<T, N>& in, std::size_t first) {
+    return {in[first], in[first + 1], in[first + 2]};
+}
+
+TEST(Wide, OperatorsAreThoseOfFloat) {
+    EXPECT_EQ((largest_lane_difference<2>(-2.0f, 2.0f,
+                                          [](const auto& in) {
+                                              const auto a = in[0];
+                                              const auto b = in[1];
+                                              return std::array{a + b, a - b,     a * b,     a / b,
+                                                                -a,    min(a, b), max(a, b), abs(a)};
+                                          })),
+              0.0f);
+    EXPECT_EQ((largest_lane_difference<2>(-2.0f, 2.0f,
+                                          [](const auto& in) {
+                                              return std::array{sqrt(abs(in[0])), copysign(in[0], in[1]), sqrt(in[1])};
+                                          })),
+              0.0f);
+}
+
+TEST(Wide, SelectsByComparisons) {
+    EXPECT_EQ((largest_lane_difference<2>(-2.0f, 2.0f,
+                                          [](const auto& in) {
+                                              const auto a = in[0];
+                                              const auto b = in[1];
+                                              const auto half = in[0] * 0.5f;
+                                              return std::array{select(a < b, a, b),
+                                                                select(a > b, a, b),
+                                                                select(a <= a, a, b),
+                                                                select(a >= half, a, b),
+                                                                select(a == a, a, b),
+                                                                select(a == b, a, b),
+                                                                select(!(a < b), a, b),
+                                                                select(a < b && b < half, a, b),
+                                                                select(a < b || b < half, a, b)};
+                                          })),
+              0.0f);
+}
+
+TEST(Wide, WhatIsNoNumberIsAsInTheStandardLibrary) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_EQ(max(Wide(1.0f), Wide(nan))[0], std::max(1.0f, nan));
+    EXPECT_EQ(min(Wide(1.0f), Wide(nan))[0], std::min(1.0f, nan));
+    EXPECT_TRUE(std::isnan(max(Wide(nan), Wide(1.0f))[0]));
+    EXPECT_EQ(select(Wide(nan) > Wide(0.0f), Wide(1.0f), Wide(2.0f))[0], 2.0f);
+    EXPECT_EQ(copysign(Wide(1.0f), Wide(-0.0f))[0], -1.0f);
+}
+
+TEST(Wide, VectorsAndFrames) {
+    EXPECT_LE((largest_lane_difference<6>(-1.0f, 1.0f,
+                                          [](const auto& in) {
+                                              const auto a = normalize(vec(in, 0));
+                                              const auto b = vec(in, 3);
+                                              const auto frame = decltype(BasicFrame{a, a, a})::from_normal(a);
+                                              const auto local = frame.to_local(b);
+                                              const auto world = frame.to_world(b);
+                                              const auto across = cross(a, b);
+                                              return std::array{frame.tangent.x,   frame.tangent.y, frame.bitangent.x,
+                                                                frame.bitangent.y, local.x,         local.y,
+                                                                local.z,           world.x,         world.y,
+                                                                world.z,           across.x,        dot(a, b),
+                                                                abs_dot(a, b),     max_abs(b)};
+                                          })),
+              8.0f);
+    EXPECT_LE(
+        (largest_lane_difference<6>(
+            -1.0f, 1.0f,
+            [](const auto& in) {
+                const auto n = triangle_normal(vec(in, 0), vec(in, 3));
+                // Of thin triangles the normal is that of what cancels out.
+                const auto thin = length_squared(cross(vec(in, 0), vec(in, 3)));
+                const auto counts = thin * 0.0f + 0.01f < thin;
+                const auto zero = thin * 0.0f;
+                return std::array{select(counts, n.x, zero), select(counts, n.y, zero), select(counts, n.z, zero)};
+            })),
+        64.0f);
+}
+
+TEST(Wide, OriginsAndTheirClearance) {
+    EXPECT_LE((largest_lane_difference<10>(
+                  -1.0f, 1.0f,
+                  [](const auto& in) {
+                      const auto off = offset_origin(vec(in, 0), vec(in, 3), in[9], vec(in, 6));
+                      const auto extent = max_components(abs_components(vec(in, 0)), vec(in, 3));
+                      return std::array{off.x, off.y, off.z, clearance(vec(in, 6), position_error(extent)) * 1e6f};
+                  })),
+              4.0f);
+}
+
+TEST(Wide, Colors) {
+    EXPECT_LE((largest_lane_difference<7>(
+                  -1.0f, 1.0f,
+                  [](const auto& in) {
+                      const BasicRgb a{in[0], in[1], in[2]};
+                      const BasicRgb b{in[3], in[4], in[5]};
+                      const auto c = (a + b) * a - b * in[6];
+                      return std::array{c.r, c.g, c.b, max_component(a), select(is_black(a * 0.0f), in[0], in[1])};
+                  })),
+              2.0f);
+}
+
+TEST(Wide, SineAndCosine) {
+    EXPECT_LE((largest_lane_difference<1>(-0.78f, 0.78f,
+                                          [](const auto& in) {
+                                              const auto angle = sin_cos_octant(in[0]);
+                                              return std::array{angle.sin, angle.cos};
+                                          })),
+              1.0f);
+}
+
+}  // namespace
+
+}  // namespace etendue::test

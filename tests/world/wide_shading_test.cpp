@@ -1,0 +1,84 @@
+#include "core/wide.h"
+#include "support/lanes.h"
+#include "world/matte_scattering.h"
+#include "world/scattering.h"
+#include "world/triangle_point.h"
+
+#include <array>
+
+#include <gtest/gtest.h>
+
+namespace etendue::test {
+
+namespace {
+
+template <typename T, std::size_t N>
+Imath::Vec3<T> vec(const std::array<T, N>& in, std::size_t first) {
+    return {in[first], in[first + 1], in[first + 2]};
+}
+
+TEST(WideShading, PointsOfTrianglesAreThoseOfFloat) {
+    EXPECT_LE((largest_lane_difference<14>(-1.0f, 1.0f,
+                                           [](const auto& in) {
+                                               const TrianglePoint point(vec(in, 0), vec(in, 3), vec(in, 6),
+                                                                         Imath::Vec2(in[9], in[10]));
+                                               const auto normal = usable_normal(vec(in, 11), normalize(vec(in, 0)));
+                                               return std::array{point.position.x, point.position.y, point.position.z,
+                                                                 point.extent.x,   point.extent.y,   point.extent.z,
+                                                                 normal.x,         normal.y,         normal.z};
+                                           })),
+              4.0f);
+    const Imath::Vec3<Wide> geometric(Wide(0.0f), Wide(0.6f), Wide(0.8f));
+    const Imath::Vec3<Wide> flat = usable_normal(Imath::Vec3<Wide>(Wide(0.0f)), geometric);
+    EXPECT_EQ(Vec3f(flat.x[0], flat.y[0], flat.z[0]), Vec3f(0.0f, 0.6f, 0.8f)) << "no normals at the vertices";
+}
+
+/// f cos, its density and a sample of a matte surface that leans away from its geometric normal.
+template <typename T, typename Value>
+std::array<T, 8> matte(const std::array<T, 14>& in, const Value& value) {
+    const Imath::Vec3<T> geometric = normalize(vec(in, 0));
+    const auto frame = BasicFrame<T>::from_normal(normalize(geometric + vec(in, 3) * T(0.3f)));
+    return value(frame, geometric, normalize(vec(in, 6)), normalize(vec(in, 9)),
+                 Imath::Vec2<T>(abs(in[12]), abs(in[13])));
+}
+
+TEST(WideShading, MatteSurfacesScatterAsTheLobeDoes) {
+    const auto wide = [](const auto& frame, const auto& geometric, const auto& wo, const auto& wi, const auto& u) {
+        const OrientedSurface surface(frame, geometric, wo, true);
+        using T = std::remove_cvref_t<decltype(wo.x)>;
+        const BasicDiffuse<T> lobe{BasicRgb<T>(T(0.7f), T(0.5f), T(0.3f))};
+        const auto value = evaluate_matte(surface, lobe, wi);
+        const auto sample = sample_matte(surface, lobe, u);
+        return std::array{value.f_cos.r, value.f_cos.b, value.pdf_solid_angle, sample.wi.x,
+                          sample.wi.y,   sample.wi.z,   sample.weight.g,       sample.pdf_solid_angle};
+    };
+    EXPECT_LE((largest_lane_difference<14>(-1.0f, 1.0f, [&](const auto& in) { return matte(in, wide); })), 32.0f);
+
+    // The reference is what all other lobes go through.
+    const auto general = [](const Frame& frame, const Vec3f& geometric, const Vec3f& wo, const Vec3f& wi, Vec2f u) {
+        const Bsdf lobe = Diffuse{Rgb(0.7f, 0.5f, 0.3f)};
+        const Scattering scattering(lobe, frame, geometric, wo);
+        const BsdfValue value = scattering.evaluate(wi, TransportMode::Radiance);
+        const BsdfSample sample = scattering.sample(0.5f, u, TransportMode::Radiance);
+        return std::array{value.f_cos.r, value.f_cos.b, value.pdf_solid_angle, sample.wi.x,
+                          sample.wi.y,   sample.wi.z,   sample.weight.g,       sample.pdf_solid_angle};
+    };
+    Random random(21);
+    int scattered = 0;
+    for (int i = 0; i < 100'000; ++i) {
+        std::array<float, 14> in{};
+        for (float& number : in) number = 2.0f * random.next() - 1.0f;
+        const auto expected = matte(in, general);
+        const auto found = matte(in, wide);
+        ASSERT_EQ(found[6] > 0.0f, expected[6] > 0.0f);
+        for (const std::size_t o : {0, 1, 2, 6}) ASSERT_NEAR(found[o], expected[o], 1e-6f);
+        if (expected[6] == 0.0f) continue;  // no sample
+        ++scattered;
+        for (const std::size_t o : {3, 4, 5, 7}) ASSERT_NEAR(found[o], expected[o], 1e-6f);
+    }
+    EXPECT_GT(scattered, 50'000);
+}
+
+}  // namespace
+
+}  // namespace etendue::test
