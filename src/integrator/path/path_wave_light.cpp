@@ -1,0 +1,204 @@
+// Light that paths meet, and light that is sampled for where they are.
+#include "integrator/connecting_ray.h"
+#include "integrator/path/path_wave.h"
+#include "integrator/ray_batch.h"
+#include "integrator/walk.h"
+#include "sampling/mis.h"
+
+namespace etendue {
+
+namespace {
+
+/// Weight of a light sample that the scattering at hand would have found with `pdf_solid_angle`.
+float light_sample_scale(const ChosenLight& chosen, float pdf_solid_angle) {
+    const LightSample& light = chosen.sample;
+    // A delta light can be found in no other way; its density is the choice's probability alone.
+    return light.is_delta ? 1.0f / chosen.probability
+                          : power_heuristic(light.pdf_solid_angle, pdf_solid_angle) / light.pdf_solid_angle;
+}
+
+/// Of light that a path meets.
+LightKind kind_of_met_light(const PathState& state) {
+    if (state.edges == 1 && state.only_delta) return LightKind::Seen;
+    return state.is_direct ? LightKind::Direct : LightKind::Indirect;
+}
+
+}  // namespace
+
+void PathWave::sample_lights(const Context& context, std::size_t first) {
+    const World& world = context.world;
+    bool any_mesh_lit = false;
+    for (std::size_t lane = 0; lane < surfaces_; ++lane) {
+        const std::size_t i = first + on_surface_[lane];
+        ShadedPath& path = block_[on_surface_[lane]];
+        path.is_mesh_lit = false;
+        lanes_.light_pdf.set(lane, 0.0f);
+        if (!path.samples_light) continue;
+        const Vec3f position = lanes_.position[lane];
+        const LightTree::Choice choice = world.choose_light(position, light_choice_.pair(i));
+        const MeshLight* mesh = world.even_mesh_light(choice.light);
+        if (mesh == nullptr) {
+            path.light = world.sample_light(choice, position,
+                                            {light_choice_.pair(i), light_triangle_.pair(i), light_direction_.pair(i)});
+            continue;
+        }
+        any_mesh_lit = true;
+        path.is_mesh_lit = true;
+        path.light.probability = choice.probability;
+        path.light.light = choice.light;
+        const LightTriangleFront<float> front = mesh->front(mesh->choose_triangle(light_triangle_.pair(i)));
+        lanes_.p0.set(lane, front.p0);
+        lanes_.edge1.set(lane, front.edge1);
+        lanes_.edge2.set(lane, front.edge2);
+        lanes_.triangle_normal.set(lane, front.normal);
+        lanes_.light_clearance.set(lane, front.clearance);
+        lanes_.light_area.set(lane, front.area);
+        lanes_.light_back.set(lane, front.back);
+        lanes_.light_probability.set(lane, choice.probability);
+        lanes_.light_radiance.set(lane, mesh->radiance());
+        lanes_.light_by_chance.set(lane, 1.0f);
+        lanes_.u.set(lane, light_direction_.pair(i));
+    }
+    if (any_mesh_lit) lanes_.sample_mesh_lights(surfaces_);
+    for (std::size_t lane = 0; lane < surfaces_; ++lane) {
+        ShadedPath& path = block_[on_surface_[lane]];
+        if (path.is_matte == path.is_mesh_lit) continue;
+        LightSample& light = path.light.sample;
+        if (path.is_mesh_lit) {
+            light.wi = lanes_.light_wi[lane];
+            light.distance = lanes_.light_distance[lane];
+            light.end = lanes_.light_end[lane];
+            light.pdf_solid_angle = lanes_.light_pdf[lane];
+            light.radiance = light.pdf_solid_angle > 0.0f ? lanes_.light_radiance[lane] : Rgb();
+            light.is_delta = false;
+        } else if (path.samples_light) {
+            lanes_.light_wi.set(lane, light.wi);
+            lanes_.light_distance.set(lane, light.distance);
+            lanes_.light_end.set(lane, light.end);
+            lanes_.light_pdf.set(lane, light.is_delta ? path.light.probability : light.pdf_solid_angle);
+            lanes_.light_by_chance.set(lane, light.is_delta ? 0.0f : 1.0f);
+            lanes_.light_radiance.set(lane, light.radiance);
+        }
+    }
+}
+
+void PathWave::add_environment(const Context& context, const PathState& state, const Ray& ray) {
+    const World& world = context.world;
+    if (context.depth == 1 && !(world.has_environment() && world.environment_visible_to_camera())) {
+        alpha_[state.slot] = 0.0f;
+        return;
+    }
+    if (!world.has_environment() || state.edges < context.options.lengths.min_depth) return;
+    if (context.job.profile != nullptr && context.depth > 1) ++context.job.profile->use().bsdf_met_light;
+    float weight = 1.0f;
+    if (context.options.sample_lights && !state.after_delta)
+        weight = power_heuristic(state.pdf_solid_angle, world.light_probability(state.from, world.environment()) *
+                                                            world.environment_pdf_solid_angle(ray.direction));
+    add_light(state, world.environment_radiance(ray.direction) * weight, words_.environment_source());
+}
+
+void PathWave::add_emission(const Context& context, const PathState& state, const Ray& ray, const Hit& hit,
+                            const SurfacePoint& point) {
+    if (state.edges < context.options.lengths.min_depth) return;
+    const Rgb emitted = context.world.emission(point, -ray.direction);
+    if (is_black(emitted)) return;
+    if (context.job.profile != nullptr && context.depth > 1) ++context.job.profile->use().bsdf_met_light;
+    float weight = 1.0f;
+    if (context.options.sample_lights && !state.after_delta)
+        weight = power_heuristic(state.pdf_solid_angle,
+                                 context.world.emitter_pdf_solid_angle(state.from, point, ray.direction, hit.t));
+    add_light(state, emitted * weight, words_.surface_source(point));
+}
+
+ChosenLight PathWave::sample_light(const Context& context, std::size_t i, const Vec3f& position) const {
+    return context.world.sample_light(position,
+                                      {light_choice_.pair(i), light_triangle_.pair(i), light_direction_.pair(i)});
+}
+
+void PathWave::queue_direct_light(const Context& context, std::size_t i, const ShadedPath& path) {
+    if (context.job.profile != nullptr) ++context.job.profile->use().light_samples;
+    const LightSample& light = path.light.sample;
+    if (is_black(light.radiance) || is_black(path.towards_light.f_cos)) return;
+    const SurfacePoint& point = path.point;
+    Rgb contribution = states_[i].throughput * path.towards_light.f_cos * light.radiance *
+                       light_sample_scale(path.light, path.towards_light.pdf_solid_angle);
+    if (context.world.has_bodies())
+        contribution *=
+            path.wavelength.weight *
+            transmittance(context.world, path.crossing ? beyond(*path.crossing, point, light.wi) : interiors_[i],
+                          light.distance);
+    queue(context, i,
+          shadow_ray(offset_origin(point.position, point.geometric_normal, point.clearance, light.wi), light),
+          contribution, path.light.light,
+          words_.are_followed() ? surface_event(*path.scattering, light.wi, false, TransportMode::Radiance,
+                                                words_.label(context.world, point))
+                                : VertexEvent{});
+}
+
+void PathWave::queue_matte(const Context& context, std::size_t i, std::size_t lane, const ShadedPath& path) {
+    if (context.job.profile != nullptr) ++context.job.profile->use().light_samples;
+    Rgb contribution = lanes_.contribution[lane];
+    if (is_black(contribution)) return;
+    if (context.world.has_bodies())
+        contribution *= transmittance(context.world, interiors_[i], lanes_.light_distance[lane]);
+    Ray ray;
+    ray.origin = lanes_.shadow_origin[lane];
+    ray.direction = lanes_.shadow_direction[lane];
+    ray.t_max = lanes_.shadow_t_max[lane];
+    queue(context, i, ray, contribution, path.light.light,
+          words_.are_followed() ? matte_event(words_.label(context.world, path.point)) : VertexEvent{});
+}
+
+void PathWave::queue_direct_light_in_medium(const Context& context, std::size_t i, const Vec3f& position,
+                                            const HomogeneousMedium& medium) {
+    if (context.job.profile != nullptr) ++context.job.profile->use().light_samples;
+    const ChosenLight chosen = sample_light(context, i, position);
+    const LightSample& light = chosen.sample;
+    if (is_black(light.radiance)) return;
+    const float phase = medium.phase.pdf_solid_angle(-rays_[i].direction, light.wi);
+    queue(context, i, shadow_ray(position, light),
+          states_[i].throughput * light.radiance * medium.transmittance(light.distance) *
+              (phase * light_sample_scale(chosen, phase)),
+          chosen.light, VertexEvent{});
+}
+
+void PathWave::add_light(const PathState& state, const Rgb& light, const AovSet::Source& source) {
+    const LightKind kind = kind_of_met_light(state);
+    if (!words_.are_followed()) return light_.add(state.slot, state.throughput * light, kind);
+    // What is added at once stands behind what waits.
+    const std::size_t kept = shares_.size();
+    words_.end_at_light(state.words, source, shares_);
+    light_.add(state.slot, state.throughput * light, kind, std::span(shares_).subspan(kept));
+    shares_.resize(kept);
+}
+
+void PathWave::queue(const Context& context, std::size_t i, Ray ray, const Rgb& contribution, std::uint32_t light,
+                     const VertexEvent& event) {
+    if (is_black(contribution)) return;
+    if (words_.are_followed())
+        words_.end_at_light(states_[i].words, event, words_.light_source(context.world, light), shares_);
+    ray.time = rays_[i].time;
+    ray.alpha_key = ~alpha_key(context, i);  // another key than the bounce ray's
+    shadow_rays_[pending_count_] = ray;
+    pending_[pending_count_] = {contribution, states_[i].slot, static_cast<std::uint32_t>(shares_.size()),
+                                states_[i].only_delta ? LightKind::Direct : LightKind::Indirect};
+    ++pending_count_;
+}
+
+void PathWave::add_unoccluded(const World& world, const TileJob& job, RenderCounters& counters) {
+    if (pending_count_ == 0) return;
+    occluded_batch(world, job, RayKind::Shadow, std::span(shadow_rays_).first(pending_count_),
+                   std::span(occluded_).first(pending_count_), counters);
+    const std::span<const ExpressionShare> shares(shares_);
+    for (std::size_t i = 0, first = 0; i < pending_count_; ++i) {
+        const PendingLight& pending = pending_[i];
+        light_.count_ray(pending.slot);
+        if (occluded_[i] == 0)
+            light_.add(pending.slot, pending.contribution, pending.kind,
+                       shares.subspan(first, pending.end_of_shares - first));
+        first = pending.end_of_shares;
+    }
+    stamp(job.profile, Stage::Splat);
+}
+
+}  // namespace etendue

@@ -1,0 +1,238 @@
+// Where paths are, and where surfaces and media send them.
+#include "integrator/path/path_dimensions.h"
+#include "integrator/path/path_wave.h"
+#include "integrator/scattered_cone.h"
+#include "integrator/walk.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace etendue {
+
+bool PathWave::set_up(const Context& context, std::size_t first, std::size_t k) {
+    const World& world = context.world;
+    const std::size_t i = first + k;
+    const Hit& hit = hits_[i];
+    ShadedPath& path = block_[k];
+    path.point.material = nullptr;
+    if (!hit.valid()) {
+        end_path(context, i, PathEnding::Escaped);
+        return false;
+    }
+    if (world.has_bodies() && scatter_in_medium(context, i, next_[k])) {
+        goes_on_[k] = true;
+        return false;
+    }
+    const PathState& state = states_[i];
+    path.plain = world.plain_lobe(hit);
+    if (path.plain != nullptr) {
+        path.point.material = world.material(hit);
+        path.crossing.reset();
+        if (state.edges < context.options.lengths.max_depth) return true;
+        end_path(context, i, PathEnding::TooLong);
+        return false;
+    }
+    path.point = world.surface_point(hit, rays_[i], state.cone);
+    path.crossing.reset();
+    if (world.has_bodies() && world.is_boundary(path.point)) {
+        path.crossing = world.crossing(path.point, interiors_[i]);
+        if (path.crossing->is_hidden) {
+            pass_hidden(context, i, path.point, *path.crossing, next_[k]);
+            goes_on_[k] = true;
+            return false;
+        }
+    }
+    if (path.point.material->unlit) {
+        // Only what the eye sees directly or in mirrors shows an unlit surface; it lights nothing.
+        if (state.only_delta && state.edges >= context.options.lengths.min_depth)
+            add_light(state, world.unlit_color(path.point), words_.surface_source(path.point));
+        end_path(context, i, PathEnding::Unlit);
+        return false;
+    }
+    if (state.edges < context.options.lengths.max_depth) return true;
+    end_path(context, i, PathEnding::TooLong);
+    return false;
+}
+
+void PathWave::set_up_plain(const Context& context, std::size_t first) {
+    bool any = false;
+    for (std::size_t lane = 0; lane < surfaces_; ++lane) {
+        const std::size_t k = on_surface_[lane];
+        if (block_[k].plain == nullptr) continue;
+        any = true;
+        const Hit& hit = hits_[first + k];
+        const HitTriangle triangle = context.world.hit_triangle(hit);
+        lanes_.p0.set(lane, triangle.p0);
+        lanes_.edge1.set(lane, triangle.edge1);
+        lanes_.edge2.set(lane, triangle.edge2);
+        lanes_.triangle_normal.set(lane, triangle.shading_normal);
+        lanes_.u.set(lane, {hit.u, hit.v});
+    }
+    if (any) lanes_.set_up_points(surfaces_);
+}
+
+void PathWave::make_scattering(const Context& context, std::size_t i, std::size_t lane, ShadedPath& path) {
+    const World& world = context.world;
+    const PathState& state = states_[i];
+    const Vec3f wo = -rays_[i].direction;
+    const auto set_matte = [&](const Diffuse& lobe) {
+        path.is_matte = true;
+        lanes_.wo.set(lane, wo);
+        lanes_.albedo.set(lane, lobe.albedo);
+        lanes_.throughput.set(lane, state.throughput);
+    };
+    path.samples_light =
+        context.options.sample_lights && world.has_lights() && state.edges + 1 >= context.options.lengths.min_depth;
+    if (path.plain != nullptr) return set_matte(*path.plain);
+    lanes_.position.set(lane, path.point.position);
+    // Where the index depends on the wavelength, a path of all of them takes one to go on with.
+    path.wavelength = {state.wavelength_nm, Rgb(1.0f)};
+    path.chooses_wavelength = path.crossing && path.crossing->disperses() && state.wavelength_nm == 0.0f;
+    if (path.chooses_wavelength)
+        path.wavelength =
+            world.spectral_response().sample(sample_2d(context.job.sequence, {pixel_seeds_[i], sample_indices_[i]},
+                                                       body_dimension(context.depth, kWavelength))
+                                                 .x);
+    const Bsdf& bsdf = world.bsdf(path.point, wo,
+                                  path.crossing ? path.crossing->relative_ior(path.wavelength.nm) : 0.0f, path.storage);
+    path.is_matte = false;
+    if (const auto* diffuse = std::get_if<Diffuse>(&bsdf); diffuse != nullptr && !path.crossing) {
+        const SurfacePoint& point = path.point;
+        lanes_.geometric_normal.set(lane, point.geometric_normal);
+        lanes_.clearance.set(lane, point.clearance);
+        lanes_.tangent.set(lane, point.shading.tangent);
+        lanes_.bitangent.set(lane, point.shading.bitangent);
+        lanes_.normal.set(lane, point.shading.normal);
+        return set_matte(*diffuse);
+    }
+    path.scattering.emplace(bsdf, path.point.shading, path.point.geometric_normal, wo);
+    path.samples_light = path.samples_light && path.scattering->has_non_delta();
+}
+
+void PathWave::evaluate_matte(std::size_t first) {
+    for (std::size_t lane = 0; lane < surfaces_; ++lane)
+        lanes_.u.set(lane, bsdf_direction_.pair(first + on_surface_[lane]));
+    lanes_.evaluate_matte(surfaces_);
+}
+
+void PathWave::evaluate(std::size_t i, ShadedPath& path) const {
+    if (path.samples_light && !is_black(path.light.sample.radiance))
+        path.towards_light = path.scattering->evaluate(path.light.sample.wi, TransportMode::Radiance);
+    path.sample = path.scattering->sample(choices_.x[i], bsdf_direction_.pair(i), TransportMode::Radiance);
+}
+
+bool PathWave::scatter(const Context& context, std::size_t i, const Vec3f& position, const BsdfSample& sample,
+                       PathStep& next) const {
+    WaveProfile* const profile = context.job.profile;
+    if (profile != nullptr) ++profile->use().bsdf_samples;
+    if (is_black(sample.weight)) {
+        if (profile != nullptr) ++profile->use().bsdf_absorbed;
+        end_path(context, i, PathEnding::Absorbed);
+        return false;
+    }
+    PathState& state = next.state;
+    state = states_[i];
+    state.throughput *= sample.weight;
+    state.pdf_solid_angle = sample.pdf_solid_angle;
+    state.from = position;
+    state.after_delta = sample.is_delta;
+    state.is_direct = state.only_delta;
+    state.only_delta = state.only_delta && sample.is_delta;
+    ++state.edges;
+    next.ray.direction = sample.wi;
+    next.ray.alpha_key = alpha_key(context, i);
+    return true;
+}
+
+bool PathWave::scatter_at_matte(const Context& context, std::size_t i, std::size_t lane, const ShadedPath& path,
+                                PathStep& next) {
+    const World& world = context.world;
+    BsdfSample sample;
+    sample.wi = lanes_.next_direction[lane];
+    sample.weight = lanes_.next_weight[lane];
+    sample.pdf_solid_angle = lanes_.next_pdf[lane];
+    if (!scatter(context, i, lanes_.position[lane], sample, next)) return false;
+    if (words_.are_followed())
+        next.state.words = words_.scatter_from_eye(states_[i].words, matte_event(words_.label(world, path.point)));
+    if (world.has_textures())
+        next.state.cone = scattered_cone(world, path.point, rays_[i].direction, states_[i].cone.at(hits_[i].t), sample);
+    next.ray.origin = lanes_.next_origin[lane];
+    if (world.has_bodies()) next.interior = interiors_[i];
+    return true;
+}
+
+bool PathWave::scatter_at_surface(const Context& context, std::size_t i, const ShadedPath& path, PathStep& next) {
+    const World& world = context.world;
+    const PathState& state = states_[i];
+    const SurfacePoint& point = path.point;
+    const Scattering& scattering = *path.scattering;
+    const BsdfSample& sample = path.sample;
+    if (!scatter(context, i, point.position, sample, next)) return false;
+    if (words_.are_followed())
+        next.state.words = words_.scatter_from_eye(
+            state.words,
+            surface_event(scattering, sample.wi, sample.is_delta, TransportMode::Radiance, words_.label(world, point)));
+    const auto* mirror = path.chooses_wavelength && sample.is_delta && !sample.is_transmission
+                             ? std::get_if<SmoothDielectric>(&scattering.bsdf())
+                             : nullptr;
+    if (mirror != nullptr && mirror->fresnel.is_bare()) {
+        // All wavelengths go where a mirror sends them, each with its own share: the path need not choose.
+        next.state.throughput *= world.spectral_response().mean_over_chance([&](float nm) {
+            const float cos_o = scattering.wo_local().z;
+            const float ior = path.crossing->relative_ior(nm);
+            return mirror->fresnel(std::min(1.0f, std::abs(cos_o)), cos_o > 0.0f ? ior : 1.0f / ior, cos_o > 0.0f)
+                .reflection_share;
+        });
+    } else {
+        next.state.throughput *= path.wavelength.weight;
+        next.state.wavelength_nm = path.wavelength.nm;
+    }
+    if (sample.is_transmission) next.state.eta_scale *= sample.eta * sample.eta;
+    if (world.has_textures())
+        next.state.cone = scattered_cone(world, point, rays_[i].direction, state.cone.at(hits_[i].t), sample);
+    next.ray.origin = offset_origin(point.position, point.geometric_normal, point.clearance, sample.wi);
+    if (world.has_bodies()) next.interior = path.crossing ? beyond(*path.crossing, point, sample.wi) : interiors_[i];
+    return true;
+}
+
+bool PathWave::scatter_in_medium(const Context& context, std::size_t i, PathStep& next) {
+    const HomogeneousMedium* medium = context.world.medium(interiors_[i]);
+    if (medium == nullptr) return false;
+    PathState& state = states_[i];
+    const Ray& ray = rays_[i];
+    const MediumSample sample = medium->sample(state.throughput, hits_[i].t, medium_.pair(i));
+    state.throughput *= sample.weight;
+    if (!sample.scatters) return false;
+
+    const Vec3f position = ray.origin + ray.direction * sample.distance;
+    const bool samples_lights = context.options.sample_lights && context.world.has_lights_in_media();
+    if (samples_lights && state.edges >= context.options.lengths.min_depth)
+        queue_direct_light_in_medium(context, i, position, *medium);
+    next.state = state;
+    next.ray.origin = position;
+    next.ray.direction = medium->phase.sample(-ray.direction, bsdf_direction_.pair(i));
+    next.ray.alpha_key = alpha_key(context, i);
+    next.interior = interiors_[i];
+    next.state.pdf_solid_angle = medium->phase.pdf_solid_angle(-ray.direction, next.ray.direction);
+    next.state.from = position;
+    next.state.after_delta = !samples_lights;
+    next.state.is_direct = state.only_delta;
+    next.state.only_delta = false;
+    if (words_.are_followed()) next.state.words = words_.scatter_from_eye(state.words, VertexEvent{});
+    next.state.cone = scatter_cone(state.cone.at(sample.distance), lobe_spread(next.state.pdf_solid_angle));
+    return true;
+}
+
+void PathWave::pass_hidden(const Context& context, std::size_t i, const SurfacePoint& point, const Crossing& crossing,
+                           PathStep& next) {
+    next.state = states_[i];
+    // No light sample passes a boundary, so what the path meets next could not have been sampled.
+    next.state.after_delta = true;
+    next.state.cone = next.state.cone.at(hits_[i].t);
+    next.ray.direction = rays_[i].direction;
+    next.ray.origin = offset_origin(point.position, point.geometric_normal, point.clearance, next.ray.direction);
+    next.ray.alpha_key = alpha_key(context, i);
+    next.interior = beyond(crossing, point, next.ray.direction);
+}
+
+}  // namespace etendue
