@@ -431,6 +431,7 @@ void PathWave::queue_direct_light(const Context& context, std::size_t i, const S
 
 void PathWave::queue_direct_light_in_medium(const Context& context, std::size_t i, const Vec3f& position,
                                             const HomogeneousMedium& medium) {
+    if (context.job.profile != nullptr) ++context.job.profile->use().light_samples;
     const ChosenLight chosen = sample_light(context, i, position);
     const LightSample& light = chosen.sample;
     if (is_black(light.radiance)) return;
