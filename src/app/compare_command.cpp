@@ -298,7 +298,7 @@ void add_compare_command(CLI::App& app, Action& action) {
     add_compare_options(*command, *arguments);
     const std::size_t own = command->get_options().size();
     arguments->common.overrides.add_options(*command);
-    hide_options_of_render(*command);
+    hide_options(*command, options_compare_sets());
     command->footer(
         "Every variant is rendered as many times, each time with a seed that no other render has and for the same "
         "time\n"
@@ -312,7 +312,7 @@ void add_compare_command(CLI::App& app, Action& action) {
         "4' -o report");
     command->callback([arguments, command, own, &action] {
         const CompareArguments& given = *arguments;
-        refuse_options_of_render(*command, false);
+        refuse_options(*command, options_compare_sets());
         if (given.common.overrides.spp && given.seconds)
             throw CLI::ValidationError("--seconds", "cannot be given with --spp: one of them ends a render");
         require_different("--integrators", given.integrators);

@@ -20,25 +20,20 @@ namespace etendue {
 
 namespace {
 
-/// An option of `render` that `compare` takes no notice of, as it decides about that itself.
-struct OptionOfRender {
-    const char* name;
-    const char* instead;
-    bool for_all = false;  ///< it may be given, but to all variants alike
-};
+/// They may be given to all variants alike.
+constexpr std::array kOptionsForAll{
+    OptionOfRender{"--seed", "every variant gets seeds of its own; the first of all is --seed of 'compare'"},
+    OptionOfRender{"--spp", "all variants render alike, for --seconds or with --spp of 'compare'"}};
 
-constexpr std::array kOptionsOfRender{
-    OptionOfRender{"--seed", "every variant gets seeds of its own; the first of all is --seed of 'compare'", true},
-    OptionOfRender{"--spp", "all variants render alike, for --seconds or with --spp of 'compare'", true},
-    OptionOfRender{"--time", "here it is --seconds, for all variants alike"},
-    OptionOfRender{"--error", "the errors of all variants are measured"},
-    OptionOfRender{"--adaptive", "here all pixels get as many samples"},
-    OptionOfRender{"--no-adaptive", "here all pixels get as many samples anyway"},
-    OptionOfRender{"--min-spp", "here all pixels get as many samples"},
-    OptionOfRender{"--frames", "here --time-code names the moment"},
-    OptionOfRender{"--brightest", "here no sample is listed"},
-    OptionOfRender{"--half", "here no image file is written"},
-    OptionOfRender{"--float", "here no image file is written"}};
+constexpr std::array kOptionsOfRender{OptionOfRender{"--time", "here it is --seconds, for all variants alike"},
+                                      OptionOfRender{"--error", "the errors of all variants are measured"},
+                                      OptionOfRender{"--adaptive", "here all pixels get as many samples"},
+                                      OptionOfRender{"--no-adaptive", "here all pixels get as many samples anyway"},
+                                      OptionOfRender{"--min-spp", "here all pixels get as many samples"},
+                                      OptionOfRender{"--frames", "here --time-code names the moment"},
+                                      OptionOfRender{"--brightest", "here no sample is listed"},
+                                      OptionOfRender{"--half", "here no image file is written"},
+                                      OptionOfRender{"--float", "here no image file is written"}};
 
 /// What of a scene decides which light there is, as text: neither how it is computed nor what memory that takes.
 std::string light_text(SceneDesc scene) {
@@ -95,15 +90,8 @@ std::array<int, 2> path_window(const Variant& variant) {
 
 }  // namespace
 
-void hide_options_of_render(CLI::App& command) {
-    for (const OptionOfRender& option : kOptionsOfRender)
-        if (!option.for_all) command.get_option(option.name)->group("");
-}
-
-void refuse_options_of_render(const CLI::App& command, bool of_variant) {
-    for (const OptionOfRender& option : kOptionsOfRender)
-        if ((of_variant || !option.for_all) && command.count(option.name) > 0)
-            throw CLI::ValidationError(option.name, fmt::format("is for 'render'; {}", option.instead));
+std::span<const OptionOfRender> options_compare_sets() {
+    return kOptionsOfRender;
 }
 
 RenderRequest with_options(const RenderRequest& common, const std::string& options) {
@@ -113,7 +101,8 @@ RenderRequest with_options(const RenderRequest& common, const std::string& optio
     parser.set_help_flag();
     request.overrides.add_options(parser);
     parser.parse(options, false);
-    refuse_options_of_render(parser, true);
+    refuse_options(parser, kOptionsForAll);
+    refuse_options(parser, kOptionsOfRender);
     request.given = merged(common.given, given_options(std::as_const(parser).get_options()));
     return request;
 }

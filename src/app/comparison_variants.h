@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/given_options.h"
+#include "app/options_of_render.h"
 #include "app/scene_render.h"
 #include "app/settings_overrides.h"
 #include "color/color_config.h"
@@ -44,13 +45,9 @@ struct Variant {
     std::vector<std::string> cannot_find{};
 };
 
-/// Leaves the options out of the help of `command` that are for `render` alone: for how long it renders, which images
-/// and into what file.
-void hide_options_of_render(CLI::App& command);
-
-/// Throws CLI::ValidationError if one of them was given. Of a variant, the seed and the number of samples are among
-/// them.
-void refuse_options_of_render(const CLI::App& command, bool of_variant);
+/// Those that `compare` decides about itself: for how long it renders, which images and into what file. To a variant
+/// the seed and the number of samples cannot be given either.
+[[nodiscard]] std::span<const OptionOfRender> options_compare_sets();
 
 /// `common` and then `options`. Throws CLI::ParseError for options that it does not know, and for those that
 /// `etendue compare` sets itself.

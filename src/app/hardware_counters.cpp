@@ -55,25 +55,37 @@ std::vector<int> threads_of_process() {
     return threads;
 }
 
+bool lacks_event(int error) {
+    return error == ENOENT || error == EOPNOTSUPP || error == ENODEV;
+}
+
 std::string reason(int error) {
     if (error == EACCES || error == EPERM)
         return "the kernel does not allow hardware counters here (/proc/sys/kernel/perf_event_paranoid)";
-    if (error == ENOENT || error == EOPNOTSUPP || error == ENODEV)
-        return "this machine has no hardware counters, as virtual machines often have none";
+    if (lacks_event(error)) return "this machine has no hardware counters, as virtual machines often have none";
     return fmt::format("the kernel gives no hardware counters: {}", std::strerror(error));
 }
 
 }  // namespace
 
-ProcessorCounters::ProcessorCounters() {
+ProcessorCounters::ProcessorCounters() : ProcessorCounters(open_counter) {}
+
+ProcessorCounters::ProcessorCounters(const Open& open) {
     int error = 0;
     for (const int thread : threads_of_process())
         for (std::size_t event = 0; event < kEvents.size(); ++event) {
-            const int file = open_counter(kEvents[event].config, thread);
-            if (file >= 0)
+            const int file = open(kEvents[event].config, thread);
+            if (file >= 0) {
                 counters_.push_back({event, FileDescriptor(file)});
-            else
-                error = errno;
+                continue;
+            }
+            error = errno;
+            if (lacks_event(error)) continue;
+            // Sums of some threads would look like those of all. One that has ended meanwhile has nothing to count.
+            if (error == ESRCH) break;
+            counters_.clear();
+            unavailable_ = reason(error);
+            return;
         }
     if (counters_.empty()) unavailable_ = reason(error);
 }

@@ -3,6 +3,8 @@
 
 #include "app/file_descriptor.h"
 
+#include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -11,8 +13,12 @@ namespace etendue {
 /// Counts for all threads that the process has when this is made, and for those that they start.
 class ProcessorCounters {
   public:
-    /// Begins to count. Where the kernel allows nothing, `unavailable` says why.
+    /// Opens the counter of an event of PERF_TYPE_HARDWARE for a thread: a file descriptor, or -1 with errno.
+    using Open = std::function<int(std::uint64_t event, int thread)>;
+
+    /// Begins to count. Where the kernel allows nothing, or not for all threads, `unavailable` says why.
     ProcessorCounters();
+    explicit ProcessorCounters(const Open& open);
 
     struct Count {
         std::string name;    ///< "instructions"

@@ -1,13 +1,14 @@
 // etendue profile: where the time of a render goes, next to what bare Embree needs for its rays.
 #include "app/commands.h"
-#include "app/comparison_variants.h"
 #include "app/given_options.h"
 #include "app/interrupt.h"
+#include "app/options_of_render.h"
 #include "app/output_directory.h"
 #include "app/peak_memory.h"
 #include "app/phase_timer.h"
 #include "app/prepared_scene.h"
 #include "app/profile_runs.h"
+#include "app/render_identity.h"
 #include "app/render_setup.h"
 #include "core/log.h"
 #include "core/process_time.h"
@@ -21,15 +22,19 @@
 #include "world/compile.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
 #include <sstream>
 #include <string>
+#include <string_view>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -44,6 +49,23 @@ namespace {
 
 constexpr double kDefaultSeconds = 1.0;
 constexpr int kDefaultRepetitions = 5;
+constexpr const char* kData = "profile.json";
+
+constexpr std::array kOptionsOfRender{
+    OptionOfRender{"--integrator", "here --integrators names those that are measured"},
+    OptionOfRender{"--time", "here it is --seconds, for each repetition"},
+    OptionOfRender{"--error", "here all runs end after --seconds or with --spp"},
+    OptionOfRender{"--adaptive", "here all pixels get as many samples"},
+    OptionOfRender{"--no-adaptive", "here all pixels get as many samples anyway"},
+    OptionOfRender{"--min-spp", "here all pixels get as many samples"},
+    OptionOfRender{"--robust", "here images are not looked at, and the mean is what is measured"},
+    OptionOfRender{"--frames", "here --time-code names the moment"},
+    OptionOfRender{"--brightest", "here no sample is listed"},
+    OptionOfRender{"--aov", "here the image alone is measured"},
+    OptionOfRender{"--aov-layout", "here the image alone is measured"},
+    OptionOfRender{"--deep", "here the image alone is measured"},
+    OptionOfRender{"--half", "here no image file is written"},
+    OptionOfRender{"--float", "here no image file is written"}};
 
 struct ProfileArguments {
     std::string scene;
@@ -85,6 +107,17 @@ std::string processor_name() {
     return {};
 }
 
+/// Takes out of the settings what render.json may ask for and is not measured, with a note on each.
+void leave_out_unmeasured(RenderSettings& settings, std::vector<std::string>& notes) {
+    const auto note = [&](const char* what) { notes.push_back(fmt::format("{}: {}", settings.location.file, what)); };
+    if (!settings.aovs.empty()) note("its layers are left out: the image alone is measured");
+    if (settings.relative_error > 0.0) note("its error is not looked at: all pixels get as many samples");
+    if (settings.robust_buckets > 0) note("its median of means is left out: the mean is what is measured");
+    settings.aovs.clear();
+    settings.relative_error = 0.0;
+    settings.robust_buckets = 0;
+}
+
 /// Loading and compiling, phase by phase.
 class LoadedScene {
   public:
@@ -95,6 +128,7 @@ class LoadedScene {
         report.load.push_back({"files", prepared.load.wall});
         const std::string working_space = resolve_colors(prepared.scene.settings, colors);
         settings = prepared.scene.settings;
+        leave_out_unmeasured(settings, report.notes);
         report.scene = prepared.scene.name;
         const PhaseTimer timer;
         world = std::make_unique<const World>(
@@ -122,6 +156,18 @@ void time_first_pixels(const World& world, RenderSettings settings, const Profil
     report.first_pixel_seconds = seconds_since_process_start();
 }
 
+/// What decides how much work a sample is, but for what each run sets itself.
+std::map<std::string, std::string> settings_of_work(RenderSettings settings) {
+    settings.integrator.type = "of each run";
+    std::map<std::string, std::string> work;
+    constexpr std::string_view kPrefix = "setting ";
+    for (const auto& [name, value] : settings_identity(settings))
+        if (name != "seed") work[name.starts_with(kPrefix) ? name.substr(kPrefix.size()) : name] = value;
+    if (settings.film.crop) work["crop"] = fmt::format("{}", fmt::join(*settings.film.crop, " "));
+    if (settings.texture_memory) work["texture memory"] = fmt::format("{} bytes", *settings.texture_memory);
+    return work;
+}
+
 void describe(ProfileReport& report, const ProfileArguments& arguments, const RenderSettings& settings,
               const World& world) {
     const WorldStatistics of_world = world.statistics();
@@ -134,6 +180,7 @@ void describe(ProfileReport& report, const ProfileArguments& arguments, const Re
     report.height = settings.film.height;
     report.max_depth = settings.integrator.max_depth;
     report.seed = settings.seed;
+    report.settings = settings_of_work(settings);
     report.processor = processor_name();
     report.processors = static_cast<int>(std::thread::hardware_concurrency());
     report.isa = of_world.isa;
@@ -182,19 +229,47 @@ void write_costs(const std::filesystem::path& directory, const PixelRect& window
     images[heat_map_key(*most_threads)] = encode_png(picture);
 }
 
+/// Throws SceneError if the runs that `report` is to have cannot be compared.
+void require_comparable(const ProfileBaseline& baseline, const ProfileReport& report, const ProfileArguments& arguments,
+                        const std::vector<int>& threads) {
+    ProfileReport planned = report;
+    for (const std::string& integrator : arguments.integrators)
+        for (const int count : threads) planned.runs.push_back({.integrator = integrator, .threads = count});
+    const std::string refusal = refusal_to_compare(baseline, planned);
+    if (!refusal.empty()) throw SceneError({arguments.against, {}}, refusal);
+}
+
+/// Of earlier profiles in the same directory: those of runs that are made again are written anew.
+void remove_heat_maps(const std::filesystem::path& directory) {
+    const auto is_number = [](std::string_view text) {
+        return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+    };
+    for (const auto& entry : std::filesystem::directory_iterator(directory)) {
+        const std::string extension = entry.path().extension().string();
+        if (!entry.is_regular_file() || (extension != ".exr" && extension != ".png")) continue;
+        const std::string stem = entry.path().stem().string();
+        const bool is_ours = std::ranges::any_of(integrator_names(), [&](const std::string& integrator) {
+            const std::string start = fmt::format("heat-{}-", integrator);
+            return stem.starts_with(start) && is_number(std::string_view(stem).substr(start.size()));
+        });
+        std::error_code error;  // one that stays is only one too many
+        if (is_ours) std::filesystem::remove(entry.path(), error);
+    }
+}
+
 ExitCode run_profile(const ProfileArguments& arguments) {
     ProfileReport report;
     std::optional<ProfileBaseline> baseline;
     if (!arguments.against.empty()) baseline = parse_profile(read_text(arguments.against), arguments.against);
-    const std::filesystem::path directory = arguments.output;
-    const std::vector<std::filesystem::path> files =
-        prepare_directory(directory, {"profile.json", "trace.json", "index.html"});
     const FlushDenormals flush_denormals;
     const ColorConfig colors = ColorConfig::from_environment();
     const std::vector<int> threads = thread_counts(arguments);
     const ThreadPool all(std::ranges::max(threads));
     const LoadedScene loaded(arguments, colors, all, report);
     describe(report, arguments, loaded.settings, *loaded.world);
+    if (baseline) require_comparable(*baseline, report, arguments, threads);
+    const std::filesystem::path directory = arguments.output;
+    const std::vector<std::filesystem::path> files = prepare_directory(directory, {kData, "trace.json", "index.html"});
     time_first_pixels(*loaded.world, loaded.settings, arguments, all, report);
 
     const ProfileRequest request{.integrators = arguments.integrators,
@@ -210,6 +285,7 @@ ExitCode run_profile(const ProfileArguments& arguments) {
     report.runs = std::move(measured.runs);
     describe_memory(report, *loaded.world, measured);
     ProfileImages images;
+    remove_heat_maps(directory);
     for (const CostMap& costs : measured.costs)
         write_costs(directory, make_render_options(loaded.settings).window, costs, report, images);
     if (baseline) report.against = compare_profiles(*baseline, report, {.tolerance = arguments.tolerance});
@@ -223,12 +299,9 @@ ExitCode run_profile(const ProfileArguments& arguments) {
         std::fputs(to_table(report).c_str(), stdout);
     std::fflush(stdout);
     if (!arguments.quiet) log_info("{}", files[2].string());
-    if (!report.against) return ExitCode::Success;
-    if (!report.against->refusal.empty()) {
-        log_error("error: {}: {}", arguments.against, report.against->refusal);
-        return ExitCode::InvalidScene;
-    }
-    return report.against->has_regression() ? ExitCode::DiffFailed : ExitCode::Success;
+    if (!report.against || !report.against->has_regression()) return ExitCode::Success;
+    log_error("error: {}: slower than that: {}", arguments.against, fmt::join(report.against->slower_runs(), ", "));
+    return ExitCode::DiffFailed;
 }
 
 void add_profile_options(CLI::App& command, ProfileArguments& arguments) {
@@ -277,6 +350,17 @@ void require_different_names(const std::vector<std::string>& names) {
         if (!known.insert(name).second) throw CLI::ValidationError("--integrators", "'" + name + "' is named twice");
 }
 
+void require_useful_baseline(const ProfileArguments& arguments) {
+    if (arguments.against.empty()) return;
+    if (arguments.repetitions < 2)
+        throw CLI::ValidationError("--against", "takes --repeat 2 or more: of one repetition nothing can be concluded");
+    std::error_code error;  // where there is no such file yet, it is another one
+    if (std::filesystem::equivalent(arguments.against, std::filesystem::path(arguments.output) / kData, error))
+        throw CLI::ValidationError("--against", fmt::format("{} is the file that would be written; name another "
+                                                            "directory with -o",
+                                                            arguments.against));
+}
+
 }  // namespace
 
 void add_profile_command(CLI::App& app, Action& action) {
@@ -285,17 +369,18 @@ void add_profile_command(CLI::App& app, Action& action) {
         app.add_subcommand("profile", "Measure where the time of a render goes, and how fast Embree alone would be");
     add_profile_options(*command, *arguments);
     arguments->overrides.add_options(*command);
-    hide_options_of_render(*command);
+    hide_options(*command, kOptionsOfRender);
     command->footer(
         "Repetitions of all runs take turns. A last one of each has its stages timed and some of its rays recorded,\n"
         "which bare Embree then traces again: what it needs for them, over what the render took, is the efficiency.\n"
-        "trace.json opens in Perfetto or chrome://tracing. Other options override render.json.\n\n"
+        "trace.json opens in Perfetto or chrome://tracing. Other options override render.json.\n"
+        "Exit code 1 if --against finds a run that has become slower, 3 if the two profiles are of different work.\n\n"
         "Examples:\n"
         "  etendue profile scenes/cornell-box -o profile\n"
         "  etendue profile scenes/caustic-glass --integrators bdpt --threads 1,2 --seconds 5 -o profile\n"
         "  etendue profile scenes/cornell-box --against before/profile.json --repeat 15 -o after");
     command->callback([arguments, command, &action] {
-        refuse_options_of_render(*command, false);
+        refuse_options(*command, kOptionsOfRender);
         if (arguments->overrides.spp && arguments->seconds)
             throw CLI::ValidationError("--seconds", "cannot be given with --spp: one of them ends a render");
         require_different_names(arguments->integrators);
@@ -303,6 +388,7 @@ void add_profile_command(CLI::App& app, Action& action) {
             throw CLI::ValidationError("--threads", "a number of threads is given twice");
         const std::vector<const CLI::Option*> all = std::as_const(*command).get_options();
         arguments->command = command_line("etendue profile", given_options(all));
+        require_useful_baseline(*arguments);
         action = [arguments] { return run_profile(*arguments); };
     });
 }

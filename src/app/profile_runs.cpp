@@ -8,6 +8,7 @@
 #include "render/progressive_render.h"
 #include "render/render_profile.h"
 #include "render/tiles.h"
+#include "report/profile_figures.h"
 
 #include <algorithm>
 #include <array>
@@ -26,13 +27,6 @@ constexpr std::size_t kRecordedRays = std::size_t{1} << 18;
 constexpr int kReplays = 3;
 /// Samples of a pixel whose rays are counted one by one for the map of costs.
 constexpr std::uint32_t kCostSamples = 4;
-
-double median(std::vector<double> values) {
-    if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    return *middle;
-}
 
 double share(std::uint64_t part, std::uint64_t whole) {
     return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole)

@@ -2,6 +2,7 @@
 
 #include "core/content_hash.h"
 #include "output/software_name.h"
+#include "scene/settings_text.h"
 #include "world/compile.h"
 
 #include <array>
@@ -27,15 +28,6 @@ bool is_left_out(std::string_view line) {
     return false;
 }
 
-/// Lines of settings have a name that ends at a colon; everything else is of the scene.
-bool is_setting(std::string_view line) {
-    constexpr std::array<std::string_view, 8> kNames{
-        "aov ", "integrator", "film:", "camera used:", "light units", "time code", "shutter", "variant used"};
-    for (const std::string_view name : kNames)
-        if (line.starts_with(name)) return true;
-    return false;
-}
-
 /// Up to the colon; of layers, with their names.
 std::string setting_name(const std::string& line) {
     return line.substr(0, line.find_first_of(line.starts_with("aov ") ? "=" : " :"));
@@ -43,13 +35,21 @@ std::string setting_name(const std::string& line) {
 
 }  // namespace
 
+RenderIdentity settings_identity(const RenderSettings& settings) {
+    RenderIdentity identity;
+    identity["seed"] = fmt::format("{}", settings.seed);
+    identity["sampler"] = settings.sampler == SamplerType::Random ? "random" : "sobol";
+    std::istringstream lines(dump(settings));
+    for (std::string line; std::getline(lines, line);)
+        if (!is_left_out(line)) identity["setting " + setting_name(line)] = line;
+    return identity;
+}
+
 RenderIdentity render_identity(const SceneDesc& scene, std::span<const InputFile> inputs,
                                const std::string& working_space) {
-    RenderIdentity identity;
+    RenderIdentity identity = settings_identity(scene.settings);
     identity["program"] = fmt::format("{}, build {}", software_name(), software_build());
     identity["working space"] = working_space;
-    identity["seed"] = fmt::format("{}", scene.settings.seed);
-    identity["sampler"] = scene.settings.sampler == SamplerType::Random ? "random" : "sobol";
     identity["textures"] = holds_textures_in_memory(scene) ? "in memory" : "in a cache (--texture-memory)";
     for (const InputFile& input : inputs) {
         const std::filesystem::path path = input.path;
@@ -59,16 +59,11 @@ RenderIdentity render_identity(const SceneDesc& scene, std::span<const InputFile
         for (int i = 2; identity.contains(unique); ++i) unique = fmt::format("{} ({})", name, i);
         identity[unique] = input.content;
     }
-    std::istringstream lines(dump(scene));
-    ContentHash rest;
-    for (std::string line; std::getline(lines, line);) {
-        if (is_left_out(line)) continue;
-        if (is_setting(line))
-            identity["setting " + setting_name(line)] = line;
-        else
-            rest.add(std::as_bytes(std::span(line)));
-    }
-    identity["scene"] = hex(rest.digest());
+    // The settings are the end of it.
+    const std::string text = dump(scene);
+    ContentHash content;
+    content.add(std::as_bytes(std::span(text).first(text.size() - dump(scene.settings).size())));
+    identity["scene"] = hex(content.digest());
     return identity;
 }
 

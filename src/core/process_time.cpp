@@ -19,6 +19,12 @@ double process_cpu_seconds() {
     return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
+double thread_cpu_seconds() {
+    timespec used{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &used);
+    return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
+}
+
 double seconds_since_process_start() {
     // proc(5): field 22 of stat is the start in ticks since the system began; the name before may hold anything.
     std::ifstream file("/proc/self/stat");

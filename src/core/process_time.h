@@ -8,6 +8,9 @@ namespace etendue {
 /// Seconds of processor time that this process has used, all threads together.
 [[nodiscard]] double process_cpu_seconds();
 
+/// The same of the thread that asks.
+[[nodiscard]] double thread_cpu_seconds();
+
 /// Seconds on the clock since this process began, to a hundredth; 0 where the system does not tell.
 [[nodiscard]] double seconds_since_process_start();
 

@@ -6,7 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
+#include <map>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -71,7 +72,22 @@ ComparedRun compare_run(const ProfileRun& before, const ProfileRun& now, const P
     return run;
 }
 
-/// Why nothing can be said of the two; empty if it can.
+/// The first setting that the two do not share; empty if there is none.
+std::string difference_of_settings(const std::map<std::string, std::string>& before,
+                                   const std::map<std::string, std::string>& now) {
+    std::set<std::string> names;
+    for (const auto* settings : {&before, &now})
+        for (const auto& [name, value] : *settings) names.insert(name);
+    const auto text = [](const std::map<std::string, std::string>& settings, const std::string& name) {
+        const auto found = settings.find(name);
+        return found == settings.end() ? std::string("none") : fmt::format("'{}'", found->second);
+    };
+    for (const std::string& name : names)
+        if (const std::string was = text(before, name), is = text(now, name); was != is)
+            return fmt::format("the setting '{}' differs: {} in the baseline, {} now", name, was, is);
+    return {};
+}
+
 std::string difference_of_work(const ProfileReport& before, const ProfileReport& now) {
     if (before.scene != now.scene)
         return fmt::format("the baseline is of the scene '{}', not of '{}'", before.scene, now.scene);
@@ -83,7 +99,7 @@ std::string difference_of_work(const ProfileReport& before, const ProfileReport&
     if (before.bvh.instanced_triangles != now.bvh.instanced_triangles)
         return fmt::format("the scene has changed: the baseline's has {} triangles, not {}",
                            before.bvh.instanced_triangles, now.bvh.instanced_triangles);
-    return {};
+    return difference_of_settings(before.settings, now.settings);
 }
 
 void note_difference(std::vector<std::string>& notes, const char* what, const std::string& before,
@@ -93,6 +109,7 @@ void note_difference(std::vector<std::string>& notes, const char* what, const st
 
 std::vector<std::string> circumstances(const ProfileReport& before, const ProfileReport& now) {
     std::vector<std::string> notes;
+    note_difference(notes, "another seed", std::to_string(before.seed), std::to_string(now.seed));
     note_difference(notes, "another processor", before.processor, now.processor);
     note_difference(notes, "another instruction set", before.isa, now.isa);
     note_difference(notes, "another ray tracer", before.ray_tracer, now.ray_tracer);
@@ -100,7 +117,8 @@ std::vector<std::string> circumstances(const ProfileReport& before, const Profil
     return notes;
 }
 
-std::string run_name(const ProfileRun& run) {
+/// Of a run or of a comparison of two.
+std::string run_name(const auto& run) {
     return fmt::format("{} on {} thread{}", run.integrator, run.threads, run.threads == 1 ? "" : "s");
 }
 
@@ -115,6 +133,18 @@ void add_missing(std::vector<std::string>& notes, const std::vector<ProfileRun>&
                  const std::vector<ProfileRun>& others, const char* where) {
     for (const ProfileRun& run : runs)
         if (find(others, run) == nullptr) notes.push_back(fmt::format("{} is {}", run_name(run), where));
+}
+
+/// Why the runs of the two cannot be compared; empty if any can.
+std::string difference_of_runs(const ProfileReport& before, const ProfileReport& now) {
+    bool is_in_both = false;
+    for (const ProfileRun& run : now.runs) {
+        const ProfileRun* const earlier = find(before.runs, run);
+        if (earlier != nullptr && earlier->cpu_seconds.size() > 1) return {};
+        is_in_both = is_in_both || earlier != nullptr;
+    }
+    return is_in_both ? "the baseline has one repetition of each run, of which nothing can be concluded"
+                      : "the baseline has no run of the same integrator on the same number of threads";
 }
 
 std::vector<ComparedFigure> figures(const ProfileReport& before, const ProfileReport& now) {
@@ -142,16 +172,27 @@ const char* verdict_name(ProfileVerdict verdict) {
     return "not known";
 }
 
+std::vector<std::string> ProfileComparison::slower_runs() const {
+    std::vector<std::string> names;
+    for (const ComparedRun& run : runs)
+        if (run.verdict == ProfileVerdict::Slower) names.push_back(run_name(run));
+    return names;
+}
+
 bool ProfileComparison::has_regression() const {
-    return std::any_of(runs.begin(), runs.end(),
-                       [](const ComparedRun& run) { return run.verdict == ProfileVerdict::Slower; });
+    return !slower_runs().empty();
+}
+
+std::string refusal_to_compare(const ProfileBaseline& before, const ProfileReport& now) {
+    const std::string difference = difference_of_work(before, now);
+    return difference.empty() ? difference_of_runs(before, now) : difference;
 }
 
 ProfileComparison compare_profiles(const ProfileBaseline& before, const ProfileReport& now,
                                    const ProfileComparisonOptions& options) {
     ProfileComparison comparison{.baseline_created = before.created,
                                  .baseline_program = before.program,
-                                 .refusal = difference_of_work(before, now),
+                                 .refusal = refusal_to_compare(before, now),
                                  .options = options};
     if (!comparison.refusal.empty()) return comparison;
     comparison.notes = circumstances(before, now);
@@ -170,8 +211,6 @@ ProfileComparison compare_profiles(const ProfileBaseline& before, const ProfileR
     }
     add_missing(comparison.notes, before.runs, now.runs, "in the baseline only");
     add_missing(comparison.notes, now.runs, before.runs, "not in the baseline");
-    if (comparison.runs.empty())
-        comparison.refusal = "the baseline has no run of the same integrator on the same number of threads";
     comparison.figures = figures(before, now);
     return comparison;
 }

@@ -60,7 +60,9 @@ struct ProfileComparison {
     std::vector<ComparedRun> runs{};
     std::vector<ComparedFigure> figures{};  ///< load, BVH, memory
 
-    /// True if any run has become slower.
+    /// Of those that have become slower, "path on 2 threads".
+    [[nodiscard]] std::vector<std::string> slower_runs() const;
+    /// True if any run has.
     [[nodiscard]] bool has_regression() const;
 };
 
@@ -68,8 +70,13 @@ struct ProfileComparison {
 /// SceneError, with the pointer to what is wrong, if that is not a profile of this format, or says what no profile can.
 [[nodiscard]] ProfileBaseline parse_profile(const std::string& json, const std::string& file = "baseline");
 
-/// Compares runs of the same integrator on the same number of threads. Refuses profiles that differ in scene, size or
-/// length of paths, and those that have no run in common. Other differences are notes.
+/// Why `compare_profiles` refuses the two, in a sentence; empty if it does not. Profiles that differ in scene, size,
+/// length of paths, triangles or another of the settings are refused, and those of which no run is in both, with two
+/// repetitions or more in the baseline. Of the runs of `now` only integrators and threads are looked at, so that it can
+/// be asked before they are measured.
+[[nodiscard]] std::string refusal_to_compare(const ProfileBaseline& before, const ProfileReport& now);
+
+/// Compares runs of the same integrator on the same number of threads. Differences that are no refusal are notes.
 ///
 /// Of a run the logarithms of the seconds per sample of all repetitions are compared: m₁ and m₂ their means, s₁² and
 /// s₂² their variances, n₁ and n₂ their numbers. With e² = s₁²/n₁ + s₂²/n₂ the interval of the ratio is

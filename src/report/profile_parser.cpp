@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <string>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -73,7 +75,24 @@ class Document {
     std::string text(const std::string& pointer) const {
         const Json& json = at(pointer);
         if (!json.is_string()) fail(pointer, "must be a text");
-        const auto& value = json.get_ref<const std::string&>();
+        return shown(pointer, json.get_ref<const std::string&>());
+    }
+
+    /// An object of such texts.
+    std::map<std::string, std::string> texts(const std::string& pointer) const {
+        const Json& json = at(pointer);
+        if (!json.is_object()) fail(pointer, "must be an object");
+        std::map<std::string, std::string> values;
+        for (const auto& [key, value] : json.items()) {
+            if (!value.is_string()) fail(pointer, "must be an object of texts");
+            values[shown(pointer, key)] = shown(pointer, value.get_ref<const std::string&>());
+        }
+        return values;
+    }
+
+  private:
+    /// `value`, if it may be shown.
+    const std::string& shown(const std::string& pointer, const std::string& value) const {
         if (value.size() > kLongestText) fail(pointer, fmt::format("is longer than {} bytes", kLongestText));
         if (std::any_of(value.begin(), value.end(), [](char c) {
                 const auto byte = static_cast<unsigned char>(c);
@@ -83,7 +102,6 @@ class Document {
         return value;
     }
 
-  private:
     const Json& json_;
     const std::string& file_;
 };
@@ -111,22 +129,25 @@ ProfileRun parse_run(const Document& document, const std::string& place) {
 ProfileBaseline parse_document(const Document& document) {
     if (document.at("/format") != kProfileFormat)
         document.fail("/format", fmt::format("is not {}: another version has written this", kProfileFormat));
-    ProfileBaseline baseline{.program = document.text("/program"),
-                             .created = document.text("/created"),
-                             .scene = document.text("/scene/name"),
-                             .width = document.whole("/scene/width", 1),
-                             .height = document.whole("/scene/height", 1),
-                             .max_depth = document.whole("/scene/max_depth", 0),
-                             .processor = document.text("/machine/processor"),
-                             .isa = document.text("/machine/isa"),
-                             .ray_tracer = document.text("/machine/ray_tracer"),
-                             .load = {{"load", document.known_number("/load/seconds")}},
-                             .first_pixel_seconds = document.known_number("/load/first_pixel_seconds"),
-                             .bvh = {.build_seconds = document.known_number("/bvh/build_seconds"),
-                                     .instanced_triangles = document.count("/bvh/instanced_triangles"),
-                                     .bytes = document.count("/bvh/bytes"),
-                                     .quality = document.text("/bvh/quality")},
-                             .peak_memory_bytes = document.count("/memory/peak_bytes")};
+    ProfileBaseline baseline{
+        .program = document.text("/program"),
+        .created = document.text("/created"),
+        .scene = document.text("/scene/name"),
+        .width = document.whole("/scene/width", 1),
+        .height = document.whole("/scene/height", 1),
+        .max_depth = document.whole("/scene/max_depth", 0),
+        .seed = static_cast<std::uint32_t>(document.count("/scene/seed", 0, std::numeric_limits<std::uint32_t>::max())),
+        .settings = document.texts("/scene/settings"),
+        .processor = document.text("/machine/processor"),
+        .isa = document.text("/machine/isa"),
+        .ray_tracer = document.text("/machine/ray_tracer"),
+        .load = {{"load", document.known_number("/load/seconds")}},
+        .first_pixel_seconds = document.known_number("/load/first_pixel_seconds"),
+        .bvh = {.build_seconds = document.known_number("/bvh/build_seconds"),
+                .instanced_triangles = document.count("/bvh/instanced_triangles"),
+                .bytes = document.count("/bvh/bytes"),
+                .quality = document.text("/bvh/quality")},
+        .peak_memory_bytes = document.count("/memory/peak_bytes")};
     for (std::size_t i = 0; i < document.size("/runs"); ++i)
         baseline.runs.push_back(parse_run(document, fmt::format("/runs/{}", i)));
     return baseline;

@@ -104,7 +104,7 @@ struct BvhReport {
 };
 
 /// Of profile.json: changes when the meaning of a key does.
-inline constexpr int kProfileFormat = 1;
+inline constexpr int kProfileFormat = 2;
 
 struct ProfileReport {
     std::string program{};
@@ -116,7 +116,8 @@ struct ProfileReport {
     int height = 0;
     int max_depth = 0;
     std::uint32_t seed = 0;
-    std::string processor{};  ///< its model
+    std::map<std::string, std::string> settings{};  ///< what else decides how much work a sample is, by names
+    std::string processor{};                        ///< its model
     int processors = 0;
     std::string isa{};
     std::string ray_tracer{};

@@ -1,6 +1,7 @@
 // SceneDesc as text: one line per thing, in the order of the struct, bulk arrays as counts.
 
 #include "scene/scene_desc.h"
+#include "scene/settings_text.h"
 
 #include <iterator>
 #include <type_traits>
@@ -254,7 +255,11 @@ void dump_cameras_and_lights(const SceneDesc& scene, Out out) {
                    e.visible_to_camera ? "" : ", hidden from the camera");
 }
 
-void dump_settings(const RenderSettings& s, Out out) {
+}  // namespace
+
+std::string dump(const RenderSettings& s) {
+    std::string result;
+    const Out out = std::back_inserter(result);
     fmt::format_to(out, "integrator {}: max depth {}, min depth {}, roulette depth {}, {} heuristic", s.integrator.type,
                    s.integrator.max_depth, s.integrator.min_depth, s.integrator.roulette_depth,
                    s.integrator.heuristic == HeuristicType::Power ? "power" : "balance");
@@ -290,9 +295,8 @@ void dump_settings(const RenderSettings& s, Out out) {
     if (!s.color.output_space.empty()) fmt::format_to(out, ", output space \"{}\"", s.color.output_space);
     if (s.color.aces_container) fmt::format_to(out, ", ACES container");
     fmt::format_to(out, "\n");
+    return result;
 }
-
-}  // namespace
 
 std::string dump(const SceneDesc& scene) {
     std::string result;
@@ -306,8 +310,7 @@ std::string dump(const SceneDesc& scene) {
     for (const std::string& animation : scene.animations) fmt::format_to(out, "animation \"{}\"\n", animation);
     for (const std::string& variant : scene.variants) fmt::format_to(out, "variant \"{}\"\n", variant);
     dump_cameras_and_lights(scene, out);
-    dump_settings(scene.settings, out);
-    return result;
+    return result + dump(scene.settings);
 }
 
 }  // namespace etendue

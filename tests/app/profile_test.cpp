@@ -94,17 +94,105 @@ TEST_F(Profile, ComparesWithAnEarlierOne) {
             for (json& time : run[times]) time = time.get<double>() * 0.01;
     std::ofstream(work_ / "faster.json") << faster;
     EXPECT_EQ(against("faster.json").exit_code, 1);
-    // Another scene.
-    json other = report();
-    other["scene"]["width"] = 17;
-    std::ofstream(work_ / "other.json") << other;
-    const ProgramResult refused = against("other.json");
-    EXPECT_EQ(refused.exit_code, 3) << refused.err;
-    EXPECT_NE(refused.err.find("other.json"), std::string::npos) << refused.err;
+    EXPECT_NE(against("faster.json").err.find("error: faster.json: slower than that: path on 1 thread"),
+              std::string::npos);
     std::ofstream(work_ / "broken.json") << "{\"format\": 1, \"runs\": [";
     const ProgramResult broken = against("broken.json");
     EXPECT_EQ(broken.exit_code, 3) << broken.err;
     EXPECT_NE(broken.err.find("broken.json"), std::string::npos) << broken.err;
+}
+
+TEST_F(Profile, RefusesOtherWorkBeforeAnythingIsMeasured) {
+    const Names quick{"--integrators", "path", "--threads", "1", "--spp", "2", "--repeat", "2", "--quiet"};
+    ASSERT_EQ(profile(quick).exit_code, 0);
+    json one = report();
+    for (json& run : one["runs"]) run["cpu_seconds"].erase(1);
+    std::ofstream(work_ / "one.json") << one;
+    const auto refuses = [&](const std::string& file, const Names& more, const std::string& message) {
+        Names arguments = quick;
+        arguments.insert(arguments.end(), {"--against", file});
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const ProgramResult result = profile(arguments, "again");
+        EXPECT_EQ(result.exit_code, 3) << result.err;
+        EXPECT_NE(result.err.find("error: " + file + ": "), std::string::npos) << result.err;
+        EXPECT_NE(result.err.find(message), std::string::npos) << result.err;
+        EXPECT_FALSE(fs::exists(work_ / "again"));
+    };
+    const std::string baseline = "out/profile.json";
+    refuses(baseline, {"--size", "17x12"}, "has 16 x 12 pixels, not 17 x 12");
+    refuses(baseline, {"--max-depth", "9"}, "edges");
+    refuses(baseline, {"--crop", "0,0,8,8"}, "the setting 'crop' differs: none in the baseline, '0 0 8 8' now");
+    refuses(baseline, {"--min-depth", "2"}, "min depth 2");
+    refuses(baseline, {"--clamp-indirect", "3"}, "indirect light up to 3");
+    refuses(baseline, {"--bdpt-connections", "cache:5"}, "cache:5");
+    refuses(baseline, {"--heuristic", "balance"}, "balance");
+    refuses("one.json", {}, "one repetition");
+    Names other = quick;
+    other[1] = "bdpt";
+    other.insert(other.end(), {"--against", baseline});
+    EXPECT_EQ(profile(other, "again").exit_code, 3);
+    write_file(folder_ / "box" / "render.json",
+               read_file(folder_ / "box" / "render.json").insert(1, R"("sampler": "random",)"));
+    refuses(baseline, {}, "random");
+}
+
+TEST_F(Profile, ASeedIsOnlyNoted) {
+    const Names quick{"--integrators", "path", "--threads", "1", "--spp", "2", "--repeat", "2", "--quiet"};
+    ASSERT_EQ(profile(quick).exit_code, 0);
+    Names other = quick;
+    other.insert(other.end(), {"--against", "out/profile.json", "--seed", "9", "--tolerance", "9"});
+    ASSERT_EQ(profile(other, "again").exit_code, 0);
+    EXPECT_EQ(report("again")["against"]["notes"][0], "another seed: '0' before, '9' now");
+}
+
+TEST_F(Profile, NotesWhatOfTheSceneIsNotMeasured) {
+    write_scene(folder_ / "box", R"("error": 0.5, "robust": "mon:3", "aovs": ["depth"],)");
+    ASSERT_EQ(profile({"--integrators", "path", "--threads", "1", "--spp", "2", "--repeat", "1", "--quiet"}).exit_code,
+              0);
+    const json report = this->report();
+    ASSERT_EQ(report["notes"].size(), 3u) << report["notes"];
+    EXPECT_NE(report["notes"][0].get<std::string>().find("layers"), std::string::npos);
+    EXPECT_NE(report["notes"][1].get<std::string>().find("error"), std::string::npos);
+    EXPECT_NE(report["notes"][2].get<std::string>().find("median of means"), std::string::npos);
+    EXPECT_EQ(report["runs"][0]["samples"], 16 * 12 * 2);
+}
+
+TEST_F(Profile, MediansOfAnEvenNumberAreMeansOfTwo) {
+    ASSERT_EQ(
+        profile({"--integrators", "path", "--threads", "1,2", "--spp", "2", "--repeat", "2", "--quiet"}).exit_code, 0);
+    const json report = this->report();
+    const json& one = report["runs"][0]["seconds"];
+    const json& two = report["runs"][1]["seconds"];
+    double sum = 0.0;
+    for (std::size_t i = 0; i < 2; ++i) sum += one[i].get<double>() / (2.0 * two[i].get<double>());
+    EXPECT_NEAR(report["runs"][1]["parallel_efficiency"].get<double>(), 0.5 * sum, 1e-9);
+}
+
+TEST_F(Profile, RemovesHeatMapsOfEarlierRuns) {
+    fs::create_directories(work_ / "out/heat-path-9.exr");
+    for (const char* name : {"heat-bdpt-12.exr", "heat-bdpt-12.png", "heat-mine-1.exr", "heat-path-.exr",
+                             "heat-path-1b.png", "heat-path-2.txt"})
+        write_file(work_ / "out" / name, "");
+    ASSERT_EQ(profile({"--integrators", "path", "--threads", "1", "--spp", "2", "--repeat", "1", "--quiet"}).exit_code,
+              0);
+    EXPECT_EQ(list(work_ / "out"),
+              (Names{"heat-mine-1.exr", "heat-path-.exr", "heat-path-1.exr", "heat-path-1.png", "heat-path-1b.png",
+                     "heat-path-2.txt", "heat-path-9.exr", "index.html", "profile.json", "trace.json"}));
+}
+
+TEST_F(Profile, NeverOverwritesItsBaseline) {
+    const Names quick{"--integrators", "path", "--threads", "1", "--spp", "2", "--repeat", "2", "--quiet"};
+    ASSERT_EQ(profile(quick).exit_code, 0);
+    const std::string before = read_file(work_ / "out/profile.json");
+    fs::create_directory_symlink(work_ / "out", work_ / "link");
+    for (const char* file : {"out/profile.json", "link/profile.json"}) {
+        Names arguments = quick;
+        arguments.insert(arguments.end(), {"--against", file});
+        const ProgramResult result = profile(arguments);
+        EXPECT_EQ(result.exit_code, 2) << result.err;
+        EXPECT_NE(result.err.find("is the file that would be written"), std::string::npos) << result.err;
+        EXPECT_EQ(read_file(work_ / "out/profile.json"), before);
+    }
 }
 
 TEST_F(Profile, SaysWhatIsWrongWithOptions) {
@@ -121,6 +209,15 @@ TEST_F(Profile, SaysWhatIsWrongWithOptions) {
     refuses({"--integrators", "none"}, "none");
     refuses({"--against", "missing.json"}, "missing.json");
     refuses({"--tolerance", "0.1"}, "--against");
+    write_file(work_ / "baseline.json", "{}");
+    refuses({"--against", "baseline.json", "--repeat", "1"}, "--repeat 2 or more");
+    for (const Names& option : {Names{"--integrator", "path"}, Names{"--aov", "depth"}, Names{"--aov-layout", "parts"},
+                                Names{"--deep"}, Names{"--robust", "mon:3"}, Names{"--time", "3"},
+                                Names{"--error", "1"}, Names{"--no-adaptive"}, Names{"--half"}}) {
+        refuses(option, option[0] + ": is for 'render'; here ");
+        const ProgramResult result = profile(option);
+        EXPECT_EQ(result.err.find("variant"), std::string::npos) << result.err;
+    }
 }
 
 }  // namespace

@@ -73,6 +73,30 @@ TEST_P(Profiled, TheImageIsTheSameAndTheFiguresAddUp) {
 INSTANTIATE_TEST_SUITE_P(Integrators, Profiled, testing::Values("path", "naive", "light", "bdpt"),
                          [](const auto& one) { return std::string(one.param); });
 
+TEST(RenderProfile, EveryShadowRayIsOfALightSampleInMediaToo) {
+    SceneDesc scene = empty_scene();
+    scene.settings.film.width = scene.settings.film.height = 24;
+    MaterialDesc fog;
+    fog.metallic = 0.0f;
+    fog.roughness = 0.0f;
+    fog.transmission = 1.0f;
+    fog.ior = 1.0f;
+    fog.volume = {
+        .closed = true, .attenuation_color = Rgb(0.5f), .attenuation_distance = 0.8f, .multiscatter_color = Rgb(0.8f)};
+    add_object(scene, sphere({0, 0, -3}, 2.0f, 16), add_material(scene, fog));
+    add_object(scene, sphere({0.3f, 0.2f, -3}, 0.4f, 8), add_material(scene, emissive(Rgb(2.0f))));
+    const World world = compile(std::move(scene));
+    ASSERT_TRUE(world.has_lights_in_media());
+    for (const char* integrator : {"path", "bdpt"}) {
+        RenderProfile profile(1, 0);
+        RenderOptions options = options_for(24, 24, 16);
+        options.profile = &profile;
+        const std::uint64_t shadow_rays = render_now(world, integrator, options, 1).counters.rays[RayKind::Shadow];
+        EXPECT_GT(shadow_rays, 0u) << integrator;
+        EXPECT_LE(shadow_rays, profile.total().use().light_samples) << integrator;
+    }
+}
+
 TEST(RenderProfile, IsOfAllThreads) {
     RenderProfile profile(2, 0);
     profile.wave(0).end_path(PathEnding::Escaped, {.rays = 1});

@@ -84,15 +84,21 @@ TEST(ProfileComparison, RegressionNeedsOneSlowerRun) {
     ProfileReport slower = made_up_profile();
     for (double& seconds : slower.runs[1].cpu_seconds) seconds *= 1.5;
     EXPECT_TRUE(compare_profiles(made_up_profile(), slower).has_regression());
+    EXPECT_EQ(compare_profiles(made_up_profile(), slower).slower_runs(),
+              (std::vector<std::string>{"path on 2 threads"}));
     EXPECT_FALSE(compare_profiles(made_up_profile(), slower, {.tolerance = 1.0}).has_regression());
     EXPECT_FALSE(compare_profiles(slower, made_up_profile()).has_regression());
 }
 
 TEST(ProfileComparison, OneRepetitionSaysNothing) {
-    for (const ComparedRun& run : {compare({1.0}, {2.0, 2.0, 2.0}), compare({1.0, 1.0}, {2.0}), compare({}, {1.0, 1.0}),
-                                   compare({1.0, 1.0}, {}), compare({1.0, 1.0}, {0.0, 0.0})}) {
+    for (const ComparedRun& run :
+         {compare({1.0, 1.0}, {2.0}), compare({1.0, 1.0}, {}), compare({1.0, 1.0}, {0.0, 0.0})}) {
         EXPECT_EQ(run.verdict, ProfileVerdict::NotKnown);
     }
+    for (const std::vector<double>& before : {std::vector<double>{}, {1.0}})
+        EXPECT_EQ(refusal_to_compare(with_times(before), with_times({})),
+                  "the baseline has one repetition of each run, of which nothing can be concluded");
+    EXPECT_EQ(refusal_to_compare(with_times({1.0, 1.0}), with_times({})), "") << "those of now are still to come";
 }
 
 TEST(ProfileComparison, ComparesPerSample) {
@@ -116,6 +122,12 @@ TEST(ProfileComparison, RefusesOtherWork) {
     EXPECT_EQ(refusal([](ProfileReport& r) { r.scene = "ball"; }), "the baseline is of the scene 'ball', not of 'box'");
     EXPECT_EQ(refusal([](ProfileReport& r) { r.height = 31; }), "the baseline has 64 x 31 pixels, not 64 x 32");
     EXPECT_EQ(refusal([](ProfileReport& r) { r.max_depth = 8; }), "paths of the baseline have up to 8 edges, not 12");
+    EXPECT_EQ(refusal([](ProfileReport& r) { r.settings["sampler"] = "random"; }),
+              "the setting 'sampler' differs: 'random' in the baseline, 'sobol' now");
+    EXPECT_EQ(refusal([](ProfileReport& r) { r.settings["crop"] = "0 0 8 8"; }),
+              "the setting 'crop' differs: '0 0 8 8' in the baseline, none now");
+    EXPECT_EQ(refusal([](ProfileReport& r) { r.settings.erase("film"); }),
+              "the setting 'film' differs: none in the baseline, 'film: filter box' now");
     EXPECT_NE(refusal([](ProfileReport& r) { r.bvh.instanced_triangles = 1; }), "");
     EXPECT_NE(refusal([](ProfileReport& r) { r.runs.clear(); }), "");
     EXPECT_NE(refusal([](ProfileReport& r) { r.runs[0].integrator = r.runs[1].integrator = "bdpt"; }), "");
@@ -124,11 +136,13 @@ TEST(ProfileComparison, RefusesOtherWork) {
 TEST(ProfileComparison, NotesWhatElseDiffers) {
     ProfileReport before = made_up_profile();
     before.processor = "another one";
+    before.seed = 8;
     before.runs.pop_back();
     const ProfileComparison comparison = compare_profiles(before, made_up_profile());
-    ASSERT_EQ(comparison.notes.size(), 2u);
-    EXPECT_EQ(comparison.notes[0], "another processor: 'another one' before, 'made up' now");
-    EXPECT_EQ(comparison.notes[1], "path on 2 threads is not in the baseline");
+    ASSERT_EQ(comparison.notes.size(), 3u);
+    EXPECT_EQ(comparison.notes[0], "another seed: '8' before, '7' now");
+    EXPECT_EQ(comparison.notes[1], "another processor: 'another one' before, 'made up' now");
+    EXPECT_EQ(comparison.notes[2], "path on 2 threads is not in the baseline");
 }
 
 TEST(ProfileComparison, FiguresComeWithoutAVerdict) {
@@ -215,6 +229,8 @@ TEST(ParseProfile, ReadsWhatWasWritten) {
     EXPECT_EQ(baseline.scene, "box");
     EXPECT_EQ(baseline.created, report.created);
     EXPECT_EQ(baseline.peak_memory_bytes, report.peak_memory_bytes);
+    EXPECT_EQ(baseline.seed, 7u);
+    EXPECT_EQ(baseline.settings, report.settings);
     EXPECT_EQ(baseline.runs.at(1).cpu_seconds, report.runs[1].cpu_seconds);
     const ProfileComparison comparison = compare_profiles(baseline, report);
     EXPECT_EQ(comparison.refusal, "");
@@ -241,7 +257,12 @@ TEST(ParseProfile, SaysWhatIsWrong) {
         EXPECT_NE(error.find("old.json#" + pointer), std::string::npos) << error;
         EXPECT_NE(error.find(message), std::string::npos) << error;
     };
-    expect("/format", 2, "another version");
+    expect("/format", 1, "another version");
+    expect("/scene/seed", std::uint64_t{1} << 32, "is not in");
+    expect("/scene/settings", "none", "must be an object");
+    expect("/scene/settings", {{"film", 1}}, "must be an object of texts");
+    expect("/scene/settings", {{"film", "a\x1b[31m"}}, "control characters");
+    expect("/scene/settings", {{"\x1b[31m", "film"}}, "control characters");
     expect("/scene/width", -1, "whole number");
     expect("/scene/width", 0, "[1, ");
     expect("/scene/height", 1e300, "whole number");

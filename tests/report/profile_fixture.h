@@ -49,6 +49,7 @@ inline ProfileReport made_up_profile() {
                          .height = 32,
                          .max_depth = 12,
                          .seed = 7,
+                         .settings = {{"film", "film: filter box"}, {"sampler", "sobol"}},
                          .processor = "made up",
                          .processors = 2,
                          .isa = "AVX2",

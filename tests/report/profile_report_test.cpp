@@ -47,10 +47,14 @@ TEST(ProfileFigures, TilesCostWhatAllTheirPassesDo) {
 
 TEST(ProfileJson, HoldsWhatWasMeasured) {
     const Json json = Json::parse(to_json(made_up_profile()));
-    EXPECT_EQ(json["format"], 1);
-    EXPECT_EQ(
-        json["scene"],
-        Json({{"name", "box"}, {"path", "scenes/box"}, {"width", 64}, {"height", 32}, {"max_depth", 12}, {"seed", 7}}));
+    EXPECT_EQ(json["format"], 2);
+    EXPECT_EQ(json["scene"], Json({{"name", "box"},
+                                   {"path", "scenes/box"},
+                                   {"width", 64},
+                                   {"height", 32},
+                                   {"max_depth", 12},
+                                   {"seed", 7},
+                                   {"settings", {{"film", "film: filter box"}, {"sampler", "sobol"}}}}));
     EXPECT_EQ(json["machine"]["isa"], "AVX2");
     EXPECT_EQ(json["load"]["phases"][1], Json({{"name", "compile"}, {"seconds", 0.5}}));
     EXPECT_EQ(json["load"]["seconds"], 0.75);

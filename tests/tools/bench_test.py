@@ -1,6 +1,7 @@
 """Tests of what tools/bench does with its measurements: laws through them, tables, plots, the page, the aims; and of the
 scenes that it has generated."""
 
+import io
 import json
 import math
 import os
@@ -8,9 +9,12 @@ import re
 import struct
 import sys
 import tempfile
+import types
 import unittest
 import xml.etree.ElementTree as xml
+from contextlib import redirect_stderr
 from pathlib import Path
+from unittest import mock
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "tests/bench")]
@@ -19,8 +23,12 @@ from benchmark import aims, curves, layers, machine, standard, threads  # noqa: 
 from benchmark.fit import last_exponent, power_law, straight_line  # noqa: E402
 from benchmark.plots import (DotRow, Panel, Series, curve_plot, dot_plot, linear_ticks, log_ticks,  # noqa: E402
                              tick_text)
-from benchmark.tables import MarkerMissing, count_text, exponent_text, figure, markers, table, with_block  # noqa: E402
+from benchmark.tables import count_text, exponent_text, figure, markers, table  # noqa: E402
+from lib.page_blocks import with_block  # noqa: E402
 from make_large_glb import write_glb  # noqa: E402
+from tool_module import load_tool  # noqa: E402
+
+tool = load_tool("bench")
 
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -96,20 +104,10 @@ class Tables(unittest.TestCase):
         self.assertEqual(table(["a", "b", "c"], [["x", "1", "y"]], words=(0, 2)),
                          "| a | b | c |\n|---|---:|---|\n| x | 1 | y |")
 
-    def test_a_block_is_replaced_and_nothing_else(self):
-        begin, end = markers("x")
-        page = f"before {begin} old {end} between {markers('y')[0]} kept {markers('y')[1]}"
-        self.assertEqual(with_block(page, "x", r"new \1"), page.replace(" old ", "\n\nnew \\1\n\n"))
-
-    def test_a_page_without_the_block_is_refused(self):
-        for page in ("", markers("x")[0], "".join(markers("x")) * 2):
-            with self.assertRaises(MarkerMissing):
-                with_block(page, "x", "text")
-
     def test_the_page_has_every_block(self):
         page = (ROOT / "docs/performance.md").read_text(encoding="utf-8")
         for block in ("aims", "standard", "growth"):
-            with_block(page, block, "")
+            with_block(page, *markers(block), "")
 
 
 class Drawn(unittest.TestCase):
@@ -242,6 +240,39 @@ class Aims(unittest.TestCase):
                          ["met", "**not met**", "**not met**", "met", "met", "**not met**", "met"])
         self.assertEqual([row[2] for row in rows], ["0.600", "0.600", "0.440", "0.610", "2.00", "3.10", "0.150"])
         self.assertIn("13 materials, 6 textures", rows[2][4])
+
+
+class Known(unittest.TestCase):
+    def test_results_are_known_again_only_of_the_same_scene(self):
+        with tempfile.TemporaryDirectory() as folder:
+            folder = Path(folder)
+            for name in ("cornell-box", "room"):
+                (folder / name).mkdir()
+                (folder / name / "scene.gltf").write_text(name)
+            (folder / "etendue").write_text("one")
+            arguments = types.SimpleNamespace(program=folder / "etendue", mode=tool.QUICK)
+
+            def known():
+                return set(tool.Results(folder / "results.json", tool.identities(arguments, folder)).known())
+            results = tool.Results(folder / "results.json", tool.identities(arguments, folder))
+            names = {"start", "threads", "standard/room", "standard/cornell-box", "triangles", "depth"}
+            for name in names:
+                results.add(name, {}, {})
+            self.assertEqual(known(), names)
+            (folder / "room/scene.gltf").write_text("changed")
+            self.assertEqual(known(), names - {"standard/room"})
+            (folder / "cornell-box/texture.png").write_text("new")
+            self.assertEqual(known(), {"triangles"}, "its scenes are generated")
+            (folder / "etendue").write_text("two")
+            self.assertEqual(known(), set())
+
+    def test_a_quick_run_is_not_written(self):
+        output = io.StringIO()
+        with mock.patch.object(sys, "argv", ["bench", "--quick", "--write"]), redirect_stderr(output), \
+                self.assertRaises(SystemExit) as end:
+            tool.parsed_arguments()
+        self.assertEqual(end.exception.code, 2)
+        self.assertIn("does not go with --quick", output.getvalue())
 
 
 class Machine(unittest.TestCase):

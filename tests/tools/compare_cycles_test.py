@@ -1,14 +1,20 @@
 """Tests of what tools/compare-cycles does outside of Blender: what it carries over and refuses, its images, its lobes."""
 
+import io
 import json
 import math
+import os
 import struct
+import subprocess
 import sys
 import tempfile
+import types
 import unittest
 import zlib
 from array import array
+from contextlib import redirect_stdout
 from pathlib import Path
+from unittest import mock
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
@@ -17,6 +23,9 @@ from cycles import lobes  # noqa: E402
 from cycles.images import average, mean_colors, read_rgb, relative_difference  # noqa: E402
 from cycles.instancing import without_instancing  # noqa: E402
 from cycles.plan import NotComparable, make_plan  # noqa: E402
+from tool_module import load_tool  # noqa: E402
+
+tool = load_tool("compare-cycles")
 
 METALS = (ROOT / "src/bsdf/measured_metals.cpp").read_text()
 WHITE = {"name": "white", "pbrMetallicRoughness": {"metallicFactor": 0.0}}
@@ -172,6 +181,140 @@ class Instances(unittest.TestCase):
         self.assertEqual(nodes[0], {"name": "all", "extensions": {}, "children": [1, 2]})
         self.assertEqual(nodes[1:], [{"mesh": 0, "translation": [1, 2, 3], "scale": [1, 1, 1]},
                                      {"mesh": 0, "translation": [4, 5, 6], "scale": [2, 2, 2]}])
+
+
+class Comparisons(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        self.directory = self.folder / "scenes/box"
+        self.directory.mkdir(parents=True)
+        (self.directory / "render.json").write_text('{"environment": {}}')
+        (self.directory / "scene.gltf").write_text(json.dumps({"materials": [WHITE], "cameras": [CAMERA]}))
+        self.program = self.folder / "etendue"
+        self.program.write_text("one")
+        self.arguments = types.SimpleNamespace(
+            scenes_folder=self.folder / "scenes", shrink=1.0, threads=1, roulette="same", work=self.folder / "work",
+            program=self.program, blender="Blender 3.4", timeout=5.0, effort=1.0, length=4, seeds=2, scenes=["box"])
+
+    def keys(self):
+        comparison = tool.Comparison(self.arguments, "box")
+        return comparison.cycles.key, comparison.ours[0].key
+
+    def test_renders_are_known_again_only_of_the_same_program_plan_and_scene(self):
+        cycles, ours = self.keys()
+        self.assertEqual(self.keys(), (cycles, ours))
+        self.program.write_text("two")
+        self.assertEqual(self.keys()[0], cycles, "it takes no part in that")
+        self.assertNotEqual(self.keys()[1], ours)
+        self.program.write_text("one")
+        (self.directory / "texture.png").write_text("red")
+        changed = self.keys()
+        self.assertTrue(changed[0] != cycles and changed[1] != ours)
+        (self.directory / "texture.png").write_text("blue")
+        self.assertTrue(self.keys()[0] != changed[0] and self.keys()[1] != changed[1])
+        cycles = self.keys()[0]
+        self.arguments.blender = "Blender 4.0"
+        self.assertNotEqual(self.keys()[0], cycles)
+        self.arguments.blender = "Blender 3.4"
+        (self.directory / "render.json").write_text('{"environment": {"scale": 2}}')
+        self.assertNotEqual(self.keys()[0], cycles)
+
+    def test_an_image_is_rendered_once_for_each_key(self):
+        comparison = tool.Comparison(self.arguments, "box")
+        renders = []
+
+        def render(image, spp, seed):
+            renders.append((spp, seed))
+            image.touch()
+            return 0.5
+        renderer = types.SimpleNamespace(name="path", key="a", render=render)
+        for key in "aaba":
+            renderer.key = key
+            self.assertEqual(comparison.image(renderer, 4, 1)[1], 0.5)
+        self.assertEqual(renders, [(4, 1)] * 2)
+
+    def test_a_scene_that_is_missing_leaves_the_others(self):
+        self.arguments.scenes = ["missing", "box"]
+        said = []
+        with mock.patch.object(tool.Comparison, "measure", lambda _: {"cycles": self.result(), "path": self.result()}), \
+                mock.patch.object(tool.Row, "cells", lambda row: [row.comparison.name]), \
+                mock.patch.object(tool.Row, "objection", lambda _: ""):
+            rows, not_comparable, failed = tool.compare_all(self.arguments, said.append)
+        self.assertEqual([row.comparison.name for row in rows], ["box"])
+        self.assertEqual((not_comparable, list(failed)), ({}, ["missing"]))
+        self.assertIn("scene.gltf is missing", failed["missing"])
+
+    def result(self, seconds=0.1):
+        return tool.Result(seconds, [[0.4, 0.2], [0.1, 0.05]], math.log(4))
+
+    def row(self, **seconds):
+        comparison = types.SimpleNamespace(name="box", size=[8, 4], means=[[1.0] * 3, [1.01, 1.0, 1.0]], deviation=0.001,
+                                           apart=[0.1, 0.01], spp=64)
+        return tool.Row(comparison, {name: self.result(value) for name, value in seconds.items()})
+
+    def test_a_time_that_is_lost_in_noise_is_a_dash(self):
+        for seconds in (0.0, -0.1):
+            cells = self.row(cycles=0.1, path=seconds, bdpt=seconds).path_row()
+            self.assertEqual(cells[5:7], ["–", "–"])
+            self.assertEqual(cells[-2:], ["–", "–"])
+            self.assertEqual(self.row(cycles=0.1, path=0.1, bdpt=seconds).bdpt_row()[1:3], ["–", "–"])
+            self.assertEqual(self.row(cycles=seconds, path=0.1).path_row()[4:7:2], ["–", "–"])
+
+    def test_the_document_has_what_the_tables_have(self):
+        document = json.loads(json.dumps(self.row(cycles=0.1, path=0.05, bdpt=-1.0).document(), allow_nan=False))
+        self.assertAlmostEqual(document["renderers"]["path"]["samples_per_second"], 640.0)
+        self.assertAlmostEqual(document["renderers"]["path"]["relmse"]["time_to_equal_error"], 0.5)
+        self.assertAlmostEqual(document["renderers"]["path"]["relmse"]["exponent"], 1.0)
+        self.assertAlmostEqual(document["difference_of_means"], 0.01)
+        self.assertIsNone(document["objection"])
+        self.assertIsNone(document["renderers"]["bdpt"]["samples_per_second"])
+        self.assertIsNone(document["renderers"]["bdpt"]["relmse"]["time_to_equal_error"])
+
+    def test_json_is_all_that_stands_on_stdout(self):
+        output = io.StringIO()
+        with mock.patch.object(sys, "argv", ["compare-cycles", "--json", "--bin", str(self.folder), "missing"]), \
+                mock.patch.object(tool, "install_blender"), mock.patch.object(tool, "run", lambda _: "Blender"), \
+                redirect_stdout(output):
+            self.assertEqual(tool.main(), 1)
+        document = json.loads(output.getvalue())
+        self.assertEqual((document["scenes"], list(document["failed"])), ([], ["missing"]))
+
+    def blender(self, script, timeout=0.2):
+        """One that has been started and does as a shell is told; its answers go to the descriptor 3."""
+        log = self.folder / "blender.log"
+        log.write_text("the last words\n")
+        cycles = tool.Cycles(self.folder / "plan.json", log, timeout)
+        read, write = os.pipe()
+        cycles.process = subprocess.Popen(["bash", "-c", f"exec 3>&{write}; {script}"], stdin=subprocess.PIPE, text=True,
+                                          pass_fds=[write])
+        os.close(write)
+        cycles.answers = os.fdopen(read)
+        self.addCleanup(cycles.answers.close)
+        return cycles
+
+    def test_a_blender_that_hangs_is_ended(self):
+        cycles = self.blender("exec sleep 60")
+        with self.assertRaisesRegex(tool.Failed, "longer than 0.2 seconds .*\n?the last words"):
+            cycles.order(self.folder / "a.exr", 1, 1)
+        cycles.stop()
+        self.assertEqual(cycles.process.returncode, -9)
+        cycles = self.blender("exec sleep 60")
+        cycles.stop()
+        self.assertEqual(cycles.process.returncode, -9)
+
+    def test_a_blender_that_ends_is_told_of(self):
+        cycles = self.blender("exit 3", 5.0)
+        cycles.process.wait()
+        with self.assertRaisesRegex(tool.Failed, "Blender ended; .*\n?the last words"):
+            cycles.order(self.folder / "a.exr", 1, 1)
+        cycles.stop()
+
+    def test_answers_are_read(self):
+        cycles = self.blender("""read order; echo '{"cpu": 1.5}' >&3""", 5.0)
+        self.assertEqual(cycles.order(self.folder / "a.exr", 1, 1), 1.5)
+        cycles.stop()
 
 
 class Lobes(unittest.TestCase):

@@ -1,13 +1,7 @@
-"""Tables of Markdown, their figures, and the blocks of a page that are generated."""
-
-import re
+"""Tables of Markdown, their figures, and the markers of what is generated."""
 
 NOT_KNOWN = "–"
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-
-
-class MarkerMissing(Exception):
-    """The page has not exactly one block of the name."""
 
 
 def figure(value, digits=3):
@@ -43,14 +37,5 @@ def table(head, rows, words=(0,)):
 
 
 def markers(block):
+    """Between which the block stands on the page."""
     return f"<!-- made by tools/bench: {block} -->", f"<!-- end of what tools/bench made: {block} -->"
-
-
-def with_block(page, block, text):
-    """The page with the text between the markers of the block, whatever was there. Throws MarkerMissing."""
-    begin, end = markers(block)
-    page, count = re.subn(f"{re.escape(begin)}.*?{re.escape(end)}", lambda _: f"{begin}\n\n{text}\n\n{end}", page,
-                          flags=re.DOTALL)
-    if count != 1:
-        raise MarkerMissing(f"has not exactly one pair of markers '{begin}' and '{end}'")
-    return page

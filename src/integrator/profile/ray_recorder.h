@@ -24,12 +24,16 @@ class RayRecorder {
 
     [[nodiscard]] std::span<const std::vector<Ray>> segments() const { return segments_; }
     [[nodiscard]] std::size_t ray_count() const;
-    /// Adds the segments of another.
+    /// The chance of each segment that was offered to be among those kept.
+    [[nodiscard]] double chance() const { return chance_; }
+    /// Adds the segments of another. Of the one whose segments had the better chance so many are left out that it is
+    /// the same for all of both. Nothing is offered any more after this.
     void add(const RayRecorder& other);
 
   private:
     std::size_t most_segments_;
     std::uint64_t offered_ = 0;
+    double chance_ = 1.0;
     std::vector<std::vector<Ray>> segments_;
 };
 

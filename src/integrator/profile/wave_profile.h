@@ -32,9 +32,7 @@ inline constexpr std::array<std::string_view, kPathEndings> kPathEndingNames{
 
 /// How useful samples are.
 struct SampleUse {
-    std::uint64_t light_samples = 0;      ///< of next-event estimation
-    std::uint64_t shadow_rays = 0;        ///< that they led to
-    std::uint64_t shadow_unoccluded = 0;  ///< of these
+    std::uint64_t light_samples = 0;  ///< of next-event estimation
     std::uint64_t bsdf_samples = 0;
     std::uint64_t bsdf_absorbed = 0;   ///< without weight
     std::uint64_t bsdf_met_light = 0;  ///< whose rays met a lamp or an environment that shines
@@ -97,7 +95,7 @@ class WaveProfile {
     [[nodiscard]] const SampleUse& use() const { return use_; }
     [[nodiscard]] const RayRecorder& recorder(RayKind kind) const { return recorders_[static_cast<std::size_t>(kind)]; }
 
-    /// Seconds that one stamp takes, measured now.
+    /// Seconds of the processor that one stamp takes, measured now.
     [[nodiscard]] static double seconds_per_stamp();
 
   private:

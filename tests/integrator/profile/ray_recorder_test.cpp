@@ -2,8 +2,11 @@
 #include "integrator/profile/ray_recorder.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
+#include <random>
+#include <set>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -60,6 +63,42 @@ TEST(RayRecorder, EverySegmentIsKeptWithTheSameChance) {
     EXPECT_NEAR(all, kSegments * expected, 4.5 * std::sqrt(kSegments * variance));
     // 4.5 standard deviations, 65 times: false alarms below 5e-4.
     for (std::size_t s = 0; s < kSegments; ++s) EXPECT_NEAR(kept[s], expected, 4.5 * std::sqrt(variance)) << s;
+}
+
+// Three threads of which one was offered ten times as much as another: 40 segments of each are kept, and after the
+// merge the same share of what each was offered, from anywhere among the 40.
+TEST(RayRecorder, EverySegmentOfAllThreadsIsKeptWithTheSameChance) {
+    constexpr std::size_t kThreads = 3;
+    constexpr std::size_t kKept = 40;
+    constexpr std::size_t kQuarters = 4;
+    constexpr int kTrials = 1500;
+    std::array<std::array<double, kQuarters>, kThreads> kept{};
+    std::array<double, kThreads> expected{};
+    std::mt19937 random(1);
+    for (int trial = 0; trial < kTrials; ++trial) {
+        // What is left out follows from the counts: each trial has others.
+        std::vector<RayRecorder> threads(kThreads, RayRecorder(kKept * RayRecorder::kSegment));
+        std::array<std::size_t, kThreads> counts{60, 600, 200};
+        for (std::size_t& count : counts) count += random() % count;
+        const double chance = static_cast<double>(kKept) / static_cast<double>(std::ranges::max(counts));
+        RayRecorder all(0);
+        for (std::size_t t = 0; t < kThreads; ++t) {
+            for (std::size_t s = 0; s < counts[t]; ++s) threads[t].offer(numbered(10000 * t + s, 1));
+            all.add(threads[t]);
+            expected[t] += chance * static_cast<double>(counts[t]) / kQuarters;
+        }
+        EXPECT_NEAR(all.chance(), chance, 1e-12);
+        std::set<float> numbers;
+        for (const std::vector<Ray>& segment : all.segments()) numbers.insert(segment.front().t_max);
+        EXPECT_EQ(numbers.size(), all.segments().size());
+        for (std::size_t t = 0; t < kThreads; ++t)
+            for (std::size_t place = 0; place < kKept; ++place)
+                if (numbers.contains(threads[t].segments()[place].front().t_max)) ++kept[t][kQuarters * place / kKept];
+    }
+    // Variances are smaller than those of independent choices. 4.5 standard deviations, 12 times: false alarms below
+    // 1e-4.
+    for (std::size_t t = 0; t < kThreads; ++t)
+        for (const double count : kept[t]) EXPECT_NEAR(count, expected[t], 4.5 * std::sqrt(expected[t])) << t;
 }
 
 TEST(RayRecorder, NothingIsKeptWithoutRoom) {
