@@ -5,6 +5,7 @@
 #include "world/embree.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <span>
 
@@ -64,7 +65,7 @@ struct PacketMask {
     alignas(64) int valid[Width];
 };
 
-/// Rays `first` … of the batch as a packet; lanes beyond the end are invalid.
+/// Rays `first` … of the batch, of which there is at least one, as a packet; lanes beyond the end are invalid.
 template <std::size_t Width>
 void fill_packet(std::span<const Ray> rays, std::size_t first, typename Packet<Width>::Rays& packet,
                  PacketMask<Width>& mask) {
@@ -97,6 +98,21 @@ void fill_packet(std::span<const Ray> rays, std::size_t first, typename Packet<W
     fill_packet<Width>(rays, first, packet.ray, mask);
     std::fill_n(packet.hit.geomID, Width, RTC_INVALID_GEOMETRY_ID);
     std::fill_n(packet.hit.instID[0], Width, RTC_INVALID_GEOMETRY_ID);
+}
+
+/// Calls `trace(mask, packet, first, count)` for packets of type `Rays` of all rays, `count` of which, from `first` on,
+/// are in that packet.
+template <std::size_t Width, typename Rays, typename Trace>
+void for_each_packet(std::span<const Ray> rays, const Trace& trace) {
+    if (rays.empty()) return;
+    // The next packet is filled before this one is traced: Embree would wait for what was just stored piece by piece.
+    std::array<PacketMask<Width>, 2> masks;
+    std::array<Rays, 2> packets;
+    fill_packet<Width>(rays, 0, packets[0], masks[0]);
+    for (std::size_t first = 0, now = 0; first < rays.size(); first += Width, now = 1 - now) {
+        if (first + Width < rays.size()) fill_packet<Width>(rays, first + Width, packets[1 - now], masks[1 - now]);
+        trace(masks[now], packets[now], first, std::min(Width, rays.size() - first));
+    }
 }
 
 }  // namespace etendue

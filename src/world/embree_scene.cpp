@@ -215,20 +215,14 @@ template <std::size_t Width>
 void EmbreeScene::intersect_packets(std::span<const Ray> rays, std::span<Hit> hits, bool coherent) const {
     QueryContext context{{}, this, rays.data()};
     embree::init_context(context.base, coherent);
-    // The next packet is filled before this one is traced: Embree would wait for what was just stored piece by piece.
-    std::array<PacketMask<Width>, 2> masks;
-    std::array<typename Packet<Width>::RayHits, 2> packets;
-    fill_packet<Width>(rays, 0, packets[0], masks[0]);
-    for (std::size_t first = 0, now = 0; first < rays.size(); first += Width, now = 1 - now) {
-        if (first + Width < rays.size()) fill_packet<Width>(rays, first + Width, packets[1 - now], masks[1 - now]);
-        auto& packet = packets[now];
-        embree::intersect(masks[now].valid, top_, context.base, coherent, packet);
-        const std::size_t count = std::min(Width, rays.size() - first);
-        for (std::size_t lane = 0; lane < count; ++lane)
-            hits[first + lane] =
-                make_hit(packet.ray.tfar[lane], packet.hit.u[lane], packet.hit.v[lane], packet.hit.primID[lane],
-                         packet.hit.geomID[lane], packet.hit.instID[0][lane], rays[first + lane].time);
-    }
+    for_each_packet<Width, typename Packet<Width>::RayHits>(
+        rays, [&](const PacketMask<Width>& mask, auto& packet, std::size_t first, std::size_t count) {
+            embree::intersect(mask.valid, top_, context.base, coherent, packet);
+            for (std::size_t lane = 0; lane < count; ++lane)
+                hits[first + lane] =
+                    make_hit(packet.ray.tfar[lane], packet.hit.u[lane], packet.hit.v[lane], packet.hit.primID[lane],
+                             packet.hit.geomID[lane], packet.hit.instID[0][lane], rays[first + lane].time);
+        });
 }
 
 // Embree marks occluded rays with tfar = -inf.
@@ -247,16 +241,11 @@ template <std::size_t Width>
 void EmbreeScene::occluded_packets(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const {
     QueryContext context{{}, this, rays.data()};
     embree::init_context(context.base, false);
-    std::array<PacketMask<Width>, 2> masks;
-    std::array<typename Packet<Width>::Rays, 2> packets;
-    fill_packet<Width>(rays, 0, packets[0], masks[0]);
-    for (std::size_t first = 0, now = 0; first < rays.size(); first += Width, now = 1 - now) {
-        if (first + Width < rays.size()) fill_packet<Width>(rays, first + Width, packets[1 - now], masks[1 - now]);
-        auto& packet = packets[now];
-        embree::occluded(masks[now].valid, top_, context.base, packet);
-        const std::size_t count = std::min(Width, rays.size() - first);
-        for (std::size_t lane = 0; lane < count; ++lane) occluded[first + lane] = packet.tfar[lane] < 0.0f ? 1 : 0;
-    }
+    for_each_packet<Width, typename Packet<Width>::Rays>(
+        rays, [&](const PacketMask<Width>& mask, auto& packet, std::size_t first, std::size_t count) {
+            embree::occluded(mask.valid, top_, context.base, packet);
+            for (std::size_t lane = 0; lane < count; ++lane) occluded[first + lane] = packet.tfar[lane] < 0.0f ? 1 : 0;
+        });
 }
 
 std::string EmbreeScene::instruction_set() const {

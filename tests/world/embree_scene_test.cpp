@@ -233,6 +233,19 @@ TEST(EmbreeScene, AnEmptyWorldIsMissed) {
     EXPECT_EQ(world.bounding_radius(), 1.0f);
 }
 
+/// Packets are filled one ahead, and the first needs a ray.
+TEST(EmbreeScene, NoRaysAreNoPackets) {
+    const World world = compile(empty_scene());
+    const std::vector<Ray> none;
+    std::vector<Hit> hits;
+    std::vector<std::uint8_t> occluded;
+    for (const QueryForm form : kForms) {
+        world.intersect(none, hits, Coherence::Incoherent, form);
+        world.occluded(none, occluded, form);
+    }
+    EXPECT_TRUE(hits.empty());
+}
+
 TEST(EmbreeScene, SharedMeshesWithoutPrimitivesDoNotHideOthers) {
     SceneDesc scene = empty_scene();
     const auto material = add_material(scene, diffuse(Rgb(0.5f)));
