@@ -24,19 +24,22 @@ struct BasicRgb {
     constexpr BasicRgb& operator*=(const BasicRgb& o) { return *this = {r * o.r, g * o.g, b * o.b}; }
     constexpr BasicRgb& operator*=(T s) { return *this = {r * s, g * s, b * s}; }
 
-    [[nodiscard]] friend constexpr bool operator==(const BasicRgb&, const BasicRgb&) = default;
-    [[nodiscard]] friend constexpr BasicRgb operator+(BasicRgb a, const BasicRgb& b) { return a += b; }
-    [[nodiscard]] friend constexpr BasicRgb operator-(BasicRgb a, const BasicRgb& b) { return a -= b; }
-    [[nodiscard]] friend constexpr BasicRgb operator*(BasicRgb a, const BasicRgb& b) { return a *= b; }
+    [[nodiscard]] friend constexpr BasicRgb operator+(BasicRgb a, const BasicRgb& o) { return a += o; }
+    [[nodiscard]] friend constexpr BasicRgb operator-(BasicRgb a, const BasicRgb& o) { return a -= o; }
+    [[nodiscard]] friend constexpr BasicRgb operator*(BasicRgb a, const BasicRgb& o) { return a *= o; }
     [[nodiscard]] friend constexpr BasicRgb operator*(BasicRgb a, T s) { return a *= s; }
     [[nodiscard]] friend constexpr BasicRgb operator*(T s, BasicRgb a) { return a *= s; }
-    [[nodiscard]] friend constexpr BasicRgb operator/(const BasicRgb& a, const BasicRgb& b) {
-        return {a.r / b.r, a.g / b.g, a.b / b.b};
+    [[nodiscard]] friend constexpr BasicRgb operator/(const BasicRgb& a, const BasicRgb& o) {
+        return {a.r / o.r, a.g / o.g, a.b / o.b};
     }
     [[nodiscard]] friend constexpr BasicRgb operator/(const BasicRgb& a, T s) { return a * (T(1.0f) / s); }
 };
 
 using Rgb = BasicRgb<float>;
+
+[[nodiscard]] constexpr bool operator==(const Rgb& a, const Rgb& b) {
+    return a.r == b.r && a.g == b.g && a.b == b.b;
+}
 
 template <typename T = float>
 [[nodiscard]] constexpr T max_component(const BasicRgb<T>& c) {
