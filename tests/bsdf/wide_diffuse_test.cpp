@@ -3,6 +3,7 @@
 #include "support/lanes.h"
 
 #include <array>
+#include <type_traits>
 
 #include <gtest/gtest.h>
 
@@ -14,7 +15,7 @@ TEST(WideDiffuse, IsThatOfFloat) {
     EXPECT_LE((largest_lane_difference<8>(-1.0f, 1.0f,
                                           [](const auto& in) {
                                               const BasicRgb albedo{in[0], in[1], in[2]};
-                                              const BasicDiffuse lobe{albedo};
+                                              const BasicDiffuse<std::decay_t<decltype(in[0])>> lobe{albedo};
                                               const Imath::Vec3 wo(in[3], in[4], in[5]);
                                               const Imath::Vec3 wi(in[4], in[5], in[6]);
                                               const Imath::Vec2 u(abs(in[6]), abs(in[7]));

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <limits>
+#include <type_traits>
 
 #include <gtest/gtest.h>
 
@@ -66,20 +67,19 @@ TEST(Wide, WhatIsNoNumberIsAsInTheStandardLibrary) {
 }
 
 TEST(Wide, VectorsAndFrames) {
-    EXPECT_LE((largest_lane_difference<6>(-1.0f, 1.0f,
-                                          [](const auto& in) {
-                                              const auto a = normalize(vec(in, 0));
-                                              const auto b = vec(in, 3);
-                                              const auto frame = decltype(BasicFrame{a, a, a})::from_normal(a);
-                                              const auto local = frame.to_local(b);
-                                              const auto world = frame.to_world(b);
-                                              const auto across = cross(a, b);
-                                              return std::array{frame.tangent.x,   frame.tangent.y, frame.bitangent.x,
-                                                                frame.bitangent.y, local.x,         local.y,
-                                                                local.z,           world.x,         world.y,
-                                                                world.z,           across.x,        dot(a, b),
-                                                                abs_dot(a, b),     max_abs(b)};
-                                          })),
+    EXPECT_LE((largest_lane_difference<6>(
+                  -1.0f, 1.0f,
+                  [](const auto& in) {
+                      const auto a = normalize(vec(in, 0));
+                      const auto b = vec(in, 3);
+                      const auto frame = BasicFrame<std::decay_t<decltype(a.x)>>::from_normal(a);
+                      const auto local = frame.to_local(b);
+                      const auto world = frame.to_world(b);
+                      const auto across = cross(a, b);
+                      return std::array{frame.tangent.x, frame.tangent.y, frame.bitangent.x, frame.bitangent.y, local.x,
+                                        local.y,         local.z,         world.x,           world.y,           world.z,
+                                        across.x,        dot(a, b),       abs_dot(a, b),     max_abs(b)};
+                  })),
               8.0f);
     EXPECT_LE(
         (largest_lane_difference<6>(

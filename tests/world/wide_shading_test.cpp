@@ -71,10 +71,10 @@ TEST(WideShading, MatteSurfacesScatterAsTheLobeDoes) {
         const auto expected = matte(in, general);
         const auto found = matte(in, wide);
         ASSERT_EQ(found[6] > 0.0f, expected[6] > 0.0f);
-        for (const std::size_t o : {0, 1, 2, 6}) ASSERT_NEAR(found[o], expected[o], 1e-6f);
+        for (const std::size_t o : {0u, 1u, 2u, 6u}) ASSERT_NEAR(found[o], expected[o], 1e-6f);
         if (expected[6] == 0.0f) continue;  // no sample
         ++scattered;
-        for (const std::size_t o : {3, 4, 5, 7}) ASSERT_NEAR(found[o], expected[o], 1e-6f);
+        for (const std::size_t o : {3u, 4u, 5u, 7u}) ASSERT_NEAR(found[o], expected[o], 1e-6f);
     }
     EXPECT_GT(scattered, 50'000);
 }
