@@ -5,7 +5,7 @@
 #include "integrator/bdpt/reference_weights.h"
 #include "integrator/subpath/camera_splat.h"
 #include "integrator/subpath/connectible_vertices.h"
-#include "integrator/subpath/connections.h"
+#include "integrator/connections.h"
 #include "integrator/subpath/subpath_wave.h"
 
 #include <cstddef>

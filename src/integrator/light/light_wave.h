@@ -2,7 +2,7 @@
 #pragma once
 
 #include "integrator/subpath/connectible_vertices.h"
-#include "integrator/subpath/connections.h"
+#include "integrator/connections.h"
 #include "integrator/subpath/subpath_wave.h"
 
 #include <cstddef>

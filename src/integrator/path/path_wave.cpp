@@ -11,29 +11,12 @@
 namespace etendue {
 
 PathWave::PathWave()
-    : states_(kCapacity),
-      rays_(kCapacity),
-      hits_(kCapacity),
-      pixel_seeds_(kCapacity),
-      sample_indices_(kCapacity),
-      shadow_rays_(kCapacity),
-      pending_(kCapacity),
-      occluded_(kCapacity),
-      block_(kBlock),
-      samples_(kCapacity),
-      alpha_(kCapacity) {
-    for (Numbers* numbers :
-         {&light_choice_, &light_triangle_, &light_direction_, &bsdf_direction_, &choices_, &medium_}) {
-        numbers->x.resize(kCapacity);
-        numbers->y.resize(kCapacity);
-    }
-}
+    : states_(kCapacity), rays_(kCapacity), hits_(kCapacity), block_(kBlock), samples_(kCapacity), alpha_(kCapacity) {}
 
 std::size_t PathWave::bytes() const {
-    std::size_t bytes = sizeof *this + light_.bytes() +
-                        vector_bytes(states_, rays_, hits_, interiors_, pixel_seeds_, sample_indices_, shadow_rays_,
-                                     pending_, shares_, occluded_, block_, samples_, alpha_);
-    for (const Numbers* numbers :
+    std::size_t bytes = sizeof *this + light_.bytes() + keys_.bytes() + shadow_rays_.bytes() +
+                        vector_bytes(states_, rays_, hits_, interiors_, shares_, block_, samples_, alpha_);
+    for (const NumberPairs* numbers :
          {&light_choice_, &light_triangle_, &light_direction_, &bsdf_direction_, &choices_, &medium_})
         bytes += numbers->bytes();
     return bytes;
@@ -49,8 +32,6 @@ void PathWave::trace(const World& world, const TileJob& job, const PathOptions& 
         states_[i] = PathState{};
         states_[i].slot = static_cast<std::uint32_t>(i);
         if (world.has_textures()) states_[i].cone = camera_cone(world, job, rays_[i]);
-        pixel_seeds_[i] = samples_[i].key.pixel_seed;
-        sample_indices_[i] = samples_[i].key.index;
         if (words_.are_followed()) states_[i].words = words_.begin_at_eye();
         alpha_[i] = 1.0f;
     }
@@ -69,33 +50,31 @@ void PathWave::trace(const World& world, const TileJob& job, const PathOptions& 
         draw_numbers(context);
         stamp(job.profile, Stage::Numbers);
         shade(context);
-        add_unoccluded(world, job, counters);
+        shadow_rays_.resolve(world, job, samples_, light_, tile, counters);
     }
     accumulate(job, std::span(samples_).first(count), light_, alpha_, tile, counters);
     stamp(job.profile, Stage::Film);
 }
 
-void PathWave::draw(const Context& context, std::uint32_t dimension, Numbers& numbers) {
-    sample_2d(context.job.sequence, std::span(pixel_seeds_).first(active_), std::span(sample_indices_).first(active_),
-              dimension, std::span(numbers.x).first(active_), std::span(numbers.y).first(active_));
-}
-
 void PathWave::draw_numbers(const Context& context) {
+    keys_.clear();
+    for (std::size_t i = 0; i < active_; ++i) keys_.push_back(samples_[states_[i].slot].key);
     const bool has_bodies = context.world.has_bodies();
     if (context.depth >= context.options.lengths.max_depth && !has_bodies) return;
-    if (has_bodies) draw(context, body_dimension(context.depth, kMedium), medium_);
+    const auto draw = [&](std::uint32_t dimension, NumberPairs& numbers) {
+        numbers.draw(context.job.sequence, keys_, dimension);
+    };
+    if (has_bodies) draw(body_dimension(context.depth, kMedium), medium_);
     if (context.options.sample_lights) {
-        draw(context, bounce_dimension(context.depth, kLightChoice), light_choice_);
-        draw(context, bounce_dimension(context.depth, kLightTriangle), light_triangle_);
-        draw(context, bounce_dimension(context.depth, kLightDirection), light_direction_);
+        draw(bounce_dimension(context.depth, kLightChoice), light_choice_);
+        draw(bounce_dimension(context.depth, kLightTriangle), light_triangle_);
+        draw(bounce_dimension(context.depth, kLightDirection), light_direction_);
     }
-    draw(context, bounce_dimension(context.depth, kBsdfDirection), bsdf_direction_);
-    draw(context, bounce_dimension(context.depth, kChoices), choices_);
+    draw(bounce_dimension(context.depth, kBsdfDirection), bsdf_direction_);
+    draw(bounce_dimension(context.depth, kChoices), choices_);
 }
 
 void PathWave::shade(const Context& context) {
-    pending_count_ = 0;
-    shares_.clear();
     std::size_t kept = 0;
     for (std::size_t first = 0; first < active_; first += kBlock)
         shade_block(context, first, std::min(kBlock, active_ - first), kept);
@@ -157,8 +136,6 @@ void PathWave::shade_block(const Context& context, std::size_t first, std::size_
         rays_[kept] = next.ray;
         rays_[kept].time = time;
         if (world.has_bodies()) interiors_[kept] = next.interior;
-        pixel_seeds_[kept] = pixel_seeds_[i];
-        sample_indices_[kept] = sample_indices_[i];
         ++kept;
     }
     stamp(profile, Stage::Roulette);
@@ -170,7 +147,7 @@ bool PathWave::survives(const Context& context, std::size_t i, PathState& state)
                                                  : context.options.lengths.roulette_depth;
     if (context.depth < first) return true;
     const float survival = std::min(most_survival(context.depth), max_component(state.throughput) * state.eta_scale);
-    if (choices_.y[i] >= survival) {
+    if (choices_[i].y >= survival) {
         end_path(context, i, PathEnding::Roulette);
         return false;
     }
@@ -182,12 +159,12 @@ void PathWave::end_path(const Context& context, std::size_t i, PathEnding ending
     WaveProfile* const profile = context.job.profile;
     if (profile == nullptr) return;
     const Vec2i pixel = pixel_position(context.job, samples_[states_[i].slot].pixel);
-    profile->end_path(ending, {pixel.x, pixel.y, sample_indices_[i], context.depth});
+    profile->end_path(ending, {pixel.x, pixel.y, keys_[i].index, context.depth});
 }
 
 std::uint32_t PathWave::alpha_key(const Context& context, std::size_t i) const {
     if (!context.world.has_transparency()) return 0;
-    return sample_bits({pixel_seeds_[i], sample_indices_[i]}, bounce_dimension(context.depth, kAlpha));
+    return sample_bits(keys_[i], bounce_dimension(context.depth, kAlpha));
 }
 
 }  // namespace etendue

@@ -7,6 +7,8 @@
 #include "integrator/aov/path_words.h"
 #include "integrator/aov/sample_light.h"
 #include "integrator/camera_wave.h"
+#include "integrator/connections.h"
+#include "integrator/number_pairs.h"
 #include "integrator/path/block_lanes.h"
 #include "integrator/path/path_integrator.h"
 #include "integrator/profile/wave_profile.h"
@@ -44,14 +46,6 @@ struct PathStep {
     PathState state;
     Ray ray;
     Interior interior;  ///< only if the World has bodies
-};
-
-/// What a shadow ray brings if it arrives.
-struct PendingLight {
-    Rgb contribution;
-    std::uint32_t slot = 0;
-    std::uint32_t end_of_shares = 0;  ///< its shares are those from where the one before has ended
-    LightKind kind = LightKind::Direct;
 };
 
 /// A path whose ray has hit a surface, between the stages of its shading, with what is not in `BlockLanes`.
@@ -143,17 +137,6 @@ class PathWave final : public IntegratorScratch {
     /// Adds `light` that the path has met.
     void add_light(const PathState& state, const Rgb& light, const AovSet::Source& source);
     [[nodiscard]] std::uint32_t alpha_key(const Context& context, std::size_t i) const;
-    void add_unoccluded(const World& world, const TileJob& job, RenderCounters& counters);
-
-    /// Pairs of random numbers, one of each kind per path.
-    struct Numbers {
-        std::vector<float> x;
-        std::vector<float> y;
-
-        [[nodiscard]] Vec2f pair(std::size_t i) const { return {x[i], y[i]}; }
-        [[nodiscard]] std::size_t bytes() const { return vector_bytes(x, y); }
-    };
-    void draw(const Context& context, std::uint32_t dimension, Numbers& numbers);
 
     // By active path; paths that end are squeezed out after every bounce.
     std::size_t active_ = 0;
@@ -161,20 +144,13 @@ class PathWave final : public IntegratorScratch {
     std::vector<Ray> rays_;
     std::vector<Hit> hits_;
     std::vector<Interior> interiors_;  ///< only if the World has bodies
-    std::vector<std::uint32_t> pixel_seeds_;
-    std::vector<std::uint32_t> sample_indices_;
-    Numbers light_choice_;
-    Numbers light_triangle_;
-    Numbers light_direction_;
-    Numbers bsdf_direction_;
-    Numbers choices_;  ///< x: which lobe, y: whether the path ends
-    Numbers medium_;   ///< x: how far, y: by which channel
-    std::size_t pending_count_ = 0;
-    std::vector<Ray> shadow_rays_;
-    std::vector<PendingLight> pending_;
-    std::vector<ExpressionShare> shares_;  ///< of `pending_`, and of light that was met just now
+    SampleKeys keys_;
+    NumberPairs light_choice_, light_triangle_, light_direction_, bsdf_direction_;
+    NumberPairs choices_;  ///< x: which lobe, y: whether the path ends
+    NumberPairs medium_;   ///< x: how far, y: by which channel
     PathWords words_;
-    std::vector<std::uint8_t> occluded_;
+    std::vector<ExpressionShare> shares_;  ///< of the contribution at hand
+    Connections shadow_rays_{RayKind::Shadow};
     // Of the block that is shaded.
     std::vector<ShadedPath> block_;
     std::array<std::uint8_t, kBlock> on_surface_{};  ///< places in the block of the paths on surfaces, which have lanes

@@ -1,7 +1,6 @@
 // Light that paths meet, and light that is sampled for where they are.
 #include "integrator/connecting_ray.h"
 #include "integrator/path/path_wave.h"
-#include "integrator/ray_batch.h"
 #include "integrator/walk.h"
 #include "sampling/mis.h"
 
@@ -35,18 +34,18 @@ void PathWave::sample_lights(const Context& context, std::size_t first) {
         lanes_.light_pdf.set(lane, 0.0f);
         if (!path.samples_light) continue;
         const Vec3f position = lanes_.position[lane];
-        const LightTree::Choice choice = world.choose_light(position, light_choice_.pair(i));
+        const LightTree::Choice choice = world.choose_light(position, light_choice_[i]);
         const MeshLight* mesh = world.even_mesh_light(choice.light);
         if (mesh == nullptr) {
-            path.light = world.sample_light(choice, position,
-                                            {light_choice_.pair(i), light_triangle_.pair(i), light_direction_.pair(i)});
+            path.light =
+                world.sample_light(choice, position, {light_choice_[i], light_triangle_[i], light_direction_[i]});
             continue;
         }
         any_mesh_lit = true;
         path.is_mesh_lit = true;
         path.light.probability = choice.probability;
         path.light.light = choice.light;
-        const LightTriangleFront<float> front = mesh->front(mesh->choose_triangle(light_triangle_.pair(i)));
+        const LightTriangleFront<float> front = mesh->front(mesh->choose_triangle(light_triangle_[i]));
         lanes_.p0.set(lane, front.p0);
         lanes_.edge1.set(lane, front.edge1);
         lanes_.edge2.set(lane, front.edge2);
@@ -57,7 +56,7 @@ void PathWave::sample_lights(const Context& context, std::size_t first) {
         lanes_.light_probability.set(lane, choice.probability);
         lanes_.light_radiance.set(lane, mesh->radiance());
         lanes_.light_by_chance.set(lane, 1.0f);
-        lanes_.u.set(lane, light_direction_.pair(i));
+        lanes_.u.set(lane, light_direction_[i]);
     }
     if (any_mesh_lit) lanes_.sample_mesh_lights(surfaces_);
     for (std::size_t lane = 0; lane < surfaces_; ++lane) {
@@ -111,8 +110,7 @@ void PathWave::add_emission(const Context& context, const PathState& state, cons
 }
 
 ChosenLight PathWave::sample_light(const Context& context, std::size_t i, const Vec3f& position) const {
-    return context.world.sample_light(position,
-                                      {light_choice_.pair(i), light_triangle_.pair(i), light_direction_.pair(i)});
+    return context.world.sample_light(position, {light_choice_[i], light_triangle_[i], light_direction_[i]});
 }
 
 void PathWave::queue_direct_light(const Context& context, std::size_t i, const ShadedPath& path) {
@@ -165,40 +163,21 @@ void PathWave::queue_direct_light_in_medium(const Context& context, std::size_t 
 void PathWave::add_light(const PathState& state, const Rgb& light, const AovSet::Source& source) {
     const LightKind kind = kind_of_met_light(state);
     if (!words_.are_followed()) return light_.add(state.slot, state.throughput * light, kind);
-    // What is added at once stands behind what waits.
-    const std::size_t kept = shares_.size();
+    shares_.clear();
     words_.end_at_light(state.words, source, shares_);
-    light_.add(state.slot, state.throughput * light, kind, std::span(shares_).subspan(kept));
-    shares_.resize(kept);
+    light_.add(state.slot, state.throughput * light, kind, shares_);
 }
 
 void PathWave::queue(const Context& context, std::size_t i, Ray ray, const Rgb& contribution, std::uint32_t light,
                      const VertexEvent& event) {
     if (is_black(contribution)) return;
+    shares_.clear();
     if (words_.are_followed())
         words_.end_at_light(states_[i].words, event, words_.light_source(context.world, light), shares_);
     ray.time = rays_[i].time;
     ray.alpha_key = ~alpha_key(context, i);  // another key than the bounce ray's
-    shadow_rays_[pending_count_] = ray;
-    pending_[pending_count_] = {contribution, states_[i].slot, static_cast<std::uint32_t>(shares_.size()),
-                                states_[i].only_delta ? LightKind::Direct : LightKind::Indirect};
-    ++pending_count_;
-}
-
-void PathWave::add_unoccluded(const World& world, const TileJob& job, RenderCounters& counters) {
-    if (pending_count_ == 0) return;
-    occluded_batch(world, job, RayKind::Shadow, std::span(shadow_rays_).first(pending_count_),
-                   std::span(occluded_).first(pending_count_), counters);
-    const std::span<const ExpressionShare> shares(shares_);
-    for (std::size_t i = 0, first = 0; i < pending_count_; ++i) {
-        const PendingLight& pending = pending_[i];
-        light_.count_ray(pending.slot);
-        if (occluded_[i] == 0)
-            light_.add(pending.slot, pending.contribution, pending.kind,
-                       shares.subspan(first, pending.end_of_shares - first));
-        first = pending.end_of_shares;
-    }
-    stamp(job.profile, Stage::Splat);
+    shadow_rays_.to_sample(ray, states_[i].slot, contribution,
+                           states_[i].only_delta ? LightKind::Direct : LightKind::Indirect, shares_);
 }
 
 }  // namespace etendue

@@ -89,10 +89,8 @@ void PathWave::make_scattering(const Context& context, std::size_t i, std::size_
     path.wavelength = {state.wavelength_nm, Rgb(1.0f)};
     path.chooses_wavelength = path.crossing && path.crossing->disperses() && state.wavelength_nm == 0.0f;
     if (path.chooses_wavelength)
-        path.wavelength =
-            world.spectral_response().sample(sample_2d(context.job.sequence, {pixel_seeds_[i], sample_indices_[i]},
-                                                       body_dimension(context.depth, kWavelength))
-                                                 .x);
+        path.wavelength = world.spectral_response().sample(
+            sample_2d(context.job.sequence, keys_[i], body_dimension(context.depth, kWavelength)).x);
     const Bsdf& bsdf = world.bsdf(path.point, wo,
                                   path.crossing ? path.crossing->relative_ior(path.wavelength.nm) : 0.0f, path.storage);
     path.is_matte = false;
@@ -110,15 +108,14 @@ void PathWave::make_scattering(const Context& context, std::size_t i, std::size_
 }
 
 void PathWave::evaluate_matte(std::size_t first) {
-    for (std::size_t lane = 0; lane < surfaces_; ++lane)
-        lanes_.u.set(lane, bsdf_direction_.pair(first + on_surface_[lane]));
+    for (std::size_t lane = 0; lane < surfaces_; ++lane) lanes_.u.set(lane, bsdf_direction_[first + on_surface_[lane]]);
     lanes_.evaluate_matte(surfaces_);
 }
 
 void PathWave::evaluate(std::size_t i, ShadedPath& path) const {
     if (path.samples_light && !is_black(path.light.sample.radiance))
         path.towards_light = path.scattering->evaluate(path.light.sample.wi, TransportMode::Radiance);
-    path.sample = path.scattering->sample(choices_.x[i], bsdf_direction_.pair(i), TransportMode::Radiance);
+    path.sample = path.scattering->sample(choices_[i].x, bsdf_direction_[i], TransportMode::Radiance);
 }
 
 bool PathWave::scatter(const Context& context, std::size_t i, const Vec3f& position, const BsdfSample& sample,
@@ -200,7 +197,7 @@ bool PathWave::scatter_in_medium(const Context& context, std::size_t i, PathStep
     if (medium == nullptr) return false;
     PathState& state = states_[i];
     const Ray& ray = rays_[i];
-    const MediumSample sample = medium->sample(state.throughput, hits_[i].t, medium_.pair(i));
+    const MediumSample sample = medium->sample(state.throughput, hits_[i].t, medium_[i]);
     state.throughput *= sample.weight;
     if (!sample.scatters) return false;
 
@@ -210,7 +207,7 @@ bool PathWave::scatter_in_medium(const Context& context, std::size_t i, PathStep
         queue_direct_light_in_medium(context, i, position, *medium);
     next.state = state;
     next.ray.origin = position;
-    next.ray.direction = medium->phase.sample(-ray.direction, bsdf_direction_.pair(i));
+    next.ray.direction = medium->phase.sample(-ray.direction, bsdf_direction_[i]);
     next.ray.alpha_key = alpha_key(context, i);
     next.interior = interiors_[i];
     next.state.pdf_solid_angle = medium->phase.pdf_solid_angle(-ray.direction, next.ray.direction);

@@ -1,7 +1,7 @@
 // The vertices of a wave that can be connected, with random numbers for the connections of all of them.
 #pragma once
 
-#include "integrator/subpath/number_pairs.h"
+#include "integrator/number_pairs.h"
 #include "integrator/subpath/subpath_wave.h"
 
 #include <array>

@@ -6,7 +6,7 @@
 #include "core/rgb.h"
 #include "integrator/camera_wave.h"
 #include "integrator/profile/wave_profile.h"
-#include "integrator/subpath/number_pairs.h"
+#include "integrator/number_pairs.h"
 #include "integrator/subpath/path_vertex.h"
 
 #include <array>

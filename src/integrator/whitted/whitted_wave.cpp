@@ -43,10 +43,9 @@ LightKind kind_of(const WhittedBranch& branch) {
 }  // namespace
 
 std::size_t WhittedWave::bytes() const {
-    return sizeof *this +
-           vector_bytes(waiting_, batch_, rays_, hits_, shadow_rays_, contributions_, lit_slots_, occluded_, samples_,
-                        alpha_) +
-           keys_.bytes() + light_choice_.bytes() + light_triangle_.bytes() + light_direction_.bytes() + found_.bytes();
+    return sizeof *this + vector_bytes(waiting_, batch_, rays_, hits_, samples_, alpha_) + keys_.bytes() +
+           shadow_rays_.bytes() + light_choice_.bytes() + light_triangle_.bytes() + light_direction_.bytes() +
+           found_.bytes();
 }
 
 void WhittedWave::trace(const World& world, const TileJob& job, const PathLengths& lengths, std::size_t first,
@@ -92,11 +91,8 @@ void WhittedWave::trace_batch(const Context& context, TileBuffer& tile, RenderCo
     light_choice_.draw(context.job.sequence, keys_, kLightChoice);
     light_triangle_.draw(context.job.sequence, keys_, kLightTriangle);
     light_direction_.draw(context.job.sequence, keys_, kLightDirection);
-    shadow_rays_.clear();
-    contributions_.clear();
-    lit_slots_.clear();
     for (std::size_t i = 0; i < count; ++i) shade(context, i);
-    add_unoccluded(context, counters);
+    shadow_rays_.resolve(context.world, context.job, samples_, found_, tile, counters);
 }
 
 void WhittedWave::shade(const Context& context, std::size_t i) {
@@ -220,9 +216,7 @@ void WhittedWave::queue_direct_light(const Context& context, std::size_t i, cons
     Ray ray = shadow_ray(offset_origin(point.position, point.geometric_normal, point.clearance, light.wi), light);
     ray.time = branch.ray.time;
     if (world.has_transparency()) ray.alpha_key = ~sample_bits(keys_[i], kAlpha);  // another key than those of branches
-    shadow_rays_.push_back(ray);
-    contributions_.push_back(contribution);
-    lit_slots_.push_back(branch.slot);
+    shadow_rays_.to_sample(ray, branch.slot, contribution, LightKind::Direct, {});
 }
 
 void WhittedWave::add_environment(const Context& context, const WhittedBranch& branch) {
@@ -233,16 +227,6 @@ void WhittedWave::add_environment(const Context& context, const WhittedBranch& b
     }
     if (world.has_environment() && branch.edges >= context.lengths.min_depth)
         found_.add(branch.slot, branch.throughput * world.environment_radiance(branch.ray.direction), kind_of(branch));
-}
-
-void WhittedWave::add_unoccluded(const Context& context, RenderCounters& counters) {
-    if (shadow_rays_.empty()) return;
-    occluded_.resize(shadow_rays_.size());
-    occluded_batch(context.world, context.job, RayKind::Shadow, shadow_rays_, occluded_, counters);
-    for (std::size_t i = 0; i < shadow_rays_.size(); ++i) {
-        found_.count_ray(lit_slots_[i]);
-        if (occluded_[i] == 0) found_.add(lit_slots_[i], contributions_[i], LightKind::Direct);
-    }
 }
 
 }  // namespace etendue

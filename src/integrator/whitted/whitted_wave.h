@@ -5,7 +5,8 @@
 #include "core/ray_cone.h"
 #include "core/rgb.h"
 #include "integrator/camera_wave.h"
-#include "integrator/subpath/number_pairs.h"
+#include "integrator/connections.h"
+#include "integrator/number_pairs.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -60,7 +61,6 @@ class WhittedWave final : public IntegratorScratch {
     void queue_direct_light(const Context& context, std::size_t i, const SurfacePoint& point,
                             const Scattering& scattering, const std::optional<Crossing>& crossing, const Rgb& factor);
     void add_environment(const Context& context, const WhittedBranch& branch);
-    void add_unoccluded(const Context& context, RenderCounters& counters);
     /// One that goes on from `i` as its child number `child`, without ray, throughput and edges.
     [[nodiscard]] WhittedBranch grow(const Context& context, std::size_t i, std::uint32_t child) const;
     /// Keeps `branch` for a later batch, unless it ends here.
@@ -73,11 +73,7 @@ class WhittedWave final : public IntegratorScratch {
     std::vector<Hit> hits_;
     SampleKeys keys_;
     NumberPairs light_choice_, light_triangle_, light_direction_;
-    // By shadow ray.
-    std::vector<Ray> shadow_rays_;
-    std::vector<Rgb> contributions_;
-    std::vector<std::uint32_t> lit_slots_;
-    std::vector<std::uint8_t> occluded_;
+    Connections shadow_rays_{RayKind::Shadow};
     // By slot, that is, by camera sample.
     std::vector<CameraSample> samples_;
     SampleLight found_;

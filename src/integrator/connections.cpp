@@ -1,4 +1,4 @@
-#include "integrator/subpath/connections.h"
+#include "integrator/connections.h"
 
 #include "integrator/profile/wave_profile.h"
 #include "integrator/ray_batch.h"
