@@ -3,9 +3,9 @@
 
 #include "integrator/bdpt/bdpt_options.h"
 #include "integrator/bdpt/reference_weights.h"
+#include "integrator/connections.h"
 #include "integrator/subpath/camera_splat.h"
 #include "integrator/subpath/connectible_vertices.h"
-#include "integrator/connections.h"
 #include "integrator/subpath/subpath_wave.h"
 
 #include <cstddef>

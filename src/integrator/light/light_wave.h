@@ -1,8 +1,8 @@
 // A wave of light subpaths, all of whose vertices are shown to the camera.
 #pragma once
 
-#include "integrator/subpath/connectible_vertices.h"
 #include "integrator/connections.h"
+#include "integrator/subpath/connectible_vertices.h"
 #include "integrator/subpath/subpath_wave.h"
 
 #include <cstddef>

@@ -5,8 +5,8 @@
 #include "core/ray.h"
 #include "core/rgb.h"
 #include "integrator/camera_wave.h"
-#include "integrator/profile/wave_profile.h"
 #include "integrator/number_pairs.h"
+#include "integrator/profile/wave_profile.h"
 #include "integrator/subpath/path_vertex.h"
 
 #include <array>
