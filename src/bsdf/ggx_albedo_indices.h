@@ -27,10 +27,11 @@ inline constexpr float kLargestRoot = (kMaxTabulatedEta - 1.0f) / (kMaxTabulated
     return 0.0003f + 0.08f * cos_theta * (0.5f * cos_theta + along);
 }
 
-/// The root of the index whose critical angle has the given squared sine; at most the largest tabulated.
-[[nodiscard]] inline float critical_root(float sine2) {
-    constexpr float kSmallestSine2 = 1.0f / (kMaxTabulatedEta * kMaxTabulatedEta);
-    const float sine = std::sqrt(sine2 > kSmallestSine2 ? sine2 : kSmallestSine2);
+/// Squared sine of the largest tabulated index's critical angle.
+inline constexpr float kSmallestSine2 = 1.0f / (kMaxTabulatedEta * kMaxTabulatedEta);
+/// The root of the index whose critical angle has the given squared sine, which is taken to be `smallest` or more.
+[[nodiscard]] inline float critical_root(float sine2, float smallest = kSmallestSine2) {
+    const float sine = std::sqrt(sine2 > smallest ? sine2 : smallest);
     return (1.0f - sine) / (1.0f + sine);
 }
 

@@ -32,13 +32,13 @@ namespace etendue::ggx_anisotropic_layout {
 using namespace ggx_albedo_indices;
 
 inline constexpr int kCosines = 18;
-inline constexpr int kAlongs = 26;
-inline constexpr int kAcrosses = 19;
+inline constexpr int kAlongs = 28;
+inline constexpr int kAcrosses = 20;
 inline constexpr int kSpreads = 10;
-inline constexpr int kEtasOutside = 22;  ///< from eta = 1 to 9
-inline constexpr int kEtasInside = 41;   ///< from eta = 1 to 1/9
-inline constexpr int kFirstBend = 13;    ///< nodes of the inside's
-inline constexpr int kLastBend = 31;
+inline constexpr int kEtasOutside = 23;  ///< from eta = 1 to 9
+inline constexpr int kEtasInside = 42;   ///< from eta = 1 to 1/9
+inline constexpr int kFirstBend = 14;    ///< nodes of the inside's
+inline constexpr int kLastBend = 32;
 inline constexpr int kAverageAlphas = 24;
 inline constexpr int kAverageEtas = 44;  ///< for each side
 
@@ -56,6 +56,18 @@ using Averages = std::array<std::array<float, kAverageAlphas>, kAverageAlphas>;
 
 [[nodiscard]] inline float fraction(int node, int count) {
     return static_cast<float>(node) / static_cast<float>(count - 1);
+}
+
+/// Where in [low, 1] a coordinate that grows has the given value; either end, where that lies beyond. By bisection.
+template <typename Coordinate>
+[[nodiscard]] float at_coordinate(float value, float low, const Coordinate& coordinate) {
+    float high = 1.0f;
+    if (value <= coordinate(low)) return low;
+    for (int i = 0; i < 40; ++i) {
+        const float middle = 0.5f * (low + high);
+        (coordinate(middle) < value ? low : high) = middle;
+    }
+    return high;
 }
 
 // ---- Slopes
@@ -76,40 +88,39 @@ struct Seen {
     return {along, across, std::min(1.0f, alpha_x * alpha_y / (along * across))};
 }
 
-/// Nodes of a slope: even in x + (x² - x) `squared`, where x is the slope's fourth root. What narrow grooves lose from
-/// their own direction varies most near 0; what wide ones do needs more nodes near 1 than the root alone gives.
+/// Nodes of a slope: even in x + `squared` x² + `cubed` x³, where x is the slope's fourth root. What wide grooves lose
+/// varies most near 1 with the slope across; with the one along, edge-on, from a fiftieth to a third.
 struct SlopeNodes {
     int count;
     float squared;
+    float cubed;
 };
-inline constexpr SlopeNodes kAlongNodes{kAlongs, 0.2f};
-inline constexpr SlopeNodes kAcrossNodes{kAcrosses, 0.6f};
-inline constexpr float kRootOfSmallest = 0.177827941f;  ///< fourth root of kSmoothAlpha
+inline constexpr SlopeNodes kAlongNodes{kAlongs, 1.5f, -0.85f};
+inline constexpr SlopeNodes kAcrossNodes{kAcrosses, 1.5f, 0.0f};
 
-[[nodiscard]] constexpr float slope_measure(float fourth_root, float squared) {
-    return fourth_root * (1.0f - squared + squared * fourth_root);
+[[nodiscard]] constexpr float slope_measure(float fourth_root, SlopeNodes nodes) {
+    return fourth_root * (1.0f + fourth_root * (nodes.squared + fourth_root * nodes.cubed));
+}
+[[nodiscard]] inline float slope_coordinate(float slope_seen, SlopeNodes nodes) {
+    constexpr float kRootOfSmallest = 0.177827941f;  // fourth root of kSmoothAlpha
+    const float smallest = slope_measure(kRootOfSmallest, nodes);
+    const float measure = slope_measure(std::sqrt(std::sqrt(slope_seen)), nodes);
+    return (measure - smallest) * (static_cast<float>(nodes.count - 1) / (slope_measure(1.0f, nodes) - smallest));
 }
 /// `along` or `across` at a node.
 [[nodiscard]] inline float slope(int node, SlopeNodes nodes) {
-    const float smallest = slope_measure(kRootOfSmallest, nodes.squared);
-    const float measure = smallest + (1.0f - smallest) * fraction(node, nodes.count);
-    const float b = 1.0f - nodes.squared;
-    const float root = 2.0f * measure / (b + std::sqrt(b * b + 4.0f * nodes.squared * measure));
-    return root * root * root * root;
-}
-[[nodiscard]] inline float slope_coordinate(float slope_seen, SlopeNodes nodes) {
-    const float smallest = slope_measure(kRootOfSmallest, nodes.squared);
-    const float measure = slope_measure(std::sqrt(std::sqrt(slope_seen)), nodes.squared);
-    return (measure - smallest) * (static_cast<float>(nodes.count - 1) / (1.0f - smallest));
+    return at_coordinate(static_cast<float>(node), kSmoothAlpha,
+                         [nodes](float slope_seen) { return slope_coordinate(slope_seen, nodes); });
 }
 
-inline constexpr float kHalfSpread = 0.5f;  ///< sets how much closer the nodes of `spread` are near 0
+inline constexpr float kEvenSpread = 0.13f;  ///< the smaller, the closer are the nodes of `spread` near 0
 [[nodiscard]] inline float spread(int node) {
     const float t = fraction(node, kSpreads);
-    return kHalfSpread * t / (1.0f + kHalfSpread - t);
+    return t * (kEvenSpread + (1.0f - kEvenSpread) * t);
 }
 [[nodiscard]] inline float spread_coordinate(float spread) {
-    return spread * (1.0f + kHalfSpread) / (spread + kHalfSpread) * (kSpreads - 1);
+    constexpr float kSquared = kEvenSpread * kEvenSpread;
+    return 2.0f * spread / (kEvenSpread + std::sqrt(kSquared + 4.0f * (1.0f - kEvenSpread) * spread)) * (kSpreads - 1);
 }
 
 // ---- Cosines
@@ -121,16 +132,10 @@ inline constexpr float kHalfSpread = 0.5f;  ///< sets how much closer the nodes 
             0.3f * (std::sqrt(std::sqrt(cos_theta)) + 1.0f - std::sqrt(std::max(0.0f, 1.0f - cos_theta)))) *
            (kCosines - 1);
 }
-/// Its inverse at a node, by bisection.
+/// Its inverse at a node.
 [[nodiscard]] inline float cosine(int node, float along) {
-    if (node == 0) return 0.0f;
-    float low = 0.0f;
-    float high = 1.0f;
-    for (int i = 0; i < 40; ++i) {
-        const float middle = 0.5f * (low + high);
-        (cosine_coordinate(middle, along) < static_cast<float>(node) ? low : high) = middle;
-    }
-    return high;
+    return at_coordinate(static_cast<float>(node), 0.0f,
+                         [along](float cos_theta) { return cosine_coordinate(cos_theta, along); });
 }
 
 // ---- Indices, all of the denser side over the other
@@ -144,12 +149,27 @@ inline constexpr float kHalfSpread = 0.5f;  ///< sets how much closer the nodes 
     return (kEtasOutside - 1) * log_fraction(r0_root(eta), 0.0f, kLargestRoot, scale);
 }
 
+// Up to either bend the steps shrink as a root does, and from the last one on they grow as a square does, and more.
+inline constexpr float kEvenToFirst = 5.0f;
+inline constexpr float kEvenToLast = 1.2f;
+/// Both in [0, 1]; the inverse of each other. The larger `even`, the more like a root at 1; even for 0.
+[[nodiscard]] inline float shrink(float t, float even) {
+    const float rest = 1.0f - t;
+    return 1.0f - std::sqrt(std::max(0.0f, rest * (rest + even) / (1.0f + even)));
+}
+[[nodiscard]] inline float unshrink(float t, float even) {
+    const float rest = 1.0f - t;
+    return 1.0f - 0.5f * (std::sqrt(even * even + 4.0f * (1.0f + even) * rest * rest) - even);
+}
+
 /// Roots of the indices at which the albedo bends, seen from inside.
 struct Bends {
     float first;
     float last;
+    float even_to_last;  ///< of `shrink`, between the two
 };
-/// Upright facets face along the wide alpha, and grooves run along the narrow one.
+/// Upright facets face along the wide alpha, and grooves run along the narrow one. The steps shrink towards the last
+/// bend the less, the fewer facets are upright: nearly level ones bend nothing there.
 [[nodiscard]] inline Bends bends(float cos_theta, const Seen& slopes) {
     constexpr float kWide4 = 0.12f * 0.12f;  // (alpha_x² + alpha_y²)² from which on upright facets count
     const float along2 = slopes.along * slopes.along;
@@ -161,23 +181,10 @@ struct Bends {
     const float to_upright = sine2 * along2 / wide2;
     const float to_grooves = sine2 - to_upright;
     const float first = critical_root(1.0f - cos2 + (cos2 - to_upright) * upright);
-    // It reaches the largest index at normal incidence rather than before, where it would stop at once.
-    constexpr float kSmallestSine2 = 1.0f / (kMaxTabulatedEta * kMaxTabulatedEta);
-    const float last = critical_root(to_grooves + kSmallestSine2 * cos2 * cos2);
-    return {std::min(first, last), last};
-}
-
-// Up to either bend the steps shrink as a root does, and from the last one on they grow as a square does, and more.
-inline constexpr float kEvenToFirst = 3.0f;
-inline constexpr float kEvenToLast = 1.2f;
-/// Both in [0, 1]; the inverse of each other. The larger `even`, the more like a root at 1.
-[[nodiscard]] inline float shrink(float t, float even) {
-    const float rest = 1.0f - t;
-    return 1.0f - std::sqrt(std::max(0.0f, rest * (rest + even) / (1.0f + even)));
-}
-[[nodiscard]] inline float unshrink(float t, float even) {
-    const float rest = 1.0f - t;
-    return 1.0f - 0.5f * (std::sqrt(even * even + 4.0f * (1.0f + even) * rest * rest) - even);
+    // It reaches the largest index at normal incidence rather than before, where it would stop at once. Edge-on it may
+    // lie beyond that: if it stopped there, it would do so between nodes of the slopes.
+    const float last = critical_root(to_grooves + kSmallestSine2 * cos2 * cos2, 0.5f * kSmallestSine2);
+    return {std::min(first, last), last, kEvenToLast * upright};
 }
 
 [[nodiscard]] inline float inside_eta(int node, float cos_theta, const Seen& slopes) {
@@ -187,7 +194,7 @@ inline constexpr float kEvenToLast = 1.2f;
         return eta_of(at_log_fraction(unshrink(fraction(node, kFirstBend + 1), kEvenToFirst), 0.0f, at.first, scale));
     if (node < kLastBend) {
         const float t = fraction(node - kFirstBend, kLastBend - kFirstBend + 1);
-        return eta_of(at_log_fraction(unshrink(t, kEvenToLast), at.first, at.last, scale));
+        return eta_of(at_log_fraction(unshrink(t, at.even_to_last), at.first, at.last, scale));
     }
     const float t = fraction(node - kLastBend, kEtasInside - kLastBend);
     const float root = 2.0f * t / (3.0f - t);
@@ -201,19 +208,21 @@ struct Linear {
     std::size_t index;
     float t;
 };
-/// Between nodes of a quantity, and even in the quantity itself. `node(i)` is its value at the i-th.
-template <typename Node>
-[[nodiscard]] Linear even_between(float value, float coordinate, int count, const Node& node) {
-    const int index = std::clamp(static_cast<int>(coordinate), 0, count - 2);
-    const float low = node(index);
-    return {static_cast<std::size_t>(index), std::clamp((value - low) / (node(index + 1) - low), 0.0f, 1.0f)};
+/// The node at or before a coordinate that has another after it.
+[[nodiscard]] inline int node_before(float coordinate, int count) {
+    return std::clamp(static_cast<int>(coordinate), 0, count - 2);
 }
+/// Even in the coordinate.
 [[nodiscard]] inline Linear slope_place(float slope_seen, SlopeNodes nodes) {
-    return even_between(slope_seen, slope_coordinate(slope_seen, nodes), nodes.count,
-                        [nodes](int i) { return slope(i, nodes); });
+    const float coordinate = slope_coordinate(slope_seen, nodes);
+    const int node = node_before(coordinate, nodes.count);
+    return {static_cast<std::size_t>(node), std::clamp(coordinate - static_cast<float>(node), 0.0f, 1.0f)};
 }
+/// Even in the spread itself.
 [[nodiscard]] inline Linear spread_place(float spread_seen) {
-    return even_between(spread_seen, spread_coordinate(spread_seen), kSpreads, [](int i) { return spread(i); });
+    const int node = node_before(spread_coordinate(spread_seen), kSpreads);
+    const float low = spread(node);
+    return {static_cast<std::size_t>(node), std::clamp((spread_seen - low) / (spread(node + 1) - low), 0.0f, 1.0f)};
 }
 
 /// Weights of four nodes from `first` on: the cubic through them.
@@ -233,6 +242,14 @@ struct Cubic {
             {x1 * x2 * x3 * (-1.0f / 6.0f), x * x2 * x3 * 0.5f, x * x1 * x3 * -0.5f, x * x1 * x2 * (1.0f / 6.0f)}};
 }
 
+/// Near normal incidence the nodes are even in the sine, of which what is missing is an even function, whatever the
+/// slopes seen: the node beyond the last is the last but one.
+[[nodiscard]] inline Cubic cosine_place(float coordinate) {
+    const Cubic c = cubic(coordinate, 0, kCosines);
+    if (c.first + 4 <= kCosines) return c;
+    return {c.first - 1, {0.0f, c.weights[0], c.weights[1] + c.weights[3], c.weights[2]}};
+}
+
 /// Where a direction lies in a table, but for the index.
 struct Position {
     Linear along, across, spread;
@@ -240,7 +257,7 @@ struct Position {
 };
 [[nodiscard]] inline Position position(const Seen& slopes, float cos_theta) {
     return {slope_place(slopes.along, kAlongNodes), slope_place(slopes.across, kAcrossNodes),
-            spread_place(slopes.spread), cubic(cosine_coordinate(cos_theta, slopes.along), 0, kCosines - 1)};
+            spread_place(slopes.spread), cosine_place(cosine_coordinate(cos_theta, slopes.along))};
 }
 
 [[nodiscard]] inline Cubic outside_place(float eta, float cos_theta, const Seen& slopes) {
@@ -254,9 +271,9 @@ struct Position {
     if (root < at.first)
         return cubic(kFirstBend * shrink(log_fraction(root, 0.0f, at.first, scale), kEvenToFirst), 0, kFirstBend);
     if (root < at.last)
-        return cubic(
-            kFirstBend + (kLastBend - kFirstBend) * shrink(log_fraction(root, at.first, at.last, scale), kEvenToLast),
-            kFirstBend, kLastBend);
+        return cubic(kFirstBend + (kLastBend - kFirstBend) *
+                                      shrink(log_fraction(root, at.first, at.last, scale), at.even_to_last),
+                     kFirstBend, kLastBend);
     const float beyond = std::sqrt(log_fraction(root, at.last, kLargestRoot, scale));
     return cubic(kLastBend + (kEtasInside - 1 - kLastBend) * (3.0f * beyond / (2.0f + beyond)), kLastBend,
                  kEtasInside - 1);

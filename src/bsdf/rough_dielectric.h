@@ -9,9 +9,8 @@
 // R_A + T_A = 1 returns exactly what was lost. Reciprocity, f(o -> i) / n_i² = f(i -> o) / n_o² (Veach 1997, equation
 // 5.14), holds when T_A / (e_avg_B n_B²) = T_B / (e_avg_A n_A²); the factor that is left free makes the larger of the
 // two shares that of a smooth interface in diffuse light. In a white furnace the sum is 1 within 0.5%, for every
-// alpha along x and along y, from both sides, for indices from 1.002 and cosines from 0.02 on. Seen from inside, one
-// direction in ten thousand of those about the critical angles of two alphas misses by up to 0.6%. Closer to edge-on
-// than 0.02 it is 3%.
+// alpha along x and along y, from both sides, for indices from 1.002 and cosines from 0.02 on. Closer to
+// edge-on than 0.02 it is 3%.
 // Example: frosted glass, ior 1.5, alpha = 0.2.
 #pragma once
 

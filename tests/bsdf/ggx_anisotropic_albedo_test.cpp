@@ -123,10 +123,8 @@ std::vector<View> views(int count) {
 struct Worst {
     double error = 0.0;
     std::string where;
-    int beyond = 0;  ///< number of errors above 0.5%
 
     void add(double e, const View& v, double exact) {
-        if (std::abs(e) > 5e-3) ++beyond;
         if (std::abs(e) <= std::abs(error)) return;
         error = e;
         where = std::to_string(e) + " of " + std::to_string(exact) + " at alphas " + std::to_string(v.alpha_x) + " " +
@@ -159,9 +157,7 @@ TEST(GgxAnisotropicAlbedo, TablesAgreeWithASecondImplementation) {
     }
     EXPECT_LE(std::abs(mirror.error), 5e-3) << mirror.where;
     EXPECT_LE(std::abs(outside.error), 5e-3) << outside.where;
-    // A few in ten thousand, all edge-on or of indices below 1.01, are beyond 0.5%.
-    EXPECT_LE(std::abs(inside.error), 6e-3) << inside.where;
-    EXPECT_LE(inside.beyond, kViews / 2000);
+    EXPECT_LE(std::abs(inside.error), 5e-3) << inside.where;
 }
 
 TEST(GgxAnisotropicAlbedo, AveragesAreThoseOfTheTables) {
