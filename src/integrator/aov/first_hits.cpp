@@ -97,11 +97,12 @@ class FirstHit {
             const auto number = [&](std::uint32_t which) {
                 return sample_2d(job_.sequence, sample_.key, kAlbedoDimension + 2 * i + which);
             };
-            // As importance: radiance is scaled where it enters glass, which is no albedo.
-            const BsdfSample s = scattering.sample(number(0).x, number(1), TransportMode::Importance);
+            // Radiance is scaled where it enters glass, which is no albedo. Nor is importance with its factor of
+            // shading normals, which may be anything.
+            const BsdfSample s = scattering.sample(number(0).x, number(1), TransportMode::Radiance);
             if (is_black(s.weight)) continue;
-            const Rgb weight = s.weight * (1.0f / kSamples);
-            const Rgb diffuse = s.is_delta ? Rgb() : scattering.diffuse_share(s.wi, TransportMode::Importance) * weight;
+            const Rgb weight = s.weight * ((s.is_transmission ? s.eta * s.eta : 1.0f) / kSamples);
+            const Rgb diffuse = s.is_delta ? Rgb() : scattering.diffuse_share(s.wi, TransportMode::Radiance) * weight;
             albedo_->diffuse += diffuse;
             albedo_->specular += weight - diffuse;
         }

@@ -3,6 +3,7 @@
 #include "integrator/aov/layered_render.h"
 #include "world/test_scene.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstddef>
@@ -107,6 +108,20 @@ TEST(FirstHits, NormalsFaceTheEyeAndAlbedosAreThoseOfTheMaterials) {
     }
     EXPECT_GT(inside, room.window.area() / 2);
     EXPECT_GT(scattering, room.window.area() / 2);
+}
+
+// Interpolated normals change what light particles carry, and indices what radiance does: neither is of the albedo.
+// Single samples of rough lobes weigh more than one; their means, of 512, do not.
+TEST(FirstHits, NothingScattersMoreLightThanItGets) {
+    for (const char* name : {"CoarseSmoothNormals", "SmoothGlass", "LampRoughGlass", "LampConductor", "LampPlastic"}) {
+        const AgreementCase room = small_room(name, 128);
+        const World world = agreement_world(room);
+        const Film film = render_layers(world, "path", room, layers_of({FirstHitValue::Albedo}, {}), 1).film;
+        float most = 0.0f;
+        for (const float share : film.resolve_values(0, 3)) most = std::max(most, share);
+        EXPECT_LE(most, 1.05f) << name;
+        EXPECT_GT(most, 0.3f) << name;
+    }
 }
 
 /// The motion of a wall that faces the camera 2 m before it, in the middle pixels; `camera_way` is the camera's own.
