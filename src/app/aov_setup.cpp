@@ -242,6 +242,7 @@ class Planner {
         } catch (const ExpressionError& error) {
             fail(aov, fmt::format("{}\n{}", error.what(), pointed_text(text, error.offset(), 4)));
         }
+        expression_texts_.push_back(text);
         expression_sources_.push_back(&aov);
     }
 
@@ -356,9 +357,20 @@ class Planner {
         } catch (const ExpressionError& error) {
             fail(*expression_sources_.back(), error.what());
         }
-        for (const std::string& name : set_.automaton->unmatched_names())
-            problems_.note(scene_.settings.location,
+        // A name that may be a light's or a material's is among them twice.
+        const std::vector<std::string> unmatched = set_.automaton->unmatched_names();
+        for (const std::string& name : std::set<std::string>(unmatched.begin(), unmatched.end()))
+            problems_.note(expression_sources_[first_with_name(name)]->location,
                            fmt::format("no light, object or material is named '{}', which a layer asks for", name));
+    }
+
+    /// The first expression that asks for `name`.
+    [[nodiscard]] std::size_t first_with_name(const std::string& name) const {
+        const auto first = std::ranges::find_if(expression_texts_, [&name](const std::string& text) {
+            return text.find('\'' + name + '\'') != std::string::npos ||
+                   text.find('"' + name + '"') != std::string::npos;
+        });
+        return static_cast<std::size_t>(first - expression_texts_.begin());
     }
 
     /// The layers that fireflies are controlled with, behind all others of their kind.
@@ -384,6 +396,7 @@ class Planner {
     };
     std::vector<Origin> origins_;
     std::vector<PathExpression> expressions_;
+    std::vector<std::string> expression_texts_;
     std::vector<const AovDesc*> expression_sources_;
 };
 

@@ -121,7 +121,7 @@ void take_fireflies(Halves& light, const LayerChannels& layer, const DenoiseArgu
     if (arguments.keep_fireflies) return;
     const Fireflies found = remove_fireflies(light);
     if (found.count > 0 && !arguments.quiet)
-        log_info("note: {}: {} fireflies of {} removed, {:.2g}% of its light; --keep-fireflies keeps them",
+        log_info("note: {}: {} fireflies of {} removed, {:.3g}% of its light; --keep-fireflies keeps them",
                  arguments.image, found.count, shown(layer), 100.0 * found.light_share);
 }
 

@@ -68,6 +68,56 @@ TEST_F(Layers, StandWhereTheyAreToStand) {
     EXPECT_EQ(channels("c.key.exr"), (std::vector<std::string>{"B", "G", "R"}));
 }
 
+// Two lamps of one colour each, the sky, and an object that does not shine.
+TEST_F(Layers, OfLightsHaveTheLightOfEachAndAddUpToTheImage) {
+    const fs::path file = folder_ / "box" / "scene.gltf";
+    std::string scene = read_file(file);
+    const auto replace = [&scene](const std::string& from, const std::string& to) {
+        scene.replace(scene.find(from), from.size(), to);
+    };
+    replace(R"("asset": {"version": "2.0"},)",
+            R"("asset": {"version": "2.0"}, "extensionsUsed": ["KHR_lights_punctual"],
+  "extensions": {"KHR_lights_punctual": {"lights": [
+      {"name": "key", "type": "directional", "color": [1, 0, 0], "intensity": 900},
+      {"name": "rim light", "type": "directional", "color": [0, 0, 1], "intensity": 500}]}},)");
+    replace(R"("nodes": [0, 1]}])", R"("nodes": [0, 1, 2, 3]}])");
+    replace(R"({"name": "main", "camera": 0}])", R"({"name": "main", "camera": 0},
+            {"name": "key", "extensions": {"KHR_lights_punctual": {"light": 0}}},
+            {"name": "rim light", "extensions": {"KHR_lights_punctual": {"light": 1}}}])");
+    write_file(file, scene);
+    const ProgramResult result =
+        render("a.exr", {"--aov", "lights", "--aov", "warm=light:k*", "--working-space", "lin_rec709"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const LayeredImage layered = read_layers(work_ / "a.exr");
+    const auto layer = [&](const std::string& name) {
+        const auto found = find_layer(layered, name);
+        EXPECT_TRUE(found) << name;
+        return found ? read_layer(work_ / "a.exr", *found) : ImageF();
+    };
+    const ImageF image = read_layer(work_ / "a.exr", *main_layer(layered));
+    const ImageF key = layer("light_key");
+    const ImageF rim = layer("light_rim_light");
+    const ImageF sky = layer("light_environment");
+    const ImageF warm = layer("warm");
+    ASSERT_FALSE(HasFailure());
+    double reds = 0.0;
+    double blues = 0.0;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            for (std::size_t c = 0; c < 3; ++c) {
+                const float sum = key.pixel(x, y)[c] + rim.pixel(x, y)[c] + sky.pixel(x, y)[c];
+                EXPECT_NEAR(sum, image.pixel(x, y)[c], 1e-5f * (1.0f + std::abs(sum)));
+                EXPECT_EQ(warm.pixel(x, y)[c], key.pixel(x, y)[c]);
+            }
+            EXPECT_EQ(key.pixel(x, y)[2], 0.0f);
+            EXPECT_EQ(rim.pixel(x, y)[0], 0.0f);
+            reds += static_cast<double>(key.pixel(x, y)[0]);
+            blues += static_cast<double>(rim.pixel(x, y)[2]);
+        }
+    EXPECT_GT(reds, 0.0);
+    EXPECT_GT(blues, 0.0);
+}
+
 // All layers of all kinds, those of half of the samples included.
 TEST_F(Layers, OfPartsAreThoseOfTheWhole) {
     for (const char* integrator : {"path", "bdpt"}) {
