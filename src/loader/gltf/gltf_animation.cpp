@@ -55,8 +55,8 @@ std::vector<double> evaluate(const AnimationKeys& keys, double seconds, bool is_
 }
 
 std::optional<AnimationKeys> read_keys(const GltfAnimation& animation, const GltfAnimation::Channel& channel,
-                                       int components, AccessorReader& accessors, const SourceLocation& where,
-                                       ProblemList& problems) {
+                                       int components, IntegerTypes integers, AccessorReader& accessors,
+                                       const SourceLocation& where, ProblemList& problems) {
     const auto fail = [&](const std::string& message) {
         problems.error(where, message);
         return std::nullopt;
@@ -65,8 +65,6 @@ std::optional<AnimationKeys> read_keys(const GltfAnimation& animation, const Glt
         return fail(fmt::format("sampler {} does not exist", channel.sampler));
     const GltfAnimation::Sampler& sampler = animation.samplers[channel.sampler];
     std::optional<AttributeData> times = accessors.attribute(sampler.input, {1, 1}, where);
-    const auto fractions = static_cast<IntegerTypes>(kSignedFractions | kUnsignedFractions);
-    const IntegerTypes integers = components == 3 ? kNoIntegers : fractions;
     std::optional<AttributeData> values =
         accessors.attribute(sampler.output, {components, components, integers}, where);
     if (!times || !values) return std::nullopt;
@@ -124,12 +122,16 @@ AnimationSampler::AnimationSampler(const GltfDocument& document, const GltfAnima
                                                         {"rotation", Target::Rotation},
                                                         {"scale", Target::Scale},
                                                         {"weights", Target::Weights}};
+    constexpr auto kFractions = static_cast<IntegerTypes>(kSignedFractions | kUnsignedFractions);
+    // What is true or false is pointed to with plain bytes.
+    constexpr auto kOfPointers = static_cast<IntegerTypes>(kFractions | kUnsigned);
     for (std::size_t c = 0; c < animation.channels.size(); ++c) {
         const GltfAnimation::Channel& channel = animation.channels[c];
         const SourceLocation where = document.at(fmt::format("{}/channels/{}", animation.pointer, c));
         if (!channel.pointer.empty()) {
             const int components = output_components(document, animation, channel);
-            std::optional<AnimationKeys> keys = read_keys(animation, channel, components, accessors, where, problems);
+            std::optional<AnimationKeys> keys =
+                read_keys(animation, channel, components, kOfPointers, accessors, where, problems);
             if (keys) pointer_channels_.push_back({channel.pointer, where, std::move(*keys)});
             continue;
         }
@@ -140,7 +142,9 @@ AnimationSampler::AnimationSampler(const GltfDocument& document, const GltfAnima
             continue;
         }
         const int components = target->second == Target::Rotation ? 4 : target->second == Target::Weights ? 1 : 3;
-        std::optional<AnimationKeys> keys = read_keys(animation, channel, components, accessors, where, problems);
+        const IntegerTypes integers = components == 3 ? kNoIntegers : kFractions;
+        std::optional<AnimationKeys> keys =
+            read_keys(animation, channel, components, integers, accessors, where, problems);
         if (keys) channels_.push_back({channel.node, target->second, std::move(*keys)});
     }
 }

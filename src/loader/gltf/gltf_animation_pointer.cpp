@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -19,6 +20,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr const char* kLights = "KHR_lights_punctual";
+constexpr const char* kVisibility = "KHR_node_visibility";
 
 /// The tokens of a JSON pointer, unescaped (RFC 6901); empty if it is none.
 std::vector<std::string> split_pointer(std::string_view pointer) {
@@ -75,6 +77,47 @@ const Shape* find_shape(const Json& document, const std::vector<std::string>& to
     return shape;
 }
 
+/// Weights of the morph targets of `mesh`: all if `tokens`, which lead on from "weights", are none, else one. False if
+/// it has no such targets, or the value does not fit.
+bool write_weights(std::span<const std::string> tokens, const std::vector<double>& numbers, const tinygltf::Mesh& mesh,
+                   std::vector<double>& weights) {
+    const std::size_t targets = mesh.primitives.empty() ? 0 : mesh.primitives.front().targets.size();
+    if (tokens.empty()) {
+        if (numbers.size() != targets || targets == 0) return false;
+        weights = numbers;
+        return true;
+    }
+    const std::optional<std::size_t> target = to_index(tokens.front());
+    if (tokens.size() != 1 || numbers.size() != 1 || !target || *target >= targets) return false;
+    if (weights.empty()) weights = mesh.weights;
+    weights.resize(targets);
+    weights[*target] = numbers.front();
+    return true;
+}
+
+/// Values that are not in the JSON that is read again: whether nodes are visible, and weights of morph targets. False
+/// if the pointer leads to none of these, or the value does not fit.
+bool write_to_model(const PointerValue& value, tinygltf::Model& model) {
+    const std::vector<std::string> tokens = split_pointer(value.pointer);
+    const std::optional<std::size_t> index = tokens.size() > 2 ? to_index(tokens[1]) : std::nullopt;
+    if (!index) return false;
+    const bool is_weight = tokens[2] == "weights";
+    const auto rest = std::span(tokens).subspan(3);
+    if (tokens[0] == "meshes" && *index < model.meshes.size() && is_weight) {
+        tinygltf::Mesh& mesh = model.meshes[*index];
+        return write_weights(rest, value.numbers, mesh, mesh.weights);
+    }
+    if (tokens[0] != "nodes" || *index >= model.nodes.size()) return false;
+    tinygltf::Node& node = model.nodes[*index];
+    if (is_weight && node.mesh >= 0)
+        return write_weights(rest, value.numbers, model.meshes[static_cast<std::size_t>(node.mesh)], node.weights);
+    const bool is_visibility = tokens[2] == "extensions" && rest.size() == 2 && rest[0] == kVisibility;
+    if (!is_visibility || rest[1] != "visible" || value.numbers.size() != 1) return false;
+    node.extensions[kVisibility] =
+        tinygltf::Value(tinygltf::Value::Object{{"visible", tinygltf::Value(value.numbers.front() != 0.0)}});
+    return true;
+}
+
 /// False if the pointer leads to nothing that holds such a value.
 bool write_value(const PointerValue& value, Json& document) {
     const Shape* shape = find_shape(document, split_pointer(value.pointer));
@@ -122,7 +165,7 @@ void apply_pointers(std::span<const PointerValue> values, GltfDocument& document
     if (values.empty()) return;
     Json json = parse_json(document.animatable, document.at(""));
     for (const PointerValue& value : values)
-        if (!write_value(value, json))
+        if (!write_to_model(value, document.model) && !write_value(value, json))
             problems.warning(value.where, fmt::format("'{}' cannot be animated with {} numbers; the channel is ignored",
                                                       shown(value.pointer), value.numbers.size()));
     ProblemList found;

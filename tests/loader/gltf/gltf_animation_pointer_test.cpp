@@ -83,10 +83,56 @@ TEST(AnimationPointer, NodesMoveAsWithOrdinaryChannels) {
     EXPECT_EQ(builder.load(open).scene.instances.at(0).motion.size(), 2u);
 }
 
+// Bytes that are 0 or 1, as the extension has them; a hidden node hides what is below it.
+TEST(AnimationPointer, NodesHideAndShow) {
+    GltfBuilder builder = pointing("/nodes/0/extensions/KHR_node_visibility/visible", {0, 0}, 1);
+    builder.json["extensionsUsed"].push_back("KHR_node_visibility");
+    auto& sampler = builder.json["animations"][0]["samplers"][0];
+    constexpr int kUnsignedByte = 5121;
+    sampler["output"] = builder.accessor<std::uint8_t>({0, 1}, "SCALAR", kUnsignedByte, 2);
+    sampler["interpolation"] = "STEP";
+    EXPECT_EQ(load_at(builder, 0.5).scene.instances.size(), 0u);
+    EXPECT_EQ(load_at(builder, 1.0).scene.instances.size(), 1u);
+    EXPECT_EQ(builder.load().scene.instances.size(), 1u) << "at rest";
+    builder.json["nodes"][0]["extensions"] = {{"KHR_node_visibility", {{"visible", false}}}};
+    EXPECT_EQ(load_at(builder, 1.0).scene.instances.size(), 1u) << "whatever the file says of it at rest";
+}
+
+// What selects objects shows nothing: the file is shown without it.
+TEST(AnimationPointer, OthersOfNodesAreIgnoredWithAWarning) {
+    GltfBuilder builder = pointing("/nodes/0/extensions/KHR_node_selectability/selectable", {0, 0}, 1);
+    constexpr int kUnsignedByte = 5121;
+    builder.json["animations"][0]["samplers"][0]["output"] =
+        builder.accessor<std::uint8_t>({0, 1}, "SCALAR", kUnsignedByte, 2);
+    EXPECT_TRUE(has_problem(load_at(builder, 0.5).problems, Severity::Warning, "cannot be animated",
+                            "/animations/0/channels/0"));
+}
+
+/// How high the third vertex of the triangle is at half a second, whose two targets raise it by 2 and by 8.
+float raised_by(const std::string& pointer, const std::vector<float>& values) {
+    GltfBuilder builder = pointing(pointer, values, 1);
+    const auto raise = [&builder](float by) {
+        return nlohmann::json{{"POSITION", builder.floats({0, 0, 0, 0, 0, 0, 0, 0, by}, 3)}};
+    };
+    builder.json["meshes"][0]["primitives"][0]["targets"] = {raise(2), raise(8)};
+    builder.json["meshes"][0]["weights"] = {1, 0};
+    const SceneDesc scene = load_at(builder, 0.5).scene;
+    const auto mesh = static_cast<std::size_t>(scene.instances.at(0).mesh.index);
+    return scene.meshes.at(mesh).primitives.at(0).positions.at(2).z;
+}
+
+TEST(AnimationPointer, MorphTargetsOneByOneOrOfAMesh) {
+    EXPECT_EQ(raised_by("/meshes/0/weights", {0, 0, 1, 1}), 5.0f) << "both at one half";
+    EXPECT_EQ(raised_by("/meshes/0/weights/1", {0, 1}), 6.0f) << "the first keeps what the mesh says";
+    EXPECT_EQ(raised_by("/nodes/0/weights/0", {0, 1}), 1.0f);
+    EXPECT_EQ(raised_by("/nodes/0/weights/1", {0, 1}), 6.0f);
+}
+
 TEST(AnimationPointer, WhatItCannotAnimateIsSaid) {
     for (const char* pointer :
          {"/materials/1/alphaCutoff", "/materials/0/name", "/materials/0/glitter", "/materials/-1/alphaCutoff",
-          "/materials", "/meshes/0/weights", "/nodes/9/translation", "no pointer", "/materials/0/emissiveFactor"}) {
+          "/materials", "/meshes/0/weights", "/meshes/0/weights/0", "/nodes/0/weights/0", "/nodes/0/mesh",
+          "/nodes/9/translation", "no pointer", "/materials/0/emissiveFactor"}) {
         const LoadedScene loaded = load_at(pointing(pointer, {0, 1}, 1), 0.5);
         EXPECT_TRUE(has_problem(loaded.problems, Severity::Warning, "cannot be animated", "/animations/0/channels/0"))
             << pointer;
