@@ -126,7 +126,7 @@ Material compile_material(const MaterialDesc& desc, const ColorMatrix& from_rec7
     else
         material.model = compile_gltf(desc, textures);
 
-    material.unlit = desc.unlit && std::holds_alternative<GltfModel>(material.model);
+    material.unlit = desc.unlit && std::holds_alternative<std::monostate>(desc.override_model);
     // Rays that a filter lets through would not know that they are in a body; what passes its surface is transmission.
     if (!compile_filling(desc, from_rec709)) compile_alpha(desc, textures, material);
     material.normal_texture = textures.slot(desc.normal_texture, TextureUse::Data);
