@@ -219,6 +219,11 @@ class PrimitiveReader {
                 !read_displacements(target, "NORMAL", where("NORMAL"), out.normals) ||
                 !read_displacements(target, "TANGENT", where("TANGENT"), out.tangents))
                 return false;
+            for (const auto& [attribute, unused] : target)
+                if (attribute.starts_with("COLOR_") || attribute.starts_with("TEXCOORD_"))
+                    problems_.warning(
+                        where(attribute.c_str()),
+                        "morph targets move positions, normals and tangents only; these values are ignored");
         }
         return true;
     }

@@ -125,6 +125,16 @@ TEST(Morph, WeightsOfTheNodeComeBeforeTheMeshs) {
     EXPECT_EQ(third_vertex(builder.load()), Vec3f(0, 1, 2));
 }
 
+TEST(Morph, WhatTargetsCannotMoveIsSaid) {
+    GltfBuilder builder = morphing();
+    builder.json["meshes"][0]["primitives"][0]["targets"][0]["COLOR_0"] =
+        builder.floats({0, 0, 0, 0, 0, 0, 0, 0, 2}, 3);
+    const LoadedScene loaded = builder.load();
+    EXPECT_EQ(third_vertex(loaded), Vec3f(0, 1, 0));
+    EXPECT_TRUE(has_problem(loaded.problems, Severity::Warning, "are ignored", "/targets/0/COLOR_0"))
+        << listing(loaded.problems);
+}
+
 TEST(Morph, AnimatedWeightsComeFirst) {
     GltfBuilder builder = morphing();
     builder.json["nodes"][0]["weights"] = {1.0};
