@@ -22,7 +22,7 @@ std::unique_ptr<const Integrator> make_path(const IntegratorOptions& options) {
 std::unique_ptr<const Integrator> make_direct(const IntegratorOptions& options) {
     PathLengths one_bounce = options.lengths;
     one_bounce.max_depth = std::min(one_bounce.max_depth, kDirectPath);
-    return std::make_unique<PathIntegrator>(PathOptions{.lengths = one_bounce});
+    return std::make_unique<PathIntegrator>(PathOptions{.lengths = one_bounce, .leaves_out_indirect = true});
 }
 
 std::unique_ptr<const Integrator> make_naive(const IntegratorOptions& options) {

@@ -64,6 +64,25 @@ SceneDesc wall_and_lamp() {
     return scene;
 }
 
+TEST(UnreachableLight, IndirectLightIsLeftOutByName) {
+    EXPECT_EQ(who_says(compile(wall_and_lamp()), "left out"), (Names{"direct", "whitted"}));
+}
+
+TEST(UnreachableLight, PointsAreNotMetByChanceNorSeenFromMirrors) {
+    SceneDesc scene = wall_and_lamp();
+    EXPECT_EQ(who_says(compile(scene), "never met by chance"), Names());
+    LightDesc lamp;
+    lamp.type = LightType::Point;
+    lamp.intensity = 1.0f;
+    scene.lights.push_back(lamp);
+    EXPECT_EQ(who_says(compile(scene), "never met by chance"), Names{"naive"});
+    EXPECT_EQ(who_says(compile(scene), "cannot be found by eye paths"), Names());
+    MaterialDesc mirror;
+    mirror.override_model = ConductorDesc{};
+    add_object(scene, quad({0, 0, -5}, {1, 0, 0}, {0, 1, 0}), add_material(scene, mirror));
+    EXPECT_EQ(who_says(compile(scene), "cannot be found by eye paths"), (Names{"path", "direct"}));
+}
+
 TEST(UnreachableLight, UnlitSurfacesAreNotFoundFromTheLight) {
     SceneDesc scene = wall_and_lamp();
     EXPECT_EQ(who_says(compile(scene), "unlit"), Names());

@@ -5,16 +5,18 @@
 namespace etendue {
 
 std::vector<std::string> PathIntegrator::unreachable_light(const World& world) const {
-    if (!world.has_delta_lights()) return {};
-    if (!options_.sample_lights)
-        return {
+    std::vector<std::string> notes;
+    if (options_.leaves_out_indirect)
+        notes.emplace_back("light that two surfaces or more have scattered is left out; 'path' finds it");
+    if (world.has_delta_lights() && !options_.sample_lights)
+        notes.emplace_back(
             "point, spot and directional lights are never met by chance: what they give is missing; "
-            "'path' finds it"};
-    if (world.has_specular_surfaces())
-        return {
+            "'path' finds it");
+    else if (world.has_delta_lights() && world.has_specular_surfaces())
+        notes.emplace_back(
             "what point, spot and directional lights send through smooth glass or by way of mirrors (their "
-            "caustics) cannot be found by eye paths and is missing; 'light' finds it"};
-    return {};
+            "caustics) cannot be found by eye paths and is missing; 'light' finds it");
+    return notes;
 }
 
 std::unique_ptr<IntegratorScratch> PathIntegrator::make_scratch() const {

@@ -12,6 +12,7 @@ namespace etendue {
 struct PathOptions {
     PathLengths lengths;
     bool sample_lights = true;
+    bool leaves_out_indirect = false;  ///< by its name, `direct`: it says so, whatever the lengths are
 };
 
 class PathIntegrator final : public Integrator {
