@@ -199,9 +199,8 @@ TEST(World, UnlitSurfacesAreKnownWhereTheyAre) {
     add_object(scene, quad({0, 0, -3}, {1, 0, 0}, {0, 1, 0}), unlit);
     EXPECT_TRUE(compile(scene).has_unlit_surfaces());
     auto& override_model = scene.materials[static_cast<std::size_t>(unlit.index)].override_model;
-    for (const MaterialModelDesc& model :
-         {MaterialModelDesc(ConductorDesc{}), MaterialModelDesc(DielectricDesc{}), MaterialModelDesc(DiffuseDesc{}),
-          MaterialModelDesc(SubsurfaceDesc{})}) {
+    for (const MaterialModelDesc& model : {MaterialModelDesc(ConductorDesc{}), MaterialModelDesc(DielectricDesc{}),
+                                           MaterialModelDesc(DiffuseDesc{}), MaterialModelDesc(SubsurfaceDesc{})}) {
         override_model = model;
         EXPECT_FALSE(compile(scene).has_unlit_surfaces()) << "render.json comes first: " << model.index();
     }
