@@ -25,10 +25,14 @@ struct Albedo {
 class FirstHit {
   public:
     FirstHit(const World& world, const TileJob& job, const CameraSample& sample, const Ray& ray, const Hit& hit)
-        : world_(world), job_(job), sample_(sample), hit_(hit), wo_(-ray.direction), time_(ray.time) {
-        point_ = world.has_textures() ? world.surface_point(hit, ray, camera_cone(world, job, ray))
-                                      : world.surface_point(hit);
-    }
+        : world_(world),
+          job_(job),
+          sample_(sample),
+          hit_(hit),
+          wo_(-ray.direction),
+          time_(ray.time),
+          point_(world.has_textures() ? world.surface_point(hit, ray, camera_cone(world, job, ray))
+                                      : world.surface_point(hit)) {}
 
     void append(FirstHitValue value, std::vector<float>& to) {
         const auto put = [&](std::initializer_list<float> numbers) { to.insert(to.end(), numbers); };
