@@ -71,7 +71,8 @@ TEST(FirstHits, PositionsLieWhereTheirPixelsLook) {
         const Vec3f position(n[0], n[1], n[2]);
         const Vec2f film_point = world.connect_to_camera(position, {0.5f, 0.5f}, 0.0f).film;
         const auto column = static_cast<float>(p % kAgreementWidth);
-        const auto row = static_cast<float>(p / kAgreementWidth);
+        const std::size_t line = p / kAgreementWidth;
+        const auto row = static_cast<float>(line);
         // The box filter's samples lie within their pixel.
         EXPECT_NEAR(film_point.x * kAgreementWidth, column + 0.5f, 0.501f);
         EXPECT_NEAR(film_point.y * kAgreementHeight, row + 0.5f, 0.501f);
