@@ -1,4 +1,4 @@
-// What `Scattering` does with the diffuse lobe, for lanes of any width: radiance only.
+// What `Scattering` does with the diffuse lobe, for lanes of any width.
 #pragma once
 
 #include "bsdf/diffuse.h"
@@ -6,7 +6,7 @@
 
 namespace etendue {
 
-/// f cos theta_i and the density of `sample_matte`; zero where the leak rule says so.
+/// f cos theta_i, as radiance, and the density of `sample_matte`; zero where the leak rule says so.
 template <typename T>
 [[nodiscard]] inline BasicBsdfValue<T> evaluate_matte(const OrientedSurface<T>& surface, const BasicDiffuse<T>& lobe,
                                                       const Imath::Vec3<T>& wi) {
@@ -19,11 +19,12 @@ template <typename T>
 /// wi of the result is in world space; the weight is zero where nothing is scattered. `u` in [0, 1)².
 template <typename T>
 [[nodiscard]] inline BasicBsdfSample<T> sample_matte(const OrientedSurface<T>& surface, const BasicDiffuse<T>& lobe,
-                                                     const Imath::Vec2<T>& u) {
-    BasicBsdfSample<T> sample = lobe.sample(surface.wo_local, 0.0f, u, TransportMode::Radiance);
+                                                     const Imath::Vec2<T>& u, TransportMode mode) {
+    BasicBsdfSample<T> sample = lobe.sample(surface.wo_local, 0.0f, u, mode);
     const Imath::Vec3<T> wi_local = sample.wi;
     sample.wi = surface.frame.to_world(wi_local);
-    sample.weight *= select(surface.wo_agrees && surface.agrees(sample.wi, wi_local), T(1.0f), T(0.0f));
+    const T factor = mode == TransportMode::Importance ? surface.adjoint_factor(sample.wi, wi_local) : T(1.0f);
+    sample.weight *= select(surface.wo_agrees && surface.agrees(sample.wi, wi_local), factor, T(0.0f));
     return sample;
 }
 

@@ -21,9 +21,22 @@ struct OrientedSurface {
     OrientedSurface(const BasicFrame<T>& front, const Vec& front_normal, const Vec& towards, bool turns)
         : frame(front), geometric_normal(front_normal), wo(towards), wo_agrees(turn(turns)) {}
 
+    /// Of what another one has computed, lane by lane.
+    OrientedSurface(const BasicFrame<T>& turned, const Vec& turned_normal, const Vec& towards, const Vec& towards_local,
+                    MaskOf<T> agreeing)
+        : frame(turned), geometric_normal(turned_normal), wo(towards), wo_local(towards_local), wo_agrees(agreeing) {}
+
     /// True if `w`, which is `local` in the frame, lies on the same side of both normals.
     [[nodiscard]] MaskOf<T> agrees(const Vec& w, const Vec& local) const {
         return dot(w, geometric_normal) * local.z > T(0.0f);
+    }
+
+    /// What importance that goes on along `w`, which is `local` in the frame, is multiplied by: |wo·n_s| |w·n_g| /
+    /// (|wo·n_g| |w·n_s|) (Veach 1997, equation 5.19).
+    [[nodiscard]] T adjoint_factor(const Vec& w, const Vec& local) const {
+        const T above = abs(wo_local.z) * abs(dot(w, geometric_normal));
+        const T below = abs(dot(wo, geometric_normal)) * abs(local.z);
+        return select(below > T(0.0f), above / below, T(0.0f));
     }
 
   private:

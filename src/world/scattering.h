@@ -26,12 +26,15 @@ class Scattering {
     Scattering(const Bsdf& bsdf, const Frame& frame, const Vec3f& geometric_normal, const Vec3f& wo)
         : bsdf_(&bsdf), surface_(frame, geometric_normal, wo, !is_two_sided_interface(bsdf)) {}
 
+    /// `surface` is what the constructor above would make of the same.
+    Scattering(const Bsdf& bsdf, const OrientedSurface<float>& surface) : bsdf_(&bsdf), surface_(surface) {}
+
     /// f |cos theta_i| with the density of `sample`; zero where the leak rule says so.
     [[nodiscard]] BsdfValue evaluate(const Vec3f& wi, TransportMode mode) const {
         const Vec3f wi_local = surface_.frame.to_local(wi);
         if (!surface_.wo_agrees || !surface_.agrees(wi, wi_local)) return {};
         BsdfValue value = evaluate_bsdf(*bsdf_, surface_.wo_local, wi_local, mode);
-        if (mode == TransportMode::Importance) value.f_cos *= adjoint_factor(wi, wi_local);
+        if (mode == TransportMode::Importance) value.f_cos *= surface_.adjoint_factor(wi, wi_local);
         return value;
     }
 
@@ -46,7 +49,7 @@ class Scattering {
         if (!surface_.wo_agrees || !surface_.agrees(wi, wi_local)) return {};
         const BsdfValue value = evaluate_bsdf(*bsdf_, surface_.wo_local, wi_local, mode);
         if (is_black(value.f_cos)) return {};
-        return {mode == TransportMode::Importance ? value.f_cos * adjoint_factor(wi, wi_local) : value.f_cos,
+        return {mode == TransportMode::Importance ? value.f_cos * surface_.adjoint_factor(wi, wi_local) : value.f_cos,
                 value.pdf_solid_angle, etendue::reverse_pdf_solid_angle(*bsdf_, surface_.wo_local, wi_local)};
     }
 
@@ -67,7 +70,7 @@ class Scattering {
         const Vec3f wi_local = sample.wi;
         sample.wi = surface_.frame.to_world(wi_local);
         if (!surface_.agrees(sample.wi, wi_local)) return {};
-        if (mode == TransportMode::Importance) sample.weight *= adjoint_factor(sample.wi, wi_local);
+        if (mode == TransportMode::Importance) sample.weight *= surface_.adjoint_factor(sample.wi, wi_local);
         return sample;
     }
 
@@ -117,12 +120,6 @@ class Scattering {
     [[nodiscard]] const Vec3f& wo_local() const { return surface_.wo_local; }
 
   private:
-    [[nodiscard]] float adjoint_factor(const Vec3f& wi, const Vec3f& wi_local) const {
-        const float above = std::abs(surface_.wo_local.z) * abs_dot(wi, surface_.geometric_normal);
-        const float below = abs_dot(surface_.wo, surface_.geometric_normal) * std::abs(wi_local.z);
-        return below > 0.0f ? above / below : 0.0f;
-    }
-
     const Bsdf* bsdf_;
     OrientedSurface<float> surface_;
 };

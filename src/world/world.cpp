@@ -63,22 +63,23 @@ void evaluate_uniform_materials(WorldData& data) {
 }
 
 /// See World::plain_lobe; by geometry.
-std::vector<const Diffuse*> find_plain_lobes(const WorldData& data) {
-    std::vector<const Diffuse*> lobes(data.geometries.size(), nullptr);
-    if (!data.textures.empty()) return lobes;
+std::vector<const Bsdf*> find_plain_bsdfs(const WorldData& data) {
+    std::vector<const Bsdf*> bsdfs(data.geometries.size(), nullptr);
+    if (!data.textures.empty()) return bsdfs;
     for (const Instance& instance : data.instances) {
         if (!instance.baked || instance.motion != kNone) continue;
         for (std::uint32_t g = 0; g < instance.geometry_count; ++g) {
             const Geometry& geometry = data.geometries[instance.first_geometry + g];
             const Material& material = data.materials[geometry.material];
-            const Bsdf* lobe = std::get_if<Bsdf>(&material.model);
+            const Bsdf* bsdf = std::get_if<Bsdf>(&material.model);
             const bool is_bare = !material.emits && !material.unlit && !material.has_coat &&
                                  !material.needs_tangents() && material.filling == kNone;
-            if (lobe != nullptr && is_bare && geometry.tangents.empty() && geometry.motion.empty())
-                lobes[instance.first_geometry + g] = std::get_if<Diffuse>(lobe);
+            const bool is_plain = std::get_if<Diffuse>(bsdf) != nullptr && is_bare && geometry.tangents.empty() &&
+                                  geometry.motion.empty();
+            if (is_plain) bsdfs[instance.first_geometry + g] = bsdf;
         }
     }
-    return lobes;
+    return bsdfs;
 }
 
 /// The interface of a dielectric between other indices than it was made for.
@@ -103,7 +104,7 @@ World::World(WorldData data)
       tree_(data_->lights, radius_of(data_->bounds)) {
     data_->bvh->set_opacity(opacity_callback, data_.get());
     evaluate_uniform_materials(*data_);
-    plain_lobes_ = find_plain_lobes(*data_);
+    plain_bsdfs_ = find_plain_bsdfs(*data_);
     has_motion_ = data_->bvh->has_motion() || !data_->camera_motion.empty();
     has_transparency_ = std::any_of(data_->materials.begin(), data_->materials.end(),
                                     [](const Material& m) { return m.alpha_test != AlphaTest::Opaque; });

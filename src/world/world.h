@@ -157,7 +157,9 @@ class World {
     /// The lobe of a surface that is the same matte one everywhere, as most are: it neither emits nor moves, is placed
     /// once, has no relief, and nothing in the scene is textured. Null where it is any other. What such a surface is
     /// at a point, the functions of world/triangle_point.h say.
-    [[nodiscard]] const Diffuse* plain_lobe(const Hit& hit) const { return plain_lobes_[hit.geometry]; }
+    [[nodiscard]] const Diffuse* plain_lobe(const Hit& hit) const { return std::get_if<Diffuse>(plain_bsdf(hit)); }
+    /// The same as a BSDF.
+    [[nodiscard]] const Bsdf* plain_bsdf(const Hit& hit) const { return plain_bsdfs_[hit.geometry]; }
     [[nodiscard]] HitTriangle hit_triangle(const Hit& hit) const;
     /// Names a plain surface; of no other use than that.
     [[nodiscard]] const Material* material(const Hit& hit) const {
@@ -308,7 +310,7 @@ class World {
     bool has_unlit_surfaces_ = false;
     bool has_scattering_bodies_ = false;
     bool has_lights_in_media_ = false;
-    std::vector<const Diffuse*> plain_lobes_;  ///< by geometry
+    std::vector<const Bsdf*> plain_bsdfs_;  ///< by geometry
     Interior camera_interior_;
     std::vector<Interior> light_interiors_;  ///< of each light; only if there are bodies
 };

@@ -48,7 +48,7 @@ TEST(WideShading, MatteSurfacesScatterAsTheLobeDoes) {
         using T = std::remove_cvref_t<decltype(wo.x)>;
         const BasicDiffuse<T> lobe{BasicRgb<T>(T(0.7f), T(0.5f), T(0.3f))};
         const auto value = evaluate_matte(surface, lobe, wi);
-        const auto sample = sample_matte(surface, lobe, u);
+        const auto sample = sample_matte(surface, lobe, u, TransportMode::Radiance);
         return std::array{value.f_cos.r, value.f_cos.b, value.pdf_solid_angle, sample.wi.x,
                           sample.wi.y,   sample.wi.z,   sample.weight.g,       sample.pdf_solid_angle};
     };

@@ -5,26 +5,12 @@
 #include "light/mesh_light.h"
 #include "sampling/mis.h"
 #include "world/matte_scattering.h"
-#include "world/triangle_point.h"
 
 #include <limits>
 
 namespace etendue {
 
 using WideVec3 = Imath::Vec3<Wide>;
-
-void BlockLanes::set_up_points(std::size_t count) {
-    for (std::size_t l = 0; l < count; l += Wide::kWidth) {
-        const TrianglePoint<Wide> point(p0.load(l), edge1.load(l), edge2.load(l), u.load(l));
-        position.store(l, point.position);
-        geometric_normal.store(l, point.normal);
-        clearance.store(l, etendue::clearance(point.normal, position_error(point.extent)));
-        const auto frame = BasicFrame<Wide>::from_normal(usable_normal(triangle_normal.load(l), point.normal));
-        tangent.store(l, frame.tangent);
-        bitangent.store(l, frame.bitangent);
-        normal.store(l, frame.normal);
-    }
-}
 
 void BlockLanes::sample_mesh_lights(std::size_t count) {
     for (std::size_t l = 0; l < count; l += Wide::kWidth) {
@@ -47,7 +33,7 @@ void BlockLanes::evaluate_matte(std::size_t count) {
         const BasicBsdfValue<Wide> value = etendue::evaluate_matte(surface, lobe, light_wi.load(l));
         f_cos.store(l, value.f_cos);
         pdf.store(l, value.pdf_solid_angle);
-        const BasicBsdfSample<Wide> sample = sample_matte(surface, lobe, u.load(l));
+        const BasicBsdfSample<Wide> sample = sample_matte(surface, lobe, u.load(l), TransportMode::Radiance);
         next_direction.store(l, sample.wi);
         next_weight.store(l, sample.weight);
         next_pdf.store(l, sample.pdf_solid_angle);

@@ -61,12 +61,7 @@ void PathWave::set_up_plain(const Context& context, std::size_t first) {
         if (block_[k].plain == nullptr) continue;
         any = true;
         const Hit& hit = hits_[first + k];
-        const HitTriangle triangle = context.world.hit_triangle(hit);
-        lanes_.p0.set(lane, triangle.p0);
-        lanes_.edge1.set(lane, triangle.edge1);
-        lanes_.edge2.set(lane, triangle.edge2);
-        lanes_.triangle_normal.set(lane, triangle.shading_normal);
-        lanes_.u.set(lane, {hit.u, hit.v});
+        lanes_.set_hit(lane, context.world.hit_triangle(hit), {hit.u, hit.v});
     }
     if (any) lanes_.set_up_points(surfaces_);
 }

@@ -166,35 +166,34 @@ void SubpathWave::advance_block(const SubpathJob& job, LightFinder* finder, std:
                                 std::size_t& kept) {
     const World& world = job.world;
     WaveProfile* const profile = job.job.profile;
-    std::array<std::uint8_t, kBlock> on_surface;
-    std::size_t surfaces = 0;
+    surfaces_ = 0;
     for (std::size_t k = 0; k < count; ++k) {
         goes_on_[k] = false;
+        block_[k].lane = surfaces_;
         if (set_up(job, first + k, block_[k]))
-            on_surface[surfaces++] = static_cast<std::uint8_t>(k);
+            on_surface_[surfaces_++] = static_cast<std::uint8_t>(k);
         else
             goes_on_[k] = hits_[first + k].valid();
     }
+    set_up_plain(job, first);
     stamp(profile, Stage::HitSetup);
     if (finder != nullptr)
         for (std::size_t k = 0; k < count; ++k)
             if (!goes_on_[k]) find_light(*finder, first + k, block_[k]);
     stamp(profile, Stage::Emission);
     std::size_t vertices = 0;
-    for (std::size_t s = 0; s < surfaces; ++s) {
-        const std::uint8_t k = on_surface[s];
-        if (make_vertex(job, first + k, block_[k])) on_surface[vertices++] = k;
+    for (std::size_t s = 0; s < surfaces_; ++s) {
+        const std::uint8_t k = on_surface_[s];
+        if (make_vertex(job, first + k, block_[k])) on_surface_[vertices++] = k;
     }
     stamp(profile, Stage::Textures);
-    const TransportMode mode = end_ == SubpathEnd::AtEye ? TransportMode::Radiance : TransportMode::Importance;
-    for (std::size_t v = 0; v < vertices; ++v) {
-        ShadedSubpath& path = block_[on_surface[v]];
-        const std::size_t i = first + on_surface[v];
-        path.sample = vertices_[path.vertex].surface->sample(choices_[i].x, scattering_[i], mode);
-    }
+    sample_bsdfs(first, vertices);
     stamp(profile, Stage::Material);
-    for (std::size_t v = 0; v < vertices; ++v)
-        goes_on_[on_surface[v]] = scatter_at_surface(job, first + on_surface[v], block_[on_surface[v]]);
+    for (std::size_t v = 0; v < vertices; ++v) {
+        const std::uint8_t k = on_surface_[v];
+        goes_on_[k] = block_[k].plain != nullptr ? scatter_at_plain(job, first + k, block_[k])
+                                                 : scatter_at_surface(job, first + k, block_[k]);
+    }
     for (std::size_t k = 0; k < count; ++k) {
         const std::size_t i = first + k;
         if (!goes_on_[k] || !survives(job, i)) continue;
@@ -215,11 +214,34 @@ bool SubpathWave::set_up(const SubpathJob& job, std::size_t i, ShadedSubpath& pa
         return false;
     }
     if (world.has_bodies() && scatter_in_medium(job, i)) return false;
+    path.plain = world.plain_bsdf(hits_[i]);
+    if (path.plain != nullptr) {
+        path.point.material = world.material(hits_[i]);
+        path.crossing.reset();
+        lanes_.set_hit(path.lane, world.hit_triangle(hits_[i]), {hits_[i].u, hits_[i].v});
+        lanes_.wo.set(path.lane, -rays_[i].direction);
+        lanes_.albedo.set(path.lane, std::get_if<Diffuse>(path.plain)->albedo);
+        return true;
+    }
     path.point = world.surface_point(hits_[i]);
     path.arrived = arrive(job, i, path.point.position, abs_dot(rays_[i].direction, path.point.geometric_normal));
     path.crossing.reset();
     if (world.has_bodies() && world.is_boundary(path.point)) path.crossing = world.crossing(path.point, interiors_[i]);
     return true;
+}
+
+void SubpathWave::set_up_plain(const SubpathJob& job, std::size_t first) {
+    const auto is_plain = [&](std::uint8_t k) { return block_[k].plain != nullptr; };
+    const std::span on_surface(on_surface_.data(), surfaces_);
+    if (std::ranges::none_of(on_surface, is_plain)) return;
+    lanes_.set_up_points(surfaces_);
+    lanes_.orient(surfaces_);
+    for (const std::uint8_t k : on_surface) {
+        ShadedSubpath& path = block_[k];
+        if (is_plain(k))
+            path.arrived = arrive(job, first + k, lanes_.position[path.lane],
+                                  abs_dot(rays_[first + k].direction, lanes_.geometric_normal[path.lane]));
+    }
 }
 
 void SubpathWave::find_light(LightFinder& finder, std::size_t i, const ShadedSubpath& path) const {
@@ -254,32 +276,43 @@ bool SubpathWave::make_vertex(const SubpathJob& job, std::size_t i, ShadedSubpat
     }
     const World& world = job.world;
     const std::optional<Crossing>& crossing = path.crossing;
-    const Vec3f wo = -ray.direction;
     float relative_ior = 0.0f;
     if (crossing) {
         state.is_dispersed = state.is_dispersed || crossing->disperses();
         relative_ior = crossing->relative_ior(state.is_dispersed ? job.wavelength(state.slot).nm : 0.0f);
     }
-    if (bsdf_count_ == bsdfs_.size()) bsdfs_.emplace_back();
-    Bsdf& storage = bsdfs_[bsdf_count_];
-    const Bsdf& bsdf = world.bsdf(point, wo, relative_ior, storage);
-    if (&bsdf == &storage) ++bsdf_count_;
     path.vertex = static_cast<std::uint32_t>(vertices_.size());
     PathVertex& vertex = store(state);
-    const Scattering& scattering = vertex.surface.emplace(bsdf, point.shading, point.geometric_normal, wo);
-    vertex.position = point.position;
-    vertex.wo = wo;
+    vertex.wo = -ray.direction;
     vertex.label = words_.label(world, point);
-    vertex.geometric_normal = point.geometric_normal;
-    vertex.clearance = point.clearance;
     vertex.densities = path.arrived;
     vertex.next_edges = state.edges + 1;
-    vertex.is_connectible = scattering.has_non_delta();
+    place(world, path, relative_ior, vertex);
     if (world.has_bodies()) {
         vertex.outside = world.medium(crossing ? crossing->outside : interiors_[i]);
         vertex.inside = world.medium(crossing ? crossing->inside : interiors_[i]);
     }
     return end_ == SubpathEnd::AtEye || state.edges + edges_to_connect(world) <= job.lengths.max_depth;
+}
+
+void SubpathWave::place(const World& world, const ShadedSubpath& path, float relative_ior, PathVertex& vertex) {
+    if (path.plain != nullptr) {
+        vertex.position = lanes_.position[path.lane];
+        vertex.geometric_normal = lanes_.geometric_normal[path.lane];
+        vertex.clearance = lanes_.clearance[path.lane];
+        vertex.surface.emplace(*path.plain, lanes_.surface(path.lane));
+        return;
+    }
+    const SurfacePoint& point = path.point;
+    vertex.position = point.position;
+    vertex.geometric_normal = point.geometric_normal;
+    vertex.clearance = point.clearance;
+    if (bsdf_count_ == bsdfs_.size()) bsdfs_.emplace_back();
+    Bsdf& storage = bsdfs_[bsdf_count_];
+    const Bsdf& bsdf = world.bsdf(point, vertex.wo, relative_ior, storage);
+    if (&bsdf == &storage) ++bsdf_count_;
+    vertex.surface.emplace(bsdf, point.shading, point.geometric_normal, vertex.wo);
+    vertex.is_connectible = vertex.surface->has_non_delta();
 }
 
 SubpathDensities SubpathWave::arrive(const SubpathJob& job, std::size_t i, const Vec3f& position, float cosine) const {
@@ -306,28 +339,68 @@ SubpathDensities SubpathWave::arrive(const SubpathJob& job, std::size_t i, const
     return arrived;
 }
 
-bool SubpathWave::scatter_at_surface(const SubpathJob& job, std::size_t i, const ShadedSubpath& path) {
-    SubpathState& state = states_[i];
-    Ray& ray = rays_[i];
-    const SurfacePoint& point = path.point;
-    const BsdfSample& sample = path.sample;
-    PathVertex& vertex = vertices_[path.vertex];
-    const Scattering& scattering = *vertex.surface;
-    const SubpathDensities& arrived = path.arrived;
+void SubpathWave::sample_bsdfs(std::size_t first, std::size_t vertices) {
     const TransportMode mode = end_ == SubpathEnd::AtEye ? TransportMode::Radiance : TransportMode::Importance;
+    bool any_plain = false;
+    for (std::size_t v = 0; v < vertices; ++v) {
+        ShadedSubpath& path = block_[on_surface_[v]];
+        const std::size_t i = first + on_surface_[v];
+        if (path.plain == nullptr) {
+            path.sample = vertices_[path.vertex].surface->sample(choices_[i].x, scattering_[i], mode);
+        } else {
+            lanes_.u.set(path.lane, scattering_[i]);
+            any_plain = true;
+        }
+    }
+    if (any_plain) lanes_.sample(surfaces_, mode);
+}
+
+bool SubpathWave::scatter(const SubpathJob& job, std::size_t i, const Vec3f& position, const Rgb& weight,
+                          bool is_delta) {
     if (job.job.profile != nullptr) ++job.job.profile->use().bsdf_samples;
-    if (is_black(sample.weight)) {
+    if (is_black(weight)) {
         if (job.job.profile != nullptr) ++job.job.profile->use().bsdf_absorbed;
         end_path(job, i, PathEnding::Absorbed);
         return false;
     }
+    SubpathState& state = states_[i];
+    state.throughput *= weight;
+    state.from = position;
+    state.lights_directly = state.only_delta;
+    state.only_delta = state.only_delta && is_delta;
+    ++state.index;
+    ++state.edges;
+    return true;
+}
+
+bool SubpathWave::scatter_at_plain(const SubpathJob& job, std::size_t i, const ShadedSubpath& path) {
+    const std::size_t lane = path.lane;
+    if (!scatter(job, i, lanes_.position[lane], lanes_.next_weight[lane], false)) return false;
+    SubpathState& state = states_[i];
+    if (words_.are_followed()) follow_words(state, matte_event(vertices_[path.vertex].label));
+    state.departing = {.d = path.arrived.fewer(job.raised, static_cast<double>(lanes_.next_reverse_pdf[lane])),
+                       .pdf_forward = static_cast<double>(lanes_.next_pdf[lane]),
+                       .cosine = static_cast<double>(lanes_.next_cosine[lane])};
+    rays_[i].origin = lanes_.next_origin[lane];
+    rays_[i].direction = lanes_.next_direction[lane];
+    return true;
+}
+
+bool SubpathWave::scatter_at_surface(const SubpathJob& job, std::size_t i, const ShadedSubpath& path) {
+    const SurfacePoint& point = path.point;
+    const BsdfSample& sample = path.sample;
+    if (!scatter(job, i, point.position, sample.weight, sample.is_delta)) return false;
+    SubpathState& state = states_[i];
+    Ray& ray = rays_[i];
+    PathVertex& vertex = vertices_[path.vertex];
+    const Scattering& scattering = *vertex.surface;
+    const SubpathDensities& arrived = path.arrived;
+    const TransportMode mode = end_ == SubpathEnd::AtEye ? TransportMode::Radiance : TransportMode::Importance;
     vertex.is_left_by_delta = sample.is_delta;
     if (sample.is_delta) vertex.delta_reverse_ratio = scattering.reverse_density_ratio(sample);
-    state.throughput *= sample.weight;
     if (words_.are_followed())
         follow_words(state, surface_event(scattering, sample.wi, sample.is_delta, mode, vertex.label));
     if (mode == TransportMode::Radiance && sample.is_transmission) state.roulette_scale *= sample.eta * sample.eta;
-    state.from = point.position;
     state.departing = {
         .d = sample.is_delta
                  ? arrived.b * job.raised(static_cast<double>(vertex.delta_reverse_ratio))
@@ -335,10 +408,6 @@ bool SubpathWave::scatter_at_surface(const SubpathJob& job, std::size_t i, const
         .pdf_forward = sample.is_delta ? 1.0 : static_cast<double>(sample.pdf_solid_angle),
         .cosine = static_cast<double>(abs_dot(sample.wi, point.geometric_normal)),
         .is_connectible = !sample.is_delta};
-    state.lights_directly = state.only_delta;
-    state.only_delta = state.only_delta && sample.is_delta;
-    ++state.index;
-    ++state.edges;
     ray.origin = offset_origin(point.position, point.geometric_normal, point.clearance, sample.wi);
     ray.direction = sample.wi;
     if (path.crossing) interiors_[i] = beyond(*path.crossing, point, sample.wi);

@@ -7,6 +7,7 @@
 #include "integrator/camera_wave.h"
 #include "integrator/number_pairs.h"
 #include "integrator/profile/wave_profile.h"
+#include "integrator/subpath/matte_lanes.h"
 #include "integrator/subpath/path_vertex.h"
 
 #include <array>
@@ -92,11 +93,13 @@ class LightFinder {
 
 /// A subpath whose ray has hit a surface, between the stages of its shading.
 struct ShadedSubpath {
-    SurfacePoint point;
+    SurfacePoint point;           ///< of a plain surface, its material only
+    const Bsdf* plain = nullptr;  ///< see World::plain_bsdf: shaded with others at once, in `MatteLanes`
+    std::size_t lane = 0;         ///< there
     SubpathDensities arrived;
     std::optional<Crossing> crossing;
     std::uint32_t vertex = PathVertex::kNoVertex;  ///< that was stored for it
-    BsdfSample sample;
+    BsdfSample sample;                             ///< unless plain
 };
 
 class SubpathWave {
@@ -126,20 +129,29 @@ class SubpathWave {
     void begin_at_lights(const SubpathJob& job);
     void draw_numbers(const SubpathJob& job);
     /// Subpaths that go from one stage of shading to the next together, as in PathWave.
-    static constexpr std::size_t kBlock = 64;
+    static constexpr std::size_t kBlock = kBlockLanes;
     /// Advances subpaths [first, first + count), count <= kBlock, stage by stage, and moves those that go on to where
     /// `kept` says.
     void advance_block(const SubpathJob& job, LightFinder* finder, std::size_t first, std::size_t count,
                        std::size_t& kept);
     /// Finds out where subpath `i` is; false if it is on no surface: it left the scene, or a medium has scattered it.
     bool set_up(const SubpathJob& job, std::size_t i, ShadedSubpath& path);
+    /// The same of those on plain surfaces, all at once.
+    void set_up_plain(const SubpathJob& job, std::size_t first);
     /// What light there is at its end.
     void find_light(LightFinder& finder, std::size_t i, const ShadedSubpath& path) const;
     /// Stores the vertex with its lobes, if the subpath may have one more; false if it ends, or only passes through.
     bool make_vertex(const SubpathJob& job, std::size_t i, ShadedSubpath& path);
+    /// Puts `vertex` on the surface, with lobes for the index `relative_ior` as in World::bsdf.
+    void place(const World& world, const ShadedSubpath& path, float relative_ior, PathVertex& vertex);
+    /// Samples the BSDFs of the first `vertices` in `on_surface_`.
+    void sample_bsdfs(std::size_t first, std::size_t vertices);
     bool scatter_in_medium(const SubpathJob& job, std::size_t i);
     /// Takes the subpath where the sample of the BSDF at its vertex says; false if it ends.
     bool scatter_at_surface(const SubpathJob& job, std::size_t i, const ShadedSubpath& path);
+    bool scatter_at_plain(const SubpathJob& job, std::size_t i, const ShadedSubpath& path);
+    /// What both have in common; false if the sample is black.
+    bool scatter(const SubpathJob& job, std::size_t i, const Vec3f& position, const Rgb& weight, bool is_delta);
     [[nodiscard]] SubpathDensities arrive(const SubpathJob& job, std::size_t i, const Vec3f& position,
                                           float cosine) const;
     [[nodiscard]] bool survives(const SubpathJob& job, std::size_t i);
@@ -162,6 +174,9 @@ class SubpathWave {
     NumberPairs scattering_, choices_, medium_;
     // Of the block that advances.
     std::array<ShadedSubpath, kBlock> block_;
+    std::array<std::uint8_t, kBlock> on_surface_{};  ///< places in the block of those on surfaces, then with vertices
+    std::size_t surfaces_ = 0;
+    MatteLanes lanes_;
     std::array<bool, kBlock> goes_on_{};
     // By slot.
     NumberPairs light_choice_, triangle_, position_, direction_;  ///< of where subpaths from lights begin

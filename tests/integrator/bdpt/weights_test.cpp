@@ -4,13 +4,13 @@
 #include "integrator/bdpt/bdpt_integrator.h"
 #include "integrator/bdpt/reference_weights.h"
 #include "integrator/bdpt/render_bdpt.h"
+#include "integrator/bdpt/weight_comparison.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -18,13 +18,6 @@
 namespace etendue::test {
 
 namespace {
-
-constexpr double kTolerance = 1e-4;
-/// Where vertices are close to each other or edges graze a surface, positions in single precision tell directions and
-/// cosines less exactly than the walk knew them; so does the density of a rough interface near its critical angle.
-constexpr float kShortEdge = 0.1f;
-constexpr float kSmallCosine = 0.3f;
-constexpr double kRoundingTolerance = 1e-2;
 
 constexpr PixelRect kAll{0, 0, kAgreementWidth, kAgreementHeight};
 /// A quarter of the pixels.
@@ -35,71 +28,18 @@ TileJob job_of(const PixelRect& window, std::uint32_t seed, const PixelFilter& f
     return {window, window, kAgreementWidth, kAgreementHeight, 0, 1, seed, SampleSequence::Sobol, &filter};
 }
 
-bool is_well_conditioned(const CompletePath& path) {
-    bool is_well = true;
-    const auto see = [&](const PathVertex& vertex, const Vec3f& edge) {
-        const float distance = length(edge);
-        is_well = is_well && distance >= kShortEdge && vertex.cosine(edge / distance) >= kSmallCosine;
-    };
-    for (std::size_t i = 0; i + 1 < path.inner.size(); ++i) {
-        const Vec3f edge = path.inner[i + 1]->position - path.inner[i]->position;
-        see(*path.inner[i], edge);
-        see(*path.inner[i + 1], edge);
-    }
-    see(*path.inner.front(), path.end.direction);
-    see(*path.inner.back(), path.camera.lens - path.inner.back()->position);
-    return is_well && std::abs(path.end.cos_light) >= kSmallCosine;
-}
-
-class Comparison final : public WeightObserver {
-  public:
-    void on_weight(const CompletePath& path, double weight, std::span<const double> reference) override {
-        const double error = std::abs(weight - reference[path.s]);
-        ++paths;
-        strategies = std::max(strategies, reference.size());
-        if (!(error <= kTolerance)) {
-            ++different;
-            if (is_well_conditioned(path)) ++different_without_excuse;
-        }
-        if (error <= worst) return;
-        worst = error;
-        worst_path = "s = " + std::to_string(path.s) + " of " + std::to_string(reference.size()) +
-                     " strategies: " + std::to_string(weight) + ", by definition " + std::to_string(reference[path.s]);
-    }
-
-    std::size_t paths = 0;
-    std::size_t different = 0;
-    std::size_t different_without_excuse = 0;
-    std::size_t strategies = 0;
-    double worst = 0.0;
-    std::string worst_path;
-};
-
 class BdptWeights : public testing::TestWithParam<AgreementCase> {};
+
+/// Metres; of rooms that are some metres wide.
+constexpr float kShortEdge = 0.1f;
 
 TEST_P(BdptWeights, RecursionSaysWhatTheDefinitionSays) {
     constexpr std::size_t kPaths = 100'000;
     const World world = agreement_world(GetParam());
     const PixelFilter filter(FilterShape::Box);
-    for (const Heuristic heuristic : {Heuristic::Power, Heuristic::Balance}) {
-        Comparison comparison;
-        BdptOptions options{.lengths = GetParam().lengths, .heuristic = heuristic};
-        options.lengths.min_depth = 1;
-        options.observer = &comparison;
-        const BdptIntegrator integrator(options);
-        const auto scratch = integrator.make_scratch();
-        RenderCounters counters;
-        for (std::uint32_t seed = 0; comparison.paths < kPaths / 2; ++seed) {
-            const TileJob job = job_of(seed % 2 == 0 ? kAll : kCrop, seed, filter);
-            TileBuffer tile;
-            tile.reset(job.rect);
-            integrator.render_tile(world, job, *scratch, tile, counters);
-        }
-        EXPECT_LE(comparison.different_without_excuse, comparison.paths / 10'000) << comparison.worst_path;
-        EXPECT_LE(comparison.different, comparison.paths / 400) << comparison.worst_path;
-        EXPECT_LE(comparison.worst, kRoundingTolerance) << comparison.worst_path;
-        EXPECT_GE(comparison.strategies, 4u);
-    }
+    const TileJob jobs[] = {job_of(kAll, 0, filter), job_of(kCrop, 0, filter)};
+    for (const Heuristic heuristic : {Heuristic::Power, Heuristic::Balance})
+        EXPECT_GE(expect_right_weights(world, GetParam().lengths, heuristic, jobs, kPaths / 2, kShortEdge), 4u);
 }
 
 /// Of the paths of a crop, holds the weights of their strategies against those in a render of the whole image.

@@ -1,0 +1,43 @@
+// What plain matte surfaces make of a block of subpaths.
+#pragma once
+
+#include "bsdf/bsdf_sample.h"
+#include "integrator/surface_lanes.h"
+#include "world/oriented_surface.h"
+
+#include <cstddef>
+
+namespace etendue {
+
+/// About 15 KiB, which stay in the first-level cache.
+struct MatteLanes : SurfaceLanes {
+    Vec3Columns wo;
+    RgbColumns albedo;
+
+    // The surface as it faces wo: `tangent` and `normal` are turned to it, too.
+    Vec3Columns facing_normal, wo_local;
+    Column wo_agrees;  ///< 1 or 0
+
+    // Where the subpath goes on.
+    Vec3Columns next_origin, next_direction;
+    RgbColumns next_weight;
+    Column next_pdf, next_reverse_pdf;  ///< per solid angle
+    Column next_cosine;                 ///< to the geometric normal, absolute
+
+    [[nodiscard]] OrientedSurface<float> surface(std::size_t lane) const {
+        return {{tangent[lane], bitangent[lane], normal[lane]},
+                facing_normal[lane],
+                wo[lane],
+                wo_local[lane],
+                wo_agrees[lane] > 0.0f};
+    }
+
+    // Each computes lanes [0, count), rounded up, from the columns that the one before and the caller have set.
+
+    /// What `surface` returns, from the points and `wo`.
+    void orient(std::size_t count);
+    /// Samples of the lobes, from `albedo` and `u`, which are now numbers for directions.
+    void sample(std::size_t count, TransportMode mode);
+};
+
+}  // namespace etendue

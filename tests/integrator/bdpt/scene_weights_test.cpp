@@ -1,0 +1,64 @@
+// The weights of all strategies over the paths of every scene of scenes/.
+#include "color/color_config.h"
+#include "core/error.h"
+#include "core/parallel.h"
+#include "film/pixel_filter.h"
+#include "integrator/bdpt/weight_comparison.h"
+#include "loader/loader.h"
+#include "world/compile.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace etendue::test {
+
+namespace {
+
+constexpr int kWidth = 64;               // pixels
+constexpr std::size_t kPaths = 100'000;  // of each scene and heuristic
+constexpr float kShortEdge = 0.02f;      // of the scene's radius
+
+std::vector<std::string> scene_names() {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(ETENDUE_SCENES))
+        if (entry.is_directory()) names.push_back(entry.path().filename().string());
+    std::ranges::sort(names);
+    return names;
+}
+
+class SceneWeights : public testing::TestWithParam<std::string> {};
+
+TEST_P(SceneWeights, SumToOneAndAreThoseOfTheDefinition) {
+    SceneDesc desc = load_scene(std::filesystem::path(ETENDUE_SCENES) / GetParam()).scene;
+    FilmSettings& film = desc.settings.film;
+    film.height = std::max(1, film.height * kWidth / film.width);
+    film.width = kWidth;
+    const IntegratorSettings& integrator = desc.settings.integrator;
+    const PathLengths lengths{integrator.max_depth, integrator.min_depth, integrator.roulette_depth};
+    const PixelRect all{0, 0, film.width, film.height};
+    const PixelFilter filter(FilterShape::Box);
+    const TileJob job{all, all, film.width, film.height, 0, 1, 0, SampleSequence::Sobol, &filter};
+    const ThreadPool threads;
+    ProblemList warnings;
+    const World world = compile_world(std::move(desc), ColorConfig::built_in(), "ACEScg", threads, warnings);
+    for (const Heuristic heuristic : {Heuristic::Power, Heuristic::Balance})
+        EXPECT_GE(
+            expect_right_weights(world, lengths, heuristic, {&job, 1}, kPaths, kShortEdge * world.bounding_radius()),
+            2u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, SceneWeights, testing::ValuesIn(scene_names()), [](const auto& scene) {
+    std::string name = scene.param;
+    std::ranges::replace(name, '-', '_');
+    return name;
+});
+
+}  // namespace
+
+}  // namespace etendue::test

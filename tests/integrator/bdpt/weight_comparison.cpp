@@ -1,0 +1,107 @@
+#include "integrator/bdpt/weight_comparison.h"
+
+#include "integrator/bdpt/bdpt_integrator.h"
+#include "integrator/bdpt/reference_weights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace etendue::test {
+
+namespace {
+
+constexpr double kTolerance = 1e-4;
+constexpr double kRoundingTolerance = 1e-2;
+/// Of the angle between an edge and a normal. Below it rounding moves the density of a rough interface near its
+/// critical angle, too.
+constexpr float kSmallCosine = 0.3f;
+/// Of what a short edge is: positions do not tell where it points.
+constexpr float kTellsNothing = 0.01f;
+
+float shortest_edge(const CompletePath& path) {
+    float shortest = length(path.camera.lens - path.inner.back()->position);
+    for (std::size_t i = 0; i + 1 < path.inner.size(); ++i)
+        shortest = std::min(shortest, length(path.inner[i + 1]->position - path.inner[i]->position));
+    return shortest;
+}
+
+class Comparison final : public WeightObserver {
+  public:
+    explicit Comparison(float short_edge) : short_edge_(short_edge) {}
+
+    void on_weight(const CompletePath& path, double weight, std::span<const double> reference) override {
+        const double all = std::accumulate(reference.begin(), reference.end(), weight - reference[path.s]);
+        const double error = std::max(std::abs(weight - reference[path.s]), std::abs(all - 1.0));
+        ++paths;
+        strategies = std::max(strategies, reference.size());
+        if (!(error <= kTolerance)) {
+            ++different;
+            if (is_well_conditioned(path)) ++different_without_excuse;
+        }
+        if (error <= worst || shortest_edge(path) < kTellsNothing * short_edge_) return;
+        worst = error;
+        worst_path = "s = " + std::to_string(path.s) + " of " + std::to_string(reference.size()) +
+                     " strategies: " + std::to_string(weight) + ", by definition " + std::to_string(reference[path.s]) +
+                     "; all sum to " + std::to_string(all);
+    }
+
+    std::size_t paths = 0;
+    std::size_t different = 0;
+    std::size_t different_without_excuse = 0;
+    std::size_t strategies = 0;
+    double worst = 0.0;
+    std::string worst_path;
+
+  private:
+    [[nodiscard]] bool is_well_conditioned(const CompletePath& path) const {
+        bool is_well = shortest_edge(path) >= short_edge_;
+        const auto see = [&](const PathVertex& vertex, const Vec3f& edge) {
+            is_well = is_well && vertex.cosine(normalize(edge)) >= kSmallCosine;
+        };
+        for (std::size_t i = 0; i + 1 < path.inner.size(); ++i) {
+            const Vec3f edge = path.inner[i + 1]->position - path.inner[i]->position;
+            see(*path.inner[i], edge);
+            see(*path.inner[i + 1], edge);
+        }
+        see(*path.inner.front(), path.end.direction);
+        see(*path.inner.back(), path.camera.lens - path.inner.back()->position);
+        return is_well && std::abs(path.end.cos_light) >= kSmallCosine;
+    }
+
+    float short_edge_;
+};
+
+}  // namespace
+
+std::size_t expect_right_weights(const World& world, PathLengths lengths, Heuristic heuristic,
+                                 std::span<const TileJob> jobs, std::size_t paths, float short_edge) {
+    Comparison comparison(short_edge);
+    lengths.min_depth = 1;
+    BdptOptions options{.lengths = lengths, .heuristic = heuristic};
+    options.observer = &comparison;
+    const BdptIntegrator integrator(options);
+    const auto scratch = integrator.make_scratch();
+    RenderCounters counters;
+    for (std::uint32_t seed = 0; comparison.paths < paths; ++seed) {
+        TileJob job = jobs[seed % jobs.size()];
+        job.seed = seed;
+        TileBuffer tile;
+        tile.reset(job.rect);
+        const std::size_t before = comparison.paths;
+        integrator.render_tile(world, job, *scratch, tile, counters);
+        if (comparison.paths > before) continue;
+        ADD_FAILURE() << "a render without paths";
+        return 0;
+    }
+    EXPECT_LE(comparison.different_without_excuse, comparison.paths / 10'000) << comparison.worst_path;
+    EXPECT_LE(comparison.different, comparison.paths / 400) << comparison.worst_path;
+    EXPECT_LE(comparison.worst, kRoundingTolerance) << comparison.worst_path;
+    return comparison.strategies;
+}
+
+}  // namespace etendue::test
