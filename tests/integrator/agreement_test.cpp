@@ -4,6 +4,7 @@
 // All comparisons together fail with probability 0.01 if everything is right (Sidak's correction); seeds are fixed.
 #include "integrator/agreement_cases.h"
 #include "integrator/agreement_render.h"
+#include "integrator/bdpt/render_bdpt.h"
 #include "integrator/failure_images.h"
 #include "support/chi2.h"
 
@@ -65,10 +66,7 @@ class CropAgreement : public testing::TestWithParam<const char*> {};
 // their numbers, and for bidirectional path tracing in the densities that weigh strategies.
 TEST_P(CropAgreement, ACropIsThePartOfTheWhole) {
     constexpr int kCrops = 4;  // of both instances
-    AgreementCase whole{"Room", {}};
-    for (const AgreementCase& agreement : agreement_cases())
-        if (agreement.name == "LampPlastic") whole = agreement;
-    ASSERT_TRUE(whole.make);
+    const AgreementCase& whole = agreement_case("LampPlastic");
     const World world = agreement_world(whole);
     const ThreadPool threads;
     const auto integrator = make_integrator(GetParam(), {.lengths = whole.lengths});
@@ -86,6 +84,30 @@ TEST_P(CropAgreement, ACropIsThePartOfTheWhole) {
     }
 }
 
+/// Who renders the room with Russian roulette and without.
+class RouletteAgreement : public testing::TestWithParam<const char*> {};
+
+// It is outside of the densities that weigh strategies, on both subpaths: it may change the noise only.
+TEST_P(RouletteAgreement, ChangesNoImage) {
+    constexpr int kRenders = 2;  // instances
+    AgreementCase room = agreement_case("LampPlastic");
+    // Of the light that it decides about, which is little beside the rest.
+    room.lengths = {.max_depth = 8, .min_depth = 3};
+    room.spp = 128;
+    const World world = agreement_world(room);
+    const ThreadPool threads;
+    const auto integrator = [&](int roulette_depth) {
+        PathLengths lengths = room.lengths;
+        lengths.roulette_depth = roulette_depth;
+        return make_integrator(GetParam(), {.lengths = lengths});
+    };
+    const BlockAgreement result =
+        test_agreement(estimate(world, *integrator(1), room, {.first_seed = 500}, threads, room.window),
+                       estimate(world, *integrator(1000), room, {.first_seed = 600}, threads, room.window),
+                       {.block_size = 8, .significance = sidak_level(kFamilyLevel, kRenders)});
+    EXPECT_TRUE(result.agree()) << result.str();
+}
+
 TEST(MeanError, IsTheLargestOverTheChannels) {
     ImageEstimate e{ImageF(2, 1, 2), ImageF(2, 1, 2)};
     e.mean.pixels = {1.0f, 2.0f, 3.0f, 2.0f};
@@ -96,6 +118,9 @@ TEST(MeanError, IsTheLargestOverTheChannels) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Splats, CropAgreement, testing::Values("light", "bdpt"),
+                         [](const auto& param) { return std::string(param.param); });
+
+INSTANTIATE_TEST_SUITE_P(BothSubpaths, RouletteAgreement, testing::Values("light", "bdpt"),
                          [](const auto& param) { return std::string(param.param); });
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Agreement, testing::ValuesIn(pairs()),
