@@ -68,10 +68,12 @@ void place(ImageF& sheet, const ImageF& image, int x0, int y0) {
 
 ImageF make_contact_sheet(const std::vector<std::vector<LabelledImage>>& rows) {
     std::size_t columns = 0;
+    std::size_t longest_label = 0;
     const ImageF* first = nullptr;
     for (const auto& row : rows) {
         columns = std::max(columns, row.size());
         for (const LabelledImage& image : row) {
+            longest_label = std::max(longest_label, image.label.size());
             if (first == nullptr) first = &image.pixels;
             if (image.pixels.channels != 3 || image.pixels.width != first->width ||
                 image.pixels.height != first->height)
@@ -79,7 +81,7 @@ ImageF make_contact_sheet(const std::vector<std::vector<LabelledImage>>& rows) {
         }
     }
     if (first == nullptr) throw std::invalid_argument("a contact sheet without images");
-    const int step_x = first->width + kGap;
+    const int step_x = std::max(first->width, kFontScale * kAdvance * static_cast<int>(longest_label)) + kGap;
     const int step_y = first->height + kGap + kLabelHeight;
     ImageF sheet(kGap + step_x * static_cast<int>(columns), kGap + step_y * static_cast<int>(rows.size()), 3);
     std::ranges::fill(sheet.pixels, kBackground);

@@ -35,6 +35,17 @@ TEST(ContactSheet, LabelsAreDrawnBesideTheImages) {
     EXPECT_EQ(count_of(without, without.pixels[0]) - count_of(with, with.pixels[0]), 40);
 }
 
+TEST(ContactSheet, NarrowImagesStandAsFarApartAsTheirLabelsNeed) {
+    // The same label under each of a row is drawn as often, with nothing over it.
+    const ImageF none = make_contact_sheet({{flat("     ", 0.25f, 2)}});
+    const ImageF one = make_contact_sheet({{flat("(8,8)", 0.25f, 2)}});
+    const ImageF three =
+        make_contact_sheet({{flat("(8,8)", 0.25f, 2), flat("(8,8)", 0.25f, 2), flat("(8,8)", 0.25f, 2)}});
+    const int ink = count_of(none, none.pixels[0]) - count_of(one, one.pixels[0]);
+    ASSERT_GT(ink, 0);
+    EXPECT_EQ(three.width * three.height - 3 * 2 * 9 - count_of(three, three.pixels[0]), 3 * ink);
+}
+
 TEST(ContactSheet, RefusesNothingAndDifferentSizes) {
     EXPECT_THROW((void)make_contact_sheet({}), std::invalid_argument);
     EXPECT_THROW((void)make_contact_sheet({{}, {}}), std::invalid_argument);
