@@ -130,6 +130,12 @@ std::vector<std::string> ineffective_settings(const RenderSettings& settings, bo
     };
     without_error("/min_spp", "--min-spp");
     without_error("/adaptive", settings.adaptive ? "--adaptive" : "--no-adaptive");
+    // A render.json may well hold these for when another integrator is asked for.
+    for (const char* pointer : {"/integrator/heuristic", "/integrator/connections"})
+        if (const auto option = settings.options.find(pointer);
+            option != settings.options.end() && !has_strategies(settings.integrator.type))
+            sentences.push_back(fmt::format("{} has no effect with '{}': it is for 'bdpt', which has strategies",
+                                            option->second, settings.integrator.type));
     if (settings.clamp_indirect > 0.0f && settings.integrator.max_depth < kShortestIndirect && !has_bodies)
         sentences.push_back(fmt::format(
             "{} has no effect: paths have at most {} (--max-depth), and indirect light takes {}",

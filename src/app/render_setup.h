@@ -35,7 +35,8 @@ void require_strategies(const RenderSettings& settings, const SourceLocation& as
 [[nodiscard]] std::unique_ptr<const Integrator> create_integrator(const RenderSettings& settings);
 
 /// One sentence for each thing that was asked for and has no effect beside the other settings: options of adaptive
-/// sampling without an error to reach, and a limit of indirect light where all paths are too short to be any.
+/// sampling without an error to reach, those of strategies with an integrator that has none, and a limit of indirect
+/// light where all paths are too short to be any.
 /// `has_bodies`: the scene's paths may scatter in media, which adds no edges to them.
 [[nodiscard]] std::vector<std::string> ineffective_settings(const RenderSettings& settings, bool has_bodies);
 

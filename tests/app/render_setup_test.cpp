@@ -51,6 +51,19 @@ TEST(IneffectiveSettings, OptionsOfAdaptiveSamplingNeedAnError) {
     EXPECT_TRUE(ineffective_settings(settings, false).empty());
 }
 
+TEST(IneffectiveSettings, OptionsOfStrategiesNeedStrategies) {
+    RenderSettings settings;
+    settings.integrator = {.type = "path", .heuristic = HeuristicType::Balance, .cached_connections = 2};
+    EXPECT_TRUE(ineffective_settings(settings, false).empty()) << "of a render.json, for when bdpt is asked for";
+    settings.options = {{"/integrator/heuristic", "--heuristic"}, {"/integrator/connections", "--bdpt-connections"}};
+    const std::vector<std::string> notes = ineffective_settings(settings, false);
+    ASSERT_EQ(notes.size(), 2u);
+    EXPECT_EQ(notes[0], "--heuristic has no effect with 'path': it is for 'bdpt', which has strategies");
+    EXPECT_EQ(notes[1], "--bdpt-connections has no effect with 'path': it is for 'bdpt', which has strategies");
+    settings.integrator.type = "bdpt";
+    EXPECT_TRUE(ineffective_settings(settings, false).empty());
+}
+
 TEST(IneffectiveSettings, IndirectLightTakesThreeEdges) {
     RenderSettings settings;
     settings.integrator.max_depth = 2;
