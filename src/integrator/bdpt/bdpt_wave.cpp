@@ -88,15 +88,16 @@ void BdptWave::trace(const World& world, const TileJob& job, const BdptOptions& 
     found_.reset(count, job, counters.brightest.threshold());
     alpha_.assign(count, 1.0f);
     const Context context{{world, job, options.lengths, Raised{options.heuristic}, samples_, camera_rays_}, options};
-    // Both subpaths of a path share the edges that roulette spares.
-    const int roulette_depth_at_light = options.lengths.roulette_depth / 2;
+    // Of the edges that roulette spares, half are the eye's. Of light subpaths there are as many as samples, of which
+    // few bring much: a quarter is enough.
+    const int roulette_depth = options.lengths.roulette_depth;
     context_ = &context;
     tile_ = &tile;
-    eye_.trace(context, options.lengths.roulette_depth - roulette_depth_at_light, this, found_, counters);
+    eye_.trace(context, (roulette_depth + 1) / 2, this, found_, counters);
     context_ = nullptr;
     tile_ = nullptr;
     if (world.has_lights()) {
-        light_.trace(context, roulette_depth_at_light, nullptr, found_, counters);
+        light_.trace(context, roulette_depth / 4, nullptr, found_, counters);
         cache_.clear();
         if (options.cached_connections > 0)
             for (const PathVertex& vertex : light_.vertices())
