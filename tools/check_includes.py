@@ -27,6 +27,7 @@ ROOMS = {
     "bsdf": "sampling core",
     "medium": "sampling core",
     "texture": "image core",
+    "oiio": "texture image core",
     "light": "texture sampling core",
     "camera": "sampling core",
     "world": "scene bsdf medium light camera texture image color sampling core",
@@ -51,7 +52,8 @@ THIRD_PARTY = [
     (r"xxhash\.h", "core", WRAPPED),
     (r"OpenImageDenoise/", "denoise", WRAPPED),
     (r"(tbb|oneapi)/", "core render", WRAPPED),
-    (r"OpenImageIO/", "image texture", WRAPPED),
+    (r"OpenImageIO/oiioversion\.h", "image", WRAPPED),
+    (r"OpenImageIO/", "oiio", WRAPPED),
     (r"OpenColorIO/", "color", WRAPPED),
     (r"(tiny_gltf\.h|draco/|meshoptimizer\.h)", "loader", WRAPPED),
     (r"nlohmann/", "loader output report app", WRAPPED),
@@ -61,7 +63,7 @@ THIRD_PARTY = [
     (r"experimental/simd$", "core", SHOWN),
     # The processor and the operating system.
     (r"[a-z]+mmintrin\.h|immintrin\.h", ANY_ROOM, SHOWN),
-    (r"(unistd|elf|fcntl|link|poll|pthread|pwd|sched|spawn)\.h|linux/|sys/", ANY_ROOM, WRAPPED),
+    (r"(unistd|dlfcn|elf|fcntl|link|poll|pthread|pwd|sched|spawn)\.h|linux/|sys/", ANY_ROOM, WRAPPED),
 ]
 STANDARD = re.compile(r"[a-z][a-z0-9_]*$")  # <vector>, <cstdint>: no slash, no suffix
 

@@ -1,54 +1,11 @@
 #include "image/read.h"
 
-#include "core/error.h"
-#include "image/open_image.h"
+#include "image/encoded_image.h"
+#include "image/image_functions.h"
 
-#include <new>
+#include <OpenImageIO/oiioversion.h>
 
 namespace etendue {
-
-namespace {
-
-template <typename T>
-Image<T> read_level(OpenImage& open, const ImageLevel& size, int level) {
-    seek_level(open, size, level);
-    Image<T> image(size.width, size.height, static_cast<int>(open.channels.size()));
-    const std::size_t pixel_count = static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
-    const ChannelRange range = channel_range(open);
-    const bool in_order = channels_in_order(open);
-    std::vector<T> stored(in_order ? 0 : pixel_count * range.size());
-    T* const pixels = in_order ? image.pixels.data() : stored.data();
-    if (!open.input->read_image(open.part, level, range.first, range.last, OIIO::BaseTypeFromC<T>::value, pixels))
-        throw_library_error(*open.input, "the pixels are broken");
-    if (!in_order) pick_channels(open, pixels, pixel_count, image.pixels.data());
-    return image;
-}
-
-template <typename T>
-Image<T> read_image(const ImageSource& source) {
-    try {
-        OpenImage open = open_image(source);
-        return read_level<T>(open, {open.spec.width, open.spec.height}, 0);
-    } catch (const std::bad_alloc&) {
-        throw IoError("not enough memory to decode the image");
-    }
-}
-
-NativeImage read_native_level(OpenImage& open, const ImageLevel& size, int level, TexelDepth depth) {
-    switch (depth) {
-        case TexelDepth::UInt8:
-            return read_level<std::uint8_t>(open, size, level);
-        case TexelDepth::UInt16:
-            return read_level<std::uint16_t>(open, size, level);
-        case TexelDepth::Half:
-            return read_level<Float16>(open, size, level);
-        case TexelDepth::Float:
-            break;
-    }
-    return read_level<float>(open, size, level);
-}
-
-}  // namespace
 
 std::size_t bytes_of(TexelDepth depth) {
     switch (depth) {
@@ -63,31 +20,26 @@ std::size_t bytes_of(TexelDepth depth) {
     return 4;
 }
 
+// What is no image is refused before the functions are asked for, which loads them.
+
 ImageInfo read_image_info(const ImageSource& source) {
-    return describe(open_image(source));
+    const EncodedImage image = look_at(source);
+    return image_functions().read_image_info(image);
 }
 
 ImageF read_image_float(const ImageSource& source) {
-    return read_image<float>(source);
+    const EncodedImage image = look_at(source);
+    return image_functions().read_image_float(image);
 }
 
 Image8 read_image_8bit(const ImageSource& source) {
-    return read_image<std::uint8_t>(source);
+    const EncodedImage image = look_at(source);
+    return image_functions().read_image_8bit(image);
 }
 
 std::vector<NativeImage> read_image_levels(const ImageSource& source) {
-    try {
-        OpenImage open = open_image(source);
-        const TexelDepth depth = describe(open).depth;
-        const std::vector<ImageLevel> sizes = levels_of(open);
-        std::vector<NativeImage> levels;
-        levels.reserve(sizes.size());
-        for (std::size_t i = 0; i < sizes.size(); ++i)
-            levels.push_back(read_native_level(open, sizes[i], static_cast<int>(i), depth));
-        return levels;
-    } catch (const std::bad_alloc&) {
-        throw IoError("not enough memory to decode the image");
-    }
+    const EncodedImage image = look_at(source);
+    return image_functions().read_image_levels(image);
 }
 
 std::string image_library_version() {

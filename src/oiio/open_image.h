@@ -2,6 +2,7 @@
 #pragma once
 
 #include "image/encoded_format.h"
+#include "image/encoded_image.h"
 #include "image/read.h"
 
 #include <memory>
@@ -11,7 +12,7 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
-namespace etendue {
+namespace etendue::oiio {
 
 struct OpenImage {
     std::unique_ptr<OIIO::Filesystem::IOMemReader> memory;  // outlives `input`, which reads through it
@@ -25,11 +26,11 @@ struct OpenImage {
     std::vector<int> channels;
 };
 
-/// One part of a file; bytes in `source` must outlive the result. Throws IoError as `read_image_info` does.
-[[nodiscard]] OpenImage open_image(const ImageSource& source, int part = 0);
+/// One part of a file; bytes in memory must outlive the result. Throws IoError as `read_image_info` does.
+[[nodiscard]] OpenImage open_image(const EncodedImage& encoded, int part = 0);
 
 /// The same of the first part, whose header may claim anything.
-[[nodiscard]] OpenImage open_unchecked(const ImageSource& source);
+[[nodiscard]] OpenImage open_unchecked(const EncodedImage& encoded);
 /// Goes on with another part, whose header may claim anything. Returns false if there is none.
 [[nodiscard]] bool seek_part(OpenImage& image, int part);
 /// Throws IoError if what the header claims is not accepted.
@@ -75,4 +76,4 @@ void pick_channels(const OpenImage& image, const T* stored, std::size_t count, T
                 stored[i * range.size() + static_cast<std::size_t>(image.channels[c] - range.first)];
 }
 
-}  // namespace etendue
+}  // namespace etendue::oiio

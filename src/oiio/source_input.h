@@ -1,30 +1,23 @@
 // An image as OpenImageIO's cache sees it. For this room only.
 #pragma once
 
-#include "image/image_reader.h"
-#include "texture/texture_cache.h"
+#include "image/image_pieces.h"
+#include "texture/tile_cache.h"
 
+#include <cstddef>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include <OpenImageIO/imageio.h>
 
-namespace etendue {
+namespace etendue::oiio {
 
-/// What a SourceInput reads.
-struct CacheEntry {
-    TextureCache::Source source;
-    Encoding encoding = Encoding::Linear;
-};
-
-/// Reads a CacheEntry, which must outlive it, in linear light: integers under a curve become 16-bit floats, everything
-/// else keeps its depth. The file's own mip levels are shown if they reach 1 × 1.
+/// Reads what an OpenPieces opens, which must outlive it.
 class SourceInput final : public OIIO::ImageInput {
   public:
-    /// Name of the attribute that passes the pointer to the entry through the cache to `open`.
-    static constexpr const char* kEntryAttribute = "etendue:entry";
+    /// Name of the attribute that passes the pointer to the OpenPieces through the cache to `open`.
+    static constexpr const char* kOpenAttribute = "etendue:open";
 
     /// For OpenImageIO, which owns the result.
     [[nodiscard]] static OIIO::ImageInput* create() { return new SourceInput; }
@@ -43,11 +36,9 @@ class SourceInput final : public OIIO::ImageInput {
     template <typename Read>
     bool convert(std::size_t pixel_count, void* data, const Read& read);
 
-    const CacheEntry* entry_ = nullptr;
-    std::optional<ImageReader> reader_;
+    std::unique_ptr<ImagePieces> pieces_;
     int level_ = 0;
-    int level_count_ = 0;
     std::vector<float> values_;
 };
 
-}  // namespace etendue
+}  // namespace etendue::oiio

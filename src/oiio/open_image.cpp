@@ -1,50 +1,18 @@
-#include "image/open_image.h"
+#include "oiio/open_image.h"
 
 #include "core/error.h"
-#include "image/library_setup.h"
+#include "oiio/library_setup.h"
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <limits>
 #include <optional>
 
 #include <fmt/format.h>
 
-namespace etendue {
+namespace etendue::oiio {
 
 namespace {
-
-struct Encoded {
-    std::array<std::byte, kMagicBytes> head{};
-    std::size_t head_size = 0;
-    std::int64_t size = 0;
-};
-
-Encoded look_at(const std::filesystem::path& path) {
-    std::error_code error;
-    const auto status = std::filesystem::status(path, error);
-    if (status.type() == std::filesystem::file_type::not_found) throw IoError("the file does not exist");
-    if (error) throw IoError(error.message());
-    // Reading a pipe or a device could block for ever.
-    if (!std::filesystem::is_regular_file(status)) throw IoError("not a regular file");
-
-    Encoded encoded;
-    encoded.size = static_cast<std::int64_t>(std::filesystem::file_size(path, error));
-    std::ifstream stream(path, std::ios::binary);
-    if (error || !stream) throw IoError("the file cannot be opened");
-    stream.read(reinterpret_cast<char*>(encoded.head.data()), static_cast<std::streamsize>(encoded.head.size()));
-    encoded.head_size = static_cast<std::size_t>(stream.gcount());
-    return encoded;
-}
-
-Encoded look_at(std::span<const std::byte> bytes) {
-    Encoded encoded;
-    encoded.size = static_cast<std::int64_t>(bytes.size());
-    encoded.head_size = std::min(bytes.size(), encoded.head.size());
-    std::copy_n(bytes.begin(), encoded.head_size, encoded.head.begin());
-    return encoded;
-}
 
 void refuse_large_tiles(const OIIO::ImageSpec& spec) {
     constexpr int kMaxTileBeyondImage = 4096;
@@ -119,26 +87,21 @@ void throw_library_error(const OIIO::ImageInput& input, std::string_view what) {
     throw IoError(reason.empty() ? std::string(what) : fmt::format("{}: {}", what, reason));
 }
 
-OpenImage open_unchecked(const ImageSource& source) {
+OpenImage open_unchecked(const EncodedImage& encoded) {
     configure_image_library();
-    const Encoded encoded = std::visit([](const auto& place) { return look_at(place); }, source);
-    if (encoded.size == 0) throw IoError("the file is empty");
-    const auto format = detect_format(std::span(encoded.head).first(encoded.head_size));
-    if (!format) throw IoError("not an image of a known format (PNG, JPEG, WebP, OpenEXR, Radiance HDR, TIFF)");
-
     OpenImage image;
-    image.format = *format;
+    image.format = encoded.format;
     image.encoded_size = encoded.size;
-    image.input = OIIO::ImageInput::create(std::string(format->name));
+    image.input = OIIO::ImageInput::create(std::string(image.format.name));
     if (!image.input) throw IoError(OIIO::geterror());
     image.input->threads(1);
 
-    std::string name = "memory." + std::string(format->name);
-    if (const auto* bytes = std::get_if<std::span<const std::byte>>(&source)) {
+    std::string name = "memory." + std::string(image.format.name);
+    if (const auto* bytes = std::get_if<std::span<const std::byte>>(&encoded.source)) {
         image.memory = std::make_unique<OIIO::Filesystem::IOMemReader>(bytes->data(), bytes->size());
         if (!image.input->set_ioproxy(image.memory.get())) throw_library_error(*image.input, "cannot read from memory");
     } else {
-        name = std::get<std::filesystem::path>(source).string();
+        name = std::get<std::filesystem::path>(encoded.source).string();
     }
     OIIO::ImageSpec request;
     request.attribute("oiio:UnassociatedAlpha", 1);
@@ -159,8 +122,8 @@ void require_acceptable(const OpenImage& image) {
     refuse_absurd(image.spec, image.format, image.encoded_size);
 }
 
-OpenImage open_image(const ImageSource& source, int part) {
-    OpenImage image = open_unchecked(source);
+OpenImage open_image(const EncodedImage& encoded, int part) {
+    OpenImage image = open_unchecked(encoded);
     if (part != 0 && !seek_part(image, part)) throw_library_error(*image.input, fmt::format("it has no part {}", part));
     require_acceptable(image);
     return image;
@@ -215,4 +178,4 @@ bool channels_in_order(const OpenImage& image) {
            channel_range(image).size() == image.channels.size();
 }
 
-}  // namespace etendue
+}  // namespace etendue::oiio

@@ -1,0 +1,59 @@
+#include "image/encoded_image.h"
+
+#include "core/error.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <span>
+#include <system_error>
+#include <variant>
+
+namespace etendue {
+
+namespace {
+
+struct Beginning {
+    std::array<std::byte, kMagicBytes> head{};
+    std::size_t head_size = 0;
+    std::int64_t size = 0;
+};
+
+Beginning beginning_of(const std::filesystem::path& path) {
+    std::error_code error;
+    const auto status = std::filesystem::status(path, error);
+    if (status.type() == std::filesystem::file_type::not_found) throw IoError("the file does not exist");
+    if (error) throw IoError(error.message());
+    // Reading a pipe or a device could block for ever.
+    if (!std::filesystem::is_regular_file(status)) throw IoError("not a regular file");
+
+    Beginning beginning;
+    beginning.size = static_cast<std::int64_t>(std::filesystem::file_size(path, error));
+    std::ifstream stream(path, std::ios::binary);
+    if (error || !stream) throw IoError("the file cannot be opened");
+    stream.read(reinterpret_cast<char*>(beginning.head.data()), static_cast<std::streamsize>(beginning.head.size()));
+    beginning.head_size = static_cast<std::size_t>(stream.gcount());
+    return beginning;
+}
+
+Beginning beginning_of(std::span<const std::byte> bytes) {
+    Beginning beginning;
+    beginning.size = static_cast<std::int64_t>(bytes.size());
+    beginning.head_size = std::min(bytes.size(), beginning.head.size());
+    std::copy_n(bytes.begin(), beginning.head_size, beginning.head.begin());
+    return beginning;
+}
+
+}  // namespace
+
+EncodedImage look_at(const ImageSource& source) {
+    const Beginning beginning = std::visit([](const auto& place) { return beginning_of(place); }, source);
+    if (beginning.size == 0) throw IoError("the file is empty");
+    const auto format = detect_format(std::span(beginning.head).first(beginning.head_size));
+    if (!format) throw IoError("not an image of a known format (PNG, JPEG, WebP, OpenEXR, Radiance HDR, TIFF)");
+    return {source, *format, beginning.size};
+}
+
+}  // namespace etendue

@@ -1,0 +1,81 @@
+#include "core/error.h"
+#include "oiio/functions.h"
+#include "oiio/open_image.h"
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace etendue::oiio {
+
+namespace {
+
+class OpenPieces final : public ImagePieces {
+  public:
+    explicit OpenPieces(const EncodedImage& encoded)
+        : image_(open_image(encoded)), info_(describe(image_)), levels_(levels_of(image_)) {
+        const OIIO::ImageSpec& spec = image_.spec;
+        if (spec.tile_width > 0 && spec.tile_height > 0 && spec.tile_depth == 1)
+            tile_ = {spec.tile_width, spec.tile_height};
+    }
+
+    [[nodiscard]] const ImageInfo& info() const override { return info_; }
+    [[nodiscard]] std::span<const ImageLevel> levels() const override { return levels_; }
+    [[nodiscard]] ImageLevel tile() const override { return tile_; }
+
+    void read_rows(int level, int y_begin, int y_end, std::span<float> values) override {
+        const ImageLevel& size = levels_[static_cast<std::size_t>(level)];
+        seek_level(image_, size, level);
+        // The library counts rows from where the image lies in its canvas.
+        const int first_row = image_.input->spec().y;
+        const auto width = static_cast<std::size_t>(size.width);
+        const std::size_t pixel_count = width * static_cast<std::size_t>(y_end - y_begin);
+        const ChannelRange range = channel_range(image_);
+        float* const target = target_of(pixel_count, values);
+        const bool read = image_.input->read_scanlines(image_.part, level, first_row + y_begin, first_row + y_end, 0,
+                                                       range.first, range.last, OIIO::TypeDesc::FLOAT, target);
+        finish(read, pixel_count, values);
+    }
+
+    void read_tile(int level, int x, int y, std::span<float> values) override {
+        seek_level(image_, levels_[static_cast<std::size_t>(level)], level);
+        const OIIO::ImageSpec live = image_.input->spec();
+        const auto [width, height] = tile_;
+        if (live.tile_width != width || live.tile_height != height) throw IoError("its levels have different tiles");
+        x += live.x;
+        y += live.y;
+        const std::size_t pixel_count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+        const ChannelRange range = channel_range(image_);
+        float* const target = target_of(pixel_count, values);
+        const bool read = image_.input->read_tiles(image_.part, level, x, x + width, y, y + height, 0, 1, range.first,
+                                                   range.last, OIIO::TypeDesc::FLOAT, target);
+        finish(read, pixel_count, values);
+    }
+
+  private:
+    /// Where `pixel_count` pixels are to be read to: `values` itself if the channels stand right in the file.
+    float* target_of(std::size_t pixel_count, std::span<float> values) {
+        if (channels_in_order(image_)) return values.data();
+        stored_.resize(pixel_count * channel_range(image_).size());
+        return stored_.data();
+    }
+
+    void finish(bool read, std::size_t pixel_count, std::span<float> values) {
+        if (!read) throw_library_error(*image_.input, "the pixels are broken");
+        if (!channels_in_order(image_)) pick_channels(image_, stored_.data(), pixel_count, values.data());
+    }
+
+    OpenImage image_;
+    ImageInfo info_;
+    std::vector<ImageLevel> levels_;
+    ImageLevel tile_;
+    std::vector<float> stored_;  ///< pixels with channels that are not wanted, or in another order
+};
+
+}  // namespace
+
+std::unique_ptr<ImagePieces> open_pieces(const EncodedImage& image) {
+    return std::make_unique<OpenPieces>(image);
+}
+
+}  // namespace etendue::oiio
