@@ -17,6 +17,7 @@
 #include "app/render_setup.h"
 #include "color/color_config.h"
 #include "core/log.h"
+#include "image/image_module.h"
 #include "output/preview_driver.h"
 #include "render/brightest_paths.h"
 #include "render/checkpoint.h"
@@ -24,6 +25,8 @@
 #include "world/compile.h"
 
 #include <algorithm>
+#include <chrono>
+#include <future>
 #include <memory>
 #include <utility>
 
@@ -64,6 +67,7 @@ class SceneRender {
           checkpoints_(output_),
           progress_pipe_(request.progress_descriptor) {
         progress_pipe_.enter("load");
+        if (!is_partial(output_)) image_module_ = load_image_module_early();
         report_problems();
         options_ = is_partial(output_) ? make_part_options(scene_.settings, request.samples)
                                        : make_render_options(scene_.settings);
@@ -89,6 +93,7 @@ class SceneRender {
             log_info("{}: going on after {} of {} samples per pixel", output_.string(), kept->state.spp_done,
                      options_.spp);
         const World world = compile();
+        require_image_module();
         RenderResult rendered = render_from(world, kept ? std::move(kept->state) : new_state());
         find_brightest_paths(world, *integrator_, options_, rendered);
         report_dropped(rendered.counters, request_.scene, request_.overrides, settings_, settings_.color.working_space);
@@ -119,6 +124,13 @@ class SceneRender {
 
     void require_not_lost() const {
         if (is_lost()) throw LostRender();
+    }
+
+    /// A render of hours must not end with an image that nothing can write. Does not wait for what is being loaded,
+    /// which fails at once if at all.
+    void require_image_module() {
+        if (image_module_.valid() && image_module_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
+            image_module_.get();
     }
 
     void report_problems() {
@@ -334,6 +346,7 @@ class SceneRender {
     OutputPaths paths_;
     CheckpointFiles checkpoints_;
     ProgressPipe progress_pipe_;
+    std::future<void> image_module_;  ///< while it is loaded; of a part, which is no image, none
     RenderOptions options_;
     std::unique_ptr<const Integrator> integrator_;
     AovPlan aovs_;
