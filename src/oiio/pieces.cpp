@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace etendue::oiio {
@@ -13,7 +14,7 @@ namespace {
 class OpenPieces final : public ImagePieces {
   public:
     explicit OpenPieces(const EncodedImage& encoded)
-        : image_(open_image(encoded)), info_(describe(image_)), levels_(levels_of(image_)) {
+        : encoded_(encoded), image_(open_image(encoded)), info_(describe(image_)), levels_(levels_of(image_)) {
         const OIIO::ImageSpec& spec = image_.spec;
         if (spec.tile_width > 0 && spec.tile_height > 0 && spec.tile_depth == 1)
             tile_ = {spec.tile_width, spec.tile_height};
@@ -24,6 +25,9 @@ class OpenPieces final : public ImagePieces {
     [[nodiscard]] ImageLevel tile() const override { return tile_; }
 
     void read_rows(int level, int y_begin, int y_end, std::span<float> values) override {
+        require_whole();
+        if (y_begin < next_row_ && !reads_in_any_order()) reopen();
+        next_row_ = y_end;
         const ImageLevel& size = levels_[static_cast<std::size_t>(level)];
         seek_level(image_, size, level);
         // The library counts rows from where the image lies in its canvas.
@@ -38,6 +42,7 @@ class OpenPieces final : public ImagePieces {
     }
 
     void read_tile(int level, int x, int y, std::span<float> values) override {
+        require_whole();
         seek_level(image_, levels_[static_cast<std::size_t>(level)], level);
         const OIIO::ImageSpec live = image_.input->spec();
         const auto [width, height] = tile_;
@@ -53,6 +58,14 @@ class OpenPieces final : public ImagePieces {
     }
 
   private:
+    /// What has failed once may have been closed by the library, which would not look before it reads on.
+    void require_whole() const {
+        if (is_broken_) throw IoError("the pixels are broken");
+    }
+    /// Of formats that are decoded from the first row on, the library opens the file again for a row before the last
+    /// one read, without what was asked of it and not at all in memory.
+    [[nodiscard]] bool reads_in_any_order() const { return image_.format.name == "openexr"; }
+    void reopen() { const OpenImage former = std::exchange(image_, open_image(encoded_)); }
     /// Where `pixel_count` pixels are to be read to: `values` itself if the channels stand right in the file.
     float* target_of(std::size_t pixel_count, std::span<float> values) {
         if (channels_in_order(image_)) return values.data();
@@ -61,11 +74,15 @@ class OpenPieces final : public ImagePieces {
     }
 
     void finish(bool read, std::size_t pixel_count, std::span<float> values) {
+        is_broken_ = !read;
         if (!read) throw_library_error(*image_.input, "the pixels are broken");
         if (!channels_in_order(image_)) pick_channels(image_, stored_.data(), pixel_count, values.data());
     }
 
+    EncodedImage encoded_;
     OpenImage image_;
+    int next_row_ = 0;  ///< after the last that was read
+    bool is_broken_ = false;
     ImageInfo info_;
     std::vector<ImageLevel> levels_;
     ImageLevel tile_;

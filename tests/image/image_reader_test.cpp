@@ -4,8 +4,11 @@
 #include "image_test_files.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <filesystem>
 #include <numeric>
+#include <optional>
+#include <span>
 #include <string>
 #include <variant>
 
@@ -37,6 +40,66 @@ TEST(ImageReader, RowsAreThoseOfTheWholeImage) {
         EXPECT_TRUE(std::equal(rows.begin(), rows.end(), whole.pixels.begin() + begin * 15)) << begin;
     }
 }
+
+/// A file of this name, 16 pixels wide and 64 high with an alpha that varies, or its bytes in memory.
+class RowsInAnyOrder : public testing::TestWithParam<const char*> {
+  protected:
+    std::filesystem::path write() const {
+        const std::string name = GetParam();
+        const int channels = name == "a.jpg" || name == "a.hdr" ? 3 : 4;
+        std::vector<float> values(static_cast<std::size_t>(16 * 64 * channels));
+        for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>((i * 37) % 251 + 3) / 255.0f;
+        OIIO::ImageSpec spec(16, 64, channels, name == "a.hdr" ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8);
+        spec.attribute("oiio:UnassociatedAlpha", 1);
+        return write_reference(folder_ / name, spec, values);
+    }
+    static void expect_rows(const ImageSource& source) {
+        const ImageF whole = read_image_float(source);
+        const auto row = static_cast<std::size_t>(16 * whole.channels);
+        ImageReader reader(source);
+        for (const int begin : {48, 16, 32, 0, 40, 8}) {
+            std::vector<float> rows(8 * row);
+            reader.read_rows(0, begin, begin + 8, rows);
+            const auto expected = whole.pixels.begin() + static_cast<std::ptrdiff_t>(row) * begin;
+            EXPECT_TRUE(std::equal(rows.begin(), rows.end(), expected)) << "from row " << begin;
+        }
+    }
+    TemporaryFolder folder_;
+};
+
+// Caches of tiles read again what they had to forget.
+TEST_P(RowsInAnyOrder, OfAFileAndInMemory) {
+    const std::filesystem::path file = write();
+    expect_rows(file);
+    const std::vector<std::byte> bytes = read_all(file);
+    expect_rows(std::span<const std::byte>(bytes));
+}
+
+TEST_P(RowsInAnyOrder, BrokenPixelsStayBroken) {
+    std::vector<std::byte> bytes = read_all(write());
+    bytes.resize(bytes.size() / 2);
+    std::optional<ImageReader> reader;
+    try {
+        reader.emplace(std::span<const std::byte>(bytes));
+    } catch (const IoError&) {
+        return;  // already the header says so
+    }
+    std::vector<float> rows(static_cast<std::size_t>(8 * 16 * reader->info().decoded_channels));
+    int failed = 0;
+    for (const int begin : {56, 48, 56, 0, 56}) {
+        try {
+            reader->read_rows(0, begin, begin + 8, rows);
+        } catch (const IoError&) {
+            ++failed;
+        }
+    }
+    // The library makes up what a JPEG lacks.
+    EXPECT_TRUE(failed == 5 || std::string(GetParam()) == "a.jpg") << failed;
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, RowsInAnyOrder,
+                         testing::Values("a.png", "a.jpg", "a.tif", "a.hdr", "a.webp", "a.exr"),
+                         [](const auto& name) { return std::string(name.param + 2); });
 
 TEST(ImageReader, TilesReachBeyondTheImageWithoutHarm) {
     const TemporaryFolder folder;
