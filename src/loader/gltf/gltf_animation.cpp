@@ -132,7 +132,9 @@ AnimationSampler::AnimationSampler(const GltfDocument& document, const GltfAnima
             const int components = output_components(document, animation, channel);
             std::optional<AnimationKeys> keys =
                 read_keys(animation, channel, components, kOfPointers, accessors, where, problems);
-            if (keys) pointer_channels_.push_back({channel.pointer, where, std::move(*keys)});
+            // Four numbers of this name are a quaternion wherever they stand: that of an environment.
+            const bool is_rotation = components == 4 && channel.pointer.ends_with("/rotation");
+            if (keys) pointer_channels_.push_back({channel.pointer, is_rotation, where, std::move(*keys)});
             continue;
         }
         if (channel.node < 0) continue;
@@ -152,7 +154,7 @@ AnimationSampler::AnimationSampler(const GltfDocument& document, const GltfAnima
 std::vector<PointerValue> AnimationSampler::pointer_values(double seconds) const {
     std::vector<PointerValue> values;
     for (const PointerChannel& channel : pointer_channels_)
-        values.push_back({channel.pointer, evaluate(channel.keys, seconds, false), channel.where});
+        values.push_back({channel.pointer, evaluate(channel.keys, seconds, channel.is_rotation), channel.where});
     return values;
 }
 

@@ -72,6 +72,7 @@ class AnimationSampler {
     };
     struct PointerChannel {
         std::string pointer;
+        bool is_rotation;  ///< a quaternion
         SourceLocation where;
         AnimationKeys keys;
     };

@@ -21,6 +21,8 @@ using Json = nlohmann::json;
 
 constexpr const char* kLights = "KHR_lights_punctual";
 constexpr const char* kVisibility = "KHR_node_visibility";
+constexpr const char* kMeasuredLights = "EXT_lights_ies";
+constexpr const char* kEnvironments = "EXT_lights_image_based";
 
 /// The tokens of a JSON pointer, unescaped (RFC 6901); empty if it is none.
 std::vector<std::string> split_pointer(std::string_view pointer) {
@@ -49,10 +51,13 @@ std::optional<std::size_t> to_index(const std::string& token) {
     return index;
 }
 
-const ShapeField* find_field(const Shape& shape, const std::string& key) {
-    for (std::size_t i = 0; i < shape.field_count; ++i)
-        if (shape.fields[i].key == key) return &shape.fields[i];
-    return nullptr;
+/// What must stand one step below `shape`: any element of an array, or a member. Null if no such member is known.
+const Shape* step_down(const Shape& shape, const std::string& token) {
+    if (shape.kind == Shape::Kind::Array) return shape.element;
+    if (shape.kind != Shape::Kind::Object) return nullptr;
+    const std::span fields(shape.fields, shape.field_count);
+    const auto field = std::ranges::find(fields, token, &ShapeField::key);
+    return field == fields.end() ? nullptr : &field->shape;
 }
 
 /// What must stand where the pointer leads; null if that is no place that `document` has or could have.
@@ -65,16 +70,59 @@ const Shape* find_shape(const Json& document, const std::vector<std::string>& to
         if (shape->kind == Shape::Kind::Array) {
             const std::optional<std::size_t> index = to_index(token);
             if (!index || place == nullptr || *index >= place->size()) return nullptr;
-            shape = shape->element;
             place = &(*place)[*index];
-            continue;
+        } else {
+            place = place != nullptr && place->contains(token) ? &(*place)[token] : nullptr;
         }
-        const ShapeField* field = shape->kind == Shape::Kind::Object ? find_field(*shape, token) : nullptr;
-        if (field == nullptr) return nullptr;
-        shape = &field->shape;
-        place = place != nullptr && place->contains(token) ? &(*place)[token] : nullptr;
+        shape = step_down(*shape, token);
+        if (shape == nullptr) return nullptr;
     }
     return shape;
+}
+
+/// `numbers` as `shape` holds them, one or a list, each kept within its range. Nothing if it does not hold as many.
+std::optional<std::vector<double>> fit_numbers(std::vector<double> numbers, const Shape& shape) {
+    const bool is_list = shape.kind == Shape::Kind::Array;
+    const Shape& element = is_list ? *shape.element : shape;
+    const std::size_t least = is_list ? shape.min_length : 1;
+    const std::size_t most = is_list ? shape.max_length : 1;
+    if (element.kind != Shape::Kind::Number || numbers.size() < least || numbers.size() > most) return std::nullopt;
+    for (double& number : numbers) number = std::clamp(number, element.min, element.max);
+    return numbers;
+}
+
+/// The light whose member `tokens` lead to, among those that the model keeps as the extension has them: the measured
+/// lamps of nodes, and environments. Null if there is none.
+tinygltf::Value* find_light(const std::vector<std::string>& tokens, tinygltf::Model& model) {
+    if (tokens.size() != 5) return nullptr;
+    if (tokens[0] == "nodes" && tokens[2] == "extensions" && tokens[3] == kMeasuredLights) {
+        const std::optional<std::size_t> node = to_index(tokens[1]);
+        if (!node || *node >= model.nodes.size()) return nullptr;
+        const auto lamp = model.nodes[*node].extensions.find(kMeasuredLights);
+        return lamp == model.nodes[*node].extensions.end() ? nullptr : &lamp->second;
+    }
+    if (tokens[0] != "extensions" || tokens[1] != kEnvironments || tokens[2] != "lights") return nullptr;
+    const auto environments = model.extensions.find(kEnvironments);
+    const std::optional<std::size_t> index = to_index(tokens[3]);
+    if (environments == model.extensions.end() || !index) return nullptr;
+    auto& lights = environments->second.Get<tinygltf::Value::Object>().at("lights").Get<tinygltf::Value::Array>();
+    return *index < lights.size() ? &lights[*index] : nullptr;
+}
+
+/// False if the member of `light` that `tokens` lead to is not known, or holds no such value.
+bool write_to_light(const std::vector<std::string>& tokens, const std::vector<double>& numbers,
+                    tinygltf::Value& light) {
+    const Shape* shape = &gltf_shape();
+    for (const std::string& token : tokens) {
+        shape = step_down(*shape, token);
+        if (shape == nullptr) return false;
+    }
+    const std::optional<std::vector<double>> fitted = fit_numbers(numbers, *shape);
+    if (!fitted) return false;
+    light.Get<tinygltf::Value::Object>()[tokens.back()] =
+        shape->kind == Shape::Kind::Number ? tinygltf::Value(fitted->front())
+                                           : tinygltf::Value(tinygltf::Value::Array(fitted->begin(), fitted->end()));
+    return true;
 }
 
 /// Weights of the morph targets of `mesh`: all if `tokens`, which lead on from "weights", are none, else one. False if
@@ -95,10 +143,11 @@ bool write_weights(std::span<const std::string> tokens, const std::vector<double
     return true;
 }
 
-/// Values that are not in the JSON that is read again: whether nodes are visible, and weights of morph targets. False
-/// if the pointer leads to none of these, or the value does not fit.
+/// Values that are not in the JSON that is read again: measured lamps, environments, whether nodes are visible, and
+/// weights of morph targets. False if the pointer leads to none of these, or the value does not fit.
 bool write_to_model(const PointerValue& value, tinygltf::Model& model) {
     const std::vector<std::string> tokens = split_pointer(value.pointer);
+    if (tinygltf::Value* light = find_light(tokens, model)) return write_to_light(tokens, value.numbers, *light);
     const std::optional<std::size_t> index = tokens.size() > 2 ? to_index(tokens[1]) : std::nullopt;
     if (!index) return false;
     const bool is_weight = tokens[2] == "weights";
@@ -122,18 +171,10 @@ bool write_to_model(const PointerValue& value, tinygltf::Model& model) {
 bool write_value(const PointerValue& value, Json& document) {
     const Shape* shape = find_shape(document, split_pointer(value.pointer));
     if (shape == nullptr) return false;
-    const std::vector<double>& numbers = value.numbers;
-    const bool is_number = shape->kind == Shape::Kind::Number && numbers.size() == 1;
-    const bool is_list = shape->kind == Shape::Kind::Array && shape->element->kind == Shape::Kind::Number &&
-                         numbers.size() >= shape->min_length && numbers.size() <= shape->max_length;
-    if (!is_number && !is_list) return false;
-    Json& place = document[Json::json_pointer(value.pointer)];
-    if (is_number) {
-        place = std::clamp(numbers[0], shape->min, shape->max);
-        return true;
-    }
-    place = Json::array();
-    for (const double number : numbers) place.push_back(std::clamp(number, shape->element->min, shape->element->max));
+    const std::optional<std::vector<double>> fitted = fit_numbers(value.numbers, *shape);
+    if (!fitted) return false;
+    document[Json::json_pointer(value.pointer)] =
+        shape->kind == Shape::Kind::Number ? Json(fitted->front()) : Json(*fitted);
     return true;
 }
 

@@ -73,6 +73,18 @@ nlohmann::json& GltfBuilder::add_triangle() {
     return add_mesh({{"POSITION", floats({0, 0, 0, 1, 0, 0, 0, 1, 0}, 3)}});
 }
 
+nlohmann::json& GltfBuilder::add_cube_map() {
+    const int pixel = view(std::vector<char>(png_bytes().begin(), png_bytes().end()));
+    for (int face = 0; face < 6; ++face) json["images"].push_back({{"mimeType", "image/png"}, {"bufferView", pixel}});
+    json["extensionsUsed"].push_back("EXT_lights_image_based");
+    json["scenes"][0]["extensions"]["EXT_lights_image_based"]["light"] = 0;
+    nlohmann::json& lights = json["extensions"]["EXT_lights_image_based"]["lights"];
+    lights.push_back({{"irradianceCoefficients", std::vector<std::vector<float>>(9, {0, 0, 0})},
+                      {"specularImageSize", 1},
+                      {"specularImages", {{5, 4, 3, 2, 1, 0}}}});
+    return lights.back();
+}
+
 nlohmann::json GltfBuilder::document(bool with_uri) const {
     nlohmann::json result = json;
     if (!result.contains("buffers") && !bin.empty()) {
@@ -119,6 +131,11 @@ const std::string& png_bytes() {
         0x0d, 0x49, 0x44, 0x41, 0x54, 0x78, 0xda, 0x63, 0x64, 0xf8, 0xcf, 0x50, 0x0f, 0x00, 0x03, 0x86, 0x01, 0x80,
         0x5a, 0x34, 0x7d, 0x6b, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
     static const std::string result(reinterpret_cast<const char*>(bytes), sizeof(bytes));
+    return result;
+}
+
+const std::string& ies_bytes() {
+    static const std::string result = "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n1 1 10\n0 90\n0\n100 50\n";
     return result;
 }
 

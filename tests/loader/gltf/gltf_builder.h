@@ -60,6 +60,10 @@ class GltfBuilder {
     /// The triangle (0,0,0), (1,0,0), (0,1,0). Returns the primitive.
     nlohmann::json& add_triangle();
 
+    /// The scene's environment: a cube map of six images of the same pixel, the last for +X. The scene must be there.
+    /// Returns the light.
+    nlohmann::json& add_cube_map();
+
     /// Bytes of a GLB file with these contents.
     [[nodiscard]] std::string glb() const;
 
@@ -76,6 +80,9 @@ class GltfBuilder {
 
 /// A PNG of one pixel.
 [[nodiscard]] const std::string& png_bytes();
+
+/// An IES file: 100 candela downwards, 50 sideways.
+[[nodiscard]] const std::string& ies_bytes();
 
 /// True if some problem of this severity has `text` in its message and `pointer` as (the end of) its JSON pointer.
 [[nodiscard]] bool has_problem(const ProblemList& problems, Severity severity, const std::string& text,

@@ -7,9 +7,6 @@
 namespace etendue {
 namespace {
 
-/// 100 candela downwards, 50 sideways.
-const std::string kLamp = "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n1 1 10\n0 90\n0\n100 50\n";
-
 /// A triangle, and a node with the measured lamp `light` of the profiles `profiles`.
 GltfBuilder with_lamp(nlohmann::json profiles, nlohmann::json light = {{"light", 0}}) {
     GltfBuilder builder;
@@ -34,7 +31,7 @@ LoadedScene load_beside(const GltfBuilder& builder, const std::string& ies, cons
 TEST(MeasuredLights, FromAFile) {
     const GltfBuilder builder = with_lamp({{{"uri", "my%20lamp.ies"}, {"name", "downlight"}}},
                                           {{"light", 0}, {"multiplier", 2.5}, {"color", {1, 0.5, 4}}});
-    const LoadedScene loaded = load_beside(builder, kLamp);
+    const LoadedScene loaded = load_beside(builder, ies_bytes());
     ASSERT_EQ(loaded.scene.lights.size(), 1u) << listing(loaded.problems);
     EXPECT_TRUE(loaded.problems.all().empty()) << listing(loaded.problems);
     const LightDesc& light = loaded.scene.lights[0];
@@ -51,7 +48,7 @@ TEST(MeasuredLights, FromAFile) {
 TEST(MeasuredLights, FromABufferViewOrADataUri) {
     GltfBuilder view = with_lamp({{{"mimeType", "application/x-ies-lm-63"}}});
     view.json["extensions"]["EXT_lights_ies"]["lights"][0]["bufferView"] =
-        view.view(std::vector<char>(kLamp.begin(), kLamp.end()));
+        view.view(std::vector<char>(ies_bytes().begin(), ies_bytes().end()));
     const GltfBuilder data =
         with_lamp({{{"uri",
                      "data:application/x-ies-lm-63;base64,"
@@ -68,7 +65,7 @@ TEST(MeasuredLights, LampsOfOneKindShareTheirProfile) {
     GltfBuilder builder = with_lamp({{{"uri", "my%20lamp.ies"}}});
     builder.json["nodes"].push_back(builder.json["nodes"][1]);
     builder.json["scenes"][0]["nodes"] = {0, 1, 2};
-    const LoadedScene loaded = load_beside(builder, kLamp);
+    const LoadedScene loaded = load_beside(builder, ies_bytes());
     EXPECT_EQ(loaded.scene.lights.size(), 2u) << listing(loaded.problems);
     EXPECT_EQ(loaded.scene.ies_profiles.size(), 1u);
 }
@@ -76,7 +73,9 @@ TEST(MeasuredLights, LampsOfOneKindShareTheirProfile) {
 TEST(MeasuredLights, AreOverriddenByName) {
     const GltfBuilder builder = with_lamp({{{"uri", "my%20lamp.ies"}}}, {{"light", 0}, {"multiplier", 3}});
     const auto intensity = [&](const std::string& change) {
-        return load_beside(builder, kLamp, R"({"lights": {"ceiling": )" + change + "}}").scene.lights.at(0).intensity;
+        return load_beside(builder, ies_bytes(), R"({"lights": {"ceiling": )" + change + "}}")
+            .scene.lights.at(0)
+            .intensity;
     };
     EXPECT_EQ(intensity(R"({"scale": 2})"), 6.0f);
     EXPECT_EQ(intensity(R"({"intensity": 250})"), 2.5f) << "of the peak";
