@@ -179,7 +179,7 @@ void SettingsOverrides::add_options(CLI::App& command) {
     command
         .add_option_function<std::string>(
             "--heuristic", [this](const std::string& text) { heuristic = kHeuristics.at(text); },
-            "How bdpt weighs its strategies: power (default) or balance")
+            "How bdpt weighs its strategies: balance (default) or power")
         ->check(CLI::IsMember(kHeuristics));
     command.add_option_function<std::string>(
         "--strategy", [this](const std::string& text) { strategy = parse_strategy(text); },

@@ -10,7 +10,7 @@ enum class Heuristic {
 
 /// A density, or a ratio of them, as the heuristic wants it.
 struct Raised {
-    Heuristic heuristic = Heuristic::Power;
+    Heuristic heuristic = Heuristic::Balance;
 
     [[nodiscard]] double operator()(double ratio) const {
         return heuristic == Heuristic::Power ? ratio * ratio : ratio;

@@ -79,10 +79,10 @@ struct PathLengths {
 /// What can be asked of integrators; each takes what concerns it.
 struct IntegratorOptions {
     PathLengths lengths{};
-    Heuristic heuristic = Heuristic::Power;  ///< of those that have strategies
-    std::optional<Strategy> strategy{};      ///< this one alone; it exists
-    bool weighted = true;                    ///< false: the strategy is all there is, as if no other made its paths
-    int cached_connections = 0;              ///< of bdpt: see BdptOptions
+    Heuristic heuristic = Heuristic::Balance;  ///< of those that have strategies
+    std::optional<Strategy> strategy{};        ///< this one alone; it exists
+    bool weighted = true;                      ///< false: the strategy is all there is, as if no other made its paths
+    int cached_connections = 0;                ///< of bdpt: see BdptOptions
 };
 
 /// Memory that a thread keeps from tile to tile; each integrator has its own kind.

@@ -25,7 +25,7 @@ struct IntegratorSettings {
     int roulette_depth = 5;     ///< edges after which Russian roulette may end a path, >= 1
     /// Of bidirectional path tracing: how strategies are weighed, and which one alone makes the image, by its vertices
     /// from the light and from the eye; not weighted, it is all there is.
-    HeuristicType heuristic = HeuristicType::Power;
+    HeuristicType heuristic = HeuristicType::Balance;
     std::optional<std::array<int, 2>> strategy{};
     bool weighted = true;
     /// And how many light vertices of all samples an eye vertex is connected to; 0: all of its own sample.

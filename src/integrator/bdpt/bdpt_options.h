@@ -23,7 +23,7 @@ class WeightObserver {
 
 struct BdptOptions {
     PathLengths lengths;
-    Heuristic heuristic = Heuristic::Power;
+    Heuristic heuristic = Heuristic::Balance;
     std::optional<Strategy> only{};  ///< this strategy alone
     bool weighted = true;            ///< false: it is all there is, as if no other could make its paths
     /// Light vertices of the wave that an eye vertex is connected to; 0: those of its own sample's light subpath.
