@@ -202,12 +202,12 @@ TEST_F(Compare, NoTwoRendersHaveTheSameSeed) {
 
 TEST_F(Compare, TakesAnyTwoSettings) {
     ASSERT_EQ(compare({"--spp", "4", "--seeds", "3", "--integrator", "bdpt", "--variant-a", "--max-depth 2",
-                       "--variant-b", "--max-depth 2 --heuristic balance", "--strategies-depth", "0"})
+                       "--variant-b", "--max-depth 2 --heuristic power", "--strategies-depth", "0"})
                   .exit_code,
               0);
     const json report = this->report();
     EXPECT_EQ(report["variants"][0]["name"], "a: --max-depth 2");
-    EXPECT_EQ(report["variants"][1]["options"], "--max-depth 2 --heuristic balance");
+    EXPECT_EQ(report["variants"][1]["options"], "--max-depth 2 --heuristic power");
     EXPECT_EQ(report["pairs"][0]["comparable"], true);
     EXPECT_EQ(report["reference"]["kind"], "pooled");
     EXPECT_NE(notes().find("would not be seen"), std::string::npos) << "bdpt is measured against itself: " << notes();

@@ -40,7 +40,7 @@ TEST(DifferentLight, IsThatOfOtherScenesStrategiesAndDebugging) {
     for (const char* name : {"normals", "albedo"})
         EXPECT_NE(different_light(variant(name), variant("path")).find("something else"), std::string::npos) << name;
     Variant faster = variant("bdpt");
-    faster.settings.integrator.heuristic = HeuristicType::Balance;
+    faster.settings.integrator.heuristic = HeuristicType::Power;
     faster.settings.integrator.cached_connections = 4;
     faster.settings.spp = 7;
     EXPECT_EQ(different_light(variant("bdpt"), faster), "");

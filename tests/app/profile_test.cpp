@@ -125,7 +125,7 @@ TEST_F(Profile, RefusesOtherWorkBeforeAnythingIsMeasured) {
     refuses(baseline, {"--min-depth", "2"}, "min depth 2");
     refuses(baseline, {"--clamp-indirect", "3"}, "indirect light up to 3");
     refuses(baseline, {"--bdpt-connections", "cache:5"}, "cache:5");
-    refuses(baseline, {"--heuristic", "balance"}, "balance");
+    refuses(baseline, {"--heuristic", "power"}, "power");
     refuses("one.json", {}, "one repetition");
     Names other = quick;
     other[1] = "bdpt";

@@ -47,7 +47,7 @@ TEST(RenderIdentity, EverySettingThatSumsDependOnChangesItAndIsNamed) {
         {"setting integrator: ",
          [](SceneDesc& s) {
              s.settings.integrator.type = "bdpt";
-             s.settings.integrator.heuristic = HeuristicType::Balance;
+             s.settings.integrator.heuristic = HeuristicType::Power;
          }},
         {"setting film: ", [](SceneDesc& s) { s.settings.film.width = 17; }},
         {"setting film: ", [](SceneDesc& s) { s.settings.film.height = 17; }},
@@ -78,7 +78,7 @@ TEST(RenderIdentity, EverySettingThatSumsDependOnChangesItAndIsNamed) {
         return identity_of(other, "ACEScg");
     };
     const RenderIdentity plain = bdpt([](SceneDesc&) {});
-    EXPECT_NE(plain, bdpt([](SceneDesc& s) { s.settings.integrator.heuristic = HeuristicType::Balance; }));
+    EXPECT_NE(plain, bdpt([](SceneDesc& s) { s.settings.integrator.heuristic = HeuristicType::Power; }));
     EXPECT_NE(plain, bdpt([](SceneDesc& s) { s.settings.integrator.strategy = std::array{1, 2}; }));
     EXPECT_NE(plain, bdpt([](SceneDesc& s) { s.settings.integrator.cached_connections = 3; }));
     EXPECT_NE(bdpt([](SceneDesc& s) {

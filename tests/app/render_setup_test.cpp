@@ -53,7 +53,7 @@ TEST(IneffectiveSettings, OptionsOfAdaptiveSamplingNeedAnError) {
 
 TEST(IneffectiveSettings, OptionsOfStrategiesNeedStrategies) {
     RenderSettings settings;
-    settings.integrator = {.type = "path", .heuristic = HeuristicType::Balance, .cached_connections = 2};
+    settings.integrator = {.type = "path", .heuristic = HeuristicType::Power, .cached_connections = 2};
     EXPECT_TRUE(ineffective_settings(settings, false).empty()) << "of a render.json, for when bdpt is asked for";
     settings.options = {{"/integrator/heuristic", "--heuristic"}, {"/integrator/connections", "--bdpt-connections"}};
     const std::vector<std::string> notes = ineffective_settings(settings, false);

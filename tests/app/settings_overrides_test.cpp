@@ -134,11 +134,11 @@ TEST(SettingsOverrides, EachOptionReachesItsSetting) {
 
 TEST(SettingsOverrides, StrategiesOfBidirectionalPathTracing) {
     SceneDesc scene = scene_of(640, 360, 100);
-    parse({"--strategy", "2,3", "--unweighted", "--heuristic", "balance"}).apply(scene);
+    parse({"--strategy", "2,3", "--unweighted", "--heuristic", "power"}).apply(scene);
     const IntegratorSettings& integrator = scene.settings.integrator;
     EXPECT_EQ(integrator.strategy, (std::array<int, 2>{2, 3}));
     EXPECT_FALSE(integrator.weighted);
-    EXPECT_EQ(integrator.heuristic, HeuristicType::Balance);
+    EXPECT_EQ(integrator.heuristic, HeuristicType::Power);
     for (const char* text : {"2", "2,", "2,3,4", "-1,3", "a,b", "2x3"})
         EXPECT_THROW((void)parse({"--strategy", text}), CLI::ValidationError) << text;
     EXPECT_THROW((void)parse({"--heuristic", "cutoff"}), CLI::ValidationError);
