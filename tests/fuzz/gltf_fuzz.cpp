@@ -1,5 +1,6 @@
 // Feeds the loader with whatever libFuzzer makes of a corpus of glTF files: it must load or refuse, never crash, hang
-// or take memory without bound.
+// or take memory without bound. Beside each lie the files of tests/fuzz/beside, which it may name; they stay as they
+// are.
 //
 // Usage: fuzz_gltf [libFuzzer options] CORPUS_DIRECTORY; tools/fuzz makes the corpus and runs it.
 #include "loader/loader.h"
@@ -23,6 +24,7 @@ class Workplace {
         const char* made = mkdtemp(pattern.data());
         if (made == nullptr) std::abort();
         directory_ = made;
+        std::filesystem::copy(ETENDUE_SOURCE_DIR "/tests/fuzz/beside", directory_);
     }
     ~Workplace() {
         std::error_code ignored;
