@@ -92,6 +92,11 @@ class Batch : public testing::Test {
         if (!found || child == 0) throw std::runtime_error("no process renders for the batch: " + batch.messages());
         return child;
     }
+    /// Waits for its end, which has this exit code; what it wrote tells why, if not.
+    static void expect_end(RunningProgram& program, int exit_code) {
+        const ProgramResult result = program.wait();
+        EXPECT_EQ(result.exit_code, exit_code) << result.err;
+    }
     /// Nothing is left but images and what tells of them.
     void expect_tidy() const {
         for (const std::string& name : list(work_ / "out")) {
@@ -218,8 +223,8 @@ TEST_F(Batch, EvenByForceSeveralAtOnceRenderEverythingOnce) {
     const auto second = start({"--force"});
     ASSERT_TRUE(wait_until([&] { return events("batch started").size() == 2; }));
     kill(child, SIGCONT);
-    EXPECT_EQ(first->wait().exit_code, 0);
-    EXPECT_EQ(second->wait().exit_code, 0);
+    expect_end(*first, 0);
+    expect_end(*second, 0);
     for (const auto& [unit, times] : count("unit finished")) EXPECT_EQ(times, 1) << unit;
     EXPECT_EQ(count("unit finished").size(), 3u);
 }
@@ -233,7 +238,7 @@ TEST_F(Batch, WaitsForWhatAnotherMakesAndThenEverythingIsThere) {
     EXPECT_TRUE(fs::exists(work_ / "out/slow.json"));
     EXPECT_NE(second.err.find("waiting for"), std::string::npos) << second.err;
     EXPECT_NE(second.err.find("made by another batch process"), std::string::npos) << second.err;
-    EXPECT_EQ(first->wait().exit_code, 0);
+    expect_end(*first, 0);
     EXPECT_EQ(count("unit finished"), (std::map<std::string, int>{{"slow", 1}}));
 }
 
@@ -246,7 +251,7 @@ TEST_F(Batch, AnotherTakesOverWhatAKilledOneWasMaking) {
     const int child = child_of(*killed);
     const auto other = start();
     killed->send(SIGKILL);
-    EXPECT_EQ(killed->wait().exit_code, 1000 + SIGKILL);
+    expect_end(*killed, 1000 + SIGKILL);
     EXPECT_TRUE(wait_until([child] { return !fs::exists(fmt::format("/proc/{}", child)); })) << "nobody goes on";
     const ProgramResult result = other->wait();
     EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -337,7 +342,7 @@ TEST_F(Batch, InputThatVanishesOrCannotBeDecodedFailsItsImageOnly) {
     // The plan is made, and the first image is under way.
     ASSERT_TRUE(wait_until([&] { return !events("unit started").empty(); }));
     fs::remove(folder_ / "scenes/c-vanishes/triangle.bin");
-    EXPECT_EQ(batch->wait().exit_code, 1);
+    expect_end(*batch, 1);
     std::map<std::string, std::string> errors;
     for (const json& event : events("unit failed")) errors[event["unit"]] = event["error"];
     EXPECT_EQ(errors.size(), 2u);
@@ -418,7 +423,7 @@ TEST_F(Batch, ASecondInterruptEndsEverythingAtOnce) {
     EXPECT_TRUE(wait_until([&] { return !handles_interrupt(batch->pid()); }));
     EXPECT_FALSE(batch->has_ended()) << "it waits for the image";
     batch->send(SIGINT);
-    EXPECT_EQ(batch->wait().exit_code, 1000 + SIGINT);
+    expect_end(*batch, 1000 + SIGINT);
     EXPECT_TRUE(wait_until([child] { return !fs::exists(fmt::format("/proc/{}", child)); }));
 }
 
@@ -500,7 +505,7 @@ TEST_F(Batch, OneMachinesFailureIsAnothersOnlyIfTheSceneIsInvalid) {
         ASSERT_TRUE(wait_until([&] { return count("unit started")["a"] == 1 || batch->has_ended(); }));
         std::ofstream(work_ / "out/ledger.jsonl", std::ios::app) << fmt::format(
             "{{\"event\":\"unit failed\",\"host\":\"elsewhere\",\"unit\":\"b\",\"exit_code\":{}}}\n", code);
-        EXPECT_EQ(batch->wait().exit_code, rendered ? 0 : 1);
+        expect_end(*batch, rendered ? 0 : 1);
         EXPECT_EQ(fs::exists(work_ / "out/b.exr"), rendered) << code;
     }
 }
