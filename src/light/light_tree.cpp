@@ -1,6 +1,8 @@
 #include "light/light_tree.h"
 
 #include "core/vector_bytes.h"
+#include "core/wide.h"
+#include "light/light_bounds.h"
 
 #include <algorithm>
 #include <array>
@@ -21,8 +23,8 @@ constexpr float kFloor = 1e-3f;
 /// Of the squared diagonal of a box over the number of its lamps: how near the nearest is taken to be.
 constexpr float kNear = 0.02f;
 constexpr int kBins = 12;
-/// Nodes below are split in halves.
-constexpr int kDeepestBinned = 32;
+/// Level from the root from which on lights are split in halves: as many levels more hold all that have an index.
+constexpr int kFirstHalved = 8;
 
 /// Conty Estevez and Kulla's equation 1, with the square of the diagonal for the area of the box: lamps in a row have
 /// none.
@@ -36,9 +38,10 @@ double joined(Vec2f u) {
     return static_cast<double>(u.x) + static_cast<double>(u.y) * kDigits;
 }
 
+constexpr double kBelowOne = 1.0 - 0x1p-53;
+
 /// Decides with `u`, of which it leaves what may decide again.
 bool takes_first(double& u, double share) {
-    constexpr double kBelowOne = 1.0 - 0x1p-53;
     const bool first = u < share;
     u = std::min(first ? u / share : (u - share) / (1.0 - share), kBelowOne);
     return first;
@@ -47,6 +50,58 @@ bool takes_first(double& u, double share) {
 /// Turns bounds around single lights into those of all.
 LightBounds united(const LightBounds& all, const LightBounds& one, bool is_first) {
     return is_first ? one : all.united(one);
+}
+
+double intensity(const LightBounds& bounds) {
+    return bounds.power / bounds.cone.measure();
+}
+
+/// What is known of several children.
+struct Shapes {
+    Imath::Vec3<Wide> low, high, axis;
+    Wide squared_spacing, cos_o, sin_o, cos_e, two_sided;
+};
+
+/// Importances for an intensity of one, 1/m². May be no numbers where floats overflow.
+Wide falloff(const Shapes& shapes, const Vec3f& point) {
+    constexpr float kLeastSquare = 1e-30f;
+    Wide nearest(0.0f);
+    Wide farthest(0.0f);
+    for (int axis = 0; axis < 3; ++axis) {
+        const Wide below = shapes.low[axis] - point[axis];
+        const Wide above = point[axis] - shapes.high[axis];
+        const Wide outside = max(max(below, above), 0.0f);
+        const Wide across = max(-below, -above);
+        nearest = nearest + outside * outside;
+        farthest = farthest + across * across;
+    }
+    nearest = max(max(nearest, shapes.squared_spacing), kLeastSquare);
+    farthest = max(farthest, nearest);
+    const Wide by_distance = 1.0f / (sqrt(nearest) * sqrt(farthest));
+    Wide squared(0.0f);
+    Wide squared_radius(0.0f);
+    Wide along_axis(0.0f);
+    for (int axis = 0; axis < 3; ++axis) {
+        const Wide to_point = point[axis] - (shapes.low[axis] + shapes.high[axis]) * 0.5f;
+        const Wide size = shapes.high[axis] - shapes.low[axis];
+        squared = squared + to_point * to_point;
+        squared_radius = squared_radius + size * size * 0.25f;
+        along_axis = along_axis + shapes.axis[axis] * to_point;
+    }
+    const Wide cos_between = along_axis / sqrt(squared);
+    // Less theta_o, and then less theta_b.
+    const Wide cos_w = max(min(select(shapes.two_sided > 0.0f, abs(cos_between), cos_between), 1.0f), -1.0f);
+    const Wide sin_w = sqrt(1.0f - cos_w * cos_w);
+    const Wide cos_x = cos_w * shapes.cos_o + sin_w * shapes.sin_o;
+    const Wide sin_x = sin_w * shapes.cos_o - cos_w * shapes.sin_o;
+    const Wide squared_sin_b = min(squared_radius / squared, 1.0f);
+    const Wide cos_b = sqrt(1.0f - squared_sin_b);
+    const Wide cos_least = cos_x * cos_b + sin_x * sqrt(squared_sin_b);
+    // Inside of the sphere, or where light leaves every way.
+    const auto is_anywhere = shapes.cos_o <= -1.0f || squared <= squared_radius;
+    const auto is_within = cos_w >= shapes.cos_o || cos_x >= cos_b;
+    const Wide cosine = select(cos_least < shapes.cos_e, kFloor, max(cos_least, kFloor));
+    return by_distance * select(is_anywhere || is_within, 1.0f, cosine);
 }
 
 }  // namespace
@@ -90,43 +145,15 @@ LightTree::LightTree(std::span<const Light> lights, float scene_radius) : places
     far_irradiance_ = far_power / (std::numbers::pi * radius * radius);
     if (leaves.empty() && far_.size() == 1) single_ = far_.front();
     if (leaves.empty()) return;
-    nodes_.reserve(2 * leaves.size() - 1);
     nodes_.emplace_back();
     build(0, leaves, 0, 0);
-    if (far_.empty() && near_.size() == 1 && std::isfinite(nodes_.front().intensity)) single_ = near_.front();
+    nodes_.shrink_to_fit();
+    if (far_.empty() && near_.size() == 1 && std::isfinite(root_intensity_)) single_ = near_.front();
 }
 
-LightTree::Node LightTree::make_node(const LightBounds& bounds) {
-    const EmissionCone& cone = bounds.cone;
-    Node node{};
-    node.low = bounds.box.min;
-    node.high = bounds.box.max;
-    node.axis = cone.axis;
-    node.squared_spacing = kNear * length_squared(bounds.box.size()) / static_cast<float>(bounds.count);
-    node.intensity = static_cast<float>(bounds.power / cone.measure());
-    node.cos_o = cone.theta_o < std::numbers::pi ? static_cast<float>(std::cos(cone.theta_o)) : -1.0f;
-    node.sin_o = static_cast<float>(std::sin(cone.theta_o));
-    node.cos_e = static_cast<float>(std::cos(cone.theta_e));
-    node.two_sided = cone.two_sided;
-    return node;
-}
-
-void LightTree::build(std::uint32_t node, std::span<Leaf> leaves, std::uint64_t trail, int depth) {
-    LightBounds all = leaves.front().bounds;
+std::size_t LightTree::split(std::span<Leaf> leaves, bool by_cost) {
     Bounds centers;
-    centers.extend(leaves.front().center);
-    for (const Leaf& leaf : leaves.subspan(1)) {
-        all = all.united(leaf.bounds);
-        centers.extend(leaf.center);
-    }
-    nodes_[node] = make_node(all);
-    if (leaves.size() == 1) {
-        nodes_[node].is_leaf = true;
-        nodes_[node].next = leaves.front().light;
-        places_[leaves.front().light].trail = trail;
-        return;
-    }
-
+    for (const Leaf& leaf : leaves) centers.extend(leaf.center);
     const Vec3f size = centers.size();
     const float longest = std::max({size.x, size.y, size.z});
     double least = std::numeric_limits<double>::infinity();
@@ -136,7 +163,7 @@ void LightTree::build(std::uint32_t node, std::span<Leaf> leaves, std::uint64_t 
         const float place = (leaf.center[axis] - centers.min[axis]) / size[axis];
         return std::clamp(static_cast<int>(place * static_cast<float>(kBins)), 0, kBins - 1);
     };
-    for (int axis = 0; axis < 3 && depth < kDeepestBinned; ++axis) {
+    for (int axis = 0; axis < 3 && by_cost; ++axis) {
         if (!(size[axis] > 0.0f)) continue;
         struct Bin {
             LightBounds bounds;
@@ -179,112 +206,187 @@ void LightTree::build(std::uint32_t node, std::span<Leaf> leaves, std::uint64_t 
                                                   [&](const Leaf& leaf) { return bin_of(leaf, best_axis) < best_bin; });
         count = static_cast<std::size_t>(middle - leaves.begin());
     }
-    const auto first = static_cast<std::uint32_t>(nodes_.size());
-    nodes_[node].next = first;
-    nodes_.resize(nodes_.size() + 2);
-    build(first, leaves.first(count), trail, depth + 1);
-    build(first + 1, leaves.subspan(count), trail | std::uint64_t{1} << depth, depth + 1);
+    return count;
 }
 
-double LightTree::Node::importance(const Vec3f& point) const {
-    constexpr float kLeastSquare = 1e-30f;
-    float nearest = 0.0f;
-    float farthest = 0.0f;
-    for (int axis_index = 0; axis_index < 3; ++axis_index) {
-        const float below = low[axis_index] - point[axis_index];
-        const float above = point[axis_index] - high[axis_index];
-        const float outside = std::max({below, above, 0.0f});
-        const float across = std::max(-below, -above);
-        nearest += outside * outside;
-        farthest += across * across;
+void LightTree::set_child(Node& node, std::size_t child, const LightBounds& bounds, double unit) {
+    const EmissionCone& cone = bounds.cone;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto i = static_cast<std::size_t>(axis);
+        node.low[i][child] = bounds.box.min[axis];
+        node.high[i][child] = bounds.box.max[axis];
+        node.axis[i][child] = cone.axis[axis];
     }
-    nearest = std::max({nearest, squared_spacing, kLeastSquare});
-    farthest = std::max(farthest, nearest);
-    const float mean = std::sqrt(nearest) * std::sqrt(farthest);
-    const double by_distance = static_cast<double>(intensity) / static_cast<double>(mean);
-    const Vec3f to_point = point - (low + high) * 0.5f;
-    const float squared = length_squared(to_point);
-    const float squared_radius = 0.25f * length_squared(high - low);
-    // Inside of the sphere, or where light leaves every way.
-    if (cos_o <= -1.0f || squared <= squared_radius) return by_distance;
-    const float cos_between = dot(axis, to_point) / std::sqrt(squared);
-    const float cos_w = std::clamp(two_sided ? std::abs(cos_between) : cos_between, -1.0f, 1.0f);
-    const float sin_w = std::sqrt(1.0f - cos_w * cos_w);
-    if (cos_w >= cos_o) return by_distance;
-    const float cos_x = cos_w * cos_o + sin_w * sin_o;
-    const float sin_x = sin_w * cos_o - cos_w * sin_o;
-    const float sin_b = std::sqrt(squared_radius / squared);
-    const float cos_b = std::sqrt(std::max(0.0f, 1.0f - squared_radius / squared));
-    if (cos_x >= cos_b) return by_distance;
-    const float cos_least = cos_x * cos_b + sin_x * sin_b;
-    return by_distance * static_cast<double>(cos_least < cos_e ? kFloor : std::max(cos_least, kFloor));
+    node.squared_spacing[child] = kNear * length_squared(bounds.box.size()) / static_cast<float>(bounds.count);
+    node.intensity[child] = static_cast<float>(intensity(bounds) / unit);
+    node.cos_o[child] = cone.theta_o < std::numbers::pi ? static_cast<float>(std::cos(cone.theta_o)) : -1.0f;
+    node.sin_o[child] = static_cast<float>(std::sin(cone.theta_o));
+    node.cos_e[child] = static_cast<float>(std::cos(cone.theta_e));
+    node.two_sided[child] = cone.two_sided ? 1.0f : 0.0f;
 }
 
-double LightTree::first_share(const Node& node, const Vec3f& point) const {
-    const double first = nodes_[node.next].importance(point);
-    const double sum = first + nodes_[node.next + 1].importance(point);
-    return sum > 0.0 ? first / sum : 0.5;
+std::vector<std::span<LightTree::Leaf>>::iterator LightTree::next_to_split(std::vector<std::span<Leaf>>& parts) {
+    const auto fewer = [](std::span<Leaf> a, std::span<Leaf> b) { return a.size() < b.size(); };
+    const auto largest = std::max_element(parts.begin(), parts.end(), fewer);
+    if (largest->size() > kChildren) return largest;
+    // All could be nodes of their own: what is split now until it is single lights needs none.
+    auto smallest = parts.end();
+    for (auto part = parts.begin(); part != parts.end(); ++part)
+        if (part->size() > 1 && (smallest == parts.end() || part->size() < smallest->size())) smallest = part;
+    return smallest;
 }
 
-double LightTree::far_share(const Vec3f& point) const {
+void LightTree::build(std::uint32_t node, std::span<Leaf> leaves, std::uint64_t trail, int level) {
+    // Neighbours stay side by side.
+    std::vector<std::span<Leaf>> parts{leaves};
+    while (parts.size() < kChildren) {
+        const auto part = next_to_split(parts);
+        if (part == parts.end()) break;
+        const std::span<Leaf> whole = *part;
+        const std::size_t count = split(whole, level < kFirstHalved);
+        *part = whole.first(count);
+        parts.insert(part + 1, whole.subspan(count));
+    }
+    std::array<LightBounds, kChildren> bounds;
+    double strongest = 0.0;
+    for (std::size_t child = 0; child < parts.size(); ++child) {
+        bounds[child] = parts[child].front().bounds;
+        for (const Leaf& leaf : parts[child].subspan(1)) bounds[child] = bounds[child].united(leaf.bounds);
+        strongest = std::max(strongest, intensity(bounds[child]));
+    }
+    if (level == 0) root_intensity_ = strongest;
+    nodes_[node].next.fill(kNone);
+    for (std::size_t child = 0; child < parts.size(); ++child) {
+        const std::span<Leaf> part = parts[child];
+        set_child(nodes_[node], child, bounds[child], strongest);
+        const std::uint64_t way = trail | std::uint64_t{child} << (kBitsOfALevel * level);
+        if (part.size() == 1) {
+            nodes_[node].next[child] = part.front().light | kLeaf;
+            places_[part.front().light].trail = way;
+        } else {
+            const auto next = static_cast<std::uint32_t>(nodes_.size());
+            nodes_[node].next[child] = next;
+            nodes_.emplace_back();
+            build(next, part, way, level + 1);
+        }
+    }
+}
+
+LightTree::Importances LightTree::weigh(const Node& node, const Vec3f& point) {
+    static_assert(kChildren % Wide::kWidth == 0 && alignof(Column) >= Wide::kAlignment);
+    Importances importances;
+    for (std::size_t first = 0; first < kChildren; first += Wide::kWidth) {
+        const auto load = [first](const Column& column) { return Wide::load(&column[first]); };
+        const auto load_vector = [&](const std::array<Column, 3>& columns) {
+            return Imath::Vec3<Wide>(load(columns[0]), load(columns[1]), load(columns[2]));
+        };
+        const Shapes shapes{.low = load_vector(node.low),
+                            .high = load_vector(node.high),
+                            .axis = load_vector(node.axis),
+                            .squared_spacing = load(node.squared_spacing),
+                            .cos_o = load(node.cos_o),
+                            .sin_o = load(node.sin_o),
+                            .cos_e = load(node.cos_e),
+                            .two_sided = load(node.two_sided)};
+        const Wide importance = load(node.intensity) * falloff(shapes, point);
+        const Wide valid = select(importance > 0.0f, importance, 0.0f);
+        valid.store(&importances.each[first]);
+    }
+    importances.sum = 0.0f;
+    for (const float each : importances.each) importances.sum += each;
+    // Where floats do not tell them apart, all are as good.
+    if (!(importances.sum > 0.0f) || !std::isfinite(importances.sum)) {
+        importances.sum = 0.0f;
+        for (std::size_t child = 0; child < kChildren; ++child) {
+            importances.each[child] = node.next[child] != kNone ? 1.0f : 0.0f;
+            importances.sum += importances.each[child];
+        }
+    }
+    return importances;
+}
+
+double LightTree::far_share(const Importances& near) const {
     if (far_.empty()) return 0.0;
-    if (near_.empty()) return 1.0;
-    const double share = far_irradiance_ / (far_irradiance_ + nodes_.front().importance(point));
+    const double share = far_irradiance_ / (far_irradiance_ + root_intensity_ * static_cast<double>(near.sum));
     return std::clamp(share, kLeastOfASide, 1.0 - kLeastOfASide);
 }
 
 float LightTree::near_probability(double far_share, double by_tree) const {
     // Lamps beyond what floats hold have no probability, as they have none to emit: their samples are dropped and
     // counted.
-    if (!std::isfinite(nodes_.front().intensity)) return std::numeric_limits<float>::quiet_NaN();
+    if (!std::isfinite(root_intensity_)) return std::numeric_limits<float>::quiet_NaN();
     if (near_.size() == 1) return static_cast<float>(1.0 - far_share);
     const double any = kAny / static_cast<double>(near_.size());
     return static_cast<float>((1.0 - far_share) * ((1.0 - kAny) * by_tree + any));
 }
 
+double LightTree::share(const Importances& importances, std::size_t child) {
+    return static_cast<double>(importances.each[child]) / static_cast<double>(importances.sum);
+}
+
+LightTree::Choice LightTree::far_choice(double share, double u) const {
+    const auto end = std::upper_bound(far_ends_.begin(), far_ends_.end(), u);
+    const auto index = static_cast<std::size_t>(end - far_ends_.begin());
+    return {far_[index], far_probability(share, index)};
+}
+
+float LightTree::far_probability(double share, std::size_t index) const {
+    const double begin = index > 0 ? far_ends_[index - 1] : 0.0;
+    return static_cast<float>(share * (far_ends_[index] - begin));
+}
+
 LightTree::Choice LightTree::sample(const Vec3f& point, Vec2f u) const {
     if (single_ != kNone) return {single_, 1.0f};
     double rest = joined(u);
-    const double far = far_share(point);
-    if (takes_first(rest, far)) {
-        const auto end = std::upper_bound(far_ends_.begin(), far_ends_.end(), rest);
-        const std::uint32_t light = far_[static_cast<std::size_t>(end - far_ends_.begin())];
-        return {light, probability(point, light)};
-    }
+    if (near_.empty()) return far_choice(1.0, rest);
+    Importances importances = weigh(nodes_.front(), point);
+    const double far = far_share(importances);
+    if (takes_first(rest, far)) return far_choice(far, rest);
     if (near_.size() > 1 && takes_first(rest, kAny)) {
         const auto place = static_cast<std::size_t>(rest * static_cast<double>(near_.size()));
         const std::uint32_t light = near_[std::min(place, near_.size() - 1)];
         return {light, probability(point, light)};
     }
-    const Node* node = &nodes_.front();
     double by_tree = 1.0;
-    while (!node->is_leaf) {
-        const double share = first_share(*node, point);
-        const bool first = takes_first(rest, share);
-        by_tree *= first ? share : 1.0 - share;
-        node = &nodes_[node->next + (first ? 0 : 1)];
+    for (const Node* node = &nodes_.front();;) {
+        // The last that has any importance, if rounding leaves more of the number than there is.
+        const double wanted = rest * static_cast<double>(importances.sum);
+        double below = 0.0;
+        double end = 0.0;
+        std::size_t child = 0;
+        for (std::size_t i = 0; i < kChildren && end <= wanted; ++i) {
+            if (importances.each[i] == 0.0f) continue;
+            child = i;
+            below = end;
+            end += static_cast<double>(importances.each[i]);
+        }
+        rest = std::min((wanted - below) / static_cast<double>(importances.each[child]), kBelowOne);
+        by_tree *= share(importances, child);
+        const std::uint32_t next = node->next[child];
+        if ((next & kLeaf) != 0) return {next & ~kLeaf, near_probability(far, by_tree)};
+        node = &nodes_[next];
+        importances = weigh(*node, point);
     }
-    return {node->next, near_probability(far, by_tree)};
 }
 
 float LightTree::probability(const Vec3f& point, std::size_t light) const {
     const Place& place = places_[light];
     if (place.index == kNone) return 0.0f;
     if (single_ != kNone) return 1.0f;
-    const double far = far_share(point);
-    if (place.is_far) {
-        const double begin = place.index > 0 ? far_ends_[place.index - 1] : 0.0;
-        return static_cast<float>(far * (far_ends_[place.index] - begin));
-    }
-    const Node* node = &nodes_.front();
+    if (near_.empty()) return far_probability(1.0, place.index);
+    Importances importances = weigh(nodes_.front(), point);
+    const double far = far_share(importances);
+    if (place.is_far) return far_probability(far, place.index);
     double by_tree = 1.0;
-    for (std::uint64_t trail = place.trail; !node->is_leaf; trail >>= 1) {
-        const double share = first_share(*node, point);
-        const bool first = (trail & 1) == 0;
-        by_tree *= first ? share : 1.0 - share;
-        node = &nodes_[node->next + (first ? 0 : 1)];
+    std::uint64_t trail = place.trail;
+    for (const Node* node = &nodes_.front();; trail >>= kBitsOfALevel) {
+        const std::size_t child = trail % kChildren;
+        by_tree *= share(importances, child);
+        const std::uint32_t next = node->next[child];
+        if ((next & kLeaf) != 0) return near_probability(far, by_tree);
+        node = &nodes_[next];
+        importances = weigh(*node, point);
     }
-    return near_probability(far, by_tree);
 }
 
 std::size_t LightTree::bytes() const {

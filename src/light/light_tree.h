@@ -1,8 +1,8 @@
 // The choice of a light for a point: by power, distance and orientation, in a time that grows with the logarithm of
 // their number.
 //
-// Lights that are not at infinity are the leaves of a binary tree. From its root on, one of a node's two children is
-// chosen, each with a probability in proportion to what it may bring to the point,
+// Lights that are not at infinity are the leaves of a tree with 16 children a node. From its root on, one of a node's
+// children is chosen, each with a probability in proportion to what it may bring to the point,
 //
 //   importance = power / measure × max(cos theta', floor) / d²
 //   theta' = max(0, theta - theta_o - theta_b),    only the floor if theta' > theta_e
@@ -19,17 +19,21 @@
 // too little, and that at every level. The receiver's normal is left out: the density is a function of the point alone,
 // which both ends of a bidirectional path can ask for.
 //
-// Lights at infinity are chosen beside the tree, in proportion to their irradiance against the importance of the root,
-// but with a probability within [1/10, 9/10]; between them, power decides. Of each side, one choice in ten is uniform
-// over the lights that have any power, as what counts may be hidden behind something.
+// Lights at infinity are chosen beside the tree, in proportion to their irradiance against the importances of the
+// root's children, but with a probability within [1/10, 9/10]; between them, power decides. Of each side, one choice in
+// ten is uniform over the lights that have any power, as what counts may be hidden behind something.
 //
-// The tree is built from the top: nodes are split where, of 12 bins along each axis, the cost is least (ibid., equation
-// 2), below a depth of 32 in halves, so that 64 bits hold the way to any leaf. Memory: 64 bytes a node, of which n
-// lights have 2n - 1, and 20 a light. Built by one thread, so that every build of the same lights is the same.
+// The tree is built from the top: lights are split where, of 12 bins along each axis, the cost is least (ibid.,
+// equation 2), from the eighth level on in halves, so that 64 bits hold the way to any light, four for each level.
+// Sixteen children and not two: what nodes between them would say is less certain than what the children do, and the
+// children are looked at together, as many as a register holds. Memory: 1 KiB a node, which is some 100 bytes a light,
+// and 20 more. Built by one thread, so that every build of the same lights is the same.
 #pragma once
 
 #include "light/light.h"
+#include "light/light_bounds.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -56,37 +60,57 @@ class LightTree {
 
   private:
     static constexpr std::uint32_t kNone = 0xffffffffu;
+    static constexpr std::uint32_t kLeaf = 0x80000000u;
 
-    struct alignas(64) Node {
-        Vec3f low, high;  ///< of its box
-        Vec3f axis;
-        float squared_spacing;  ///< m², see the importance
-        float intensity;        ///< along the axis, W/sr
-        float cos_o, sin_o, cos_e;
-        std::uint32_t next;  ///< the first of two children that lie side by side, or the light's place in `chosen_`
-        bool is_leaf;
-        bool two_sided;
+    static constexpr std::size_t kChildren = 16;
+    static constexpr int kBitsOfALevel = 4;
+    static_assert(kChildren == 1u << kBitsOfALevel);
+    /// A number of each child.
+    struct alignas(64) Column : std::array<float, kChildren> {};
+    struct Importances {
+        Column each;
+        float sum;  ///< more than zero
+    };
 
-        [[nodiscard]] double importance(const Vec3f& point) const;
+    struct Node {
+        std::array<Column, 3> low{}, high{};  ///< of its box
+        std::array<Column, 3> axis{};
+        Column squared_spacing{};  ///< m², see the importance
+        Column intensity{};        ///< along the axis, the strongest child's is one; 0 where there is no child
+        Column cos_o{}, sin_o{}, cos_e{};
+        Column two_sided{};                         ///< 1, or 0
+        std::array<std::uint32_t, kChildren> next;  ///< a node, a light with `kLeaf`, or kNone
     };
     /// Where a light is found.
     struct Place {
-        std::uint64_t trail = 0;      ///< from the lowest bit on: 1 where the way from the root takes the second child
+        std::uint64_t trail = 0;      ///< from the lowest bits on: which child the way from the root takes
         std::uint32_t index = kNone;  ///< in `far_`, if it is at infinity; kNone if it has no power
         bool is_far = false;
     };
+
     struct Leaf;
 
-    static Node make_node(const LightBounds& bounds);
-    void build(std::uint32_t node, std::span<Leaf> leaves, std::uint64_t trail, int depth);
-    /// Probability of the first child of `node`.
-    [[nodiscard]] double first_share(const Node& node, const Vec3f& point) const;
-    /// Of taking one at infinity; 0 or 1 if there are none, or no others.
-    [[nodiscard]] double far_share(const Vec3f& point) const;
+    /// Reorders lights so that those of the first child come first; says how many they are.
+    static std::size_t split(std::span<Leaf> leaves, bool by_cost);
+    /// Which of a node's parts to split next; the end, if all are single lights.
+    static std::vector<std::span<Leaf>>::iterator next_to_split(std::vector<std::span<Leaf>>& parts);
+    static void set_child(Node& node, std::size_t child, const LightBounds& bounds, double unit);
+    /// Makes the node of these lights at this level from the root, in `nodes_[node]`.
+    void build(std::uint32_t node, std::span<Leaf> leaves, std::uint64_t trail, int level);
+    /// What each child of `node` may bring to `point`, in units of the node's strongest.
+    [[nodiscard]] static Importances weigh(const Node& node, const Vec3f& point);
+    /// Of taking one at infinity; 0 or 1 if there are none, or no others. `near` is of the root for the point.
+    [[nodiscard]] double far_share(const Importances& near) const;
+    /// One at infinity if the probability of that is `share`, by a number in [0, 1), and the probability of this one.
+    [[nodiscard]] Choice far_choice(double share, double u) const;
+    [[nodiscard]] float far_probability(double share, std::size_t index) const;
+    /// The probability of a child.
+    [[nodiscard]] static double share(const Importances& importances, std::size_t child);
     /// The probability of a near light to which `by_tree` is that of the walk.
     [[nodiscard]] float near_probability(double far_share, double by_tree) const;
 
-    std::vector<Node> nodes_;
+    std::vector<Node> nodes_;          ///< the first is the root
+    double root_intensity_ = 0.0;      ///< of the strongest of its children, W/sr
     std::vector<Place> places_;        ///< of each light
     std::vector<std::uint32_t> near_;  ///< lights with power that are in the tree
     std::vector<std::uint32_t> far_;   ///< and those at infinity

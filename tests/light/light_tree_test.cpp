@@ -3,8 +3,10 @@
 #include "core/process_time.h"
 #include "support/chi2.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -92,6 +94,49 @@ TEST(LightTree, ProbabilitiesAddUpToOne) {
             for (std::size_t light = 0; light < lights.size(); ++light)
                 sum += static_cast<double>(tree.probability(point, light));
             EXPECT_NEAR(sum, 1.0, 1e-5) << count << " lights, " << point;
+        }
+    }
+}
+
+/// The formula of light/light_tree.h, with angles and in double.
+double importance(const LightBounds& light, double power, const Vec3f& point) {
+    const Vec3d low(light.box.min);
+    const Vec3d high(light.box.max);
+    const Vec3d p(point);
+    Vec3d nearest(0.0);
+    Vec3d farthest(0.0);
+    for (int axis = 0; axis < 3; ++axis) {
+        nearest[axis] = std::max({low[axis] - p[axis], p[axis] - high[axis], 0.0});
+        farthest[axis] = std::max(p[axis] - low[axis], high[axis] - p[axis]);
+    }
+    const double near_squared = std::max(nearest.length2(), 0.02 * (high - low).length2());
+    const double intensity = power / light.cone.measure();
+    const double by_distance = intensity / std::sqrt(near_squared * std::max(farthest.length2(), near_squared));
+    const Vec3d to_point = p - (low + high) * 0.5;
+    const double radius = (high - low).length() / 2.0;
+    if (to_point.length() <= radius) return by_distance;
+    const double cosine = Vec3d(light.cone.axis).dot(to_point) / to_point.length();
+    const double theta = std::acos(std::clamp(light.cone.two_sided ? std::abs(cosine) : cosine, -1.0, 1.0));
+    const double theta_b = std::asin(radius / to_point.length());
+    const double rest = std::max(0.0, theta - light.cone.theta_o - theta_b);
+    return by_distance * (rest > light.cone.theta_e ? 1e-3 : std::max(std::cos(rest), 1e-3));
+}
+
+TEST(LightTree, ChildrenShareByTheFormula) {
+    Random random(14);
+    for (std::uint32_t seed = 0; seed < 100; ++seed) {
+        // So few that all are children of the root.
+        const std::vector<Light> lights = random_lights(5, 100 + seed);
+        const LightTree tree(lights, kSceneRadius);
+        const Vec3f point = random_point(random, 10.0f);
+        std::vector<double> importances;
+        for (const Light& light : lights)
+            importances.push_back(
+                importance(*light_bounds(light), static_cast<double>(light_power(light, kSceneRadius)), point));
+        const double sum = std::accumulate(importances.begin(), importances.end(), 0.0);
+        for (std::size_t i = 0; i < lights.size(); ++i) {
+            EXPECT_NEAR(tree.probability(point, i), 0.9 * importances[i] / sum + 0.02, 2e-5)
+                << "light " << i << " of set " << seed << ", " << point;
         }
     }
 }
@@ -211,6 +256,7 @@ TEST(LightTree, WeighsLampsAsTheyContribute) {
     }
     EXPECT_LT(tree_variance, 0.05 * power_variance);
     EXPECT_LT(tree_variance / 20.0, 1.0);
+    std::printf("relative variance %.3f\n", tree_variance / 20.0);
 }
 
 TEST(LightTree, OneLightIsCertain) {
