@@ -37,6 +37,7 @@ float random_power(Random& random) {
 
 MeshLight random_mesh(Random& random) {
     std::vector<LightTriangle> triangles;
+    triangles.reserve(3);
     const Vec3f corner = random_point(random, 8.0f);
     const float size = 0.05f + random.next();
     for (int i = 0; i < 3; ++i)
@@ -130,6 +131,7 @@ TEST(LightTree, ChildrenShareByTheFormula) {
         const LightTree tree(lights, kSceneRadius);
         const Vec3f point = random_point(random, 10.0f);
         std::vector<double> importances;
+        importances.reserve(lights.size());
         for (const Light& light : lights)
             importances.push_back(
                 importance(*light_bounds(light), static_cast<double>(light_power(light, kSceneRadius)), point));
@@ -232,8 +234,9 @@ TEST(LightTree, PrefersWhatIsNearAndFacesThePoint) {
 TEST(LightTree, WeighsLampsAsTheyContribute) {
     constexpr std::size_t kCount = 10'000;
     std::vector<Light> lights;
-    for (std::size_t i = 0; i < kCount; ++i)
-        lights.emplace_back(PointLight{{static_cast<float>(i % 100), 2.0f, static_cast<float>(i / 100)}, Rgb(1.0f)});
+    for (int z = 0; z < 100; ++z)
+        for (int x = 0; x < 100; ++x)
+            lights.emplace_back(PointLight{{static_cast<float>(x), 2.0f, static_cast<float>(z)}, Rgb(1.0f)});
     const LightTree tree(lights, 100.0f);
     const LightSelector by_power(lights, 100.0f);
     Random random(9);
