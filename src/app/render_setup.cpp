@@ -160,7 +160,7 @@ auto located(const RenderSettings& settings, const char* pointer, const auto& lo
 std::string resolve_output_space(const RenderSettings& settings, const ColorConfig& colors) {
     const ColorSettings& s = settings.color;
     if (!s.output_space.empty()) {
-        const std::string space = located(settings, "/color/output_space", [&] {
+        std::string space = located(settings, "/color/output_space", [&] {
             (void)colors.matrix(s.working_space, s.output_space);
             return colors.resolve_space(s.output_space);
         });

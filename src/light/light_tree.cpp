@@ -6,10 +6,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
+#include <optional>
 
 namespace etendue {
 
@@ -20,11 +21,13 @@ constexpr double kAny = 0.1;
 constexpr double kLeastOfASide = 0.1;
 /// Of the cosine: what bounds and rounding exclude keeps this share of its importance.
 constexpr float kFloor = 1e-3f;
+/// 1/m², where no child has more.
+constexpr float kLeastImportance = 1e-30f;
 /// Of the squared diagonal of a box over the number of its lamps: how near the nearest is taken to be.
 constexpr float kNear = 0.02f;
 constexpr int kBins = 12;
-/// Level from the root from which on lights are split in halves: as many levels more hold all that have an index.
-constexpr int kFirstHalved = 8;
+/// Below so many levels lights are split in halves: as many levels more hold all that have an index.
+constexpr int kBinnedLevels = 8;
 
 /// Conty Estevez and Kulla's equation 1, with the square of the diagonal for the area of the box: lamps in a row have
 /// none.
@@ -113,6 +116,7 @@ struct LightTree::Leaf {
 };
 
 LightTree::LightTree(std::span<const Light> lights, float scene_radius) : places_(lights.size()) {
+    assert(lights.size() < kLeaf);
     std::vector<float> powers;
     for (const Light& light : lights) powers.push_back(light_power(light, scene_radius));
     const bool none_shines = std::all_of(powers.begin(), powers.end(), [](float power) { return !(power > 0.0f); });
@@ -146,12 +150,12 @@ LightTree::LightTree(std::span<const Light> lights, float scene_radius) : places
     if (leaves.empty() && far_.size() == 1) single_ = far_.front();
     if (leaves.empty()) return;
     nodes_.emplace_back();
-    build(0, leaves, 0, 0);
+    root_intensity_ = build(0, leaves, 0, 0);
     nodes_.shrink_to_fit();
     if (far_.empty() && near_.size() == 1 && std::isfinite(root_intensity_)) single_ = near_.front();
 }
 
-std::size_t LightTree::split(std::span<Leaf> leaves, bool by_cost) {
+std::size_t LightTree::split_by_cost(std::span<Leaf> leaves) {
     Bounds centers;
     for (const Leaf& leaf : leaves) centers.extend(leaf.center);
     const Vec3f size = centers.size();
@@ -163,7 +167,7 @@ std::size_t LightTree::split(std::span<Leaf> leaves, bool by_cost) {
         const float place = (leaf.center[axis] - centers.min[axis]) / size[axis];
         return std::clamp(static_cast<int>(place * static_cast<float>(kBins)), 0, kBins - 1);
     };
-    for (int axis = 0; axis < 3 && by_cost; ++axis) {
+    for (int axis = 0; axis < 3; ++axis) {
         if (!(size[axis] > 0.0f)) continue;
         struct Bin {
             LightBounds bounds;
@@ -192,21 +196,19 @@ std::size_t LightTree::split(std::span<Leaf> leaves, bool by_cost) {
         for (std::size_t b = kBins - 1; b > 0; --b) {
             add(bins[b]);
             if (sum.count == 0) continue;
-            const double split = slimness * (below[b - 1] + cost(sum.bounds));
-            if (split < least) {
-                least = split;
+            const double both = slimness * (below[b - 1] + cost(sum.bounds));
+            if (both < least) {
+                least = both;
                 best_axis = axis;
                 best_bin = static_cast<int>(b);
             }
         }
     }
-    std::size_t count = leaves.size() / 2;
-    if (std::isfinite(least)) {
-        const auto middle = std::stable_partition(leaves.begin(), leaves.end(),
-                                                  [&](const Leaf& leaf) { return bin_of(leaf, best_axis) < best_bin; });
-        count = static_cast<std::size_t>(middle - leaves.begin());
-    }
-    return count;
+    // Those in one place are all the same.
+    if (!std::isfinite(least)) return leaves.size() / 2;
+    const auto middle = std::stable_partition(leaves.begin(), leaves.end(),
+                                              [&](const Leaf& leaf) { return bin_of(leaf, best_axis) < best_bin; });
+    return static_cast<std::size_t>(middle - leaves.begin());
 }
 
 void LightTree::set_child(Node& node, std::size_t child, const LightBounds& bounds, double unit) {
@@ -225,27 +227,28 @@ void LightTree::set_child(Node& node, std::size_t child, const LightBounds& boun
     node.two_sided[child] = cone.two_sided ? 1.0f : 0.0f;
 }
 
-std::vector<std::span<LightTree::Leaf>>::iterator LightTree::next_to_split(std::vector<std::span<Leaf>>& parts) {
+std::size_t LightTree::next_to_split(std::span<const std::span<Leaf>> parts) {
     const auto fewer = [](std::span<Leaf> a, std::span<Leaf> b) { return a.size() < b.size(); };
     const auto largest = std::max_element(parts.begin(), parts.end(), fewer);
-    if (largest->size() > kChildren) return largest;
+    if (largest->size() > kChildren) return static_cast<std::size_t>(largest - parts.begin());
     // All could be nodes of their own: what is split now until it is single lights needs none.
-    auto smallest = parts.end();
-    for (auto part = parts.begin(); part != parts.end(); ++part)
-        if (part->size() > 1 && (smallest == parts.end() || part->size() < smallest->size())) smallest = part;
+    std::size_t smallest = parts.size();
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        if (parts[i].size() > 1 && (smallest == parts.size() || fewer(parts[i], parts[smallest]))) smallest = i;
     return smallest;
 }
 
-void LightTree::build(std::uint32_t node, std::span<Leaf> leaves, std::uint64_t trail, int level) {
+double LightTree::build(std::uint32_t node, std::span<Leaf> leaves, std::uint64_t trail, int level) {
+    assert(level < 64 / kBitsOfALevel);
     // Neighbours stay side by side.
     std::vector<std::span<Leaf>> parts{leaves};
     while (parts.size() < kChildren) {
-        const auto part = next_to_split(parts);
-        if (part == parts.end()) break;
-        const std::span<Leaf> whole = *part;
-        const std::size_t count = split(whole, level < kFirstHalved);
-        *part = whole.first(count);
-        parts.insert(part + 1, whole.subspan(count));
+        const std::size_t part = next_to_split(parts);
+        if (part == parts.size()) break;
+        const std::span<Leaf> whole = parts[part];
+        const std::size_t count = level < kBinnedLevels ? split_by_cost(whole) : whole.size() / 2;
+        parts[part] = whole.first(count);
+        parts.insert(parts.begin() + static_cast<std::ptrdiff_t>(part) + 1, whole.subspan(count));
     }
     std::array<LightBounds, kChildren> bounds;
     double strongest = 0.0;
@@ -254,7 +257,6 @@ void LightTree::build(std::uint32_t node, std::span<Leaf> leaves, std::uint64_t 
         for (const Leaf& leaf : parts[child].subspan(1)) bounds[child] = bounds[child].united(leaf.bounds);
         strongest = std::max(strongest, intensity(bounds[child]));
     }
-    if (level == 0) root_intensity_ = strongest;
     nodes_[node].next.fill(kNone);
     for (std::size_t child = 0; child < parts.size(); ++child) {
         const std::span<Leaf> part = parts[child];
@@ -270,14 +272,15 @@ void LightTree::build(std::uint32_t node, std::span<Leaf> leaves, std::uint64_t 
             build(next, part, way, level + 1);
         }
     }
+    return strongest;
 }
 
 LightTree::Importances LightTree::weigh(const Node& node, const Vec3f& point) {
-    static_assert(kChildren % Wide::kWidth == 0 && alignof(Column) >= Wide::kAlignment);
+    static_assert(kChildren % Wide::kWidth == 0 && alignof(PerChild) >= Wide::kAlignment);
     Importances importances;
     for (std::size_t first = 0; first < kChildren; first += Wide::kWidth) {
-        const auto load = [first](const Column& column) { return Wide::load(&column[first]); };
-        const auto load_vector = [&](const std::array<Column, 3>& columns) {
+        const auto load = [first](const PerChild& column) { return Wide::load(&column[first]); };
+        const auto load_vector = [&](const std::array<PerChild, 3>& columns) {
             return Imath::Vec3<Wide>(load(columns[0]), load(columns[1]), load(columns[2]));
         };
         const Shapes shapes{.low = load_vector(node.low),
@@ -292,22 +295,22 @@ LightTree::Importances LightTree::weigh(const Node& node, const Vec3f& point) {
         const Wide valid = select(importance > 0.0f, importance, 0.0f);
         valid.store(&importances.each[first]);
     }
-    importances.sum = 0.0f;
-    for (const float each : importances.each) importances.sum += each;
-    // Where floats do not tell them apart, all are as good.
-    if (!(importances.sum > 0.0f) || !std::isfinite(importances.sum)) {
-        importances.sum = 0.0f;
-        for (std::size_t child = 0; child < kChildren; ++child) {
-            importances.each[child] = node.next[child] != kNone ? 1.0f : 0.0f;
-            importances.sum += importances.each[child];
-        }
-    }
+    const auto add = [&importances] {
+        importances.sum = 0.0;
+        for (const float each : importances.each) importances.sum += static_cast<double>(each);
+    };
+    add();
+    if (importances.sum > 0.0) return importances;
+    // Where floats do not tell them apart, all are as good, and as little.
+    for (std::size_t child = 0; child < kChildren; ++child)
+        importances.each[child] = node.next[child] != kNone ? kLeastImportance : 0.0f;
+    add();
     return importances;
 }
 
 double LightTree::far_share(const Importances& near) const {
     if (far_.empty()) return 0.0;
-    const double share = far_irradiance_ / (far_irradiance_ + root_intensity_ * static_cast<double>(near.sum));
+    const double share = far_irradiance_ / (far_irradiance_ + root_intensity_ * near.sum);
     return std::clamp(share, kLeastOfASide, 1.0 - kLeastOfASide);
 }
 
@@ -321,7 +324,7 @@ float LightTree::near_probability(double far_share, double by_tree) const {
 }
 
 double LightTree::share(const Importances& importances, std::size_t child) {
-    return static_cast<double>(importances.each[child]) / static_cast<double>(importances.sum);
+    return static_cast<double>(importances.each[child]) / importances.sum;
 }
 
 LightTree::Choice LightTree::far_choice(double share, double u) const {
@@ -349,16 +352,14 @@ LightTree::Choice LightTree::sample(const Vec3f& point, Vec2f u) const {
     }
     double by_tree = 1.0;
     for (const Node* node = &nodes_.front();;) {
-        // The last that has any importance, if rounding leaves more of the number than there is.
-        const double wanted = rest * static_cast<double>(importances.sum);
-        double below = 0.0;
-        double end = 0.0;
+        // Less than the sum, which is added in the same order.
+        const double wanted = rest * importances.sum;
         std::size_t child = 0;
-        for (std::size_t i = 0; i < kChildren && end <= wanted; ++i) {
-            if (importances.each[i] == 0.0f) continue;
-            child = i;
+        double below = 0.0;
+        double end = static_cast<double>(importances.each[0]);
+        while (end <= wanted) {
             below = end;
-            end += static_cast<double>(importances.each[i]);
+            end += static_cast<double>(importances.each[++child]);
         }
         rest = std::min((wanted - below) / static_cast<double>(importances.each[child]), kBelowOne);
         by_tree *= share(importances, child);

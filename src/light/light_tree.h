@@ -24,10 +24,11 @@
 // ten is uniform over the lights that have any power, as what counts may be hidden behind something.
 //
 // The tree is built from the top: lights are split where, of 12 bins along each axis, the cost is least (ibid.,
-// equation 2), from the eighth level on in halves, so that 64 bits hold the way to any light, four for each level.
-// Sixteen children and not two: what nodes between them would say is less certain than what the children do, and the
-// children are looked at together, as many as a register holds. Memory: 1 KiB a node, which is some 100 bytes a light,
-// and 20 more. Built by one thread, so that every build of the same lights is the same.
+// equation 2), below eight levels in halves, so that 64 bits hold the way to any light, four for each level. Sixteen
+// children and not two: what nodes between them would say is less certain than what the children do, and the children
+// are looked at together, as many as a register holds. Memory: 1 KiB a node, which is usually some 100 bytes a light
+// and at most 540 where there are many, and 20 more. Built by one thread, so that every build of the same lights is the
+// same.
 #pragma once
 
 #include "light/light.h"
@@ -66,19 +67,19 @@ class LightTree {
     static constexpr int kBitsOfALevel = 4;
     static_assert(kChildren == 1u << kBitsOfALevel);
     /// A number of each child.
-    struct alignas(64) Column : std::array<float, kChildren> {};
+    struct alignas(64) PerChild : std::array<float, kChildren> {};
     struct Importances {
-        Column each;
-        float sum;  ///< more than zero
+        PerChild each;
+        double sum;  ///< more than zero; added from the first on
     };
 
     struct Node {
-        std::array<Column, 3> low{}, high{};  ///< of its box
-        std::array<Column, 3> axis{};
-        Column squared_spacing{};  ///< m², see the importance
-        Column intensity{};        ///< along the axis, the strongest child's is one; 0 where there is no child
-        Column cos_o{}, sin_o{}, cos_e{};
-        Column two_sided{};                         ///< 1, or 0
+        std::array<PerChild, 3> low{}, high{};  ///< of its box
+        std::array<PerChild, 3> axis{};
+        PerChild squared_spacing{};  ///< m², see the importance
+        PerChild intensity{};        ///< along the axis, the strongest child's is one; 0 where there is no child
+        PerChild cos_o{}, sin_o{}, cos_e{};
+        PerChild two_sided{};                       ///< 1, or 0
         std::array<std::uint32_t, kChildren> next;  ///< a node, a light with `kLeaf`, or kNone
     };
     /// Where a light is found.
@@ -90,16 +91,17 @@ class LightTree {
 
     struct Leaf;
 
-    /// Reorders lights so that those of the first child come first; says how many they are.
-    static std::size_t split(std::span<Leaf> leaves, bool by_cost);
-    /// Which of a node's parts to split next; the end, if all are single lights.
-    static std::vector<std::span<Leaf>>::iterator next_to_split(std::vector<std::span<Leaf>>& parts);
+    /// Reorders lights so that those of the first part come first; says how many they are.
+    static std::size_t split_by_cost(std::span<Leaf> leaves);
+    /// Which of a node's parts to split next; their number, if all are single lights.
+    static std::size_t next_to_split(std::span<const std::span<Leaf>> parts);
     static void set_child(Node& node, std::size_t child, const LightBounds& bounds, double unit);
-    /// Makes the node of these lights at this level from the root, in `nodes_[node]`.
-    void build(std::uint32_t node, std::span<Leaf> leaves, std::uint64_t trail, int level);
+    /// Makes the node of these lights at this level from the root, in `nodes_[node]`. Returns the intensity of its
+    /// strongest child, W/sr.
+    double build(std::uint32_t node, std::span<Leaf> leaves, std::uint64_t trail, int level);
     /// What each child of `node` may bring to `point`, in units of the node's strongest.
     [[nodiscard]] static Importances weigh(const Node& node, const Vec3f& point);
-    /// Of taking one at infinity; 0 or 1 if there are none, or no others. `near` is of the root for the point.
+    /// Of taking one at infinity, where there are others; 0 if there are none. `near` is of the root for the point.
     [[nodiscard]] double far_share(const Importances& near) const;
     /// One at infinity if the probability of that is `share`, by a number in [0, 1), and the probability of this one.
     [[nodiscard]] Choice far_choice(double share, double u) const;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <numeric>
 #include <vector>
 
@@ -285,6 +286,23 @@ TEST(LightTree, NeitherTheSkyNorLampsStarve) {
     }
 }
 
+// A lamp of intensity I, d away, and an even sky of radiance L: I / d² against 4 pi L, its power over the scene's disk.
+TEST(LightTree, TheSkyAndLampsShareByIrradiance) {
+    const std::vector<Light> lights = {PointLight{{0, 2, 0}, Rgb(5.0f)}, ConstantEnvironment{Rgb(0.7f)}};
+    const LightTree tree(lights, kSceneRadius);
+    const double lamp = 5.0 / 4.0;
+    const double sky = 4.0 * std::numbers::pi * 0.7;
+    EXPECT_NEAR(tree.probability(Vec3f(0.0f), 0), lamp / (lamp + sky), 1e-5);
+}
+
+// Where floats overflow, all are as good.
+TEST(LightTree, WhatIsTooFarAwayIsChosenEvenly) {
+    const std::vector<Light> lights = random_lights(4, 15);
+    const LightTree tree(lights, kSceneRadius);
+    for (std::size_t i = 0; i < lights.size(); ++i)
+        EXPECT_NEAR(tree.probability(Vec3f(1e25f, 0.0f, 0.0f), i), 0.25f, 1e-6f);
+}
+
 TEST(LightTree, WithoutPowerAllAreEquallyLikely) {
     const std::vector<Light> lights = {PointLight{{0, 0, 0}, Rgb(0.0f)}, PointLight{{0, 0, 0}, Rgb(0.0f)}};
     const LightTree tree(lights, 1.0f);
@@ -303,17 +321,25 @@ TEST(LightTree, ManyLightsAreBuiltInBoundedTimeAndMemory) {
     std::printf("%.0f bytes and %.2f us a light\n", static_cast<double>(tree.bytes()) / kCount, seconds * 1e6 / kCount);
 }
 
-// Lamps whose places halve make the deepest tree there is.
+// Lamps whose places and powers halve are split off one by one, and those in one place are halved below all of them:
+// the deepest tree there is.
 TEST(LightTree, HoldsTheWayToTheDeepestLeaf) {
     std::vector<Light> lights;
-    float x = 1.0f;
-    for (int i = 0; i < 140; ++i, x *= 0.5f) lights.emplace_back(PointLight{{x, 0, 0}, Rgb(1.0f)});
+    float x = 0x1p60f;
+    for (int i = 0; i < 140; ++i, x *= 0.5f) lights.emplace_back(PointLight{{x, 0, 0}, Rgb(x)});
+    for (int i = 0; i < 5000; ++i) lights.emplace_back(PointLight{{0, 0, 0}, Rgb(0x1p-90f)});
     const LightTree tree(lights, kSceneRadius);
     Random random(11);
-    for (int i = 0; i < 20'000; ++i) {
-        const LightTree::Choice choice = tree.sample({0, 0, 1e-3f}, random.next_2d());
-        ASSERT_LT(choice.light, lights.size());
-        EXPECT_EQ(choice.probability, tree.probability({0, 0, 1e-3f}, choice.light));
+    for (const Vec3f& point : {Vec3f(0, 0, 1e-3f), Vec3f(0, 0, 1e-15f)}) {
+        double sum = 0.0;
+        for (std::size_t light = 0; light < lights.size(); ++light)
+            sum += static_cast<double>(tree.probability(point, light));
+        EXPECT_NEAR(sum, 1.0, 1e-5);
+        for (int i = 0; i < 20'000; ++i) {
+            const LightTree::Choice choice = tree.sample(point, random.next_2d());
+            ASSERT_LT(choice.light, lights.size());
+            EXPECT_EQ(choice.probability, tree.probability(point, choice.light));
+        }
     }
 }
 
