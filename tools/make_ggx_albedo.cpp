@@ -98,7 +98,7 @@ float average(float row_alpha, const Function& f) {
         const float step = (cosine(static_cast<float>(node + 1), row_alpha) - first) / kSteps;
         for (int i = 0; i < kSteps; ++i) {
             const float mu = first + (static_cast<float>(i) + 0.5f) * step;
-            const Place c = place(cosine_coordinate(mu, row_alpha), kCosines);
+            const Place<float> c = place(cosine_coordinate(mu, row_alpha), kCosines);
             sum += static_cast<double>(f(mu, c)) * 2.0 * static_cast<double>(mu) * static_cast<double>(step);
         }
     }
@@ -108,10 +108,10 @@ float average(float row_alpha, const Function& f) {
 void fill_averages(Tables& tables) {
     for (std::size_t i = 0; i < kAverageAlphas; ++i) {
         const float row_alpha = alpha(static_cast<int>(i), kAverageAlphas);
-        const Place a = place(alpha_coordinate(row_alpha, kAlphas), kAlphas);
-        const auto single = [&](float, Place c) { return interpolate(tables.single, a, c); };
+        const Place<float> a = place(alpha_coordinate(row_alpha, kAlphas), kAlphas);
+        const auto single = [&](float, Place<float> c) { return interpolate(tables.single, a, c); };
         const Place share_a = place(alpha_coordinate(row_alpha, kShareAlphas), kShareAlphas);
-        const auto schlick = [&](float mu, Place c) {
+        const auto schlick = [&](float mu, Place<float> c) {
             const Place share_c = place(share_cosine_coordinate(mu), kCosines);
             return single(mu, c) * interpolate(tables.schlick_share, share_a, share_c);
         };
@@ -119,11 +119,11 @@ void fill_averages(Tables& tables) {
         tables.schlick_average[i] = average(row_alpha, schlick);
         for (std::size_t e = 0; e < kAverageEtas; ++e) {
             const float eta = average_eta(static_cast<int>(e));
-            tables.dielectric_average[0][e][i] = average(row_alpha, [&](float mu, Place c) {
+            tables.dielectric_average[0][e][i] = average(row_alpha, [&](float mu, Place<float> c) {
                 const Place place_e = place(outside_coordinate(eta, mu, row_alpha), kEtasOutside);
                 return interpolate(tables.outside, place_e, a, c);
             });
-            tables.dielectric_average[1][e][i] = average(row_alpha, [&](float mu, Place c) {
+            tables.dielectric_average[1][e][i] = average(row_alpha, [&](float mu, Place<float> c) {
                 const Place place_e = place(inside_coordinate(eta, mu, row_alpha), kEtasInside);
                 return interpolate(tables.inside, place_e, a, c);
             });

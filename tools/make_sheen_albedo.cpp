@@ -52,7 +52,7 @@ void fill(Tables& tables) {
     }
     for (std::size_t a = 0; a < kAlphas; ++a) {
         const float row_alpha = alpha(static_cast<int>(a));
-        const Place row = alpha_place(row_alpha);
+        const auto row = alpha_place(row_alpha);
         for (std::size_t c = 0; c < kCosines; ++c) {
             const float cos_o = cosine(static_cast<int>(c));
             const float unbounded_o = interpolate(tables.unbounded, row, cosine_place(cos_o));

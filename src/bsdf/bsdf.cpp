@@ -26,7 +26,7 @@ float reverse_pdf_of_lobe(const Bsdf& bsdf, const Vec3f& wo, const Vec3f& wi) {
 }
 
 Rgb diffuse_share(const Bsdf& bsdf, const Vec3f& wo, const Vec3f& wi, TransportMode mode) {
-    MetallicRoughness::Value parts;
+    BsdfParts parts;
     if (std::holds_alternative<Diffuse>(bsdf) || std::holds_alternative<RoughDiffuse>(bsdf)) return Rgb(1.0f);
     if (const auto* base = std::get_if<MetallicRoughness>(&bsdf))
         parts = base->evaluate_parts(wo, wi);

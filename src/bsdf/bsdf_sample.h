@@ -23,6 +23,18 @@ struct BasicBsdfValue {
 };
 using BsdfValue = BasicBsdfValue<float>;
 
+/// A value in two parts: what scatters like a diffuse surface, and what does so around a direction.
+/// A template of its lane type, see core/lane.h.
+template <typename T>
+struct BasicBsdfParts {
+    BasicRgb<T> diffuse;
+    BasicRgb<T> specular;
+    T pdf_solid_angle{0.0f};
+
+    [[nodiscard]] BasicBsdfValue<T> sum() const { return {diffuse + specular, pdf_solid_angle}; }
+};
+using BsdfParts = BasicBsdfParts<float>;
+
 /// A sampled direction. An all-zero `weight` means that nothing was scattered.
 /// A template of its lane type, see core/lane.h.
 template <typename T>

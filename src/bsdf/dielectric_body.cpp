@@ -19,8 +19,8 @@ bool DielectricBody::has_non_delta() const {
     return std::holds_alternative<RoughDielectric>(interface) || (interface_share < 1.0f && opaque.has_non_delta());
 }
 
-MetallicRoughness::Value DielectricBody::evaluate_parts(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const {
-    MetallicRoughness::Value value;
+BsdfParts DielectricBody::evaluate_parts(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const {
+    BsdfParts value;
     if (interface_share < 1.0f) {
         const float share = 1.0f - interface_share;
         value = opaque.evaluate_parts(facing(wo, wo), facing(wi, wo));
@@ -35,7 +35,7 @@ MetallicRoughness::Value DielectricBody::evaluate_parts(const Vec3f& wo, const V
 }
 
 BsdfValue DielectricBody::evaluate(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const {
-    const MetallicRoughness::Value value = evaluate_parts(wo, wi, mode);
+    const BsdfParts value = evaluate_parts(wo, wi, mode);
     return {value.diffuse + value.specular, value.pdf_solid_angle};
 }
 

@@ -17,7 +17,7 @@ struct DielectricBody {
     MetallicRoughness opaque{};
     float interface_share = 1.0f;  ///< (0, 1]
 
-    [[nodiscard]] MetallicRoughness::Value evaluate_parts(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const;
+    [[nodiscard]] BsdfParts evaluate_parts(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const;
     [[nodiscard]] BsdfValue evaluate(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const;
     [[nodiscard]] BsdfSample sample(const Vec3f& wo, float u_lobe, Vec2f u, TransportMode mode) const;
     /// As radiance.

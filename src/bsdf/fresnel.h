@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 namespace etendue {
 
@@ -53,19 +54,25 @@ namespace etendue {
     return true;
 }
 
-[[nodiscard]] inline float pow5(float x) {
-    const float x2 = x * x;
+// Templates of their lane type, see core/lane.h.
+
+template <typename T>
+[[nodiscard]] inline T pow5(T x) {
+    const T x2 = x * x;
     return x2 * x2 * x;
 }
 
 /// Schlick's approximation with reflectance `f0` at normal and `f90` at grazing incidence.
-[[nodiscard]] inline Rgb fresnel_schlick(const Rgb& f0, float cos_i, float f90 = 1.0f) {
-    return lerp(f0, Rgb(f90), pow5(std::clamp(1.0f - cos_i, 0.0f, 1.0f)));
+template <typename T>
+[[nodiscard]] inline BasicRgb<T> fresnel_schlick(const BasicRgb<T>& f0, std::type_identity_t<T> cos_i,
+                                                 std::type_identity_t<T> f90 = T(1.0f)) {
+    return lerp(f0, BasicRgb<T>(f90), pow5(clamp(1.0f - cos_i, T(0.0f), T(1.0f))));
 }
 
 /// Its mean over the hemisphere, weighted by the cosine.
-[[nodiscard]] inline Rgb fresnel_schlick_average(const Rgb& f0, float f90 = 1.0f) {
-    return lerp(f0, Rgb(f90), 1.0f / 21.0f);
+template <typename T>
+[[nodiscard]] inline BasicRgb<T> fresnel_schlick_average(const BasicRgb<T>& f0, std::type_identity_t<T> f90 = T(1.0f)) {
+    return lerp(f0, BasicRgb<T>(f90), T(1.0f / 21.0f));
 }
 
 /// Schlick's curve bent to pass through a measured reflectance near 82 degrees, where metals dip (Kutz, Hasan,

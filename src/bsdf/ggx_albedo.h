@@ -8,16 +8,22 @@
 namespace etendue {
 
 /// Of a reflecting GGX surface. With Schlick's Fresnel term the albedo is f0 · single + (1 - f0) · schlick.
-struct GgxAlbedo {
-    float single;   ///< with reflectance 1
-    float schlick;  ///< with reflectance (1 - cos)^5
+template <typename T>
+struct BasicGgxAlbedo {
+    T single;   ///< with reflectance 1
+    T schlick;  ///< with reflectance (1 - cos)^5
 };
+using GgxAlbedo = BasicGgxAlbedo<float>;
+
+// Of float and Wide.
 
 /// `cos_theta` in [0, 1], `alpha` in [0, 1].
-[[nodiscard]] GgxAlbedo ggx_albedo(float cos_theta, float alpha);
+template <typename T>
+[[nodiscard]] BasicGgxAlbedo<T> ggx_albedo(T cos_theta, T alpha);
 
 /// The same averaged over a cosine-weighted hemisphere.
-[[nodiscard]] GgxAlbedo ggx_albedo_average(float alpha);
+template <typename T>
+[[nodiscard]] BasicGgxAlbedo<T> ggx_albedo_average(T alpha);
 
 /// Largest index of refraction, and inverse of the smallest, that the dielectric tables cover.
 inline constexpr float kMaxTabulatedEta = 9.0f;

@@ -9,6 +9,7 @@
 #pragma once
 
 #include "bsdf/ggx_albedo_indices.h"
+#include "core/lane.h"
 
 #include <algorithm>
 #include <array>
@@ -45,13 +46,15 @@ inline constexpr float kAverageScale = 0.003f;  ///< of the averages' indices
     const float t = fraction(node, count);
     return std::max(kSmallestAlpha, t * t);
 }
-[[nodiscard]] inline float alpha_coordinate(float a, int count) {
-    return std::sqrt(a) * static_cast<float>(count - 1);
+template <typename T>
+[[nodiscard]] inline T alpha_coordinate(T a, int count) {
+    return sqrt(a) * static_cast<float>(count - 1);
 }
 
 /// Where the albedo falls, and a little above for alphas near 0: nodes are left for what nearly smooth surfaces lose
 /// near the critical angle.
-[[nodiscard]] inline float fall(float alpha_of_row) {
+template <typename T>
+[[nodiscard]] inline T fall(T alpha_of_row) {
     return 4.0f * alpha_of_row + 0.006f;
 }
 /// `coordinate` in [0, kCosines - 1].
@@ -60,17 +63,19 @@ inline constexpr float kAverageScale = 0.003f;  ///< of the averages' indices
     const float t = coordinate / (kCosines - 1);
     return std::min(1.0f, t * t * a / (a + (1.0f - t) * (1.0f + t)));
 }
-[[nodiscard]] inline float cosine_coordinate(float cos_theta, float alpha_of_row) {
-    const float a = fall(alpha_of_row);
-    return std::sqrt(cos_theta * (1.0f + a) / (cos_theta + a)) * (kCosines - 1);
+template <typename T>
+[[nodiscard]] inline T cosine_coordinate(T cos_theta, T alpha_of_row) {
+    const T a = fall(alpha_of_row);
+    return sqrt(cos_theta * (1.0f + a) / (cos_theta + a)) * static_cast<float>(kCosines - 1);
 }
 
 [[nodiscard]] inline float share_cosine(int node) {
     const float t = fraction(node, kCosines);
     return t * t;
 }
-[[nodiscard]] inline float share_cosine_coordinate(float cos_theta) {
-    return std::sqrt(cos_theta) * (kCosines - 1);
+template <typename T>
+[[nodiscard]] inline T share_cosine_coordinate(T cos_theta) {
+    return sqrt(cos_theta) * static_cast<float>(kCosines - 1);
 }
 
 // ---- Indices, all of the denser side over the other
@@ -115,34 +120,45 @@ inline constexpr float kAverageScale = 0.003f;  ///< of the averages' indices
 
 // ---- Interpolation
 
-/// Between nodes `index` and `index + 1`, at `t` in [0, 1].
+/// Between nodes `index`, a whole number, and `index + 1`, at `t` in [0, 1].
+template <typename T>
 struct Place {
-    std::size_t index;
-    float t;
+    T index;
+    T t;
 };
 
-[[nodiscard]] inline Place place(float coordinate, int count) {
-    const float clamped = std::clamp(coordinate, 0.0f, static_cast<float>(count - 1));
-    const int index = std::min(static_cast<int>(clamped), count - 2);
-    return {static_cast<std::size_t>(index), clamped - static_cast<float>(index)};
+template <typename T>
+[[nodiscard]] inline Place<T> place(T coordinate, int count) {
+    // What is no number is at the first: lanes that nobody asks for are looked up too.
+    const T clamped = min(max(T(0.0f), coordinate), T(static_cast<float>(count - 1)));
+    const T index = min(floor(clamped), T(static_cast<float>(count - 2)));
+    return {index, clamped - index};
 }
 
-[[nodiscard]] inline float mix(float a, float b, float t) {
+template <typename T>
+[[nodiscard]] inline T mix(T a, T b, T t) {
     return a + (b - a) * t;
 }
 
-template <std::size_t Alphas>
-[[nodiscard]] float interpolate(const std::array<std::array<float, kCosines>, Alphas>& slice, Place a, Place c) {
-    const auto& low = slice[a.index];
-    const auto& high = slice[a.index + 1];
-    return mix(mix(low[c.index], low[c.index + 1], c.t), mix(high[c.index], high[c.index + 1], c.t), a.t);
+template <typename T, std::size_t Rows, std::size_t Columns>
+[[nodiscard]] T interpolate(const std::array<std::array<float, Columns>, Rows>& table, const Place<T>& row,
+                            const Place<T>& column) {
+    // Rows follow each other.
+    const float* low = table.front().data();
+    const float* high = low + Columns;
+    const T first = row.index * static_cast<float>(Columns) + column.index;
+    return mix(mix(gather(low, first), gather(low + 1, first), column.t),
+               mix(gather(high, first), gather(high + 1, first), column.t), row.t);
 }
 template <std::size_t Etas>
-[[nodiscard]] float interpolate(const std::array<Slice, Etas>& slices, Place e, Place a, Place c) {
-    return mix(interpolate(slices[e.index], a, c), interpolate(slices[e.index + 1], a, c), e.t);
+[[nodiscard]] float interpolate(const std::array<Slice, Etas>& slices, const Place<float>& e, const Place<float>& a,
+                                const Place<float>& c) {
+    const auto low = static_cast<std::size_t>(e.index);
+    return mix(interpolate(slices[low], a, c), interpolate(slices[low + 1], a, c), e.t);
 }
-[[nodiscard]] inline float interpolate(const Averages& averages, Place a) {
-    return mix(averages[a.index], averages[a.index + 1], a.t);
+template <typename T>
+[[nodiscard]] T interpolate(const Averages& averages, const Place<T>& a) {
+    return mix(gather(averages.data(), a.index), gather(averages.data() + 1, a.index), a.t);
 }
 
 }  // namespace etendue::ggx_albedo_layout

@@ -7,31 +7,32 @@
 // thousandth in all; over the cosine's density it reaches 10⁴ on nearly smooth surfaces.
 #pragma once
 
+#include "core/trigonometry.h"
 #include "core/vec.h"
-
-#include <algorithm>
-#include <cmath>
 
 namespace etendue {
 
-struct GgxMultiple {
-    float b_squared;
-    float log_range;
+/// A template of its lane type, see core/lane.h.
+template <typename T>
+struct BasicGgxMultiple {
+    T b_squared;
+    T log_range;
 
-    explicit GgxMultiple(float alpha) : b_squared(4.0f * alpha * alpha), log_range(std::log(1.0f + 1.0f / b_squared)) {}
+    explicit BasicGgxMultiple(T alpha) : b_squared(4.0f * alpha * alpha), log_range(log(1.0f + 1.0f / b_squared)) {}
 
     /// Density of `sample`, 1/sr, for a direction with cosine `cos_theta` >= 0.
-    [[nodiscard]] float pdf_solid_angle(float cos_theta) const {
+    [[nodiscard]] T pdf_solid_angle(T cos_theta) const {
         return kInvPi * cos_theta / ((cos_theta * cos_theta + b_squared) * log_range);
     }
 
     /// A direction with z >= 0.
-    [[nodiscard]] Vec3f sample(Vec2f u) const {
-        const float cos2 = std::min(1.0f, b_squared * std::expm1(u.y * log_range));
-        const float sine = std::sqrt(1.0f - cos2);
-        const float phi = 2.0f * kPi * u.x;
-        return {sine * std::cos(phi), sine * std::sin(phi), std::sqrt(cos2)};
+    [[nodiscard]] Imath::Vec3<T> sample(const Imath::Vec2<T>& u) const {
+        const T cos2 = min(T(1.0f), b_squared * expm1(u.y * log_range));
+        const T sine = sqrt(1.0f - cos2);
+        const BasicSinCos<T> phi = sin_cos_turns(u.x);
+        return {sine * phi.cos, sine * phi.sin, sqrt(cos2)};
     }
 };
+using GgxMultiple = BasicGgxMultiple<float>;
 
 }  // namespace etendue

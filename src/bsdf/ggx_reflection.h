@@ -10,79 +10,99 @@
 #include "bsdf/ggx_anisotropic_albedo.h"
 #include "bsdf/ggx_multiple.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace etendue {
 
-struct GgxReflection {
-    Ggx ggx;
-    GgxMultiple multiple_directions;
-    GgxAlbedo albedo_o;  ///< directional albedos at wo
-    GgxAlbedo albedo_average;
+/// A template of its lane type, see core/lane.h; of many lanes isotropic only.
+template <typename T>
+struct BasicGgxReflection {
+    using Vec = Imath::Vec3<T>;
+
+    BasicGgx<T> ggx;
+    BasicGgxMultiple<T> multiple_directions;
+    BasicGgxAlbedo<T> albedo_o;  ///< directional albedos at wo
+    BasicGgxAlbedo<T> albedo_average;
 
     /// Requires wo.z > 0.
-    GgxReflection(const Ggx& distribution, const Vec3f& wo)
+    BasicGgxReflection(const BasicGgx<T>& distribution, const Vec& wo)
         : ggx(distribution),
-          multiple_directions(distribution.is_isotropic() ? distribution.alpha_x
-                                                          : std::sqrt(distribution.alpha_x * distribution.alpha_y)),
+          multiple_directions(mean_alpha(distribution)),
           albedo_o(albedo(wo)),
-          albedo_average(distribution.is_isotropic()
-                             ? ggx_albedo_average(distribution.alpha_x)
-                             : ggx_anisotropic_albedo_average(distribution.alpha_x, distribution.alpha_y)) {}
+          albedo_average(average_albedo(distribution)) {}
 
     /// Directional albedo at `w`, w.z > 0.
-    [[nodiscard]] GgxAlbedo albedo(const Vec3f& w) const {
-        return ggx.is_isotropic() ? ggx_albedo(w.z, ggx.alpha_x) : ggx_anisotropic_albedo(w, ggx.alpha_x, ggx.alpha_y);
+    [[nodiscard]] BasicGgxAlbedo<T> albedo(const Vec& w) const {
+        if constexpr (kIsSingle<T>) {
+            if (!ggx.is_isotropic()) return ggx_anisotropic_albedo(w, ggx.alpha_x, ggx.alpha_y);
+        }
+        return ggx_albedo(w.z, ggx.alpha_x);
     }
 
     /// Share of the samples that go to the multiple-scattering lobe.
-    [[nodiscard]] float multiple_probability() const { return std::clamp(1.0f - albedo_o.single, 0.0f, 1.0f); }
+    [[nodiscard]] T multiple_probability() const { return clamp(1.0f - albedo_o.single, T(0.0f), T(1.0f)); }
 
     struct Value {
-        float single = 0.0f;    ///< D G2 / (4 mu_o): times cos_i, without Fresnel
-        float multiple = 0.0f;  ///< times cos_i, without the metal's factor
-        float cos_half = 0.0f;  ///< dot(wi, h), the Fresnel term's argument
-        float pdf_solid_angle = 0.0f;
-        GgxAlbedo albedo_i{};
+        T single{0.0f};    ///< D G2 / (4 mu_o): times cos_i, without Fresnel
+        T multiple{0.0f};  ///< times cos_i, without the metal's factor
+        T cos_half{0.0f};  ///< dot(wi, h), the Fresnel term's argument
+        T pdf_solid_angle{0.0f};
+        BasicGgxAlbedo<T> albedo_i{};
     };
     /// Requires wo.z > 0 and wi.z > 0.
-    [[nodiscard]] Value evaluate(const Vec3f& wo, const Vec3f& wi) const {
+    [[nodiscard]] Value evaluate(const Vec& wo, const Vec& wi) const {
         Value value;
-        const Vec3f h = normalize(wo + wi);
-        value.cos_half = std::min(1.0f, dot(wi, h));
-        const float d = ggx.d(h);
+        const Vec h = normalize(wo + wi);
+        value.cos_half = min(T(1.0f), dot(wi, h));
+        const T d = ggx.d(h);
         value.single = d * ggx.g2(wo, wi) / (4.0f * wo.z);
         value.albedo_i = albedo(wi);
-        const float missing_average = 1.0f - albedo_average.single;
-        if (missing_average > 0.0f)
-            value.multiple =
-                (1.0f - albedo_o.single) * (1.0f - value.albedo_i.single) * wi.z * kInvPi / missing_average;
+        const T missing_average = 1.0f - albedo_average.single;
+        const T missing = (1.0f - albedo_o.single) * (1.0f - value.albedo_i.single) * wi.z * kInvPi;
+        value.multiple = select(missing_average > T(0.0f), missing / missing_average, T(0.0f));
         value.pdf_solid_angle = pdf_solid_angle(wo, wi, d);
         return value;
     }
 
     /// Density of `sample`, 1/sr, where `d` is that of the facets that reflect wo to wi.
-    [[nodiscard]] float pdf_solid_angle(const Vec3f& wo, const Vec3f& wi, float d) const {
-        const float p_multiple = multiple_probability();
+    [[nodiscard]] T pdf_solid_angle(const Vec& wo, const Vec& wi, T d) const {
+        const T p_multiple = multiple_probability();
         return (1.0f - p_multiple) * ggx.g1(wo) * d / (4.0f * wo.z) +
                p_multiple * multiple_directions.pdf_solid_angle(wi.z);
     }
 
     /// A direction with the density that `evaluate` states; wi.z <= 0 means that it went below the surface.
-    [[nodiscard]] Vec3f sample(const Vec3f& wo, float u_lobe, Vec2f u) const {
-        if (u_lobe < multiple_probability()) return multiple_directions.sample(u);
-        const Vec3f h = ggx.sample_visible_normal(wo, u);
-        return h * (2.0f * dot(wo, h)) - wo;
+    [[nodiscard]] Vec sample(const Vec& wo, T u_lobe, const Imath::Vec2<T>& u) const {
+        return choose(
+            u_lobe < multiple_probability(), [&] { return multiple_directions.sample(u); },
+            [&] {
+                const Vec h = ggx.sample_visible_normal(wo, u);
+                return h * (2.0f * dot(wo, h)) - wo;
+            });
     }
 
     /// Colour of light that scattered more than once on a metal whose mean reflectance is `fresnel_average` (Kulla and
     /// Conty, slide 28): the geometric series of Fresnel losses.
-    [[nodiscard]] Rgb multiple_fresnel(const Rgb& fresnel_average) const {
-        const float e = albedo_average.single;
-        const auto channel = [e](float f) { return f * f * e / (1.0f - f * (1.0f - e)); };
+    [[nodiscard]] BasicRgb<T> multiple_fresnel(const BasicRgb<T>& fresnel_average) const {
+        const T e = albedo_average.single;
+        const auto channel = [e](T f) { return f * f * e / (1.0f - f * (1.0f - e)); };
         return {channel(fresnel_average.r), channel(fresnel_average.g), channel(fresnel_average.b)};
     }
+
+  private:
+    static T mean_alpha(const BasicGgx<T>& ggx) {
+        if constexpr (kIsSingle<T>) {
+            if (!ggx.is_isotropic()) return std::sqrt(ggx.alpha_x * ggx.alpha_y);
+        }
+        return ggx.alpha_x;
+    }
+    static BasicGgxAlbedo<T> average_albedo(const BasicGgx<T>& ggx) {
+        if constexpr (kIsSingle<T>) {
+            if (!ggx.is_isotropic()) return ggx_anisotropic_albedo_average(ggx.alpha_x, ggx.alpha_y);
+        }
+        return ggx_albedo_average(ggx.alpha_x);
+    }
 };
+using GgxReflection = BasicGgxReflection<float>;
 
 }  // namespace etendue

@@ -35,8 +35,7 @@ struct Layers {
     }
 };
 
-MetallicRoughness::Value evaluate_base(const LayeredSurface& surface, const Vec3f& wo, const Vec3f& wi,
-                                       TransportMode mode) {
+BsdfParts evaluate_base(const LayeredSurface& surface, const Vec3f& wo, const Vec3f& wi, TransportMode mode) {
     if (const auto* body = std::get_if<DielectricBody>(&surface.base)) return body->evaluate_parts(wo, wi, mode);
     return std::get<MetallicRoughness>(surface.base).evaluate_parts(wo, wi);
 }
@@ -108,17 +107,16 @@ class InnerSide {
     const DielectricBody* body_;
 };
 
-MetallicRoughness::Value evaluate_layer_parts(const LayeredSurface& surface, const Layers& layers, const Vec3f& wo,
-                                              const Vec3f& wi, TransportMode mode) {
-    const MetallicRoughness::Value base = evaluate_base(surface, wo, wi, mode);
+BsdfParts evaluate_layer_parts(const LayeredSurface& surface, const Layers& layers, const Vec3f& wo, const Vec3f& wi,
+                               TransportMode mode) {
+    const BsdfParts base = evaluate_base(surface, wo, wi, mode);
     const float passed_i = Layers::passed(surface, wi);
     const float p_base = layers.p_base();
     const float diffuse_scale = layers.passed_o * passed_i / surface.passed_average;
     const float specular_scale =
         std::lerp(std::min(layers.passed_o, passed_i), layers.passed_o * passed_i / surface.passed_average_plain,
                   surface.diffuseness);
-    MetallicRoughness::Value value{base.diffuse * diffuse_scale, base.specular * specular_scale,
-                                   base.pdf_solid_angle * p_base};
+    BsdfParts value{base.diffuse * diffuse_scale, base.specular * specular_scale, base.pdf_solid_angle * p_base};
     const InnerSide inner(surface);
     if (inner.is_seen_from(wo)) {
         const BsdfValue returned = inner.evaluate(wo, wi);
@@ -143,7 +141,7 @@ MetallicRoughness::Value evaluate_layer_parts(const LayeredSurface& surface, con
 
 BsdfValue evaluate_layers(const LayeredSurface& surface, const Layers& layers, const Vec3f& wo, const Vec3f& wi,
                           TransportMode mode) {
-    const MetallicRoughness::Value parts = evaluate_layer_parts(surface, layers, wo, wi, mode);
+    const BsdfParts parts = evaluate_layer_parts(surface, layers, wo, wi, mode);
     return {parts.diffuse + parts.specular, parts.pdf_solid_angle};
 }
 
@@ -197,7 +195,7 @@ bool LayeredSurface::has_non_delta() const {
            std::visit([](const auto& lobe) { return lobe.has_non_delta(); }, base);
 }
 
-MetallicRoughness::Value LayeredSurface::evaluate_parts(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const {
+BsdfParts LayeredSurface::evaluate_parts(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const {
     if (wo.z == 0.0f || wi.z == 0.0f || (wo.z < 0.0f && !is_two_sided())) return {};
     return evaluate_layer_parts(*this, Layers(*this, wo), wo, wi, mode);
 }

@@ -38,7 +38,7 @@ struct LayeredSurface {
                                              const Sheen& sheen, const ClearCoat& coat);
 
     /// A sheen counts as diffuse.
-    [[nodiscard]] MetallicRoughness::Value evaluate_parts(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const;
+    [[nodiscard]] BsdfParts evaluate_parts(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const;
     [[nodiscard]] BsdfValue evaluate(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const;
     [[nodiscard]] BsdfSample sample(const Vec3f& wo, float u_lobe, Vec2f u, TransportMode mode) const;
     /// As radiance.

@@ -24,6 +24,7 @@
 
 #include "bsdf/bsdf_sample.h"
 #include "bsdf/delta_list.h"
+#include "bsdf/ggx.h"
 #include "bsdf/thin_film.h"
 
 namespace etendue {
@@ -40,13 +41,13 @@ struct MetallicRoughness {
     Rgb diffuse_transmission_color{1.0f};
     ThinFilm film{};
 
-    /// The value in two parts: what scatters like a diffuse surface, and what does so around a direction.
-    struct Value {
-        Rgb diffuse;
-        Rgb specular;
-        float pdf_solid_angle = 0.0f;
-    };
-    [[nodiscard]] Value evaluate_parts(const Vec3f& wo, const Vec3f& wi) const;
+    /// True of what PlainMetallicRoughness can be.
+    [[nodiscard]] bool is_plain() const {
+        return alpha_x == alpha_y && alpha_x >= kSmoothAlpha && transmission == 0.0f && diffuse_transmission == 0.0f &&
+               !film.exists();
+    }
+
+    [[nodiscard]] BsdfParts evaluate_parts(const Vec3f& wo, const Vec3f& wi) const;
     /// The density of `evaluate` alone.
     [[nodiscard]] float pdf_solid_angle(const Vec3f& wo, const Vec3f& wi) const;
 

@@ -23,7 +23,7 @@ float bounded_alpha(float alpha) {
 
 BsdfValue Sheen::evaluate(const Vec3f& wo, const Vec3f& wi) const {
     const float a = bounded_alpha(alpha);
-    const Place row = alpha_place(a);
+    const auto row = alpha_place(a);
     const float albedo_o = interpolate(kUnbounded, row, cosine_place(wo.z));
     const float albedo_i = interpolate(kUnbounded, row, cosine_place(wi.z));
     const float scale = 1.0f / std::max({1.0f, albedo_o, albedo_i});

@@ -10,6 +10,7 @@
 namespace etendue::sheen_albedo_layout {
 
 using ggx_albedo_layout::fraction;
+using ggx_albedo_layout::interpolate;
 using ggx_albedo_layout::mix;
 using ggx_albedo_layout::Place;
 using ggx_albedo_layout::place;
@@ -25,7 +26,7 @@ using Table = std::array<std::array<float, kCosines>, kAlphas>;
     const float t = mix(first, 1.0f, fraction(node, kAlphas));
     return t * t;
 }
-[[nodiscard]] inline Place alpha_place(float a) {
+[[nodiscard]] inline Place<float> alpha_place(float a) {
     const float first = std::sqrt(kSmallestSheenAlpha);
     return place((std::sqrt(a) - first) / (1.0f - first) * (kAlphas - 1), kAlphas);
 }
@@ -33,13 +34,8 @@ using Table = std::array<std::array<float, kCosines>, kAlphas>;
     const float t = fraction(node, kCosines);
     return t * t * t;
 }
-[[nodiscard]] inline Place cosine_place(float mu) {
+[[nodiscard]] inline Place<float> cosine_place(float mu) {
     return place(std::cbrt(mu) * (kCosines - 1), kCosines);
 }
 
-[[nodiscard]] inline float interpolate(const Table& table, Place a, Place c) {
-    const auto& low = table[a.index];
-    const auto& high = table[a.index + 1];
-    return mix(mix(low[c.index], low[c.index + 1], c.t), mix(high[c.index], high[c.index + 1], c.t), a.t);
-}
 }  // namespace etendue::sheen_albedo_layout

@@ -1,23 +1,44 @@
 // What templates of a lane type need of it, for float; `Wide` (core/wide.h) brings its own. Such a template is written
 // as for one number, with `select` where a branch would be, and computes many at once if its lanes are wide: one
-// source serves both. It calls min, max, abs, sqrt and copysign without a namespace.
+// source serves both. It calls what <cmath> and <algorithm> have without a namespace.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <type_traits>
 #include <utility>
 
 namespace etendue {
 
 using std::abs;
+using std::clamp;
 using std::copysign;
+using std::expm1;
+using std::floor;
+using std::log;
 using std::max;
 using std::min;
 using std::sqrt;
 
+/// Whether lanes of this type are single numbers, for what is done with those alone.
+template <typename T>
+inline constexpr bool kIsSingle = std::is_same_v<T, float>;
+
 /// `condition ? if_true : if_false`, lane by lane; both are evaluated.
 [[nodiscard]] constexpr float select(bool condition, float if_true, float if_false) {
     return condition ? if_true : if_false;
+}
+
+/// The same of what is costly: only the one that is asked for is evaluated.
+template <typename IfTrue, typename IfFalse>
+[[nodiscard]] constexpr auto choose(bool condition, const IfTrue& if_true, const IfFalse& if_false) {
+    return condition ? if_true() : if_false();
+}
+
+/// `table[index]`; `index` is a whole number.
+[[nodiscard]] inline float gather(const float* table, float index) {
+    return table[static_cast<std::size_t>(index)];
 }
 
 /// What comparisons of lanes give: bool for float.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 namespace etendue {
 
@@ -74,8 +75,17 @@ template <typename T = float>
     return {channel(c.r), channel(c.g), channel(c.b)};
 }
 
-[[nodiscard]] constexpr Rgb lerp(const Rgb& a, const Rgb& b, float t) {
+template <typename T = float>
+[[nodiscard]] constexpr BasicRgb<T> lerp(const BasicRgb<T>& a, const BasicRgb<T>& b, std::type_identity_t<T> t) {
     return a * (1.0f - t) + b * t;
+}
+
+/// `condition ? if_true : if_false`, lane by lane.
+template <typename T = float>
+[[nodiscard]] constexpr BasicRgb<T> select(MaskOf<T> condition, const BasicRgb<T>& if_true,
+                                           const BasicRgb<T>& if_false) {
+    return {select(condition, if_true.r, if_false.r), select(condition, if_true.g, if_false.g),
+            select(condition, if_true.b, if_false.b)};
 }
 
 }  // namespace etendue

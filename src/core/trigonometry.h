@@ -4,8 +4,6 @@
 
 #include "core/vec.h"
 
-#include <cmath>
-
 namespace etendue {
 
 /// A template of its lane type, see core/lane.h.
@@ -27,14 +25,18 @@ template <typename T>
 }
 
 /// Of `turns` · 2 pi radians, `turns` in [0, 1].
-[[nodiscard]] inline SinCos sin_cos_turns(float turns) {
-    const float quarters = turns * 4.0f;
-    const int nearest = static_cast<int>(std::floor(quarters + 0.5f));
-    const SinCos octant = sin_cos_octant((quarters - static_cast<float>(nearest)) * (kPi / 2.0f));
-    const bool swap = (nearest & 1) != 0;
-    const float s = swap ? octant.cos : octant.sin;
-    const float c = swap ? octant.sin : octant.cos;
-    return {(nearest & 2) != 0 ? -s : s, ((nearest + 1) & 2) != 0 ? -c : c};
+template <typename T>
+[[nodiscard]] inline BasicSinCos<T> sin_cos_turns(T turns) {
+    const T quarters = turns * 4.0f;
+    const T nearest = floor(quarters + 0.5f);
+    const BasicSinCos<T> octant = sin_cos_octant((quarters - nearest) * (kPi / 2.0f));
+    const auto first = nearest == T(1.0f);
+    const auto second = nearest == T(2.0f);
+    const auto third = nearest == T(3.0f);
+    const auto swap = first || third;
+    const T s = select(swap, octant.cos, octant.sin);
+    const T c = select(swap, octant.sin, octant.cos);
+    return {select(second || third, -s, s), select(first || second, -c, c)};
 }
 
 }  // namespace etendue

@@ -47,6 +47,13 @@ template <typename T = float>
 [[nodiscard]] inline T max_abs(const Imath::Vec3<T>& v) {
     return max(abs(v.x), max(abs(v.y), abs(v.z)));
 }
+/// `condition ? if_true : if_false`, lane by lane.
+template <typename T = float>
+[[nodiscard]] inline Imath::Vec3<T> select(MaskOf<T> condition, const Imath::Vec3<T>& if_true,
+                                           const Imath::Vec3<T>& if_false) {
+    return {select(condition, if_true.x, if_false.x), select(condition, if_true.y, if_false.y),
+            select(condition, if_true.z, if_false.z)};
+}
 /// `v` scaled to length 1; undefined for a zero vector.
 template <typename T = float>
 [[nodiscard]] inline Imath::Vec3<T> normalize(const Imath::Vec3<T>& v) {

@@ -75,10 +75,19 @@ class Wide {
         std::experimental::where(condition.simd(), if_false.lanes_) = if_true.lanes_;
         return if_false;
     }
+    /// `table[index]`, lane by lane; the indices are whole numbers.
+    [[nodiscard]] friend Wide gather(const float* table, Wide index) {
+        const auto whole = std::experimental::static_simd_cast<int>(index.lanes_);
+        return Wide(Simd([&](auto lane) { return table[whole[lane]]; }));
+    }
     // As those of the standard library are for what is no number.
     [[nodiscard]] friend Wide min(Wide a, Wide b) { return select(b < a, b, a); }
     [[nodiscard]] friend Wide max(Wide a, Wide b) { return select(a < b, b, a); }
+    [[nodiscard]] friend Wide clamp(Wide a, Wide low, Wide high) { return min(max(a, low), high); }
     [[nodiscard]] friend Wide abs(Wide a) { return Wide(std::experimental::abs(a.lanes_)); }
+    [[nodiscard]] friend Wide floor(Wide a) { return Wide(std::experimental::floor(a.lanes_)); }
+    [[nodiscard]] friend Wide log(Wide a) { return Wide(std::experimental::log(a.lanes_)); }
+    [[nodiscard]] friend Wide expm1(Wide a) { return Wide(std::experimental::expm1(a.lanes_)); }
     [[nodiscard]] friend Wide sqrt(Wide a) { return Wide(std::experimental::sqrt(a.lanes_)); }
     [[nodiscard]] friend Wide copysign(Wide a, Wide sign) {
         return Wide(std::experimental::copysign(a.lanes_, sign.lanes_));
@@ -87,5 +96,13 @@ class Wide {
   private:
     Simd lanes_;
 };
+
+/// Of what is costly: only what some lane asks for is evaluated.
+template <typename IfTrue, typename IfFalse>
+[[nodiscard]] auto choose(WideMask condition, const IfTrue& if_true, const IfFalse& if_false) {
+    if (std::experimental::none_of(condition.simd())) return if_false();
+    if (std::experimental::all_of(condition.simd())) return if_true();
+    return select(condition, if_true(), if_false());
+}
 
 }  // namespace etendue

@@ -1,5 +1,6 @@
 #include "light/environment_light.h"
 
+#include "core/trigonometry.h"
 #include "light/punctual_light.h"
 #include "sampling/warp.h"
 
@@ -64,10 +65,10 @@ Distribution2D make_distribution(const ImageF& image) {
 }  // namespace
 
 Vec3f latitude_longitude_direction(Vec2f position) {
-    const float phi = (position.x - 0.5f) * 2.0f * kPi;
-    const float theta = position.y * kPi;
-    const float sin_theta = std::sin(theta);
-    return {sin_theta * std::sin(phi), std::cos(theta), -sin_theta * std::cos(phi)};
+    const SinCos theta = sin_cos_turns(0.5f * position.y);
+    // Half a turn from the middle of the image, which changes the signs of both.
+    const SinCos phi = sin_cos_turns(position.x);
+    return {-theta.sin * phi.sin, theta.cos, theta.sin * phi.cos};
 }
 
 LightSample ConstantEnvironment::sample(const Vec3f&, Vec2f u) const {
@@ -125,7 +126,7 @@ Rgb ImageEnvironment::radiance(const Vec3f& direction) const {
 
 LightSample ImageEnvironment::sample(const Vec3f&, Vec2f u) const {
     const Distribution2D::Sample position = distribution_.sample(u);
-    const float sin_theta = std::sin(position.position.y * kPi);
+    const float sin_theta = sin_cos_turns(0.5f * position.position.y).sin;
     if (!(sin_theta > 0.0f) || !(position.pdf > 0.0f)) return {};
     LightSample sample;
     sample.wi = from_image(position.position);

@@ -57,6 +57,52 @@ TEST(Wide, SelectsByComparisons) {
               0.0f);
 }
 
+TEST(Wide, FunctionsAreThoseOfFloat) {
+    EXPECT_EQ((largest_lane_difference<3>(
+                  -2.0f, 2.0f,
+                  [](const auto& in) {
+                      const auto a = in[0];
+                      return std::array{floor(a), clamp(a, in[1], in[1] + 1.0f), log(abs(a)), expm1(a)};
+                  })),
+              0.0f);
+    EXPECT_LE((largest_lane_difference<1>(0.0f, 1.0f,
+                                          [](const auto& in) {
+                                              const auto angle = sin_cos_turns(in[0]);
+                                              return std::array{angle.sin, angle.cos};
+                                          })),
+              4.0f);
+}
+
+TEST(Wide, GathersFromTables) {
+    constexpr std::array kTable{2.0f, 3.0f, 5.0f, 7.0f};
+    EXPECT_EQ((largest_lane_difference<1>(
+                  0.0f, 4.0f, [&](const auto& in) { return std::array{gather(kTable.data(), floor(in[0]))}; })),
+              0.0f);
+    EXPECT_EQ(gather(kTable.data(), 2.0f), 5.0f);
+}
+
+TEST(Wide, ChoosesWhatIsAskedFor) {
+    EXPECT_EQ((largest_lane_difference<2>(-1.0f, 1.0f,
+                                          [](const auto& in) {
+                                              const auto a = in[0];
+                                              const auto b = in[1];
+                                              const auto first = [&] { return a; };
+                                              const auto second = [&] { return b; };
+                                              return std::array{choose(a < b, first, second),
+                                                                choose(a < a, first, second),
+                                                                choose(a <= a, first, second)};
+                                          })),
+              0.0f);
+    int calls = 0;
+    const auto counted = [&] {
+        ++calls;
+        return Wide(1.0f);
+    };
+    EXPECT_EQ(choose(Wide(0.0f) < Wide(1.0f), counted, [] { return Wide(2.0f); })[0], 1.0f);
+    EXPECT_EQ(choose(Wide(1.0f) < Wide(0.0f), counted, [] { return Wide(2.0f); })[0], 2.0f);
+    EXPECT_EQ(calls, 1);
+}
+
 TEST(Wide, WhatIsNoNumberIsAsInTheStandardLibrary) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     EXPECT_EQ(max(Wide(1.0f), Wide(nan))[0], std::max(1.0f, nan));

@@ -1,6 +1,6 @@
 #include "core/wide.h"
 #include "support/lanes.h"
-#include "world/matte_scattering.h"
+#include "world/lane_scattering.h"
 #include "world/scattering.h"
 #include "world/triangle_point.h"
 

@@ -4,7 +4,7 @@
 #include "integrator/connecting_ray.h"
 #include "light/mesh_light.h"
 #include "sampling/mis.h"
-#include "world/matte_scattering.h"
+#include "world/lane_scattering.h"
 
 #include <limits>
 
@@ -37,8 +37,13 @@ void BlockLanes::evaluate_matte(std::size_t count) {
         next_direction.store(l, sample.wi);
         next_weight.store(l, sample.weight);
         next_pdf.store(l, sample.pdf_solid_angle);
-        next_origin.store(l, offset_origin(position.load(l), geometric_normal.load(l), clearance.load(l), sample.wi));
     }
+}
+
+void BlockLanes::set_next_origins(std::size_t count) {
+    for (std::size_t l = 0; l < count; l += Wide::kWidth)
+        next_origin.store(
+            l, offset_origin(position.load(l), geometric_normal.load(l), clearance.load(l), next_direction.load(l)));
 }
 
 void BlockLanes::weigh_light(std::size_t count) {

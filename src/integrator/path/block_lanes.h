@@ -41,6 +41,8 @@ struct BlockLanes : SurfaceLanes {
     void sample_mesh_lights(std::size_t count);
     /// `f_cos` and `pdf` towards the light; `next_direction`, `next_weight` and `next_pdf` from `u`.
     void evaluate_matte(std::size_t count);
+    /// `next_origin`, from `next_direction`.
+    void set_next_origins(std::size_t count);
     /// `contribution` and its ray.
     void weigh_light(std::size_t count);
 };

@@ -109,15 +109,17 @@ void PathWave::shade_block(const Context& context, std::size_t first, std::size_
     sample_lights(context, first);
     stamp(profile, Stage::LightSampling);
     evaluate_matte(first);
+    evaluate_glossy(first);
+    lanes_.set_next_origins(surfaces_);
     for_surfaces([&](std::size_t i, std::size_t, ShadedPath& path) {
-        if (!path.is_matte) evaluate(i, path);
+        if (!path.is_wide) evaluate(i, path);
     });
     stamp(profile, Stage::Material);
     lanes_.weigh_light(surfaces_);
     for_surfaces([&](std::size_t i, std::size_t lane, const ShadedPath& path) {
         if (!path.samples_light) return;
-        if (path.is_matte)
-            queue_matte(context, i, lane, path);
+        if (path.is_wide)
+            queue_by_lanes(context, i, lane, path);
         else
             queue_direct_light(context, i, path);
     });
@@ -125,7 +127,7 @@ void PathWave::shade_block(const Context& context, std::size_t first, std::size_
     for_surfaces([&](std::size_t i, std::size_t lane, const ShadedPath& path) {
         PathStep& next = next_[i - first];
         goes_on_[i - first] =
-            path.is_matte ? scatter_at_matte(context, i, lane, path, next) : scatter_at_surface(context, i, path, next);
+            path.is_wide ? scatter_by_lanes(context, i, lane, path, next) : scatter_at_surface(context, i, path, next);
     });
     for (std::size_t k = 0; k < count; ++k) {
         const std::size_t i = first + k;

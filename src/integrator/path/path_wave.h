@@ -10,6 +10,7 @@
 #include "integrator/connections.h"
 #include "integrator/number_pairs.h"
 #include "integrator/path/block_lanes.h"
+#include "integrator/path/glossy_lanes.h"
 #include "integrator/path/path_integrator.h"
 #include "integrator/profile/wave_profile.h"
 #include "world/scattering.h"
@@ -50,16 +51,17 @@ struct PathStep {
 
 /// A path whose ray has hit a surface, between the stages of its shading, with what is not in `BlockLanes`.
 struct ShadedPath {
-    SurfacePoint point;              ///< of a plain surface, its material only
-    const Diffuse* plain = nullptr;  ///< see World::plain_lobe
-    bool is_matte = false;           ///< scattered by a diffuse lobe, which is evaluated for many paths at once
-    bool is_mesh_lit = false;        ///< by an even mesh light, which is sampled for many at once
+    SurfacePoint point;                         ///< of a plain surface, its material only
+    const Diffuse* plain = nullptr;             ///< see World::plain_lobe
+    const MetallicRoughness* glossy = nullptr;  ///< its lobe, where that is evaluated for many at once
+    bool is_wide = false;                       ///< scattered by a lobe that is evaluated for many paths at once
+    bool is_mesh_lit = false;                   ///< by an even mesh light, which is sampled for many at once
     std::optional<Crossing> crossing;
     Wavelength wavelength{};  ///< that it goes on with, and its weight
     bool chooses_wavelength = false;
     bool samples_light = false;
     Bsdf storage;
-    std::optional<Scattering> scattering;  ///< unless matte
+    std::optional<Scattering> scattering;  ///< unless it is_wide; of glossy ones where words are followed
     ChosenLight light;
     BsdfValue towards_light;
     BsdfSample sample;
@@ -107,6 +109,7 @@ class PathWave final : public IntegratorScratch {
     /// What the surface scatters towards the light, and where else to.
     void evaluate(std::size_t i, ShadedPath& path) const;
     void evaluate_matte(std::size_t first);
+    void evaluate_glossy(std::size_t first);
     /// Takes path `i` through the medium that its ray is in; true if it scatters there.
     bool scatter_in_medium(const Context& context, std::size_t i, PathStep& next);
     /// Takes path `i` through a boundary that another body hides.
@@ -114,8 +117,10 @@ class PathWave final : public IntegratorScratch {
                      PathStep& next);
     /// Takes path `i` where the sample of its BSDF says; false if it ends.
     bool scatter_at_surface(const Context& context, std::size_t i, const ShadedPath& path, PathStep& next);
-    bool scatter_at_matte(const Context& context, std::size_t i, std::size_t lane, const ShadedPath& path,
+    bool scatter_by_lanes(const Context& context, std::size_t i, std::size_t lane, const ShadedPath& path,
                           PathStep& next);
+    /// What the surface of a path that is_wide does towards `wi`.
+    [[nodiscard]] VertexEvent wide_event(const Context& context, const ShadedPath& path, const Vec3f& wi) const;
     /// What both have in common: `next` after `sample` at `position`. False if nothing was scattered.
     bool scatter(const Context& context, std::size_t i, const Vec3f& position, const BsdfSample& sample,
                  PathStep& next) const;
@@ -127,7 +132,7 @@ class PathWave final : public IntegratorScratch {
     void add_emission(const Context& context, const PathState& state, const Ray& ray, const Hit& hit,
                       const SurfacePoint& point);
     void queue_direct_light(const Context& context, std::size_t i, const ShadedPath& path);
-    void queue_matte(const Context& context, std::size_t i, std::size_t lane, const ShadedPath& path);
+    void queue_by_lanes(const Context& context, std::size_t i, std::size_t lane, const ShadedPath& path);
     void queue_direct_light_in_medium(const Context& context, std::size_t i, const Vec3f& position,
                                       const HomogeneousMedium& medium);
     [[nodiscard]] ChosenLight sample_light(const Context& context, std::size_t i, const Vec3f& position) const;
@@ -156,6 +161,7 @@ class PathWave final : public IntegratorScratch {
     std::array<std::uint8_t, kBlock> on_surface_{};  ///< places in the block of the paths on surfaces, which have lanes
     std::size_t surfaces_ = 0;
     BlockLanes lanes_;
+    GlossyLanes glossy_;
     std::array<PathStep, kBlock> next_;
     std::array<bool, kBlock> goes_on_{};
     // By slot, that is, by camera sample.

@@ -61,7 +61,7 @@ void PathWave::sample_lights(const Context& context, std::size_t first) {
     if (any_mesh_lit) lanes_.sample_mesh_lights(surfaces_);
     for (std::size_t lane = 0; lane < surfaces_; ++lane) {
         ShadedPath& path = block_[on_surface_[lane]];
-        if (path.is_matte == path.is_mesh_lit) continue;
+        if (path.is_wide == path.is_mesh_lit) continue;
         LightSample& light = path.light.sample;
         if (path.is_mesh_lit) {
             light.wi = lanes_.light_wi[lane];
@@ -133,7 +133,7 @@ void PathWave::queue_direct_light(const Context& context, std::size_t i, const S
                                 : VertexEvent{});
 }
 
-void PathWave::queue_matte(const Context& context, std::size_t i, std::size_t lane, const ShadedPath& path) {
+void PathWave::queue_by_lanes(const Context& context, std::size_t i, std::size_t lane, const ShadedPath& path) {
     if (context.job.profile != nullptr) ++context.job.profile->use().light_samples;
     Rgb contribution = lanes_.contribution[lane];
     if (is_black(contribution)) return;
@@ -144,7 +144,7 @@ void PathWave::queue_matte(const Context& context, std::size_t i, std::size_t la
     ray.direction = lanes_.shadow_direction[lane];
     ray.t_max = lanes_.shadow_t_max[lane];
     queue(context, i, ray, contribution, path.light.light,
-          words_.are_followed() ? matte_event(words_.label(context.world, path.point)) : VertexEvent{});
+          words_.are_followed() ? wide_event(context, path, lanes_.light_wi[lane]) : VertexEvent{});
 }
 
 void PathWave::queue_direct_light_in_medium(const Context& context, std::size_t i, const Vec3f& position,

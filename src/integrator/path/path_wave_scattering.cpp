@@ -70,15 +70,13 @@ void PathWave::make_scattering(const Context& context, std::size_t i, std::size_
     const World& world = context.world;
     const PathState& state = states_[i];
     const Vec3f wo = -rays_[i].direction;
-    const auto set_matte = [&](const Diffuse& lobe) {
-        path.is_matte = true;
-        lanes_.wo.set(lane, wo);
-        lanes_.albedo.set(lane, lobe.albedo);
-        lanes_.throughput.set(lane, state.throughput);
-    };
     path.samples_light =
         context.options.sample_lights && world.has_lights() && state.edges + 1 >= context.options.lengths.min_depth;
-    if (path.plain != nullptr) return set_matte(*path.plain);
+    path.is_wide = true;
+    path.glossy = nullptr;
+    lanes_.wo.set(lane, wo);
+    lanes_.throughput.set(lane, state.throughput);
+    if (path.plain != nullptr) return lanes_.albedo.set(lane, path.plain->albedo);
     lanes_.position.set(lane, path.point.position);
     // Where the index depends on the wavelength, a path of all of them takes one to go on with.
     path.wavelength = {state.wavelength_nm, Rgb(1.0f)};
@@ -88,15 +86,19 @@ void PathWave::make_scattering(const Context& context, std::size_t i, std::size_
             sample_2d(context.job.sequence, keys_[i], body_dimension(context.depth, kWavelength)).x);
     const Bsdf& bsdf = world.bsdf(path.point, wo,
                                   path.crossing ? path.crossing->relative_ior(path.wavelength.nm) : 0.0f, path.storage);
-    path.is_matte = false;
-    if (const auto* diffuse = std::get_if<Diffuse>(&bsdf); diffuse != nullptr && !path.crossing) {
+    const auto* diffuse = path.crossing ? nullptr : std::get_if<Diffuse>(&bsdf);
+    const auto* glossy = path.crossing ? nullptr : std::get_if<MetallicRoughness>(&bsdf);
+    if (glossy != nullptr && glossy->is_plain()) path.glossy = glossy;
+    path.is_wide = diffuse != nullptr || path.glossy != nullptr;
+    if (path.is_wide) {
         const SurfacePoint& point = path.point;
         lanes_.geometric_normal.set(lane, point.geometric_normal);
         lanes_.clearance.set(lane, point.clearance);
         lanes_.tangent.set(lane, point.shading.tangent);
         lanes_.bitangent.set(lane, point.shading.bitangent);
         lanes_.normal.set(lane, point.shading.normal);
-        return set_matte(*diffuse);
+        if (diffuse != nullptr) return lanes_.albedo.set(lane, diffuse->albedo);
+        if (!words_.are_followed()) return;
     }
     path.scattering.emplace(bsdf, path.point.shading, path.point.geometric_normal, wo);
     path.samples_light = path.samples_light && path.scattering->has_non_delta();
@@ -105,6 +107,35 @@ void PathWave::make_scattering(const Context& context, std::size_t i, std::size_
 void PathWave::evaluate_matte(std::size_t first) {
     for (std::size_t lane = 0; lane < surfaces_; ++lane) lanes_.u.set(lane, bsdf_direction_[first + on_surface_[lane]]);
     lanes_.evaluate_matte(surfaces_);
+}
+
+void PathWave::evaluate_glossy(std::size_t first) {
+    std::array<std::uint8_t, kBlock> lane_of{};
+    std::size_t count = 0;
+    for (std::size_t lane = 0; lane < surfaces_; ++lane) {
+        const ShadedPath& path = block_[on_surface_[lane]];
+        if (path.glossy == nullptr) continue;
+        const std::size_t i = first + on_surface_[lane];
+        glossy_.set_lobe(count, *path.glossy);
+        glossy_.tangent.set(count, lanes_.tangent[lane]);
+        glossy_.bitangent.set(count, lanes_.bitangent[lane]);
+        glossy_.normal.set(count, lanes_.normal[lane]);
+        glossy_.geometric_normal.set(count, lanes_.geometric_normal[lane]);
+        glossy_.wo.set(count, lanes_.wo[lane]);
+        glossy_.light_wi.set(count, lanes_.light_wi[lane]);
+        glossy_.u_lobe.set(count, choices_[i].x);
+        glossy_.u.set(count, bsdf_direction_[i]);
+        lane_of[count++] = static_cast<std::uint8_t>(lane);
+    }
+    glossy_.evaluate(count);
+    for (std::size_t g = 0; g < count; ++g) {
+        const std::size_t lane = lane_of[g];
+        lanes_.f_cos.set(lane, glossy_.f_cos[g]);
+        lanes_.pdf.set(lane, glossy_.pdf[g]);
+        lanes_.next_direction.set(lane, glossy_.next_direction[g]);
+        lanes_.next_weight.set(lane, glossy_.next_weight[g]);
+        lanes_.next_pdf.set(lane, glossy_.next_pdf[g]);
+    }
 }
 
 void PathWave::evaluate(std::size_t i, ShadedPath& path) const {
@@ -136,7 +167,13 @@ bool PathWave::scatter(const Context& context, std::size_t i, const Vec3f& posit
     return true;
 }
 
-bool PathWave::scatter_at_matte(const Context& context, std::size_t i, std::size_t lane, const ShadedPath& path,
+VertexEvent PathWave::wide_event(const Context& context, const ShadedPath& path, const Vec3f& wi) const {
+    const auto label = words_.label(context.world, path.point);
+    return path.glossy == nullptr ? matte_event(label)
+                                  : surface_event(*path.scattering, wi, false, TransportMode::Radiance, label);
+}
+
+bool PathWave::scatter_by_lanes(const Context& context, std::size_t i, std::size_t lane, const ShadedPath& path,
                                 PathStep& next) {
     const World& world = context.world;
     BsdfSample sample;
@@ -145,7 +182,7 @@ bool PathWave::scatter_at_matte(const Context& context, std::size_t i, std::size
     sample.pdf_solid_angle = lanes_.next_pdf[lane];
     if (!scatter(context, i, lanes_.position[lane], sample, next)) return false;
     if (words_.are_followed())
-        next.state.words = words_.scatter_from_eye(states_[i].words, matte_event(words_.label(world, path.point)));
+        next.state.words = words_.scatter_from_eye(states_[i].words, wide_event(context, path, sample.wi));
     if (world.has_textures())
         next.state.cone = scattered_cone(world, path.point, rays_[i].direction, states_[i].cone.at(hits_[i].t), sample);
     next.ray.origin = lanes_.next_origin[lane];

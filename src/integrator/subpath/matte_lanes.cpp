@@ -1,7 +1,7 @@
 #include "integrator/subpath/matte_lanes.h"
 
 #include "core/ray.h"
-#include "world/matte_scattering.h"
+#include "world/lane_scattering.h"
 
 namespace etendue {
 
