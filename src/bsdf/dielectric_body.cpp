@@ -35,8 +35,7 @@ BsdfParts DielectricBody::evaluate_parts(const Vec3f& wo, const Vec3f& wi, Trans
 }
 
 BsdfValue DielectricBody::evaluate(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const {
-    const BsdfParts value = evaluate_parts(wo, wi, mode);
-    return {value.diffuse + value.specular, value.pdf_solid_angle};
+    return evaluate_parts(wo, wi, mode).sum();
 }
 
 BsdfSample DielectricBody::sample(const Vec3f& wo, float u_lobe, Vec2f u, TransportMode mode) const {

@@ -20,7 +20,7 @@ struct BasicFacetFresnel {
     T f90{1.0f};         ///< at grazing incidence, [0, 1]
     ThinFilm film{};     ///< of single lanes only
 
-    [[nodiscard]] constexpr bool has_film() const { return kIsSingle<T> && film.exists(); }
+    [[nodiscard]] bool has_film() const { return kIsSingle<T> && film.exists(); }
 
     /// `cos_theta` in [0, 1] to the facet's normal.
     [[nodiscard]] Color operator()(T cos_theta) const {

@@ -143,7 +143,7 @@ template <typename T>
 template <typename T, std::size_t Rows, std::size_t Columns>
 [[nodiscard]] T interpolate(const std::array<std::array<float, Columns>, Rows>& table, const Place<T>& row,
                             const Place<T>& column) {
-    // Rows follow each other.
+    // One block of memory, row after row.
     const float* low = table.front().data();
     const float* high = low + Columns;
     const T first = row.index * static_cast<float>(Columns) + column.index;

@@ -141,8 +141,7 @@ BsdfParts evaluate_layer_parts(const LayeredSurface& surface, const Layers& laye
 
 BsdfValue evaluate_layers(const LayeredSurface& surface, const Layers& layers, const Vec3f& wo, const Vec3f& wi,
                           TransportMode mode) {
-    const BsdfParts parts = evaluate_layer_parts(surface, layers, wo, wi, mode);
-    return {parts.diffuse + parts.specular, parts.pdf_solid_angle};
+    return evaluate_layer_parts(surface, layers, wo, wi, mode).sum();
 }
 
 /// The mirror direction of a smooth coat.

@@ -115,10 +115,10 @@ BsdfSample MetallicRoughness::sample(const Vec3f& wo, float u_lobe, Vec2f u, Tra
         if (transmit) wi.z = -wi.z;
     }
     if (wi.z == 0.0f) return {};
-    const BsdfParts value = evaluate_layers(layers, wo, wi);
+    const BsdfValue value = evaluate_layers(layers, wo, wi).sum();
     if (!(value.pdf_solid_angle > 0.0f)) return {};
     return {.wi = wi,
-            .weight = (value.diffuse + value.specular) / value.pdf_solid_angle,
+            .weight = value.f_cos / value.pdf_solid_angle,
             .pdf_solid_angle = value.pdf_solid_angle,
             .is_transmission = wi.z < 0.0f};
 }

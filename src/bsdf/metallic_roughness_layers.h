@@ -39,7 +39,7 @@ struct MetallicRoughnessLayers {
     T dielectric_multiple;  ///< multiple-scattering factor of the dielectric's most reflective channel
     T p_specular, p_diffuse, p_diffuse_transmitted, p_transmitted;
 
-    /// Requires wo.z > 0.
+    /// Requires wo.z > 0; other lanes mean nothing, but do no harm.
     MetallicRoughnessLayers(const BasicGgx<T>& ggx, bool is_smooth, const Facets& of_dielectric, const Facets& of_metal,
                             T metal_share, const Below& under, const Vec& wo)
         : reflection(ggx, wo),
@@ -85,7 +85,9 @@ struct MetallicRoughnessLayers {
 
     /// Coupling of light that passes the layer at both ends, over its average.
     [[nodiscard]] T coupling_with(const BasicGgxAlbedo<T>& albedo_i, T cos_i) const {
-        return select(coupling_average > T(0.0f), coupling * passed(albedo_i, cos_i) / coupling_average, T(0.0f));
+        return choose(
+            coupling_average > T(0.0f), [&] { return coupling * passed(albedo_i, cos_i) / coupling_average; },
+            [] { return T(0.0f); });
     }
 
     /// A direction around that of a mirror, chosen by the part of `u_lobe` that is `share` long from `first` on; wi.z
@@ -94,7 +96,7 @@ struct MetallicRoughnessLayers {
         return reflection.sample(wo, clamp((u_lobe - first) / share, T(0.0f), T(kOneMinusEpsilon)), u);
     }
 
-    /// Requires wi.z > 0.
+    /// Requires wi.z > 0; other lanes mean nothing.
     [[nodiscard]] BasicBsdfParts<T> evaluate_above(const Vec& wo, const Vec& wi) const {
         const auto specular = reflection.evaluate(wo, wi);
         const T cosine_pdf = cosine_hemisphere_pdf_solid_angle(wi);

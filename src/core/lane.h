@@ -30,7 +30,7 @@ inline constexpr bool kIsSingle = std::is_same_v<T, float>;
     return condition ? if_true : if_false;
 }
 
-/// The same of what is costly: only the one that is asked for is evaluated.
+/// The same of what is costly: of single numbers only the one that is asked for is evaluated.
 template <typename IfTrue, typename IfFalse>
 [[nodiscard]] constexpr auto choose(bool condition, const IfTrue& if_true, const IfFalse& if_false) {
     return condition ? if_true() : if_false();

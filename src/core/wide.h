@@ -97,11 +97,10 @@ class Wide {
     Simd lanes_;
 };
 
-/// Of what is costly: only what some lane asks for is evaluated.
+/// As of single numbers, but both are evaluated whatever the lanes ask for: with a shortcut where all agree, the
+/// compiler could contract what follows in two ways, and a lane's last bits would depend on the lanes beside it.
 template <typename IfTrue, typename IfFalse>
 [[nodiscard]] auto choose(WideMask condition, const IfTrue& if_true, const IfFalse& if_false) {
-    if (std::experimental::none_of(condition.simd())) return if_false();
-    if (std::experimental::all_of(condition.simd())) return if_true();
     return select(condition, if_true(), if_false());
 }
 

@@ -189,7 +189,11 @@ TEST_F(Continuation, RefusesTheCheckpointOfAnotherRenderAndSaysWhatDiffers) {
 
 TEST_F(Continuation, FallsBackToThePreviousCheckpoint) {
     const Arguments every = render(1000000, "a.exr", {"--checkpoint-every", "0.0005", "--resume"});
-    ASSERT_EQ(interrupt(every, 300).exit_code, 130);
+    const ProgramResult interrupted = run(every, [&](int pid) {
+        for (int i = 0; i < 6000 && !fs::exists(work_ / "a.checkpoint.previous"); ++i) sleep_ms(10);
+        kill(pid, SIGINT);
+    });
+    ASSERT_EQ(interrupted.exit_code, 130) << interrupted.err;
     ASSERT_TRUE(fs::exists(work_ / "a.checkpoint.previous"));
     const auto damage = [&](const std::string& name) {
         std::string bytes = read_file(work_ / name);

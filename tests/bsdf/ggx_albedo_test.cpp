@@ -1,8 +1,10 @@
 #include "bsdf/ggx_albedo.h"
 
 #include "bsdf/ggx_multiple.h"
+#include "support/lanes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -150,6 +152,17 @@ TEST(GgxAlbedo, AveragesAreThoseOfTheTables) {
                 << alpha << " " << eta;
         }
     }
+}
+
+TEST(GgxAlbedo, OfManyLanesIsThatOfFloat) {
+    EXPECT_LE((test::largest_lane_difference<2>(
+                  0.0f, 1.0f,
+                  [](const auto& in) {
+                      const auto albedo = ggx_albedo(in[0], in[1] * in[1]);
+                      const auto average = ggx_albedo_average(in[1] * in[1]);
+                      return std::array{albedo.single, albedo.schlick, average.single, average.schlick};
+                  })),
+              8.0f);
 }
 
 TEST(GgxAlbedo, NothingIsMissingFromASmoothSurface) {

@@ -96,10 +96,10 @@ TEST(Wide, ChoosesWhatIsAskedFor) {
     int calls = 0;
     const auto counted = [&] {
         ++calls;
-        return Wide(1.0f);
+        return 1.0f;
     };
-    EXPECT_EQ(choose(Wide(0.0f) < Wide(1.0f), counted, [] { return Wide(2.0f); })[0], 1.0f);
-    EXPECT_EQ(choose(Wide(1.0f) < Wide(0.0f), counted, [] { return Wide(2.0f); })[0], 2.0f);
+    EXPECT_EQ(choose(true, counted, [] { return 2.0f; }), 1.0f);
+    EXPECT_EQ(choose(false, counted, [] { return 2.0f; }), 2.0f);
     EXPECT_EQ(calls, 1);
 }
 

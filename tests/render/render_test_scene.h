@@ -11,8 +11,8 @@
 
 namespace etendue::test {
 
-/// A bit of everything: glass, metal, a translucent sheet, instances, a lamp, a spot, an environment, and holes through
-/// which the background shows. If `moves`, all surfaces do.
+/// A bit of everything: glass, metal, plastics, a translucent sheet, instances, a lamp, a spot, an environment, and
+/// holes through which the background shows. If `moves`, all surfaces do.
 inline SceneDesc busy_scene(int width, int height, bool moves = false) {
     SceneDesc scene = empty_scene();
     scene.settings.film.width = width;
@@ -28,6 +28,13 @@ inline SceneDesc busy_scene(int width, int height, bool moves = false) {
     add_object(scene, quad({0, 0, -1.5f}, {0.3f, 0, 0}, {0, 0.3f, 0}), add_material(scene, sheet));
     add_object(scene, quad({0, -0.6f, -3}, {1.2f, 0, 0}, {0, 0, -1.2f}), add_material(scene, diffuse(Rgb(0.7f))));
     add_object(scene, quad({0, 1.1f, -3}, {0.4f, 0, 0}, {0, 0, 0.4f}), add_material(scene, emissive(Rgb(6.0f))));
+    for (const float roughness : {0.3f, 0.8f}) {
+        MaterialDesc plastic;
+        plastic.base_color = {0.6f, 0.3f, roughness};
+        plastic.metallic = roughness < 0.5f ? 0.0f : 0.5f;
+        plastic.roughness = roughness;
+        add_object(scene, sphere({0.6f * roughness - 0.2f, -0.45f, -2.1f}, 0.14f, 8), add_material(scene, plastic));
+    }
     PrimitiveDesc ball = sphere(Vec3f(0.0f), 0.2f, 8);
     ball.material = add_material(scene, brushed);
     const auto shared = add_mesh(scene, {ball});

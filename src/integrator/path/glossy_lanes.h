@@ -9,7 +9,7 @@
 
 namespace etendue {
 
-/// About 13 KiB.
+/// About 10 KiB.
 struct GlossyLanes {
     RgbColumns base, f0;
     Column metallic, alpha, f90;

@@ -72,11 +72,11 @@ void PathWave::make_scattering(const Context& context, std::size_t i, std::size_
     const Vec3f wo = -rays_[i].direction;
     path.samples_light =
         context.options.sample_lights && world.has_lights() && state.edges + 1 >= context.options.lengths.min_depth;
-    path.is_wide = true;
     path.glossy = nullptr;
     lanes_.wo.set(lane, wo);
     lanes_.throughput.set(lane, state.throughput);
-    if (path.plain != nullptr) return lanes_.albedo.set(lane, path.plain->albedo);
+    path.is_wide = path.plain != nullptr;
+    if (path.is_wide) return lanes_.albedo.set(lane, path.plain->albedo);
     lanes_.position.set(lane, path.point.position);
     // Where the index depends on the wavelength, a path of all of them takes one to go on with.
     path.wavelength = {state.wavelength_nm, Rgb(1.0f)};
@@ -86,10 +86,10 @@ void PathWave::make_scattering(const Context& context, std::size_t i, std::size_
             sample_2d(context.job.sequence, keys_[i], body_dimension(context.depth, kWavelength)).x);
     const Bsdf& bsdf = world.bsdf(path.point, wo,
                                   path.crossing ? path.crossing->relative_ior(path.wavelength.nm) : 0.0f, path.storage);
-    const auto* diffuse = path.crossing ? nullptr : std::get_if<Diffuse>(&bsdf);
-    const auto* glossy = path.crossing ? nullptr : std::get_if<MetallicRoughness>(&bsdf);
-    if (glossy != nullptr && glossy->is_plain()) path.glossy = glossy;
-    path.is_wide = diffuse != nullptr || path.glossy != nullptr;
+    const auto* diffuse = std::get_if<Diffuse>(&bsdf);
+    if (const auto* lobe = std::get_if<MetallicRoughness>(&bsdf); lobe != nullptr && lobe->is_plain() && !path.crossing)
+        path.glossy = lobe;
+    path.is_wide = path.glossy != nullptr || (diffuse != nullptr && !path.crossing);
     if (path.is_wide) {
         const SurfacePoint& point = path.point;
         lanes_.geometric_normal.set(lane, point.geometric_normal);
