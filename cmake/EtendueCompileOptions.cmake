@@ -22,6 +22,7 @@ function(etendue_build_quickly)
   if(ETENDUE_SANITIZERS)
     foreach(target ${ARGN})
       target_compile_options(${target} PRIVATE -O0)
+      set_target_properties(${target} PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)  # of other options
     endforeach()
   endif()
 endfunction()

@@ -9,6 +9,7 @@ function(etendue_room name)
   target_include_directories(etendue_${name} PUBLIC "${PROJECT_SOURCE_DIR}/src")
   list(TRANSFORM ARG_DEPENDS PREPEND etendue_)
   target_link_libraries(etendue_${name} PUBLIC ${ARG_DEPENDS} ${ARG_PUBLIC} PRIVATE etendue_options ${ARG_PRIVATE})
+  target_precompile_headers(etendue_${name} REUSE_FROM etendue_headers)
 endfunction()
 
 # etendue_test(<room> SOURCES ... [LINK target...])
@@ -20,6 +21,7 @@ function(etendue_test room)
   target_include_directories(test_${room} PRIVATE "${PROJECT_SOURCE_DIR}/tests")
   target_include_directories(test_${room} SYSTEM PRIVATE "${ETENDUE_BOOST_MATH}")
   target_link_libraries(test_${room} PRIVATE etendue_options ${ARG_LINK} GTest::gtest_main)
+  target_precompile_headers(test_${room} REUSE_FROM etendue_test_headers)
   target_compile_definitions(test_${room} PRIVATE
     ETENDUE_SOURCE_DIR="${PROJECT_SOURCE_DIR}" ETENDUE_SHARED_ASSETS="${PROJECT_SOURCE_DIR}/../shared/assets")
   gtest_discover_tests(test_${room} TEST_PREFIX "${room}." DISCOVERY_TIMEOUT 120 PROPERTIES LABELS ${room} TIMEOUT 600

@@ -72,8 +72,10 @@ install_packages() {
             "apt-get update && apt-get install ${missing[*]}"
 }
 
-# Checkouts in other folders share what they compile alike.
+# Checkouts in other folders share what they compile alike. The sloppiness is what ccache asks for where headers are
+# compiled ahead.
 export CCACHE_BASEDIR=${CCACHE_BASEDIR:-$ETENDUE_ROOT} CCACHE_NOHASHDIR=${CCACHE_NOHASHDIR:-1}
+export CCACHE_SLOPPINESS=${CCACHE_SLOPPINESS:-pch_defines,time_macros}
 
 # configure_preset PRESET: the build folder is build/PRESET. ccache is used where it is installed.
 configure_preset() {
