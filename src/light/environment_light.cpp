@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -31,9 +32,9 @@ EmissionSample emission_from(const LightSample& towards, const EmissionNumbers& 
     return sample;
 }
 
-/// Mean of the bilinear reconstruction over each texel's cell: a 3 × 3 stencil (1, 6, 1)² / 64 that wraps around in x
-/// and clamps in y. It is zero only where the reconstruction is zero.
-Distribution2D make_distribution(const ImageF& image) {
+/// Mean of the bilinear reconstruction over each texel's cell, average of the channels: a 3 × 3 stencil (1, 6, 1)² / 64
+/// that wraps around in x and clamps in y. It is zero only where the reconstruction is zero.
+std::vector<float> mean_of_cells(const ImageF& image) {
     constexpr float kStencil[3] = {0.125f, 0.75f, 0.125f};
     const int width = image.width;
     const int height = image.height;
@@ -44,9 +45,8 @@ Distribution2D make_distribution(const ImageF& image) {
             grey[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)] =
                 (p[0] + p[1] + p[2]) * (1.0f / 3.0f);
         }
-    std::vector<float> density(grey.size());
-    for (int y = 0; y < height; ++y) {
-        const float sin_theta = std::sin(kPi * (static_cast<float>(y) + 0.5f) / static_cast<float>(height));
+    std::vector<float> means(grey.size());
+    for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
             float sum = 0.0f;
             for (int dy = -1; dy <= 1; ++dy)
@@ -55,11 +55,36 @@ Distribution2D make_distribution(const ImageF& image) {
                     const auto column = static_cast<std::size_t>((x + dx + width) % width);
                     sum += kStencil[dx + 1] * kStencil[dy + 1] * grey[row * static_cast<std::size_t>(width) + column];
                 }
-            density[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)] =
-                sum * sin_theta;
+            means[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)] = sum;
         }
-    }
-    return {density, width, height};
+    return means;
+}
+
+/// In proportion to the mean of each cell and to what of it is above that of the sphere, both times its solid angle.
+ImageEnvironment::Densities make_densities(const ImageF& image) {
+    std::vector<float> cells = mean_of_cells(image);
+    std::vector<float> sines;
+    sines.reserve(static_cast<std::size_t>(image.height));
+    for (int y = 0; y < image.height; ++y)
+        sines.push_back(std::sin(kPi * (static_cast<float>(y) + 0.5f) / static_cast<float>(image.height)));
+    const auto row = [&](std::size_t y) {
+        const auto width = static_cast<std::size_t>(image.width);
+        return std::span(cells).subspan(y * width, width);
+    };
+    double sum = 0.0;
+    double solid_angle = 0.0;
+    for (std::size_t y = 0; y < sines.size(); ++y)
+        for (float& cell : row(y)) {
+            cell *= sines[y];
+            sum += static_cast<double>(cell);
+            solid_angle += static_cast<double>(sines[y]);
+        }
+    const auto mean = static_cast<float>(sum / solid_angle);
+    ImageEnvironment::Densities densities{.complete = {cells, image.width, image.height}, .compensated = {}};
+    for (std::size_t y = 0; y < sines.size(); ++y)
+        for (float& cell : row(y)) cell = std::max(cell - mean * sines[y], 0.0f);
+    densities.compensated = {cells, image.width, image.height};
+    return densities;
 }
 
 }  // namespace
@@ -96,15 +121,11 @@ float ConstantEnvironment::power(float scene_radius) const {
 }
 
 ImageEnvironment::ImageEnvironment(ImageF image, float rotation)
-    : distribution_(make_distribution(sanitize(image))),
+    : densities_(make_densities(sanitize(image))),
       // Never filtered, so that hits and light samples see one function.
       texture_(Texture::without_levels(std::move(image), {.wrap_u = Wrap::Repeat, .wrap_v = Wrap::Clamp})),
       sin_rotation_(std::sin(rotation)),
-      cos_rotation_(std::cos(rotation)),
-      // A row between the polar angles a and b covers 2 pi (cos a - cos b) = 4 pi sin((a + b) / 2) sin(pi / (2
-      // height)); the first sine is in the weights already, the sphere has 4 pi.
-      mean_radiance_(distribution_.integral() * texture_.height() *
-                     std::sin(0.5 * std::numbers::pi / texture_.height())) {}
+      cos_rotation_(std::cos(rotation)) {}
 
 Vec2f ImageEnvironment::to_image(const Vec3f& direction) const {
     const float x = direction.x * cos_rotation_ - direction.z * sin_rotation_;
@@ -124,8 +145,8 @@ Rgb ImageEnvironment::radiance(const Vec3f& direction) const {
     return texture_.lookup(to_image(direction)).rgb;
 }
 
-LightSample ImageEnvironment::sample(const Vec3f&, Vec2f u) const {
-    const Distribution2D::Sample position = distribution_.sample(u);
+LightSample ImageEnvironment::sample_from(const Distribution2D& distribution, Vec2f u) const {
+    const Distribution2D::Sample position = distribution.sample(u);
     const float sin_theta = sin_cos_turns(0.5f * position.position.y).sin;
     if (!(sin_theta > 0.0f) || !(position.pdf > 0.0f)) return {};
     LightSample sample;
@@ -133,6 +154,26 @@ LightSample ImageEnvironment::sample(const Vec3f&, Vec2f u) const {
     sample.radiance = texture_.lookup(position.position).rgb;
     sample.pdf_solid_angle = position.pdf / (2.0f * kPi * kPi * sin_theta);
     return sample;
+}
+
+float ImageEnvironment::density_of(const Distribution2D& distribution, const Vec3f& direction) const {
+    const float sin_theta = std::hypot(direction.x, direction.z);
+    if (!(sin_theta > 0.0f)) return 0.0f;
+    return distribution.pdf(to_image(direction)) / (2.0f * kPi * kPi * sin_theta);
+}
+
+// A row between the polar angles a and b covers 2 pi (cos a - cos b) = 4 pi sin((a + b) / 2) sin(pi / (2 height)); the
+// first sine is in the weights already, the sphere has 4 pi.
+double ImageEnvironment::sphere_mean(const Distribution2D& distribution) const {
+    return distribution.integral() * texture_.height() * std::sin(0.5 * std::numbers::pi / texture_.height());
+}
+
+LightSample ImageEnvironment::sample(const Vec3f&, Vec2f u) const {
+    return sample_from(densities_.complete, u);
+}
+
+LightSample ImageEnvironment::sample_compensated(const Vec3f&, Vec2f u) const {
+    return sample_from(densities_.compensated, u);
 }
 
 EmissionSample ImageEnvironment::sample_emission(const EmissionNumbers& u, const SceneSphere& scene) const {
@@ -144,13 +185,19 @@ float ImageEnvironment::emission_pdf(const Vec3f&, float, const SceneSphere& sce
 }
 
 float ImageEnvironment::pdf_solid_angle(const Vec3f& direction) const {
-    const float sin_theta = std::hypot(direction.x, direction.z);
-    if (!(sin_theta > 0.0f)) return 0.0f;
-    return distribution_.pdf(to_image(direction)) / (2.0f * kPi * kPi * sin_theta);
+    return density_of(densities_.complete, direction);
+}
+
+float ImageEnvironment::compensated_pdf_solid_angle(const Vec3f& direction) const {
+    return density_of(densities_.compensated, direction);
 }
 
 float ImageEnvironment::power(float scene_radius) const {
-    return static_cast<float>(mean_radiance_) * 4.0f * kPi * kPi * scene_radius * scene_radius;
+    return static_cast<float>(sphere_mean(densities_.complete)) * 4.0f * kPi * kPi * scene_radius * scene_radius;
+}
+
+float ImageEnvironment::compensated_power(float scene_radius) const {
+    return static_cast<float>(sphere_mean(densities_.compensated)) * 4.0f * kPi * kPi * scene_radius * scene_radius;
 }
 
 }  // namespace etendue

@@ -2,6 +2,13 @@
 //
 // Image mapping (before `rotation`): the centre of the image lies towards -Z, its right half towards +X, its top row
 // towards +Y.
+//
+// Its light is sampled in two ways. `sample` and `sample_emission` find all of it, with a density that follows the
+// radiance. `sample_compensated` finds what is brighter than the mean over the sphere, with a density that follows the
+// difference: for points where samples of the BSDF or of the phase function look for the same light and the two are
+// combined by multiple importance sampling, which leaves the dim parts to those (Karlík, Šik, Vévoda, Skřivan and
+// Křivánek, "MIS Compensation: Optimizing Sampling Techniques in Multiple Importance Sampling", 2019, section 5.1).
+// Nothing of a constant environment is brighter than its mean: where others look for it, it needs no samples at all.
 #pragma once
 
 #include "light/emission_sample.h"
@@ -26,10 +33,12 @@ struct ConstantEnvironment {
     [[nodiscard]] float emission_pdf(const Vec3f& direction, float cos_light, const SceneSphere& scene) const;
     [[nodiscard]] float pdf_solid_angle(const Vec3f& direction) const;
     [[nodiscard]] float power(float scene_radius) const;
+    [[nodiscard]] LightSample sample_compensated(const Vec3f&, Vec2f) const { return {}; }
+    [[nodiscard]] float compensated_power(float) const { return 0.0f; }
 };
 
 /// An image, importance-sampled in two dimensions by its bilinear reconstruction's mean over each cell, times the sine
-/// of the polar angle. A texel costs 12 bytes for its colour and 5 for its density.
+/// of the polar angle. A texel costs 12 bytes for its colour and 5 for each of its densities.
 class ImageEnvironment {
   public:
     /// `image` has 3 linear channels in the working space, already scaled; `rotation` in radians about +Y,
@@ -42,17 +51,29 @@ class ImageEnvironment {
     [[nodiscard]] float emission_pdf(const Vec3f& direction, float cos_light, const SceneSphere& scene) const;
     [[nodiscard]] float pdf_solid_angle(const Vec3f& direction) const;
     [[nodiscard]] float power(float scene_radius) const;
-    [[nodiscard]] std::size_t bytes() const { return texture_.bytes() + distribution_.bytes(); }
+    [[nodiscard]] LightSample sample_compensated(const Vec3f& point, Vec2f u) const;
+    [[nodiscard]] float compensated_pdf_solid_angle(const Vec3f& direction) const;
+    [[nodiscard]] float compensated_power(float scene_radius) const;
+    [[nodiscard]] std::size_t bytes() const {
+        return texture_.bytes() + densities_.complete.bytes() + densities_.compensated.bytes();
+    }
+
+    struct Densities {
+        Distribution2D complete, compensated;
+    };
 
   private:
+    [[nodiscard]] LightSample sample_from(const Distribution2D& distribution, Vec2f u) const;
+    [[nodiscard]] float density_of(const Distribution2D& distribution, const Vec3f& direction) const;
+    /// Of the function that a distribution is made from, over the sphere.
+    [[nodiscard]] double sphere_mean(const Distribution2D& distribution) const;
     [[nodiscard]] Vec2f to_image(const Vec3f& direction) const;
     [[nodiscard]] Vec3f from_image(Vec2f position) const;
 
-    Distribution2D distribution_;
+    Densities densities_;
     Texture texture_;
     float sin_rotation_ = 0.0f;
     float cos_rotation_ = 1.0f;
-    double mean_radiance_ = 0.0;  ///< over the sphere, average of the channels
 };
 
 }  // namespace etendue

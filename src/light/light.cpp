@@ -16,6 +16,12 @@ LightSample sample_light(const Light& light, const Vec3f& point, Vec2f u_triangl
         light);
 }
 
+LightSample sample_light_compensated(const Light& light, const Vec3f& point, Vec2f u_triangle, Vec2f u) {
+    if (const auto* image = std::get_if<ImageEnvironment>(&light)) return image->sample_compensated(point, u);
+    if (const auto* constant = std::get_if<ConstantEnvironment>(&light)) return constant->sample_compensated(point, u);
+    return sample_light(light, point, u_triangle, u);
+}
+
 EmissionSample sample_emission(const Light& light, const EmissionNumbers& u, const SceneSphere& scene) {
     return std::visit([&](const auto& l) { return l.sample_emission(u, scene); }, light);
 }
@@ -47,6 +53,17 @@ float light_power(const Light& light, float scene_radius) {
     return std::visit([&](const auto& l) { return l.power(scene_radius); }, light);
 }
 
+float compensated_power(const Light& light, float scene_radius) {
+    return std::visit(
+        [&](const auto& l) {
+            if constexpr (requires { l.compensated_power(scene_radius); })
+                return l.compensated_power(scene_radius);
+            else
+                return l.power(scene_radius);
+        },
+        light);
+}
+
 std::optional<LightBounds> light_bounds(const Light& light) {
     return std::visit(
         [](const auto& l) -> std::optional<LightBounds> {
@@ -68,6 +85,11 @@ float environment_pdf_solid_angle(const Light& light, const Vec3f& direction) {
     if (const auto* constant = std::get_if<ConstantEnvironment>(&light)) return constant->pdf_solid_angle(direction);
     if (const auto* image = std::get_if<ImageEnvironment>(&light)) return image->pdf_solid_angle(direction);
     return 0.0f;
+}
+
+float compensated_environment_pdf_solid_angle(const Light& light, const Vec3f& direction) {
+    const auto* image = std::get_if<ImageEnvironment>(&light);
+    return image != nullptr ? image->compensated_pdf_solid_angle(direction) : 0.0f;
 }
 
 LightSelector::LightSelector(std::span<const Light> lights, float scene_radius) {

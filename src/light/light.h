@@ -25,6 +25,9 @@ using Light = std::variant<PointLight, SpotLight, ProfileLight, DirectionalLight
 
 /// Light at `point` from a direction chosen with `u`; of a mesh, `u_triangle` chooses the triangle. Both in [0, 1)².
 [[nodiscard]] LightSample sample_light(const Light& light, const Vec3f& point, Vec2f u_triangle, Vec2f u);
+/// The same, but of an environment only what `compensated_environment_pdf_solid_angle` says: the samples of the BSDF,
+/// combined with these by multiple importance sampling, find the rest (light/environment_light.h).
+[[nodiscard]] LightSample sample_light_compensated(const Light& light, const Vec3f& point, Vec2f u_triangle, Vec2f u);
 
 /// A ray that leaves the light, for subpaths that begin there. Black where the light emits nothing.
 [[nodiscard]] EmissionSample sample_emission(const Light& light, const EmissionNumbers& u, const SceneSphere& scene);
@@ -42,6 +45,8 @@ using Light = std::variant<PointLight, SpotLight, ProfileLight, DirectionalLight
 
 /// Emitted power in watts, mean of the channels; lights at infinity count what crosses a disk of `scene_radius` metres.
 [[nodiscard]] float light_power(const Light& light, float scene_radius);
+/// The same, but of an environment only what is brighter than its mean: what `sample_light_compensated` is for.
+[[nodiscard]] float compensated_power(const Light& light, float scene_radius);
 
 /// Where it is and where it shines, unless at infinity.
 [[nodiscard]] std::optional<LightBounds> light_bounds(const Light& light);
@@ -50,6 +55,8 @@ using Light = std::variant<PointLight, SpotLight, ProfileLight, DirectionalLight
 [[nodiscard]] Rgb environment_radiance(const Light& light, const Vec3f& direction);
 /// Density with which `sample_light` picks `direction`; zero for lights that are no environment.
 [[nodiscard]] float environment_pdf_solid_angle(const Light& light, const Vec3f& direction);
+/// The same of `sample_light_compensated`.
+[[nodiscard]] float compensated_environment_pdf_solid_angle(const Light& light, const Vec3f& direction);
 
 /// Chooses a light by its power, and one time in ten any: a lamp beside the sun must be found too, and the light of one
 /// that is almost never chosen would come as fireflies.

@@ -117,9 +117,10 @@ struct LightTree::Leaf {
 
 LightTree::LightTree(std::span<const Light> lights, float scene_radius) : places_(lights.size()) {
     assert(lights.size() < kLeaf);
+    const bool none_shines = std::all_of(
+        lights.begin(), lights.end(), [&](const Light& light) { return !(light_power(light, scene_radius) > 0.0f); });
     std::vector<float> powers;
-    for (const Light& light : lights) powers.push_back(light_power(light, scene_radius));
-    const bool none_shines = std::all_of(powers.begin(), powers.end(), [](float power) { return !(power > 0.0f); });
+    for (const Light& light : lights) powers.push_back(compensated_power(light, scene_radius));
     std::vector<Leaf> leaves;
     for (std::size_t i = 0; i < lights.size(); ++i) {
         // Without any power, all are as good.

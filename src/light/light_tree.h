@@ -20,8 +20,10 @@
 // which both ends of a bidirectional path can ask for.
 //
 // Lights at infinity are chosen beside the tree, in proportion to their irradiance against the importances of the
-// root's children, but with a probability within [1/10, 9/10]; between them, power decides. Of each side, one choice in
-// ten is uniform over the lights that have any power, as what counts may be hidden behind something.
+// root's children, but with a probability within [1/10, 9/10]; between them, power decides. Of an environment only what
+// is brighter than its mean counts, as `sample_light_compensated` finds no more: one without any such part is never
+// chosen. Of each side, one choice in ten is uniform over the lights that have any power, as what counts may be hidden
+// behind something.
 //
 // The tree is built from the top: lights are split where, of 12 bins along each axis, the cost is least (ibid.,
 // equation 2), below eight levels in halves, so that 64 bits hold the way to any light, four for each level. Sixteen
@@ -56,7 +58,8 @@ class LightTree {
     [[nodiscard]] Choice sample(const Vec3f& point, Vec2f u) const;
     /// With what probability `sample` chooses the light of this index; to the bit what `sample` says.
     [[nodiscard]] float probability(const Vec3f& point, std::size_t light) const;
-    [[nodiscard]] bool empty() const { return places_.empty(); }
+    /// True if there is nothing to choose from.
+    [[nodiscard]] bool empty() const { return near_.empty() && far_.empty(); }
     [[nodiscard]] std::size_t bytes() const;
 
   private:

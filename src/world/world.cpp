@@ -119,10 +119,11 @@ World::World(WorldData data)
             const EmissionSample middle = etendue::sample_emission(light, front, scene_sphere());
             light_interiors_.push_back(interior_at(middle.origin(middle.direction)));
         }
-        has_lights_in_media_ = std::any_of(light_interiors_.begin(), light_interiors_.end(), [&](const Interior& i) {
-            const HomogeneousMedium* around = medium(i);
-            return around != nullptr && around->scatters();
-        });
+        has_lights_in_media_ = has_sampled_lights() &&
+                               std::any_of(light_interiors_.begin(), light_interiors_.end(), [&](const Interior& i) {
+                                   const HomogeneousMedium* around = medium(i);
+                                   return around != nullptr && around->scatters();
+                               });
     }
     const auto has_surface = [&](const auto& is_such) {
         return std::any_of(data_->geometries.begin(), data_->geometries.end(),
@@ -263,7 +264,8 @@ Interior World::interior_at(const Vec3f& point) const {
 
 ChosenLight World::sample_light(const LightTree::Choice& choice, const Vec3f& point, const LightNumbers& u) const {
     const Light& light = data_->lights[choice.light];
-    ChosenLight chosen{etendue::sample_light(light, point, u.triangle, u.direction), choice.probability, choice.light};
+    ChosenLight chosen{sample_light_compensated(light, point, u.triangle, u.direction), choice.probability,
+                       choice.light};
     LightSample& sample = chosen.sample;
     sample.pdf_solid_angle *= choice.probability;
     if (!is_black(sample.radiance) && has_uneven_emission(choice.light))
@@ -335,7 +337,17 @@ Rgb World::environment_radiance(const Vec3f& direction) const {
 
 float World::environment_pdf_solid_angle(const Vec3f& direction) const {
     if (!has_environment()) return 0.0f;
+    return compensated_environment_pdf_solid_angle(data_->lights[data_->environment], direction);
+}
+
+float World::environment_emission_pdf_solid_angle(const Vec3f& direction) const {
+    if (!has_environment()) return 0.0f;
     return etendue::environment_pdf_solid_angle(data_->lights[data_->environment], direction);
+}
+
+LightSample World::sample_environment(const Vec3f& point, Vec2f u) const {
+    if (!has_environment()) return {};
+    return etendue::sample_light(data_->lights[data_->environment], point, u, u);
 }
 
 Camera World::camera_at(float time) const {

@@ -210,7 +210,11 @@ class World {
     /// True if some surface that emits is met by chance only: it moves while the shutter is open, or is beyond the most
     /// triangles that are sampled.
     [[nodiscard]] bool has_unsampled_emitters() const { return data_->has_unsampled_emitters; }
-    /// Light arriving at `point` from a light chosen for it by the light tree.
+    /// False if samples of the BSDF find all light best by themselves: there are no lights, or none but an environment
+    /// that is the same everywhere. `sample_light` and `choose_light` must not be called then.
+    [[nodiscard]] bool has_sampled_lights() const { return !tree_.empty(); }
+    /// Light arriving at `point` from a light chosen for it by the light tree. Of an environment it finds only what is
+    /// brighter than its mean: to be combined with samples of the BSDF, by `environment_pdf_solid_angle`.
     [[nodiscard]] ChosenLight sample_light(const Vec3f& point, const LightNumbers& u) const {
         return sample_light(choose_light(point, u.light), point, u);
     }
@@ -274,8 +278,14 @@ class World {
 
     [[nodiscard]] bool has_environment() const { return data_->environment != kNone; }
     [[nodiscard]] Rgb environment_radiance(const Vec3f& direction) const;
-    /// Density with which both kinds of samples pick `direction`, without the choice of the environment.
+    /// Density with which `sample_light` picks `direction`, without the choice of the environment; zero where that is
+    /// dimmer than its mean.
     [[nodiscard]] float environment_pdf_solid_angle(const Vec3f& direction) const;
+    /// The same of `sample_emission` and `sample_environment`; zero only where the environment is black.
+    [[nodiscard]] float environment_emission_pdf_solid_angle(const Vec3f& direction) const;
+    /// Light arriving at `point` from all of the environment, where nothing but light samples looks for it. `u` in
+    /// [0, 1)².
+    [[nodiscard]] LightSample sample_environment(const Vec3f& point, Vec2f u) const;
     [[nodiscard]] bool environment_visible_to_camera() const { return data_->environment_visible; }
 
     /// In the middle of the shutter.

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <numbers>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -67,12 +68,21 @@ std::vector<Light> random_lights(std::size_t count, std::uint32_t seed) {
     return lights;
 }
 
+/// As bright as it is from half of all directions, and black elsewhere.
+ImageEnvironment half_sky(float radiance) {
+    ImageF image(64, 32, 3);
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 64; ++x)
+            for (float& channel : image.pixel(x, y)) channel = radiance;
+    return {std::move(image), 0.0f};
+}
+
 /// Some at infinity, one without power, and several in one place, where no split tells them apart.
 std::vector<Light> lights_of_all_kinds() {
     std::vector<Light> lights = random_lights(40, 3);
     lights.emplace_back(DirectionalLight{{0, -1, 0}, Rgb(0.5f)});
     lights.emplace_back(PointLight{{1, 1, 1}, Rgb(0.0f)});
-    lights.emplace_back(ConstantEnvironment{Rgb(0.1f)});
+    lights.emplace_back(half_sky(0.1f));
     for (int i = 0; i < 5; ++i) lights.emplace_back(PointLight{{2, 2, 2}, Rgb(1.0f)});
     return lights;
 }
@@ -265,7 +275,7 @@ TEST(LightTree, WeighsLampsAsTheyContribute) {
 
 TEST(LightTree, OneLightIsCertain) {
     const std::vector<Light> point = {PointLight{{1, 2, 3}, Rgb(1.0f)}};
-    const std::vector<Light> sky = {ConstantEnvironment{Rgb(0.1f)}};
+    const std::vector<Light> sky = {half_sky(0.1f)};
     for (const std::vector<Light>& lights : {point, sky}) {
         const LightTree tree(lights, kSceneRadius);
         for (const Vec2f& u : {Vec2f(0.0f, 0.0f), Vec2f(0.3f, 0.9f), Vec2f(0x1.fffffep-1f, 0x1.fffffep-1f)}) {
@@ -279,20 +289,32 @@ TEST(LightTree, OneLightIsCertain) {
 
 TEST(LightTree, NeitherTheSkyNorLampsStarve) {
     for (const float sky : {1e-6f, 1e6f}) {
-        const std::vector<Light> lights = {PointLight{{0, 1, 0}, Rgb(1.0f)}, ConstantEnvironment{Rgb(sky)}};
+        const std::vector<Light> lights = {PointLight{{0, 1, 0}, Rgb(1.0f)}, half_sky(sky)};
         const LightTree tree(lights, kSceneRadius);
         EXPECT_NEAR(tree.probability(Vec3f(0.0f), 0), sky < 1.0f ? 0.9f : 0.1f, 1e-6f);
         EXPECT_NEAR(tree.probability(Vec3f(0.0f), 1), sky < 1.0f ? 0.1f : 0.9f, 1e-6f);
     }
 }
 
-// A lamp of intensity I, d away, and an even sky of radiance L: I / d² against 4 pi L, its power over the scene's disk.
+// A lamp of intensity I, d away, and a sky of radiance L from above: I / d² against what of the sky is above its mean,
+// L / 2, from half of 4 pi: its power over the scene's disk.
 TEST(LightTree, TheSkyAndLampsShareByIrradiance) {
-    const std::vector<Light> lights = {PointLight{{0, 2, 0}, Rgb(5.0f)}, ConstantEnvironment{Rgb(0.7f)}};
+    const std::vector<Light> lights = {PointLight{{0, 2, 0}, Rgb(5.0f)}, half_sky(0.7f)};
     const LightTree tree(lights, kSceneRadius);
     const double lamp = 5.0 / 4.0;
-    const double sky = 4.0 * std::numbers::pi * 0.7;
-    EXPECT_NEAR(tree.probability(Vec3f(0.0f), 0), lamp / (lamp + sky), 1e-5);
+    const double sky = 2.0 * std::numbers::pi * 0.35;
+    // The image is sampled by means over cells, so that its border has a width.
+    EXPECT_NEAR(tree.probability(Vec3f(0.0f), 0), lamp / (lamp + sky), 0.01);
+}
+
+TEST(LightTree, WhatIsTheSameEverywhereIsLeftToOtherSamples) {
+    EXPECT_TRUE(LightTree(std::vector<Light>{ConstantEnvironment{Rgb(0.1f)}}, kSceneRadius).empty());
+    const std::vector<Light> lights = {PointLight{{0, 1, 0}, Rgb(1e-6f)}, ConstantEnvironment{Rgb(1e6f)}};
+    const LightTree tree(lights, kSceneRadius);
+    ASSERT_FALSE(tree.empty());
+    EXPECT_EQ(tree.probability(Vec3f(0.0f), 0), 1.0f);
+    EXPECT_EQ(tree.probability(Vec3f(0.0f), 1), 0.0f);
+    EXPECT_EQ(tree.sample(Vec3f(0.0f), {0.999f, 0.999f}).light, 0u);
 }
 
 // Where floats overflow, all are as good.

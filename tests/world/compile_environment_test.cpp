@@ -56,7 +56,7 @@ TEST(CubeEnvironment, FacesLieAroundTheScene) {
         EXPECT_NEAR(found.g, expected[f].g, 1e-5f) << f;
         EXPECT_NEAR(found.b, expected[f].b, 1e-5f) << f;
     }
-    EXPECT_GT(world.environment_pdf_solid_angle({1, 0, 0}), 0.0f);
+    EXPECT_GT(world.environment_emission_pdf_solid_angle({1, 0, 0}), 0.0f);
 }
 
 TEST(CubeEnvironment, AlphaDividesRadiance) {

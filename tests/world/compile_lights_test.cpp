@@ -173,7 +173,12 @@ TEST(CompileLights, ConstantEnvironmentsAreColourTimesScale) {
     const World world = compile(std::move(scene));
     ASSERT_TRUE(world.has_environment());
     EXPECT_EQ(world.environment_radiance({0, 1, 0}), Rgb(4.0f, 2.0f, 1.0f));
-    EXPECT_NEAR(world.environment_pdf_solid_angle({0, 1, 0}), 1.0f / (4.0f * kPi), 1e-6f);
+    EXPECT_NEAR(world.environment_emission_pdf_solid_angle({0, 1, 0}), 1.0f / (4.0f * kPi), 1e-6f);
+    // Beside samples of the BSDF it needs none of its own.
+    EXPECT_TRUE(world.has_lights());
+    EXPECT_FALSE(world.has_sampled_lights());
+    EXPECT_EQ(world.environment_pdf_solid_angle({0, 1, 0}), 0.0f);
+    EXPECT_EQ(world.sample_environment(Vec3f(0.0f), {0.2f, 0.7f}).radiance, Rgb(4.0f, 2.0f, 1.0f));
 }
 
 TEST(CompileLights, DisabledEnvironmentsAreNone) {
@@ -181,6 +186,7 @@ TEST(CompileLights, DisabledEnvironmentsAreNone) {
     EXPECT_FALSE(world.has_environment());
     EXPECT_TRUE(is_black(world.environment_radiance({0, 1, 0})));
     EXPECT_EQ(world.environment_pdf_solid_angle({0, 1, 0}), 0.0f);
+    EXPECT_EQ(world.environment_emission_pdf_solid_angle({0, 1, 0}), 0.0f);
 }
 
 TEST(CompileLights, EnvironmentImagesAreTintedScaledAndTurned) {

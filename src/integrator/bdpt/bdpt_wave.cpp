@@ -109,7 +109,7 @@ void BdptWave::trace(const World& world, const TileJob& job, const BdptOptions& 
         };
         for (std::size_t begin = 0; begin < to_light_.size(); begin += kBlock) {
             const std::size_t end = std::min(begin + kBlock, to_light_.size());
-            connect_to_lights(context, begin, end);
+            if (world.has_sampled_lights()) connect_to_lights(context, begin, end);
             resolve_if_full(light_connections_);
             connect_to_vertices(context, begin, end);
             resolve_if_full(vertex_connections_);
@@ -177,12 +177,12 @@ void BdptWave::add(const SubpathState& state, const Rgb& light, double fewer_fro
     }
 }
 
-double BdptWave::fewer_than_light(const SubpathState& state, std::uint32_t light, float pdf, float emission_pdf,
-                                  const SubpathDensities& arrived) const {
+double BdptWave::fewer_than_light(const SubpathState& state, std::uint32_t light, const LightPointPdfs& pdfs,
+                                  float emission_pdf, const SubpathDensities& arrived) const {
     const World& world = context_->world;
     const Raised& raised = context_->raised;
-    const double sampled = raised(static_cast<double>(pdf * world.light_probability(state.from, light)));
-    const double emitted = raised(static_cast<double>(pdf * world.emission_probability(light)));
+    const double sampled = raised(static_cast<double>(pdfs.sampled * world.light_probability(state.from, light)));
+    const double emitted = raised(static_cast<double>(pdfs.emitted * world.emission_probability(light)));
     return sampled * arrived.a + emitted * arrived.b * raised(static_cast<double>(emission_pdf));
 }
 
@@ -196,7 +196,8 @@ void BdptWave::on_emitter(const SubpathState& state, const SurfacePoint& point, 
     const std::uint32_t light = world.light_at(point);
     if (state.index > kDirectlySeen && light != kNone) {
         const float cos_light = -dot(direction, point.geometric_normal);
-        fewer = fewer_than_light(state, light, world.emitter_pdf_area(light),
+        const float pdf_area = world.emitter_pdf_area(light);
+        fewer = fewer_than_light(state, light, {.sampled = pdf_area, .emitted = pdf_area},
                                  world.emission_pdf(light, -direction, cos_light), arrived);
     }
     add(state, emitted, fewer,
@@ -228,7 +229,9 @@ void BdptWave::on_escape(const SubpathState& state, const Vec3f& direction) {
         // The vertex is a direction: its density is per solid angle on both sides, and so is that of the light.
         DepartingDensities departing = state.departing;
         departing.is_from_infinity = false;
-        fewer = fewer_than_light(state, world.environment(), world.environment_pdf_solid_angle(direction),
+        fewer = fewer_than_light(state, world.environment(),
+                                 {.sampled = world.environment_pdf_solid_angle(direction),
+                                  .emitted = world.environment_emission_pdf_solid_angle(direction)},
                                  world.emission_pdf(world.environment(), -direction, 1.0f),
                                  departing.arrive(context_->raised, 1.0, 1.0));
     }
@@ -270,9 +273,15 @@ void BdptWave::weigh(const Context& context, const ToLight& connection) {
     const float arriving = world.emission_pdf(chosen.light, -light.wi, light.cos_light) * vertex.cosine(light.wi);
     const double from_light =
         static_cast<double>(at_infinity ? arriving : arriving / (light.distance * light.distance));
-    // The strategies with more vertices from the light have chosen it for its emission, not for this vertex.
-    const auto chosen_for_emission = static_cast<double>(world.emission_probability(chosen.light));
-    const double fewer_from_eye = raised(chosen_for_emission / static_cast<double>(chosen.probability) * from_light) *
+    // The strategies with more vertices from the light have chosen it for its emission, not for this vertex, and so the
+    // direction of an environment.
+    auto for_emission = static_cast<double>(world.emission_probability(chosen.light));
+    auto for_vertex = static_cast<double>(chosen.probability);
+    if (chosen.light == world.environment()) {
+        for_emission *= static_cast<double>(world.environment_emission_pdf_solid_angle(light.wi));
+        for_vertex = static_cast<double>(light.pdf_solid_angle);
+    }
+    const double fewer_from_eye = raised(for_emission / for_vertex * from_light) *
                                   vertex.densities.fewer(raised, static_cast<double>(value.reverse_pdf_solid_angle));
     const double fewer_from_light =
         light.is_delta ? 0.0 : raised(static_cast<double>(value.pdf_solid_angle / light.pdf_solid_angle));

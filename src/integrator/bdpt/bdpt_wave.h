@@ -45,11 +45,15 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
     void on_unlit(const SubpathState& state, const SurfacePoint& point, const Vec3f& direction) override;
     void on_escape(const SubpathState& state, const Vec3f& direction) override;
     void on_first_hits(std::span<const Ray> rays, std::span<const Hit> hits) override;
+    /// Densities of a point of a light, 1/m², or at infinity of a direction, 1/sr, without the choice of the light.
+    struct LightPointPdfs {
+        float sampled;  ///< for the next vertex
+        float emitted;  ///< for a light subpath
+    };
     /// Of a subpath that has met a point of `light`, or at infinity a direction: the sum over the strategies with fewer
-    /// vertices from the eye. `pdf` is the density of that point or direction without the choice of the light,
-    /// `emission_pdf` that of the ray from there.
-    [[nodiscard]] double fewer_than_light(const SubpathState& state, std::uint32_t light, float pdf, float emission_pdf,
-                                          const SubpathDensities& arrived) const;
+    /// vertices from the eye. `pdfs` are of that point or direction, `emission_pdf` of the ray from there.
+    [[nodiscard]] double fewer_than_light(const SubpathState& state, std::uint32_t light, const LightPointPdfs& pdfs,
+                                          float emission_pdf, const SubpathDensities& arrived) const;
     void add(const SubpathState& state, const Rgb& light, double fewer_from_eye, const PathLightEnd& end,
              const AovSet::Source& source);
 

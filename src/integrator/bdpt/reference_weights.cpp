@@ -42,8 +42,9 @@ class Path {
                                                        : world.emission_probability(end_.light));
         // What only one direction or one point is made of has no density but that of the choice.
         if (!world.can_be_hit(end_.light)) return chosen;
-        return chosen * static_cast<double>(at_infinity_ ? world.environment_pdf_solid_angle(-end_.direction)
-                                                         : world.emitter_pdf_area(end_.light));
+        if (!at_infinity_) return chosen * static_cast<double>(world.emitter_pdf_area(end_.light));
+        return chosen * static_cast<double>(s == 1 ? world.environment_pdf_solid_angle(-end_.direction)
+                                                   : world.environment_emission_pdf_solid_angle(-end_.direction));
     }
 
     /// Per area, vertex `i` > 0 from the light's side. Deltas have their share of `delta` instead of a density.

@@ -70,8 +70,8 @@ void PathWave::make_scattering(const Context& context, std::size_t i, std::size_
     const World& world = context.world;
     const PathState& state = states_[i];
     const Vec3f wo = -rays_[i].direction;
-    path.samples_light =
-        context.options.sample_lights && world.has_lights() && state.edges + 1 >= context.options.lengths.min_depth;
+    path.samples_light = context.options.sample_lights && world.has_sampled_lights() &&
+                         state.edges + 1 >= context.options.lengths.min_depth;
     path.glossy = nullptr;
     lanes_.wo.set(lane, wo);
     lanes_.throughput.set(lane, state.throughput);

@@ -333,8 +333,14 @@ SubpathDensities SubpathWave::arrive(const SubpathJob& job, std::size_t i, const
     if (end_ == SubpathEnd::AtLight && state.index == 1) {
         // A light that is sampled for this vertex is chosen in another way than this one was.
         const Emission& emission = emissions_[state.slot];
-        arrived.a *= job.raised(static_cast<double>(job.world.light_probability(position, emission.light)) /
-                                static_cast<double>(emission.probability));
+        auto for_vertex = static_cast<double>(job.world.light_probability(position, emission.light));
+        auto for_emission = static_cast<double>(emission.probability);
+        if (emission.light == job.world.environment()) {
+            const EmissionSample& sample = emission.sample;
+            for_vertex *= static_cast<double>(job.world.environment_pdf_solid_angle(-sample.direction));
+            for_emission *= static_cast<double>(sample.pdf_direction_solid_angle);
+        }
+        arrived.a *= job.raised(for_vertex / for_emission);
     }
     return arrived;
 }

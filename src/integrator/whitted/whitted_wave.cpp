@@ -5,6 +5,7 @@
 #include "integrator/ray_batch.h"
 #include "integrator/scattered_cone.h"
 #include "integrator/walk.h"
+#include "sampling/mis.h"
 #include "world/scattering.h"
 
 #include <algorithm>
@@ -20,6 +21,7 @@ enum BranchDimension : std::uint32_t {
     kLightChoice = kFirstFreeDimension,
     kLightTriangle,
     kLightDirection,
+    kEnvironmentDirection,
     kWavelength,
     kAlpha,
     kEnd
@@ -45,7 +47,7 @@ LightKind kind_of(const WhittedBranch& branch) {
 std::size_t WhittedWave::bytes() const {
     return sizeof *this + vector_bytes(waiting_, batch_, rays_, hits_, samples_, alpha_) + keys_.bytes() +
            shadow_rays_.bytes() + light_choice_.bytes() + light_triangle_.bytes() + light_direction_.bytes() +
-           found_.bytes();
+           environment_direction_.bytes() + found_.bytes();
 }
 
 void WhittedWave::trace(const World& world, const TileJob& job, const PathLengths& lengths, std::size_t first,
@@ -91,6 +93,7 @@ void WhittedWave::trace_batch(const Context& context, TileBuffer& tile, RenderCo
     light_choice_.draw(context.job.sequence, keys_, kLightChoice);
     light_triangle_.draw(context.job.sequence, keys_, kLightTriangle);
     light_direction_.draw(context.job.sequence, keys_, kLightDirection);
+    environment_direction_.draw(context.job.sequence, keys_, kEnvironmentDirection);
     for (std::size_t i = 0; i < count; ++i) shade(context, i);
     shadow_rays_.resolve(context.world, context.job, samples_, found_, tile, counters);
 }
@@ -201,14 +204,35 @@ void WhittedWave::queue_direct_light(const Context& context, std::size_t i, cons
                                      const Scattering& scattering, const std::optional<Crossing>& crossing,
                                      const Rgb& factor) {
     const World& world = context.world;
-    const WhittedBranch& branch = batch_[i];
-    const ChosenLight chosen =
-        world.sample_light(point.position, {light_choice_[i], light_triangle_[i], light_direction_[i]});
-    const LightSample& light = chosen.sample;
+    // No ray looks for the environment beside these two, of which the first knows nothing of its dimmer parts.
+    if (world.has_sampled_lights()) {
+        const ChosenLight chosen =
+            world.sample_light(point.position, {light_choice_[i], light_triangle_[i], light_direction_[i]});
+        const LightSample& light = chosen.sample;
+        if (!is_black(light.radiance)) {
+            float share = 1.0f;
+            if (chosen.light == world.environment())
+                share = power_heuristic(light.pdf_solid_angle, world.environment_emission_pdf_solid_angle(light.wi));
+            queue(context, i, point, scattering, crossing, light,
+                  factor * (share / (light.is_delta ? chosen.probability : light.pdf_solid_angle)));
+        }
+    }
+    if (!world.has_environment()) return;
+    const LightSample light = world.sample_environment(point.position, environment_direction_[i]);
     if (is_black(light.radiance)) return;
+    float share = 1.0f;
+    if (world.has_sampled_lights())
+        share = power_heuristic(light.pdf_solid_angle, world.light_probability(point.position, world.environment()) *
+                                                           world.environment_pdf_solid_angle(light.wi));
+    queue(context, i, point, scattering, crossing, light, factor * (share / light.pdf_solid_angle));
+}
+
+void WhittedWave::queue(const Context& context, std::size_t i, const SurfacePoint& point, const Scattering& scattering,
+                        const std::optional<Crossing>& crossing, const LightSample& light, const Rgb& weight) {
+    const World& world = context.world;
+    const WhittedBranch& branch = batch_[i];
     const BsdfValue value = scattering.evaluate(light.wi, TransportMode::Radiance);
-    const float density = light.is_delta ? chosen.probability : light.pdf_solid_angle;
-    Rgb contribution = branch.throughput * factor * value.f_cos * light.radiance / density;
+    Rgb contribution = branch.throughput * weight * value.f_cos * light.radiance;
     if (world.has_bodies())
         contribution *=
             transmittance(world, crossing ? beyond(*crossing, point, light.wi) : branch.interior, light.distance);

@@ -57,9 +57,12 @@ class WhittedWave final : public IntegratorScratch {
     void shade(const Context& context, std::size_t i);
     void scatter(const Context& context, std::size_t i, const SurfacePoint& point,
                  const std::optional<Crossing>& crossing);
-    /// `factor` is what the throughput has to be multiplied by for direct light.
+    /// Samples a light and the environment. `factor` is what the throughput has to be multiplied by for direct light.
     void queue_direct_light(const Context& context, std::size_t i, const SurfacePoint& point,
                             const Scattering& scattering, const std::optional<Crossing>& crossing, const Rgb& factor);
+    /// Light along a sample, times `weight` over its density.
+    void queue(const Context& context, std::size_t i, const SurfacePoint& point, const Scattering& scattering,
+               const std::optional<Crossing>& crossing, const LightSample& light, const Rgb& weight);
     void add_environment(const Context& context, const WhittedBranch& branch);
     /// One that goes on from `i` as its child number `child`, without ray, throughput and edges.
     [[nodiscard]] WhittedBranch grow(const Context& context, std::size_t i, std::uint32_t child) const;
@@ -72,7 +75,7 @@ class WhittedWave final : public IntegratorScratch {
     std::vector<Ray> rays_;
     std::vector<Hit> hits_;
     SampleKeys keys_;
-    NumberPairs light_choice_, light_triangle_, light_direction_;
+    NumberPairs light_choice_, light_triangle_, light_direction_, environment_direction_;
     Connections shadow_rays_{RayKind::Shadow};
     // By slot, that is, by camera sample.
     std::vector<CameraSample> samples_;
