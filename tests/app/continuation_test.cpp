@@ -78,7 +78,7 @@ class Continuation : public testing::Test {
 class ContinuationOf : public Continuation, public testing::WithParamInterface<std::string> {};
 
 TEST_P(ContinuationOf, ResumesToTheSameBytes) {
-    constexpr int kSpp = 1500;
+    constexpr int kSpp = 4000;
     const Arguments with{"--integrator", GetParam(), "--aov", "direct", "--aov", "variance", "--aov", "denoising"};
     ASSERT_EQ(run(render(kSpp, "whole.exr", with)).exit_code, 0);
     Arguments first = render(kSpp, "a.exr", with);
@@ -142,7 +142,7 @@ INSTANTIATE_TEST_SUITE_P(Integrators, ContinuationOf, testing::Values("path", "l
                          [](const auto& test) { return test.param; });
 
 TEST_F(Continuation, CheckpointsOutliveAKill) {
-    constexpr int kSpp = 1500;
+    constexpr int kSpp = 4000;
     const Arguments every{"--checkpoint-every", "0.0003", "--resume"};  // 20 ms
     ASSERT_EQ(run(render(kSpp, "whole.exr")).exit_code, 0);
     std::mt19937 random(5);

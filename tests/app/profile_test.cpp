@@ -37,7 +37,19 @@ class Profile : public testing::Test {
     fs::path work_ = folder_ / "work";
 };
 
+/// Puts a lamp into a scene of `write_scene`: an environment that is the same everywhere needs no shadow rays.
+void add_lamp(const fs::path& directory) {
+    json scene = json::parse(read_file(directory / "scene.gltf"));
+    const json extension{{"KHR_lights_punctual", {{"light", 0}}}};
+    scene["extensionsUsed"] = json::array({"KHR_lights_punctual"});
+    scene["extensions"]["KHR_lights_punctual"]["lights"] = json::array({{{"type", "point"}, {"intensity", 100}}});
+    scene["nodes"].push_back({{"extensions", extension}});
+    scene["scenes"][0]["nodes"].push_back(2);
+    std::ofstream(directory / "scene.gltf") << scene;
+}
+
 TEST_F(Profile, MeasuresEveryIntegratorOnEveryNumberOfThreads) {
+    add_lamp(folder_ / "box");
     const ProgramResult result = profile({"--spp", "8", "--repeat", "3", "--threads", "1,2"});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_NE(result.out.find("path, 2 threads"), std::string::npos) << result.out;

@@ -274,17 +274,21 @@ void BdptWave::weigh(const Context& context, const ToLight& connection) {
     const double from_light =
         static_cast<double>(at_infinity ? arriving : arriving / (light.distance * light.distance));
     // The strategies with more vertices from the light have chosen it for its emission, not for this vertex, and so the
-    // direction of an environment.
+    // direction of an environment: its densities jump from cell to cell, and both must be of the one that other
+    // strategies find the direction in.
     auto for_emission = static_cast<double>(world.emission_probability(chosen.light));
     auto for_vertex = static_cast<double>(chosen.probability);
+    float pdf_solid_angle = light.pdf_solid_angle;
     if (chosen.light == world.environment()) {
         for_emission *= static_cast<double>(world.environment_emission_pdf_solid_angle(light.wi));
-        for_vertex = static_cast<double>(light.pdf_solid_angle);
+        pdf_solid_angle = chosen.probability * world.environment_pdf_solid_angle(light.wi);
+        for_vertex = static_cast<double>(pdf_solid_angle);
+        if (!(pdf_solid_angle > 0.0f)) return;
     }
     const double fewer_from_eye = raised(for_emission / for_vertex * from_light) *
                                   vertex.densities.fewer(raised, static_cast<double>(value.reverse_pdf_solid_angle));
     const double fewer_from_light =
-        light.is_delta ? 0.0 : raised(static_cast<double>(value.pdf_solid_angle / light.pdf_solid_angle));
+        light.is_delta ? 0.0 : raised(static_cast<double>(value.pdf_solid_angle / pdf_solid_angle));
     const float share = weight(context.options, fewer_from_light, fewer_from_eye);
     const float density = light.is_delta ? chosen.probability : light.pdf_solid_angle;
     Ray ray = shadow_ray(vertex.origin(light.wi), light);

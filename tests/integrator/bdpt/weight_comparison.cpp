@@ -22,12 +22,27 @@ constexpr double kRoundingTolerance = 1e-2;
 constexpr float kSmallCosine = 0.3f;
 /// Of what a short edge is: positions do not tell where it points.
 constexpr float kTellsNothing = 0.01f;
+/// The same of its height above the surface at either end: positions do not tell its cosine, which of so low an edge
+/// their roundings make up by hundredths.
+constexpr float kTellsNoCosine = 0.001f;
 
 float shortest_edge(const CompletePath& path) {
     float shortest = length(path.camera.lens - path.inner.back()->position);
     for (std::size_t i = 0; i + 1 < path.inner.size(); ++i)
         shortest = std::min(shortest, length(path.inner[i + 1]->position - path.inner[i]->position));
     return shortest;
+}
+
+float least_height(const CompletePath& path) {
+    const auto height = [](const PathVertex& vertex, const Vec3f& edge) {
+        return length(edge) * vertex.cosine(normalize(edge));
+    };
+    float least = height(*path.inner.back(), path.camera.lens - path.inner.back()->position);
+    for (std::size_t i = 0; i + 1 < path.inner.size(); ++i) {
+        const Vec3f edge = path.inner[i + 1]->position - path.inner[i]->position;
+        least = std::min({least, height(*path.inner[i], edge), height(*path.inner[i + 1], edge)});
+    }
+    return least;
 }
 
 class Comparison final : public WeightObserver {
@@ -43,7 +58,9 @@ class Comparison final : public WeightObserver {
             ++different;
             if (is_well_conditioned(path)) ++different_without_excuse;
         }
-        if (error <= worst || shortest_edge(path) < kTellsNothing * short_edge_) return;
+        if (error <= worst || shortest_edge(path) < kTellsNothing * short_edge_ ||
+            least_height(path) < kTellsNoCosine * short_edge_)
+            return;
         worst = error;
         worst_path = "s = " + std::to_string(path.s) + " of " + std::to_string(reference.size()) +
                      " strategies: " + std::to_string(weight) + ", by definition " + std::to_string(reference[path.s]) +

@@ -102,7 +102,8 @@ TEST(Textures, MinificationFiltersSayHowToReadWithinLevelsAndBetweenThem) {
 }
 
 TEST(Textures, FormatsThatGltfDoesNotNameAreReadWithAWarning) {
-    const std::string hdr = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n" + std::string(4, '\1');
+    std::string hdr = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n";
+    hdr.append(4, '\1');
     const LoadedScene loaded = load_with_file(textured({{"uri", "a.png"}}), "a.png", hdr);
     EXPECT_EQ(only_image(loaded).width, 1);
     EXPECT_TRUE(has_problem(loaded.problems, Severity::Warning, "this one is hdr", "/images/0"))
