@@ -1,6 +1,6 @@
 # Headers of the standard library and of others that most sources include, compiled once for all of src/ and once, with
-# GoogleTest, for all of tests/: to parse them takes two thirds of the time of a typical source. None of our own, since
-# a change of one would have everything compiled again. Sources include what they use all the same: clang-tidy, which
+# GoogleTest, for all of tests/: a fifth to a third of the time of a typical source of src/. None of our own, since a
+# change of one would have everything compiled again. Sources include what they use all the same: clang-tidy, which
 # gets no compiled headers, says where one does not.
 #
 # For targets with the options of every other: a compiler takes compiled headers only where they were made with the same.
