@@ -79,7 +79,9 @@ ImageEnvironment::Densities make_densities(const ImageF& image) {
             sum += static_cast<double>(cell);
             solid_angle += static_cast<double>(sines[y]);
         }
-    const auto mean = static_cast<float>(sum / solid_angle);
+    // What is brighter by less is rounding: an image of one colour is a constant environment.
+    constexpr double kRounding = 1e-4;
+    const auto mean = static_cast<float>(sum / solid_angle * (1.0 + kRounding));
     ImageEnvironment::Densities densities{.complete = {cells, image.width, image.height}, .compensated = {}};
     for (std::size_t y = 0; y < sines.size(); ++y)
         for (float& cell : row(y)) cell = std::max(cell - mean * sines[y], 0.0f);
