@@ -55,7 +55,7 @@ class RowsInAnyOrder : public testing::TestWithParam<const char*> {
     }
     static void expect_rows(const ImageSource& source) {
         const ImageF whole = read_image_float(source);
-        const auto row = static_cast<std::size_t>(16 * whole.channels);
+        const auto row = static_cast<std::size_t>(whole.channels) * 16;
         ImageReader reader(source);
         for (const int begin : {48, 16, 32, 0, 40, 8}) {
             std::vector<float> rows(8 * row);
