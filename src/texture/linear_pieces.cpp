@@ -33,7 +33,7 @@ void LinearPieces::linearize(std::span<float> values) const {
     const bool is_8bit = reader_.info().depth == TexelDepth::UInt8;
     for (std::size_t i = 0; i < values.size(); ++i) {
         if (is_alpha(static_cast<int>(i % static_cast<std::size_t>(channels)), channels)) continue;
-        values[i] = is_8bit ? linear_from_srgb8(static_cast<std::uint8_t>(values[i] * 255.0f + 0.5f))
+        values[i] = is_8bit ? linear_from_srgb8(static_cast<std::uint8_t>(std::lround(values[i] * 255.0f)))
                             : linear_from_srgb(values[i]);
     }
 }
