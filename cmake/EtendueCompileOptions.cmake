@@ -1,7 +1,9 @@
 # Compile options of our own code, carried by one interface target that every room links.
 add_library(etendue_options INTERFACE)
 target_compile_options(etendue_options INTERFACE
-  -Wall -Wextra -Wshadow -Wconversion
+  -Wall -Wextra -Wconversion
+  # Where files are compiled together, a local name may be that of a constant in another file.
+  $<IF:$<BOOL:${CMAKE_UNITY_BUILD}>,-Wshadow=local,-Wshadow>
   # errno and trapping are not used; without them sqrt and comparisons inline and vectorise. Results stay IEEE.
   -fno-math-errno -fno-trapping-math
   $<$<BOOL:${ETENDUE_WARNINGS_AS_ERRORS}>:-Werror>
@@ -16,13 +18,20 @@ endif()
 
 # etendue_build_quickly(<target>...)
 #
-# For code that runs once per image: with sanitizers, compiling its many templates takes longer than optimisation ever
-# saves.
+# For code that runs once per image: compiling its many templates takes longer than optimisation ever saves.
 function(etendue_build_quickly)
-  if(ETENDUE_SANITIZERS)
-    foreach(target ${ARGN})
-      target_compile_options(${target} PRIVATE -O0)
-      set_target_properties(${target} PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)  # of other options
-    endforeach()
+  foreach(target ${ARGN})
+    target_compile_options(${target} PRIVATE $<IF:$<BOOL:${ETENDUE_SANITIZERS}>,-O0,-O1>)
+    set_target_properties(${target} PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)  # of other options
+  endforeach()
+endfunction()
+
+# etendue_compile_singly(<target>...)
+#
+# For code that runs once per ray: of sources that are compiled together the compiler inlines less, which costs 5 to 10%
+# (docs/performance.md). With sanitizers that is nothing.
+function(etendue_compile_singly)
+  if(NOT ETENDUE_SANITIZERS)
+    set_target_properties(${ARGN} PROPERTIES UNITY_BUILD OFF)
   endif()
 endfunction()

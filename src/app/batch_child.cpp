@@ -13,7 +13,7 @@ namespace etendue {
 
 namespace {
 
-constexpr std::chrono::milliseconds kBetweenLooks(100);
+constexpr std::chrono::milliseconds kBetweenLooksAtChild(100);
 
 /// A path that no command line takes for an option.
 std::string as_argument(const std::filesystem::path& path) {
@@ -28,7 +28,7 @@ nlohmann::json ask(std::vector<std::string> arguments, const BatchOptions& optio
     ChildProcess child(
         {.arguments = std::move(arguments), .memory_limit = options.max_memory, .most_output = kMostOutput});
     const auto ignore = [](const std::string&) {};
-    while (child.wait(kBetweenLooks, ignore, ignore))
+    while (child.wait(kBetweenLooksAtChild, ignore, ignore))
         if (interrupt_requested()) child.send(SIGKILL);
     if (child.end().signal != 0 || child.end().exit_code != 0 || child.output_was_cut()) return {};
     return nlohmann::json::parse(child.output(), nullptr, false);

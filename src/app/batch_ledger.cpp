@@ -23,20 +23,20 @@ namespace etendue {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 constexpr std::array<LedgerEventKind, 7> kKinds{LedgerEventKind::BatchStarted, LedgerEventKind::BatchFinished,
                                                 LedgerEventKind::UnitStarted,  LedgerEventKind::UnitFinished,
                                                 LedgerEventKind::UnitFailed,   LedgerEventKind::UnitInterrupted,
                                                 LedgerEventKind::UnitNotTried};
 
-[[noreturn]] void throw_errno(const std::filesystem::path& path, int error) {
+[[noreturn]] void throw_ledger_error(const std::filesystem::path& path, int error) {
     throw IoError(fmt::format("cannot append to {}: {}", path.string(), std::generic_category().message(error)));
 }
 
 std::string to_line(const LedgerEvent& event) {
     const ProcessOwner self = this_process();
-    Json json{{"event", event_name(event.kind)}, {"time", utc_time()}, {"host", self.host}, {"pid", self.pid}};
+    OrderedJson json{{"event", event_name(event.kind)}, {"time", utc_time()}, {"host", self.host}, {"pid", self.pid}};
     const auto add = [&json](const char* key, const auto& value, bool is_known) {
         if (is_known) json[key] = value;
     };
@@ -57,7 +57,7 @@ std::string to_line(const LedgerEvent& event) {
         json["failed"] = event.failed;
         json["not_tried"] = event.not_tried;
     }
-    return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }
 
 /// True if the file of `size` bytes ends in the middle of a line.
@@ -98,20 +98,20 @@ std::string utc_time() {
 void BatchLedger::append(const LedgerEvent& event) const {
     std::string line = to_line(event);
     const FileDescriptor file(::open(path_.c_str(), O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC, 0666));
-    if (!file.is_open()) throw_errno(path_, errno);
+    if (!file.is_open()) throw_ledger_error(path_, errno);
     // Not every file system appends at once what comes from several machines.
     while (::flock(file.get(), LOCK_EX) != 0)
-        if (errno != EINTR) throw_errno(path_, errno);
+        if (errno != EINTR) throw_ledger_error(path_, errno);
     struct stat status {};
-    if (::fstat(file.get(), &status) != 0) throw_errno(path_, errno);
+    if (::fstat(file.get(), &status) != 0) throw_ledger_error(path_, errno);
     if (is_torn(file.get(), status.st_size)) line.insert(line.begin(), '\n');
     const ssize_t written = ::write(file.get(), line.data(), line.size());
     if (written != static_cast<ssize_t>(line.size())) {
         const int error = written < 0 ? errno : ENOSPC;
-        if (::ftruncate(file.get(), status.st_size) != 0) throw_errno(path_, errno);
-        throw_errno(path_, error);
+        if (::ftruncate(file.get(), status.st_size) != 0) throw_ledger_error(path_, errno);
+        throw_ledger_error(path_, error);
     }
-    if (::fsync(file.get()) != 0) throw_errno(path_, errno);
+    if (::fsync(file.get()) != 0) throw_ledger_error(path_, errno);
 }
 
 void LedgerHistory::read_new() {
@@ -140,7 +140,7 @@ void LedgerHistory::read_new() {
 }
 
 void LedgerHistory::take(const std::string& line) {
-    const Json json = Json::parse(line, nullptr, false);
+    const OrderedJson json = OrderedJson::parse(line, nullptr, false);
     if (!json.is_object()) return;
     const auto text = [&json](const char* key) {
         const auto found = json.find(key);

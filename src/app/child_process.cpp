@@ -1,5 +1,6 @@
 #include "app/child_process.h"
 
+#include "app/pipe.h"
 #include "core/error.h"
 
 #include <algorithm>
@@ -22,20 +23,14 @@ namespace etendue {
 
 namespace {
 
-[[noreturn]] void throw_errno(const std::filesystem::path& program, int error) {
+[[noreturn]] void throw_start_error(const std::filesystem::path& program, int error) {
     throw IoError(fmt::format("cannot start {}: {}", program.string(), std::generic_category().message(error)));
 }
 
-struct Pipe {
-    FileDescriptor read;
-    FileDescriptor write;
-};
-
-/// Neither end goes to other children.
-Pipe make_pipe(const std::filesystem::path& program) {
-    std::array<int, 2> ends{};
-    if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw_errno(program, errno);
-    return {FileDescriptor(ends[0]), FileDescriptor(ends[1])};
+Pipe pipe_for(const std::filesystem::path& program) {
+    Pipe pipe = make_pipe();
+    if (!pipe.reader.is_open()) throw_start_error(program, errno);
+    return pipe;
 }
 
 /// What the child needs on its way from fork to exec.
@@ -127,35 +122,35 @@ ChildProcess::ChildProcess(const ChildOptions& options) : most_output_(options.m
     for (std::string& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
 
-    Pipe output = make_pipe(options.program);
-    Pipe messages = make_pipe(options.program);
-    Pipe progress = make_pipe(options.program);
-    Pipe failure = make_pipe(options.program);
+    Pipe output = pipe_for(options.program);
+    Pipe messages = pipe_for(options.program);
+    Pipe progress = pipe_for(options.program);
+    Pipe failure = pipe_for(options.program);
     // Nobody waits for progress to be read.
-    for (const FileDescriptor* end : {&output.read, &messages.read, &progress.read, &progress.write})
-        if (::fcntl(end->get(), F_SETFL, O_NONBLOCK) != 0) throw_errno(options.program, errno);
+    for (const FileDescriptor* end : {&output.reader, &messages.reader, &progress.reader, &progress.writer})
+        if (::fcntl(end->get(), F_SETFL, O_NONBLOCK) != 0) throw_start_error(options.program, errno);
 
     Start start{.program = options.program.c_str(),
                 .arguments = argv.data(),
-                .output = output.write.get(),
-                .messages = messages.write.get(),
-                .progress = progress.write.get(),
-                .failure = failure.write.get(),
+                .output = output.writer.get(),
+                .messages = messages.writer.get(),
+                .progress = progress.writer.get(),
+                .failure = failure.writer.get(),
                 .parent = ::getpid(),
                 .memory = std::nullopt};
     if (options.memory_limit) start.memory = rlimit{*options.memory_limit, *options.memory_limit};
     pid_ = ::fork();
-    if (pid_ < 0) throw_errno(options.program, errno);
+    if (pid_ < 0) throw_start_error(options.program, errno);
     if (pid_ == 0) become(start);
 
-    failure.write.close();
-    if (const int error = exec_error(failure.read); error != 0) {
+    failure.writer.close();
+    if (const int error = exec_error(failure.reader); error != 0) {
         reap();
-        throw_errno(options.program, error);
+        throw_start_error(options.program, error);
     }
-    output_stream_.pipe = std::move(output.read);
-    messages_.pipe = std::move(messages.read);
-    progress_.pipe = std::move(progress.read);
+    output_stream_.pipe = std::move(output.reader);
+    messages_.pipe = std::move(messages.reader);
+    progress_.pipe = std::move(progress.reader);
 }
 
 ChildProcess::~ChildProcess() {

@@ -29,10 +29,10 @@ namespace etendue {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 /// The share of the values that a map's scale holds where errors have no largest: what lies above is fireflies.
-constexpr double kMapQuantile = 0.99;
+constexpr double kScaleQuantile = 0.99;
 
 /// A measure must not be larger.
 struct Limit {
@@ -114,7 +114,7 @@ void parse_exposures(const std::string& text, HdrFlipOptions& options) {
     options.stop_exposure = stop;
 }
 
-PixelRect parse_region(const std::string& text) {
+PixelRect parse_window(const std::string& text) {
     const auto window = parse_pixel_window("--region", text);
     return {window[0], window[1], window[2], window[3]};
 }
@@ -131,10 +131,6 @@ std::vector<std::string> chosen_measures(const DiffArguments& arguments, bool is
     return chosen;
 }
 
-std::string size_text(const PixelRect& r) {
-    return fmt::format("{}x{}", r.width(), r.height());
-}
-
 // ---- The map.
 
 /// What the map's last colour stands for.
@@ -142,8 +138,8 @@ std::pair<double, std::string> largest_of_map(const MeasuredPair& pair, const Me
                                               const std::optional<double>& told) {
     if (told) return {*told, "as --map-max says"};
     if (measure.name.ends_with("flip")) return {1.0, "FLIP's largest"};
-    const double quantile = quantile_of(pair.map(), kMapQuantile, pair.selection());
-    if (quantile > 0.0) return {quantile, fmt::format("{:g}% of the pixels are not above", 100.0 * kMapQuantile)};
+    const double quantile = quantile_of(pair.map(), kScaleQuantile, pair.selection());
+    if (quantile > 0.0) return {quantile, fmt::format("{:g}% of the pixels are not above", 100.0 * kScaleQuantile)};
     const double largest = quantile_of(pair.map(), 1.0, pair.selection());
     if (largest > 0.0) return {largest, "the largest"};
     return {1.0, "there is no error"};
@@ -178,7 +174,7 @@ MapWritten write_map(const MeasuredPair& pair, const Measure& measure, const Dif
 // ---- The report.
 
 std::string describe(const ComparedFile& file) {
-    return fmt::format("{}: {}, {}, {} channels, {}{}", file.path.string(), size_text(file.display), file.format,
+    return fmt::format("{}: {}, {}, {} channels, {}{}", file.path.string(), size_text_of(file.display), file.format,
                        file.channels, file.color_space.empty() ? "colour space not said" : file.color_space,
                        file.data == file.display ? "" : fmt::format(", pixels {}", text_of(file.data)));
 }
@@ -188,7 +184,7 @@ void print_report(const MeasuredPair& pair, const DiffArguments& arguments, cons
     fmt::print("image           {}\n", describe(pair.pair().image_file));
     fmt::print("reference       {}\n", describe(pair.pair().reference_file));
     fmt::print(
-        "compared        R, G, B of {} pixels, {} from {},{}{}\n", pair.pixel_count(), size_text(region), region.x0,
+        "compared        R, G, B of {} pixels, {} from {},{}{}\n", pair.pixel_count(), size_text_of(region), region.x0,
         region.y0,
         pair.left_out_count() == 0 ? "" : fmt::format("; {} that are not finite left out", pair.left_out_count()));
     fmt::print("                v is the image's value, r the reference's{}\n",
@@ -204,32 +200,35 @@ void print_report(const MeasuredPair& pair, const DiffArguments& arguments, cons
                    result.map->largest, result.map->scale);
 }
 
-Json to_json(const PixelRect& rect) {
+OrderedJson to_json(const PixelRect& rect) {
     return {rect.x0, rect.y0, rect.x1, rect.y1};
 }
 
-Json to_json(const NotFinite& faults) {
-    Json first = Json::array();
+OrderedJson to_json(const NotFinite& faults) {
+    OrderedJson first = OrderedJson::array();
     for (const Vec2i& place : faults.first) first.push_back({place.x, place.y});
     return {{"nan", faults.nan},
             {"infinite", faults.infinite},
-            {"window", faults.count() > 0 ? to_json(faults.bounds) : Json()},
+            {"window", faults.count() > 0 ? to_json(faults.bounds) : OrderedJson()},
             {"first", first}};
 }
 
-Json to_json(const ComparedFile& file, const NotFinite& faults) {
-    return {{"file", file.path.string()},   {"format", file.format},
-            {"channels", file.channels},    {"size", {file.display.width(), file.display.height()}},
-            {"window", to_json(file.data)}, {"color_space", file.color_space.empty() ? Json() : Json(file.color_space)},
+OrderedJson to_json(const ComparedFile& file, const NotFinite& faults) {
+    return {{"file", file.path.string()},
+            {"format", file.format},
+            {"channels", file.channels},
+            {"size", {file.display.width(), file.display.height()}},
+            {"window", to_json(file.data)},
+            {"color_space", file.color_space.empty() ? OrderedJson() : OrderedJson(file.color_space)},
             {"not_finite", to_json(faults)}};
 }
 
-Json to_json(const Measure& measure, const DiffArguments& arguments, const DiffResult& result) {
+OrderedJson to_json(const Measure& measure, const DiffArguments& arguments, const DiffResult& result) {
     const auto limit = result.limit_of(measure.name);
-    Json json = {{"value", measure.value},  // JSON has no NaN: null
-                 {"formula", measure.description},
-                 {"limit", limit ? Json(*limit) : Json()},
-                 {"exceeded", result.is_too_large(measure)}};
+    OrderedJson json = {{"value", measure.value},  // JSON has no NaN: null
+                        {"formula", measure.description},
+                        {"limit", limit ? OrderedJson(*limit) : OrderedJson()},
+                        {"exceeded", result.is_too_large(measure)}};
     if (measure.name.ends_with("flip"))
         json["pixels_per_degree"] = arguments.options.flip.pixels_per_degree;
     else
@@ -244,21 +243,21 @@ Json to_json(const Measure& measure, const DiffArguments& arguments, const DiffR
 }
 
 void print_json(const MeasuredPair& pair, const DiffArguments& arguments, const DiffResult& result, bool passed) {
-    Json json;
+    OrderedJson json;
     json["image"] = to_json(pair.pair().image_file, pair.not_finite_in_image());
     json["reference"] = to_json(pair.pair().reference_file, pair.not_finite_in_reference());
     json["region"] = to_json(arguments.options.region.value_or(pair.pair().window));
     json["pixels"] = pair.pixel_count();
     json["left_out"] = pair.left_out_count();
-    json["color_space"] = pair.pair().color_space.empty() ? Json() : Json(pair.pair().color_space);
-    json["measures"] = Json::object();
+    json["color_space"] = pair.pair().color_space.empty() ? OrderedJson() : OrderedJson(pair.pair().color_space);
+    json["measures"] = OrderedJson::object();
     for (const Measure& measure : result.measures) json["measures"][measure.name] = to_json(measure, arguments, result);
     json["map"] = nullptr;
     if (result.map)
         json["map"] = {{"file", result.map->file}, {"measure", result.map->measure}, {"largest", result.map->largest}};
     json["warnings"] = pair.pair().warnings;
     json["passed"] = passed;
-    fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+    fmt::print("{}\n", json.dump(2, ' ', false, OrderedJson::error_handler_t::replace));
 }
 
 void log_faults(const ComparedFile& file, const NotFinite& faults) {
@@ -352,7 +351,7 @@ void add_options(CLI::App& command, DiffArguments& arguments) {
                     "pixels are not above)")
         ->check(CLI::PositiveNumber);
     command.add_option_function<std::string>(
-        "--region", [&arguments](const std::string& text) { arguments.options.region = parse_region(text); },
+        "--region", [&arguments](const std::string& text) { arguments.options.region = parse_window(text); },
         "Measure only pixels x0,y0,x1,y1 of the full image (half-open, y down)");
     command
         .add_option("--ppd", arguments.options.flip.pixels_per_degree,

@@ -33,9 +33,9 @@ Group group_of(const FarmImage& image) {
             shape == Shape::Split ? image.ranges.size() : 0};
 }
 
-class Planner {
+class TaskPlanner {
   public:
-    Planner(std::span<const FarmImage> images, const FarmOptions& options) : images_(images), options_(options) {
+    TaskPlanner(std::span<const FarmImage> images, const FarmOptions& options) : images_(images), options_(options) {
         plan_.places.resize(images.size());
     }
 
@@ -113,7 +113,7 @@ std::size_t tasks_in_one_array(const FarmImage& image) {
 FarmPlan plan_farm(std::span<const FarmImage> images, const FarmOptions& options, std::size_t max_array_size) {
     std::map<Group, std::vector<std::size_t>> groups;
     for (std::size_t i = 0; i < images.size(); ++i) groups[group_of(images[i])].push_back(i);
-    Planner planner(images, options);
+    TaskPlanner planner(images, options);
     for (const auto& [group, members] : groups) {
         const std::span<const std::size_t> all(members);
         for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {

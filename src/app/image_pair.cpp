@@ -2,6 +2,7 @@
 
 #include "app/file_color_space.h"
 #include "core/error.h"
+#include "core/pixel_rect_text.h"
 #include "image/read.h"
 #include "metrics/not_finite.h"
 #include "texture/srgb.h"
@@ -16,10 +17,6 @@ namespace etendue {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string size_text(const PixelRect& rect) {
-    return fmt::format("{}x{}", rect.width(), rect.height());
-}
 
 ImageInfo read_info(const fs::path& path) {
     try {
@@ -59,8 +56,9 @@ void require_same_kind(const ComparedFile& a, bool a_is_float, const ComparedFil
 
 void require_same_display(const ComparedFile& a, const ComparedFile& b) {
     if (a.display == b.display) return;
-    throw SceneError({a.path.string(), ""}, fmt::format("it is {} pixels large and '{}' is {}; render both in one size",
-                                                        size_text(a.display), b.path.string(), size_text(b.display)));
+    throw SceneError({a.path.string(), ""},
+                     fmt::format("it is {} pixels large and '{}' is {}; render both in one size",
+                                 size_text_of(a.display), b.path.string(), size_text_of(b.display)));
 }
 
 std::string assumed_space(const fs::path& path, const std::string& space, const std::string& like) {
@@ -144,7 +142,7 @@ SceneLinearImage read_scene_linear(const fs::path& path, int full_width, int ful
     if (!info.is_float) throw SceneError(where, "it holds integers encoded for a display; give an EXR or HDR file");
     if (file.display != PixelRect{0, 0, full_width, full_height})
         throw SceneError(where, fmt::format("it is {} pixels large, the scene is rendered at {}x{}",
-                                            size_text(file.display), full_width, full_height));
+                                            size_text_of(file.display), full_width, full_height));
     if (intersection(file.data, window) != window)
         throw SceneError(
             where, fmt::format("it has the pixels {},{},{},{} only, not all of {},{},{},{}", file.data.x0, file.data.y0,

@@ -47,11 +47,11 @@ namespace etendue {
 
 namespace {
 
-constexpr double kDefaultSeconds = 1.0;
+constexpr double kSecondsPerRun = 1.0;
 constexpr int kDefaultRepetitions = 5;
 constexpr const char* kData = "profile.json";
 
-constexpr std::array kOptionsOfRender{
+constexpr std::array kRefusedOptions{
     OptionOfRender{"--integrator", "here --integrators names those that are measured"},
     OptionOfRender{"--time", "here it is --seconds, for each repetition"},
     OptionOfRender{"--error", "here all runs end after --seconds or with --spp"},
@@ -274,7 +274,7 @@ ExitCode run_profile(const ProfileArguments& arguments) {
 
     const ProfileRequest request{.integrators = arguments.integrators,
                                  .threads = threads,
-                                 .seconds = arguments.seconds.value_or(kDefaultSeconds),
+                                 .seconds = arguments.seconds.value_or(kSecondsPerRun),
                                  .spp = arguments.overrides.spp
                                             ? std::optional(static_cast<std::uint32_t>(*arguments.overrides.spp))
                                             : std::nullopt,
@@ -369,7 +369,7 @@ void add_profile_command(CLI::App& app, Action& action) {
         app.add_subcommand("profile", "Measure where the time of a render goes, and how fast Embree alone would be");
     add_profile_options(*command, *arguments);
     arguments->overrides.add_options(*command);
-    hide_options(*command, kOptionsOfRender);
+    hide_options(*command, kRefusedOptions);
     command->footer(
         "Repetitions of all runs take turns. A last one of each has its stages timed and some of its rays recorded,\n"
         "which bare Embree then traces again: what it needs for them, over what the render took, is the efficiency.\n"
@@ -380,7 +380,7 @@ void add_profile_command(CLI::App& app, Action& action) {
         "  etendue profile scenes/caustic-glass --integrators bdpt --threads 1,2 --seconds 5 -o profile\n"
         "  etendue profile scenes/cornell-box --against before/profile.json --repeat 15 -o after");
     command->callback([arguments, command, &action] {
-        refuse_options(*command, kOptionsOfRender);
+        refuse_options(*command, kRefusedOptions);
         if (arguments->overrides.spp && arguments->seconds)
             throw CLI::ValidationError("--seconds", "cannot be given with --spp: one of them ends a render");
         require_different_names(arguments->integrators);

@@ -1,6 +1,6 @@
 #include "app/run_command.h"
 
-#include "app/file_descriptor.h"
+#include "app/pipe.h"
 #include "core/error.h"
 
 #include <array>
@@ -23,16 +23,10 @@ namespace {
     throw IoError(fmt::format("cannot run {}: {}", program, std::generic_category().message(error)));
 }
 
-/// Both ends, which programs that are started do not inherit.
-struct Pipe {
-    FileDescriptor reader;
-    FileDescriptor writer;
-};
-
-Pipe make_pipe(const std::string& program) {
-    std::array<int, 2> ends{};
-    if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw_error(program, errno);
-    return {FileDescriptor(ends[0]), FileDescriptor(ends[1])};
+Pipe pipe_for(const std::string& program) {
+    Pipe pipe = make_pipe();
+    if (!pipe.reader.is_open()) throw_error(program, errno);
+    return pipe;
 }
 
 pid_t start(const std::vector<std::string>& words, const Pipe& out, const Pipe& err) {
@@ -73,8 +67,8 @@ void read_all(const Pipe& out, const Pipe& err, CommandResult& result) {
 }  // namespace
 
 CommandResult run_command(const std::vector<std::string>& words) {
-    Pipe out = make_pipe(words.front());
-    Pipe err = make_pipe(words.front());
+    Pipe out = pipe_for(words.front());
+    Pipe err = pipe_for(words.front());
     const pid_t pid = start(words, out, err);
     out.writer.close();
     err.writer.close();

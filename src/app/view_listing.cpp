@@ -9,7 +9,7 @@ namespace etendue {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 void list_displays(const ColorConfig& colors, std::string& text) {
     const auto out = std::back_inserter(text);
@@ -40,10 +40,10 @@ void list_layers(const ViewedFile& file, std::string& text) {
     }
 }
 
-Json displays_json(const ColorConfig& colors) {
-    Json displays = Json::array();
+OrderedJson displays_json(const ColorConfig& colors) {
+    OrderedJson displays = OrderedJson::array();
     for (const std::string& display : colors.displays()) {
-        Json views = Json::array();
+        OrderedJson views = OrderedJson::array();
         for (const std::string& view : colors.views(display))
             views.push_back({{"name", view}, {"looks", colors.looks_of_view(display, view)}});
         displays.push_back({{"name", display}, {"default_view", colors.default_view(display)}, {"views", views}});
@@ -51,8 +51,8 @@ Json displays_json(const ColorConfig& colors) {
     return displays;
 }
 
-Json file_json(const ViewedFile& file) {
-    Json layers = Json::array();
+OrderedJson file_json(const ViewedFile& file) {
+    OrderedJson layers = OrderedJson::array();
     for (const ImageLayer& layer : file.image.layers) {
         const ImageInfo& part = file.image.parts[static_cast<std::size_t>(layer.part)];
         layers.push_back({{"name", layer.name},
@@ -60,12 +60,12 @@ Json file_json(const ViewedFile& file) {
                           {"channels", layer.channels},
                           {"part", layer.part},
                           {"size", {part.width, part.height}},
-                          {"problem", layer.problem.empty() ? Json() : Json(layer.problem)}});
+                          {"problem", layer.problem.empty() ? OrderedJson() : OrderedJson(layer.problem)}});
     }
     const auto main = main_layer(file.image);
     return {{"path", file.path},
-            {"color_space", file.color_space.empty() ? Json() : Json(file.color_space)},
-            {"default_layer", main ? Json(main->name) : Json()},
+            {"color_space", file.color_space.empty() ? OrderedJson() : OrderedJson(file.color_space)},
+            {"default_layer", main ? OrderedJson(main->name) : OrderedJson()},
             {"layers", layers}};
 }
 
@@ -79,12 +79,12 @@ std::string list_as_text(const ColorConfig& colors, const std::optional<ViewedFi
 }
 
 std::string list_as_json(const ColorConfig& colors, const std::optional<ViewedFile>& file) {
-    const Json json = {{"config", colors.origin()},
-                       {"default_display", colors.default_display()},
-                       {"displays", displays_json(colors)},
-                       {"looks", colors.looks()},
-                       {"file", file ? file_json(*file) : Json()}};
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    const OrderedJson json = {{"config", colors.origin()},
+                              {"default_display", colors.default_display()},
+                              {"displays", displays_json(colors)},
+                              {"looks", colors.looks()},
+                              {"file", file ? file_json(*file) : OrderedJson()}};
+    return json.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }
 
 const char* layer_kind_name(LayerKind kind) {

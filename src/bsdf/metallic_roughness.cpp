@@ -13,9 +13,9 @@ bool is_smooth(const MetallicRoughness& m) {
     return std::max(m.alpha_x, m.alpha_y) < kSmoothAlpha;
 }
 
-using Layers = MetallicRoughnessLayers<float>;
+using UncoatedLayers = MetallicRoughnessLayers<float>;
 
-Layers layers_of(const MetallicRoughness& m, const Vec3f& wo) {
+UncoatedLayers layers_of(const MetallicRoughness& m, const Vec3f& wo) {
     const float under = 1.0f - m.metallic;
     const float stays = under * (1.0f - m.transmission);
     return {{std::max(m.alpha_x, kSmoothAlpha), std::max(m.alpha_y, kSmoothAlpha)},
@@ -28,7 +28,7 @@ Layers layers_of(const MetallicRoughness& m, const Vec3f& wo) {
             wo};
 }
 
-BsdfParts evaluate_below(const Layers& layers, const Vec3f& wo, const Vec3f& wi) {
+BsdfParts evaluate_below(const UncoatedLayers& layers, const Vec3f& wo, const Vec3f& wi) {
     const Vec3f mirrored{wi.x, wi.y, -wi.z};
     BsdfParts value;
     if (layers.p_diffuse_transmitted > 0.0f) {
@@ -47,7 +47,7 @@ BsdfParts evaluate_below(const Layers& layers, const Vec3f& wo, const Vec3f& wi)
     return value;
 }
 
-float pdf_of_layers(const Layers& layers, const Vec3f& wo, const Vec3f& wi) {
+float pdf_of_layers(const UncoatedLayers& layers, const Vec3f& wo, const Vec3f& wi) {
     const bool above = wi.z > 0.0f;
     const Vec3f w{wi.x, wi.y, std::abs(wi.z)};
     const float pdf = (above ? layers.p_diffuse : layers.p_diffuse_transmitted) * cosine_hemisphere_pdf_solid_angle(w);
@@ -56,7 +56,7 @@ float pdf_of_layers(const Layers& layers, const Vec3f& wo, const Vec3f& wi) {
     return pdf + p_around * layers.reflection.pdf_solid_angle(wo, w, layers.reflection.ggx.d(normalize(wo + w)));
 }
 
-BsdfSample sample_smooth(const Layers& layers, const Vec3f& wo, bool transmit) {
+BsdfSample sample_smooth(const UncoatedLayers& layers, const Vec3f& wo, bool transmit) {
     if (transmit)
         return {.wi = -wo,
                 .weight = layers.below.transmitted * (layers.coupling / layers.p_transmitted),
@@ -65,7 +65,7 @@ BsdfSample sample_smooth(const Layers& layers, const Vec3f& wo, bool transmit) {
     return {.wi = mirror_direction(wo), .weight = layers.fresnel(wo.z) / layers.p_specular, .is_delta = true};
 }
 
-BsdfParts evaluate_layers(const Layers& layers, const Vec3f& wo, const Vec3f& wi) {
+BsdfParts evaluate_layers(const UncoatedLayers& layers, const Vec3f& wo, const Vec3f& wi) {
     return wi.z > 0.0f ? layers.evaluate_above(wo, wi) : evaluate_below(layers, wo, wi);
 }
 
@@ -96,7 +96,7 @@ BsdfValue MetallicRoughness::evaluate(const Vec3f& wo, const Vec3f& wi, Transpor
 
 BsdfSample MetallicRoughness::sample(const Vec3f& wo, float u_lobe, Vec2f u, TransportMode) const {
     if (wo.z <= 0.0f) return {};
-    const Layers layers = layers_of(*this, wo);
+    const UncoatedLayers layers = layers_of(*this, wo);
     const float end_diffuse = layers.p_diffuse;
     const float end_diffuse_below = end_diffuse + layers.p_diffuse_transmitted;
     const float end_transmitted = end_diffuse_below + layers.p_transmitted;
@@ -125,7 +125,7 @@ BsdfSample MetallicRoughness::sample(const Vec3f& wo, float u_lobe, Vec2f u, Tra
 
 void MetallicRoughness::add_deltas(const Vec3f& wo, DeltaList& deltas) const {
     if (wo.z <= 0.0f || !is_smooth(*this)) return;
-    const Layers layers = layers_of(*this, wo);
+    const UncoatedLayers layers = layers_of(*this, wo);
     deltas.add({.wi = mirror_direction(wo), .weight = layers.fresnel(wo.z), .is_delta = true});
     deltas.add(
         {.wi = -wo, .weight = layers.below.transmitted * layers.coupling, .is_delta = true, .is_transmission = true});

@@ -9,20 +9,20 @@ namespace etendue {
 namespace {
 
 template <typename T>
-BasicBsdfValue<T> evaluate_layers(const MetallicRoughnessLayers<T>& layers, const Imath::Vec3<T>& wo,
-                                  const Imath::Vec3<T>& wi) {
+BasicBsdfValue<T> evaluate_lanes(const MetallicRoughnessLayers<T>& layers, const Imath::Vec3<T>& wo,
+                                 const Imath::Vec3<T>& wi) {
     const auto scatters = wo.z > T(0.0f) && wi.z > T(0.0f);
     const BasicBsdfValue<T> value = layers.evaluate_above(wo, wi).sum();
     return {select(scatters, value.f_cos, BasicRgb<T>()), select(scatters, value.pdf_solid_angle, T(0.0f))};
 }
 
 template <typename T>
-BasicBsdfSample<T> sample_layers(const MetallicRoughnessLayers<T>& layers, const Imath::Vec3<T>& wo, T u_lobe,
-                                 const Imath::Vec2<T>& u) {
+BasicBsdfSample<T> sample_lanes(const MetallicRoughnessLayers<T>& layers, const Imath::Vec3<T>& wo, T u_lobe,
+                                const Imath::Vec2<T>& u) {
     const Imath::Vec3<T> wi = choose(
         u_lobe < layers.p_diffuse, [&] { return square_to_cosine_hemisphere(u); },
         [&] { return layers.sample_around(wo, u_lobe, layers.p_diffuse, layers.p_specular, u); });
-    const BasicBsdfValue<T> value = evaluate_layers(layers, wo, wi);
+    const BasicBsdfValue<T> value = evaluate_lanes(layers, wo, wi);
     const auto scatters = value.pdf_solid_angle > T(0.0f);
     return {.wi = wi,
             .weight = select(scatters, value.f_cos / value.pdf_solid_angle, BasicRgb<T>()),
@@ -36,7 +36,7 @@ auto PlainMetallicRoughness<T>::evaluate_and_sample(const Vec& wo, const Vec& wi
                                                     const Imath::Vec2<T>& u) const -> ValueAndSample {
     const MetallicRoughnessLayers<T> layers(BasicGgx<T>::isotropic(alpha), false, {f0, f90, {}}, {base, T(1.0f), {}},
                                             metallic, {base * (1.0f - metallic), {}, {}}, wo);
-    return {evaluate_layers(layers, wo, wi), sample_layers(layers, wo, u_lobe, u)};
+    return {evaluate_lanes(layers, wo, wi), sample_lanes(layers, wo, u_lobe, u)};
 }
 
 template struct PlainMetallicRoughness<float>;

@@ -14,4 +14,9 @@ namespace etendue {
     return fmt::format("{},{},{},{}", rect.x0, rect.y0, rect.x1, rect.y1);
 }
 
+/// "WIDTHxHEIGHT", as --size takes it.
+[[nodiscard]] inline std::string size_text_of(const PixelRect& rect) {
+    return fmt::format("{}x{}", rect.width(), rect.height());
+}
+
 }  // namespace etendue

@@ -11,9 +11,9 @@ namespace etendue::oiio {
 
 namespace {
 
-class OpenPieces final : public ImagePieces {
+class DecodedPieces final : public ImagePieces {
   public:
-    explicit OpenPieces(const EncodedImage& encoded)
+    explicit DecodedPieces(const EncodedImage& encoded)
         : encoded_(encoded), image_(open_image(encoded)), info_(describe(image_)), levels_(levels_of(image_)) {
         const OIIO::ImageSpec& spec = image_.spec;
         if (spec.tile_width > 0 && spec.tile_height > 0 && spec.tile_depth == 1)
@@ -92,7 +92,7 @@ class OpenPieces final : public ImagePieces {
 }  // namespace
 
 std::unique_ptr<ImagePieces> open_pieces(const EncodedImage& image) {
-    return std::make_unique<OpenPieces>(image);
+    return std::make_unique<DecodedPieces>(image);
 }
 
 }  // namespace etendue::oiio

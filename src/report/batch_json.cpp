@@ -1,4 +1,5 @@
 #include "report/batch_report.h"
+#include "report/json_values.h"
 
 #include <utility>
 
@@ -11,16 +12,7 @@ namespace {
 /// Writes numbers that are not finite as null.
 using Json = nlohmann::ordered_json;
 
-constexpr int kFormat = 1;
-
-template <typename Value>
-Json known(const std::optional<Value>& value) {
-    return value ? Json(*value) : Json();
-}
-
-Json known(const std::string& text) {
-    return text.empty() ? Json() : Json(text);
-}
+constexpr int kBatchFormat = 1;
 
 Json positive(int number) {
     return number > 0 ? Json(number) : Json();
@@ -77,7 +69,7 @@ Json to_object(const BatchUnit& unit) {
 std::string to_json(const BatchReport& report) {
     Json units = Json::array();
     for (const BatchUnit& unit : report.units) units.push_back(to_object(unit));
-    const Json json{{"format", kFormat},
+    const Json json{{"format", kBatchFormat},
                     {"title", report.title},
                     {"output_directory", report.output_directory},
                     {"program", report.program},

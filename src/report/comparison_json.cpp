@@ -1,4 +1,5 @@
 #include "report/comparison_report.h"
+#include "report/json_values.h"
 
 #include <utility>
 
@@ -11,12 +12,8 @@ namespace {
 /// Writes numbers that are not finite as null.
 using Json = nlohmann::ordered_json;
 
-constexpr int kFormat = 2;
+constexpr int kComparisonFormat = 2;
 constexpr std::array kChannels{"R", "G", "B"};
-
-Json window(const PixelRect& rect) {
-    return {rect.x0, rect.y0, rect.x1, rect.y1};
-}
 
 Json range(const SeedValues& values) {
     return {{"mean", values.mean()}, {"min", values.least()}, {"max", values.largest()}};
@@ -155,7 +152,7 @@ Json array(const std::vector<Value>& values) {
 }  // namespace
 
 std::string to_json(const ComparisonReport& report) {
-    Json json{{"format", kFormat},
+    Json json{{"format", kComparisonFormat},
               {"program", report.program},
               {"created", report.created},
               {"command", report.command},

@@ -1,3 +1,4 @@
+#include "report/json_values.h"
 #include "report/profile_figures.h"
 #include "report/profile_report.h"
 
@@ -50,7 +51,7 @@ Json to_object(const ComparedFigure& figure);
 Json to_object(const ComparedRun& run);
 
 template <typename Value>
-Json array(const std::vector<Value>& values) {
+Json array_of(const std::vector<Value>& values) {
     Json json = Json::array();
     for (const Value& value : values) json.push_back(to_object(value));
     return json;
@@ -69,15 +70,6 @@ Json counted(const std::vector<NamedValue>& values, const char* unit) {
         if (value[unit] >= 0.0 && value[unit] < 1e18)
             value[unit] = static_cast<std::uint64_t>(value[unit].get<double>());
     return json;
-}
-
-Json window(const PixelRect& rect) {
-    return {rect.x0, rect.y0, rect.x1, rect.y1};
-}
-
-/// A text that may be missing.
-Json known(const std::string& text) {
-    return text.empty() ? Json() : Json(text);
 }
 
 Json to_object(const RayKindReport& kind) {
@@ -120,11 +112,11 @@ Json to_object(const ProfileRun& run) {
         {"load_imbalance", run.load_imbalance},
         {"tracing_share", tracing_share(run)},
         {"timing_share", run.timing_share},
-        {"kinds", array(run.kinds)},
+        {"kinds", array_of(run.kinds)},
         {"stages", named(run.stages, "seconds")},
         {"endings", counted(run.endings, "paths")},
         {"path_lengths", run.path_lengths},
-        {"longest", array(run.longest)},
+        {"longest", array_of(run.longest)},
         {"shadow_unoccluded", run.shadow_unoccluded},
         {"light_sampling_used", run.light_sampling_used},
         {"bsdf_met_light", run.bsdf_met_light},
@@ -132,8 +124,8 @@ Json to_object(const ProfileRun& run) {
         {"hardware",
          {{"counters", counted(run.hardware.values, "count")}, {"unavailable", known(run.hardware.unavailable)}}},
         {"heat_map", {{"file", known(run.heat_map)}, {"key", heat_map_key(run)}, {"seconds_high", run.heat_map_high}}},
-        {"expensive_tiles", array(most_expensive_tiles(run, kExpensiveTiles))},
-        {"tiles", array(run.tiles)}};
+        {"expensive_tiles", array_of(most_expensive_tiles(run, kExpensiveTiles))},
+        {"tiles", array_of(run.tiles)}};
 }
 
 Json to_object(const ComparedFigure& figure) {
@@ -153,7 +145,7 @@ Json to_object(const ComparedRun& run) {
             {"high", run.high},
             {"cpu_seconds_per_sample", {{"before", run.before}, {"now", run.now}}},
             {"repetitions", {{"before", run.repetitions_before}, {"now", run.repetitions_now}}},
-            {"rays_per_second", array(run.rays_per_second)}};
+            {"rays_per_second", array_of(run.rays_per_second)}};
 }
 
 Json to_object(const ProfileComparison& comparison) {
@@ -163,8 +155,8 @@ Json to_object(const ProfileComparison& comparison) {
             {"tolerance", comparison.options.tolerance},
             {"confidence", comparison.options.confidence},
             {"notes", comparison.notes},
-            {"runs", array(comparison.runs)},
-            {"figures", array(comparison.figures)}};
+            {"runs", array_of(comparison.runs)},
+            {"figures", array_of(comparison.figures)}};
 }
 
 Json to_object(const BvhReport& bvh) {
@@ -217,7 +209,7 @@ std::string to_json(const ProfileReport& report) {
                   {"memory", {{"owners", counted(report.memory, "bytes")}, {"peak_bytes", report.peak_memory_bytes}}},
                   {"notes", report.notes},
                   {"against", report.against ? to_object(*report.against) : Json()},
-                  {"runs", array(report.runs)}});
+                  {"runs", array_of(report.runs)}});
 }
 
 }  // namespace etendue

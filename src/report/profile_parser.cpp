@@ -16,8 +16,6 @@ namespace etendue {
 
 namespace {
 
-using Json = nlohmann::json;
-
 constexpr std::size_t kLongestText = 1000;
 constexpr int kMostInt = std::numeric_limits<int>::max();
 constexpr double kMostSeconds = 1e12;
@@ -26,27 +24,27 @@ constexpr std::uint64_t kMostCount = std::uint64_t{1} << 53;
 
 class Document {
   public:
-    Document(const Json& json, const std::string& file) : json_(json), file_(file) {}
+    Document(const nlohmann::json& json, const std::string& file) : json_(json), file_(file) {}
 
     [[noreturn]] void fail(const std::string& pointer, const std::string& message) const {
         throw SceneError({file_, pointer}, message);
     }
 
-    const Json& at(const std::string& pointer) const {
-        const Json::json_pointer place(pointer);
+    const nlohmann::json& at(const std::string& pointer) const {
+        const nlohmann::json::json_pointer place(pointer);
         if (!json_.contains(place)) fail(pointer, "is missing; this is no profile, or not all of one");
         return json_.at(place);
     }
 
     std::size_t size(const std::string& pointer) const {
-        const Json& json = at(pointer);
+        const nlohmann::json& json = at(pointer);
         if (!json.is_array()) fail(pointer, "must be an array");
         return json.size();
     }
 
     /// Finite and in [least, kMostSeconds].
     double number(const std::string& pointer, double least = 0.0) const {
-        const Json& json = at(pointer);
+        const nlohmann::json& json = at(pointer);
         if (!json.is_number()) fail(pointer, "must be a number");
         const auto value = json.get<double>();
         if (!(value >= least && value <= kMostSeconds))
@@ -60,7 +58,7 @@ class Document {
     }
 
     std::uint64_t count(const std::string& pointer, std::uint64_t least = 0, std::uint64_t most = kMostCount) const {
-        const Json& json = at(pointer);
+        const nlohmann::json& json = at(pointer);
         if (!json.is_number_unsigned()) fail(pointer, "must be a whole number");
         const auto value = json.get<std::uint64_t>();
         if (value < least || value > most) fail(pointer, fmt::format("{} is not in [{}, {}]", value, least, most));
@@ -73,14 +71,14 @@ class Document {
 
     /// Safe to be shown on a terminal: its control characters are told to nobody.
     std::string text(const std::string& pointer) const {
-        const Json& json = at(pointer);
+        const nlohmann::json& json = at(pointer);
         if (!json.is_string()) fail(pointer, "must be a text");
         return shown(pointer, json.get_ref<const std::string&>());
     }
 
     /// An object of such texts.
     std::map<std::string, std::string> texts(const std::string& pointer) const {
-        const Json& json = at(pointer);
+        const nlohmann::json& json = at(pointer);
         if (!json.is_object()) fail(pointer, "must be an object");
         std::map<std::string, std::string> values;
         for (const auto& [key, value] : json.items()) {
@@ -102,7 +100,7 @@ class Document {
         return value;
     }
 
-    const Json& json_;
+    const nlohmann::json& json_;
     const std::string& file_;
 };
 
@@ -157,9 +155,9 @@ ProfileBaseline parse_document(const Document& document) {
 
 ProfileBaseline parse_profile(const std::string& json, const std::string& file) {
     try {
-        const Json parsed = Json::parse(json);
+        const nlohmann::json parsed = nlohmann::json::parse(json);
         return parse_document(Document(parsed, file));
-    } catch (const Json::exception& error) {
+    } catch (const nlohmann::json::exception& error) {
         throw SceneError({file, ""}, fmt::format("is no profile.json: {}", error.what()));
     }
 }

@@ -17,7 +17,7 @@ using Rows = std::vector<std::vector<std::string>>;
 
 constexpr std::size_t kIndent = 2;
 constexpr int kBar = 40;  // characters that a stage takes that takes all the time
-constexpr std::size_t kExpensiveTiles = 3;
+constexpr std::size_t kTilesInTable = 3;
 constexpr std::size_t kLongestPaths = 3;
 
 /// Of `share` in [0, 1]; all are of one width, as columns are flush right.
@@ -99,7 +99,7 @@ std::string paths(const ProfileRun& run) {
 
 std::string expensive_tiles(const ProfileRun& run) {
     std::string places;
-    for (const TileCost& tile : most_expensive_tiles(run, kExpensiveTiles))
+    for (const TileCost& tile : most_expensive_tiles(run, kTilesInTable))
         places += fmt::format("{}({}, {}) {} ({})", places.empty() ? "" : "; ", tile.rect.x0, tile.rect.y0,
                               human_seconds(tile.seconds), human_percent(tile.share));
     return places.empty() ? "" : wrapped("  most expensive tiles: " + places, kIndent + 2);

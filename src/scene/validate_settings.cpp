@@ -8,7 +8,7 @@ namespace etendue {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 constexpr int kMaxSide = 65536;
 constexpr int kMaxSpp = 1 << 24;
 constexpr double kMaxExposure = 64.0;  // stops
@@ -75,8 +75,8 @@ void validate_cameras(const SceneDesc& scene, ProblemList& problems) {
         if (camera.type == CameraType::Orthographic && !(camera.ymag > 0.0f && std::isfinite(camera.ymag))) {
             problems.error(where, fmt::format("ymag is {}, but must be finite and above 0", camera.ymag));
         }
-        check_range(static_cast<double>(camera.aspect_ratio), 0.0, kInfinity, "aspect ratio", where, problems);
-        check_range(static_cast<double>(camera.lens_radius), 0.0, kInfinity, "lens radius", where, problems);
+        check_range(static_cast<double>(camera.aspect_ratio), 0.0, kUnbounded, "aspect ratio", where, problems);
+        check_range(static_cast<double>(camera.lens_radius), 0.0, kUnbounded, "lens radius", where, problems);
         if (!(camera.focus_distance > 0.0f && std::isfinite(camera.focus_distance))) {
             problems.error(where, fmt::format("focus distance is {}, but must be above 0", camera.focus_distance));
         }
@@ -91,8 +91,8 @@ void validate_lights(const SceneDesc& scene, ProblemList& problems) {
     for (const IesProfileDesc& profile : scene.ies_profiles) validate_profile(profile, problems);
     for (const LightDesc& light : scene.lights) {
         const SourceLocation& where = light.location;
-        check_range(light.color, 0.0, kInfinity, "light colour", where, problems);
-        check_range(static_cast<double>(light.intensity), 0.0, kInfinity, "light intensity", where, problems);
+        check_range(light.color, 0.0, kUnbounded, "light colour", where, problems);
+        check_range(static_cast<double>(light.intensity), 0.0, kUnbounded, "light intensity", where, problems);
         if (!is_invertible(light.to_world)) {
             problems.error(where, "the light's transform is singular, not affine or not finite");
         }
@@ -114,15 +114,15 @@ void validate_lights(const SceneDesc& scene, ProblemList& problems) {
     if (environment.cube) {
         for (const Handle<ImageDesc>& face : environment.cube->faces)
             check_handle(face, scene.images, "image", environment.location, problems);
-        check_range(static_cast<double>(environment.cube->intensity), 0.0, kInfinity, "environment intensity",
+        check_range(static_cast<double>(environment.cube->intensity), 0.0, kUnbounded, "environment intensity",
                     environment.location, problems);
         if (!is_invertible(environment.cube->to_world))
             problems.error(environment.location, "the cube map's transform is singular, not affine or not finite");
     }
-    check_range(environment.color, 0.0, kInfinity, "environment colour", environment.location, problems);
-    check_range(static_cast<double>(environment.scale), 0.0, kInfinity, "environment scale", environment.location,
+    check_range(environment.color, 0.0, kUnbounded, "environment colour", environment.location, problems);
+    check_range(static_cast<double>(environment.scale), 0.0, kUnbounded, "environment scale", environment.location,
                 problems);
-    check_range(static_cast<double>(environment.rotation), -std::numeric_limits<float>::max(), kInfinity,
+    check_range(static_cast<double>(environment.rotation), -std::numeric_limits<float>::max(), kUnbounded,
                 "environment rotation", environment.location, problems);
 }
 
@@ -159,8 +159,8 @@ void validate_settings(const SceneDesc& scene, ProblemList& problems) {
                        "strategies without weights sum to more than the image; one of them can be shown without "
                        "weights: name it as strategy");
     check(settings.spp, 1, kMaxSpp, "spp", "/spp");
-    check(settings.time_limit, 0.0, kInfinity, "time", "/time");
-    check(settings.relative_error, 0.0, kInfinity, "error", "/error");
+    check(settings.time_limit, 0.0, kUnbounded, "time", "/time");
+    check(settings.relative_error, 0.0, kUnbounded, "error", "/error");
     check(static_cast<double>(settings.clamp_indirect), 0.0, std::numeric_limits<float>::max(), "clamp_indirect",
           "/clamp_indirect");
     check(settings.brightest, 0, kMostBrightest, "brightest", "/brightest");

@@ -10,40 +10,41 @@ namespace etendue::test {
 
 namespace {
 
-Variant variant(const std::string& integrator) {
+Variant variant_of(const std::string& integrator) {
     Variant result{.name = integrator, .light = "a scene"};
     result.settings.integrator.type = integrator;
     return result;
 }
 
 TEST(DifferentLight, IsThatOfOtherPaths) {
-    Variant few = variant("path");
+    Variant few = variant_of("path");
     few.settings.integrator.max_depth = 4;
-    EXPECT_NE(different_light(variant("path"), few).find("1 to 4"), std::string::npos);
+    EXPECT_NE(different_light(variant_of("path"), few).find("1 to 4"), std::string::npos);
     EXPECT_EQ(different_light(few, few), "");
-    Variant later = variant("path");
+    Variant later = variant_of("path");
     later.settings.integrator.min_depth = 2;
-    EXPECT_NE(different_light(variant("path"), later), "");
-    EXPECT_NE(different_light(variant("path"), variant("direct")), "");
+    EXPECT_NE(different_light(variant_of("path"), later), "");
+    EXPECT_NE(different_light(variant_of("path"), variant_of("direct")), "");
     few.settings.integrator.max_depth = 2;
-    EXPECT_EQ(different_light(few, variant("direct")), "") << "one bounce";
-    EXPECT_EQ(different_light(variant("path"), variant("bdpt")), "");
+    EXPECT_EQ(different_light(few, variant_of("direct")), "") << "one bounce";
+    EXPECT_EQ(different_light(variant_of("path"), variant_of("bdpt")), "");
 }
 
 TEST(DifferentLight, IsThatOfOtherScenesStrategiesAndDebugging) {
-    Variant other = variant("path");
+    Variant other = variant_of("path");
     other.light = "another scene";
-    EXPECT_NE(different_light(variant("bdpt"), other).find("scenes"), std::string::npos);
-    Variant strategy = variant("bdpt");
+    EXPECT_NE(different_light(variant_of("bdpt"), other).find("scenes"), std::string::npos);
+    Variant strategy = variant_of("bdpt");
     strategy.settings.integrator.strategy = {2, 3};
-    EXPECT_NE(different_light(variant("path"), strategy).find("2,3"), std::string::npos);
+    EXPECT_NE(different_light(variant_of("path"), strategy).find("2,3"), std::string::npos);
     for (const char* name : {"normals", "albedo"})
-        EXPECT_NE(different_light(variant(name), variant("path")).find("something else"), std::string::npos) << name;
-    Variant faster = variant("bdpt");
+        EXPECT_NE(different_light(variant_of(name), variant_of("path")).find("something else"), std::string::npos)
+            << name;
+    Variant faster = variant_of("bdpt");
     faster.settings.integrator.heuristic = HeuristicType::Power;
     faster.settings.integrator.cached_connections = 4;
     faster.settings.spp = 7;
-    EXPECT_EQ(different_light(variant("bdpt"), faster), "");
+    EXPECT_EQ(different_light(variant_of("bdpt"), faster), "");
 }
 
 TEST(WithOptions, AddsToThoseOfAllVariants) {
@@ -67,7 +68,7 @@ TEST(WithOptions, RefusesWhatIsDecidedForAll) {
 }
 
 TEST(RenderCommand, IsOfThatImage) {
-    Variant of_frame = variant("path");
+    Variant of_frame = variant_of("path");
     of_frame.given = {{"--spp", "4"}, {"--integrator", "path"}, {"--seed", "1"}};
     of_frame.settings.frame = 0;
     of_frame.settings.time_limit = 3.0;

@@ -3,6 +3,7 @@
 #include "app/small_files.h"
 #include "image/read_channels.h"
 #include "image/write.h"
+#include "support/text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -75,10 +76,6 @@ class Denoise : public testing::Test {
     TestFolder folder_;
     fs::path work_ = folder_ / "work";
 };
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
 
 std::vector<float> channel(const ChannelImage& image, const std::string& name) {
     std::vector<float> values;

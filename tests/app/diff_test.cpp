@@ -3,6 +3,7 @@
 #include "app/small_files.h"
 #include "image/read.h"
 #include "image/write.h"
+#include "support/text.h"
 
 #include <cmath>
 #include <filesystem>
@@ -56,10 +57,6 @@ class Diff : public testing::Test {
     TestFolder folder_;
     fs::path work_ = folder_ / "work";
 };
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
 
 TEST_F(Diff, ReportsEveryMeasureWithItsFormula) {
     const std::string a = exr("a", ramp(20, 10, 0.1f));

@@ -5,6 +5,7 @@
 #include "image/write.h"
 #include "support/aces_container.h"
 #include "support/temporary_folder.h"
+#include "support/text.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -21,10 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using Bytes = std::vector<std::uint8_t>;
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
 
 class View : public testing::Test {
   protected:

@@ -1,6 +1,8 @@
 // Which channels of a file are light, features and halves.
 #include "denoise/layers.h"
 
+#include "support/text.h"
+
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -28,10 +30,6 @@ std::string refusal(const Names& names, const Names& features = default_features
         return error.what();
     }
     return "";
-}
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
 }
 
 TEST(Layers, OnlyWhatTheFileSaysIsLight) {
@@ -91,20 +89,20 @@ TEST(Layers, AnyLayerCanBeAFeature) {
 }
 
 TEST(Layers, WithoutHalvesThereIsNoWay) {
-    EXPECT_TRUE(contains(refusal({"R", "G", "B", "A"}), "--aov denoising"));
-    EXPECT_TRUE(contains(refusal({"R", "G", "B", "half.R", "half.G"}), "--aov denoising"));
-    EXPECT_TRUE(contains(refusal({"R", "G", "half.R", "half.G", "half.B"}), "no channel B"));
-    EXPECT_TRUE(contains(refusal({"Y"}), "no channel R"));
-    EXPECT_TRUE(contains(refusal({}), "no channel R"));
+    EXPECT_TRUE(test::contains(refusal({"R", "G", "B", "A"}), "--aov denoising"));
+    EXPECT_TRUE(test::contains(refusal({"R", "G", "B", "half.R", "half.G"}), "--aov denoising"));
+    EXPECT_TRUE(test::contains(refusal({"R", "G", "half.R", "half.G", "half.B"}), "no channel B"));
+    EXPECT_TRUE(test::contains(refusal({"Y"}), "no channel R"));
+    EXPECT_TRUE(test::contains(refusal({}), "no channel R"));
 }
 
 TEST(Layers, FeaturesThatWereAskedForMustBeThere) {
     const Names names = with_halves({"R", "G", "B"});
     EXPECT_EQ(refusal(names), "");
-    EXPECT_TRUE(contains(refusal(names, Names{"N"}, Names{"N"}), "no layer 'N'"));
+    EXPECT_TRUE(test::contains(refusal(names, Names{"N"}, Names{"N"}), "no layer 'N'"));
     Names without_half = names;
     without_half.insert(without_half.end(), {"N.X", "N.Y", "N.Z", "half.N.X"});
-    EXPECT_TRUE(contains(refusal(without_half, Names{"N"}, Names{"N"}), "half.N"));
+    EXPECT_TRUE(test::contains(refusal(without_half, Names{"N"}, Names{"N"}), "half.N"));
     EXPECT_EQ(refusal(without_half), "") << "and are left out if they were not";
 }
 
@@ -115,11 +113,11 @@ TEST(Layers, ThereIsAMostOfFeatures) {
         features.emplace_back(1, letter);
         for (const char* channel : {".R", ".G", ".B"}) names.push_back(features.back() + channel);
     }
-    EXPECT_TRUE(contains(refusal(with_halves(names), features, features), "16 are the most"));
+    EXPECT_TRUE(test::contains(refusal(with_halves(names), features, features), "16 are the most"));
     features.pop_back();
     EXPECT_EQ(refusal(with_halves(names), features, features), "");
     const Names wide = with_halves({"R", "G", "B", "m.a", "m.b", "m.c", "m.d", "m.e"});
-    EXPECT_TRUE(contains(refusal(wide, Names{"m"}, Names{"m"}), "more than 4 channels"));
+    EXPECT_TRUE(test::contains(refusal(wide, Names{"m"}, Names{"m"}), "more than 4 channels"));
 }
 
 }  // namespace

@@ -15,11 +15,12 @@ namespace etendue::test {
 namespace {
 
 const ThreadPool kThreads(2);
-const NforSettings kSettings;
+const NforSettings kNforSettings;
 
 Planes denoised(const Halves& light, const std::vector<Halves>& features, const ThreadPool& threads = kThreads) {
-    const PreparedFeatures prepared = prepare_features(features, light.a.width(), light.a.height(), kSettings, threads);
-    return denoise_nfor(light, prepared, kSettings, threads);
+    const PreparedFeatures prepared =
+        prepare_features(features, light.a.width(), light.a.height(), kNforSettings, threads);
+    return denoise_nfor(light, prepared, kNforSettings, threads);
 }
 
 /// How many times less the mean squared error is than that of the mean of both halves.

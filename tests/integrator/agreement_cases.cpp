@@ -3,6 +3,7 @@
 #include "integrator/agreement_room.h"
 #include "world/test_scene.h"
 
+#include <stdexcept>
 #include <utility>
 
 namespace etendue::test {
@@ -166,6 +167,16 @@ std::vector<AgreementCase> all_cases() {
 const std::vector<AgreementCase>& agreement_cases() {
     static const std::vector<AgreementCase> cases = all_cases();
     return cases;
+}
+
+const AgreementCase& agreement_case(std::string_view name) {
+    for (const AgreementCase& agreement : agreement_cases())
+        if (agreement.name == name) return agreement;
+    throw std::invalid_argument("no room is named " + std::string(name));
+}
+
+void PrintTo(const RoomRun& run, std::ostream* out) {
+    *out << run.integrator << " " << run.name;
 }
 
 SceneDesc agreement_scene(const AgreementCase& agreement) {

@@ -8,7 +8,9 @@
 
 #include <cstdint>
 #include <functional>
+#include <ostream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace etendue::test {
@@ -26,6 +28,15 @@ struct AgreementCase {
 };
 
 [[nodiscard]] const std::vector<AgreementCase>& agreement_cases();
+/// The one of this name, which there must be.
+[[nodiscard]] const AgreementCase& agreement_case(std::string_view name);
+
+/// A room by its name, and what renders it: the parameters of tests that need both.
+struct RoomRun {
+    std::string name;
+    std::string integrator;
+};
+void PrintTo(const RoomRun& run, std::ostream* out);
 
 [[nodiscard]] SceneDesc agreement_scene(const AgreementCase& agreement);
 [[nodiscard]] World agreement_world(const AgreementCase& agreement);

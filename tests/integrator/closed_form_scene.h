@@ -4,7 +4,14 @@
 #include "core/vec.h"
 #include "scene/scene_desc.h"
 
+#include <numbers>
+
 namespace etendue::test {
+
+/// Of the grey surfaces of most scenes.
+inline constexpr float kAlbedo = 0.6f;
+inline constexpr double kRho = 0.6;
+inline constexpr double kPiD = std::numbers::pi;
 
 /// A Lambertian surface.
 [[nodiscard]] MaterialDesc diffuse(float albedo);

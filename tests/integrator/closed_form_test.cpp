@@ -19,14 +19,14 @@
 namespace etendue::test {
 namespace {
 
-struct Comparison {
+struct ClosedFormRun {
     const ClosedFormCase* scene;
     std::string integrator;
     SampleSequence sequence;
     std::uint32_t seed;
 };
 
-void PrintTo(const Comparison& comparison, std::ostream* out) {
+void PrintTo(const ClosedFormRun& comparison, std::ostream* out) {
     *out << comparison.scene->name;
 }
 
@@ -38,9 +38,9 @@ std::vector<ClosedFormCase> all_cases() {
     return cases;
 }
 
-std::vector<Comparison> all_comparisons() {
+std::vector<ClosedFormRun> all_comparisons() {
     static const std::vector<ClosedFormCase> cases = all_cases();
-    std::vector<Comparison> comparisons;
+    std::vector<ClosedFormRun> comparisons;
     std::uint32_t seed = 999;
     for (const ClosedFormCase& scene : cases)
         for (const std::string& integrator : scene.integrators)
@@ -54,17 +54,17 @@ std::vector<Comparison> all_comparisons() {
     return comparisons;
 }
 
-const std::vector<Comparison>& comparisons() {
-    static const std::vector<Comparison> all = all_comparisons();
+const std::vector<ClosedFormRun>& comparisons() {
+    static const std::vector<ClosedFormRun> all = all_comparisons();
     return all;
 }
 
-std::string test_name(const testing::TestParamInfo<Comparison>& info) {
+std::string test_name(const testing::TestParamInfo<ClosedFormRun>& info) {
     return info.param.scene->name + "_" + info.param.integrator +
            (info.param.sequence == SampleSequence::Sobol ? "_sobol" : "_random");
 }
 
-class ClosedForm : public testing::TestWithParam<Comparison> {};
+class ClosedForm : public testing::TestWithParam<ClosedFormRun> {};
 
 /// Renders whose means are estimates, where pixels are none.
 constexpr std::uint32_t kSplatRenders = 16;

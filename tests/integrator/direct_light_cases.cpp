@@ -4,15 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace etendue::test {
 
 namespace {
-
-constexpr float kAlbedo = 0.6f;
-constexpr double kRho = 0.6;
-constexpr double kPiD = std::numbers::pi;
 
 /// A large floor at y = 0, seen from above at (x, 0, 0).
 SceneDesc floor_seen_at(float x) {

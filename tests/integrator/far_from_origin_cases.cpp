@@ -5,15 +5,10 @@
 #include "integrator/form_factors.h"
 
 #include <cmath>
-#include <numbers>
 
 namespace etendue::test {
 
 namespace {
-
-constexpr float kAlbedo = 0.6f;
-constexpr double kRho = 0.6;
-constexpr double kPiD = std::numbers::pi;
 
 /// A floor under a disk light at `height`, all of it moved by `offset`. The camera looks past the disk.
 ClosedFormCase moved_lamp(const std::string& name, const Vec3f& offset, float radius, float height, float aside,

@@ -16,12 +16,12 @@ namespace etendue::test {
 
 namespace {
 
-constexpr int kWidth = 64;
-constexpr int kHeight = 48;
+constexpr int kFilteredWidth = 64;
+constexpr int kFilteredHeight = 48;
 /// The rows below the horizon, which lies at half the height: in the first three, pixels cover several periods; in the
 /// others a period covers up to three pixels.
-constexpr PixelRect kNearHorizon{0, kHeight / 2 + 1, kWidth, kHeight / 2 + 4};
-constexpr PixelRect kBelowHorizon{0, kHeight / 2 + 1, kWidth, kHeight / 2 + 9};
+constexpr PixelRect kNearHorizon{0, kFilteredHeight / 2 + 1, kFilteredWidth, kFilteredHeight / 2 + 4};
+constexpr PixelRect kBelowHorizon{0, kFilteredHeight / 2 + 1, kFilteredWidth, kFilteredHeight / 2 + 9};
 
 const PathIntegrator kPath({.lengths = {8, 1, 8}});
 
@@ -53,7 +53,7 @@ class TextureAliasing : public testing::Test {
     static std::vector<Rgb> render(const World& world, const PixelRect& window, std::uint32_t spp) {
         const PixelFilter filter(FilterShape::Box);
         const auto scratch = kPath.make_scratch();
-        const TileJob job{window, window, kWidth, kHeight, 0, spp, 1, SampleSequence::Sobol, &filter};
+        const TileJob job{window, window, kFilteredWidth, kFilteredHeight, 0, spp, 1, SampleSequence::Sobol, &filter};
         TileBuffer tile;
         tile.reset(job.rect);
         RenderCounters counters;

@@ -5,8 +5,6 @@ namespace etendue::test {
 
 namespace {
 
-constexpr double kRho = 0.6;
-
 /// A floor that sees nothing but a glowing ceiling without end, so that its radiance is 0.6 · 2 everywhere.
 SceneDesc floor_and_ceiling() {
     SceneDesc scene;

@@ -6,11 +6,11 @@
 namespace etendue {
 namespace {
 
-const SourceLocation kWhere{"file.json", ""};
+const SourceLocation kFile{"file.json", ""};
 
-std::string failure(const std::string& text) {
+std::string parse_failure(const std::string& text) {
     try {
-        static_cast<void>(parse_json(text, kWhere));
+        static_cast<void>(parse_json(text, kFile));
         return "";
     } catch (const SceneError& error) {
         return error.what();
@@ -18,11 +18,11 @@ std::string failure(const std::string& text) {
 }
 
 TEST(ParseJson, ParsesJson) {
-    EXPECT_EQ(parse_json(R"({"a": [1, 2.5, "x"]})", kWhere)["a"][1], 2.5);
+    EXPECT_EQ(parse_json(R"({"a": [1, 2.5, "x"]})", kFile)["a"][1], 2.5);
 }
 
 TEST(ParseJson, SaysWhereTheSyntaxIsBroken) {
-    const std::string message = failure("{\n\"a\": }");
+    const std::string message = parse_failure("{\n\"a\": }");
     EXPECT_NE(message.find("file.json"), std::string::npos) << message;
     EXPECT_NE(message.find("line 2"), std::string::npos) << message;
 }
@@ -30,23 +30,23 @@ TEST(ParseJson, SaysWhereTheSyntaxIsBroken) {
 TEST(ParseJson, RefusesWhatIsNotStrict) {
     for (const char* text : {"", " ", "{", "[1,]", "{'a': 1}", "{\"a\": 1} x", "// c\n{}", "{\"a\": NaN}",
                              "{\"a\": 1e999}", "{\"a\": \"\xff\"}", "{\"a\": \"\xc0\xaf\"}"}) {
-        EXPECT_NE(failure(text), "") << text;
+        EXPECT_NE(parse_failure(text), "") << text;
     }
 }
 
 TEST(ParseJson, RefusesDuplicateKeysInOneObjectOnly) {
-    EXPECT_NE(failure(R"({"a": 1, "b": {}, "a": 2})").find("'a' stands twice"), std::string::npos);
-    EXPECT_EQ(failure(R"({"a": {"a": 1}, "b": [{"a": 1}, {"a": 2}]})"), "");
+    EXPECT_NE(parse_failure(R"({"a": 1, "b": {}, "a": 2})").find("'a' stands twice"), std::string::npos);
+    EXPECT_EQ(parse_failure(R"({"a": {"a": 1}, "b": [{"a": 1}, {"a": 2}]})"), "");
 }
 
 TEST(ParseJson, LimitsDepthWithoutDeepRecursion) {
     const auto nested = [](int depth) {
         return std::string(static_cast<std::size_t>(depth), '[') + std::string(static_cast<std::size_t>(depth), ']');
     };
-    EXPECT_EQ(failure(nested(kMaxJsonDepth)), "");
-    EXPECT_NE(failure(nested(kMaxJsonDepth + 1)).find("nest deeper"), std::string::npos);
-    EXPECT_NE(failure(nested(5'000'000)).find("nest deeper"), std::string::npos);
-    EXPECT_NE(failure(std::string(5'000'000, '[')).find("nest deeper"), std::string::npos);
+    EXPECT_EQ(parse_failure(nested(kMaxJsonDepth)), "");
+    EXPECT_NE(parse_failure(nested(kMaxJsonDepth + 1)).find("nest deeper"), std::string::npos);
+    EXPECT_NE(parse_failure(nested(5'000'000)).find("nest deeper"), std::string::npos);
+    EXPECT_NE(parse_failure(std::string(5'000'000, '[')).find("nest deeper"), std::string::npos);
 }
 
 TEST(ChildPointer, EscapesAsTheRfcSays) {

@@ -5,7 +5,7 @@
 namespace etendue {
 namespace {
 
-const std::string& triangle_glb() {
+const std::string& lone_triangle() {
     static const std::string bytes = [] {
         GltfBuilder builder;
         builder.add_triangle();
@@ -25,7 +25,7 @@ std::string failure(const std::filesystem::path& path) {
 
 TEST(LoadScene, TakesTheOnlyFile) {
     const TempDir dir;
-    dir.write("thing.glb", triangle_glb());
+    dir.write("thing.glb", lone_triangle());
     const LoadedScene loaded = load_scene(dir.path());
     EXPECT_EQ(loaded.scene.file, dir.path() / "thing.glb");
     EXPECT_EQ(loaded.scene.directory, dir.path());
@@ -37,7 +37,7 @@ TEST(LoadScene, TakesTheOnlyFile) {
 
 TEST(LoadScene, SeveralFilesNeedAChoice) {
     const TempDir dir;
-    dir.write("a.glb", triangle_glb());
+    dir.write("a.glb", lone_triangle());
     dir.write("b.gltf", "{}");
     EXPECT_NE(failure(dir.path()).find("a.glb, b.gltf"), std::string::npos) << failure(dir.path());
     EXPECT_EQ(failure(dir.path() / "a.glb"), "");
@@ -52,8 +52,8 @@ TEST(LoadScene, SeveralFilesNeedAChoice) {
 
 TEST(LoadScene, PrefersTheNameScene) {
     const TempDir dir;
-    dir.write("a.glb", triangle_glb());
-    dir.write("scene.glb", triangle_glb());
+    dir.write("a.glb", lone_triangle());
+    dir.write("scene.glb", lone_triangle());
     EXPECT_EQ(load_scene(dir.path()).scene.file.filename(), "scene.glb");
     dir.write("scene.gltf", "{}");
     EXPECT_NE(failure(dir.path()).find("several"), std::string::npos);
@@ -61,8 +61,8 @@ TEST(LoadScene, PrefersTheNameScene) {
 
 TEST(LoadScene, SettingsForAnotherFileAreNotApplied) {
     const TempDir dir;
-    dir.write("a.glb", triangle_glb());
-    dir.write("b.glb", triangle_glb());
+    dir.write("a.glb", lone_triangle());
+    dir.write("b.glb", lone_triangle());
     dir.write("render.json", R"({"scene": "a.glb", "spp": 7})");
     EXPECT_EQ(load_scene(dir.path() / "a.glb").scene.settings.spp, 7);
     const LoadedScene other = load_scene(dir.path() / "b.glb");
@@ -82,13 +82,13 @@ TEST(LoadScene, SaysWhatIsNotThere) {
 
 TEST(LoadScene, RecognisesTheFormatByContentToo) {
     const TempDir dir;
-    dir.write("model.bin", triangle_glb());
+    dir.write("model.bin", lone_triangle());
     EXPECT_EQ(failure(dir.path() / "model.bin"), "");
-    dir.write("model.gltf", triangle_glb());
+    dir.write("model.gltf", lone_triangle());
     EXPECT_EQ(failure(dir.path() / "model.gltf"), "");
     dir.write("model.glb", "{}");
     EXPECT_NE(failure(dir.path() / "model.glb").find("does not start with 'glTF'"), std::string::npos);
-    dir.write("MODEL.GLB", triangle_glb());
+    dir.write("MODEL.GLB", lone_triangle());
     EXPECT_EQ(failure(dir.path() / "MODEL.GLB"), "");
 }
 
@@ -109,7 +109,7 @@ TEST(LoadScene, EachProblemIsReportedOnce) {
 
 TEST(LoadScene, FilesBehindLinksOutsideAreNotFoundInADirectory) {
     const TempDir outside;
-    outside.write("scene.glb", triangle_glb());
+    outside.write("scene.glb", lone_triangle());
     outside.write("render.json", "{}");
     const TempDir dir;
     std::filesystem::create_symlink(outside.path() / "scene.glb", dir.path() / "scene.glb");
@@ -121,8 +121,8 @@ TEST(LoadScene, FilesBehindLinksOutsideAreNotFoundInADirectory) {
 
 TEST(FindSceneDirectories, FindsThemSortedAtEveryDepth) {
     const TempDir dir;
-    dir.write("b/scene.glb", triangle_glb());
-    dir.write("b/inner/scene.glb", triangle_glb());
+    dir.write("b/scene.glb", lone_triangle());
+    dir.write("b/inner/scene.glb", lone_triangle());
     dir.write("a/render.json", "{}");
     dir.write("c/d/e/x.gltf", "{}");
     dir.write("two/x.gltf", "{}");

@@ -26,22 +26,22 @@ namespace etendue::test {
 
 namespace {
 
-constexpr int kWidth = 32;
-constexpr int kHeight = 24;
+constexpr int kAdaptiveWidth = 32;
+constexpr int kAdaptiveHeight = 24;
 constexpr int kBlock = 8;
 constexpr double kLargestZ = 5.0;
 
 /// Of every block, and of the whole image at the end, over red, green and blue.
 std::vector<double> block_means(const std::vector<float>& image) {
-    constexpr std::size_t kColumns = kWidth / kBlock;
-    constexpr std::size_t kBlocks = kColumns * kHeight / kBlock;
+    constexpr std::size_t kColumns = kAdaptiveWidth / kBlock;
+    constexpr std::size_t kBlocks = kColumns * kAdaptiveHeight / kBlock;
     std::vector<double> means(kBlocks + 1, 0.0);
-    for (std::size_t p = 0; p < std::size_t{kWidth} * kHeight; ++p) {
-        const std::size_t block = p / kWidth / kBlock * kColumns + p % kWidth / kBlock;
+    for (std::size_t p = 0; p < std::size_t{kAdaptiveWidth} * kAdaptiveHeight; ++p) {
+        const std::size_t block = p / kAdaptiveWidth / kBlock * kColumns + p % kAdaptiveWidth / kBlock;
         for (std::size_t c = 0; c < 3; ++c) {
             const auto value = static_cast<double>(image[4 * p + c]) / 3.0;
             means[block] += value / (kBlock * kBlock);
-            means.back() += value / (kWidth * kHeight);
+            means.back() += value / (kAdaptiveWidth * kAdaptiveHeight);
         }
     }
     return means;
@@ -88,7 +88,7 @@ class AdaptiveAgreement : public testing::TestWithParam<std::string> {
     [[nodiscard]] std::vector<Estimate> reference() const {
         return estimate_blocks(
             [&](std::uint32_t seed) {
-                RenderOptions options = options_for(kWidth, kHeight, 512);
+                RenderOptions options = options_for(kAdaptiveWidth, kAdaptiveHeight, 512);
                 options.seed = seed;
                 return render_now(world_, GetParam().c_str(), options, 2).film.resolve();
             },
@@ -97,7 +97,7 @@ class AdaptiveAgreement : public testing::TestWithParam<std::string> {
 
     /// As `render` does it.
     [[nodiscard]] std::vector<float> adaptive(std::uint32_t seed) {
-        RenderOptions options = options_for(kWidth, kHeight, 2048);
+        RenderOptions options = options_for(kAdaptiveWidth, kAdaptiveHeight, 2048);
         options.relative_error = 0.06;
         options.adaptive = true;
         options.seed = seed;
@@ -113,7 +113,7 @@ class AdaptiveAgreement : public testing::TestWithParam<std::string> {
     /// Two samples, then more only for those pixels whose own samples have shown an error.
     [[nodiscard]] std::vector<float> naive(std::uint32_t seed) const {
         const StopPredicate never = [] { return false; };
-        RenderOptions options = options_for(kWidth, kHeight, 1);
+        RenderOptions options = options_for(kAdaptiveWidth, kAdaptiveHeight, 1);
         options.seed = seed;
         RenderState state{.film = make_film(options)};
         state.every_other_pass = make_film(options);
@@ -129,7 +129,7 @@ class AdaptiveAgreement : public testing::TestWithParam<std::string> {
         return rendering.state().film.resolve();
     }
 
-    const World world_ = compile(busy_scene(kWidth, kHeight));
+    const World world_ = compile(busy_scene(kAdaptiveWidth, kAdaptiveHeight));
     const ThreadPool pool_{2};
     const std::unique_ptr<const Integrator> integrator_ = make_integrator(GetParam(), {});
     std::uint64_t samples_ = 0;  ///< of all adaptive renders
@@ -143,7 +143,7 @@ TEST_P(AdaptiveAgreement, OfManySeedsWithAUniformReference) {
         compare(estimate_blocks([&](std::uint32_t seed) { return adaptive(seed); }, 1, seeds), right);
     EXPECT_LT(worst.z, kLargestZ);
     EXPECT_LT(worst.relative_error, 0.002) << "what it can see";
-    EXPECT_GE(most_, 2 * samples_ / (seeds * kWidth * kHeight)) << "there was something to choose";
+    EXPECT_GE(most_, 2 * samples_ / (seeds * kAdaptiveWidth * kAdaptiveHeight)) << "there was something to choose";
     RecordProperty("z", std::to_string(worst.z));
     RecordProperty("difference", std::to_string(worst.difference));
     RecordProperty("relative_error", std::to_string(worst.relative_error));

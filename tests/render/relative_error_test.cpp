@@ -14,8 +14,8 @@ namespace etendue::test {
 
 namespace {
 
-constexpr int kWidth = 80;
-constexpr int kHeight = 50;
+constexpr int kEstimateWidth = 80;
+constexpr int kEstimateHeight = 50;
 
 RenderResult render_with_estimate(const World& world, const char* integrator, const RenderOptions& options) {
     const ThreadPool pool(2);
@@ -26,8 +26,8 @@ RenderResult render_with_estimate(const World& world, const char* integrator, co
 }
 
 TEST(RelativeError, EndsTheRenderAndIsKept) {
-    const World world = compile(busy_scene(kWidth, kHeight));
-    RenderOptions options = options_for(kWidth, kHeight, 4096);
+    const World world = compile(busy_scene(kEstimateWidth, kEstimateHeight));
+    RenderOptions options = options_for(kEstimateWidth, kEstimateHeight, 4096);
     options.relative_error = 0.2;
     for (const char* integrator : {"path", "bdpt"}) {
         const RenderResult result = render_with_estimate(world, integrator, options);
@@ -36,23 +36,27 @@ TEST(RelativeError, EndsTheRenderAndIsKept) {
         ASSERT_TRUE(relative_error(result)) << integrator;
         EXPECT_LE(*relative_error(result), options.relative_error) << integrator;
         // The same samples as a render that is as long.
-        RenderOptions same = options_for(kWidth, kHeight, result.spp_done);
+        RenderOptions same = options_for(kEstimateWidth, kEstimateHeight, result.spp_done);
         EXPECT_TRUE(same_bytes(result.film.resolve(), render_now(world, integrator, same, 2).film.resolve()));
     }
 }
 
 // The passes that are kept apart have 1 + 4 + 16 samples by then, the others 1 + 2 + 8 and what comes after 32.
 TEST(RelativeError, IsKnownOnceBothPartsHave16Samples) {
-    const World world = compile(busy_scene(kWidth, kHeight));
+    const World world = compile(busy_scene(kEstimateWidth, kEstimateHeight));
     for (const std::uint32_t spp : {1u, 16u, 32u, 36u})
-        EXPECT_FALSE(relative_error(render_with_estimate(world, "path", options_for(kWidth, kHeight, spp)))) << spp;
+        EXPECT_FALSE(
+            relative_error(render_with_estimate(world, "path", options_for(kEstimateWidth, kEstimateHeight, spp))))
+            << spp;
     for (const std::uint32_t spp : {37u, 48u})
-        EXPECT_TRUE(relative_error(render_with_estimate(world, "path", options_for(kWidth, kHeight, spp)))) << spp;
+        EXPECT_TRUE(
+            relative_error(render_with_estimate(world, "path", options_for(kEstimateWidth, kEstimateHeight, spp))))
+            << spp;
 }
 
 TEST(RelativeError, NoRenderEndsBeforeItIsKnownHoweverLargeTheLimit) {
-    const World world = compile(busy_scene(kWidth, kHeight));
-    RenderOptions options = options_for(kWidth, kHeight, 4096);
+    const World world = compile(busy_scene(kEstimateWidth, kEstimateHeight));
+    RenderOptions options = options_for(kEstimateWidth, kEstimateHeight, 4096);
     for (const double limit : {1.0, 100.0}) {
         options.relative_error = limit;
         const RenderResult result = render_with_estimate(world, "path", options);

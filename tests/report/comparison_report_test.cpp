@@ -16,7 +16,7 @@ namespace {
 using Json = nlohmann::json;
 
 /// A report with something in every part.
-ComparisonReport small_report() {
+ComparisonReport small_comparison() {
     ComparisonReport report;
     report.scene = "box";
     report.width = 40;
@@ -55,7 +55,7 @@ TEST(SeedValues, AreSummedUp) {
 }
 
 TEST(ComparisonJson, HoldsWhatWasMeasured) {
-    const Json json = Json::parse(to_json(small_report()));
+    const Json json = Json::parse(to_json(small_comparison()));
     EXPECT_EQ(json["format"], 2);
     EXPECT_EQ(json["scene"]["crop"], Json({1, 2, 21, 22}));
     EXPECT_EQ(json["settings"]["seconds"], 2.0);
@@ -80,7 +80,7 @@ TEST(ComparisonJson, HoldsWhatWasMeasured) {
 }
 
 TEST(ComparisonJson, WhatIsNotKnownIsNull) {
-    ComparisonReport report = small_report();
+    ComparisonReport report = small_comparison();
     report.variants[0].efficiency = std::numeric_limits<double>::infinity();
     report.variants[0].errors["relmse"].values = {std::nan("")};
     report.strategies.reset();
@@ -93,7 +93,7 @@ TEST(ComparisonJson, WhatIsNotKnownIsNull) {
 }
 
 TEST(ComparisonReport, OnlyComparableImagesCanDisagree) {
-    ComparisonReport report = small_report();
+    ComparisonReport report = small_comparison();
     EXPECT_FALSE(report.agrees());
     report.pairs[0].comparable = false;
     EXPECT_TRUE(report.agrees());
@@ -105,7 +105,7 @@ TEST(ComparisonReport, OnlyComparableImagesCanDisagree) {
 }
 
 TEST(ComparisonPage, HoldsTheReportAndItsImages) {
-    ComparisonReport report = small_report();
+    ComparisonReport report = small_comparison();
     report.variants[0].name = "</script><b>@IMAGES@ \"quoted\"";
     const std::string page = make_page(report, {{"image/a", {0, 1, 2, 255}}, {"image/b", {0xfb, 0xff}}});
     EXPECT_EQ(Json::parse(test::page_script(page, "report")), Json::parse(to_json(report)));

@@ -13,7 +13,7 @@ namespace etendue::test {
 
 namespace {
 
-std::vector<std::vector<float>> weight_lists() {
+std::vector<std::vector<float>> function_lists() {
     std::vector<float> many(2048);
     Random random(1);
     for (float& weight : many) weight = random.next() < 0.3f ? 0.0f : std::pow(random.next(), 4.0f);
@@ -29,7 +29,7 @@ std::vector<std::vector<float>> weight_lists() {
 constexpr float kLargest = 0x1.fffffep-1f;
 
 TEST(Distribution1D, DensityIsTheNormalisedWeight) {
-    for (const std::vector<float>& weights : weight_lists()) {
+    for (const std::vector<float>& weights : function_lists()) {
         const Distribution1D distribution(weights);
         const auto count = static_cast<double>(weights.size());
         const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
@@ -45,7 +45,7 @@ TEST(Distribution1D, DensityIsTheNormalisedWeight) {
 
 TEST(Distribution1D, SamplesInvertAndHaveTheirDensity) {
     Random random(2);
-    for (const std::vector<float>& weights : weight_lists()) {
+    for (const std::vector<float>& weights : function_lists()) {
         const Distribution1D distribution(weights);
         for (int i = 0; i < 100'000; ++i) {
             const float u = i == 0 ? 0.0f : i == 1 ? kLargest : random.next();
@@ -69,7 +69,7 @@ std::size_t searched_interval(const std::vector<float>& cdf, float u) {
 
 // Also where u lies on a border or next to one: of an interval, and of what shares an entry of the guide.
 TEST(Distribution1D, TheGuideLeadsToTheIntervalOfASearch) {
-    for (const std::vector<float>& weights : weight_lists()) {
+    for (const std::vector<float>& weights : function_lists()) {
         const Distribution1D distribution(weights);
         std::vector<float> cdf{0.0f};
         double running = 0.0;
@@ -89,7 +89,7 @@ TEST(Distribution1D, TheGuideLeadsToTheIntervalOfASearch) {
 }
 
 TEST(Distribution1D, SamplesFollowTheDensity) {
-    const auto lists = weight_lists();
+    const auto lists = function_lists();
     for (const std::vector<float>& weights : lists) {
         if (weights.size() > 100) continue;
         const Distribution1D distribution(weights);

@@ -11,7 +11,7 @@ namespace etendue {
 namespace {
 
 /// Pairs of dimensions of the beginning of a light subpath.
-enum EmissionDimension : std::uint32_t { kLightChoice, kTriangle, kPosition, kDirection, kEmissionDimensions };
+enum EmissionDimension : std::uint32_t { kEmitterChoice, kTriangle, kPosition, kDirection, kEmissionDimensions };
 
 /// Far from those of eye paths.
 constexpr std::uint32_t kFirstLightDimension = 1u << 29;
@@ -115,7 +115,7 @@ void SubpathWave::begin_at_lights(const SubpathJob& job) {
     const auto draw = [&](std::uint32_t which, NumberPairs& numbers) {
         numbers.draw(job.job.sequence, keys_, kFirstLightDimension + which);
     };
-    draw(kLightChoice, light_choice_);
+    draw(kEmitterChoice, light_choice_);
     draw(kTriangle, triangle_);
     draw(kPosition, position_);
     draw(kDirection, direction_);

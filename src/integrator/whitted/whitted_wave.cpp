@@ -18,13 +18,13 @@ namespace {
 
 /// Pairs of dimensions of one branch; its seed sets it apart from the others.
 enum BranchDimension : std::uint32_t {
-    kLightChoice = kFirstFreeDimension,
-    kLightTriangle,
-    kLightDirection,
-    kEnvironmentDirection,
-    kWavelength,
-    kAlpha,
-    kEnd
+    kBranchLightChoice = kFirstFreeDimension,
+    kBranchLightTriangle,
+    kBranchLightDirection,
+    kBranchEnvironmentDirection,
+    kBranchWavelength,
+    kBranchAlpha,
+    kBranchEnd
 };
 
 /// Branches that would contribute less live on with as much less chance, with this contribution: trees stay small, and
@@ -90,10 +90,10 @@ void WhittedWave::trace_batch(const Context& context, TileBuffer& tile, RenderCo
                     counters);
     // The first batch has all camera rays, in the order of their samples.
     if (are_camera_rays) find_first_hits(context.world, context.job, samples_, rays_, hits_, tile);
-    light_choice_.draw(context.job.sequence, keys_, kLightChoice);
-    light_triangle_.draw(context.job.sequence, keys_, kLightTriangle);
-    light_direction_.draw(context.job.sequence, keys_, kLightDirection);
-    environment_direction_.draw(context.job.sequence, keys_, kEnvironmentDirection);
+    light_choice_.draw(context.job.sequence, keys_, kBranchLightChoice);
+    light_triangle_.draw(context.job.sequence, keys_, kBranchLightTriangle);
+    light_direction_.draw(context.job.sequence, keys_, kBranchLightDirection);
+    environment_direction_.draw(context.job.sequence, keys_, kBranchEnvironmentDirection);
     for (std::size_t i = 0; i < count; ++i) shade(context, i);
     shadow_rays_.resolve(context.world, context.job, samples_, found_, tile, counters);
 }
@@ -145,7 +145,7 @@ void WhittedWave::scatter(const Context& context, std::size_t i, const SurfacePo
     Wavelength wavelength{branch.wavelength_nm, Rgb(1.0f)};
     const bool chooses_wavelength = crossing && crossing->disperses() && branch.wavelength_nm == 0.0f;
     if (chooses_wavelength)
-        wavelength = world.spectral_response().sample(sample_2d(context.job.sequence, keys_[i], kWavelength).x);
+        wavelength = world.spectral_response().sample(sample_2d(context.job.sequence, keys_[i], kBranchWavelength).x);
     Bsdf storage;
     const Bsdf& bsdf = world.bsdf(point, wo, crossing ? crossing->relative_ior(wavelength.nm) : 0.0f, storage);
     const Scattering scattering(bsdf, point.shading, point.geometric_normal, wo);
@@ -182,11 +182,11 @@ void WhittedWave::scatter(const Context& context, std::size_t i, const SurfacePo
 
 WhittedBranch WhittedWave::grow(const Context& context, std::size_t i, std::uint32_t child) const {
     WhittedBranch next = batch_[i];
-    next.seed = hash_combine(hash_combine(batch_[i].seed, kEnd), child);
+    next.seed = hash_combine(hash_combine(batch_[i].seed, kBranchEnd), child);
     ++next.rays;
     next.ray = {};
     next.ray.time = batch_[i].ray.time;
-    if (context.world.has_transparency()) next.ray.alpha_key = sample_bits({next.seed, keys_[i].index}, kAlpha);
+    if (context.world.has_transparency()) next.ray.alpha_key = sample_bits({next.seed, keys_[i].index}, kBranchAlpha);
     return next;
 }
 
@@ -194,7 +194,7 @@ void WhittedWave::push(WhittedBranch branch) {
     const float chance = survival(branch);
     if (chance < 1.0f) {
         const SampleKey key{branch.seed, samples_[branch.slot].key.index};
-        if (to_unit_float(sample_bits(key, kEnd)) >= chance) return;
+        if (to_unit_float(sample_bits(key, kBranchEnd)) >= chance) return;
         branch.throughput *= 1.0f / chance;
     }
     waiting_.push_back(branch);
@@ -239,7 +239,8 @@ void WhittedWave::queue(const Context& context, std::size_t i, const SurfacePoin
     if (is_black(contribution)) return;
     Ray ray = shadow_ray(offset_origin(point.position, point.geometric_normal, point.clearance, light.wi), light);
     ray.time = branch.ray.time;
-    if (world.has_transparency()) ray.alpha_key = ~sample_bits(keys_[i], kAlpha);  // another key than those of branches
+    if (world.has_transparency())
+        ray.alpha_key = ~sample_bits(keys_[i], kBranchAlpha);  // another key than those of branches
     shadow_rays_.to_sample(ray, branch.slot, contribution, LightKind::Direct, {});
 }
 

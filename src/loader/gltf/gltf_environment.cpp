@@ -9,7 +9,7 @@ namespace etendue {
 
 namespace {
 
-constexpr const char* kExtension = "EXT_lights_image_based";
+constexpr const char* kImageBasedLights = "EXT_lights_image_based";
 
 /// Largest face that is taken: six of them take 1.2 GB while the environment is built.
 constexpr int kMaxFaceSide = 4096;
@@ -46,11 +46,11 @@ void read_environment(const GltfDocument& document, TextureReader& textures, Sce
     const tinygltf::Model& model = document.model;
     if (model.scenes.empty()) return;
     const std::size_t scene_index = model.defaultScene >= 0 ? static_cast<std::size_t>(model.defaultScene) : 0;
-    const tinygltf::Value* reference = find_extension(model.scenes[scene_index].extensions, kExtension);
+    const tinygltf::Value* reference = find_extension(model.scenes[scene_index].extensions, kImageBasedLights);
     if (reference == nullptr) return;
     const int index = integer_or(*reference, "light", 0);
-    const tinygltf::Value& light = model.extensions.at(kExtension).Get("lights").Get(index);
-    const SourceLocation where = document.at(fmt::format("/extensions/{}/lights/{}", kExtension, index));
+    const tinygltf::Value& light = model.extensions.at(kImageBasedLights).Get("lights").Get(index);
+    const SourceLocation where = document.at(fmt::format("/extensions/{}/lights/{}", kImageBasedLights, index));
 
     CubeMapDesc cube;
     const tinygltf::Value& sharpest = light.Get("specularImages").Get(0);

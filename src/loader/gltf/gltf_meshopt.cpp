@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr const char* kExtension = "EXT_meshopt_compression";
+constexpr const char* kMeshopt = "EXT_meshopt_compression";
 
 /// Most bytes that all views of a file may become.
 constexpr std::uint64_t kMaxDecoded = std::uint64_t{1} << 33;
@@ -96,8 +96,8 @@ CompressedView find_view(const Json& extension, const GltfBuffers& buffers) {
 }  // namespace
 
 bool is_meshopt_fallback(const Json& buffer) {
-    return buffer.contains("extensions") && buffer["extensions"].contains(kExtension) &&
-           buffer["extensions"][kExtension].value("fallback", false) && !buffer.contains("uri");
+    return buffer.contains("extensions") && buffer["extensions"].contains(kMeshopt) &&
+           buffer["extensions"][kMeshopt].value("fallback", false) && !buffer.contains("uri");
 }
 
 void expand_meshopt_views(Json& document, GltfBuffers& buffers, const SourceLocation& file, ProblemList& problems) {
@@ -106,11 +106,11 @@ void expand_meshopt_views(Json& document, GltfBuffers& buffers, const SourceLoca
     std::uint64_t total = 0;
     for (std::size_t i = 0; i < views.size(); ++i) {
         Json& view = views[i];
-        if (!view.contains("extensions") || !view["extensions"].contains(kExtension)) continue;
+        if (!view.contains("extensions") || !view["extensions"].contains(kMeshopt)) continue;
         const SourceLocation where{file.file,
-                                   child_pointer(child_pointer("/bufferViews", i), "extensions") + "/" + kExtension};
+                                   child_pointer(child_pointer("/bufferViews", i), "extensions") + "/" + kMeshopt};
         try {
-            const CompressedView compressed = find_view(view["extensions"][kExtension], buffers);
+            const CompressedView compressed = find_view(view["extensions"][kMeshopt], buffers);
             const std::string fault = find_fault(compressed);
             if (!fault.empty()) throw IoError(fault);
             total += compressed.decoded_size();

@@ -38,7 +38,7 @@ constexpr std::array<std::pair<std::string_view, PixelFilterType>, 4> kFilters{{
     {"gaussian", PixelFilterType::Gaussian},
     {"mitchell", PixelFilterType::Mitchell},
 }};
-constexpr std::array<std::pair<std::string_view, CameraType>, 2> kCameraTypes{{
+constexpr std::array<std::pair<std::string_view, CameraType>, 2> kNamedCameraTypes{{
     {"perspective", CameraType::Perspective},
     {"orthographic", CameraType::Orthographic},
 }};
@@ -127,7 +127,7 @@ CameraDesc read_camera(const Json& value, const SourceLocation& where, ProblemLi
     camera.location = where;
     JsonObject object(value, where, problems);
     object.text("name", camera.name);
-    object.choice("type", kCameraTypes, camera.type);
+    object.choice("type", kNamedCameraTypes, camera.type);
     Vec3f position(0.0f);
     Vec3f look_at(0.0f);
     Vec3f up(0.0f, 1.0f, 0.0f);

@@ -3,16 +3,9 @@
 #include "integrator/agreement_render.h"
 
 #include <atomic>
-#include <stdexcept>
 #include <utility>
 
 namespace etendue::test {
-
-const AgreementCase& agreement_case(const std::string& name) {
-    for (const AgreementCase& agreement : agreement_cases())
-        if (agreement.name == name) return agreement;
-    throw std::invalid_argument("no room is named " + name);
-}
 
 AovSet expression_layers(const AgreementCase& agreement, const std::vector<std::string>& expressions) {
     const SceneDesc scene = agreement_scene(agreement);

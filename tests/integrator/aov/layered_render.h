@@ -13,9 +13,6 @@
 
 namespace etendue::test {
 
-/// The room of this name.
-[[nodiscard]] const AgreementCase& agreement_case(const std::string& name);
-
 /// Light layers of these expressions.
 [[nodiscard]] AovSet expression_layers(const AgreementCase& agreement, const std::vector<std::string>& expressions);
 

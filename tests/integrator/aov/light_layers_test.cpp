@@ -19,17 +19,8 @@ namespace etendue::test {
 
 namespace {
 
-struct Room {
-    std::string name;
-    std::string integrator;
-};
-
-void PrintTo(const Room& room, std::ostream* out) {
-    *out << room.integrator << " " << room.name;
-}
-
-std::vector<Room> rooms_of_all_kinds() {
-    std::vector<Room> rooms;
+std::vector<RoomRun> rooms_of_all_kinds() {
+    std::vector<RoomRun> rooms;
     for (const char* name : {"LampPlastic", "LampLayers", "LampRoughGlass", "LampPrism", "LampWax", "SheetAndLeaf",
                              "VisibleEnvironment", "SunRoughGlass", "SmoothCoat", "SmoothGlass", "LampInFog"})
         for (const std::string& integrator : agreement_case(name).integrators) rooms.push_back({name, integrator});
@@ -42,7 +33,7 @@ std::vector<Room> rooms_of_all_kinds() {
     return rooms;
 }
 
-class LightLayers : public testing::TestWithParam<Room> {
+class LightLayers : public testing::TestWithParam<RoomRun> {
   protected:
     AgreementCase room_ = [] {
         AgreementCase room = agreement_case(GetParam().name);

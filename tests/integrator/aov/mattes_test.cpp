@@ -21,8 +21,8 @@ namespace etendue::test {
 namespace {
 
 /// Odd, so that the middle pixel lies around the axis.
-constexpr int kSide = 9;
-constexpr std::size_t kMiddle = kSide * kSide / 2;
+constexpr int kMatteSide = 9;
+constexpr std::size_t kMiddle = kMatteSide * kMatteSide / 2;
 constexpr float kDistance = 2.0f;
 constexpr std::uint32_t kSpp = 1024;
 /// Of the mean of as many independent samples that are 0 or 1; Sobol's are better.
@@ -44,7 +44,7 @@ std::shared_ptr<const AovSet> object_mattes(std::size_t objects) {
 }
 
 RenderOptions box_filtered(std::uint32_t spp) {
-    RenderOptions options = whole_image(kSide, kSide, spp, 3);
+    RenderOptions options = whole_image(kMatteSide, kMatteSide, spp, 3);
     options.filter = PixelFilter(FilterShape::Box);
     return options;
 }
@@ -71,8 +71,8 @@ Coverages coverages(SceneDesc scene, const std::string& integrator, const Render
 
 SceneDesc square_scene() {
     SceneDesc scene = empty_scene();
-    scene.settings.film.width = kSide;
-    scene.settings.film.height = kSide;
+    scene.settings.film.width = kMatteSide;
+    scene.settings.film.height = kMatteSide;
     scene.environment.enabled = true;
     scene.environment.color = Rgb(1.0f);
     scene.environment.visible_to_camera = false;
@@ -81,7 +81,7 @@ SceneDesc square_scene() {
 
 /// Metres of a pixel at kDistance.
 float pixel_size(const SceneDesc& scene) {
-    return 2.0f * std::tan(0.5f * scene.cameras.front().yfov) * kDistance / kSide;
+    return 2.0f * std::tan(0.5f * scene.cameras.front().yfov) * kDistance / kMatteSide;
 }
 
 /// What lies to the right of `x` at `distance` before the camera.
@@ -99,9 +99,9 @@ TEST_P(Mattes, OfAnEdgeAreTheAreasOnItsSides) {
     add_object(scene, quad({edge - 50, 0, -kDistance}, {50, 0, 0}, {0, 50, 0}),
                add_material(scene, diffuse(Rgb(0.2f))));
     const Coverages found = coverages(std::move(scene), GetParam(), box_filtered(kSpp));
-    for (std::size_t p = 0; p < kSide * kSide; ++p) {
-        const std::size_t column = p % kSide;
-        const double right = column == kSide / 2 ? 0.3 : column > kSide / 2 ? 1.0 : 0.0;
+    for (std::size_t p = 0; p < kMatteSide * kMatteSide; ++p) {
+        const std::size_t column = p % kMatteSide;
+        const double right = column == kMatteSide / 2 ? 0.3 : column > kMatteSide / 2 ? 1.0 : 0.0;
         EXPECT_NEAR(found.of[1][p], right, 2e-3) << p;
         EXPECT_NEAR(found.of[1][p] + found.of[2][p], 1.0, 1e-6) << p;
     }
@@ -115,7 +115,7 @@ TEST_P(Mattes, OfACardOfHalfAlphaAndOfTheWallBehindItAreHalves) {
     add_object(scene, right_half(-50.0f), add_material(scene, card));
     add_object(scene, right_half(-50.0f, 3.0f), add_material(scene, diffuse(Rgb(0.5f))));
     const Coverages found = coverages(std::move(scene), GetParam(), box_filtered(kSpp));
-    for (std::size_t p = 0; p < kSide * kSide; ++p) {
+    for (std::size_t p = 0; p < kMatteSide * kMatteSide; ++p) {
         EXPECT_NEAR(found.of[1][p], 0.5, kFourDeviations) << p;
         EXPECT_NEAR(found.of[1][p] + found.of[2][p], 1.0, 1e-6) << p;
     }
@@ -128,7 +128,7 @@ TEST_P(Mattes, OfWhatMovesAreItsSharesOfTheTime) {
     scene.instances.back().motion = {translation({-1, 0, 0}), translation({3, 0, 0})};
     const Coverages found = coverages(std::move(scene), GetParam(), box_filtered(kSpp));
     EXPECT_NEAR(found.of[1][kMiddle], 0.25, 4e-3);
-    for (std::size_t p = 0; p < kSide * kSide; ++p)
+    for (std::size_t p = 0; p < kMatteSide * kMatteSide; ++p)
         EXPECT_NEAR(found.of[1][p], static_cast<double>(found.image[4 * p + 3]), 1e-6) << p;
 }
 
@@ -149,17 +149,17 @@ TEST_P(Mattes, OfWhatIsOutOfFocusAreItsSharesOfTheLens) {
     const auto radius = static_cast<double>(camera.lens_radius);
     const Coverages found = coverages(std::move(scene), GetParam(), box_filtered(kSpp));
     int blurred = 0;
-    for (std::size_t column = 0; column < kSide; ++column) {
+    for (std::size_t column = 0; column < kMatteSide; ++column) {
         double expected = 0.0;
         constexpr int kSteps = 100;
         for (int i = 0; i < kSteps; ++i) {
-            const double x = (static_cast<double>(column) + (i + 0.5) / kSteps - 0.5 * kSide) * size;
+            const double x = (static_cast<double>(column) + (i + 0.5) / kSteps - 0.5 * kMatteSide) * size;
             expected += disc_share(2.0 * x / radius) / kSteps;
         }
         blurred += expected > 0.02 && expected < 0.98 ? 1 : 0;
         double mean = 0.0;
-        for (std::size_t row = 0; row < kSide; ++row) mean += found.of[1][row * kSide + column] / kSide;
-        EXPECT_NEAR(mean, expected, kFourDeviations / std::sqrt(kSide)) << column;
+        for (std::size_t row = 0; row < kMatteSide; ++row) mean += found.of[1][row * kMatteSide + column] / kMatteSide;
+        EXPECT_NEAR(mean, expected, kFourDeviations / std::sqrt(kMatteSide)) << column;
     }
     EXPECT_GE(blurred, 5);
 }
@@ -197,13 +197,13 @@ TEST(MattesOfEmptyBackgrounds, AddUpToAlpha) {
         options.filter = PixelFilter(shape);
         const Coverages found = coverages(cluttered_scene(), "path", options);
         double all = 0.0;
-        for (std::size_t p = 0; p < kSide * kSide; ++p) {
+        for (std::size_t p = 0; p < kMatteSide * kMatteSide; ++p) {
             const double sum = found.of[1][p] + found.of[2][p] + found.of[3][p];
             EXPECT_NEAR(sum, static_cast<double>(found.image[4 * p + 3]), 1e-6);
             all += sum;
         }
-        EXPECT_GT(all, 0.1 * kSide * kSide);
-        EXPECT_LT(all, 0.9 * kSide * kSide);
+        EXPECT_GT(all, 0.1 * kMatteSide * kMatteSide);
+        EXPECT_LT(all, 0.9 * kMatteSide * kMatteSide);
     }
 }
 
@@ -232,7 +232,7 @@ TEST(MattesOfDroppedSamples, AreDroppedToo) {
         const std::vector<float> ranked = rendered.film.resolve_matte(0, 1);
         const std::vector<float> numbers = rendered.film.resolve_values(0, 1);
         const std::vector<float> depths = rendered.film.resolve_nearest(0, 1, -1.0f);
-        for (std::size_t p = 0; p < kSide * kSide; ++p) {
+        for (std::size_t p = 0; p < kMatteSide * kMatteSide; ++p) {
             EXPECT_NEAR(ranked[2 * p + 1], image[4 * p + 3], 1e-6f) << integrator << p;
             EXPECT_NEAR(numbers[p], image[4 * p + 3], 1e-6f) << "the wall is object 1";
             EXPECT_EQ(depths[p] > 0.0f, image[4 * p + 3] > 0.0f);
@@ -256,9 +256,9 @@ TEST(MattesOfMaterials, AreByTheMaterialOfThePrimitive) {
     const std::atomic<bool> stop{false};
     const std::vector<float> ranked =
         render(world, *make_integrator("path", {}), options, threads, stop, {}).film.resolve_matte(0, 1);
-    for (std::size_t p = 0; p < kSide * kSide; ++p)
-        if (p % kSide != kSide / 2) {
-            EXPECT_EQ(ranked[2 * p], p % kSide > kSide / 2 ? 3.0f : 5.0f);
+    for (std::size_t p = 0; p < kMatteSide * kMatteSide; ++p)
+        if (p % kMatteSide != kMatteSide / 2) {
+            EXPECT_EQ(ranked[2 * p], p % kMatteSide > kMatteSide / 2 ? 3.0f : 5.0f);
             EXPECT_EQ(ranked[2 * p + 1], 1.0f);
         }
 }

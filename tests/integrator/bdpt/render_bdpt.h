@@ -17,13 +17,6 @@
 
 namespace etendue::test {
 
-[[nodiscard]] inline const AgreementCase& agreement_case(std::string_view name) {
-    for (const AgreementCase& agreement : agreement_cases())
-        if (agreement.name == name) return agreement;
-    ADD_FAILURE() << "no such room: " << name;
-    return agreement_cases().front();
-}
-
 /// Of the agreement cases' size; all `threads` (0: of the machine) make the same.
 [[nodiscard]] inline std::vector<float> render_bdpt(const World& world, const BdptOptions& options, std::uint32_t spp,
                                                     std::uint32_t seed, int threads = 0) {

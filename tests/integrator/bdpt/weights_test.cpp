@@ -19,7 +19,7 @@ namespace etendue::test {
 
 namespace {
 
-constexpr PixelRect kAll{0, 0, kAgreementWidth, kAgreementHeight};
+constexpr PixelRect kWholeImage{0, 0, kAgreementWidth, kAgreementHeight};
 /// A quarter of the pixels.
 constexpr PixelRect kCrop{18, 20, 50, 44};
 constexpr double kPixelsOverThoseOfTheCrop = 4.0;
@@ -37,7 +37,7 @@ TEST_P(BdptWeights, RecursionSaysWhatTheDefinitionSays) {
     constexpr std::size_t kPaths = 100'000;
     const World world = agreement_world(GetParam());
     const PixelFilter filter(FilterShape::Box);
-    const TileJob jobs[] = {job_of(kAll, 0, filter), job_of(kCrop, 0, filter)};
+    const TileJob jobs[] = {job_of(kWholeImage, 0, filter), job_of(kCrop, 0, filter)};
     for (const Heuristic heuristic : {Heuristic::Power, Heuristic::Balance})
         EXPECT_GE(expect_right_weights(world, GetParam().lengths, heuristic, jobs, kPaths / 2, kShortEdge), 4u);
 }
@@ -75,7 +75,7 @@ TEST(BdptWeightsOfACrop, CountItsCameraSamples) {
     const AgreementCase& room = agreement_case("LampPlastic");
     const World world = agreement_world(room);
     const PixelFilter filter(FilterShape::Box);
-    const TileJob whole = job_of(kAll, 0, filter);
+    const TileJob whole = job_of(kWholeImage, 0, filter);
     CropObserver observer(world, whole, room.lengths);
     BdptOptions options{.lengths = room.lengths, .heuristic = Heuristic::Balance};
     options.observer = &observer;

@@ -21,19 +21,10 @@ namespace etendue::test {
 
 namespace {
 
-constexpr std::uint32_t kSeed = 3;
+constexpr std::uint32_t kBrightestSeed = 3;
 constexpr std::size_t kCount = 12;
 
-struct Room {
-    std::string name;
-    std::string integrator;
-};
-
-void PrintTo(const Room& room, std::ostream* out) {
-    *out << room.integrator << " " << room.name;
-}
-
-class Brightest : public testing::TestWithParam<Room> {
+class Brightest : public testing::TestWithParam<RoomRun> {
   protected:
     AgreementCase room_ = [] {
         AgreementCase room = agreement_case(GetParam().name);
@@ -45,7 +36,7 @@ class Brightest : public testing::TestWithParam<Room> {
 
     [[nodiscard]] RenderOptions options() const {
         RenderOptions result = render_options(room_);
-        result.seed = kSeed;
+        result.seed = kBrightestSeed;
         result.brightest = kCount;
         return result;
     }
@@ -70,7 +61,7 @@ using FoundByPixel = std::map<std::pair<int, int>, Found>;
 TEST_P(Brightest, AreTheBrightestOfAllContributions) {
     const PixelRect window = room_.window;
     FoundByPixel all;
-    spell_all(world_, GetParam().integrator, room_, kSeed,
+    spell_all(world_, GetParam().integrator, room_, kBrightestSeed,
               [&](const SpelledContribution& found, int x, int y, std::uint32_t sample) {
                   if (found.kind == LightKind::Seen) return;
                   if (found.position) {
@@ -141,7 +132,7 @@ TEST_P(Brightest, HavePathsThatAreExpressions) {
     for (const BrightSample& sample : list(2)) {
         const std::string word = sample.word.data();
         const auto aovs = std::make_shared<AovSet>(expression_layers(room_, {word}));
-        const Film film = render_layers(world_, GetParam().integrator, room_, aovs, kSeed).film;
+        const Film film = render_layers(world_, GetParam().integrator, room_, aovs, kBrightestSeed).film;
         const std::vector<float> layer = film.resolve_light(0);
         const std::size_t pixel =
             static_cast<std::size_t>(sample.y - room_.window.y0) * static_cast<std::size_t>(room_.window.width()) +
@@ -151,10 +142,10 @@ TEST_P(Brightest, HavePathsThatAreExpressions) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Rooms, Brightest,
-                         testing::Values(Room{"CausticCrop", "path"}, Room{"CausticCrop", "light"},
-                                         Room{"CausticCrop", "bdpt"}, Room{"SmoothGlass", "path"},
-                                         Room{"SmoothGlass", "bdpt"}, Room{"LampInFog", "bdpt"},
-                                         Room{"PointPlastic", "bdpt"}),
+                         testing::Values(RoomRun{"CausticCrop", "path"}, RoomRun{"CausticCrop", "light"},
+                                         RoomRun{"CausticCrop", "bdpt"}, RoomRun{"SmoothGlass", "path"},
+                                         RoomRun{"SmoothGlass", "bdpt"}, RoomRun{"LampInFog", "bdpt"},
+                                         RoomRun{"PointPlastic", "bdpt"}),
                          [](const auto& each) { return each.param.integrator + "_" + each.param.name; });
 
 /// A glass ball on a floor under a lamp of 16 cm.

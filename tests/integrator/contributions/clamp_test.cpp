@@ -18,26 +18,17 @@ namespace etendue::test {
 namespace {
 
 constexpr float kNoLimit = std::numeric_limits<float>::infinity();
-constexpr std::uint32_t kSeed = 3;
+constexpr std::uint32_t kClampSeed = 3;
 
-struct Room {
-    std::string name;
-    std::string integrator;
-};
-
-void PrintTo(const Room& room, std::ostream* out) {
-    *out << room.integrator << " " << room.name;
-}
-
-std::vector<Room> rooms() {
-    std::vector<Room> result;
+std::vector<RoomRun> rooms() {
+    std::vector<RoomRun> result;
     for (const char* name : {"LampPlastic", "LampRoughGlass", "CausticCrop", "SmoothGlass", "SmoothCoat", "LampInFog"})
         for (const std::string& integrator : agreement_case(name).integrators) result.push_back({name, integrator});
     result.push_back({"SmoothGlass", "naive"});
     return result;
 }
 
-class ClampIndirect : public testing::TestWithParam<Room> {
+class ClampIndirect : public testing::TestWithParam<RoomRun> {
   protected:
     AgreementCase room_ = [] {
         AgreementCase room = agreement_case(GetParam().name);
@@ -50,7 +41,7 @@ class ClampIndirect : public testing::TestWithParam<Room> {
         const ThreadPool threads;
         const std::atomic<bool> stop{false};
         RenderOptions options = render_options(room_);
-        options.seed = kSeed;
+        options.seed = kClampSeed;
         options.aovs = aovs;
         options.clamp_indirect = limit;
         const auto integrator = make_integrator(GetParam().integrator, {.lengths = room_.lengths});
@@ -103,7 +94,7 @@ TEST_P(ClampIndirect, SumsWhatEveryContributionIsLimitedTo) {
     constexpr float kLimit = 0.05f;
     double expected = 0.0;
     double unlimited = 0.0;
-    spell_all(world_, GetParam().integrator, room_, kSeed,
+    spell_all(world_, GetParam().integrator, room_, kClampSeed,
               [&](const SpelledContribution& found, int, int, std::uint32_t) {
                   if (found.position) return;
                   const float most = max_component(found.value);
@@ -125,7 +116,7 @@ TEST_P(ClampIndirect, IsOfThePathsThatTheDocumentationSays) {
     const std::regex seen("C [OBL]");
     std::size_t indirect = 0;
     std::size_t all = 0;
-    spell_all(world_, GetParam().integrator, room_, kSeed,
+    spell_all(world_, GetParam().integrator, room_, kClampSeed,
               [&](const SpelledContribution& found, int, int, std::uint32_t) {
                   ASSERT_TRUE(found.path);
                   const bool is_indirect = found.kind == LightKind::Indirect;

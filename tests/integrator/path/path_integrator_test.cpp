@@ -27,7 +27,7 @@ SceneDesc with_environment(float radiance) {
 }
 
 /// The camera sits inside a sphere that emits `radiance` and reflects `albedo`: every further bounce adds the same.
-SceneDesc furnace(float radiance, float albedo) {
+SceneDesc glowing_sphere(float radiance, float albedo) {
     SceneDesc scene = empty_scene();
     MaterialDesc wall = diffuse(Rgb(albedo));
     wall.emissive = Rgb(radiance);
@@ -40,7 +40,7 @@ SceneDesc furnace(float radiance, float albedo) {
 
 TEST(PathIntegrator, DepthCountsEdges) {
     // A closed furnace with emission E and albedo a: n edges bring E (1 + a + ... + a^(n-1)).
-    const World world = compile(furnace(0.5f, 0.5f));
+    const World world = compile(glowing_sphere(0.5f, 0.5f));
     double expected = 0.0;
     for (int depth = 1; depth <= 4; ++depth) {
         expected += 0.5 * std::pow(0.5, depth - 1);
@@ -54,7 +54,7 @@ TEST(PathIntegrator, DepthCountsEdges) {
 }
 
 TEST(PathIntegrator, RouletteDoesNotChangeTheMean) {
-    const World world = compile(furnace(0.5f, 0.5f));
+    const World world = compile(glowing_sphere(0.5f, 0.5f));
     for (const int roulette_depth : {1, 5}) {
         const TileResult result = render_tile(world, path_of(64, 1, true, roulette_depth), 512);
         EXPECT_NEAR(result.mean.g, 1.0, 5.0 * result.error + 3e-3);

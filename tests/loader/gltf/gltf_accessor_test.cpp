@@ -12,16 +12,11 @@ namespace {
 
 const std::vector<float> kTriangle{0, 0, 0, 1, 0, 0, 0, 1, 0};
 
-const PrimitiveDesc& only_primitive(const LoadedScene& loaded) {
-    EXPECT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
-    return loaded.scene.meshes.at(0).primitives.at(0);
-}
-
 template <typename T>
 void expect_indices(int component_type) {
     GltfBuilder builder;
     builder.add_triangle()["indices"] = builder.accessor(std::vector<T>{2, 0, 1}, "SCALAR", component_type, 3);
-    EXPECT_EQ(only_primitive(builder.load()).triangles.at(0), (std::array<std::uint32_t, 3>{2, 0, 1}));
+    EXPECT_EQ(first_primitive(builder.load()).triangles.at(0), (std::array<std::uint32_t, 3>{2, 0, 1}));
 }
 
 TEST(Accessor, IndicesOfEveryType) {
@@ -38,7 +33,7 @@ TEST(Accessor, TexcoordsOfEveryType) {
     primitive["attributes"]["TEXCOORD_0"] = builder.accessor(bytes, "VEC2", 5121, 3, true);
     primitive["attributes"]["TEXCOORD_1"] = builder.accessor(shorts, "VEC2", 5123, 3, true);
     const LoadedScene loaded = builder.load();
-    const PrimitiveDesc& p = only_primitive(loaded);
+    const PrimitiveDesc& p = first_primitive(loaded);
     EXPECT_EQ(p.uv0[0], Vec2f(0, 1));
     EXPECT_FLOAT_EQ(p.uv0[1].x, 0.2f);
     EXPECT_EQ(p.uv1[0], Vec2f(1, 0));
@@ -49,13 +44,13 @@ TEST(Accessor, ColorsOfThreeOrFourComponents) {
     GltfBuilder rgb;
     rgb.add_triangle()["attributes"]["COLOR_0"] =
         rgb.accessor(std::vector<std::uint16_t>{65535, 0, 0, 0, 65535, 0, 0, 0, 0}, "VEC3", 5123, 3, true);
-    EXPECT_EQ(only_primitive(rgb.load()).colors[1], Vec4f(0, 1, 0, 1));
+    EXPECT_EQ(first_primitive(rgb.load()).colors[1], Vec4f(0, 1, 0, 1));
 
     GltfBuilder rgba;
     rgba.add_triangle()["attributes"]["COLOR_0"] = rgba.floats({0, 0, 0, 0.5f, 1, 2, 3, 1, 0, 0, 0, 0}, 4);
     const LoadedScene loaded = rgba.load();
-    EXPECT_EQ(only_primitive(loaded).colors[0].w, 0.5f);
-    EXPECT_EQ(only_primitive(loaded).colors[1], Vec4f(1, 2, 3, 1));
+    EXPECT_EQ(first_primitive(loaded).colors[0].w, 0.5f);
+    EXPECT_EQ(first_primitive(loaded).colors[1], Vec4f(1, 2, 3, 1));
 }
 
 TEST(Accessor, InterleavedWithOffsets) {
@@ -73,8 +68,8 @@ TEST(Accessor, InterleavedWithOffsets) {
     builder.json["accessors"][std::size_t(normal)]["byteOffset"] = 12;
     builder.add_mesh({{"POSITION", position}, {"NORMAL", normal}});
     const LoadedScene loaded = builder.load();
-    EXPECT_EQ(only_primitive(loaded).positions[2], Vec3f(0, 1, 0));
-    EXPECT_EQ(only_primitive(loaded).normals[2], Vec3f(0, 0, -1));  // and normalised
+    EXPECT_EQ(first_primitive(loaded).positions[2], Vec3f(0, 1, 0));
+    EXPECT_EQ(first_primitive(loaded).normals[2], Vec3f(0, 0, -1));  // and normalised
 }
 
 TEST(Accessor, LastElementMayEndWithTheView) {
@@ -82,7 +77,7 @@ TEST(Accessor, LastElementMayEndWithTheView) {
     // Stride 16, but the last element has only its own 12 bytes.
     const std::vector<float> vertices{0, 0, 0, 9, 1, 0, 0, 9, 0, 1, 0};
     builder.add_mesh({{"POSITION", builder.accessor_of_view(builder.view(vertices, 16), "VEC3", 5126, 3)}});
-    EXPECT_EQ(only_primitive(builder.load()).positions[2], Vec3f(0, 1, 0));
+    EXPECT_EQ(first_primitive(builder.load()).positions[2], Vec3f(0, 1, 0));
 }
 
 GltfBuilder sparse_triangle(bool with_base) {
@@ -99,13 +94,13 @@ GltfBuilder sparse_triangle(bool with_base) {
 
 TEST(Accessor, SparseOverABase) {
     const LoadedScene loaded = sparse_triangle(true).load();
-    EXPECT_EQ(only_primitive(loaded).positions[0], Vec3f(0, 0, 0));
-    EXPECT_EQ(only_primitive(loaded).positions[1], Vec3f(5, 0, 0));
-    EXPECT_EQ(only_primitive(loaded).positions[2], Vec3f(0, 6, 0));
+    EXPECT_EQ(first_primitive(loaded).positions[0], Vec3f(0, 0, 0));
+    EXPECT_EQ(first_primitive(loaded).positions[1], Vec3f(5, 0, 0));
+    EXPECT_EQ(first_primitive(loaded).positions[2], Vec3f(0, 6, 0));
 }
 
 TEST(Accessor, SparseOverZeros) {
-    EXPECT_EQ(only_primitive(sparse_triangle(false).load()).positions[2], Vec3f(0, 6, 0));
+    EXPECT_EQ(first_primitive(sparse_triangle(false).load()).positions[2], Vec3f(0, 6, 0));
 }
 
 TEST(Accessor, IndicesMayBeSparseOverZeros) {
@@ -120,7 +115,7 @@ TEST(Accessor, IndicesMayBeSparseOverZeros) {
         {"values", {{"bufferView", builder.view(std::vector<std::uint32_t>{1, 2})}}}};
     const LoadedScene loaded = builder.load();
     EXPECT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
-    EXPECT_EQ(only_primitive(loaded).triangles.at(0), (std::array<std::uint32_t, 3>{1, 2, 0}));
+    EXPECT_EQ(first_primitive(loaded).triangles.at(0), (std::array<std::uint32_t, 3>{1, 2, 0}));
 }
 
 TEST(Accessor, WithoutViewIsZeros) {
@@ -128,7 +123,7 @@ TEST(Accessor, WithoutViewIsZeros) {
     nlohmann::json& primitive = builder.add_triangle();
     builder.json["accessors"].push_back({{"type", "VEC2"}, {"componentType", 5126}, {"count", 3}});
     primitive["attributes"]["TEXCOORD_0"] = 1;
-    EXPECT_EQ(only_primitive(builder.load()).uv0[1], Vec2f(0, 0));
+    EXPECT_EQ(first_primitive(builder.load()).uv0[1], Vec2f(0, 0));
 }
 
 struct BadAccessor {
@@ -219,7 +214,7 @@ TEST(Accessor, IntegersMayBeWrittenAsFloats) {
     GltfBuilder builder;
     builder.add_triangle();
     positions(builder)["count"] = 3.0;
-    EXPECT_EQ(only_primitive(builder.load()).positions.size(), 3u);
+    EXPECT_EQ(first_primitive(builder.load()).positions.size(), 3u);
 }
 
 TEST(Accessor, SharingTheSameBytesWithoutEndIsAnError) {

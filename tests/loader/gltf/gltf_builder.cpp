@@ -4,6 +4,8 @@
 #include <fstream>
 #include <stdexcept>
 
+#include <gtest/gtest.h>
+
 namespace etendue {
 
 TempDir::TempDir() {
@@ -153,6 +155,11 @@ std::string listing(const ProblemList& problems) {
     std::string result;
     for (const Problem& problem : problems.all()) result += problem.str() + "\n";
     return result;
+}
+
+const PrimitiveDesc& first_primitive(const LoadedScene& loaded) {
+    EXPECT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
+    return loaded.scene.meshes.at(0).primitives.at(0);
 }
 
 }  // namespace etendue

@@ -91,4 +91,7 @@ class GltfBuilder {
 /// All problems, one a line, for failure messages.
 [[nodiscard]] std::string listing(const ProblemList& problems);
 
+/// The first of what must have been loaded without errors.
+[[nodiscard]] const PrimitiveDesc& first_primitive(const LoadedScene& loaded);
+
 }  // namespace etendue

@@ -43,7 +43,7 @@ int compressed_view(GltfBuilder& builder, const Bytes& compressed, std::size_t c
 }
 
 /// Two triangles whose positions and indices are compressed.
-GltfBuilder compressed_mesh() {
+GltfBuilder meshopt_mesh() {
     GltfBuilder builder;
     const int positions = compressed_view(builder, encode_vertices(kPositions.data(), 4, 12), 4, 12, "ATTRIBUTES");
     const int indices = compressed_view(builder, encode_triangles(kIndices), 6, 4, "TRIANGLES");
@@ -62,7 +62,7 @@ nlohmann::json& extension(GltfBuilder& builder, std::size_t compressed) {
 }
 
 TEST(Meshopt, PositionsAndIndicesComeOutAsTheyWentIn) {
-    const LoadedScene loaded = compressed_mesh().load();
+    const LoadedScene loaded = meshopt_mesh().load();
     ASSERT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
     const PrimitiveDesc& p = loaded.scene.meshes.at(0).primitives.at(0);
     ASSERT_EQ(p.positions.size(), 4u);
@@ -76,7 +76,7 @@ TEST(Meshopt, PositionsAndIndicesComeOutAsTheyWentIn) {
 }
 
 TEST(Meshopt, FiltersAreApplied) {
-    GltfBuilder builder = compressed_mesh();
+    GltfBuilder builder = meshopt_mesh();
     // Octahedral normals of eight bits: x, y, one, padding. (0, 0) is +z, (127, 0) is +x.
     const std::vector<std::int8_t> octahedral{0, 0, 127, 0, 127, 0, 127, 0, 0, 127, 127, 0, 0, 0, 127, 0};
     const int normals =
@@ -117,7 +117,7 @@ const BadView kBadViews[] = {
 class BadMeshopt : public testing::TestWithParam<BadView> {};
 
 TEST_P(BadMeshopt, IsAnError) {
-    GltfBuilder builder = compressed_mesh();
+    GltfBuilder builder = meshopt_mesh();
     GetParam().spoil(builder);
     const LoadedScene loaded = builder.load();
     EXPECT_TRUE(has_problem(loaded.problems, Severity::Error, GetParam().message)) << listing(loaded.problems);
@@ -126,7 +126,7 @@ TEST_P(BadMeshopt, IsAnError) {
 INSTANTIATE_TEST_SUITE_P(Meshopt, BadMeshopt, testing::ValuesIn(kBadViews), [](const auto& i) { return i.param.name; });
 
 TEST(Meshopt, PlainViewsOfTheFallbackBufferAreOutside) {
-    GltfBuilder builder = compressed_mesh();
+    GltfBuilder builder = meshopt_mesh();
     builder.json["bufferViews"][1].erase("extensions");
     EXPECT_TRUE(has_problem(builder.load().problems, Severity::Error, "but buffer 1 has 1"));
 }

@@ -33,7 +33,7 @@ LoadOptions shutter(double time, double open, double close) {
     return options;
 }
 
-Vec3f origin(const Mat4f& m) {
+Vec3f origin_after(const Mat4f& m) {
     return transform_point(m, Vec3f(0.0f));
 }
 
@@ -42,13 +42,13 @@ TEST(GltfMotion, StraightMotionHasTwoSteps) {
     ASSERT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
     const InstanceDesc& moving = loaded.scene.instances.at(0);
     ASSERT_EQ(moving.motion.size(), 2u);
-    EXPECT_EQ(origin(moving.motion[0]), Vec3f(2, 0, 0));
-    EXPECT_EQ(origin(moving.motion[1]), Vec3f(3, 0, 0));
-    EXPECT_EQ(origin(moving.to_world), Vec3f(2.5f, 0, 0)) << "in the middle";
+    EXPECT_EQ(origin_after(moving.motion[0]), Vec3f(2, 0, 0));
+    EXPECT_EQ(origin_after(moving.motion[1]), Vec3f(3, 0, 0));
+    EXPECT_EQ(origin_after(moving.to_world), Vec3f(2.5f, 0, 0)) << "in the middle";
     EXPECT_TRUE(loaded.scene.instances.at(1).motion.empty());
     ASSERT_EQ(loaded.scene.cameras.at(0).motion.size(), 2u) << "it hangs on the node";
-    EXPECT_EQ(origin(loaded.scene.cameras[0].motion[1]), Vec3f(3, 0, 0));
-    EXPECT_EQ(origin(loaded.scene.lights.at(0).to_world), Vec3f(2.5f, 0, 0));
+    EXPECT_EQ(origin_after(loaded.scene.cameras[0].motion[1]), Vec3f(3, 0, 0));
+    EXPECT_EQ(origin_after(loaded.scene.lights.at(0).to_world), Vec3f(2.5f, 0, 0));
     EXPECT_TRUE(has_problem(loaded.problems, Severity::Note, "1 punctual lights move"));
 }
 
@@ -57,9 +57,9 @@ TEST(GltfMotion, AKeyInTheShutterTakesMoreSteps) {
     const LoadedScene loaded = sliding().load(shutter(0.0, -0.5, 0.5));
     const TransformMotion& motion = loaded.scene.instances.at(0).motion;
     ASSERT_EQ(motion.size(), 3u);
-    EXPECT_EQ(origin(motion[0]), Vec3f(0.0f));
-    EXPECT_EQ(origin(motion[1]), Vec3f(0.0f));
-    EXPECT_EQ(origin(motion[2]), Vec3f(2, 0, 0));
+    EXPECT_EQ(origin_after(motion[0]), Vec3f(0.0f));
+    EXPECT_EQ(origin_after(motion[1]), Vec3f(0.0f));
+    EXPECT_EQ(origin_after(motion[2]), Vec3f(2, 0, 0));
 }
 
 TEST(GltfMotion, AClosedShutterShowsAMoment) {
@@ -67,7 +67,7 @@ TEST(GltfMotion, AClosedShutterShowsAMoment) {
         const LoadedScene loaded = sliding().load(options);
         EXPECT_TRUE(loaded.scene.instances.at(0).motion.empty());
         EXPECT_TRUE(loaded.scene.cameras.at(0).motion.empty());
-        EXPECT_EQ(origin(loaded.scene.instances.at(0).to_world), Vec3f(2, 0, 0));
+        EXPECT_EQ(origin_after(loaded.scene.instances.at(0).to_world), Vec3f(2, 0, 0));
     }
     EXPECT_TRUE(has_problem(sliding().load(shutter(0.0, 0.5, 0.25)).problems, Severity::Error, "before it opens"));
 }
@@ -97,7 +97,7 @@ TEST(GltfMotion, WheelsStayRound) {
     EXPECT_LT(builder.load(shutter(0.0, 0.0, 0.02)).scene.instances.at(0).motion.size(), 6u) << "as many as it takes";
 }
 
-const PrimitiveDesc& first_primitive(const LoadedScene& loaded) {
+const PrimitiveDesc& first_instanced_primitive(const LoadedScene& loaded) {
     EXPECT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
     const Handle<MeshDesc> mesh = loaded.scene.instances.at(0).mesh;
     return loaded.scene.meshes.at(static_cast<std::size_t>(mesh.index)).primitives.at(0);
@@ -110,14 +110,14 @@ TEST(GltfMotion, MorphTargetsMoveVertices) {
         {{"samplers", {{{"input", builder.floats({0, 1}, 1)}, {"output", builder.floats({0, 1}, 1)}}}},
          {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}}}}}};
     const LoadedScene loaded = builder.load(shutter(0.0, 0.0, 1.0));
-    const PrimitiveDesc& p = first_primitive(loaded);
+    const PrimitiveDesc& p = first_instanced_primitive(loaded);
     ASSERT_EQ(p.motion.size(), 2u);
     EXPECT_EQ(p.motion[0].positions[2], Vec3f(0, 1, 0));
     EXPECT_EQ(p.positions[2], Vec3f(0, 1, 1));
     EXPECT_EQ(p.motion[1].positions[2], Vec3f(0, 1, 2));
     EXPECT_TRUE(p.motion[1].normals.empty()) << "the file has none: triangles are flat at every step";
     EXPECT_TRUE(loaded.scene.instances.at(0).motion.empty());
-    EXPECT_TRUE(first_primitive(builder.load(shutter(3.0, 0.0, 1.0))).motion.empty()) << "after the last key";
+    EXPECT_TRUE(first_instanced_primitive(builder.load(shutter(3.0, 0.0, 1.0))).motion.empty()) << "after the last key";
 }
 
 /// A few lines of JSON can stand for any number of zeros: poses of all of them must not be kept for every step.
@@ -147,7 +147,7 @@ TEST(GltfMotion, SkinsMoveVerticesWithTheirJoints) {
         {{"samplers", {{{"input", builder.floats({0, 1}, 1)}, {"output", builder.floats({0, 0, 0, 0, 8, 0}, 3)}}}},
          {"channels", {{{"sampler", 0}, {"target", {{"node", 2}, {"path", "translation"}}}}}}}};
     const LoadedScene loaded = builder.load(shutter(0.0, 0.25, 0.75));
-    const PrimitiveDesc& p = first_primitive(loaded);
+    const PrimitiveDesc& p = first_instanced_primitive(loaded);
     ASSERT_EQ(p.motion.size(), 2u);
     EXPECT_EQ(p.motion[0].positions[1], Vec3f(1, 0, 0));
     EXPECT_EQ(p.motion[0].positions[2], Vec3f(0, 3, 0));

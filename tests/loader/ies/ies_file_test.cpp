@@ -9,10 +9,10 @@
 namespace etendue {
 namespace {
 
-const SourceLocation kWhere{"lamp.ies", {}};
+const SourceLocation kLamp{"lamp.ies", {}};
 
-IesProfileDesc parse(const std::string& text) {
-    return parse_ies(text, "lamp.ies", kWhere);
+IesProfileDesc parse_lamp(const std::string& text) {
+    return parse_ies(text, "lamp.ies", kLamp);
 }
 
 /// A file of two vertical angles, with one horizontal angle and two values for each entry of `planes`.
@@ -37,7 +37,7 @@ void expect_planes(const IesProfileDesc& profile, const std::vector<std::pair<do
 }
 
 TEST(IesFile, OnePlaneIsTheSameAllAround) {
-    const IesProfileDesc profile = parse(file("0", 1, "7 3"));
+    const IesProfileDesc profile = parse_lamp(file("0", 1, "7 3"));
     expect_planes(profile, {{0, 7}, {360, 7}});
     EXPECT_EQ(profile.candela[1], 3.0f);
     ASSERT_EQ(profile.vertical.size(), 2u);
@@ -48,23 +48,23 @@ TEST(IesFile, OnePlaneIsTheSameAllAround) {
 }
 
 TEST(IesFile, QuartersAreMirroredTwice) {
-    expect_planes(parse(file("0 30 90", 3, "1 0 2 0 3 0")),
+    expect_planes(parse_lamp(file("0 30 90", 3, "1 0 2 0 3 0")),
                   {{0, 1}, {30, 2}, {90, 3}, {150, 2}, {180, 1}, {210, 2}, {270, 3}, {330, 2}, {360, 1}});
 }
 
 TEST(IesFile, HalvesAreMirroredOnce) {
-    expect_planes(parse(file("0 45 180", 3, "1 0 2 0 3 0")), {{0, 1}, {45, 2}, {180, 3}, {315, 2}, {360, 1}});
+    expect_planes(parse_lamp(file("0 45 180", 3, "1 0 2 0 3 0")), {{0, 1}, {45, 2}, {180, 3}, {315, 2}, {360, 1}});
 }
 
 // LM-63-1995 lets type C start at 90 degrees.
 TEST(IesFile, HalvesFromNinetyDegreesAreMirroredAtTheirPlane) {
-    expect_planes(parse(file("90 100 180 240 270", 5, "1 0 2 0 3 0 4 0 5 0", "IESNA:LM-63-1995")),
+    expect_planes(parse_lamp(file("90 100 180 240 270", 5, "1 0 2 0 3 0 4 0 5 0", "IESNA:LM-63-1995")),
                   {{0, 3}, {80, 2}, {90, 1}, {100, 2}, {180, 3}, {240, 4}, {270, 5}, {300, 4}, {360, 3}});
 }
 
 TEST(IesFile, FullCirclesAreClosed) {
-    expect_planes(parse(file("0 120 360", 3, "1 0 2 0 3 0")), {{0, 1}, {120, 2}, {360, 3}});
-    expect_planes(parse(file("0 120 240", 3, "1 0 2 0 3 0")), {{0, 1}, {120, 2}, {240, 3}, {360, 1}});
+    expect_planes(parse_lamp(file("0 120 360", 3, "1 0 2 0 3 0")), {{0, 1}, {120, 2}, {360, 3}});
+    expect_planes(parse_lamp(file("0 120 240", 3, "1 0 2 0 3 0")), {{0, 1}, {120, 2}, {240, 3}, {360, 1}});
 }
 
 TEST(IesFile, FactorsMultiply) {
@@ -72,7 +72,7 @@ TEST(IesFile, FactorsMultiply) {
     const auto peak = [](const std::string& first_line) {
         std::string text = file("0", 1, "10 0", first_line, "2 3");
         text.replace(text.find("1 1000 1 2"), 10, "1 1000 1.5 2");
-        return peak_candela(parse(text));
+        return peak_candela(parse_lamp(text));
     };
     EXPECT_EQ(peak("My lamp, 1986"), 90.0f);
     EXPECT_EQ(peak("IESNA91"), 90.0f);
@@ -82,22 +82,22 @@ TEST(IesFile, FactorsMultiply) {
 }
 
 TEST(IesFile, SeparatorsAndLineEndsMayVary) {
-    const IesProfileDesc expected = parse(file("0 90", 2, "1 2 3 4"));
+    const IesProfileDesc expected = parse_lamp(file("0 90", 2, "1 2 3 4"));
     for (const auto& [from, to] : {std::pair<char, std::string>{'\n', "\r\n"}, {'\n', "\r"}, {' ', ", "}}) {
         std::string text;
         for (const char c : file("0 90", 2, "1 2 3 4")) text += c == from ? to : std::string(1, c);
-        EXPECT_EQ(parse(text).candela, expected.candela) << text;
+        EXPECT_EQ(parse_lamp(text).candela, expected.candela) << text;
     }
-    EXPECT_EQ(parse("\xef\xbb\xbf" + file("0 90", 2, "+1 2.0 3e0 4.")).candela, expected.candela);
-    EXPECT_EQ(parse(file("0 90", 2, "1 2 3 4") + "\x1a").candela, expected.candela);
+    EXPECT_EQ(parse_lamp("\xef\xbb\xbf" + file("0 90", 2, "+1 2.0 3e0 4.")).candela, expected.candela);
+    EXPECT_EQ(parse_lamp(file("0 90", 2, "1 2 3 4") + "\x1a").candela, expected.candela);
 }
 
 TEST(IesFile, TiltDataIsSkipped) {
     std::string text = file("0", 1, "7 3");
     text.replace(text.find("TILT=NONE"), 9, "TILT=INCLUDE\n1\n3\n0 15 30\n1 0.9 0.8");
-    EXPECT_EQ(peak_candela(parse(text)), 7.0f);
+    EXPECT_EQ(peak_candela(parse_lamp(text)), 7.0f);
     text.replace(text.find("TILT=INCLUDE\n1\n3\n0 15 30\n1 0.9 0.8"), 35, "TILT=/etc/passwd\n");
-    EXPECT_EQ(peak_candela(parse(text)), 7.0f);
+    EXPECT_EQ(peak_candela(parse_lamp(text)), 7.0f);
 }
 
 struct BadFile {
@@ -110,7 +110,7 @@ class BadIesFile : public testing::TestWithParam<BadFile> {};
 
 TEST_P(BadIesFile, IsAnErrorWithItsLine) {
     try {
-        (void)parse(GetParam().text);
+        (void)parse_lamp(GetParam().text);
         FAIL() << "was accepted";
     } catch (const SceneError& error) {
         ASSERT_EQ(error.problems().all().size(), 1u);
@@ -168,7 +168,7 @@ TEST(IesFile, EveryPrefixIsRefusedOrWhole) {
     int whole = 0;
     for (std::size_t length = 0; length <= text.size(); ++length) {
         try {
-            EXPECT_EQ(parse(text.substr(0, length)).candela.size(), 18u);
+            EXPECT_EQ(parse_lamp(text.substr(0, length)).candela.size(), 18u);
             ++whole;
         } catch (const SceneError&) {
         }

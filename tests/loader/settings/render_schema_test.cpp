@@ -33,7 +33,7 @@ std::string join(const std::vector<std::string>& lines) {
     return text;
 }
 
-ProblemList parse(const std::string& text) {
+ProblemList problems_of(const std::string& text) {
     const TempDir dir;
     dir.write("render.json", text);
     ProblemList problems;
@@ -250,7 +250,7 @@ TEST(RenderSchema, AcceptsWhatTheParserAccepts) {
     for (const char* text : kGood) {
         const std::vector<std::string> violations = schema_violations(schema(), Json::parse(text));
         EXPECT_TRUE(violations.empty()) << text << "\n" << join(violations);
-        const ProblemList problems = parse(text);
+        const ProblemList problems = problems_of(text);
         EXPECT_TRUE(problems.all().empty()) << text << "\n" << listing(problems);
     }
 }
@@ -258,7 +258,7 @@ TEST(RenderSchema, AcceptsWhatTheParserAccepts) {
 TEST(RenderSchema, RefusesWhatTheParserRefuses) {
     for (const char* text : kBad) {
         EXPECT_FALSE(schema_violations(schema(), Json::parse(text)).empty()) << text;
-        EXPECT_TRUE(parse(text).has_errors()) << text;
+        EXPECT_TRUE(problems_of(text).has_errors()) << text;
     }
 }
 
@@ -311,7 +311,7 @@ TEST(RenderSchema, EverySceneOfTheTreeFollowsIt) {
         const std::string text = read_text(entry.path());
         const std::vector<std::string> violations = schema_violations(schema(), Json::parse(text));
         EXPECT_TRUE(violations.empty()) << entry.path() << "\n" << join(violations);
-        const ProblemList problems = parse(text);
+        const ProblemList problems = problems_of(text);
         EXPECT_TRUE(problems.all().empty()) << entry.path() << "\n" << listing(problems);
     }
     if (found == 0) GTEST_SKIP() << "no render.json in scenes/";
