@@ -38,7 +38,7 @@ Wavelength SpectralResponse::sample(float u) const {
     const auto step = static_cast<std::size_t>(above - cumulative_.begin()) - 1;
     const float width = cumulative_[step + 1] - cumulative_[step];
     const float t = width > 0.0f ? std::clamp((u - cumulative_[step]) / width, 0.0f, 1.0f) : 0.5f;
-    return {kFirstNm + (static_cast<float>(step) + t) * kStepNm, weight_[step]};
+    return {kFirstNm + (static_cast<float>(step) + t) * kStepNm, weight_[step], u};
 }
 
 float dispersed_ior(float ior, float dispersion, float nm) {

@@ -10,6 +10,7 @@
 #include "core/rgb.h"
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 namespace etendue {
@@ -17,6 +18,7 @@ namespace etendue {
 struct Wavelength {
     float nm = 0.0f;   ///< 0: not chosen, all of them
     Rgb weight{1.0f};  ///< response over density; each channel at most 3
+    float u = 0.0f;    ///< the number that it was drawn by, [0, 1)
 };
 
 class SpectralResponse {
@@ -27,29 +29,27 @@ class SpectralResponse {
     /// `u` in [0, 1).
     [[nodiscard]] Wavelength sample(float u) const;
 
-    /// Colour of a share that depends on the wavelength, `share(nm)` in [0, 1].
+    /// Colour of a share that depends on the wavelength, `share(nm)` in [0, 1], from 16 wavelengths: the one that was
+    /// drawn, and one in each other sixteenth of the chances, as far into it (Wilkie et al. 2014, Hero Wavelength
+    /// Spectral Sampling). Its mean over what is drawn is exact.
     template <typename Share>
-    [[nodiscard]] Rgb mean(const Share& share) const {
+    [[nodiscard]] Rgb mean(const Wavelength& drawn, const Share& share) const {
         Rgb color;
-        for (int i = 0; i < kStrata; ++i) {
-            const Wavelength w = sample((static_cast<float>(i) + 0.5f) / kStrata);
-            color += w.weight * share(w.nm);
-        }
+        for_strata(drawn, [&](const Wavelength& w) { color += w.weight * share(w.nm); });
         return color / static_cast<float>(kStrata);
     }
 
-    /// Colour of a share that depends on the wavelength, `share(nm)` in [0, 1], over the chance with which it is met
-    /// when wavelengths are drawn: what a path weighs that goes on as one of all wavelengths.
+    /// The same over the chance with which `share` is met by one of the 16, whichever was drawn: what a path weighs
+    /// that met it by the wavelength `drawn` and goes on as one of all wavelengths.
     template <typename Share>
-    [[nodiscard]] Rgb mean_over_chance(const Share& share) const {
+    [[nodiscard]] Rgb mean_over_chance(const Wavelength& drawn, const Share& share) const {
         Rgb color;
         float chance = 0.0f;
-        for (int i = 0; i < kStrata; ++i) {
-            const Wavelength w = sample((static_cast<float>(i) + 0.5f) / kStrata);
+        for_strata(drawn, [&](const Wavelength& w) {
             const float s = share(w.nm);
             color += w.weight * s;
             chance += s;
-        }
+        });
         return chance > 0.0f ? color / chance : Rgb();
     }
 
@@ -61,6 +61,13 @@ class SpectralResponse {
     static constexpr float kFirstNm = 380.0f;
     static constexpr float kStepNm = 2.0f;
     static constexpr std::size_t kSteps = 200;
+
+    template <typename Use>
+    void for_strata(const Wavelength& drawn, const Use& use) const {
+        const float place = drawn.u * kStrata;
+        const float offset = place - std::floor(place);
+        for (int i = 0; i < kStrata; ++i) use(sample((static_cast<float>(i) + offset) / kStrata));
+    }
 
     // Of each step of the spectrum, within which response and density are constant.
     std::array<Rgb, kSteps> weight_{};

@@ -1,6 +1,8 @@
 #include "bsdf/spectral_response.h"
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 
 #include <gtest/gtest.h>
 
@@ -43,14 +45,36 @@ TEST(SpectralResponse, WavelengthsRiseFromBlueToRed) {
     EXPECT_GT(red.r, red.b);
 }
 
-TEST(SpectralResponse, AShareOfAllWavelengthsHasNoColour) {
+// Whichever wavelength is drawn, the others are drawn with it, and their mean is that of all.
+TEST(SpectralResponse, SharesOfSixteenWavelengthsAreThoseOfAll) {
     const SpectralResponse response;
-    const Rgb color = response.mean_over_chance([](float) { return 0.3f; });
-    EXPECT_NEAR(color.r, 1.0f, 0.05f) << "up to the sixteen wavelengths that it is made of";
-    EXPECT_NEAR(color.g, 1.0f, 0.05f);
-    EXPECT_NEAR(color.b, 1.0f, 0.05f);
-    const Rgb reddish = response.mean_over_chance([](float nm) { return nm > 600.0f ? 1.0f : 0.0f; });
-    EXPECT_GT(reddish.r, 2.0f * reddish.b);
+    const auto flat = [](float) { return 0.3f; };
+    const auto rising = [](float nm) { return (nm - 380.0f) / 400.0f; };
+    const auto red = [](float nm) { return nm > 600.0f ? 1.0f : 0.0f; };
+    constexpr int kSamples = 20'000;
+    const auto compare = [&](const auto& share) {
+        std::array<double, 3> all{};   // of one wavelength each
+        std::array<double, 3> mean{};  // of 16 each
+        std::array<double, 3> met{};   // by chance: what is met, times how often it is
+        const auto add = [](std::array<double, 3>& sum, const Rgb& value) {
+            sum[0] += static_cast<double>(value.r) / kSamples;
+            sum[1] += static_cast<double>(value.g) / kSamples;
+            sum[2] += static_cast<double>(value.b) / kSamples;
+        };
+        for (int i = 0; i < kSamples; ++i) {
+            const Wavelength w = response.sample((static_cast<float>(i) + 0.5f) / kSamples);
+            add(all, w.weight * share(w.nm));
+            add(mean, response.mean(w, share));
+            add(met, response.mean_over_chance(w, share) * share(w.nm));
+        }
+        for (std::size_t c = 0; c < 3; ++c) {
+            EXPECT_NEAR(mean[c], all[c], 5e-4);
+            EXPECT_NEAR(met[c], all[c], 5e-4);
+        }
+    };
+    compare(flat);
+    compare(rising);
+    compare(red);
 }
 
 TEST(DispersedIor, HasTheAbbeNumberAndNeverFallsBelowOne) {

@@ -206,7 +206,7 @@ bool PathWave::scatter_at_surface(const Context& context, std::size_t i, const S
                              : nullptr;
     if (mirror != nullptr && mirror->fresnel.is_bare()) {
         // All wavelengths go where a mirror sends them, each with its own share: the path need not choose.
-        next.state.throughput *= world.spectral_response().mean_over_chance([&](float nm) {
+        next.state.throughput *= world.spectral_response().mean_over_chance(path.wavelength, [&](float nm) {
             const float cos_o = scattering.wo_local().z;
             const float ior = path.crossing->relative_ior(nm);
             return mirror->fresnel(std::min(1.0f, std::abs(cos_o)), cos_o > 0.0f ? ior : 1.0f / ior, cos_o > 0.0f)

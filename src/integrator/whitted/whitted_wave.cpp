@@ -160,7 +160,7 @@ void WhittedWave::scatter(const Context& context, std::size_t i, const SurfacePo
         if (mirror != nullptr && mirror->fresnel.is_bare()) {
             // All wavelengths go where a mirror sends them, each with its own share: the branch need not choose.
             const float cos_o = scattering.wo_local().z;
-            next.throughput *= world.spectral_response().mean([&](float nm) {
+            next.throughput *= world.spectral_response().mean(wavelength, [&](float nm) {
                 const float ior = crossing->relative_ior(nm);
                 return mirror->fresnel(std::min(1.0f, std::abs(cos_o)), cos_o > 0.0f ? ior : 1.0f / ior, cos_o > 0.0f)
                     .reflected.r;
