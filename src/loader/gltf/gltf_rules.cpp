@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <set>
 #include <string>
 
 #include <fmt/format.h>
@@ -30,6 +31,24 @@ class RuleCheck {
         for_each("nodes", [this](const Json& node, const std::string& pointer) { check_node(node, pointer); });
         for_each("meshes", [this](const Json& mesh, const std::string& pointer) { check_mesh(mesh, pointer); });
         for_each("cameras", [this](const Json& camera, const std::string& pointer) { check_camera(camera, pointer); });
+        for_each("accessors", [this](const Json& accessor, const std::string& pointer) {
+            const std::uint64_t size = bytes_of_component(accessor["componentType"].get<int>());
+            const std::uint64_t offset = offset_of(accessor);
+            if (offset % size != 0 || (view_offset_of(accessor) + offset) % size != 0)
+                repairs_.add(Repair::Unaligned, 1, at(pointer));
+        });
+        for_each("images", [this](const Json& image, const std::string& pointer) {
+            if (image.contains("bufferView") && !image.contains("mimeType"))
+                repairs_.add(Repair::NoMimeType, 1, at(pointer));
+        });
+        for_each("animations",
+                 [this](const Json& animation, const std::string& pointer) { check_animation(animation, pointer); });
+        for_each("skins", [this](const Json& skin, const std::string& pointer) {
+            std::set<std::uint64_t> joints;
+            for (const Json& joint : skin["joints"])
+                if (!joints.insert(joint.get<std::uint64_t>()).second)
+                    repairs_.add(Repair::RepeatedJoints, 1, at(pointer + "/joints"));
+        });
         for_each("bufferViews", [this](const Json& view, const std::string& pointer) {
             if (view.contains("byteStride") && view["byteStride"].get<std::uint64_t>() % 4 != 0)
                 problems_.error(at(pointer + "/byteStride"),
@@ -80,6 +99,55 @@ class RuleCheck {
         }
     }
 
+    static std::uint64_t bytes_of_component(int type) {
+        switch (type) {
+            case 5120:  // signed and unsigned bytes
+            case 5121:
+                return 1;
+            case 5122:  // shorts
+            case 5123:
+                return 2;
+            default:
+                return 4;
+        }
+    }
+    /// Bytes from the start of what holds it.
+    static std::uint64_t offset_of(const Json& part) { return part.value("byteOffset", std::uint64_t{0}); }
+    [[nodiscard]] std::uint64_t view_offset_of(const Json& accessor) const {
+        return accessor.contains("bufferView")
+                   ? offset_of(list("bufferViews")[accessor["bufferView"].get<std::size_t>()])
+                   : 0;
+    }
+
+    /// Attributes of vertices must lie at multiples of 4 bytes.
+    void check_attributes(const Json& attributes, const std::string& pointer) {
+        for (const Json& index : attributes) {
+            const Json& accessor = list("accessors")[index.get<std::size_t>()];
+            if ((view_offset_of(accessor) + offset_of(accessor)) % 4 != 0)
+                repairs_.add(Repair::Unaligned, 1, at(pointer));
+        }
+    }
+
+    void check_animation(const Json& animation, const std::string& pointer) {
+        std::set<std::string> targets;
+        const Json& channels = animation["channels"];
+        for (std::size_t i = 0; i < channels.size(); ++i) {
+            const Json& target = channels[i]["target"];
+            // Without a node or a pointer it is to be ignored.
+            if (!target.contains("node") && !target.contains("extensions")) continue;
+            if (!targets.insert(target.dump()).second)
+                repairs_.add(Repair::RepeatedTargets, 1, at(child_pointer(pointer + "/channels", i)));
+        }
+    }
+
+    /// How many morph targets the mesh's primitives have, at most.
+    static std::size_t count_targets(const Json& mesh) {
+        std::size_t most = 0;
+        for (const Json& primitive : mesh["primitives"])
+            if (primitive.contains("targets")) most = std::max(most, primitive["targets"].size());
+        return most;
+    }
+
     void check_node(const Json& node, const std::string& pointer) {
         const auto has = [&](const char* key) { return node.contains(key); };
         if (has("matrix") && (has("translation") || has("rotation") || has("scale")))
@@ -91,28 +159,38 @@ class RuleCheck {
             if (!(std::abs(squared - 1.0) < kTolerance))
                 repairs_.add(Repair::RotationNotUnit, 1, at(pointer + "/rotation"));
         }
-        const auto targets = [this](const Json& mesh) {
-            const Json& primitives = list("meshes")[mesh.get<std::size_t>()]["primitives"];
-            return std::any_of(primitives.begin(), primitives.end(),
-                               [](const Json& p) { return p.contains("targets"); });
-        };
-        if (has("weights") && !(has("mesh") && targets(node["mesh"])))
-            repairs_.add(Repair::WeightsOfNothing, 1, at(pointer + "/weights"));
+        if (has("weights"))
+            check_weights(node["weights"],
+                          has("mesh") ? count_targets(list("meshes")[node["mesh"].get<std::size_t>()]) : 0,
+                          pointer + "/weights");
+    }
+
+    void check_weights(const Json& weights, std::size_t targets, const std::string& pointer) {
+        if (targets == 0)
+            repairs_.add(Repair::WeightsOfNothing, 1, at(pointer));
+        else if (weights.size() != targets)
+            repairs_.add(Repair::TargetCounts, 1, at(pointer));
     }
 
     void check_mesh(const Json& mesh, const std::string& pointer) {
         const Json& primitives = mesh["primitives"];
-        bool has_targets = false;
+        const std::size_t targets = count_targets(mesh);
         for (std::size_t i = 0; i < primitives.size(); ++i) {
-            has_targets = has_targets || primitives[i].contains("targets");
+            const std::string place = child_pointer(pointer + "/primitives", i);
             const Json& attributes = primitives[i]["attributes"];
+            check_attributes(attributes, place);
+            if (targets > 0) {
+                const bool has_all = primitives[i].contains("targets") && primitives[i]["targets"].size() == targets;
+                if (!has_all) repairs_.add(Repair::TargetCounts, 1, at(place));
+                if (primitives[i].contains("targets"))
+                    for (const Json& target : primitives[i]["targets"]) check_attributes(target, place);
+            }
             if (!attributes.contains("POSITION")) continue;
             const Json& accessor = list("accessors")[attributes["POSITION"].get<std::size_t>()];
             if (!accessor.contains("min") || !accessor.contains("max"))
-                repairs_.add(Repair::NoPositionBounds, 1, at(child_pointer(pointer + "/primitives", i)));
+                repairs_.add(Repair::NoPositionBounds, 1, at(place));
         }
-        if (mesh.contains("weights") && !has_targets)
-            repairs_.add(Repair::WeightsOfNothing, 1, at(pointer + "/weights"));
+        if (mesh.contains("weights")) check_weights(mesh["weights"], targets, pointer + "/weights");
     }
 
     void check_camera(const Json& camera, const std::string& pointer) {

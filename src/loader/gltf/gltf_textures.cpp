@@ -131,6 +131,9 @@ std::optional<ImageDesc> TextureReader::read_image(std::size_t index) {
                                           "is read, but not by every program",
                                           info.format));
         }
+        if (!source.mime_type.empty() && source.mime_type != "image/" + info.format)
+            problems_.warning(image.location, fmt::format("is {}, whatever its mimeType '{}' says", info.format,
+                                                          shown(source.mime_type)));
         image.width = info.width;
         image.height = info.height;
     } catch (const IoError& error) {

@@ -27,6 +27,11 @@ constexpr std::array<std::string_view, static_cast<std::size_t>(Repair::Count)> 
     "weights of meshes without morph targets are ignored",
     "positions have no min and max, which glTF asks for; they are not needed here",
     "cameras have a far plane that is not beyond the near one; nothing is clipped here",
+    "accessors do not lie at multiples of their components' size, or of 4 for vertices; they are read all the same",
+    "images in buffers have no mimeType; their bytes say what they are",
+    "channels of one animation have the same target; the last of them counts",
+    "joints are listed more than once in a skin; each of them moves its vertices",
+    "morph targets of a mesh, or weights of them, differ in number; those without a counterpart are ignored",
 };
 
 }  // namespace

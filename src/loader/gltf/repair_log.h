@@ -27,6 +27,11 @@ enum class Repair {
     WeightsOfNothing,     ///< meshes and nodes
     NoPositionBounds,     ///< primitives
     ClipPlanes,           ///< cameras
+    Unaligned,            ///< accessors
+    NoMimeType,           ///< images
+    RepeatedTargets,      ///< channels of animations
+    RepeatedJoints,       ///< joints of skins
+    TargetCounts,         ///< primitives, meshes and nodes
     Count
 };
 

@@ -65,6 +65,45 @@ const Breach kBreaches[] = {
      [](GltfBuilder& b) {
          add_camera(b, {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 2}, {"zfar", 1}}}});
      }},
+    {"HalfwayIntoAComponent", Severity::Warning, "multiples of their components' size", "/accessors/1",
+     [](GltfBuilder& b) {
+         b.json["accessors"].push_back(b.json["accessors"][0]);
+         b.json["accessors"][1]["byteOffset"] = 1;
+         b.json["accessors"][1]["count"] = 2;
+     }},
+    {"VertexAtAnOddByte", Severity::Warning, "of 4 for vertices", "/meshes/0/primitives/0",
+     [](GltfBuilder& b) {
+         const int colors = b.accessor(std::vector<unsigned char>(20, 255), "VEC4", 5121, 3, true);
+         b.json["accessors"][static_cast<std::size_t>(colors)]["byteOffset"] = 2;
+         b.json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = colors;
+     }},
+    {"NoMimeType", Severity::Warning, "no mimeType", "/images/0",
+     [](GltfBuilder& b) {
+         b.json["images"] = {{{"bufferView", 0}}};
+     }},
+    {"TwoChannelsOfOneTarget", Severity::Warning, "the last of them counts", "/animations/0/channels/1",
+     [](GltfBuilder& b) {
+         const int times = b.floats({0, 1}, 1);
+         const int moves = b.floats({0, 0, 0, 1, 0, 0}, 3);
+         const nlohmann::json channel = {{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}};
+         b.json["animations"] = {
+             {{"samplers", {{{"input", times}, {"output", moves}}}}, {"channels", {channel, channel}}}};
+     }},
+    {"JointsTwice", Severity::Warning, "more than once", "/skins/0/joints",
+     [](GltfBuilder& b) {
+         b.json["skins"] = {{{"joints", {0, 0}}}};
+     }},
+    {"FewerTargets", Severity::Warning, "differ in number", "/meshes/0/primitives/1",
+     [](GltfBuilder& b) {
+         nlohmann::json& primitives = b.json["meshes"][0]["primitives"];
+         primitives.push_back(primitives[0]);
+         primitives[0]["targets"] = {{{"POSITION", 0}}};
+     }},
+    {"MoreWeightsThanTargets", Severity::Warning, "differ in number", "/meshes/0/weights",
+     [](GltfBuilder& b) {
+         b.json["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", 0}}};
+         b.json["meshes"][0]["weights"] = {0.5, 0.5};
+     }},
     {"NoNear", Severity::Error, "znear", "/cameras/0/perspective",
      [](GltfBuilder& b) {
          add_camera(b, {{"type", "perspective"}, {"perspective", {{"yfov", 1}}}});

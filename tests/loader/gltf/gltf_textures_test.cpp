@@ -50,7 +50,18 @@ TEST(Textures, FromABufferView) {
     EXPECT_EQ(only_image(loaded).encoded.size(), png_bytes().size());
     EXPECT_EQ(only_image(loaded).encoded[1], std::byte{'P'});
     EXPECT_EQ(only_image(loaded).mime_type, "image/png");
+    EXPECT_TRUE(loaded.problems.all().empty()) << listing(loaded.problems);
     EXPECT_TRUE(only_image(loaded).path.empty());
+    EXPECT_EQ(only_image(loaded).height, 1);
+}
+
+TEST(Textures, TheBytesCountWhateverTheMimeType) {
+    GltfBuilder builder = textured({{"mimeType", "image/jpeg"}});
+    const std::vector<char> bytes(png_bytes().begin(), png_bytes().end());
+    builder.json["images"][0]["bufferView"] = builder.view(bytes);
+    const LoadedScene loaded = builder.load();
+    EXPECT_TRUE(has_problem(loaded.problems, Severity::Warning, "is png, whatever", "/images/0"))
+        << listing(loaded.problems);
     EXPECT_EQ(only_image(loaded).height, 1);
 }
 
