@@ -3,7 +3,7 @@ add_library(etendue_options INTERFACE)
 target_compile_options(etendue_options INTERFACE
   -Wall -Wextra -Wconversion
   # Where files are compiled together, a local name may be that of a constant in another file.
-  $<IF:$<BOOL:${CMAKE_UNITY_BUILD}>,-Wshadow=local,-Wshadow>
+  $<IF:$<AND:$<BOOL:${CMAKE_UNITY_BUILD}>,$<CXX_COMPILER_ID:GNU>>,-Wshadow=local,-Wshadow>
   # errno and trapping are not used; without them sqrt and comparisons inline and vectorise. Results stay IEEE.
   -fno-math-errno -fno-trapping-math
   $<$<BOOL:${ETENDUE_WARNINGS_AS_ERRORS}>:-Werror>
@@ -20,8 +20,13 @@ endif()
 #
 # For code that runs once per image: compiling its many templates takes longer than optimisation ever saves.
 function(etendue_build_quickly)
+  if(ETENDUE_SANITIZERS)
+    set(optimisation -O0)
+  else()
+    set(optimisation -O1)
+  endif()
   foreach(target ${ARGN})
-    target_compile_options(${target} PRIVATE $<IF:$<BOOL:${ETENDUE_SANITIZERS}>,-O0,-O1>)
+    target_compile_options(${target} PRIVATE ${optimisation})
     set_target_properties(${target} PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)  # of other options
   endforeach()
 endfunction()
@@ -29,7 +34,7 @@ endfunction()
 # etendue_compile_singly(<target>...)
 #
 # For code that runs once per ray: of sources that are compiled together the compiler inlines less, which costs 5 to 10%
-# (docs/performance.md). With sanitizers that is nothing.
+# (docs/testing.md). With sanitizers that does not matter.
 function(etendue_compile_singly)
   if(NOT ETENDUE_SANITIZERS)
     set_target_properties(${ARGN} PROPERTIES UNITY_BUILD OFF)

@@ -15,6 +15,7 @@ from pathlib import Path
 def single_commands(entry):
     """The entries of the sources that the one of CMake compiles."""
     command = re.sub(r" -Winvalid-pch -include \S+", "", entry["command"])
+    command = command.replace("-Wshadow=local", "-Wshadow")  # enough for sources together, and g++'s own
     file = entry["file"]
     if not Path(file).name.startswith("unity_"):
         return [{**entry, "command": command}]
