@@ -91,7 +91,8 @@ class AcesContainerCheck {
             {"screenWindowWidth", "float"}};
         for (const auto& [name, type] : required) {
             require(attributes_.count(name) == 1, name + " is missing");
-            if (attributes_.count(name) == 1) require(attributes_.at(name).type == type, name + " is no " + type);
+            if (attributes_.count(name) == 1)
+                require(attributes_.at(name).type == type, fmt::format("{} is no {}", name, type));
         }
         const std::set<std::string> types{
             "box2i",    "chlist",       "chromaticities", "compression",  "double",        "float",  "half",

@@ -15,6 +15,7 @@ AovSet expression_layers(const AgreementCase& agreement, const std::vector<std::
     for (const InstanceDesc& instance : scene.instances) names.lights.push_back(instance.name);
     names.lights.emplace_back("environment");
     std::vector<PathExpression> parsed;
+    parsed.reserve(expressions.size());
     for (const std::string& text : expressions) parsed.push_back(parse_expression(text));
     AovSet aovs;
     aovs.layout.light = expressions.size();
