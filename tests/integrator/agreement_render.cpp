@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstddef>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -27,7 +28,9 @@ ImageEstimate estimate(const World& world, const Integrator& integrator, const A
     std::vector<ImageF> images;
     for (std::uint32_t i = 0; i < renders.seeds; ++i) {
         options.seed = renders.first_seed + i;
-        const std::vector<float> rgba = render(world, integrator, options, threads, stop, {}).film.resolve();
+        const RenderResult result = render(world, integrator, options, threads, stop, {});
+        if (result.counters.dropped > 0) throw std::runtime_error("samples were not finite and were dropped");
+        const std::vector<float> rgba = result.film.resolve();
         ImageF image(part.width(), part.height(), 3);
         for (int y = part.y0; y < part.y1; ++y)
             for (int x = part.x0; x < part.x1; ++x) {

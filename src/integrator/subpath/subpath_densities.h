@@ -70,14 +70,15 @@ struct DepartingDensities {
     bool is_connectible = true;  ///< the edge can be that of a connection, as far as this vertex is concerned
     bool is_from_infinity = false;
 
-    /// At a vertex `squared_distance` m² away, where the direction has the cosine `cos_arriving`.
+    /// At a vertex `squared_distance` m² away, >= 0, where the direction has the cosine `cos_arriving`. The distance
+    /// cancels in b, and divides nothing in a: media scatter light again after no distance at all.
     [[nodiscard]] SubpathDensities arrive(const Raised& raised, double squared_distance, double cos_arriving) const {
-        const double per_area = is_from_infinity ? 1.0 : 1.0 / squared_distance;
-        const double next = raised(pdf_forward * cos_arriving * per_area);
-        if (!(next > 0.0)) return {};
-        const double inverse = 1.0 / next;
-        const double back = is_from_infinity ? 1.0 : raised(cosine * per_area);
-        return {is_connectible ? inverse : 0.0, back * d * inverse};
+        const double across = pdf_forward * cos_arriving;
+        if (!(across > 0.0)) return {};
+        const double inverse = 1.0 / raised(across);
+        const double back = is_from_infinity ? 1.0 : raised(cosine);
+        const double area = is_from_infinity ? 1.0 : raised(squared_distance);
+        return {is_connectible ? area * inverse : 0.0, back * d * inverse};
     }
 };
 
