@@ -91,6 +91,10 @@ void add_layered(std::vector<BsdfSetting>& settings) {
         settings.push_back(
             {fmt::format("coat alpha {} over a mirror", alpha),
              LayeredSurface::make(MetallicRoughness{.alpha_x = 0.0f, .alpha_y = 0.0f}, {}, {1.0f, alpha})});
+        settings.push_back({.name = fmt::format("tilted coat and sheen alpha {}", alpha),
+                            .bsdf = LayeredSurface::make(kPlastic, Sheen{{0.3f, 0.3f, 0.6f}, 0.4f},
+                                                         {0.9f, alpha, normalize(Vec3f(0.3f, 0.2f, 1.0f))}),
+                            .has_tilted_normal = true});
     }
 }
 

@@ -13,6 +13,9 @@ struct BsdfSetting {
     std::string name;
     Bsdf bsdf;
     TransportMode mode = TransportMode::Importance;
+    /// Cosines to a normal that is not the surface's are in the value, so that importance has a factor of them over
+    /// those to the surface's normal, which nothing bounds (Veach 1997, section 5.3.2).
+    bool has_tilted_normal = false;
 };
 
 /// Every lobe over its parameters. Lobes that tell radiance from importance appear once for each.
