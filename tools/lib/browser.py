@@ -26,8 +26,9 @@ class Browser:
             os.dup2(theirs_out, 4)
 
         self.process = subprocess.Popen(
+            # /dev/shm of a container is 64 MB, less than screenshots of long pages take.
             [program, "--headless=new", "--remote-debugging-pipe", f"--user-data-dir={profile}", "--disable-gpu",
-             "--disable-background-networking", "--disable-component-update", "--no-first-run",
+             "--disable-dev-shm-usage", "--disable-background-networking", "--disable-component-update", "--no-first-run",
              "--host-resolver-rules=MAP * ~NOTFOUND", *(["--no-sandbox"] if os.geteuid() == 0 else []), "about:blank"],
             preexec_fn=connect, close_fds=False, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL)
