@@ -21,6 +21,9 @@ constexpr std::array kFormats{
     EncodedFormat{"hdr", "#?RGBE"sv, 1100},
     EncodedFormat{"tiff", "II*\0"sv, 1100},
     EncodedFormat{"tiff", "MM\0*"sv, 1100},
+    // BigTIFF, which files above 4 GB are.
+    EncodedFormat{"tiff", "II+\0"sv, 1100},
+    EncodedFormat{"tiff", "MM\0+"sv, 1100},
     EncodedFormat{"webp", "RIFF"sv, 200'000, "WEBP"sv},
 };
 

@@ -8,6 +8,8 @@ namespace etendue {
 
 namespace {
 
+using namespace std::string_view_literals;
+
 std::string name_of(std::string_view head) {
     const auto format = detect_format(std::as_bytes(std::span(head)));
     return format ? std::string(format->name) : "";
@@ -19,7 +21,7 @@ TEST(DetectFormat, KnowsFormatsByTheirFirstBytes) {
     EXPECT_EQ(name_of("\x76\x2f\x31\x01"), "openexr");
     EXPECT_EQ(name_of("#?RADIANCE\n"), "hdr");
     EXPECT_EQ(name_of("#?RGBE\n"), "hdr");
-    EXPECT_EQ(name_of(std::string_view("II*\0", 4)), "tiff");
+    for (const std::string_view tiff : {"II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv}) EXPECT_EQ(name_of(tiff), "tiff");
 }
 
 TEST(DetectFormat, KnowsNothingElse) {

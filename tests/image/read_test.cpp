@@ -130,11 +130,21 @@ TEST(ReadImage, HeadersSayColorSpaceAndWindows) {
     EXPECT_EQ(png.display_window, png.data_window);
 }
 
+constexpr std::array kFileOfEveryFormat{"a.png", "a.jpg", "a.exr", "a.hdr", "a.tif", "big.tif"};
+
+/// Three channels, floats if that is what the format of `name` is for; "big.tif" is a BigTIFF.
+OIIO::ImageSpec spec_of_sample(const std::string& name, int width, int height) {
+    const bool is_float = name.ends_with(".exr") || name.ends_with(".hdr");
+    OIIO::ImageSpec spec(width, height, 3, is_float ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8);
+    spec.attribute("tiff:bigtiff", name == "big.tif" ? 1 : 0);
+    return spec;
+}
+
 TEST(ReadImage, MemoryAndFileAgreeInEveryFormat) {
     const TemporaryFolder folder;
-    for (const char* name : {"a.png", "a.jpg", "a.exr", "a.hdr", "a.tif"}) {
-        const bool is_float = std::string(name) == "a.exr" || std::string(name) == "a.hdr";
-        const OIIO::ImageSpec spec(16, 8, 3, is_float ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8);
+    for (const char* name : kFileOfEveryFormat) {
+        const OIIO::ImageSpec spec = spec_of_sample(name, 16, 8);
+        const bool is_float = spec.format == OIIO::TypeDesc::FLOAT;
         const auto path = write_reference(folder / name, spec, ramp<float>(16 * 8 * 3, 0.002));
         const auto bytes = read_all(path);
         EXPECT_EQ(read_image_float(path).pixels, read_image_float(bytes).pixels) << name;
@@ -222,9 +232,8 @@ TEST(ReadImage, AcceptsTheMostCompressibleImages) {
 TEST(ReadImage, SurvivesDamage) {
     const TemporaryFolder folder;
     std::mt19937 random(7);
-    for (const char* name : {"a.png", "a.jpg", "a.exr", "a.hdr", "a.tif"}) {
-        const bool is_float = std::string(name) == "a.exr" || std::string(name) == "a.hdr";
-        const OIIO::ImageSpec spec(24, 16, 3, is_float ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8);
+    for (const char* name : kFileOfEveryFormat) {
+        const OIIO::ImageSpec spec = spec_of_sample(name, 24, 16);
         const auto bytes = read_all(write_reference(folder / name, spec, ramp<float>(24 * 16 * 3, 0.0007)));
         for (std::size_t length = 0; length < bytes.size(); length += 1 + bytes.size() / 97) {
             (void)error_of(std::span(bytes).first(length));

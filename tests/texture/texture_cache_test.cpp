@@ -121,14 +121,16 @@ TEST(TextureCache, OddSizesDifferLittle) {
     EXPECT_LT(difference.mean, 0.02f);
 }
 
-/// A tiled TIFF with mip levels, as texture converters write them (.tx); level i is `100 + i` throughout.
-std::filesystem::path write_tiled_levels(const std::filesystem::path& path) {
+/// A tiled TIFF with mip levels, as texture converters write them (.tx); level i is `100 + i` throughout. Those above
+/// 4 GB are `big`: BigTIFF, another header with wider offsets.
+std::filesystem::path write_tiled_levels(const std::filesystem::path& path, bool big) {
     const auto output = OIIO::ImageOutput::create("tiff");
     for (int level = 0, size = 128; size > 0; ++level, size /= 2) {
         OIIO::ImageSpec spec(size, size, 3, OIIO::TypeDesc::UINT8);
         spec.tile_width = spec.tile_height = 32;
         // Makes levels of what would else be several images.
         spec.attribute("textureformat", "Plain Texture");
+        spec.attribute("tiff:bigtiff", big ? 1 : 0);
         const std::vector<std::uint8_t> pixels(static_cast<std::size_t>(size * size * 3),
                                                static_cast<std::uint8_t>(100 + level));
         const auto mode = level == 0 ? OIIO::ImageOutput::Create : OIIO::ImageOutput::AppendSubimage;
@@ -141,13 +143,17 @@ std::filesystem::path write_tiled_levels(const std::filesystem::path& path) {
 
 TEST(TextureCache, BothWaysReadTheFilesOwnLevels) {
     const TemporaryFolder folder;
-    // A suffix that says nothing, or lies: the content decides.
-    const auto file = write_tiled_levels(folder / "a.tx");
-    EXPECT_LT(compare(file, {}).largest, 1e-5f);
-    const MipChain resident(read_image_levels(file), Encoding::Linear);
-    for (int level = 0; level < 8; ++level)
-        EXPECT_NEAR(resident.sample({0.5f, 0.5f}, static_cast<float>(level), false, {}).rgb.r,
-                    static_cast<float>(100 + level) / 255.0f, 1e-6f);
+    for (const bool big : {false, true}) {
+        SCOPED_TRACE(big);
+        // A suffix that says nothing, or lies: the content decides.
+        const auto file = write_tiled_levels(folder / "a.tx", big);
+        EXPECT_EQ(read_all(file)[2], static_cast<std::byte>(big ? '+' : '*'));
+        EXPECT_LT(compare(file, {}).largest, 1e-5f);
+        const MipChain resident(read_image_levels(file), Encoding::Linear);
+        for (int level = 0; level < 8; ++level)
+            EXPECT_NEAR(resident.sample({0.5f, 0.5f}, static_cast<float>(level), false, {}).rgb.r,
+                        static_cast<float>(100 + level) / 255.0f, 1e-6f);
+    }
 }
 
 TEST(TextureCache, ReadsEmbeddedImages) {
