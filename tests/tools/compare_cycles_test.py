@@ -272,6 +272,15 @@ class Comparisons(unittest.TestCase):
         self.assertIsNone(document["renderers"]["bdpt"]["samples_per_second"])
         self.assertIsNone(document["renderers"]["bdpt"]["relmse"]["time_to_equal_error"])
 
+    def test_an_aim_is_that_of_the_worst_scene(self):
+        rows = [self.row(cycles=0.1, path=0.03), self.row(cycles=0.1, path=0.08), self.row(cycles=0.1, path=-1.0)]
+        for row, name in zip(rows, ("box", "ring", "lost in noise")):
+            row.comparison.name = name
+        path, bdpt = tool.aims_table(rows).splitlines()[2:]
+        self.assertIn("| 0.800 | **not met** | 1 of 2 scenes; not ring 0.80 |", path)
+        self.assertIn("not measured", bdpt)
+        self.assertIn("| 0.300 | met | 1 of 1 scenes |", tool.aims_table(rows[:1]))
+
     def test_json_is_all_that_stands_on_stdout(self):
         output = io.StringIO()
         with mock.patch.object(sys, "argv", ["compare-cycles", "--json", "--bin", str(self.folder), "missing"]), \
