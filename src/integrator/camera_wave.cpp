@@ -140,8 +140,7 @@ bool accumulate(const TileJob& job, const CameraSample& sample, const Rgb& radia
                 RenderCounters& counters) {
     ++counters.samples;
     if (!is_finite(radiance) || min_component(radiance) < 0.0f) {
-        const Vec2i position = pixel_position(job, sample.pixel);
-        counters.drop({position.x, position.y, sample.key.index});
+        counters.drop(located(job, sample));
         return false;
     }
     tile.pixel(sample.pixel).add(radiance, alpha, sample.weight);

@@ -42,6 +42,12 @@ struct CameraSample {
     return {job.rect.x0 + static_cast<int>(pixel % width), job.rect.y0 + static_cast<int>(pixel / width)};
 }
 
+/// Which one it is. Its light path is that of the same pixel, wherever splats of it fall.
+[[nodiscard]] inline DroppedSample located(const TileJob& job, const CameraSample& sample) {
+    const Vec2i position = pixel_position(job, sample.pixel);
+    return {position.x, position.y, sample.key.index};
+}
+
 /// Makes the camera rays of samples [first, first + rays.size()) of the job.
 void generate_camera_rays(const World& world, const TileJob& job, std::size_t first, std::span<CameraSample> samples,
                           std::span<Ray> rays);

@@ -48,8 +48,7 @@ void Connections::resolve(const World& world, const TileJob& job, std::span<cons
                             {.position = pending.position, .value = pending.value, .depth = pending.depth},
                             pending.kind, shares, tile.splats());
         else
-            counters.drop({static_cast<int>(pending.position.x), static_cast<int>(pending.position.y),
-                           samples[pending.slot].key.index});
+            counters.drop(located(job, samples[pending.slot]));
     }
     rays_.clear();
     pending_.clear();
