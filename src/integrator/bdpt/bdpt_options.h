@@ -11,6 +11,7 @@
 namespace etendue {
 
 struct CompletePath;
+struct SubpathJob;
 
 /// Sees the weight of every path that is made: for tests.
 class WeightObserver {
@@ -18,7 +19,8 @@ class WeightObserver {
     virtual ~WeightObserver() = default;
     /// `weight` is that of the path's strategy by the recursion; `reference` are those of all strategies that could
     /// have made it, s = 0, 1, ..., by their definition. Called from the threads that render.
-    virtual void on_weight(const CompletePath& path, double weight, std::span<const double> reference) = 0;
+    virtual void on_weight(const SubpathJob& job, const CompletePath& path, double weight,
+                           std::span<const double> reference) = 0;
 };
 
 struct BdptOptions {

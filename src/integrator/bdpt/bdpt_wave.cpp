@@ -69,10 +69,6 @@ LightKind kind_of_met_light(const SubpathState& state) {
 
 }  // namespace
 
-float BdptWave::weight(const BdptOptions& options, double fewer_from_light, double fewer_from_eye) {
-    return options.weighted ? static_cast<float>(1.0 / (1.0 + fewer_from_light + fewer_from_eye)) : 1.0f;
-}
-
 std::size_t BdptWave::bytes() const {
     return sizeof *this +
            vector_bytes(samples_, camera_rays_, alpha_, shares_, cache_, to_lights_, to_cameras_, between_) +
@@ -136,7 +132,7 @@ void BdptWave::check(const SubpathJob& job, const BdptOptions& options, std::siz
     append_subpath(eye_, eye, path);
     const CompletePath complete{end, path, s, camera};
     const std::vector<double> reference = reference_weights(job, complete);
-    if (options.observer != nullptr) options.observer->on_weight(complete, static_cast<double>(weight), reference);
+    if (options.observer != nullptr) options.observer->on_weight(job, complete, static_cast<double>(weight), reference);
     [[maybe_unused]] constexpr double kRounding = 0.05;
     // Lamps beyond what floats hold have no weights, and their samples are dropped.
     assert(!options.weighted || !is_told_by_positions(complete) || !std::isfinite(reference[s]) ||
@@ -161,12 +157,12 @@ void BdptWave::on_first_hits(std::span<const Ray> rays, std::span<const Hit> hit
     find_first_hits(context_->world, context_->job, samples_, rays, hits, *tile_);
 }
 
-void BdptWave::add(const SubpathState& state, const Rgb& light, double fewer_from_eye, const PathLightEnd& end,
+void BdptWave::add(const SubpathState& state, const Rgb& light, const StrategySums& sums, const PathLightEnd& end,
                    const AovSet::Source& source) {
     const Context& context = *context_;
     if (context.job.profile != nullptr && state.index > kDirectlySeen) ++context.job.profile->use().bsdf_met_light;
     if (!is_wanted(context.options, {.s = 0, .t = state.index + 1})) return;
-    const float share = weight(context.options, 0.0, fewer_from_eye);
+    const float share = weight(context.options, sums);
     shares_.clear();
     if (eye_.words().are_followed()) eye_.words().end_at_light(state.words, source, shares_);
     found_.add(state.slot, state.throughput * light * context.wavelength_weight(state.slot, state.is_dispersed) * share,
@@ -177,34 +173,22 @@ void BdptWave::add(const SubpathState& state, const Rgb& light, double fewer_fro
     }
 }
 
-double BdptWave::fewer_than_light(const SubpathState& state, std::uint32_t light, const LightPointPdfs& pdfs,
-                                  float emission_pdf, const SubpathDensities& arrived) const {
-    const World& world = context_->world;
-    const Raised& raised = context_->raised;
-    const double sampled = raised(static_cast<double>(pdfs.sampled * world.light_probability(state.from, light)));
-    const double emitted = raised(static_cast<double>(pdfs.emitted * world.emission_probability(light)));
-    return sampled * arrived.a + emitted * arrived.b * raised(static_cast<double>(emission_pdf));
-}
-
 void BdptWave::on_emitter(const SubpathState& state, const SurfacePoint& point, const Vec3f& direction,
                           const SubpathDensities& arrived) {
     if (state.edges < context_->lengths.min_depth) return;
     const World& world = context_->world;
     const Rgb emitted = world.emission(point, -direction);
     if (is_black(emitted)) return;
-    double fewer = 0.0;
+    StrategySums sums;
     const std::uint32_t light = world.light_at(point);
-    if (state.index > kDirectlySeen && light != kNone) {
-        const float cos_light = -dot(direction, point.geometric_normal);
-        const float pdf_area = world.emitter_pdf_area(light);
-        fewer = fewer_than_light(state, light, {.sampled = pdf_area, .emitted = pdf_area},
-                                 world.emission_pdf(light, -direction, cos_light), arrived);
-    }
-    add(state, emitted, fewer,
+    const float cos_light = -dot(direction, point.geometric_normal);
+    if (state.index > kDirectlySeen && light != kNone)
+        sums = sums_at_emitter(*context_, state.from, light, direction, cos_light, arrived);
+    add(state, emitted, sums,
         {.light = light,
          .position = point.position,
          .direction = -direction,
-         .cos_light = -dot(direction, point.geometric_normal),
+         .cos_light = cos_light,
          .is_reached_directly = state.is_direct},
         eye_.words().surface_source(point));
 }
@@ -212,7 +196,7 @@ void BdptWave::on_emitter(const SubpathState& state, const SurfacePoint& point, 
 void BdptWave::on_unlit(const SubpathState& state, const SurfacePoint& point, const Vec3f& direction) {
     // Only what the eye sees directly or in mirrors shows an unlit surface; it lights nothing.
     if (state.only_delta && state.edges >= context_->lengths.min_depth)
-        add(state, context_->world.unlit_color(point), 0.0, {.position = point.position, .direction = -direction},
+        add(state, context_->world.unlit_color(point), {}, {.position = point.position, .direction = -direction},
             eye_.words().surface_source(point));
 }
 
@@ -224,18 +208,9 @@ void BdptWave::on_escape(const SubpathState& state, const Vec3f& direction) {
         return;
     }
     if (!world.has_environment() || state.edges < context_->lengths.min_depth) return;
-    double fewer = 0.0;
-    if (!is_direct) {
-        // The vertex is a direction: its density is per solid angle on both sides, and so is that of the light.
-        DepartingDensities departing = state.departing;
-        departing.is_from_infinity = false;
-        fewer = fewer_than_light(state, world.environment(),
-                                 {.sampled = world.environment_pdf_solid_angle(direction),
-                                  .emitted = world.environment_emission_pdf_solid_angle(direction)},
-                                 world.emission_pdf(world.environment(), -direction, 1.0f),
-                                 departing.arrive(context_->raised, 1.0, 1.0));
-    }
-    add(state, world.environment_radiance(direction), fewer,
+    StrategySums sums;
+    if (!is_direct) sums = sums_at_environment(*context_, state.from, direction, state.departing);
+    add(state, world.environment_radiance(direction), sums,
         {.light = world.environment(), .direction = -direction, .is_reached_directly = state.is_direct},
         eye_.words().environment_source());
 }
@@ -268,28 +243,8 @@ void BdptWave::weigh(const Context& context, const ToLight& connection) {
     const ChosenLight& chosen = connection.chosen;
     const LightSample& light = chosen.sample;
     const Scattering::TwoWayValue& value = connection.scattered;
-    const Raised& raised = context.raised;
-    const bool at_infinity = std::isinf(light.distance);
-    const float arriving = world.emission_pdf(chosen.light, -light.wi, light.cos_light) * vertex.cosine(light.wi);
-    const double from_light =
-        static_cast<double>(at_infinity ? arriving : arriving / (light.distance * light.distance));
-    // The strategies with more vertices from the light have chosen it for its emission, not for this vertex, and so the
-    // direction of an environment: its densities jump from cell to cell, and both must be of the one that other
-    // strategies find the direction in.
-    auto for_emission = static_cast<double>(world.emission_probability(chosen.light));
-    auto for_vertex = static_cast<double>(chosen.probability);
-    float pdf_solid_angle = light.pdf_solid_angle;
-    if (chosen.light == world.environment()) {
-        for_emission *= static_cast<double>(world.environment_emission_pdf_solid_angle(light.wi));
-        pdf_solid_angle = chosen.probability * world.environment_pdf_solid_angle(light.wi);
-        for_vertex = static_cast<double>(pdf_solid_angle);
-        if (!(pdf_solid_angle > 0.0f)) return;
-    }
-    const double fewer_from_eye = raised(for_emission / for_vertex * from_light) *
-                                  vertex.densities.fewer(raised, static_cast<double>(value.reverse_pdf_solid_angle));
-    const double fewer_from_light =
-        light.is_delta ? 0.0 : raised(static_cast<double>(value.pdf_solid_angle / pdf_solid_angle));
-    const float share = weight(context.options, fewer_from_light, fewer_from_eye);
+    const float share = weight(context.options, sums_of_light_sample(context, vertex, chosen, value));
+    if (share == 0.0f) return;
     const float density = light.is_delta ? chosen.probability : light.pdf_solid_angle;
     Ray ray = shadow_ray(vertex.origin(light.wi), light);
     ray.time = context.camera_rays[vertex.slot].time;
@@ -306,7 +261,7 @@ void BdptWave::weigh(const Context& context, const ToLight& connection) {
     if (is_checked(samples_[vertex.slot], context.options))
         check(context, context.options, 1, share,
               {.light = chosen.light,
-               .position = vertex.position + light.wi * (at_infinity ? 0.0f : light.distance),
+               .position = vertex.position + light.wi * (std::isinf(light.distance) ? 0.0f : light.distance),
                .direction = -light.wi,
                .cos_light = light.cos_light},
               nullptr, &vertex, camera_of(context, vertex));
@@ -339,12 +294,7 @@ void BdptWave::weigh(const Context& context, const ToCamera& connection) {
     const PathVertex& vertex = *connection.vertex;
     const CameraView& view = connection.view;
     const Scattering::TwoWayValue& value = connection.scattered;
-    const Raised& raised = context.raised;
-    const double from_eye = context.samples_per_light_path() *
-                            static_cast<double>(view.camera.importance_area * vertex.cosine(view.direction));
-    const double fewer =
-        raised(from_eye) * vertex.densities.fewer(raised, static_cast<double>(value.reverse_pdf_solid_angle));
-    const float share = weight(context.options, fewer, 0.0);
+    const float share = weight(context.options, sums_at_lens(context, vertex, view.direction, view.camera, value));
     Ray ray = connecting_ray(vertex.origin(view.direction), view.camera.lens);
     ray.time = context.camera_rays[vertex.slot].time;
     ray.alpha_key = context.connection_key(SubpathEnd::AtLight, vertex.index, vertex.slot);
@@ -424,14 +374,7 @@ void BdptWave::weigh(const Context& context, const Between& connection) {
     const auto& [eye_vertex, light_vertex, w, squared, scale, at_eye, at_light] = connection;
     const PathVertex& eye = *eye_vertex;
     const PathVertex& light = *light_vertex;
-    const Raised& raised = context.raised;
-    const double from_eye = static_cast<double>(at_eye.pdf_solid_angle * light.cosine(w) / squared);
-    const double from_light = static_cast<double>(at_light.pdf_solid_angle * eye.cosine(w) / squared);
-    const double fewer_from_light =
-        raised(from_eye) * light.densities.fewer(raised, static_cast<double>(at_light.reverse_pdf_solid_angle));
-    const double fewer_from_eye =
-        raised(from_light) * eye.densities.fewer(raised, static_cast<double>(at_eye.reverse_pdf_solid_angle));
-    const float share = weight(context.options, fewer_from_light, fewer_from_eye);
+    const float share = weight(context.options, sums_between(context.raised, eye, light, w, squared, at_eye, at_light));
     Ray ray = connecting_ray(eye.origin(w), light.origin(-w));
     ray.time = context.camera_rays[eye.slot].time;
     ray.alpha_key = context.connection_key(SubpathEnd::AtEye, eye.index, eye.slot) +

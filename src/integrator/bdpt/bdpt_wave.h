@@ -3,6 +3,7 @@
 
 #include "integrator/bdpt/bdpt_options.h"
 #include "integrator/bdpt/reference_weights.h"
+#include "integrator/bdpt/strategy_sums.h"
 #include "integrator/connections.h"
 #include "integrator/subpath/camera_splat.h"
 #include "integrator/subpath/connectible_vertices.h"
@@ -45,16 +46,7 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
     void on_unlit(const SubpathState& state, const SurfacePoint& point, const Vec3f& direction) override;
     void on_escape(const SubpathState& state, const Vec3f& direction) override;
     void on_first_hits(std::span<const Ray> rays, std::span<const Hit> hits) override;
-    /// Densities of a point of a light, 1/m², or at infinity of a direction, 1/sr, without the choice of the light.
-    struct LightPointPdfs {
-        float sampled;  ///< for the next vertex
-        float emitted;  ///< for a light subpath
-    };
-    /// Of a subpath that has met a point of `light`, or at infinity a direction: the sum over the strategies with fewer
-    /// vertices from the eye. `pdfs` are of that point or direction, `emission_pdf` of the ray from there.
-    [[nodiscard]] double fewer_than_light(const SubpathState& state, std::uint32_t light, const LightPointPdfs& pdfs,
-                                          float emission_pdf, const SubpathDensities& arrived) const;
-    void add(const SubpathState& state, const Rgb& light, double fewer_from_eye, const PathLightEnd& end,
+    void add(const SubpathState& state, const Rgb& light, const StrategySums& sums, const PathLightEnd& end,
              const AovSet::Source& source);
 
     // Connections on their way through the stages.
@@ -94,8 +86,9 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
     void weigh(const Context& context, const ToCamera& connection);
     void weigh(const Context& context, const Between& connection);
 
-    /// Of a strategy, from the ratios of those with fewer vertices on one side.
-    [[nodiscard]] static float weight(const BdptOptions& options, double fewer_from_light, double fewer_from_eye);
+    [[nodiscard]] static float weight(const BdptOptions& options, const StrategySums& sums) {
+        return options.weighted ? static_cast<float>(sums.weight()) : 1.0f;
+    }
 
     /// Shows the weight of a path to the observer, and in debug builds compares it with the reference. The path leads
     /// from `end` over the subpath that ends in `light` and back over that which ends in `eye`; either may be null.

@@ -1,6 +1,7 @@
 #include "integrator/subpath/subpath_wave.h"
 
 #include "integrator/ray_batch.h"
+#include "integrator/subpath/subpath_steps.h"
 #include "integrator/walk.h"
 
 #include <algorithm>
@@ -131,16 +132,7 @@ void SubpathWave::begin_at_lights(const SubpathJob& job) {
         state.from = sample.position;
         state.slot = static_cast<std::uint32_t>(i);
         if (words_.are_followed()) state.words = words_.begin_at_light(words_.light_source(world, emission.light));
-        const bool at_infinity = world.is_at_infinity(emission.light);
-        const auto position = static_cast<double>(sample.pdf_position_area);
-        const auto direction = static_cast<double>(sample.pdf_direction_solid_angle);
-        const auto choice = static_cast<double>(emission.probability);
-        state.departing = {.d = world.can_be_hit(emission.light)
-                                    ? 1.0 / job.raised(choice * (at_infinity ? direction : position))
-                                    : 0.0,
-                           .pdf_forward = at_infinity ? position : direction,
-                           .cosine = static_cast<double>(sample.cos_theta),
-                           .is_from_infinity = at_infinity};
+        state.departing = leave_light(job, emission);
         states_[kept] = state;
         rays_[kept] = emission.ray;
         rays_[kept].alpha_key = sample_bits(keys_[i], kFirstLightDimension);
@@ -318,31 +310,14 @@ void SubpathWave::place(const World& world, const ShadedSubpath& path, float rel
 SubpathDensities SubpathWave::arrive(const SubpathJob& job, std::size_t i, const Vec3f& position, float cosine) const {
     const SubpathState& state = states_[i];
     const auto cos_arriving = static_cast<double>(cosine);
-    if (end_ == SubpathEnd::AtEye && state.index == 1) {
-        // The lens and the film say how densely camera rays fall here.
-        const CameraSample& sample = job.samples[state.slot];
-        const CameraConnection camera = job.world.connect_to_camera(position, sample.lens, rays_[i].time);
-        DepartingDensities departing = state.departing;
-        departing.pdf_forward = job.samples_per_light_path() * static_cast<double>(camera.importance_area);
-        departing.is_from_infinity = true;  // per area already
-        return departing.arrive(job.raised, 1.0, cos_arriving);
-    }
-    const Vec3f way = position - state.from;
-    SubpathDensities arrived =
-        state.departing.arrive(job.raised, static_cast<double>(length_squared(way)), cos_arriving);
-    if (end_ == SubpathEnd::AtLight && state.index == 1) {
-        // A light that is sampled for this vertex is chosen in another way than this one was.
-        const Emission& emission = emissions_[state.slot];
-        auto for_vertex = static_cast<double>(job.world.light_probability(position, emission.light));
-        auto for_emission = static_cast<double>(emission.probability);
-        if (emission.light == job.world.environment()) {
-            const EmissionSample& sample = emission.sample;
-            for_vertex *= static_cast<double>(job.world.environment_pdf_solid_angle(-sample.direction));
-            for_emission *= static_cast<double>(sample.pdf_direction_solid_angle);
-        }
-        arrived.a *= job.raised(for_vertex / for_emission);
-    }
-    return arrived;
+    if (state.index > 1)
+        return state.departing.arrive(job.raised, static_cast<double>(length_squared(position - state.from)),
+                                      cos_arriving);
+    if (end_ == SubpathEnd::AtLight)
+        return arrive_from_light(job, emissions_[state.slot], state.departing, position, cos_arriving);
+    const Vec2f lens = job.samples[state.slot].lens;
+    return arrive_from_lens(job, state.departing, job.world.connect_to_camera(position, lens, rays_[i].time),
+                            cos_arriving);
 }
 
 void SubpathWave::sample_bsdfs(std::size_t first, std::size_t vertices) {
@@ -384,9 +359,8 @@ bool SubpathWave::scatter_at_plain(const SubpathJob& job, std::size_t i, const S
     if (!scatter(job, i, lanes_.position[lane], lanes_.next_weight[lane], false)) return false;
     SubpathState& state = states_[i];
     if (words_.are_followed()) follow_words(state, matte_event(vertices_[path.vertex].label));
-    state.departing = {.d = path.arrived.fewer(job.raised, static_cast<double>(lanes_.next_reverse_pdf[lane])),
-                       .pdf_forward = static_cast<double>(lanes_.next_pdf[lane]),
-                       .cosine = static_cast<double>(lanes_.next_cosine[lane])};
+    state.departing = etendue::scatter(job.raised, path.arrived, lanes_.next_pdf[lane], lanes_.next_reverse_pdf[lane],
+                                       lanes_.next_cosine[lane]);
     rays_[i].origin = lanes_.next_origin[lane];
     rays_[i].direction = lanes_.next_direction[lane];
     return true;
@@ -400,20 +374,16 @@ bool SubpathWave::scatter_at_surface(const SubpathJob& job, std::size_t i, const
     Ray& ray = rays_[i];
     PathVertex& vertex = vertices_[path.vertex];
     const Scattering& scattering = *vertex.surface;
-    const SubpathDensities& arrived = path.arrived;
     const TransportMode mode = end_ == SubpathEnd::AtEye ? TransportMode::Radiance : TransportMode::Importance;
     vertex.is_left_by_delta = sample.is_delta;
     if (sample.is_delta) vertex.delta_reverse_ratio = scattering.reverse_density_ratio(sample);
     if (words_.are_followed())
         follow_words(state, surface_event(scattering, sample.wi, sample.is_delta, mode, vertex.label));
     if (mode == TransportMode::Radiance && sample.is_transmission) state.roulette_scale *= sample.eta * sample.eta;
-    state.departing = {
-        .d = sample.is_delta
-                 ? arrived.b * job.raised(static_cast<double>(vertex.delta_reverse_ratio))
-                 : arrived.fewer(job.raised, static_cast<double>(scattering.reverse_pdf_solid_angle(sample.wi))),
-        .pdf_forward = sample.is_delta ? 1.0 : static_cast<double>(sample.pdf_solid_angle),
-        .cosine = static_cast<double>(abs_dot(sample.wi, point.geometric_normal)),
-        .is_connectible = !sample.is_delta};
+    const float cosine = abs_dot(sample.wi, point.geometric_normal);
+    state.departing = sample.is_delta ? scatter_by_delta(job.raised, path.arrived, vertex.delta_reverse_ratio, cosine)
+                                      : etendue::scatter(job.raised, path.arrived, sample.pdf_solid_angle,
+                                                         scattering.reverse_pdf_solid_angle(sample.wi), cosine);
     ray.origin = offset_origin(point.position, point.geometric_normal, point.clearance, sample.wi);
     ray.direction = sample.wi;
     if (path.crossing) interiors_[i] = beyond(*path.crossing, point, sample.wi);
@@ -438,9 +408,9 @@ bool SubpathWave::scatter_in_medium(const SubpathJob& job, std::size_t i) {
     ray.origin = vertex.position;
     ray.direction = medium->phase.sample(wo, scattering_[i]);
     // Forwards and backwards a phase function has one density.
-    const auto phase = static_cast<double>(medium->phase.pdf_solid_angle(wo, ray.direction));
+    const float phase = medium->phase.pdf_solid_angle(wo, ray.direction);
     state.from = vertex.position;
-    state.departing = {.d = vertex.densities.fewer(job.raised, phase), .pdf_forward = phase};
+    state.departing = etendue::scatter(job.raised, vertex.densities, phase, phase, 1.0f);
     state.lights_directly = state.only_delta;
     state.only_delta = false;
     if (words_.are_followed()) follow_words(state, VertexEvent{});

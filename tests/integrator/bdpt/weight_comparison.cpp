@@ -1,6 +1,7 @@
 #include "integrator/bdpt/weight_comparison.h"
 
 #include "integrator/bdpt/bdpt_integrator.h"
+#include "integrator/bdpt/recursive_weights.h"
 #include "integrator/bdpt/reference_weights.h"
 
 #include <algorithm>
@@ -8,7 +9,10 @@
 #include <cstdint>
 #include <numeric>
 #include <string>
+#include <vector>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 namespace etendue::test {
@@ -49,9 +53,12 @@ class Comparison final : public WeightObserver {
   public:
     explicit Comparison(float short_edge) : short_edge_(short_edge) {}
 
-    void on_weight(const CompletePath& path, double weight, std::span<const double> reference) override {
-        const double all = std::accumulate(reference.begin(), reference.end(), weight - reference[path.s]);
-        const double error = std::max(std::abs(weight - reference[path.s]), std::abs(all - 1.0));
+    void on_weight(const SubpathJob& job, const CompletePath& path, double weight,
+                   std::span<const double> reference) override {
+        const std::vector<double> all = recursive_weights(job, path);
+        const double sum = std::accumulate(all.begin(), all.end(), 0.0);
+        double error = std::max(std::abs(weight - all[path.s]), std::abs(sum - 1.0));
+        for (std::size_t s = 0; s < all.size(); ++s) error = std::max(error, std::abs(all[s] - reference[s]));
         ++paths;
         strategies = std::max(strategies, reference.size());
         if (!(error <= kTolerance)) {
@@ -62,9 +69,9 @@ class Comparison final : public WeightObserver {
             least_height(path) < kTellsNoCosine * short_edge_)
             return;
         worst = error;
-        worst_path = "s = " + std::to_string(path.s) + " of " + std::to_string(reference.size()) +
-                     " strategies: " + std::to_string(weight) + ", by definition " + std::to_string(reference[path.s]) +
-                     "; all sum to " + std::to_string(all);
+        worst_path =
+            fmt::format("s = {}: {:.6f}; of all strategies: {:.6f}, which sum to {:.6f}; by definition: {:.6f}", path.s,
+                        weight, fmt::join(all, " "), sum, fmt::join(reference, " "));
     }
 
     std::size_t paths = 0;

@@ -1,0 +1,108 @@
+// What each kind of strategy compares itself with, from the recursion of subpath/subpath_densities.h.
+#pragma once
+
+#include "integrator/subpath/subpath_wave.h"
+
+#include <cmath>
+#include <limits>
+
+namespace etendue {
+
+/// Of a path and the strategy that has made it: sums of ratios over the strategies with fewer vertices from one end.
+struct StrategySums {
+    double fewer_from_light = 0.0;
+    double fewer_from_eye = 0.0;
+
+    [[nodiscard]] double weight() const { return 1.0 / (1.0 + fewer_from_light + fewer_from_eye); }
+};
+
+/// Densities of a point of a light, 1/m², or at infinity of a direction, 1/sr, without the choice of the light.
+struct LightPointPdfs {
+    float sampled;  ///< for the next vertex
+    float emitted;  ///< for a light subpath
+};
+
+/// s = 0: an eye subpath has met a point of `light`, or at infinity a direction, coming from `from`. `pdfs` are of that
+/// point or direction, `emission_pdf` of the ray from there.
+[[nodiscard]] inline StrategySums sums_at_light(const SubpathJob& job, const Vec3f& from, std::uint32_t light,
+                                                const LightPointPdfs& pdfs, float emission_pdf,
+                                                const SubpathDensities& arrived) {
+    const World& world = job.world;
+    const Raised& raised = job.raised;
+    const double sampled = raised(static_cast<double>(pdfs.sampled * world.light_probability(from, light)));
+    const double emitted = raised(static_cast<double>(pdfs.emitted * world.emission_probability(light)));
+    return {.fewer_from_eye = sampled * arrived.a + emitted * arrived.b * raised(static_cast<double>(emission_pdf))};
+}
+
+/// The same for a surface that a ray along `direction` has met.
+[[nodiscard]] inline StrategySums sums_at_emitter(const SubpathJob& job, const Vec3f& from, std::uint32_t light,
+                                                  const Vec3f& direction, float cos_light,
+                                                  const SubpathDensities& arrived) {
+    const float pdf_area = job.world.emitter_pdf_area(light);
+    return sums_at_light(job, from, light, {.sampled = pdf_area, .emitted = pdf_area},
+                         job.world.emission_pdf(light, -direction, cos_light), arrived);
+}
+
+/// The same for the environment. The vertex is a direction: its density is per solid angle on both sides, and so is
+/// that of the light.
+[[nodiscard]] inline StrategySums sums_at_environment(const SubpathJob& job, const Vec3f& from, const Vec3f& direction,
+                                                      DepartingDensities departing) {
+    const World& world = job.world;
+    departing.is_from_infinity = false;
+    return sums_at_light(job, from, world.environment(),
+                         {.sampled = world.environment_pdf_solid_angle(direction),
+                          .emitted = world.environment_emission_pdf_solid_angle(direction)},
+                         world.emission_pdf(world.environment(), -direction, 1.0f),
+                         departing.arrive(job.raised, 1.0, 1.0));
+}
+
+/// s = 1: `chosen` was sampled for the last vertex of an eye subpath, which scatters it by `value`.
+[[nodiscard]] inline StrategySums sums_of_light_sample(const SubpathJob& job, const PathVertex& vertex,
+                                                       const ChosenLight& chosen,
+                                                       const Scattering::TwoWayValue& value) {
+    const World& world = job.world;
+    const Raised& raised = job.raised;
+    const LightSample& light = chosen.sample;
+    const float arriving = world.emission_pdf(chosen.light, -light.wi, light.cos_light) * vertex.cosine(light.wi);
+    const double from_light =
+        static_cast<double>(std::isinf(light.distance) ? arriving : arriving / (light.distance * light.distance));
+    // The strategies with more vertices from the light have chosen it for its emission, not for this vertex, and so the
+    // direction of an environment: its densities jump from cell to cell, and both must be of the one that other
+    // strategies find the direction in.
+    auto for_emission = static_cast<double>(world.emission_probability(chosen.light));
+    auto for_vertex = static_cast<double>(chosen.probability);
+    float pdf_solid_angle = light.pdf_solid_angle;
+    if (chosen.light == world.environment()) {
+        for_emission *= static_cast<double>(world.environment_emission_pdf_solid_angle(light.wi));
+        pdf_solid_angle = chosen.probability * world.environment_pdf_solid_angle(light.wi);
+        for_vertex = static_cast<double>(pdf_solid_angle);
+        if (!(pdf_solid_angle > 0.0f)) return {.fewer_from_light = std::numeric_limits<double>::infinity()};
+    }
+    return {
+        .fewer_from_light = light.is_delta ? 0.0 : raised(static_cast<double>(value.pdf_solid_angle / pdf_solid_angle)),
+        .fewer_from_eye = raised(for_emission / for_vertex * from_light) *
+                          vertex.densities.fewer(raised, static_cast<double>(value.reverse_pdf_solid_angle))};
+}
+
+/// t = 1: the last vertex of a light subpath scatters along `direction`, by `value`, to the lens.
+[[nodiscard]] inline StrategySums sums_at_lens(const SubpathJob& job, const PathVertex& vertex, const Vec3f& direction,
+                                               const CameraConnection& camera, const Scattering::TwoWayValue& value) {
+    const double from_eye =
+        job.samples_per_light_path() * static_cast<double>(camera.importance_area * vertex.cosine(direction));
+    return {.fewer_from_light = job.raised(from_eye) *
+                                vertex.densities.fewer(job.raised, static_cast<double>(value.reverse_pdf_solid_angle))};
+}
+
+/// s > 1, t > 1: the last vertices of both subpaths, `squared` m² apart, the direction from that of the eye being `w`.
+[[nodiscard]] inline StrategySums sums_between(const Raised& raised, const PathVertex& eye, const PathVertex& light,
+                                               const Vec3f& w, float squared, const Scattering::TwoWayValue& at_eye,
+                                               const Scattering::TwoWayValue& at_light) {
+    const double from_eye = static_cast<double>(at_eye.pdf_solid_angle * light.cosine(w) / squared);
+    const double from_light = static_cast<double>(at_light.pdf_solid_angle * eye.cosine(w) / squared);
+    return {.fewer_from_light =
+                raised(from_eye) * light.densities.fewer(raised, static_cast<double>(at_light.reverse_pdf_solid_angle)),
+            .fewer_from_eye =
+                raised(from_light) * eye.densities.fewer(raised, static_cast<double>(at_eye.reverse_pdf_solid_angle))};
+}
+
+}  // namespace etendue

@@ -1,0 +1,211 @@
+#include "integrator/bdpt/recursive_weights.h"
+
+#include "integrator/bdpt/strategy_sums.h"
+#include "integrator/subpath/subpath_steps.h"
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace etendue::test {
+
+namespace {
+
+using Value = Scattering::TwoWayValue;
+
+/// The inner vertices in the order of the path, as a subpath from one of its ends has them.
+struct Side {
+    std::vector<PathVertex> vertices;
+    std::vector<Value> values;                  ///< towards the next vertex
+    std::vector<DepartingDensities> departing;  ///< the same
+};
+
+/// Vertex 0 is the first of `inner`.
+class GivenPath {
+  public:
+    GivenPath(const SubpathJob& job, const CompletePath& path) : job_(job), path_(path) {}
+
+    [[nodiscard]] std::vector<double> weights() {
+        const std::size_t n = path_.inner.size();
+        walk_from_eye();
+        if (!has_light()) {
+            std::vector<double> weights(n + 2, 0.0);
+            weights[0] = 1.0;
+            return weights;
+        }
+        walk_from_light();
+        std::vector<double> weights{weight_at_light(), weight_of_light_sample()};
+        for (std::size_t i = 0; i + 1 < n; ++i) weights.push_back(weight_between(i));
+        weights.push_back(weight_at_lens());
+        return weights;
+    }
+
+  private:
+    [[nodiscard]] bool has_light() const { return path_.end.light != kNone; }
+    [[nodiscard]] bool at_infinity() const { return job_.world.is_at_infinity(path_.end.light); }
+    [[nodiscard]] bool can_be_hit() const { return job_.world.can_be_hit(path_.end.light); }
+    [[nodiscard]] std::size_t last() const { return path_.inner.size() - 1; }
+
+    /// From vertex `i` towards the eye, unit.
+    [[nodiscard]] Vec3f to_eye(std::size_t i) const {
+        const Vec3f next = i < last() ? path_.inner[i + 1]->position : path_.camera.lens;
+        return normalize(next - path_.inner[i]->position);
+    }
+    /// And towards the light.
+    [[nodiscard]] Vec3f to_light(std::size_t i) const { return i > 0 ? -to_eye(i - 1) : -path_.end.direction; }
+    /// m², between vertices `i` and `i + 1`.
+    [[nodiscard]] double squared_distance(std::size_t i) const {
+        return static_cast<double>(length_squared(path_.inner[i + 1]->position - path_.inner[i]->position));
+    }
+
+    /// True if the strategy that made the path has vertex `i` from the light.
+    [[nodiscard]] bool is_from_light(std::size_t i) const { return i + 1 < path_.s; }
+    /// True if the path goes on by a delta. Ends of subpaths were left for elsewhere.
+    [[nodiscard]] bool is_delta(std::size_t i) const {
+        const bool is_end = path_.s > 0 && (i + 1 == path_.s || i + 2 == path_.s);
+        return path_.inner[i]->is_left_by_delta && !is_end;
+    }
+    [[nodiscard]] bool scatters_freely(std::size_t i) const { return path_.inner[i]->is_connectible && !is_delta(i); }
+    /// True if no hidden boundary lies between vertices `i - 1` and `i`; 0 is that on the light, then, and the last one
+    /// is followed by that on the lens.
+    [[nodiscard]] bool is_direct(std::size_t i) const {
+        if (i < path_.inner.size() && is_from_light(i)) return path_.inner[i]->is_reached_directly;
+        if (i + 1 == path_.s) return true;
+        return i > 0 ? path_.inner[i - 1]->is_reached_directly : path_.end.is_reached_directly;
+    }
+
+    /// Vertex `i` for a walk that arrives from `wo`.
+    [[nodiscard]] PathVertex seen_from(std::size_t i, const Vec3f& wo) const {
+        PathVertex vertex = *path_.inner[i];
+        vertex.wo = wo;
+        if (vertex.surface) vertex.surface = vertex.surface->seen_from(wo);
+        return vertex;
+    }
+    /// Scatters at `vertex`, which is vertex `i`, along `w`; `delta_ratio` is for the walk that made the path.
+    void scatter_along(Side& side, std::size_t i, const PathVertex& vertex, const Vec3f& w, TransportMode mode) {
+        const Value value = vertex.evaluate_both_ways(w, mode);
+        const float ratio = vertex.delta_reverse_ratio;
+        const bool is_its_way = is_from_light(i) == (mode == TransportMode::Importance);
+        side.vertices[i] = vertex;
+        side.values[i] = value;
+        side.departing[i] = is_delta(i) ? scatter_by_delta(job_.raised, vertex.densities,
+                                                           is_its_way ? ratio : 1.0f / ratio, vertex.cosine(w))
+                                        : scatter(job_.raised, vertex.densities, value.pdf_solid_angle,
+                                                  value.reverse_pdf_solid_angle, vertex.cosine(w));
+    }
+    void resize(Side& side) const {
+        side.vertices.resize(path_.inner.size());
+        side.values.resize(path_.inner.size());
+        side.departing.resize(path_.inner.size());
+    }
+
+    void walk_from_light() {
+        resize(light_);
+        for (std::size_t i = 0; i <= last(); ++i) {
+            PathVertex vertex = seen_from(i, to_light(i));
+            const auto cosine = static_cast<double>(vertex.cosine(vertex.wo));
+            const Emission emission = i == 0 ? this->emission() : Emission{};
+            DepartingDensities departing = i == 0 ? leave_light(job_, emission) : light_.departing[i - 1];
+            departing.is_connectible = departing.is_connectible && is_direct(i);
+            vertex.densities = i == 0 ? arrive_from_light(job_, emission, departing, vertex.position, cosine)
+                                      : departing.arrive(job_.raised, squared_distance(i - 1), cosine);
+            scatter_along(light_, i, vertex, to_eye(i), TransportMode::Importance);
+        }
+    }
+    void walk_from_eye() {
+        resize(eye_);
+        for (std::size_t i = last() + 1; i-- > 0;) {
+            PathVertex vertex = seen_from(i, to_eye(i));
+            const auto cosine = static_cast<double>(vertex.cosine(vertex.wo));
+            DepartingDensities departing = i == last() ? DepartingDensities() : eye_.departing[i + 1];
+            departing.is_connectible = departing.is_connectible && is_direct(i + 1);
+            vertex.densities = i == last() ? arrive_from_lens(job_, departing, path_.camera, cosine)
+                                           : departing.arrive(job_.raised, squared_distance(i), cosine);
+            scatter_along(eye_, i, vertex, to_light(i), TransportMode::Radiance);
+        }
+    }
+
+    /// As World::sample_emission makes it.
+    [[nodiscard]] Emission emission() const {
+        const World& world = job_.world;
+        const PathLightEnd& end = path_.end;
+        const float pdf = world.emission_pdf(end.light, end.direction, end.cos_light);
+        Emission emission;
+        emission.light = end.light;
+        emission.probability = world.emission_probability(end.light);
+        emission.sample.position = end.position;
+        emission.sample.direction = end.direction;
+        emission.sample.cos_theta = std::abs(end.cos_light);
+        if (at_infinity()) {
+            emission.sample.pdf_position_area = pdf;
+            if (can_be_hit())
+                emission.sample.pdf_direction_solid_angle = world.environment_emission_pdf_solid_angle(-end.direction);
+        } else {
+            emission.sample.pdf_direction_solid_angle = pdf;
+            if (can_be_hit()) emission.sample.pdf_position_area = world.emitter_pdf_area(end.light);
+        }
+        return emission;
+    }
+    /// As World::sample_light makes it for vertex 0.
+    [[nodiscard]] ChosenLight chosen() const {
+        const World& world = job_.world;
+        const PathLightEnd& end = path_.end;
+        const Vec3f& position = path_.inner.front()->position;
+        ChosenLight chosen;
+        chosen.probability = world.light_probability(position, end.light);
+        chosen.light = end.light;
+        chosen.sample.wi = -end.direction;
+        chosen.sample.cos_light = end.cos_light;
+        chosen.sample.is_delta = !can_be_hit();
+        if (at_infinity()) return chosen;
+        const float squared = length_squared(end.position - position);
+        chosen.sample.distance = std::sqrt(squared);
+        if (can_be_hit())
+            chosen.sample.pdf_solid_angle =
+                chosen.probability * world.emitter_pdf_area(end.light) * squared / std::abs(end.cos_light);
+        return chosen;
+    }
+
+    [[nodiscard]] double weight_at_light() const {
+        if (!can_be_hit()) return 0.0;
+        const Vec3f& from = path_.inner.front()->position;
+        const Vec3f direction = -path_.end.direction;
+        DepartingDensities departing = eye_.departing.front();
+        departing.is_connectible = departing.is_connectible && is_direct(0);
+        if (at_infinity()) return sums_at_environment(job_, from, direction, departing).weight();
+        const SubpathDensities arrived =
+            departing.arrive(job_.raised, static_cast<double>(length_squared(path_.end.position - from)),
+                             std::abs(static_cast<double>(path_.end.cos_light)));
+        return sums_at_emitter(job_, from, path_.end.light, direction, path_.end.cos_light, arrived).weight();
+    }
+    [[nodiscard]] double weight_of_light_sample() const {
+        if (!job_.world.has_sampled_lights() || !scatters_freely(0) || !is_direct(0)) return 0.0;
+        const ChosenLight light = chosen();
+        if (!(light.probability > 0.0f)) return 0.0;
+        return sums_of_light_sample(job_, eye_.vertices.front(), light, eye_.values.front()).weight();
+    }
+    /// With vertices up to `i` from the light.
+    [[nodiscard]] double weight_between(std::size_t i) const {
+        if (!scatters_freely(i) || !scatters_freely(i + 1) || !is_direct(i + 1)) return 0.0;
+        return sums_between(job_.raised, eye_.vertices[i + 1], light_.vertices[i], to_light(i + 1),
+                            static_cast<float>(squared_distance(i)), eye_.values[i + 1], light_.values[i])
+            .weight();
+    }
+    [[nodiscard]] double weight_at_lens() const {
+        if (!scatters_freely(last()) || !is_direct(last() + 1)) return 0.0;
+        return sums_at_lens(job_, light_.vertices.back(), to_eye(last()), path_.camera, light_.values.back()).weight();
+    }
+
+    const SubpathJob& job_;
+    const CompletePath& path_;
+    Side light_;
+    Side eye_;
+};
+
+}  // namespace
+
+std::vector<double> recursive_weights(const SubpathJob& job, const CompletePath& path) {
+    return GivenPath(job, path).weights();
+}
+
+}  // namespace etendue::test
