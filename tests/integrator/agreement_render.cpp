@@ -16,7 +16,6 @@ RenderOptions render_options(const AgreementCase& agreement) {
     options.full_height = kAgreementHeight;
     options.window = agreement.window;
     options.spp = agreement.spp;
-    // A splat falls into one pixel, so that those of a block are independent, as the test assumes.
     options.filter = PixelFilter(FilterShape::Box);
     return options;
 }
@@ -25,6 +24,7 @@ ImageEstimate estimate(const World& world, const Integrator& integrator, const A
                        const AgreementRenders& renders, const ThreadPool& threads, const PixelRect& part) {
     const std::atomic<bool> stop{false};
     RenderOptions options = render_options(agreement);
+    options.filter = PixelFilter(renders.filter);
     std::vector<ImageF> images;
     for (std::uint32_t i = 0; i < renders.seeds; ++i) {
         options.seed = renders.first_seed + i;
@@ -40,7 +40,9 @@ ImageEstimate estimate(const World& world, const Integrator& integrator, const A
             }
         images.push_back(std::move(image));
     }
-    return estimate_image(images);
+    ImageEstimate result = estimate_image(images);
+    if (renders.filter != FilterShape::Box) (void)widen_for_correlation(result, images, kAgreementBlock);
+    return result;
 }
 
 ImageEstimate estimate(const World& world, const std::string& integrator, const AgreementCase& agreement,

@@ -15,9 +15,15 @@ namespace etendue::test {
 struct AgreementRenders {
     std::uint32_t seeds = 6;
     std::uint32_t first_seed = 0;
+    /// By default a splat falls into one pixel, so that those of a block are independent, as the test assumes; with
+    /// others the variances are widened for blocks of `kAgreementBlock`.
+    FilterShape filter = FilterShape::Box;
 };
 
-/// What all renders of the room have in common.
+/// Pixels, side of the blocks that are compared.
+inline constexpr int kAgreementBlock = 8;
+
+/// What all renders of the room have in common: the filter is a box.
 [[nodiscard]] RenderOptions render_options(const AgreementCase& agreement);
 
 /// Of the pixels of `part`, which lies within the window that is rendered.

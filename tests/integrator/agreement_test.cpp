@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <ostream>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -50,8 +51,8 @@ TEST_P(Agreement, MakesTheSameImage) {
     const ImageEstimate first =
         estimate(world, agreement->integrators.front(), *agreement, {.first_seed = 100}, threads);
     const ImageEstimate other = estimate(world, integrator, *agreement, {.first_seed = 200}, threads);
-    const BlockAgreement result =
-        test_agreement(first, other, {.block_size = 8, .significance = sidak_level(kFamilyLevel, pairs().size())});
+    const BlockAgreement result = test_agreement(
+        first, other, {.block_size = kAgreementBlock, .significance = sidak_level(kFamilyLevel, pairs().size())});
     if (result.agree()) return;
     const Disagreement pair{{agreement->integrators.front(), &first.mean}, {integrator, &other.mean}};
     const std::filesystem::path images = write_failure_images(test_output_directory(), *agreement, world, {&pair, 1});
@@ -59,17 +60,18 @@ TEST_P(Agreement, MakesTheSameImage) {
                   << images.string();
 }
 
-/// A crop, of `pairs`' rooms, and who renders it.
-class CropAgreement : public testing::TestWithParam<const char*> {};
+/// Who renders a crop, of one of `pairs`' rooms, and the pixel filter: splats reach beyond their pixels but in a box.
+class CropAgreement : public testing::TestWithParam<std::tuple<const char*, FilterShape>> {};
 
 // All splats of the whole image reach the crop in the one, in the other only what is meant for it: the two differ in
 // their numbers, and for bidirectional path tracing in the densities that weigh strategies.
 TEST_P(CropAgreement, ACropIsThePartOfTheWhole) {
-    constexpr int kCrops = 4;  // of both instances
+    constexpr int kCrops = 8;  // of all instances
+    const auto& [name, filter] = GetParam();
     const AgreementCase& whole = agreement_case("LampPlastic");
     const World world = agreement_world(whole);
     const ThreadPool threads;
-    const auto integrator = make_integrator(GetParam(), {.lengths = whole.lengths});
+    const auto integrator = make_integrator(name, {.lengths = whole.lengths});
     const PixelRect crops[] = {{18, 20, 50, 44}, {40, 0, 42, 48}};
     for (const PixelRect& crop : crops) {
         AgreementCase cropped = whole;
@@ -77,9 +79,9 @@ TEST_P(CropAgreement, ACropIsThePartOfTheWhole) {
         // The narrow one has few samples.
         cropped.spp = 4 * whole.spp;
         const BlockAgreement result = test_agreement(
-            estimate(world, *integrator, whole, {.first_seed = 300}, threads, crop),
-            estimate(world, *integrator, cropped, {.first_seed = 400}, threads, crop),
-            {.block_size = 8, .significance = sidak_level(kFamilyLevel, kCrops), .mean_tolerance = 0.02});
+            estimate(world, *integrator, whole, {.first_seed = 300, .filter = filter}, threads, crop),
+            estimate(world, *integrator, cropped, {.first_seed = 400, .filter = filter}, threads, crop),
+            {.block_size = kAgreementBlock, .significance = sidak_level(kFamilyLevel, kCrops), .mean_tolerance = 0.02});
         EXPECT_TRUE(result.agree()) << result.str();
     }
 }
@@ -104,7 +106,7 @@ TEST_P(RouletteAgreement, ChangesNoImage) {
     const BlockAgreement result =
         test_agreement(estimate(world, *integrator(1), room, {.first_seed = 500}, threads, room.window),
                        estimate(world, *integrator(1000), room, {.first_seed = 600}, threads, room.window),
-                       {.block_size = 8, .significance = sidak_level(kFamilyLevel, kRenders)});
+                       {.block_size = kAgreementBlock, .significance = sidak_level(kFamilyLevel, kRenders)});
     EXPECT_TRUE(result.agree()) << result.str();
 }
 
@@ -117,8 +119,14 @@ TEST(MeanError, IsTheLargestOverTheChannels) {
     EXPECT_EQ(mean_error(e), 0.0) << "black";
 }
 
-INSTANTIATE_TEST_SUITE_P(Splats, CropAgreement, testing::Values("light", "bdpt"),
-                         [](const auto& param) { return std::string(param.param); });
+INSTANTIATE_TEST_SUITE_P(Splats, CropAgreement,
+                         testing::Combine(testing::Values("light", "bdpt"),
+                                          testing::Values(FilterShape::Box, FilterShape::BlackmanHarris)),
+                         [](const auto& param) {
+                             return std::get<0>(param.param) + std::string(std::get<1>(param.param) == FilterShape::Box
+                                                                               ? "Box"
+                                                                               : "BlackmanHarris");
+                         });
 
 INSTANTIATE_TEST_SUITE_P(BothSubpaths, RouletteAgreement, testing::Values("light", "bdpt"),
                          [](const auto& param) { return std::string(param.param); });

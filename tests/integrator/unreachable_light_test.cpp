@@ -32,11 +32,11 @@ Names who_says(const World& world, std::string_view text) {
     return names;
 }
 
-/// Of the whole image, splats included.
-MeanEstimate render_by(const World& world, const char* integrator) {
+/// Of the whole image, splats included; of paths of at most `max_depth` edges.
+MeanEstimate render_by(const World& world, const char* integrator, int max_depth = 2) {
     const ThreadPool threads;
     const std::atomic<bool> stop{false};
-    const auto made = make_integrator(integrator, {.lengths = {.max_depth = 2}});
+    const auto made = make_integrator(integrator, {.lengths = {.max_depth = max_depth}});
     RenderOptions options = whole_image(4, 4, 256);
     options.filter = PixelFilter(FilterShape::Box);
     std::vector<double> means;
@@ -47,11 +47,11 @@ MeanEstimate render_by(const World& world, const char* integrator) {
     return MeanEstimate(means);
 }
 
-void expect_same_as_path(const World& world, const std::vector<const char*>& integrators) {
-    const MeanEstimate path = render_by(world, "path");
+void expect_same_as_path(const World& world, const std::vector<const char*>& integrators, int max_depth = 2) {
+    const MeanEstimate path = render_by(world, "path", max_depth);
     EXPECT_GT(path.mean, 0.01);
     for (const char* name : integrators) {
-        const MeanEstimate other = render_by(world, name);
+        const MeanEstimate other = render_by(world, name, max_depth);
         EXPECT_NEAR(other.mean, path.mean, 5.0 * std::hypot(other.error, path.error) + 1e-5) << name;
     }
 }
@@ -81,6 +81,55 @@ TEST(UnreachableLight, PointsAreNotMetByChanceNorSeenFromMirrors) {
     mirror.override_model = ConductorDesc{};
     add_object(scene, quad({0, 0, -5}, {1, 0, 0}, {0, 1, 0}), add_material(scene, mirror));
     EXPECT_EQ(who_says(compile(scene), "cannot be found by eye paths"), (Names{"path", "direct"}));
+}
+
+/// A mirror in front of the camera, and behind it a wall that is lit by way of the mirror only.
+SceneDesc wall_in_mirror() {
+    SceneDesc scene = empty_scene();
+    MaterialDesc mirror;
+    mirror.override_model = ConductorDesc{};
+    add_object(scene, quad({0, 0, -3}, {8, 0, 0}, {0, 8, 0}), add_material(scene, mirror));
+    add_object(scene, quad({0, 0, 1}, {-8, 0, 0}, {0, 8, 0}), add_material(scene, diffuse(Rgb(0.5f))));
+    return scene;
+}
+
+TEST(UnreachableLight, MirrorsAreBlackFromTheLight) {
+    EXPECT_EQ(who_says(compile(wall_and_lamp()), "what the eye sees in mirrors"), Names());
+    SceneDesc scene = wall_in_mirror();
+    add_object(scene, quad({0, 1.5f, 0.2f}, {-0.3f, 0, 0}, {0, 0.3f, 0}), add_material(scene, emissive(Rgb(8.0f))));
+    const World world = compile(std::move(scene));
+    EXPECT_EQ(who_says(world, "what the eye sees in mirrors"), Names{"light"});
+    EXPECT_EQ(who_says(world, "where the eye sees it in a mirror"), Names()) << "paths that meet the lamp by chance";
+    constexpr int kEdges = 4;
+    expect_same_as_path(world, {"naive", "bdpt"}, kEdges);
+    EXPECT_EQ(render_by(world, "light", kEdges).mean, 0.0);
+}
+
+// Specular, diffuse, specular, with no end that a ray could meet: neither side can be connected to the wall.
+TEST(UnreachableLight, CausticsOfPointsAreNotSeenInMirrors) {
+    LightDesc lamp;
+    lamp.type = LightType::Spot;
+    lamp.intensity = 100.0f;
+    lamp.to_world = translation({0, 1.5f, 0.2f});
+    SceneDesc unmirrored = wall_and_lamp();
+    unmirrored.lights.push_back(lamp);
+    EXPECT_EQ(who_says(compile(std::move(unmirrored)), "where the eye sees it in a mirror"), Names());
+    SceneDesc scene = wall_in_mirror();
+    scene.lights.push_back(lamp);
+    const World world = compile(std::move(scene));
+    EXPECT_EQ(who_says(world, "where the eye sees it in a mirror"), Names{"bdpt"});
+    for (const char* name : {"path", "light", "bdpt"}) EXPECT_EQ(render_by(world, name, 6).mean, 0.0) << name;
+}
+
+TEST(UnreachableLight, TheSkyItselfIsNotFoundFromTheLight) {
+    EXPECT_EQ(who_says(compile(wall_and_lamp()), "the environment itself"), Names());
+    SceneDesc scene = empty_scene();
+    scene.environment.enabled = true;
+    const World world = compile(std::move(scene));
+    EXPECT_EQ(who_says(world, "the environment itself"), Names{"light"});
+    for (const char* name : {"path", "naive", "direct", "whitted", "bdpt"})
+        EXPECT_NEAR(render_by(world, name).mean, 1.0, 1e-6) << name;
+    EXPECT_EQ(render_by(world, "light").mean, 0.0);
 }
 
 TEST(UnreachableLight, UnlitSurfacesAreNotFoundFromTheLight) {
