@@ -118,7 +118,9 @@ class MaterialReader {
         if (brightest > 1.0) {
             problems_.warning(at("emissiveFactor"), "factors above 1 are taken as emissive strength");
             result.emissive_strength = static_cast<float>(brightest);
-            for (double& channel : emissive) channel /= brightest;
+            // Negative ones stay, for the warning to show them as they are in the file.
+            for (double& channel : emissive)
+                if (channel > 0.0) channel /= brightest;
         }
         result.emissive = {factor(emissive[0], "emissiveFactor"), factor(emissive[1], "emissiveFactor"),
                            factor(emissive[2], "emissiveFactor")};

@@ -205,6 +205,14 @@ TEST(Material, BrightEmissionBecomesStrength) {
     EXPECT_TRUE(has_problem(loaded.problems, Severity::Warning, "emissive strength"));
 }
 
+TEST(Material, NegativeEmissionIsReportedAsItStands) {
+    const LoadedScene loaded = load_with(R"({"emissiveFactor": [4, -3, 1]})");
+    const MaterialDesc& material = material_of(loaded);
+    EXPECT_EQ(material.emissive, Rgb(1.0f, 0.0f, 0.25f));
+    EXPECT_EQ(material.emissive_strength, 4.0f);
+    EXPECT_TRUE(has_problem(loaded.problems, Severity::Warning, "-3 is outside", "/emissiveFactor"));
+}
+
 TEST(Material, TexcoordsBeyondOneAreIgnoredWithAWarning) {
     const LoadedScene loaded =
         load_with(R"({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0, "texCoord": 2}}})");
