@@ -20,7 +20,7 @@ constexpr std::array<std::string_view, static_cast<std::size_t>(Repair::Count)> 
     "vertex colours that are negative or not finite are set to 0 or 1",
     "texture coordinates that a material needs are missing from its primitive; (0, 0) is used",
     "empty arrays, which glTF does not allow, are taken for absent ones",
-    "extensions that the file does not declare in extensionsUsed are read all the same",
+    "extensions that extensionsUsed does not declare; those that are supported are read all the same",
     "required extensions are missing from extensionsUsed",
     "nodes have a matrix and a translation, rotation or scale as well; the matrix counts",
     "rotations that are not of unit length are normalised",

@@ -40,7 +40,8 @@ void add_camera(GltfBuilder& b, const nlohmann::json& camera) {
 const Breach kBreaches[] = {
     {"EmptyChildren", Severity::Warning, "empty arrays", "/nodes/0/children",
      [](GltfBuilder& b) { node(b)["children"] = nlohmann::json::array(); }},
-    {"Undeclared", Severity::Warning, "does not declare", "/materials/0/extensions/KHR_materials_ior",
+    {"Undeclared", Severity::Warning, "does not declare; those that are supported are read",
+     "/materials/0/extensions/KHR_materials_ior",
      [](GltfBuilder& b) {
          b.json["materials"] = {{{"extensions", {{"KHR_materials_ior", {{"ior", 1.4}}}}}}};
      }},
