@@ -307,7 +307,7 @@ void add_compare_command(CLI::App& app, Action& action) {
         "Examples:\n"
         "  etendue compare scenes/caustic-glass -o report\n"
         "  etendue compare scenes/cornell-box --integrators path,bdpt,light --seconds 5 --seeds 8 -o report\n"
-        "  etendue compare scenes/caustic-glass --region caustic:150,160,230,215 --reference glass.exr -o report\n"
+        "  etendue compare scenes/caustic-glass --region caustic:105,192,150,216 --reference glass.exr -o report\n"
         "  etendue compare scenes/veach-mis --variant-a '--integrator path' --variant-b '--integrator path --max-depth "
         "4' -o report");
     command->callback([arguments, command, own, &action] {

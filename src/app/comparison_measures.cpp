@@ -175,10 +175,11 @@ RegionReport measure_region(const NamedRegion& region, const ComparisonReport& r
             const std::array<double, 3> mean = mean_color(image, pixels);
             for (std::size_t c = 0; c < 3; ++c)
                 variant.mean[c] += mean[c] / static_cast<double>(images[v].of_seeds.size());
+            variant.luminance.values.push_back(luminance(mean, weights));
             if (!reference) continue;
             const ImageF& expected = reference->of_round(seed);
             variant.mean_error.values.push_back(
-                luminance(mean, weights) / luminance(mean_color(expected, pixels), weights) - 1.0);
+                variant.luminance.values.back() / luminance(mean_color(expected, pixels), weights) - 1.0);
             add(variant.errors, compute_error_metrics(image, expected, {.region = pixels}));
         }
         if (reference) variant.rel_mse_seconds = variant.errors.at(kRelMse).mean() * report.variants[v].seconds.mean();

@@ -109,6 +109,7 @@ Json to_json(const RegionReport& region) {
     for (const RegionVariant& variant : region.variants)
         variants.push_back({{"name", variant.name},
                             {"mean", variant.mean},
+                            {"luminance", spread(variant.luminance)},
                             {"mean_error", variant.mean_error.mean()},
                             {"mean_error_deviation", variant.mean_error.deviation()},
                             {"errors", object(variant.errors, spread)},

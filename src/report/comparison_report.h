@@ -98,7 +98,8 @@ struct PairReport {
 struct RegionVariant {
     std::string name{};
     std::array<double, 3> mean{};
-    SeedValues mean_error{};  ///< of the region's mean luminance, relative
+    SeedValues luminance{};   ///< mean of the region: of renders alone, so that variants are independent
+    SeedValues mean_error{};  ///< of that against the reference, relative
     ErrorsByMetric errors{};
     double rel_mse_seconds = kUnknown;
 };

@@ -292,6 +292,9 @@ TEST_F(Compare, WithoutAReferenceOnlyWhatIsKnownIsSaid) {
     ASSERT_EQ(report()["regions"].size(), 1u) << "its mean needs no reference";
     EXPECT_GT(report()["regions"][0]["variants"][0]["mean"][0], 0.0);
     EXPECT_TRUE(report()["regions"][0]["variants"][0]["errors"].empty());
+    const json luminance = report()["regions"][0]["variants"][0]["luminance"];
+    ASSERT_EQ(luminance["values"].size(), 3u) << "one of each seed";
+    EXPECT_GT(luminance["values"][2], 0.0);
     EXPECT_NE(result.err.find("corner, path: mean"), std::string::npos) << result.err;
 }
 

@@ -38,8 +38,8 @@ class Blocks(unittest.TestCase):
     def test_every_page_has_the_blocks_of_its_tool(self):
         pages = {"torture": "docs/reliability.md"}
         for name, blocks in {"compare-cycles": [""], "measure-lights": [""], "measure-denoising": [""],
-                             "measure-fireflies": [""], "measure-adaptive": [""], "torture": [""],
-                             "caustics": ["regions", "images", "pictures"], "farm-model": ["coefficients", "farm"]}.items():
+                             "measure-fireflies": [""], "measure-bdpt": [""], "measure-adaptive": [""], "torture": [""],
+                             "caustics": ["regions", "energy", "images", "pictures"], "farm-model": ["coefficients", "farm"]}.items():
             tool = load_tool(name)
             page = (ROOT / pages[name] if name in pages else tool.PAGE).read_text(encoding="utf-8")
             for block in blocks:
