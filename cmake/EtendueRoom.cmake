@@ -21,6 +21,7 @@ function(etendue_test room)
   target_include_directories(test_${room} PRIVATE "${PROJECT_SOURCE_DIR}/tests")
   target_include_directories(test_${room} SYSTEM PRIVATE "${ETENDUE_BOOST_MATH}")
   target_link_libraries(test_${room} PRIVATE etendue_options ${ARG_LINK} GTest::gtest_main)
+  add_dependencies(unit_tests test_${room})
   target_precompile_headers(test_${room} REUSE_FROM etendue_test_headers)
   target_compile_definitions(test_${room} PRIVATE
     ETENDUE_SOURCE_DIR="${PROJECT_SOURCE_DIR}" ETENDUE_SHARED_ASSETS="${PROJECT_SOURCE_DIR}/../shared/assets")
