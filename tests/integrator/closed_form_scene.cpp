@@ -54,6 +54,9 @@ PrimitiveDesc quarter_triangles(PrimitiveDesc p) {
 /// Each triangle with vertices and a normal of its own.
 PrimitiveDesc faceted(const PrimitiveDesc& shared) {
     PrimitiveDesc p;
+    p.positions.reserve(3 * shared.triangles.size());
+    p.normals.reserve(3 * shared.triangles.size());
+    p.triangles.reserve(shared.triangles.size());
     for (const auto& [a, b, c] : shared.triangles) {
         const auto first = static_cast<std::uint32_t>(p.positions.size());
         const Vec3f corners[3] = {shared.positions[a], shared.positions[b], shared.positions[c]};

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <optional>
 #include <ostream>
 #include <string>
@@ -32,9 +33,9 @@ void PrintTo(const ClosedFormRun& comparison, std::ostream* out) {
 
 std::vector<ClosedFormCase> all_cases() {
     std::vector<ClosedFormCase> cases;
-    for (auto&& list : {direct_light_cases(), environment_cases(), furnace_cases(), far_from_origin_cases(),
-                        motion_cases(), transparency_cases(), body_cases()})
-        cases.insert(cases.end(), list.begin(), list.end());
+    for (const auto& list : {direct_light_cases, environment_cases, furnace_cases, far_from_origin_cases, motion_cases,
+                             transparency_cases, body_cases})
+        std::ranges::move(list(), std::back_inserter(cases));
     return cases;
 }
 
