@@ -211,6 +211,10 @@ class Placer {
         camera.location = document_.at(fmt::format("/cameras/{}", node.camera));
         if (source.type == "orthographic") {
             camera.type = CameraType::Orthographic;
+            if (source.orthographic.xmag < 0.0 || source.orthographic.ymag < 0.0)
+                problems_.warning(document_.at(fmt::format("/cameras/{}/orthographic", node.camera)),
+                                  "xmag and ymag should not be negative: their signs are ignored, the view is not "
+                                  "mirrored");
             camera.ymag = static_cast<float>(std::abs(source.orthographic.ymag));
             const double aspect = std::abs(source.orthographic.xmag / source.orthographic.ymag);
             camera.aspect_ratio = std::isfinite(aspect) ? static_cast<float>(aspect) : 0.0f;

@@ -113,6 +113,11 @@ const Breach kBreaches[] = {
      [](GltfBuilder& b) {
          add_camera(b, {{"type", "orthographic"}});
      }},
+    {"MirroredView", Severity::Warning, "not mirrored", "/cameras/0/orthographic",
+     [](GltfBuilder& b) {
+         add_camera(
+             b, {{"type", "orthographic"}, {"orthographic", {{"xmag", -1}, {"ymag", 1}, {"znear", 0}, {"zfar", 9}}}});
+     }},
     {"OddStride", Severity::Error, "multiple of 4", "/bufferViews/0/byteStride",
      [](GltfBuilder& b) { b.json["bufferViews"][0]["byteStride"] = 13; }},
     {"NoPrimitives", Severity::Error, "at least 1", "/meshes/0/primitives",
