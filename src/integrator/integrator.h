@@ -73,7 +73,7 @@ struct RenderCounters {
 struct PathLengths {
     int max_depth = 32;
     int min_depth = 1;
-    int roulette_depth = 5;
+    int roulette_depth = 3;
 };
 
 /// What can be asked of integrators; each takes what concerns it.

@@ -3,6 +3,9 @@
 
 #include "world/world.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace etendue {
 
 /// Rays after which a path counts as long.
@@ -12,6 +15,13 @@ inline constexpr int kLongPath = 64;
 /// get; between perfect mirrors they would do so until the longest path allowed.
 [[nodiscard]] inline float most_survival(int depth) {
     return depth < kLongPath ? 1.0f : 0.95f;
+}
+
+/// Chance with which Russian roulette lets a path of `depth` edges from the eye live, of whose light the share
+/// `throughput` arrives. The root spares where all light has come a long way, and little of it arrives, what a chance
+/// in proportion would add to the noise; docs/integrators.md has the figures.
+[[nodiscard]] inline float eye_path_survival(float throughput, int depth) {
+    return std::min(most_survival(depth), std::sqrt(throughput));
 }
 
 /// Share of light that arrives from `distance` metres away.

@@ -22,7 +22,7 @@ struct IntegratorSettings {
     std::string type = "path";  ///< a name from the integrator registry
     int max_depth = 32;         ///< most edges of a path from camera to light, >= 1; 1 is emission seen directly
     int min_depth = 1;          ///< least edges of a path that is kept, >= 1
-    int roulette_depth = 5;     ///< edges after which Russian roulette may end a path, >= 1
+    int roulette_depth = 3;     ///< edges after which Russian roulette may end a path, >= 1
     /// Of bidirectional path tracing: how strategies are weighed, and which one alone makes the image, by its vertices
     /// from the light and from the eye; not weighted, it is all there is.
     HeuristicType heuristic = HeuristicType::Balance;

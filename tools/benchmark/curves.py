@@ -136,7 +136,7 @@ CURVES = [
           ROULETTE_VARIANTS,
           [Column(f"`{name.replace(',', '`,', 1)}" if "," in name else f"`{name}`", MICROSECONDS, name, per_sample(name))
            for name in ROULETTE_VARIANTS],
-          deep, "cornell-box, 128 × 128 pixels, CPU µs a sample. As it comes, Russian roulette ends paths from the fifth edge "
+          deep, "cornell-box, 128 × 128 pixels, CPU µs a sample. As it comes, Russian roulette ends paths from the third edge "
           "on; *no roulette* lets them go on until they leave the box or are as long as is allowed."),
     Curve("resolution", "pixels a side", "Resolution: cornell-box", [128, 256, 512, 1024, 2048], [128, 256, 512],
           list(standard.INTEGRATORS), integrator_columns(), large, "cornell-box, square images."),

@@ -200,7 +200,7 @@ def make_plan(directory, size, metals_source):
         raise NotComparable("it is animated")
     plan = {"gltf": str(gltf.resolve()), "size": size, "camera": camera(settings, document),
             "max_bounces": max_bounces(integrator.get("max_depth", 32)),
-            "roulette_bounces": roulette_bounces(integrator.get("roulette_depth", 5)),
+            "roulette_bounces": roulette_bounces(integrator.get("roulette_depth", 3)),
             "environment": environment(settings, directory), "lights": lights(settings, document),
             "materials": Materials(settings, document, metals_source).all()}
     if not plan["environment"] and not plan["lights"] and not any(

@@ -84,16 +84,17 @@ void BdptWave::trace(const World& world, const TileJob& job, const BdptOptions& 
     found_.reset(count, job, counters.brightest.threshold());
     alpha_.assign(count, 1.0f);
     const Context context{{world, job, options.lengths, Raised{options.heuristic}, samples_, camera_rays_}, options};
-    // Of the edges that roulette spares, half are the eye's. Of light subpaths there are as many as samples, of which
-    // few bring much: a quarter is enough.
-    const int roulette_depth = options.lengths.roulette_depth;
+    // The edges that roulette spares are shared. Of light subpaths there are as many as samples, of which few bring
+    // much: the smaller half is enough.
+    const int spared_of_light = options.lengths.roulette_depth / 2;
+    const int spared_of_eye = options.lengths.roulette_depth - spared_of_light;
     context_ = &context;
     tile_ = &tile;
-    eye_.trace(context, (roulette_depth + 1) / 2, this, found_, counters);
+    eye_.trace(context, spared_of_eye, this, found_, counters);
     context_ = nullptr;
     tile_ = nullptr;
     if (world.has_lights()) {
-        light_.trace(context, roulette_depth / 4, nullptr, found_, counters);
+        light_.trace(context, spared_of_light, nullptr, found_, counters);
         cache_.clear();
         if (options.cached_connections > 0)
             for (const PathVertex& vertex : light_.vertices())

@@ -148,7 +148,7 @@ bool PathWave::survives(const Context& context, std::size_t i, PathState& state)
     const int first = context.world.has_bodies() ? std::min(context.options.lengths.roulette_depth, kLongPath)
                                                  : context.options.lengths.roulette_depth;
     if (context.depth < first) return true;
-    const float survival = std::min(most_survival(context.depth), max_component(state.throughput) * state.eta_scale);
+    const float survival = eye_path_survival(max_component(state.throughput) * state.eta_scale, context.depth);
     if (choices_[i].y >= survival) {
         end_path(context, i, PathEnding::Roulette);
         return false;

@@ -434,7 +434,10 @@ void SubpathWave::end_path(const SubpathJob& job, std::size_t i, PathEnding endi
 bool SubpathWave::survives(const SubpathJob& job, std::size_t i) {
     if (bounce_ < roulette_depth_) return true;
     SubpathState& state = states_[i];
-    const float survival = std::min(most_survival(bounce_), max_component(state.throughput) * state.roulette_scale);
+    const float share = max_component(state.throughput) * state.roulette_scale;
+    // A vertex on the light's side is connected to the camera and to all of the eye's: it costs more than one on that.
+    const float survival =
+        end_ == SubpathEnd::AtEye ? eye_path_survival(share, bounce_) : std::min(most_survival(bounce_), share);
     if (choices_[i].y >= survival) {
         end_path(job, i, PathEnding::Roulette);
         return false;
