@@ -40,3 +40,32 @@ function(etendue_compile_singly)
     set_target_properties(${ARGN} PROPERTIES UNITY_BUILD OFF)
   endif()
 endfunction()
+
+set(ETENDUE_LINK_TIME_OPTIMISATION OFF CACHE BOOL "Optimise the rooms that work per ray as one, while linking")
+set(ETENDUE_PROFILE "" CACHE STRING "generate: the program writes down which ways it takes; use: optimised for those")
+set_property(CACHE ETENDUE_PROFILE PROPERTY STRINGS "" generate use)
+
+# etendue_optimise_further(<target>...): as the two options above ask for.
+function(etendue_optimise_further)
+  if(ETENDUE_LINK_TIME_OPTIMISATION)
+    set_target_properties(${ARGN} PROPERTIES INTERPROCEDURAL_OPTIMIZATION ON)
+  endif()
+  # Counts lie beside the objects, so one build folder serves both. Renders have threads: counts are not exact, which
+  # is what -fprofile-correction is for. What the training did not run is optimised as ever.
+  if(ETENDUE_PROFILE STREQUAL "generate")
+    set(profile_options -fprofile-generate -fprofile-update=prefer-atomic)
+  elseif(ETENDUE_PROFILE STREQUAL "use")
+    set(profile_options -fprofile-use -fprofile-partial-training -fprofile-correction -Wno-missing-profile)
+  elseif(ETENDUE_PROFILE)
+    message(FATAL_ERROR "ETENDUE_PROFILE is '${ETENDUE_PROFILE}'; it can be empty, 'generate' or 'use'.")
+  endif()
+  foreach(target ${ARGN})
+    target_compile_options(${target} PRIVATE ${profile_options})
+    if(ETENDUE_PROFILE OR ETENDUE_LINK_TIME_OPTIMISATION)
+      set_target_properties(${target} PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)  # of other options
+    endif()
+    if(ETENDUE_PROFILE STREQUAL "generate")
+      target_link_options(${target} INTERFACE -fprofile-generate)
+    endif()
+  endforeach()
+endfunction()

@@ -80,13 +80,13 @@ class Batch : public testing::Test {
     /// The process that renders for the batch, once it is ready for signals. Throws if there is none: a signal to
     /// process 0 would go to these tests.
     [[nodiscard]] static int child_of(const RunningProgram& batch) {
-        const std::string command_of_batch = command_of(batch.pid());
         int child = 0;
         const bool found = wait_until([&] {
             const std::vector<int> children = children_of(batch.pid());
             child = children.empty() ? 0 : children.front();
-            // Until its exec it is a copy of the batch, handlers and all, and the batch waits for it.
-            return (child != 0 && command_of(child) != command_of_batch && handles_interrupt(child)) ||
+            // Until its exec it is a copy of the batch, handlers and all, and the batch waits for it. The batch itself
+            // has its own command only once it has children: before its exec it is a copy of these tests.
+            return (child != 0 && command_of(child) != command_of(batch.pid()) && handles_interrupt(child)) ||
                    batch.has_ended();
         });
         if (!found || child == 0) throw std::runtime_error("no process renders for the batch: " + batch.messages());

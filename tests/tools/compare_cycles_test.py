@@ -72,7 +72,7 @@ class Scene(unittest.TestCase):
 class CarriedOver(Scene):
     def test_edges_of_a_path_are_two_more_than_bounces(self):
         plan = self.plan({"integrator": {"max_depth": 16}, "environment": {}})
-        self.assertEqual((plan["max_bounces"], plan["roulette_bounces"]), (14, 3))
+        self.assertEqual((plan["max_bounces"], plan["roulette_bounces"]), (14, 1))
         self.assertEqual(self.plan({"environment": {}})["max_bounces"], 30)
 
     def test_environment_and_camera(self):
