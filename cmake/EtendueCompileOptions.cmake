@@ -41,17 +41,13 @@ function(etendue_compile_singly)
   endif()
 endfunction()
 
-set(ETENDUE_LINK_TIME_OPTIMISATION OFF CACHE BOOL "Optimise the rooms that work per ray as one, while linking")
-set(ETENDUE_PROFILE "" CACHE STRING "generate: the program writes down which ways it takes; use: optimised for those")
-set_property(CACHE ETENDUE_PROFILE PROPERTY STRINGS "" generate use)
-
-# etendue_optimise_further(<target>...): as the two options above ask for.
+# etendue_optimise_further(<target>...): as ETENDUE_LINK_TIME_OPTIMISATION and ETENDUE_PROFILE ask for.
 function(etendue_optimise_further)
   if(ETENDUE_LINK_TIME_OPTIMISATION)
     set_target_properties(${ARGN} PROPERTIES INTERPROCEDURAL_OPTIMIZATION ON)
   endif()
-  # Counts lie beside the objects, so one build folder serves both. Renders have threads: counts are not exact, which
-  # is what -fprofile-correction is for. What the training did not run is optimised as ever.
+  # Counts lie beside the objects, so one build folder serves both. -fprofile-correction is for what is not consistent
+  # where threads counted at once. What the training did not run is optimised as ever.
   if(ETENDUE_PROFILE STREQUAL "generate")
     set(profile_options -fprofile-generate -fprofile-update=prefer-atomic)
   elseif(ETENDUE_PROFILE STREQUAL "use")

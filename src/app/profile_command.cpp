@@ -190,7 +190,19 @@ void describe(ProfileReport& report, const ProfileArguments& arguments, const Re
                   .instanced_triangles = of_world.instanced_triangles,
                   .instances = of_world.instances,
                   .bytes = of_world.bvh_bytes,
-                  .quality = "medium, robust"};
+                  .quality = of_world.bvh_quality};
+}
+
+/// What is measured is not to be what measures.
+void note_costly_stamps(ProfileReport& report) {
+    constexpr double kMostShare = 0.01;
+    for (const ProfileRun& run : report.runs)
+        if (run.timing_share >= kMostShare)
+            report.notes.push_back(
+                fmt::format("{}, threads: {}: the time stamps took {:.1f}% of the time, more than the 1% they should; "
+                            "figures of its stages hold "
+                            "them, and larger images or more samples make them less",
+                            run.integrator, run.threads, 100.0 * run.timing_share));
 }
 
 void describe_memory(ProfileReport& report, const World& world, const ProfileRuns& runs) {
@@ -283,6 +295,7 @@ ExitCode run_profile(const ProfileArguments& arguments) {
     ProfileRuns measured = measure_runs(*loaded.world, loaded.settings, request);
     if (measured.interrupted) return interrupt_exit_code();
     report.runs = std::move(measured.runs);
+    note_costly_stamps(report);
     describe_memory(report, *loaded.world, measured);
     ProfileImages images;
     remove_heat_maps(directory);

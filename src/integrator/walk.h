@@ -11,7 +11,7 @@ namespace etendue {
 /// Rays after which a path counts as long.
 inline constexpr int kLongPath = 64;
 
-/// Most of the paths of `depth` edges that Russian roulette lets live. Lossless ones live on as long as paths usually
+/// Most of the paths of `depth` rays that Russian roulette lets live. Lossless ones live on as long as paths usually
 /// get; between perfect mirrors they would do so until the longest path allowed.
 [[nodiscard]] inline float most_survival(int depth) {
     return depth < kLongPath ? 1.0f : 0.95f;

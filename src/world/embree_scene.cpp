@@ -11,11 +11,16 @@
 #include <cstddef>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 
 namespace etendue {
 
 namespace {
+
+// Of all BVHs; docs/performance.md has what the others were measured to cost.
+constexpr RTCBuildQuality kBuildQuality = RTC_BUILD_QUALITY_MEDIUM;
+constexpr RTCSceneFlags kSceneFlags = RTC_SCENE_FLAG_ROBUST;
 
 /// Lets rays pass partly transparent surfaces with the probability of their transparency. The decision is a hash of the
 /// ray's key and the triangle, so that a ray decides the same way however often Embree asks.
@@ -62,8 +67,8 @@ EmbreeScene::EmbreeScene(std::span<const Geometry> geometries, std::span<const I
         if (!device_) throw IoError("Embree could not be started");
         rtcSetDeviceMemoryMonitorFunction(device_, count_memory, &memory);
         top_ = rtcNewScene(device_);
-        rtcSetSceneBuildQuality(top_, RTC_BUILD_QUALITY_MEDIUM);
-        rtcSetSceneFlags(top_, RTC_SCENE_FLAG_ROBUST);
+        rtcSetSceneBuildQuality(top_, kBuildQuality);
+        rtcSetSceneFlags(top_, kSceneFlags);
         std::unordered_map<std::uint32_t, RTCScene> scene_of_mesh;
         for (std::size_t i = 0; i < instances.size(); ++i) {
             const Instance& instance = instances[i];
@@ -142,7 +147,8 @@ void EmbreeScene::add_triangles(RTCScene scene, const Geometry& geometry, bool h
 RTCScene EmbreeScene::build_shared_scene(const Instance& instance, std::span<const Geometry> geometries,
                                          const std::vector<bool>& has_alpha) {
     RTCScene scene = rtcNewScene(device_);
-    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(scene, kBuildQuality);
+    rtcSetSceneFlags(scene, kSceneFlags);
     shared_.push_back(scene);
     for (std::uint32_t g = 0; g < instance.geometry_count; ++g) {
         const std::uint32_t geometry = instance.first_geometry + g;
@@ -252,6 +258,16 @@ std::string EmbreeScene::instruction_set() const {
     const auto supports = [&](RTCDeviceProperty property) { return rtcGetDeviceProperty(device_, property) != 0; };
     if (supports(RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED)) return "AVX-512";
     return supports(RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) ? "AVX/AVX2" : "SSE";
+}
+
+std::string EmbreeScene::quality() {
+    constexpr std::string_view kQuality = kBuildQuality == RTC_BUILD_QUALITY_HIGH     ? "high"
+                                          : kBuildQuality == RTC_BUILD_QUALITY_MEDIUM ? "medium"
+                                                                                      : "low";
+    std::string quality(kQuality);
+    if ((kSceneFlags & RTC_SCENE_FLAG_ROBUST) != 0) quality += ", robust";
+    if ((kSceneFlags & RTC_SCENE_FLAG_COMPACT) != 0) quality += ", compact";
+    return quality;
 }
 
 std::string ray_tracer_version() {

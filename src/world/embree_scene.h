@@ -47,6 +47,8 @@ class EmbreeScene {
     /// Seconds that all BVHs took to build.
     [[nodiscard]] double build_seconds() const { return build_seconds_; }
     [[nodiscard]] std::string instruction_set() const;
+    /// How all BVHs are built, in words.
+    [[nodiscard]] static std::string quality();
     /// True if anything moves while the shutter is open.
     [[nodiscard]] bool has_motion() const { return has_motion_; }
 

@@ -401,6 +401,7 @@ WorldStatistics World::statistics() const {
     s.isa = data_->bvh->instruction_set();
     s.bvh_bytes = data_->bvh->bytes();
     s.bvh_build_seconds = data_->bvh->build_seconds();
+    s.bvh_quality = EmbreeScene::quality();
     return s;
 }
 

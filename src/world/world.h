@@ -57,6 +57,7 @@ struct WorldStatistics {
     std::string isa;  ///< the widest instruction set that rays are traced with here
     std::size_t bvh_bytes = 0;
     double bvh_build_seconds = 0.0;
+    std::string bvh_quality;  ///< how it is built, in words
     std::size_t geometry_bytes = 0;
     std::size_t light_bytes = 0;  ///< of lights, the image of an environment included, and of the choice between them
     std::size_t textures = 0;

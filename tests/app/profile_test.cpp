@@ -162,7 +162,8 @@ TEST_F(Profile, NotesWhatOfTheSceneIsNotMeasured) {
     ASSERT_EQ(profile({"--integrators", "path", "--threads", "1", "--spp", "2", "--repeat", "1", "--quiet"}).exit_code,
               0);
     const json report = this->report();
-    ASSERT_EQ(report["notes"].size(), 3u) << report["notes"];
+    // Of so little work the time stamps may take more than they should, which one more tells.
+    ASSERT_GE(report["notes"].size(), 3u) << report["notes"];
     EXPECT_NE(report["notes"][0].get<std::string>().find("layers"), std::string::npos);
     EXPECT_NE(report["notes"][1].get<std::string>().find("error"), std::string::npos);
     EXPECT_NE(report["notes"][2].get<std::string>().find("median of means"), std::string::npos);

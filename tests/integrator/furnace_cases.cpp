@@ -100,8 +100,8 @@ std::vector<ClosedFormCase> lossless_body_cases() {
     exact.is_exact = true;
     cases.push_back(exact);
 
-    // The camera in the glass. Most of what it sees is totally reflected, and leaves by few long ways that bring much: so
-    // many samples, for means to be as good as normal.
+    // The camera in the glass. Most of what it sees is totally reflected, and leaves by few long ways that bring
+    // much: many samples, for means to be as good as normal.
     ClosedFormCase inside = body_case("camera_in_glass", glass(0.0f), 1e-4, false);
     inside.scene.cameras.clear();
     look(inside.scene, {0.1f, 0.3f, 0.2f}, {0.0f, 0.0f, -1.0f}, 0.1f);

@@ -42,7 +42,7 @@ def run(integrator, thread_count, seconds, efficiency):
     return {"integrator": integrator, "threads": thread_count, "spp": 1, "samples": 1_000_000, "seconds": seconds,
             "cpu_seconds": [thread_count * each for each in seconds], "samples_per_second": 1e6 / seconds[0],
             "rays_per_second": 3e6 / seconds[0], "efficiency_single": efficiency, "efficiency_best": efficiency / 2,
-            "parallel_efficiency": 0.97, "tracing_share": 0.5}
+            "parallel_efficiency": 0.97, "tracing_share": 0.5, "peak": 2_000_000}
 
 
 def profile(efficiency):

@@ -69,11 +69,13 @@ SCENE_COLUMNS = [
 ]
 
 
-def integrator_columns(memory=True):
-    columns = [Column(f"`{name}`, CPU µs a sample", MICROSECONDS, name, per_sample(name)) for name in standard.INTEGRATORS]
-    if memory:
-        columns += [Column(f"`{name}`, peak, MB", MEGABYTES, name, of("peak", 1e-6, name)) for name in standard.INTEGRATORS]
-    return columns
+def memory_columns():
+    return [Column(f"`{name}`, peak, MB", MEGABYTES, name, of("peak", 1e-6, name)) for name in standard.INTEGRATORS]
+
+
+def integrator_columns():
+    return [Column(f"`{name}`, CPU µs a sample", MICROSECONDS, name, per_sample(name))
+            for name in standard.INTEGRATORS] + memory_columns()
 
 
 def generated_scene(options):
@@ -135,7 +137,7 @@ CURVES = [
     Curve("depth", "longest path, edges", "Depth: the longest path allowed, cornell-box", [2, 4, 8, 16, 32, 64], [2, 8, 32],
           ROULETTE_VARIANTS,
           [Column(f"`{name.replace(',', '`,', 1)}" if "," in name else f"`{name}`", MICROSECONDS, name, per_sample(name))
-           for name in ROULETTE_VARIANTS],
+           for name in ROULETTE_VARIANTS] + memory_columns(),
           deep, "cornell-box, 128 × 128 pixels, CPU µs a sample. As it comes, Russian roulette ends paths from the third edge "
           "on; *no roulette* lets them go on until they leave the box or are as long as is allowed."),
     Curve("resolution", "pixels a side", "Resolution: cornell-box", [128, 256, 512, 1024, 2048], [128, 256, 512],

@@ -21,9 +21,16 @@ def measure(setup):
     mode = setup.mode
     threads = ",".join(map(str, thread_counts(setup.processors)))
     setup.say(f"threads, {threads}")
-    return etendue.profile(setup.program, setup.scenes / FIXED_SCENE, setup.folder / "profile",
+    size = ["--size", mode.size] if mode.size else []
+    data = etendue.profile(setup.program, setup.scenes / FIXED_SCENE, setup.folder / "profile",
                            ["--integrators", ",".join(standard.INTEGRATORS), "--threads", threads, "--seconds", mode.seconds,
-                            "--repeat", mode.thread_repeat, *(["--size", mode.size] if mode.size else [])])
+                            "--repeat", mode.thread_repeat, *size])
+    # All runs of a profile are of one process; peaks of memory are of renders by themselves.
+    for run in data["runs"]:
+        run["peak"] = etendue.render(setup.program, setup.scenes / FIXED_SCENE, setup.folder / "image.exr",
+                                     ["--integrator", run["integrator"], "--threads", run["threads"], "--spp", mode.spp,
+                                      *size])["peak"]
+    return data
 
 
 def seconds_per_sample(run):
@@ -49,8 +56,10 @@ def threads_table(data):
     for run in data["runs"]:
         values = speed_ups(data, run["integrator"], run["threads"]) if run["threads"] > 1 else []
         rows.append([f"`{run['integrator']}`", str(run["threads"]), figure(run["samples_per_second"] / 1e6),
-                     figure(statistics.median(run["cpu_seconds"]) / run["samples"] * 1e6), speed_up_text(values)])
-    return table(["integrator", "threads", "Msamples/s", "CPU µs a sample", "speed-up: median, least to most"], rows, words=(0, 4))
+                     figure(statistics.median(run["cpu_seconds"]) / run["samples"] * 1e6), speed_up_text(values),
+                     figure(run["peak"] / 1e6)])
+    return table(["integrator", "threads", "Msamples/s", "CPU µs a sample", "speed-up: median, least to most", "peak, MB"],
+                 rows, words=(0, 4))
 
 
 def plot(data):

@@ -232,6 +232,7 @@ bool PathWave::scatter_in_medium(const Context& context, std::size_t i, PathStep
     const MediumSample sample = medium->sample(state.throughput, hits_[i].t, medium_[i]);
     state.throughput *= sample.weight;
     if (!sample.scatters) return false;
+    if (context.job.profile != nullptr) ++context.job.profile->use().phase_samples;
 
     const Vec3f position = ray.origin + ray.direction * sample.distance;
     const bool samples_lights = context.options.sample_lights && context.world.has_lights_in_media();

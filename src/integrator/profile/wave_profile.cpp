@@ -45,6 +45,7 @@ void WaveProfile::add(const WaveProfile& other) {
     use_.light_samples += other.use_.light_samples;
     use_.bsdf_samples += other.use_.bsdf_samples;
     use_.bsdf_absorbed += other.use_.bsdf_absorbed;
+    use_.phase_samples += other.use_.phase_samples;
     use_.bsdf_met_light += other.use_.bsdf_met_light;
 }
 

@@ -33,9 +33,11 @@ inline constexpr std::array<std::string_view, kPathEndings> kPathEndingNames{
 /// How useful samples are.
 struct SampleUse {
     std::uint64_t light_samples = 0;  ///< of next-event estimation
+    // Of eye paths:
     std::uint64_t bsdf_samples = 0;
     std::uint64_t bsdf_absorbed = 0;   ///< without weight
-    std::uint64_t bsdf_met_light = 0;  ///< whose rays met a lamp or an environment that shines
+    std::uint64_t phase_samples = 0;   ///< in media
+    std::uint64_t bsdf_met_light = 0;  ///< samples of either whose rays met a lamp or an environment that shines
 };
 
 /// An eye path that was longer than most.

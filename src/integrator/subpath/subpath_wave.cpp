@@ -338,9 +338,11 @@ void SubpathWave::sample_bsdfs(std::size_t first, std::size_t vertices) {
 
 bool SubpathWave::scatter(const SubpathJob& job, std::size_t i, const Vec3f& position, const Rgb& weight,
                           bool is_delta) {
-    if (job.job.profile != nullptr) ++job.job.profile->use().bsdf_samples;
+    SampleUse* const use =
+        job.job.profile != nullptr && end_ == SubpathEnd::AtEye ? &job.job.profile->use() : nullptr;
+    if (use != nullptr) ++use->bsdf_samples;
     if (is_black(weight)) {
-        if (job.job.profile != nullptr) ++job.job.profile->use().bsdf_absorbed;
+        if (use != nullptr) ++use->bsdf_absorbed;
         end_path(job, i, PathEnding::Absorbed);
         return false;
     }
@@ -398,6 +400,7 @@ bool SubpathWave::scatter_in_medium(const SubpathJob& job, std::size_t i) {
     const MediumSample sample = medium->sample(state.throughput, hits_[i].t, medium_[i]);
     state.throughput *= sample.weight;
     if (!sample.scatters) return false;
+    if (job.job.profile != nullptr && end_ == SubpathEnd::AtEye) ++job.job.profile->use().phase_samples;
     const Vec3f wo = -ray.direction;
     PathVertex& vertex = store(state);
     vertex.position = ray.origin + ray.direction * sample.distance;
@@ -435,7 +438,7 @@ bool SubpathWave::survives(const SubpathJob& job, std::size_t i) {
     if (bounce_ < roulette_depth_) return true;
     SubpathState& state = states_[i];
     const float share = max_component(state.throughput) * state.roulette_scale;
-    // A vertex on the light's side is connected to the camera and to all of the eye's: it costs more than one on that.
+    // The root for light subpaths, too, is worse on as many scenes as it is better (docs/integrators.md).
     const float survival =
         end_ == SubpathEnd::AtEye ? eye_path_survival(share, bounce_) : std::min(most_survival(bounce_), share);
     if (choices_[i].y >= survival) {

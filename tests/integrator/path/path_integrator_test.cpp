@@ -3,6 +3,7 @@
 #include "integrator/path/path_integrator.h"
 
 #include "integrator/render_tile.h"
+#include "integrator/walk.h"
 #include "world/test_scene.h"
 
 #include <array>
@@ -15,7 +16,7 @@ namespace etendue::test {
 
 namespace {
 
-PathIntegrator path_of(int max_depth, int min_depth = 1, bool sample_lights = true, int roulette_depth = 5) {
+PathIntegrator path_of(int max_depth, int min_depth = 1, bool sample_lights = true, int roulette_depth = 3) {
     return PathIntegrator({.lengths = {max_depth, min_depth, roulette_depth}, .sample_lights = sample_lights});
 }
 
@@ -55,10 +56,17 @@ TEST(PathIntegrator, DepthCountsEdges) {
 
 TEST(PathIntegrator, RouletteDoesNotChangeTheMean) {
     const World world = compile(glowing_sphere(0.5f, 0.5f));
-    for (const int roulette_depth : {1, 5}) {
+    for (const int roulette_depth : {1, 3}) {
         const TileResult result = render_tile(world, path_of(64, 1, true, roulette_depth), 512);
         EXPECT_NEAR(result.mean.g, 1.0, 5.0 * result.error + 3e-3);
     }
+}
+
+TEST(PathIntegrator, RouletteTakesTheRootOfTheThroughput) {
+    EXPECT_EQ(eye_path_survival(0.0f, 3), 0.0f);
+    EXPECT_EQ(eye_path_survival(0.25f, 3), 0.5f);
+    EXPECT_EQ(eye_path_survival(2.0f, kLongPath - 1), 1.0f);
+    EXPECT_EQ(eye_path_survival(2.0f, kLongPath), 0.95f);
 }
 
 TEST(PathIntegrator, RouletteKeepsLightInGlass) {
