@@ -67,11 +67,12 @@ struct ShadedPath {
     BsdfSample sample;
 };
 
-/// Structure-of-arrays state of a wave. About 200 bytes a path, 250 among bodies.
+/// The state of a wave: states, rays and hits of its paths as arrays, and a block of them as columns. About 200 bytes a
+/// path, 250 among bodies.
 class PathWave final : public IntegratorScratch {
   public:
-    /// Paths in a wave: enough to fill ray packets after many have ended, and about 400 KiB, a fifth of an L2 cache of
-    /// 2 MiB.
+    /// Paths in a wave: enough to fill ray packets after many have ended, and about 400 KiB, which stay in an L2 cache
+    /// of 1 MiB.
     static constexpr std::size_t kCapacity = 2048;
     /// Paths that go from one stage of shading to the next together: what lies between the stages stays in the
     /// first-level cache.
