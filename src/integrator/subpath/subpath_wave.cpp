@@ -338,8 +338,7 @@ void SubpathWave::sample_bsdfs(std::size_t first, std::size_t vertices) {
 
 bool SubpathWave::scatter(const SubpathJob& job, std::size_t i, const Vec3f& position, const Rgb& weight,
                           bool is_delta) {
-    SampleUse* const use =
-        job.job.profile != nullptr && end_ == SubpathEnd::AtEye ? &job.job.profile->use() : nullptr;
+    SampleUse* const use = job.job.profile != nullptr && end_ == SubpathEnd::AtEye ? &job.job.profile->use() : nullptr;
     if (use != nullptr) ++use->bsdf_samples;
     if (is_black(weight)) {
         if (use != nullptr) ++use->bsdf_absorbed;
