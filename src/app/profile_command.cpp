@@ -4,7 +4,6 @@
 #include "app/interrupt.h"
 #include "app/options_of_render.h"
 #include "app/output_directory.h"
-#include "app/peak_memory.h"
 #include "app/phase_timer.h"
 #include "app/prepared_scene.h"
 #include "app/profile_runs.h"
@@ -133,10 +132,12 @@ class LoadedScene {
         const PhaseTimer timer;
         world = std::make_unique<const World>(
             compile_world(std::move(prepared.scene), colors, working_space, threads, prepared.problems));
-        const double build = timer.elapsed().wall;
-        const WorldStatistics of_world = world->statistics();
-        report.load.push_back({"materials, lights and textures", build - of_world.bvh_build_seconds});
-        report.load.push_back({"BVH", of_world.bvh_build_seconds});
+        double rest = timer.elapsed().wall;
+        for (const CompilePhase& phase : world->statistics().compile_phases) {
+            report.load.push_back({std::string(phase.name), phase.seconds});
+            rest -= phase.seconds;
+        }
+        report.load.push_back({"light tree", rest});
         if (!arguments.quiet)
             for (const Problem& problem : prepared.problems.all()) log_warning("{}", problem.str());
     }
@@ -209,12 +210,15 @@ void describe_memory(ProfileReport& report, const World& world, const ProfileRun
     const WorldStatistics of_world = world.statistics();
     const auto bytes = [](std::size_t value) { return static_cast<double>(value); };
     report.memory = {{"geometry", bytes(of_world.geometry_bytes)},
+                     {"instances", bytes(of_world.instance_bytes)},
                      {"BVH", bytes(of_world.bvh_bytes)},
+                     {"materials", bytes(of_world.material_bytes)},
                      {"textures", bytes(of_world.texture_bytes)},
                      {"lights", bytes(of_world.light_bytes)},
                      {"film", bytes(runs.film_bytes)},
+                     {"tiles and splats", bytes(runs.tile_bytes)},
                      {"waves", bytes(runs.wave_bytes)}};
-    report.peak_memory_bytes = peak_memory_bytes();
+    report.peak_memory_bytes = runs.peak_memory_bytes;
 }
 
 /// Writes the map's EXR, and keeps its picture for the page.

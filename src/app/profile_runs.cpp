@@ -2,6 +2,7 @@
 
 #include "app/hardware_counters.h"
 #include "app/interrupt.h"
+#include "app/peak_memory.h"
 #include "app/progress_display.h"
 #include "app/render_setup.h"
 #include "integrator/profile/wave_profile.h"
@@ -76,6 +77,7 @@ class RunMeasurement {
         for (int repetition = 0; repetition < request_.repetitions; ++repetition)
             for (Setup& setup : setups_)
                 if (!repeat(setup)) return finish(true);
+        result_.peak_memory_bytes = peak_memory_bytes();
         for (Setup& setup : setups_)
             if (!instrument(setup)) return finish(true);
         for (const std::string& name : request_.integrators)
@@ -111,6 +113,7 @@ class RunMeasurement {
             result_.film_bytes, pixels * sizeof(PixelSum) +
                                     (setup.integrator->makes_splats() ? pixels * sizeof(SplatSum) : std::size_t{0}));
         result_.wave_bytes = std::max(result_.wave_bytes, progressive.scratch_bytes());
+        result_.tile_bytes = std::max(result_.tile_bytes, progressive.tile_bytes());
         return done;
     }
 
@@ -171,11 +174,18 @@ class RunMeasurement {
         run.timing_share = WaveProfile::seconds_per_stamp() * static_cast<double>(waves.stamps()) / all;
     }
 
-    static void describe_paths(ProfileRun& run, const WaveProfile& waves) {
+    static PathsReport describe(const PathTally& tally) {
+        PathsReport report{.lengths = tally.lengths()};
+        if (report.lengths.empty()) return report;
         for (std::size_t i = 0; i < kPathEndings; ++i)
-            run.endings.push_back(
-                {std::string(kPathEndingNames[i]), static_cast<double>(waves.paths(static_cast<PathEnding>(i)))});
-        run.path_lengths = waves.path_lengths();
+            report.endings.push_back(
+                {std::string(kPathEndingNames[i]), static_cast<double>(tally.paths(static_cast<PathEnding>(i)))});
+        return report;
+    }
+
+    static void describe_paths(ProfileRun& run, const WaveProfile& waves) {
+        run.eye_paths = describe(waves.eye_paths());
+        run.light_paths = describe(waves.light_paths());
         for (const LongPath& path : waves.longest())
             run.longest.push_back({.x = path.x, .y = path.y, .sample = path.sample, .vertices = path.rays + 1});
         const SampleUse& use = waves.use();

@@ -3,6 +3,7 @@
 
 #include "core/pixel_rect.h"
 #include "core/rgb.h"
+#include "core/vector_bytes.h"
 #include "film/layers.h"
 #include "film/splat_film.h"
 #include "film/wave_hits.h"
@@ -64,6 +65,8 @@ class TileBuffer {
     [[nodiscard]] const LayerBuffer& layers() const { return layers_; }
     /// Light for any pixel of the image, of integrators that make such.
     [[nodiscard]] std::vector<Splat>& splats() { return splats_; }
+    /// Without layers.
+    [[nodiscard]] std::size_t bytes() const { return vector_bytes(pixels_, splats_); }
     /// Of the samples of a wave, what their camera rays have met; of layers that tell of it.
     [[nodiscard]] WaveHits& wave_hits() { return wave_hits_; }
 

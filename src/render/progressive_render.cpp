@@ -1,6 +1,7 @@
 #include "render/progressive_render.h"
 
 #include "core/process_time.h"
+#include "core/vector_bytes.h"
 #include "integrator/camera_wave.h"
 #include "render/render_profile.h"
 #include "render/tiles.h"
@@ -50,6 +51,13 @@ ProgressiveRender::ProgressiveRender(const World& world, const Integrator& integ
 std::size_t ProgressiveRender::scratch_bytes() const {
     std::size_t bytes = 0;
     for (const Worker& worker : workers_) bytes += worker.scratch->bytes();
+    return bytes;
+}
+
+std::size_t ProgressiveRender::tile_bytes() const {
+    std::size_t bytes = vector_bytes(tiles_, splats_);
+    for (const Worker& worker : workers_) bytes += worker.tile.bytes();
+    for (const std::vector<Splat>& list : splats_) bytes += vector_bytes(list);
     return bytes;
 }
 

@@ -103,6 +103,8 @@ class ProgressiveRender {
     [[nodiscard]] const RenderState& state() const { return state_; }
     /// That all threads keep between tiles, without the tiles themselves.
     [[nodiscard]] std::size_t scratch_bytes() const;
+    /// Tiles under way, and splats that wait to be added; without layers.
+    [[nodiscard]] std::size_t tile_bytes() const;
     /// Moves the state out; nothing else may be called then.
     [[nodiscard]] RenderState take_state() { return std::move(state_); }
 

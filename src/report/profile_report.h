@@ -46,6 +46,12 @@ struct TileReport {
     double end = 0.0;
 };
 
+/// How paths of one kind end, and how long they get.
+struct PathsReport {
+    std::vector<NamedValue> endings{};     ///< why they end, and how many did
+    std::vector<std::uint64_t> lengths{};  ///< how many took as many rays as the index says
+};
+
 /// A sample whose path was among the longest.
 struct LongPathReport {
     int x = 0;
@@ -80,9 +86,9 @@ struct ProfileRun {
     double parallel_efficiency = std::numeric_limits<double>::quiet_NaN();  ///< speed over threads × that of one thread
     double load_imbalance = 0.0;                ///< longest time that a thread rendered over the mean of all, minus 1
     std::vector<TileReport> tiles{};            ///< of the instrumented repetition
-    std::vector<NamedValue> endings{};          ///< why paths end, and how many did
-    std::vector<std::uint64_t> path_lengths{};  ///< eye paths that took as many rays as the index says
-    std::vector<LongPathReport> longest{};
+    PathsReport eye_paths{};
+    PathsReport light_paths{};              ///< light subpaths; empty if the integrator has none
+    std::vector<LongPathReport> longest{};  ///< eye paths
     double shadow_unoccluded = std::numeric_limits<double>::quiet_NaN();  ///< share of shadow rays
     double light_sampling_used =
         std::numeric_limits<double>::quiet_NaN();  ///< share of light samples that made a shadow ray

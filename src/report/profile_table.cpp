@@ -73,20 +73,26 @@ std::string shares(const ProfileRun& run) {
     return aligned(rows, kIndent);
 }
 
-std::string paths(const ProfileRun& run) {
-    const double ended = sum_of(run.endings);
-    Rows rows{{"paths end", "paths", "share"}};
-    for (const NamedValue& ending : run.endings)
+/// `kind` is "eye path".
+std::string paths_of(const PathsReport& paths, const char* kind) {
+    const double ended = sum_of(paths.endings);
+    if (ended == 0.0) return "";
+    Rows rows{{fmt::format("{}s end", kind), "paths", "share"}};
+    for (const NamedValue& ending : paths.endings)
         rows.push_back({ending.name, human_count(ending.value), human_percent(rate(ending.value, ended))});
-    std::string text = run.endings.empty() ? "" : aligned(rows, kIndent);
+    std::string text = aligned(rows, kIndent);
     double count = 0.0, rays = 0.0;
-    for (std::size_t length = 0; length < run.path_lengths.size(); ++length) {
-        count += static_cast<double>(run.path_lengths[length]);
-        rays += static_cast<double>(length * run.path_lengths[length]);
+    for (std::size_t length = 0; length < paths.lengths.size(); ++length) {
+        count += static_cast<double>(paths.lengths[length]);
+        rays += static_cast<double>(length * paths.lengths[length]);
     }
-    if (count > 0.0)
-        text += fmt::format("  rays of an eye path: {:.2f} on average, {} at most\n", rays / count,
-                            run.path_lengths.size() - 1);
+    if (count == 0.0) return text;
+    return text + fmt::format("  rays of {} {}: {:.2f} on average, {} at most\n", kind[0] == 'e' ? "an" : "a", kind,
+                              rays / count, paths.lengths.size() - 1);
+}
+
+std::string paths(const ProfileRun& run) {
+    const std::string text = paths_of(run.eye_paths, "eye path") + paths_of(run.light_paths, "light subpath");
     if (run.longest.empty()) return text;
     std::string places;
     for (std::size_t i = 0; i < std::min(kLongestPaths, run.longest.size()); ++i) {
@@ -94,7 +100,7 @@ std::string paths(const ProfileRun& run) {
         places += fmt::format("{}{} vertices at ({}, {}), sample {}", i == 0 ? "" : "; ", path.vertices, path.x, path.y,
                               path.sample);
     }
-    return text + wrapped("  longest paths: " + places, kIndent + 2);
+    return text + wrapped("  longest eye paths: " + places, kIndent + 2);
 }
 
 std::string expensive_tiles(const ProfileRun& run) {

@@ -2,10 +2,13 @@
 
 #include "bsdf/color_matching.h"
 #include "core/byte_size.h"
+#include "core/process_time.h"
 #include "world/compile_parts.h"
 #include "world/embree_scene.h"
 
 #include <algorithm>
+#include <chrono>
+#include <string_view>
 #include <utility>
 
 namespace etendue {
@@ -47,6 +50,11 @@ bool holds_textures_in_memory(const SceneDesc& scene) {
 World compile_world(SceneDesc scene, const ColorConfig& colors, const std::string& working_space,
                     const ThreadPool& threads, ProblemList& problems) {
     WorldData data;
+    auto start = std::chrono::steady_clock::now();
+    const auto end_phase = [&](std::string_view name) {
+        data.compile_phases.push_back({name, seconds_since(start)});
+        start = std::chrono::steady_clock::now();
+    };
     data.from_rec709 = colors.matrix(kGltfColorSpace, working_space);
     data.xyz_to_working = xyz_to_working(data.from_rec709);
     data.response = SpectralResponse(data.xyz_to_working);
@@ -55,16 +63,21 @@ World compile_world(SceneDesc scene, const ColorConfig& colors, const std::strin
 
     TextureCompiler textures(scene);
     compile_materials(scene, textures, data);
+    end_phase("materials");
     textures.finish(texture_budget(scene), threads, data);
+    end_phase("textures");
     compile_geometry(scene, threads, data);
     compile_bodies(data);
+    end_phase("geometry");
     compile_lights(scene, threads, data, problems);
+    end_phase("lights");
 
     std::vector<bool> has_alpha;
     has_alpha.reserve(data.geometries.size());
     for (const Geometry& geometry : data.geometries)
         has_alpha.push_back(data.materials[geometry.material].alpha_test != AlphaTest::Opaque);
     data.bvh = std::make_unique<EmbreeScene>(data.geometries, data.instances, data.motions, has_alpha, threads);
+    end_phase("BVH");
     return World(std::move(data));
 }
 

@@ -384,6 +384,9 @@ WorldStatistics World::statistics() const {
     for (const Instance& instance : data_->instances)
         for (std::uint32_t g = 0; g < instance.geometry_count; ++g)
             s.instanced_triangles += data_->geometries[instance.first_geometry + g].triangles.size();
+    s.instance_bytes = vector_bytes(data_->instances, data_->motions, data_->filling_of_body, data_->body_of_slot);
+    for (const TransformMotion& motion : data_->motions) s.instance_bytes += vector_bytes(motion);
+    s.material_bytes = vector_bytes(data_->materials, data_->fillings, plain_bsdfs_);
     s.textures = data_->textures.size();
     for (const Texture& texture : data_->textures) s.texture_bytes += texture.bytes();
     if (data_->texture_cache) {
@@ -402,6 +405,7 @@ WorldStatistics World::statistics() const {
     s.bvh_bytes = data_->bvh->bytes();
     s.bvh_build_seconds = data_->bvh->build_seconds();
     s.bvh_quality = EmbreeScene::quality();
+    s.compile_phases = data_->compile_phases;
     return s;
 }
 

@@ -21,6 +21,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace etendue {
@@ -48,6 +49,12 @@ enum class Coherence {
 /// How a batch goes through Embree. The default is what measured best for its coherence; benchmarks compare.
 enum class QueryForm { Best, Single, Packet8, Packet16 };
 
+/// A step of compiling, and how long it took.
+struct CompilePhase {
+    std::string_view name;
+    double seconds = 0.0;
+};
+
 /// Counts and sizes for reports.
 struct WorldStatistics {
     std::size_t triangles = 0;            ///< stored, each shared mesh once
@@ -57,8 +64,11 @@ struct WorldStatistics {
     std::string isa;  ///< the widest instruction set that rays are traced with here
     std::size_t bvh_bytes = 0;
     double bvh_build_seconds = 0.0;
+    std::vector<CompilePhase> compile_phases;  ///< in their order, the BVH among them
     std::string bvh_quality;  ///< how it is built, in words
     std::size_t geometry_bytes = 0;
+    std::size_t instance_bytes = 0;  ///< where meshes are placed, how they move, and what bodies they bound
+    std::size_t material_bytes = 0;
     std::size_t light_bytes = 0;  ///< of lights, the image of an environment included, and of the choice between them
     std::size_t textures = 0;
     std::size_t texture_bytes = 0;             ///< held in memory: all of them, or tiles in the cache
@@ -99,6 +109,7 @@ struct WorldData {
     std::vector<std::uint32_t> body_of_slot;     ///< body of (instance, geometry), or kNone; empty without bodies
     Bounds bounds;
     std::unique_ptr<EmbreeScene> bvh;
+    std::vector<CompilePhase> compile_phases;
 
     WorldData();
     ~WorldData();

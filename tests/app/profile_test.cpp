@@ -78,7 +78,18 @@ TEST_F(Profile, MeasuresEveryIntegratorOnEveryNumberOfThreads) {
     EXPECT_EQ(kinds, (Names{"camera", "bounce", "shadow", "light-subpath", "light-to-camera"}))
         << "its paths are too short for connections";
     EXPECT_GT(report["load"]["first_pixel_seconds"], 0.0);
-    EXPECT_GT(report["memory"]["peak_bytes"], 0);
+    Names phases;
+    for (const json& phase : report["load"]["phases"]) {
+        phases.push_back(phase["name"]);
+        EXPECT_GE(phase["seconds"], 0.0) << phase["name"];
+    }
+    EXPECT_EQ(phases, (Names{"start of the process", "files", "materials", "textures", "geometry", "lights", "BVH",
+                             "light tree", "first sample of every pixel"}));
+    double owned = 0.0;
+    for (const json& owner : report["memory"]["owners"]) owned += owner["bytes"].get<double>();
+    EXPECT_GT(report["memory"]["peak_bytes"], owned);
+    EXPECT_TRUE(report["runs"][0]["light_path_lengths"].empty());
+    EXPECT_FALSE(report["runs"][2]["light_path_lengths"].empty());
     const json trace = json::parse(read_file(work_ / "out/trace.json"));
     EXPECT_FALSE(trace["traceEvents"].empty());
     const ChannelImage heat = read_channels(work_ / "out/heat-path-2.exr");

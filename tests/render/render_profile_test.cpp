@@ -9,6 +9,23 @@ namespace etendue::test {
 
 namespace {
 
+/// Every path has one end and one length.
+std::uint64_t paths_of(const PathTally& tally) {
+    std::uint64_t ended = 0;
+    for (std::size_t i = 0; i < kPathEndings; ++i) ended += tally.paths(static_cast<PathEnding>(i));
+    std::uint64_t lengths = 0;
+    for (const std::uint64_t count : tally.lengths()) lengths += count;
+    EXPECT_EQ(lengths, ended);
+    return ended;
+}
+
+std::uint64_t rays_of(const PathTally& tally) {
+    const std::vector<std::uint64_t> lengths = tally.lengths();
+    std::uint64_t rays = 0;
+    for (std::size_t n = 0; n < lengths.size(); ++n) rays += n * lengths[n];
+    return rays;
+}
+
 class Profiled : public testing::TestWithParam<const char*> {};
 
 TEST_P(Profiled, TheImageIsTheSameAndTheFiguresAddUp) {
@@ -47,18 +64,27 @@ TEST_P(Profiled, TheImageIsTheSameAndTheFiguresAddUp) {
     }
     EXPECT_NEAR(tracing, waves.seconds(Stage::Intersect) + waves.seconds(Stage::Occluded), 1e-3 * tracing);
 
-    std::uint64_t ended = 0;
-    for (std::size_t i = 0; i < kPathEndings; ++i) ended += waves.paths(static_cast<PathEnding>(i));
-    std::uint64_t lengths = 0;
-    for (const std::uint64_t count : waves.path_lengths()) lengths += count;
-    EXPECT_EQ(lengths, ended);
-    const bool has_eye_paths = std::string(GetParam()) != "light";
-    EXPECT_EQ(ended, has_eye_paths ? profiled.counters.samples : 0u) << "every eye path has one end";
-    if (has_eye_paths) {
-        std::uint64_t rays = 0;
-        for (std::size_t n = 0; n < waves.path_lengths().size(); ++n) rays += n * waves.path_lengths()[n];
-        EXPECT_EQ(rays, profiled.counters.rays[RayKind::Primary] + profiled.counters.rays[RayKind::Bounce]);
+    const std::string name = GetParam();
+    EXPECT_EQ(paths_of(waves.eye_paths()), name == "light" ? 0u : profiled.counters.samples);
+    EXPECT_EQ(rays_of(waves.eye_paths()),
+              profiled.counters.rays[RayKind::Primary] + profiled.counters.rays[RayKind::Bounce]);
+    EXPECT_EQ(rays_of(waves.light_paths()), profiled.counters.rays[RayKind::LightSubpath]);
+    if (name == "light" || name == "bdpt") {
+        EXPECT_GT(paths_of(waves.light_paths()), 0u);
+        EXPECT_LE(paths_of(waves.light_paths()), profiled.counters.samples) << "black emissions trace no ray";
+        EXPECT_GT(waves.light_paths().paths(PathEnding::TooLong), 0u);
+        EXPECT_LE(waves.light_paths().lengths().size(), 4u + 1u) << "one edge is left for the way to the camera";
     }
+
+    // Of what an eye path's BSDFs and phase functions have sampled, each is followed by a ray unless the path ends by it.
+    const SampleUse& use = waves.use();
+    EXPECT_EQ(use.bsdf_samples + use.phase_samples, profiled.counters.rays[RayKind::Bounce] +
+                                                        waves.eye_paths().paths(PathEnding::Absorbed) +
+                                                        waves.eye_paths().paths(PathEnding::Roulette));
+    EXPECT_EQ(use.bsdf_absorbed, waves.eye_paths().paths(PathEnding::Absorbed));
+    EXPECT_LE(use.bsdf_met_light, use.bsdf_samples + use.phase_samples);
+    EXPECT_EQ(use.bsdf_met_light > 0, name != "light") << "subpaths from lights are none of the eye's";
+    EXPECT_EQ(use.light_samples > 0, name == "path" || name == "bdpt");
 
     std::uint64_t pixels = 0;
     for (const TileTime& tile : profile.tiles()) {
@@ -99,14 +125,14 @@ TEST(RenderProfile, EveryShadowRayIsOfALightSampleInMediaToo) {
 
 TEST(RenderProfile, IsOfAllThreads) {
     RenderProfile profile(2, 0);
-    profile.wave(0).end_path(PathEnding::Escaped, {.rays = 1});
-    profile.wave(1).end_path(PathEnding::Escaped, {.rays = 2});
+    profile.wave(0).end_eye_path(PathEnding::Escaped, {.rays = 1});
+    profile.wave(1).end_eye_path(PathEnding::Escaped, {.rays = 2});
     profile.add_tile({.rect = {0, 0, 1, 1}, .slot = 1, .start = 1.0, .end = 2.0});
     profile.add_tile({.rect = {1, 0, 2, 1}, .slot = 0, .start = 0.5, .end = 3.0});
     profile.add_splatting(0.25);
     profile.add_splatting(0.5);
-    EXPECT_EQ(profile.total().paths(PathEnding::Escaped), 2u);
-    EXPECT_EQ(profile.total().path_lengths(), (std::vector<std::uint64_t>{0, 1, 1}));
+    EXPECT_EQ(profile.total().eye_paths().paths(PathEnding::Escaped), 2u);
+    EXPECT_EQ(profile.total().eye_paths().lengths(), (std::vector<std::uint64_t>{0, 1, 1}));
     EXPECT_EQ(profile.splat_seconds(), 0.75);
     ASSERT_EQ(profile.tiles().size(), 2u);
     EXPECT_EQ(profile.tiles().front().slot, 0) << "by their beginnings";

@@ -30,8 +30,8 @@ inline ProfileRun made_up_run(int threads, std::vector<double> cpu_seconds) {
     run.tiles = {{.rect = {0, 0, 32, 32}, .thread = 0, .first_sample = 0, .start = 0.0, .end = 0.25},
                  {.rect = {32, 0, 64, 32}, .thread = 1, .first_sample = 0, .start = 0.0, .end = 0.5},
                  {.rect = {0, 0, 32, 32}, .thread = 1, .first_sample = 1, .start = 0.5, .end = 1.25}};
-    run.endings = {{"left the scene", 750.0}, {"roulette", 250.0}};
-    run.path_lengths = {0, 600, 300, 100};
+    run.eye_paths = {.endings = {{"left the scene", 750.0}, {"roulette", 250.0}}, .lengths = {0, 600, 300, 100}};
+    run.light_paths = {.endings = {{"left the scene", 300.0}, {"roulette", 100.0}}, .lengths = {0, 300, 0, 100}};
     run.longest = {{.x = 3, .y = 4, .sample = 5, .vertices = 9}};
     run.shadow_unoccluded = 0.5;
     run.hardware.values = {{"cycles", 2e9}, {"instructions", 3e9}};

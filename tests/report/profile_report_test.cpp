@@ -77,6 +77,8 @@ TEST(ProfileJson, HoldsWhatWasMeasured) {
     EXPECT_EQ(run["path_lengths"], Json({0, 600, 300, 100}));
     EXPECT_EQ(run["longest"][0]["vertices"], 9);
     EXPECT_EQ(run["endings"][1], Json({{"name", "roulette"}, {"paths", 250.0}}));
+    EXPECT_EQ(run["light_path_lengths"], Json({0, 300, 0, 100}));
+    EXPECT_EQ(run["light_endings"][0], Json({{"name", "left the scene"}, {"paths", 300.0}}));
     EXPECT_EQ(run["hardware"]["counters"][1]["count"], 3e9);
     EXPECT_EQ(run["heat_map"]["key"], "heat/path-2");
 }

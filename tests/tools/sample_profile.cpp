@@ -75,6 +75,18 @@ RayKindReport kind(const char* name, double rays, double rate, double single, do
         hit};
 }
 
+/// About `most` of one ray, and so much fewer of each ray more.
+PathsReport make_paths(double most, double fall) {
+    PathsReport paths{.endings = {{"left the scene", 0.45 * most},
+                                  {"absorbed by a surface", 0.3 * most},
+                                  {"Russian roulette", 1.07 * most},
+                                  {"longest path allowed", 0.008 * most}},
+                      .lengths = {0}};
+    for (int length = 1; length <= 24; ++length)
+        paths.lengths.push_back(static_cast<std::uint64_t>(most * std::exp(-fall * length) + 3.0));
+    return paths;
+}
+
 ProfileRun make_run(const std::string& integrator, int threads) {
     const bool is_path = integrator == "path";
     const double scale = is_path ? 1.0 : 2.3;
@@ -111,14 +123,8 @@ ProfileRun make_run(const std::string& integrator, int threads) {
     run.efficiency_best = is_path ? 0.39 : 0.27;
     run.parallel_efficiency = threads == 1 ? 1.0 : 0.985 - 0.012 * threads;
     run.load_imbalance = threads == 1 ? 0.0 : 0.018;
-    run.endings = {{"left the scene", 1.31e6},
-                   {"met a light", 0.62e6},
-                   {"absorbed", 0.87e6},
-                   {"Russian roulette", 3.1e6},
-                   {"longest length", 2.2e4}};
-    for (int length = 1; length <= 24; ++length)
-        run.path_lengths.push_back(static_cast<std::uint64_t>(2.9e6 * std::exp(-0.52 * length) + 3.0));
-    run.path_lengths.insert(run.path_lengths.begin(), 0);
+    run.eye_paths = make_paths(2.9e6, 0.52);
+    if (!is_path) run.light_paths = make_paths(2.1e6, 0.8);
     for (int i = 0; i < 8; ++i)
         run.longest.push_back({140 + 7 * i, 150 + 5 * i, static_cast<std::uint32_t>(3 + 5 * i), 25 - i / 3});
     run.shadow_unoccluded = 0.62;

@@ -26,6 +26,8 @@ TEST(CompileGeometry, MeshesPlacedOnceAreBakedAndSharedOnesStored) {
     EXPECT_EQ(s.instances, 5u);
     EXPECT_GT(s.bvh_bytes, 0u);
     EXPECT_GE(s.geometry_bytes, 17u * (3 * 12 + 3 * 12 + 12));
+    EXPECT_GE(s.instance_bytes, 5u * sizeof(Instance));
+    EXPECT_GE(s.material_bytes, sizeof(Material));
 }
 
 TEST(CompileGeometry, BoundsHoldEverythingThatIsPlaced) {

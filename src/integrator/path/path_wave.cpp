@@ -161,7 +161,7 @@ void PathWave::end_path(const Context& context, std::size_t i, PathEnding ending
     WaveProfile* const profile = context.job.profile;
     if (profile == nullptr) return;
     const Vec2i pixel = pixel_position(context.job, samples_[states_[i].slot].pixel);
-    profile->end_path(ending, {pixel.x, pixel.y, keys_[i].index, context.depth});
+    profile->end_eye_path(ending, {pixel.x, pixel.y, keys_[i].index, context.depth});
 }
 
 std::uint32_t PathWave::alpha_key(const Context& context, std::size_t i) const {

@@ -21,12 +21,26 @@ void keep(std::vector<LongPath>& longest, const LongPath& path) {
 
 }  // namespace
 
-WaveProfile::WaveProfile(std::size_t recorded_rays)
-    : lengths_(static_cast<std::size_t>(kMostRays) + 1), recorders_(kRayKinds, RayRecorder(recorded_rays)) {}
-
-void WaveProfile::end_path(PathEnding ending, const LongPath& path) {
+void PathTally::count(PathEnding ending, int rays) {
     ++endings_[static_cast<std::size_t>(ending)];
-    ++lengths_[static_cast<std::size_t>(std::clamp(path.rays, 0, kMostRays))];
+    ++lengths_[static_cast<std::size_t>(std::clamp(rays, 0, kMostRays))];
+}
+
+void PathTally::add(const PathTally& other) {
+    for (std::size_t i = 0; i < endings_.size(); ++i) endings_[i] += other.endings_[i];
+    for (std::size_t i = 0; i < lengths_.size(); ++i) lengths_[i] += other.lengths_[i];
+}
+
+std::vector<std::uint64_t> PathTally::lengths() const {
+    std::size_t size = lengths_.size();
+    while (size > 0 && lengths_[size - 1] == 0) --size;
+    return {lengths_.begin(), lengths_.begin() + static_cast<std::ptrdiff_t>(size)};
+}
+
+WaveProfile::WaveProfile(std::size_t recorded_rays) : recorders_(kRayKinds, RayRecorder(recorded_rays)) {}
+
+void WaveProfile::end_eye_path(PathEnding ending, const LongPath& path) {
+    eye_paths_.count(ending, path.rays);
     if (longest_.size() < kLongPaths || is_before(path, longest_.back())) keep(longest_, path);
 }
 
@@ -39,20 +53,14 @@ void WaveProfile::add(const WaveProfile& other) {
         recorders_[i].add(other.recorders_[i]);
     }
     hits_.add(other.hits_);
-    for (std::size_t i = 0; i < kPathEndings; ++i) endings_[i] += other.endings_[i];
-    for (std::size_t i = 0; i < lengths_.size(); ++i) lengths_[i] += other.lengths_[i];
+    eye_paths_.add(other.eye_paths_);
+    light_paths_.add(other.light_paths_);
     for (const LongPath& path : other.longest_) keep(longest_, path);
     use_.light_samples += other.use_.light_samples;
     use_.bsdf_samples += other.use_.bsdf_samples;
     use_.bsdf_absorbed += other.use_.bsdf_absorbed;
     use_.phase_samples += other.use_.phase_samples;
     use_.bsdf_met_light += other.use_.bsdf_met_light;
-}
-
-std::vector<std::uint64_t> WaveProfile::path_lengths() const {
-    std::size_t size = lengths_.size();
-    while (size > 0 && lengths_[size - 1] == 0) --size;
-    return {lengths_.begin(), lengths_.begin() + static_cast<std::ptrdiff_t>(size)};
 }
 
 double WaveProfile::seconds_per_stamp() {

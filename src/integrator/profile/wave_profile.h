@@ -17,12 +17,12 @@
 
 namespace etendue {
 
-/// Why eye paths end.
+/// Why paths end.
 enum class PathEnding : std::uint8_t {
     Escaped,   ///< into the environment, or out of the scene
     Absorbed,  ///< a sample of the BSDF with no weight
     Roulette,
-    TooLong,  ///< the limit of its length
+    TooLong,  ///< the limit of its length; light subpaths leave edges for the way to the camera
     Unlit,    ///< a surface that only shows its colour
     Count
 };
@@ -40,6 +40,25 @@ struct SampleUse {
     std::uint64_t bsdf_met_light = 0;  ///< samples of either whose rays met a lamp or an environment that shines
 };
 
+/// How paths of one kind end, and how long they get.
+class PathTally {
+  public:
+    /// Lengths that are told apart; longer paths are counted with the longest.
+    static constexpr int kMostRays = 256;
+
+    /// A path of `rays` rays came to its end.
+    void count(PathEnding ending, int rays);
+    void add(const PathTally& other);
+
+    [[nodiscard]] std::uint64_t paths(PathEnding ending) const { return endings_[static_cast<std::size_t>(ending)]; }
+    /// Paths by the rays they took; as long as it has to be.
+    [[nodiscard]] std::vector<std::uint64_t> lengths() const;
+
+  private:
+    std::array<std::uint64_t, kPathEndings> endings_{};
+    std::array<std::uint64_t, kMostRays + 1> lengths_{};
+};
+
 /// An eye path that was longer than most.
 struct LongPath {
     int x = 0;  ///< the pixel of its sample
@@ -50,8 +69,6 @@ struct LongPath {
 
 class WaveProfile {
   public:
-    /// Lengths that are told apart; longer paths are counted with the longest.
-    static constexpr int kMostRays = 256;
     /// Long paths that are remembered.
     static constexpr std::size_t kLongPaths = 16;
 
@@ -76,7 +93,9 @@ class WaveProfile {
     /// `count` rays of a kind met something.
     void count_hits(RayKind kind, std::uint64_t count) { hits_[kind] += count; }
     /// An eye path came to its end.
-    void end_path(PathEnding ending, const LongPath& path);
+    void end_eye_path(PathEnding ending, const LongPath& path);
+    /// The same of a light subpath of `rays` rays.
+    void end_light_path(PathEnding ending, int rays) { light_paths_.count(ending, rays); }
     [[nodiscard]] SampleUse& use() { return use_; }
 
     /// Adds what another thread has found.
@@ -89,10 +108,9 @@ class WaveProfile {
     /// Stamps that were taken.
     [[nodiscard]] std::uint64_t stamps() const { return stamps_; }
     [[nodiscard]] std::uint64_t hits(RayKind kind) const { return hits_[kind]; }
-    [[nodiscard]] std::uint64_t paths(PathEnding ending) const { return endings_[static_cast<std::size_t>(ending)]; }
-    /// Eye paths by the rays they took; as long as it has to be.
-    [[nodiscard]] std::vector<std::uint64_t> path_lengths() const;
-    /// The longest, the longest of all first.
+    [[nodiscard]] const PathTally& eye_paths() const { return eye_paths_; }
+    [[nodiscard]] const PathTally& light_paths() const { return light_paths_; }
+    /// The longest eye paths, the longest of all first.
     [[nodiscard]] std::span<const LongPath> longest() const { return longest_; }
     [[nodiscard]] const SampleUse& use() const { return use_; }
     [[nodiscard]] const RayRecorder& recorder(RayKind kind) const { return recorders_[static_cast<std::size_t>(kind)]; }
@@ -116,8 +134,8 @@ class WaveProfile {
     std::array<std::uint64_t, kStages> ticks_{};
     std::array<std::uint64_t, kRayKinds> ticks_of_kind_{};
     RaysByKind hits_;
-    std::array<std::uint64_t, kPathEndings> endings_{};
-    std::vector<std::uint64_t> lengths_;
+    PathTally eye_paths_;
+    PathTally light_paths_;
     std::vector<LongPath> longest_;
     SampleUse use_;
     std::vector<RayRecorder> recorders_;  ///< of each kind

@@ -284,7 +284,9 @@ bool SubpathWave::make_vertex(const SubpathJob& job, std::size_t i, ShadedSubpat
         vertex.outside = world.medium(crossing ? crossing->outside : interiors_[i]);
         vertex.inside = world.medium(crossing ? crossing->inside : interiors_[i]);
     }
-    return end_ == SubpathEnd::AtEye || state.edges + edges_to_connect(world) <= job.lengths.max_depth;
+    if (end_ == SubpathEnd::AtEye || state.edges + edges_to_connect(world) <= job.lengths.max_depth) return true;
+    end_path(job, i, PathEnding::TooLong);
+    return false;
 }
 
 void SubpathWave::place(const World& world, const ShadedSubpath& path, float relative_ior, PathVertex& vertex) {
@@ -427,10 +429,11 @@ void SubpathWave::follow_words(SubpathState& state, const VertexEvent& event) {
 
 void SubpathWave::end_path(const SubpathJob& job, std::size_t i, PathEnding ending) const {
     WaveProfile* const profile = job.job.profile;
-    if (profile == nullptr || end_ != SubpathEnd::AtEye) return;
+    if (profile == nullptr) return;
+    if (end_ == SubpathEnd::AtLight) return profile->end_light_path(ending, bounce_);
     const CameraSample& sample = job.samples[states_[i].slot];
     const Vec2i pixel = pixel_position(job.job, sample.pixel);
-    profile->end_path(ending, {pixel.x, pixel.y, sample.key.index, bounce_});
+    profile->end_eye_path(ending, {pixel.x, pixel.y, sample.key.index, bounce_});
 }
 
 bool SubpathWave::survives(const SubpathJob& job, std::size_t i) {

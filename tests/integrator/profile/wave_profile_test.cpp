@@ -39,16 +39,16 @@ TEST(WaveProfile, AStampTakesLessThanAMicrosecond) {
 
 TEST(WaveProfile, PathsEndWithTheirLengths) {
     WaveProfile profile(0);
-    profile.end_path(PathEnding::Roulette, {.x = 1, .y = 2, .sample = 3, .rays = 4});
-    profile.end_path(PathEnding::Roulette, {.rays = 1});
-    profile.end_path(PathEnding::Escaped, {.rays = 4});
-    EXPECT_EQ(profile.paths(PathEnding::Roulette), 2u);
-    EXPECT_EQ(profile.paths(PathEnding::Escaped), 1u);
-    EXPECT_EQ(profile.path_lengths(), (std::vector<std::uint64_t>{0, 1, 0, 0, 2}));
+    profile.end_eye_path(PathEnding::Roulette, {.x = 1, .y = 2, .sample = 3, .rays = 4});
+    profile.end_eye_path(PathEnding::Roulette, {.rays = 1});
+    profile.end_eye_path(PathEnding::Escaped, {.rays = 4});
+    EXPECT_EQ(profile.eye_paths().paths(PathEnding::Roulette), 2u);
+    EXPECT_EQ(profile.eye_paths().paths(PathEnding::Escaped), 1u);
+    EXPECT_EQ(profile.eye_paths().lengths(), (std::vector<std::uint64_t>{0, 1, 0, 0, 2}));
     ASSERT_EQ(profile.longest().size(), 3u);
     EXPECT_EQ(profile.longest()[2].rays, 1);
-    profile.end_path(PathEnding::Unlit, {.rays = 1000000});
-    EXPECT_EQ(profile.path_lengths().size(), static_cast<std::size_t>(WaveProfile::kMostRays) + 1);
+    profile.end_eye_path(PathEnding::Unlit, {.rays = 1000000});
+    EXPECT_EQ(profile.eye_paths().lengths().size(), static_cast<std::size_t>(PathTally::kMostRays) + 1);
     EXPECT_EQ(profile.longest().front().rays, 1000000);
 }
 
@@ -57,8 +57,8 @@ TEST(WaveProfile, TheLongestPathsDoNotDependOnWhoTracedThem) {
     WaveProfile parts[2] = {WaveProfile(0), WaveProfile(0)};
     for (int i = 0; i < 100; ++i) {
         const LongPath path{.x = 100 - i, .y = i % 7, .sample = 0, .rays = (i * 37) % 10};
-        whole.end_path(PathEnding::TooLong, path);
-        parts[i % 3 == 0 ? 1 : 0].end_path(PathEnding::TooLong, path);
+        whole.end_eye_path(PathEnding::TooLong, path);
+        parts[i % 3 == 0 ? 1 : 0].end_eye_path(PathEnding::TooLong, path);
     }
     parts[0].add(parts[1]);
     ASSERT_EQ(parts[0].longest().size(), WaveProfile::kLongPaths);
@@ -67,7 +67,7 @@ TEST(WaveProfile, TheLongestPathsDoNotDependOnWhoTracedThem) {
         EXPECT_EQ(parts[0].longest()[i].x, whole.longest()[i].x);
         EXPECT_EQ(parts[0].longest()[i].rays, whole.longest()[i].rays);
     }
-    EXPECT_EQ(parts[0].paths(PathEnding::TooLong), 100u);
+    EXPECT_EQ(parts[0].eye_paths().paths(PathEnding::TooLong), 100u);
 }
 
 TEST(WaveProfile, SumsAreOfAllThreads) {
@@ -79,11 +79,16 @@ TEST(WaveProfile, SumsAreOfAllThreads) {
     a.count_hits(RayKind::Bounce, 3);
     b.count_hits(RayKind::Bounce, 4);
     b.use().light_samples = 5;
+    a.end_light_path(PathEnding::Roulette, 1);
+    b.end_light_path(PathEnding::Escaped, 3);
     a.add(b);
     EXPECT_EQ(a.recorder(RayKind::Bounce).ray_count(), 20u);
     EXPECT_EQ(a.recorder(RayKind::Shadow).ray_count(), 0u);
     EXPECT_EQ(a.hits(RayKind::Bounce), 7u);
     EXPECT_EQ(a.use().light_samples, 5u);
+    EXPECT_EQ(a.light_paths().lengths(), (std::vector<std::uint64_t>{0, 1, 0, 1}));
+    EXPECT_EQ(a.light_paths().paths(PathEnding::Escaped), 1u);
+    EXPECT_TRUE(a.eye_paths().lengths().empty());
 }
 
 }  // namespace
