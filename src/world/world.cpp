@@ -62,6 +62,18 @@ void evaluate_uniform_materials(WorldData& data) {
     }
 }
 
+/// Most bytes of geometry that are expected to lie in a second-level cache. Less is not fetched ahead.
+constexpr std::size_t kCachedGeometry = std::size_t{2} << 20;
+
+std::size_t geometry_bytes(const WorldData& data) {
+    std::size_t bytes = 0;
+    for (const Geometry& g : data.geometries) {
+        bytes += vector_bytes(g.positions, g.normals, g.tangents, g.uv0, g.uv1, g.colors, g.triangles);
+        for (const VertexStep& step : g.motion) bytes += vector_bytes(step.positions, step.normals);
+    }
+    return bytes;
+}
+
 /// See World::plain_lobe; by geometry.
 std::vector<const Bsdf*> find_plain_bsdfs(const WorldData& data) {
     std::vector<const Bsdf*> bsdfs(data.geometries.size(), nullptr);
@@ -103,6 +115,7 @@ World::World(WorldData data)
       selector_(data_->lights, radius_of(data_->bounds)),
       tree_(data_->lights, radius_of(data_->bounds)) {
     data_->bvh->set_opacity(opacity_callback, data_.get());
+    has_far_triangles_ = geometry_bytes(*data_) > kCachedGeometry;
     evaluate_uniform_materials(*data_);
     plain_bsdfs_ = find_plain_bsdfs(*data_);
     has_motion_ = data_->bvh->has_motion() || !data_->camera_motion.empty();
@@ -165,6 +178,20 @@ HitTriangle World::hit_triangle(const Hit& hit) const {
     const Vec3f& p0 = geometry.positions[triangle[0]];
     return {p0, geometry.positions[triangle[1]] - p0, geometry.positions[triangle[2]] - p0,
             geometry.normals.empty() ? Vec3f(0.0f) : interpolate(geometry.normals, triangle, {hit.u, hit.v})};
+}
+
+void World::fetch_far_triangles(std::span<const Hit> hits) const {
+    // First all that say where the vertices are, so that these, too, arrive together.
+    for (const Hit& hit : hits)
+        if (hit.valid()) __builtin_prefetch(&data_->geometries[hit.geometry].triangles[hit.triangle]);
+    for (const Hit& hit : hits) {
+        if (!hit.valid()) continue;
+        const Geometry& geometry = data_->geometries[hit.geometry];
+        for (const std::uint32_t vertex : geometry.triangles[hit.triangle]) {
+            __builtin_prefetch(&geometry.positions[vertex]);
+            if (!geometry.normals.empty()) __builtin_prefetch(&geometry.normals[vertex]);
+        }
+    }
 }
 
 float World::mean_curvature(const SurfacePoint& point) const {
@@ -376,11 +403,8 @@ float World::bounding_radius() const {
 
 WorldStatistics World::statistics() const {
     WorldStatistics s;
-    for (const Geometry& g : data_->geometries) {
-        s.triangles += g.triangles.size();
-        s.geometry_bytes += vector_bytes(g.positions, g.normals, g.tangents, g.uv0, g.uv1, g.colors, g.triangles);
-        for (const VertexStep& step : g.motion) s.geometry_bytes += vector_bytes(step.positions, step.normals);
-    }
+    s.geometry_bytes = geometry_bytes(*data_);
+    for (const Geometry& g : data_->geometries) s.triangles += g.triangles.size();
     for (const Instance& instance : data_->instances)
         for (std::uint32_t g = 0; g < instance.geometry_count; ++g)
             s.instanced_triangles += data_->geometries[instance.first_geometry + g].triangles.size();

@@ -173,6 +173,11 @@ class World {
     /// The same as a BSDF.
     [[nodiscard]] const Bsdf* plain_bsdf(const Hit& hit) const { return plain_bsdfs_[hit.geometry]; }
     [[nodiscard]] HitTriangle hit_triangle(const Hit& hit) const;
+    /// Has the triangles of a few `hits`, some of which may be no hits, fetched from memory at once, where there are so
+    /// many in the scene that they are in no cache. Whoever looks at them next would else wait for each by itself.
+    void fetch_triangles(std::span<const Hit> hits) const {
+        if (has_far_triangles_) fetch_far_triangles(hits);
+    }
     /// Names a plain surface; of no other use than that.
     [[nodiscard]] const Material* material(const Hit& hit) const {
         return &data_->materials[data_->geometries[hit.geometry].material];
@@ -319,12 +324,14 @@ class World {
     [[nodiscard]] Rgb mesh_emission(std::uint32_t light, std::uint32_t triangle, Vec2f barycentric,
                                     const Vec3f& direction) const;
     [[nodiscard]] Camera camera_at(float time) const;
+    void fetch_far_triangles(std::span<const Hit> hits) const;
     [[nodiscard]] SceneSphere scene_sphere() const { return {data_->bounds.center(), bounding_radius()}; }
 
     // On the heap, so that Embree's callbacks keep their pointer to it when a World is moved.
     std::unique_ptr<WorldData> data_;
     LightSelector selector_;  ///< of emission
     LightTree tree_;          ///< of light for a point
+    bool has_far_triangles_ = false;
     bool has_motion_ = false;
     bool has_transparency_ = false;
     bool has_delta_lights_ = false;

@@ -4,6 +4,7 @@
 
 #include "world/test_scene.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -182,6 +183,35 @@ TEST(World, MovingAWorldKeepsItWorking) {
         hits += intersect(second, Ray{.alpha_key = key, .direction = {0, 0, -1}}).valid() ? 1 : 0;
     EXPECT_GT(hits, 10);
     EXPECT_LT(hits, 54);
+}
+
+TEST(World, TrianglesAreFetchedWhateverTheRaysHaveMet) {
+    // More geometry than is thought to lie in a cache, one mesh with normals and one, placed twice, without.
+    SceneDesc scene = empty_scene();
+    Random random(5);
+    const auto material = add_material(scene, diffuse(Rgb(0.5f)));
+    PrimitiveDesc bare = soup(random, 30000, 0.1f);
+    PrimitiveDesc smooth = soup(random, 30000, 0.1f);
+    bare.normals.clear();
+    smooth.normals.assign(smooth.positions.size(), Vec3f(0, 0, 1));
+    bare.material = smooth.material = material;
+    place(scene, add_mesh(scene, {smooth}), Mat4f());
+    const auto shared = add_mesh(scene, {bare});
+    for (int i = 0; i < 2; ++i) place(scene, shared, translation({0, 0, static_cast<float>(i)}));
+    const World world = compile(std::move(scene));
+    ASSERT_GT(world.statistics().geometry_bytes, std::size_t{2} << 20);
+    std::vector<Hit> hits(65);  // every other one none
+    for (std::size_t i = 0; i < hits.size(); i += 2) {
+        const float x = static_cast<float>(i) / 64.0f - 0.5f;
+        hits[i] = intersect(world, Ray{.origin = {x, 0.1f, 5}, .direction = {0, 0, -1}});
+    }
+    const auto is_valid = [](const Hit& hit) { return hit.valid(); };
+    ASSERT_GT(std::ranges::count_if(hits, is_valid), 10);
+    ASSERT_LT(std::ranges::count_if(hits, is_valid), 34);
+    const std::vector<Hit> before = hits;
+    world.fetch_triangles(hits);
+    world.fetch_triangles({});
+    for (std::size_t i = 0; i < hits.size(); ++i) EXPECT_EQ(hits[i].triangle, before[i].triangle);
 }
 
 TEST(World, ReportsItsRayTracer) {

@@ -85,6 +85,7 @@ void PathWave::shade_block(const Context& context, std::size_t first, std::size_
     const World& world = context.world;
     WaveProfile* const profile = context.job.profile;
     surfaces_ = 0;
+    world.fetch_triangles(std::span(hits_).subspan(first, count));
     for (std::size_t k = 0; k < count; ++k) {
         goes_on_[k] = false;
         if (set_up(context, first, k)) on_surface_[surfaces_++] = static_cast<std::uint8_t>(k);

@@ -159,6 +159,7 @@ void SubpathWave::advance_block(const SubpathJob& job, LightFinder* finder, std:
     const World& world = job.world;
     WaveProfile* const profile = job.job.profile;
     surfaces_ = 0;
+    world.fetch_triangles(std::span(hits_).subspan(first, count));
     for (std::size_t k = 0; k < count; ++k) {
         goes_on_[k] = false;
         block_[k].lane = surfaces_;
