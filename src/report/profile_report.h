@@ -84,8 +84,8 @@ struct ProfileRun {
     double efficiency_single = std::numeric_limits<double>::quiet_NaN();
     double efficiency_best = std::numeric_limits<double>::quiet_NaN();
     double parallel_efficiency = std::numeric_limits<double>::quiet_NaN();  ///< speed over threads × that of one thread
-    double load_imbalance = 0.0;                ///< longest time that a thread rendered over the mean of all, minus 1
-    std::vector<TileReport> tiles{};            ///< of the instrumented repetition
+    double load_imbalance = 0.0;      ///< longest time that a thread rendered over the mean of all, minus 1
+    std::vector<TileReport> tiles{};  ///< of the instrumented repetition
     PathsReport eye_paths{};
     PathsReport light_paths{};              ///< light subpaths; empty if the integrator has none
     std::vector<LongPathReport> longest{};  ///< eye paths

@@ -65,7 +65,7 @@ struct WorldStatistics {
     std::size_t bvh_bytes = 0;
     double bvh_build_seconds = 0.0;
     std::vector<CompilePhase> compile_phases;  ///< in their order, the BVH among them
-    std::string bvh_quality;  ///< how it is built, in words
+    std::string bvh_quality;                   ///< how it is built, in words
     std::size_t geometry_bytes = 0;
     std::size_t instance_bytes = 0;  ///< where meshes are placed, how they move, and what bodies they bound
     std::size_t material_bytes = 0;

@@ -76,7 +76,8 @@ TEST_P(Profiled, TheImageIsTheSameAndTheFiguresAddUp) {
         EXPECT_LE(waves.light_paths().lengths().size(), 4u + 1u) << "one edge is left for the way to the camera";
     }
 
-    // Of what an eye path's BSDFs and phase functions have sampled, each is followed by a ray unless the path ends by it.
+    // Of what an eye path's BSDFs and phase functions have sampled, each is followed by a ray unless the path ends by
+    // it.
     const SampleUse& use = waves.use();
     EXPECT_EQ(use.bsdf_samples + use.phase_samples, profiled.counters.rays[RayKind::Bounce] +
                                                         waves.eye_paths().paths(PathEnding::Absorbed) +
