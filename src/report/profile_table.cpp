@@ -92,7 +92,7 @@ std::string paths_of(const PathsReport& paths, const char* kind) {
 }
 
 std::string paths(const ProfileRun& run) {
-    const std::string text = paths_of(run.eye_paths, "eye path") + paths_of(run.light_paths, "light subpath");
+    std::string text = paths_of(run.eye_paths, "eye path") + paths_of(run.light_paths, "light subpath");
     if (run.longest.empty()) return text;
     std::string places;
     for (std::size_t i = 0; i < std::min(kLongestPaths, run.longest.size()); ++i) {
