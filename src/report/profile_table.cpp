@@ -87,8 +87,8 @@ std::string paths_of(const PathsReport& paths, const char* kind) {
         rays += static_cast<double>(length * paths.lengths[length]);
     }
     if (count == 0.0) return text;
-    return text + fmt::format("  rays of {} {}: {:.2f} on average, {} at most\n", kind[0] == 'e' ? "an" : "a", kind,
-                              rays / count, paths.lengths.size() - 1);
+    return text +
+           fmt::format("  rays of {}s: {:.2f} on average, {} at most\n", kind, rays / count, paths.lengths.size() - 1);
 }
 
 std::string paths(const ProfileRun& run) {
