@@ -48,7 +48,7 @@ bool holds_textures_in_memory(const SceneDesc& scene) {
 }
 
 World compile_world(SceneDesc scene, const ColorConfig& colors, const std::string& working_space,
-                    const ThreadPool& threads, ProblemList& problems) {
+                    const ThreadPool& threads, ProblemList& problems, const CompileOptions& options) {
     WorldData data;
     auto start = std::chrono::steady_clock::now();
     const auto end_phase = [&](std::string_view name) {
@@ -66,7 +66,7 @@ World compile_world(SceneDesc scene, const ColorConfig& colors, const std::strin
     end_phase("materials");
     textures.finish(texture_budget(scene), threads, data);
     end_phase("textures");
-    compile_geometry(scene, threads, data);
+    compile_geometry(scene, threads, options.most_copied_triangles, data);
     compile_bodies(data);
     end_phase("geometry");
     compile_lights(scene, threads, data, problems);

@@ -7,16 +7,26 @@
 #include "scene/scene_desc.h"
 #include "world/world.h"
 
+#include <cstddef>
 #include <cstdint>
 
 namespace etendue {
+
+/// How a scene is compiled; whatever they say, what is rendered is the same but for roundings and, under uneven scales,
+/// for how normals run between vertices.
+struct CompileOptions {
+    /// Triangles, beyond those of the meshes themselves, for copies of meshes that are placed more than once. Rays pass
+    /// one BVH over everything up to several times as fast as instances in one (docs/performance.md); a copied triangle
+    /// takes some 120 bytes. What is more stays instanced.
+    std::size_t most_copied_triangles = std::size_t{1} << 18;
+};
 
 /// Compiles `scene`, which must have passed `validate`. Colours are converted to `working_space` (a canonical name of
 /// `colors`, scene-linear). Bulk arrays are moved out of `scene`, not copied. Images are decoded and BVHs built with
 /// `threads`. Warnings go to `problems`; throws SceneError for what cannot be rendered (an image that cannot be
 /// decoded, no camera) and IoError when Embree fails.
 [[nodiscard]] World compile_world(SceneDesc scene, const ColorConfig& colors, const std::string& working_space,
-                                  const ThreadPool& threads, ProblemList& problems);
+                                  const ThreadPool& threads, ProblemList& problems, const CompileOptions& options = {});
 
 /// Memory for decoded textures, bytes, of a scene that does not say: half of the machine's.
 [[nodiscard]] std::uint64_t default_texture_memory();

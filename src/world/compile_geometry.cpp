@@ -1,6 +1,7 @@
 #include "world/compile_parts.h"
 #include "world/tangent_space.h"
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <utility>
@@ -117,6 +118,42 @@ void bake(Geometry& geometry, const Mat4f& to_world) {
         for (auto& triangle : geometry.triangles) std::swap(triangle[1], triangle[2]);
 }
 
+/// A copy with what Embree reads beyond the last vertex.
+Geometry copied(const Geometry& geometry) {
+    Geometry copy = geometry;
+    copy.positions.reserve(copy.positions.size() + 1);
+    return copy;
+}
+
+/// Which meshes that stay where they are have copies at all of their places: those whose copies have the fewest
+/// triangles, `most_copied` together. `uses` counts the places of each mesh.
+std::vector<bool> meshes_to_copy(const SceneDesc& scene, std::span<const std::uint32_t> uses,
+                                 std::size_t most_copied) {
+    std::vector<bool> moves(scene.meshes.size(), false);
+    for (const InstanceDesc& desc : scene.instances)
+        if (!desc.motion.empty()) moves[static_cast<std::size_t>(desc.mesh.index)] = true;
+    struct Candidate {
+        std::size_t triangles;  ///< of all copies
+        std::size_t mesh;
+    };
+    std::vector<Candidate> candidates;
+    for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+        if (uses[m] < 2 || moves[m]) continue;
+        std::size_t triangles = 0;
+        for (const PrimitiveDesc& primitive : scene.meshes[m].primitives) triangles += primitive.triangles.size();
+        candidates.push_back({triangles * (uses[m] - 1), m});
+    }
+    std::ranges::stable_sort(candidates, {}, &Candidate::triangles);
+    std::vector<bool> is_copied(scene.meshes.size(), false);
+    std::size_t sum = 0;
+    for (const Candidate& candidate : candidates) {
+        if (candidate.triangles > most_copied - sum) break;
+        sum += candidate.triangles;
+        is_copied[candidate.mesh] = true;
+    }
+    return is_copied;
+}
+
 Bounds bounds_of(const Geometry& geometry) {
     Bounds bounds;
     for (const Vec3f& p : geometry.positions) bounds.extend(p);
@@ -144,9 +181,11 @@ void extend_bounds(const Instance& instance, std::span<const Mat4f> transforms, 
 
 }  // namespace
 
-void compile_geometry(SceneDesc& scene, const ThreadPool& threads, WorldData& data) {
+void compile_geometry(SceneDesc& scene, const ThreadPool& threads, std::size_t most_copied, WorldData& data) {
     std::vector<std::uint32_t> uses(scene.meshes.size(), 0);
     for (const InstanceDesc& desc : scene.instances) ++uses[static_cast<std::size_t>(desc.mesh.index)];
+
+    const std::vector<bool> is_copied = meshes_to_copy(scene, uses, most_copied);
 
     std::vector<std::uint32_t> first_geometry(scene.meshes.size(), 0);
     for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
@@ -161,15 +200,21 @@ void compile_geometry(SceneDesc& scene, const ThreadPool& threads, WorldData& da
         if (texture != nullptr && geometry.tangents.empty()) add_tangents(geometry, *texture);
     });
 
+    std::vector<std::uint32_t> places_left = uses;  // the last place takes the mesh itself
     std::uint32_t light_slots = 0;
     for (const InstanceDesc& desc : scene.instances) {
         const auto mesh = static_cast<std::size_t>(desc.mesh.index);
         Instance instance;
         instance.first_geometry = first_geometry[mesh];
         instance.geometry_count = static_cast<std::uint32_t>(scene.meshes[mesh].primitives.size());
+        if (is_copied[mesh] && --places_left[mesh] > 0) {
+            instance.first_geometry = static_cast<std::uint32_t>(data.geometries.size());
+            for (std::uint32_t g = 0; g < instance.geometry_count; ++g)
+                data.geometries.push_back(copied(data.geometries[first_geometry[mesh] + g]));
+        }
         instance.first_light_slot = light_slots;
         light_slots += instance.geometry_count;
-        instance.baked = uses[mesh] == 1 && desc.motion.empty();
+        instance.baked = (uses[mesh] == 1 && desc.motion.empty()) || is_copied[mesh];
         if (!instance.baked) {
             instance.to_world = desc.to_world;
             instance.to_local = desc.to_world.inverse();

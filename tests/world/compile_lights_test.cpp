@@ -154,7 +154,7 @@ TEST(CompileLights, EmittersThatAreNotSampledAreKnown) {
         TextureCompiler textures(limited);
         const ThreadPool threads(1);
         compile_materials(limited, textures, data);
-        compile_geometry(limited, threads, data);
+        compile_geometry(limited, threads, 0, data);
         ProblemList problems;
         compile_lights(limited, threads, data, problems, most);
         EXPECT_EQ(data.lights.size(), most / 2);

@@ -131,16 +131,17 @@ Handle<TextureDesc> add_texture(SceneDesc& scene, const std::filesystem::path& i
     return {static_cast<std::int32_t>(scene.textures.size() - 1)};
 }
 
-World compile(SceneDesc scene) {
+World compile(SceneDesc scene, const CompileOptions& options) {
     ProblemList problems;
-    return compile(std::move(scene), kGltfColorSpace, problems);
+    return compile(std::move(scene), kGltfColorSpace, problems, options);
 }
 
-World compile(SceneDesc scene, const std::string& working_space, ProblemList& problems) {
+World compile(SceneDesc scene, const std::string& working_space, ProblemList& problems,
+              const CompileOptions& options) {
     const ProblemList invalid = validate(scene);
     for (const Problem& problem : invalid.all()) EXPECT_NE(problem.severity, Severity::Error) << problem.str();
     const ThreadPool threads(2);
-    return compile_world(std::move(scene), ColorConfig::built_in(), working_space, threads, problems);
+    return compile_world(std::move(scene), ColorConfig::built_in(), working_space, threads, problems, options);
 }
 
 Hit intersect(const World& world, const Ray& ray) {

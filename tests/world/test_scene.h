@@ -4,6 +4,7 @@
 #include "core/vec.h"
 #include "scene/scene_desc.h"
 #include "support/random.h"
+#include "world/compile.h"
 #include "world/world.h"
 
 #include <array>
@@ -47,9 +48,13 @@ Handle<TextureDesc> add_texture(SceneDesc& scene, const std::filesystem::path& p
 /// Adds the image of this size in a file as a texture.
 Handle<TextureDesc> add_texture(SceneDesc& scene, const std::filesystem::path& image, int width, int height);
 
+/// Without copies: what is placed twice is an instance, however small.
+inline constexpr CompileOptions kInstanced{.most_copied_triangles = 0};
+
 /// Validates and compiles in Linear Rec.709, so that colours come out as they went in.
-[[nodiscard]] World compile(SceneDesc scene);
-[[nodiscard]] World compile(SceneDesc scene, const std::string& working_space, ProblemList& problems);
+[[nodiscard]] World compile(SceneDesc scene, const CompileOptions& options = kInstanced);
+[[nodiscard]] World compile(SceneDesc scene, const std::string& working_space, ProblemList& problems,
+                            const CompileOptions& options = kInstanced);
 
 [[nodiscard]] Hit intersect(const World& world, const Ray& ray);
 [[nodiscard]] bool occluded(const World& world, const Ray& ray);
