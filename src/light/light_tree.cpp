@@ -11,16 +11,22 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 namespace etendue {
 
 namespace {
 
-/// Of choices that are uniform.
-constexpr double kAny = 0.1;
+/// Of choices that are uniform: among lamps, and among lights at infinity.
+constexpr double kAny = 0.03;
+constexpr double kAnyFar = 0.1;
 constexpr double kLeastOfASide = 0.1;
 /// Of the cosine: what bounds and rounding exclude keeps this share of its importance.
 constexpr float kFloor = 1e-3f;
+/// Of what a matte surface receives: this share by the bound, the rest by the mean.
+constexpr float kByBound = 0.1f;
+/// Of wo, where a lobe grows without bound as it grazes.
+constexpr float kLeastCosine = 0.1f;
 /// 1/m², where no child has more.
 constexpr float kLeastImportance = 1e-30f;
 /// Of the squared diagonal of a box over the number of its lamps: how near the nearest is taken to be.
@@ -65,11 +71,26 @@ struct Shapes {
     Wide squared_spacing, cos_o, sin_o, cos_e, two_sided;
 };
 
-/// Importances for an intensity of one, 1/m². May be no numbers where floats overflow.
-Wide falloff(const Shapes& shapes, const Vec3f& point) {
+/// Children as a point sees them. May be no numbers where floats overflow.
+struct Sight {
+    Wide by_distance;           ///< 1/m², of the nearest and the farthest point of each box
+    Wide squared;               ///< to the middle of the box, m²
+    Wide squared_radius;        ///< of the sphere around it, m²
+    Wide inverse_distance;      ///< to the middle, 1/m
+    Wide cos_b, squared_sin_b;  ///< of half the angle that the sphere is seen under
+    WideMask is_inside;         ///< the point lies in the sphere
+    Wide emitted;               ///< the cosine at the lamps, at most
+};
+
+/// `along(axis)` is the distance of the point from the middle of the box, along that axis.
+template <typename Along>
+Sight look_at(const Shapes& shapes, const Vec3f& point, const Along& along) {
     constexpr float kLeastSquare = 1e-30f;
     Wide nearest(0.0f);
     Wide farthest(0.0f);
+    Wide squared(0.0f);
+    Wide squared_radius(0.0f);
+    Wide along_axis(0.0f);
     for (int axis = 0; axis < 3; ++axis) {
         const Wide below = shapes.low[axis] - point[axis];
         const Wide above = point[axis] - shapes.high[axis];
@@ -77,22 +98,17 @@ Wide falloff(const Shapes& shapes, const Vec3f& point) {
         const Wide across = max(-below, -above);
         nearest = nearest + outside * outside;
         farthest = farthest + across * across;
-    }
-    nearest = max(max(nearest, shapes.squared_spacing), kLeastSquare);
-    farthest = max(farthest, nearest);
-    const Wide by_distance = 1.0f / (sqrt(nearest) * sqrt(farthest));
-    Wide squared(0.0f);
-    Wide squared_radius(0.0f);
-    Wide along_axis(0.0f);
-    for (int axis = 0; axis < 3; ++axis) {
-        const Wide to_point = point[axis] - (shapes.low[axis] + shapes.high[axis]) * 0.5f;
+        const Wide to_point = along(axis);
         const Wide size = shapes.high[axis] - shapes.low[axis];
         squared = squared + to_point * to_point;
         squared_radius = squared_radius + size * size * 0.25f;
         along_axis = along_axis + shapes.axis[axis] * to_point;
     }
-    const Wide cos_between = along_axis / sqrt(squared);
+    nearest = max(max(nearest, shapes.squared_spacing), kLeastSquare);
+    farthest = max(farthest, nearest);
+    const Wide inverse_distance = 1.0f / sqrt(squared);
     // Less theta_o, and then less theta_b.
+    const Wide cos_between = along_axis * inverse_distance;
     const Wide cos_w = max(min(select(shapes.two_sided > 0.0f, abs(cos_between), cos_between), 1.0f), -1.0f);
     const Wide sin_w = sqrt(1.0f - cos_w * cos_w);
     const Wide cos_x = cos_w * shapes.cos_o + sin_w * shapes.sin_o;
@@ -101,10 +117,49 @@ Wide falloff(const Shapes& shapes, const Vec3f& point) {
     const Wide cos_b = sqrt(1.0f - squared_sin_b);
     const Wide cos_least = cos_x * cos_b + sin_x * sqrt(squared_sin_b);
     // Inside of the sphere, or where light leaves every way.
-    const auto is_anywhere = shapes.cos_o <= -1.0f || squared <= squared_radius;
+    const WideMask is_inside = squared <= squared_radius;
+    const auto is_anywhere = shapes.cos_o <= -1.0f || is_inside;
     const auto is_within = cos_w >= shapes.cos_o || cos_x >= cos_b;
     const Wide cosine = select(cos_least < shapes.cos_e, kFloor, max(cos_least, kFloor));
-    return by_distance * select(is_anywhere || is_within, 1.0f, cosine);
+    return {.by_distance = 1.0f / (sqrt(nearest) * sqrt(farthest)),
+            .squared = squared,
+            .squared_radius = squared_radius,
+            .inverse_distance = inverse_distance,
+            .cos_b = cos_b,
+            .squared_sin_b = squared_sin_b,
+            .is_inside = is_inside,
+            .emitted = select(is_anywhere || is_within, 1.0f, cosine)};
+}
+
+/// Importances for an intensity of one, 1/m².
+Wide falloff(const Shapes& shapes, const LightReceiver& receiver) {
+    const auto along = [&](int axis) {
+        return receiver.position[axis] - (shapes.low[axis] + shapes.high[axis]) * 0.5f;
+    };
+    const Sight sight = look_at(shapes, receiver.position, along);
+    if (!receiver.has_normal()) return sight.by_distance * sight.emitted;
+
+    const auto towards = [&](const Vec3f& direction) {
+        return -(along(0) * direction.x + along(1) * direction.y + along(2) * direction.z);
+    };
+    const Wide height = towards(receiver.normal);
+    const Wide cos_i = clamp(height * sight.inverse_distance, -1.0f, 1.0f);
+    const Wide cos_most = cos_i * sight.cos_b + sqrt(1.0f - cos_i * cos_i) * sqrt(sight.squared_sin_b);
+    const Wide cosine = select(sight.is_inside || cos_i >= sight.cos_b, 1.0f, max(cos_most, kFloor));
+    const Wide softened = sight.squared + sight.squared_radius * (1.0f / 3.0f);
+    const Wide mean = max(height, 0.0f) / (softened * sqrt(softened));
+    const Wide matte = mean * (1.0f - kByBound) + sight.by_distance * cosine * kByBound;
+    if (receiver.glossy == 0.0f) return sight.emitted * matte;
+
+    const float cos_o = dot(receiver.normal, receiver.wo);
+    const Wide cos_both = cos_i + cos_o;
+    const Wide cos_between = clamp(towards(receiver.wo) * sight.inverse_distance, -1.0f, 1.0f);
+    const Wide squared_cos_h = min(cos_both * cos_both / max(2.0f + 2.0f * cos_between, 1e-6f), 1.0f);
+    const Wide squared_alpha = min(receiver.alpha * receiver.alpha + sight.squared_sin_b * 0.25f, 1.0f);
+    const Wide spread = squared_cos_h * (squared_alpha - 1.0f) + 1.0f;
+    const Wide lobe = squared_alpha / (spread * spread) * (0.25f / std::max(cos_o, kLeastCosine));
+    const Wide mirrored = sight.by_distance * select(cosine > kFloor, max(lobe, kFloor), kFloor);
+    return sight.emitted * (matte * (1.0f - receiver.glossy) + mirrored * receiver.glossy);
 }
 
 }  // namespace
@@ -142,7 +197,7 @@ LightTree::LightTree(std::span<const Light> lights, float scene_radius) : places
     double end = 0.0;
     for (const std::uint32_t light : far_) {
         const double by_power = static_cast<double>(powers[light]) / far_power;
-        end += (1.0 - kAny) * by_power + kAny / static_cast<double>(far_.size());
+        end += (1.0 - kAnyFar) * by_power + kAnyFar / static_cast<double>(far_.size());
         far_ends_.push_back(end);
     }
     if (!far_ends_.empty()) far_ends_.back() = 1.0;
@@ -276,7 +331,7 @@ double LightTree::build(std::uint32_t node, std::span<Leaf> leaves, std::uint64_
     return strongest;
 }
 
-LightTree::Importances LightTree::weigh(const Node& node, const Vec3f& point) {
+LightTree::Importances LightTree::weigh(const Node& node, const LightReceiver& receiver) {
     static_assert(kChildren % Wide::kWidth == 0 && alignof(PerChild) >= Wide::kAlignment);
     Importances importances;
     for (std::size_t first = 0; first < kChildren; first += Wide::kWidth) {
@@ -292,16 +347,17 @@ LightTree::Importances LightTree::weigh(const Node& node, const Vec3f& point) {
                             .sin_o = load(node.sin_o),
                             .cos_e = load(node.cos_e),
                             .two_sided = load(node.two_sided)};
-        const Wide importance = load(node.intensity) * falloff(shapes, point);
+        const Wide importance = load(node.intensity) * falloff(shapes, receiver);
         const Wide valid = select(importance > 0.0f, importance, 0.0f);
         valid.store(&importances.each[first]);
     }
     const auto add = [&importances] {
-        importances.sum = 0.0;
-        for (const float each : importances.each) importances.sum += static_cast<double>(each);
+        double sum = 0.0;
+        for (std::size_t child = 0; child < kChildren; ++child)
+            importances.ends[child] = sum += static_cast<double>(importances.each[child]);
     };
     add();
-    if (importances.sum > 0.0) return importances;
+    if (importances.sum() > 0.0) return importances;
     // Where floats do not tell them apart, all are as good, and as little.
     for (std::size_t child = 0; child < kChildren; ++child)
         importances.each[child] = node.next[child] != kNone ? kLeastImportance : 0.0f;
@@ -311,7 +367,7 @@ LightTree::Importances LightTree::weigh(const Node& node, const Vec3f& point) {
 
 double LightTree::far_share(const Importances& near) const {
     if (far_.empty()) return 0.0;
-    const double share = far_irradiance_ / (far_irradiance_ + root_intensity_ * near.sum);
+    const double share = far_irradiance_ / (far_irradiance_ + root_intensity_ * near.sum());
     return std::clamp(share, kLeastOfASide, 1.0 - kLeastOfASide);
 }
 
@@ -325,7 +381,7 @@ float LightTree::near_probability(double far_share, double by_tree) const {
 }
 
 double LightTree::share(const Importances& importances, std::size_t child) {
-    return static_cast<double>(importances.each[child]) / importances.sum;
+    return static_cast<double>(importances.each[child]) / importances.sum();
 }
 
 LightTree::Choice LightTree::far_choice(double share, double u) const {
@@ -339,44 +395,87 @@ float LightTree::far_probability(double share, std::size_t index) const {
     return static_cast<float>(share * (far_ends_[index] - begin));
 }
 
-LightTree::Choice LightTree::sample(const Vec3f& point, Vec2f u) const {
-    if (single_ != kNone) return {single_, 1.0f};
-    double rest = joined(u);
-    if (near_.empty()) return far_choice(1.0, rest);
-    Importances importances = weigh(nodes_.front(), point);
-    const double far = far_share(importances);
-    if (takes_first(rest, far)) return far_choice(far, rest);
-    if (near_.size() > 1 && takes_first(rest, kAny)) {
-        const auto place = static_cast<std::size_t>(rest * static_cast<double>(near_.size()));
+bool LightTree::begin(Walk& walk, const LightReceiver& receiver, Vec2f u) const {
+    if (single_ != kNone) return walk.end_at({single_, 1.0f});
+    walk.rest = joined(u);
+    if (near_.empty()) return walk.end_at(far_choice(1.0, walk.rest));
+    const Importances importances = weigh(nodes_.front(), receiver);
+    walk.far = far_share(importances);
+    if (takes_first(walk.rest, walk.far)) return walk.end_at(far_choice(walk.far, walk.rest));
+    if (near_.size() > 1 && takes_first(walk.rest, kAny)) {
+        const auto place = static_cast<std::size_t>(walk.rest * static_cast<double>(near_.size()));
         const std::uint32_t light = near_[std::min(place, near_.size() - 1)];
-        return {light, probability(point, light)};
+        return walk.end_at({light, probability(receiver, light)});
     }
-    double by_tree = 1.0;
-    for (const Node* node = &nodes_.front();;) {
-        // Less than the sum, which is added in the same order.
-        const double wanted = rest * importances.sum;
-        std::size_t child = 0;
-        double below = 0.0;
-        double end = static_cast<double>(importances.each[0]);
-        while (end <= wanted) {
-            below = end;
-            end += static_cast<double>(importances.each[++child]);
+    return descend(walk, nodes_.front(), importances);
+}
+
+bool LightTree::descend(Walk& walk, const Node& node, const Importances& importances) const {
+    // Less than the sum, which is the last of the ends.
+    const double wanted = walk.rest * importances.sum();
+    std::size_t child = 0;
+    for (const double end : importances.ends) child += end <= wanted ? 1 : 0;
+    const double below = child > 0 ? importances.ends[child - 1] : 0.0;
+    walk.rest = std::min((wanted - below) / static_cast<double>(importances.each[child]), kBelowOne);
+    walk.by_tree *= share(importances, child);
+    const std::uint32_t next = node.next[child];
+    if ((next & kLeaf) != 0) return walk.end_at({next & ~kLeaf, near_probability(walk.far, walk.by_tree)});
+    walk.node = next;
+    return false;
+}
+
+LightTree::Choice LightTree::sample(const LightReceiver& receiver, Vec2f u) const {
+    Walk walk;
+    for (bool ended = begin(walk, receiver, u); !ended;)
+        ended = descend(walk, nodes_[walk.node], weigh(nodes_[walk.node], receiver));
+    return walk.choice;
+}
+
+void LightTree::sample(std::span<const LightReceiver> receivers, std::span<const Vec2f> u,
+                       std::span<Choice> choices) const {
+    if (single_ != kNone) {
+        std::ranges::fill(choices, Choice{single_, 1.0f});
+        return;
+    }
+    // As many as have nodes under way in the first-level cache.
+    constexpr std::size_t kTogether = 16;
+    for (std::size_t first = 0; first < receivers.size(); first += kTogether) {
+        const std::size_t count = std::min(kTogether, receivers.size() - first);
+        std::array<Walk, kTogether> walks;
+        std::array<std::uint8_t, kTogether> under_way;
+        std::size_t left = 0;
+        const auto take = [&](std::size_t i, bool ended) {
+            if (ended) {
+                choices[first + i] = walks[i].choice;
+            } else {
+                fetch(nodes_[walks[i].node]);
+                under_way[left++] = static_cast<std::uint8_t>(i);
+            }
+        };
+        for (std::size_t i = 0; i < count; ++i) take(i, begin(walks[i], receivers[first + i], u[first + i]));
+        while (left > 0) {
+            const std::size_t before = std::exchange(left, 0);
+            for (std::size_t w = 0; w < before; ++w) {
+                const std::size_t i = under_way[w];
+                const Node& node = nodes_[walks[i].node];
+                take(i, descend(walks[i], node, weigh(node, receivers[first + i])));
+            }
         }
-        rest = std::min((wanted - below) / static_cast<double>(importances.each[child]), kBelowOne);
-        by_tree *= share(importances, child);
-        const std::uint32_t next = node->next[child];
-        if ((next & kLeaf) != 0) return {next & ~kLeaf, near_probability(far, by_tree)};
-        node = &nodes_[next];
-        importances = weigh(*node, point);
     }
 }
 
-float LightTree::probability(const Vec3f& point, std::size_t light) const {
+void LightTree::fetch(const Node& node) {
+    constexpr std::size_t kLine = 64;
+    const auto* bytes = reinterpret_cast<const std::byte*>(&node);
+    for (std::size_t at = 0; at < sizeof(Node); at += kLine) __builtin_prefetch(bytes + at);
+}
+
+float LightTree::probability(const LightReceiver& receiver, std::size_t light) const {
     const Place& place = places_[light];
     if (place.index == kNone) return 0.0f;
     if (single_ != kNone) return 1.0f;
     if (near_.empty()) return far_probability(1.0, place.index);
-    Importances importances = weigh(nodes_.front(), point);
+    Importances importances = weigh(nodes_.front(), receiver);
     const double far = far_share(importances);
     if (place.is_far) return far_probability(far, place.index);
     double by_tree = 1.0;
@@ -387,7 +486,7 @@ float LightTree::probability(const Vec3f& point, std::size_t light) const {
         const std::uint32_t next = node->next[child];
         if ((next & kLeaf) != 0) return near_probability(far, by_tree);
         node = &nodes_[next];
-        importances = weigh(*node, point);
+        importances = weigh(*node, receiver);
     }
 }
 

@@ -2,9 +2,9 @@
 // their number.
 //
 // Lights that are not at infinity are the leaves of a tree with 16 children a node. From its root on, one of a node's
-// children is chosen, each with a probability in proportion to what it may bring to the point,
+// children is chosen, each with a probability in proportion to what it may bring to the receiver,
 //
-//   importance = power / measure × max(cos theta', floor) / d²
+//   importance = power / measure × max(cos theta', floor) × received
 //   theta' = max(0, theta - theta_o - theta_b),    only the floor if theta' > theta_e
 //
 // with theta between the axis of the node's normals and the direction from the middle of its box to the point, theta_o
@@ -12,18 +12,30 @@
 // far from a normal light leaves (Conty Estevez and Kulla, "Importance Sampling of Many Lights with Adaptive Tree
 // Splitting", HPG 2018, equation 3; the bound on theta' is also that of Pharr, Jakob and Humphreys, "Physically Based
 // Rendering", 4th edition, section 12.6.3). Different from there: power goes over the measure of its cone, which makes
-// it an intensity, so that a spot, a point and a surface compare. And d² is the product of the distances of the
-// nearest and the farthest point of the node's box, which makes 1/d² the mean over lights along a line through the
-// point; the first is at least the root of a fiftieth of the diagonal's square over the number of lights, as the
-// nearest of many is near. With the distance of the middle instead, the node among whose lamps a point lies would count
-// too little, and that at every level. The receiver's normal is left out: the density is a function of the point alone,
-// which both ends of a bidirectional path can ask for.
+// it an intensity, so that a spot, a point and a surface compare. What is received,
+//
+//   at a bare point      1 / D²
+//   by a matte surface   0.9 max(n·v, 0) / (d² + r² / 3)^(3/2) + 0.1 max(cos theta_i', floor) / D²
+//   by a glossy share    pi D_GGX(n·h; alpha') / (4 max(n·o, 0.1)) / D²,    alpha'² = alpha² + sin² theta_b / 4
+//
+// where D² is the product of the distances of the nearest and the farthest point of the node's box, which makes 1/D²
+// the mean over lights along a line through the point; the first is at least the root of a fiftieth of the diagonal's
+// square over the number of lights, as the nearest of many is near. (With the distance d of the middle instead, the
+// node among whose lamps a point lies would count too little, and that at every level.) v goes from the point to the
+// middle of the box, and r is half its diagonal: the mean of cos / d² over the box is a field like that of a mass, here
+// of a softened one, r²/3 being the mean square of how far lamps are from the middle. The bound by theta_i' =
+// max(0, theta_i - theta_b), of the receiver's cosine as of the lamps' above, is the rest, for what the mean leaves out
+// below the horizon. A lobe is as wide as the node is seen, h being half way between the directions to the middle and
+// of wo.
+//
+// The density is a function of the receiver alone, which bidirectional path tracing has to ask for from both ends:
+// there it is a bare point, since from the light's end nobody knows yet where the surface will be seen from.
 //
 // Lights at infinity are chosen beside the tree, in proportion to their irradiance against the importances of the
 // root's children, but with a probability within [1/10, 9/10]; between them, power decides. Of an environment only what
 // is brighter than its mean counts, as `sample_light_compensated` finds no more: one without any such part is never
-// chosen. Of each side, one choice in ten is uniform over the lights that have any power, as what counts may be hidden
-// behind something.
+// chosen. Of the choices in the tree three in a hundred are uniform over the lights that have any power, of those at
+// infinity one in ten, as what counts may be hidden behind something.
 //
 // The tree is built from the top: lights are split where, of 12 bins along each axis, the cost is least (ibid.,
 // equation 2), below eight levels in halves, so that 64 bits hold the way to any light, four for each level. Sixteen
@@ -35,6 +47,7 @@
 
 #include "light/light.h"
 #include "light/light_bounds.h"
+#include "light/light_receiver.h"
 
 #include <array>
 #include <cstddef>
@@ -54,10 +67,15 @@ class LightTree {
         std::uint32_t light;
         float probability;
     };
-    /// A light for `point`; `u` in [0, 1)², both of whose numbers are used as the digits of one. Must not be empty.
-    [[nodiscard]] Choice sample(const Vec3f& point, Vec2f u) const;
+    /// A light for `receiver`; `u` in [0, 1)², both of whose numbers are used as the digits of one. Must not be empty.
+    [[nodiscard]] Choice sample(const LightReceiver& receiver, Vec2f u) const;
+    /// The same for many, each to the bit as by itself; nodes are fetched ahead, so that walks need not wait for
+    /// memory.
+    void sample(std::span<const LightReceiver> receivers, std::span<const Vec2f> u, std::span<Choice> choices) const;
     /// With what probability `sample` chooses the light of this index; to the bit what `sample` says.
-    [[nodiscard]] float probability(const Vec3f& point, std::size_t light) const;
+    [[nodiscard]] float probability(const LightReceiver& receiver, std::size_t light) const;
+    /// False if every receiver has the same probabilities.
+    [[nodiscard]] bool depends_on_receiver() const { return single_ == kNone && !near_.empty(); }
     /// True if there is nothing to choose from.
     [[nodiscard]] bool empty() const { return near_.empty() && far_.empty(); }
     [[nodiscard]] std::size_t bytes() const;
@@ -73,7 +91,9 @@ class LightTree {
     struct alignas(64) PerChild : std::array<float, kChildren> {};
     struct Importances {
         PerChild each;
-        double sum;  ///< more than zero; added from the first on
+        std::array<double, kChildren> ends;  ///< sums from the first on
+
+        [[nodiscard]] double sum() const { return ends.back(); }  ///< more than zero
     };
 
     struct Node {
@@ -92,6 +112,21 @@ class LightTree {
         bool is_far = false;
     };
 
+    /// A choice on its way through the tree.
+    struct Walk {
+        double rest = 0.0;       ///< of the random number, [0, 1)
+        double far = 0.0;        ///< probability of the lights at infinity
+        double by_tree = 1.0;    ///< probability of the children so far
+        std::uint32_t node = 0;  ///< where it is
+        Choice choice{};         ///< where it has ended
+
+        /// True, as it has.
+        bool end_at(const Choice& chosen) {
+            choice = chosen;
+            return true;
+        }
+    };
+
     struct Leaf;
 
     /// Reorders lights so that those of the first part come first; says how many they are.
@@ -102,8 +137,12 @@ class LightTree {
     /// Makes the node of these lights at this level from the root, in `nodes_[node]`. Returns the intensity of its
     /// strongest child, W/sr.
     double build(std::uint32_t node, std::span<Leaf> leaves, std::uint64_t trail, int level);
-    /// What each child of `node` may bring to `point`, in units of the node's strongest.
-    [[nodiscard]] static Importances weigh(const Node& node, const Vec3f& point);
+    /// Both go one step on, and return true if that is the last.
+    bool begin(Walk& walk, const LightReceiver& receiver, Vec2f u) const;
+    bool descend(Walk& walk, const Node& node, const Importances& importances) const;
+    static void fetch(const Node& node);
+    /// What each child of `node` may bring to `receiver`, in units of the node's strongest.
+    [[nodiscard]] static Importances weigh(const Node& node, const LightReceiver& receiver);
     /// Of taking one at infinity, where there are others; 0 if there are none. `near` is of the root for the point.
     [[nodiscard]] double far_share(const Importances& near) const;
     /// One at infinity if the probability of that is `share`, by a number in [0, 1), and the probability of this one.

@@ -82,6 +82,12 @@ class MeshLight {
         const Front& front = fronts_[triangle];
         return {t.p0, t.edge1, t.edge2, front.normal, front.clearance, area_, two_sided_ ? 1.0f : 0.0f};
     }
+    /// Has what a sample of a light of few triangles reads fetched from memory.
+    void fetch() const {
+        by_area_.fetch();
+        __builtin_prefetch(triangles_.data());
+        __builtin_prefetch(fronts_.data());
+    }
     /// Of the front.
     [[nodiscard]] const Rgb& radiance() const { return radiance_; }
     /// Density of `sample` for a hit at `distance`, where `cos_light` is the cosine between the geometric normal and

@@ -27,6 +27,8 @@ class AliasTable {
     /// would have no digits left for the decision in a large table. The table must not be empty.
     [[nodiscard]] Choice sample(Vec2f u) const;
     [[nodiscard]] float probability(std::size_t index) const { return bins_[index].probability; }
+    /// Has the first entries fetched from memory.
+    void fetch() const { __builtin_prefetch(bins_.data()); }
     [[nodiscard]] std::size_t size() const { return bins_.size(); }
     [[nodiscard]] bool empty() const { return bins_.empty(); }
     [[nodiscard]] std::size_t bytes() const { return bins_.capacity() * sizeof(Bin); }

@@ -114,6 +114,8 @@ class Scattering {
     }
 
     [[nodiscard]] bool has_non_delta() const { return etendue::has_non_delta(*bsdf_); }
+    /// Of shading; of lobes that do not tell sides apart it is on the side of wo.
+    [[nodiscard]] const Vec3f& normal() const { return surface_.frame.normal; }
     [[nodiscard]] const Vec3f& geometric_normal() const { return surface_.geometric_normal; }
     [[nodiscard]] const Bsdf& bsdf() const { return *bsdf_; }
     [[nodiscard]] const Vec3f& wo() const { return surface_.wo; }

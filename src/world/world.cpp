@@ -300,6 +300,15 @@ ChosenLight World::sample_light(const LightTree::Choice& choice, const Vec3f& po
     return chosen;
 }
 
+void World::choose_lights(std::span<const LightReceiver> receivers, std::span<const Vec2f> u,
+                          std::span<LightTree::Choice> choices) const {
+    tree_.sample(receivers, u, choices);
+    // In two steps, since the first line says where the others are.
+    for (const LightTree::Choice& choice : choices) __builtin_prefetch(&data_->lights[choice.light]);
+    for (const LightTree::Choice& choice : choices)
+        if (const MeshLight* mesh = even_mesh_light(choice.light)) mesh->fetch();
+}
+
 bool World::has_uneven_emission(std::uint32_t light) const {
     const MeshLight* mesh = std::get_if<MeshLight>(&data_->lights[light]);
     return mesh != nullptr && !mesh->is_uniform();
@@ -345,7 +354,7 @@ std::uint32_t World::light_at(const SurfacePoint& point) const {
     return data_->light_of_slot[instance.first_light_slot + point.geometry - instance.first_geometry];
 }
 
-float World::emitter_pdf_solid_angle(const Vec3f& from, const SurfacePoint& point, const Vec3f& direction,
+float World::emitter_pdf_solid_angle(const LightReceiver& from, const SurfacePoint& point, const Vec3f& direction,
                                      float distance) const {
     const std::uint32_t light = light_at(point);
     if (light == kNone) return 0.0f;

@@ -232,11 +232,18 @@ class World {
     [[nodiscard]] bool has_sampled_lights() const { return !tree_.empty(); }
     /// Light arriving at `point` from a light chosen for it by the light tree. Of an environment it finds only what is
     /// brighter than its mean: to be combined with samples of the BSDF, by `environment_pdf_solid_angle`.
-    [[nodiscard]] ChosenLight sample_light(const Vec3f& point, const LightNumbers& u) const {
-        return sample_light(choose_light(point, u.light), point, u);
+    [[nodiscard]] ChosenLight sample_light(const LightReceiver& receiver, const LightNumbers& u) const {
+        return sample_light(choose_light(receiver, u.light), receiver.position, u);
     }
+    /// True if the choice of a light depends on what it is for.
+    [[nodiscard]] bool chooses_lights_by_receiver() const { return tree_.depends_on_receiver(); }
     /// Its two halves: the choice, and light from what was chosen.
-    [[nodiscard]] LightTree::Choice choose_light(const Vec3f& point, Vec2f u) const { return tree_.sample(point, u); }
+    [[nodiscard]] LightTree::Choice choose_light(const LightReceiver& receiver, Vec2f u) const {
+        return tree_.sample(receiver, u);
+    }
+    /// The first for many, whose lights are fetched from memory besides.
+    void choose_lights(std::span<const LightReceiver> receivers, std::span<const Vec2f> u,
+                       std::span<LightTree::Choice> choices) const;
     [[nodiscard]] ChosenLight sample_light(const LightTree::Choice& choice, const Vec3f& point,
                                            const LightNumbers& u) const;
     /// The mesh light of this index if it shines evenly, else null.
@@ -245,8 +252,8 @@ class World {
         return mesh != nullptr && mesh->is_uniform() ? mesh : nullptr;
     }
     /// Probability with which `sample_light` chooses the light of this index for `point`.
-    [[nodiscard]] float light_probability(const Vec3f& point, std::uint32_t light) const {
-        return tree_.probability(point, light);
+    [[nodiscard]] float light_probability(const LightReceiver& receiver, std::uint32_t light) const {
+        return tree_.probability(receiver, light);
     }
     /// Probability with which `sample_emission` chooses it.
     [[nodiscard]] float emission_probability(std::uint32_t light) const { return selector_.probability(light); }
@@ -286,8 +293,8 @@ class World {
     [[nodiscard]] const Interior& light_interior(std::uint32_t light) const { return light_interiors_[light]; }
     /// Density, choice included, with which `sample_light` at `from` would have picked the direction that hit the
     /// emitter `point` at `distance`. 0 if it is no sampled light.
-    [[nodiscard]] float emitter_pdf_solid_angle(const Vec3f& from, const SurfacePoint& point, const Vec3f& direction,
-                                                float distance) const;
+    [[nodiscard]] float emitter_pdf_solid_angle(const LightReceiver& from, const SurfacePoint& point,
+                                                const Vec3f& direction, float distance) const;
 
     /// Density per area, 1/m², without the choice, with which both kinds of samples pick a point of the mesh light of
     /// this index.

@@ -95,26 +95,11 @@ std::vector<Light> row_of_lamps(std::size_t count) {
     return lights;
 }
 
-TEST(LightTree, ProbabilitiesAddUpToOne) {
-    for (const std::size_t count : {1u, 2u, 3u, 17u, 1000u}) {
-        const std::vector<Light> lights = count == 17 ? lights_of_all_kinds() : random_lights(count, 1);
-        const LightTree tree(lights, kSceneRadius);
-        Random random(2);
-        for (int i = 0; i < 200; ++i) {
-            const Vec3f point = random_point(random, i % 2 == 0 ? 8.0f : 1000.0f);
-            double sum = 0.0;
-            for (std::size_t light = 0; light < lights.size(); ++light)
-                sum += static_cast<double>(tree.probability(point, light));
-            EXPECT_NEAR(sum, 1.0, 1e-5) << count << " lights, " << point;
-        }
-    }
-}
-
 /// The formula of light/light_tree.h, with angles and in double.
-double importance(const LightBounds& light, double power, const Vec3f& point) {
+double importance(const LightBounds& light, double power, const LightReceiver& receiver) {
     const Vec3d low(light.box.min);
     const Vec3d high(light.box.max);
-    const Vec3d p(point);
+    const Vec3d p(receiver.position);
     Vec3d nearest(0.0);
     Vec3d farthest(0.0);
     for (int axis = 0; axis < 3; ++axis) {
@@ -122,34 +107,88 @@ double importance(const LightBounds& light, double power, const Vec3f& point) {
         farthest[axis] = std::max(p[axis] - low[axis], high[axis] - p[axis]);
     }
     const double near_squared = std::max(nearest.length2(), 0.02 * (high - low).length2());
-    const double intensity = power / light.cone.measure();
-    const double by_distance = intensity / std::sqrt(near_squared * std::max(farthest.length2(), near_squared));
-    const Vec3d to_point = p - (low + high) * 0.5;
+    const double by_distance = 1.0 / std::sqrt(near_squared * std::max(farthest.length2(), near_squared));
+    const Vec3d to_light = (low + high) * 0.5 - p;
+    const double distance = to_light.length();
     const double radius = (high - low).length() / 2.0;
-    if (to_point.length() <= radius) return by_distance;
-    const double cosine = Vec3d(light.cone.axis).dot(to_point) / to_point.length();
-    const double theta = std::acos(std::clamp(light.cone.two_sided ? std::abs(cosine) : cosine, -1.0, 1.0));
-    const double theta_b = std::asin(radius / to_point.length());
-    const double rest = std::max(0.0, theta - light.cone.theta_o - theta_b);
-    return by_distance * (rest > light.cone.theta_e ? 1e-3 : std::max(std::cos(rest), 1e-3));
+    const bool is_inside = distance <= radius;
+    const double theta_b = is_inside ? std::numbers::pi / 2.0 : std::asin(radius / distance);
+    const auto angle_to = [&](const Vec3f& direction) {
+        return std::acos(std::clamp(Vec3d(direction).dot(to_light) / distance, -1.0, 1.0));
+    };
+    double emitted = 1.0;
+    if (!is_inside) {
+        const double from_axis = std::numbers::pi - angle_to(light.cone.axis);
+        const double theta = light.cone.two_sided ? std::min(from_axis, std::numbers::pi - from_axis) : from_axis;
+        const double rest = std::max(0.0, theta - light.cone.theta_o - theta_b);
+        emitted = rest > light.cone.theta_e ? 1e-3 : std::max(std::cos(rest), 1e-3);
+    }
+    double received = by_distance;
+    if (receiver.has_normal()) {
+        const double theta_i = angle_to(receiver.normal);
+        const double least_theta_i = std::max(0.0, theta_i - theta_b);
+        const double cos_most = is_inside ? 1.0 : std::max(std::cos(least_theta_i), 1e-3);
+        const double height = std::max(Vec3d(receiver.normal).dot(to_light), 0.0);
+        const double matte =
+            0.9 * height / std::pow(distance * distance + radius * radius / 3.0, 1.5) + 0.1 * cos_most * by_distance;
+        const Vec3d half = (to_light / distance + Vec3d(receiver.wo)).normalized();
+        const double cos_h = Vec3d(receiver.normal).dot(half);
+        const double alpha2 = std::min(1.0, std::pow(static_cast<double>(receiver.alpha), 2.0) +
+                                                std::pow(std::min(1.0, radius / distance), 2.0) / 4.0);
+        const double lobe = alpha2 / std::pow(cos_h * cos_h * (alpha2 - 1.0) + 1.0, 2.0) / 4.0 /
+                            std::max(Vec3d(receiver.normal).dot(Vec3d(receiver.wo)), 0.1);
+        const double mirrored = by_distance * (cos_most > 1e-3 ? std::max(lobe, 1e-3) : 1e-3);
+        const auto glossy = static_cast<double>(receiver.glossy);
+        received = (1.0 - glossy) * matte + glossy * mirrored;
+    }
+    return power / light.cone.measure() * emitted * received;
+}
+
+/// Bare points, matte surfaces and glossy ones in turn.
+LightReceiver random_receiver(Random& random, float size, int i) {
+    LightReceiver receiver(random_point(random, size));
+    if (i % 3 == 0) return receiver;
+    receiver.normal = random_axis(random);
+    if (i % 3 == 1) return receiver;
+    do {
+        receiver.wo = random_axis(random);
+    } while (!(dot(receiver.wo, receiver.normal) > 0.0f));
+    receiver.glossy = random.next();
+    receiver.alpha = 0.01f + 0.9f * random.next() * random.next();
+    return receiver;
+}
+
+TEST(LightTree, ProbabilitiesAddUpToOne) {
+    for (const std::size_t count : {1u, 2u, 3u, 17u, 1000u}) {
+        const std::vector<Light> lights = count == 17 ? lights_of_all_kinds() : random_lights(count, 1);
+        const LightTree tree(lights, kSceneRadius);
+        Random random(2);
+        for (int i = 0; i < 200; ++i) {
+            const LightReceiver receiver = random_receiver(random, i % 2 == 0 ? 8.0f : 1000.0f, i);
+            double sum = 0.0;
+            for (std::size_t light = 0; light < lights.size(); ++light)
+                sum += static_cast<double>(tree.probability(receiver, light));
+            EXPECT_NEAR(sum, 1.0, 1e-5) << count << " lights, " << receiver.position;
+        }
+    }
 }
 
 TEST(LightTree, ChildrenShareByTheFormula) {
     Random random(14);
-    for (std::uint32_t seed = 0; seed < 100; ++seed) {
+    for (int seed = 0; seed < 300; ++seed) {
         // So few that all are children of the root.
-        const std::vector<Light> lights = random_lights(5, 100 + seed);
+        const std::vector<Light> lights = random_lights(5, static_cast<std::uint32_t>(100 + seed));
         const LightTree tree(lights, kSceneRadius);
-        const Vec3f point = random_point(random, 10.0f);
+        const LightReceiver receiver = random_receiver(random, 10.0f, seed);
         std::vector<double> importances;
         importances.reserve(lights.size());
         for (const Light& light : lights)
             importances.push_back(
-                importance(*light_bounds(light), static_cast<double>(light_power(light, kSceneRadius)), point));
+                importance(*light_bounds(light), static_cast<double>(light_power(light, kSceneRadius)), receiver));
         const double sum = std::accumulate(importances.begin(), importances.end(), 0.0);
         for (std::size_t i = 0; i < lights.size(); ++i) {
-            EXPECT_NEAR(tree.probability(point, i), 0.9 * importances[i] / sum + 0.02, 2e-5)
-                << "light " << i << " of set " << seed << ", " << point;
+            EXPECT_NEAR(tree.probability(receiver, i), 0.97 * importances[i] / sum + 0.006, 1e-4)
+                << "light " << i << " of set " << seed << ", " << receiver.position;
         }
     }
 }
@@ -165,18 +204,40 @@ TEST(LightTree, ChoosesWithTheProbabilitiesItStates) {
     for (const std::vector<Light>& lights : scenes) {
         const LightTree tree(lights, kSceneRadius);
         for (int p = 0; p < kPoints; ++p) {
-            const Vec3f point = random_point(random, 8.0f);
+            const LightReceiver receiver = random_receiver(random, 8.0f, p);
             std::vector<double> expected;
             for (std::size_t i = 0; i < lights.size(); ++i)
-                expected.push_back(kSamples * static_cast<double>(tree.probability(point, i)));
+                expected.push_back(kSamples * static_cast<double>(tree.probability(receiver, i)));
             std::vector<double> observed(lights.size());
             for (int i = 0; i < kSamples; ++i) {
-                const LightTree::Choice choice = tree.sample(point, random.next_2d());
-                EXPECT_EQ(choice.probability, tree.probability(point, choice.light));
+                const LightTree::Choice choice = tree.sample(receiver, random.next_2d());
+                EXPECT_EQ(choice.probability, tree.probability(receiver, choice.light));
                 ++observed[choice.light];
             }
             const Chi2Result result = chi2_counts(observed, expected);
-            EXPECT_GT(result.p_value, level) << lights.size() << " lights, " << point << '\n' << result.str();
+            EXPECT_GT(result.p_value, level) << lights.size() << " lights, " << receiver.position << '\n'
+                                             << result.str();
+        }
+    }
+}
+
+TEST(LightTree, ChoosesForManyAsForEach) {
+    for (const std::vector<Light>& lights :
+         {random_lights(1, 4), lights_of_all_kinds(), random_lights(3000, 5), std::vector<Light>{half_sky(0.1f)}}) {
+        const LightTree tree(lights, kSceneRadius);
+        Random random(21);
+        std::vector<LightReceiver> receivers;
+        std::vector<Vec2f> u;
+        for (int i = 0; i < 75; ++i) {
+            receivers.push_back(random_receiver(random, 8.0f, i));
+            u.push_back(random.next_2d());
+        }
+        std::vector<LightTree::Choice> choices(receivers.size());
+        tree.sample(receivers, u, choices);
+        for (std::size_t i = 0; i < receivers.size(); ++i) {
+            const LightTree::Choice alone = tree.sample(receivers[i], u[i]);
+            EXPECT_EQ(choices[i].light, alone.light) << lights.size() << " lights, receiver " << i;
+            EXPECT_EQ(choices[i].probability, alone.probability) << lights.size() << " lights, receiver " << i;
         }
     }
 }
@@ -210,12 +271,13 @@ TEST(LightTree, NoLightThatContributesIsImpossible) {
     const LightTree tree(lights, kSceneRadius);
     int lit = 0;
     for (int i = 0; i < 2000; ++i) {
-        const Vec3f point = random_point(random, i % 2 == 0 ? 8.0f : 100.0f);
+        const LightReceiver receiver = random_receiver(random, i % 2 == 0 ? 8.0f : 100.0f, i);
+        const Vec3f& point = receiver.position;
         for (std::size_t light = 0; light < lights.size(); ++light) {
             const LightSample sample = sample_light(lights[light], point, random.next_2d(), random.next_2d());
             if (is_black(sample.radiance)) continue;
             ++lit;
-            EXPECT_GT(tree.probability(point, light), 0.0f) << "light " << light << ", " << point;
+            EXPECT_GT(tree.probability(receiver, light), 0.0f) << "light " << light << ", " << point;
         }
     }
     EXPECT_GT(lit, 40'000);
@@ -238,7 +300,28 @@ TEST(LightTree, PrefersWhatIsNearAndFacesThePoint) {
     const auto probability = [&](std::size_t light) { return tree.probability(Vec3f(0.0f), light); };
     EXPECT_GT(probability(0), 0.6f);
     EXPECT_LT(probability(1), 0.03f);
-    EXPECT_GT(probability(3) - 0.025f, 4.0f * (probability(2) - 0.025f));
+    EXPECT_GT(probability(3) - 0.0075f, 4.0f * (probability(2) - 0.0075f));
+}
+
+TEST(LightTree, PrefersWhatTheSurfaceFacesAndMirrors) {
+    const std::vector<Light> lights = {
+        PointLight{{3, 3, 0}, Rgb(1.0f)},    // as strong and as far away, where a mirror would show it
+        PointLight{{-3, 3, 0}, Rgb(1.0f)},   // the other way
+        PointLight{{3, -3, 0}, Rgb(10.0f)},  // behind the surface
+    };
+    const LightTree tree(lights, kSceneRadius);
+    const Vec3f wo = normalize(Vec3f(-1, 1, 0));
+    const LightReceiver bare(Vec3f(0.0f));
+    const LightReceiver matte(Vec3f(0.0f), {0, 1, 0});
+    LightReceiver glossy = matte;
+    glossy.wo = wo;
+    glossy.glossy = 1.0f;
+    glossy.alpha = 0.1f;
+    EXPECT_GT(tree.probability(bare, 2), 0.7f);
+    EXPECT_LT(tree.probability(matte, 2), 0.02f);
+    EXPECT_NEAR(tree.probability(matte, 0), tree.probability(matte, 1), 1e-5f);
+    EXPECT_GT(tree.probability(glossy, 0), 0.9f);
+    EXPECT_LT(tree.probability(glossy, 1), 0.05f);
 }
 
 // The point of it all: where many lamps stand about, what is chosen brings nearly the same whichever it is.
@@ -252,25 +335,34 @@ TEST(LightTree, WeighsLampsAsTheyContribute) {
     const LightSelector by_power(lights, 100.0f);
     Random random(9);
     double tree_variance = 0.0;
+    double floor_variance = 0.0;
     double power_variance = 0.0;
     for (int p = 0; p < 20; ++p) {
         const Vec3f point(20.0f + 60.0f * random.next(), 0.0f, 20.0f + 60.0f * random.next());
+        const LightReceiver floor(point, {0, 1, 0});
         double sum = 0.0;
+        double reflected = 0.0;
         double with_tree = 0.0;
+        double with_normal = 0.0;
         double with_power = 0.0;
         for (std::size_t i = 0; i < kCount; ++i) {
-            const auto arrives =
-                static_cast<double>(average(sample_light(lights[i], point, {0.5f, 0.5f}, {0.5f, 0.5f}).radiance));
+            const LightSample sample = sample_light(lights[i], point, {0.5f, 0.5f}, {0.5f, 0.5f});
+            const auto arrives = static_cast<double>(average(sample.radiance));
+            const double reflects = arrives * static_cast<double>(sample.wi.y);
             sum += arrives;
+            reflected += reflects;
+            with_normal += reflects * reflects / static_cast<double>(tree.probability(floor, i));
             with_tree += arrives * arrives / static_cast<double>(tree.probability(point, i));
             with_power += arrives * arrives / static_cast<double>(by_power.probability(i));
         }
         tree_variance += with_tree / (sum * sum) - 1.0;
+        floor_variance += with_normal / (reflected * reflected) - 1.0;
         power_variance += with_power / (sum * sum) - 1.0;
     }
     EXPECT_LT(tree_variance, 0.05 * power_variance);
     EXPECT_LT(tree_variance / 20.0, 1.0);
-    std::printf("relative variance %.3f\n", tree_variance / 20.0);
+    EXPECT_LT(floor_variance / 20.0, 0.5);
+    std::printf("relative variance %.3f, of what a floor reflects %.3f\n", tree_variance / 20.0, floor_variance / 20.0);
 }
 
 TEST(LightTree, OneLightIsCertain) {
@@ -282,7 +374,7 @@ TEST(LightTree, OneLightIsCertain) {
             EXPECT_EQ(tree.sample(Vec3f(0.0f), u).light, 0u);
             EXPECT_EQ(tree.sample(Vec3f(0.0f), u).probability, 1.0f);
         }
-        EXPECT_EQ(tree.probability({1, 2, 3}, 0), 1.0f);
+        EXPECT_EQ(tree.probability(Vec3f(1, 2, 3), 0), 1.0f);
     }
     EXPECT_TRUE(LightTree({}, 1.0f).empty());
 }
@@ -328,7 +420,7 @@ TEST(LightTree, WhatIsTooFarAwayIsChosenEvenly) {
 TEST(LightTree, WithoutPowerAllAreEquallyLikely) {
     const std::vector<Light> lights = {PointLight{{0, 0, 0}, Rgb(0.0f)}, PointLight{{0, 0, 0}, Rgb(0.0f)}};
     const LightTree tree(lights, 1.0f);
-    for (std::size_t i = 0; i < lights.size(); ++i) EXPECT_NEAR(tree.probability({1, 1, 1}, i), 0.5f, 1e-6f);
+    for (std::size_t i = 0; i < lights.size(); ++i) EXPECT_NEAR(tree.probability(Vec3f(1, 1, 1), i), 0.5f, 1e-6f);
 }
 
 TEST(LightTree, ManyLightsAreBuiltInBoundedTimeAndMemory) {

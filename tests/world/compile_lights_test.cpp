@@ -55,8 +55,9 @@ TEST(CompileLights, SpotsKeepTheirFullIntensityHoweverNarrow) {
             light.inner_cone_angle = inner * outer;
             scene.lights.push_back(light);
             const World world = compile(std::move(scene));
-            EXPECT_NEAR(world.sample_light({0, 0, -1}, {{0.5f, 0.5f}, {0.5f, 0.5f}, {0.5f, 0.5f}}).sample.radiance.g,
-                        3.0f, 1e-3f)
+            EXPECT_NEAR(
+                world.sample_light(Vec3f(0, 0, -1), {{0.5f, 0.5f}, {0.5f, 0.5f}, {0.5f, 0.5f}}).sample.radiance.g, 3.0f,
+                1e-3f)
                 << "outer " << outer << ", inner share " << inner;
         }
 }
@@ -67,7 +68,9 @@ TEST(CompileLights, RadiometricUnitsDivideLampsOnly) {
         SceneDesc scene = empty_scene();
         scene.lights.push_back(punctual(type, 6.0f));
         const auto seen = [](const SceneDesc& s) {
-            return compile(s).sample_light({0, 0, -1}, {{0.5f, 0.5f}, {0.5f, 0.5f}, {0.5f, 0.5f}}).sample.radiance.g;
+            return compile(s)
+                .sample_light(Vec3f(0, 0, -1), {{0.5f, 0.5f}, {0.5f, 0.5f}, {0.5f, 0.5f}})
+                .sample.radiance.g;
         };
         EXPECT_FLOAT_EQ(seen(scene), 6.0f);
         scene.settings.light_units = LightUnits::Radiometric;

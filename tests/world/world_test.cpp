@@ -164,7 +164,7 @@ TEST(World, LightsAreChosenByPower) {
         const ChosenLight chosen =
             world.sample_light(Vec3f(0.0f), {random.next_2d(), random.next_2d(), random.next_2d()});
         const bool is_bright = chosen.sample.wi.x > 0.0f;
-        EXPECT_NEAR(chosen.probability, is_bright ? 0.725f : 0.275f, 1e-6f);
+        EXPECT_NEAR(chosen.probability, is_bright ? 0.7425f : 0.2575f, 1e-6f);
         bright += is_bright ? 1 : 0;
     }
     EXPECT_NEAR(bright, 0.725 * kSamples, 4.5 * std::sqrt(0.2 * kSamples));

@@ -15,7 +15,7 @@ PathWave::PathWave()
 
 std::size_t PathWave::bytes() const {
     std::size_t bytes = sizeof *this + light_.bytes() + keys_.bytes() + shadow_rays_.bytes() +
-                        vector_bytes(states_, rays_, hits_, interiors_, shares_, block_, samples_, alpha_);
+                        vector_bytes(states_, rays_, hits_, interiors_, receivers_, shares_, block_, samples_, alpha_);
     for (const NumberPairs* numbers :
          {&light_choice_, &light_triangle_, &light_direction_, &bsdf_direction_, &choices_, &medium_})
         bytes += numbers->bytes();
@@ -26,6 +26,7 @@ void PathWave::trace(const World& world, const TileJob& job, const PathOptions& 
                      std::size_t count, TileBuffer& tile, RenderCounters& counters) {
     generate_camera_rays(world, job, first, std::span(samples_).first(count), std::span(rays_).first(count));
     if (world.has_bodies()) interiors_.assign(kCapacity, world.camera_interior());
+    if (world.chooses_lights_by_receiver()) receivers_.resize(kCapacity);
     words_.reset(job.aovs);
     light_.reset(count, job, counters.brightest.threshold());
     for (std::size_t i = 0; i < count; ++i) {
@@ -96,9 +97,9 @@ void PathWave::shade_block(const Context& context, std::size_t first, std::size_
         const std::size_t i = first + k;
         if (!hits_[i].valid())
             // What leaves the scene was in no body, whatever holes in meshes made of its interior.
-            add_environment(context, states_[i], rays_[i]);
+            add_environment(context, i);
         else if (const SurfacePoint& point = block_[k].point; point.material != nullptr && point.material->emits)
-            add_emission(context, states_[i], rays_[i], hits_[i], point);
+            add_emission(context, i, point);
     }
     stamp(profile, Stage::Emission);
     const auto for_surfaces = [&](const auto& visit) {
@@ -139,6 +140,7 @@ void PathWave::shade_block(const Context& context, std::size_t first, std::size_
         rays_[kept] = next.ray;
         rays_[kept].time = time;
         if (world.has_bodies()) interiors_[kept] = next.interior;
+        if (!receivers_.empty()) receivers_[kept] = next.receiver;
         ++kept;
     }
     stamp(profile, Stage::Roulette);

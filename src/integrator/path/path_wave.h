@@ -31,7 +31,6 @@ struct PathState {
     /// must not see.
     float eta_scale = 1.0f;
     float pdf_solid_angle = 0.0f;  ///< of the ray's direction; not meaningful after a delta
-    Vec3f from{0.0f};              ///< where it has that from, metres; not meaningful after a delta
     float wavelength_nm = 0.0f;    ///< nanometres once a dispersive body has refracted it, 0 for all wavelengths
     RayCone cone;                  ///< around the ray; followed only where there are textures to filter
     WordRange words;               ///< what it has been so far, if that is followed
@@ -46,7 +45,8 @@ struct PathState {
 struct PathStep {
     PathState state;
     Ray ray;
-    Interior interior;  ///< only if the World has bodies
+    Interior interior;       ///< only if the World has bodies
+    LightReceiver receiver;  ///< where it starts; only if the World chooses lights by that
 };
 
 /// A path whose ray has hit a surface, between the stages of its shading, with what is not in `BlockLanes`.
@@ -105,6 +105,8 @@ class PathWave final : public IntegratorScratch {
     void set_up_plain(const Context& context, std::size_t first);
     /// Looks up textures and makes the lobes of path `i`.
     void make_scattering(const Context& context, std::size_t i, std::size_t lane, ShadedPath& path);
+    /// What light is chosen for at the surface of a path.
+    [[nodiscard]] LightReceiver make_receiver(std::size_t lane, const ShadedPath& path) const;
     /// Samples a light for each path that asks for one.
     void sample_lights(const Context& context, std::size_t first);
     /// What the surface scatters towards the light, and where else to.
@@ -123,15 +125,17 @@ class PathWave final : public IntegratorScratch {
     /// What the surface of a path that is_wide does towards `wi`.
     [[nodiscard]] VertexEvent wide_event(const Context& context, const ShadedPath& path, const Vec3f& wi) const;
     /// What both have in common: `next` after `sample` at `position`. False if nothing was scattered.
-    bool scatter(const Context& context, std::size_t i, const Vec3f& position, const BsdfSample& sample,
-                 PathStep& next) const;
+    bool scatter(const Context& context, std::size_t i, const BsdfSample& sample, PathStep& next) const;
     /// Russian roulette; divides the throughput of those that survive by their chance.
     bool survives(const Context& context, std::size_t i, PathState& state) const;
     /// Tells the profile, if there is one, of the end of path `i`.
     void end_path(const Context& context, std::size_t i, PathEnding ending) const;
-    void add_environment(const Context& context, const PathState& state, const Ray& ray);
-    void add_emission(const Context& context, const PathState& state, const Ray& ray, const Hit& hit,
-                      const SurfacePoint& point);
+    void add_environment(const Context& context, std::size_t i);
+    void add_emission(const Context& context, std::size_t i, const SurfacePoint& point);
+    /// Where the ray of path `i` starts, as far as the choice of a light depends on it.
+    [[nodiscard]] LightReceiver receiver(std::size_t i) const {
+        return receivers_.empty() ? LightReceiver{} : receivers_[i];
+    }
     void queue_direct_light(const Context& context, std::size_t i, const ShadedPath& path);
     void queue_by_lanes(const Context& context, std::size_t i, std::size_t lane, const ShadedPath& path);
     void queue_direct_light_in_medium(const Context& context, std::size_t i, const Vec3f& position,
@@ -149,7 +153,8 @@ class PathWave final : public IntegratorScratch {
     std::vector<PathState> states_;
     std::vector<Ray> rays_;
     std::vector<Hit> hits_;
-    std::vector<Interior> interiors_;  ///< only if the World has bodies
+    std::vector<Interior> interiors_;       ///< only if the World has bodies
+    std::vector<LightReceiver> receivers_;  ///< where rays start; only if the World chooses lights by that
     SampleKeys keys_;
     NumberPairs light_choice_, light_triangle_, light_direction_, bsdf_direction_;
     NumberPairs choices_;  ///< x: which lobe, y: whether the path ends
@@ -163,6 +168,7 @@ class PathWave final : public IntegratorScratch {
     std::size_t surfaces_ = 0;
     BlockLanes lanes_;
     GlossyLanes glossy_;
+    std::array<LightReceiver, kBlock> to_light_;  ///< of the paths that sample lights, one after the other
     std::array<PathStep, kBlock> next_;
     std::array<bool, kBlock> goes_on_{};
     // By slot, that is, by camera sample.

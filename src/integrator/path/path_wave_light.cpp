@@ -1,4 +1,5 @@
 // Light that paths meet, and light that is sampled for where they are.
+#include "bsdf/gloss.h"
 #include "integrator/connecting_ray.h"
 #include "integrator/path/path_wave.h"
 #include "integrator/walk.h"
@@ -24,17 +25,52 @@ LightKind kind_of_met_light(const PathState& state) {
 
 }  // namespace
 
+LightReceiver PathWave::make_receiver(std::size_t lane, const ShadedPath& path) const {
+    LightReceiver receiver(lanes_.position[lane]);
+    const auto face = [&](const Vec3f& normal, const Vec3f& wo) {
+        receiver.normal = normal;
+        receiver.wo = wo;
+    };
+    Gloss gloss;
+    if (path.is_wide) {
+        const Vec3f wo = lanes_.wo[lane];
+        const Vec3f normal = lanes_.normal[lane];
+        face(dot(lanes_.geometric_normal[lane], wo) < 0.0f ? -normal : normal, wo);
+        if (path.glossy != nullptr) gloss = gloss_of(*path.glossy, dot(receiver.normal, wo));
+    } else if (const Scattering& scattering = *path.scattering; only_reflects(scattering.bsdf())) {
+        face(scattering.normal(), scattering.wo());
+        gloss = gloss_of(scattering.bsdf(), scattering.wo_local().z);
+    }
+    receiver.glossy = gloss.share;
+    receiver.alpha = gloss.alpha;
+    return receiver;
+}
+
 void PathWave::sample_lights(const Context& context, std::size_t first) {
     const World& world = context.world;
-    bool any_mesh_lit = false;
+    std::array<std::uint8_t, kBlock> lanes;
+    std::array<Vec2f, kBlock> u;
+    std::size_t count = 0;
     for (std::size_t lane = 0; lane < surfaces_; ++lane) {
-        const std::size_t i = first + on_surface_[lane];
         ShadedPath& path = block_[on_surface_[lane]];
         path.is_mesh_lit = false;
         lanes_.light_pdf.set(lane, 0.0f);
         if (!path.samples_light) continue;
+        if (!receivers_.empty()) to_light_[count] = next_[on_surface_[lane]].receiver = make_receiver(lane, path);
+        lanes[count] = static_cast<std::uint8_t>(lane);
+        u[count] = light_choice_[first + on_surface_[lane]];
+        ++count;
+    }
+    if (count == 0) return;
+    std::array<LightTree::Choice, kBlock> choices;
+    world.choose_lights(std::span(to_light_).first(count), std::span(u).first(count), std::span(choices).first(count));
+    bool any_mesh_lit = false;
+    for (std::size_t chosen = 0; chosen < count; ++chosen) {
+        const std::size_t lane = lanes[chosen];
+        const std::size_t i = first + on_surface_[lane];
+        ShadedPath& path = block_[on_surface_[lane]];
+        const LightTree::Choice& choice = choices[chosen];
         const Vec3f position = lanes_.position[lane];
-        const LightTree::Choice choice = world.choose_light(position, light_choice_[i]);
         const MeshLight* mesh = world.even_mesh_light(choice.light);
         if (mesh == nullptr) {
             path.light =
@@ -81,8 +117,10 @@ void PathWave::sample_lights(const Context& context, std::size_t first) {
     }
 }
 
-void PathWave::add_environment(const Context& context, const PathState& state, const Ray& ray) {
+void PathWave::add_environment(const Context& context, std::size_t i) {
     const World& world = context.world;
+    const PathState& state = states_[i];
+    const Ray& ray = rays_[i];
     if (context.depth == 1 && !(world.has_environment() && world.environment_visible_to_camera())) {
         alpha_[state.slot] = 0.0f;
         return;
@@ -91,13 +129,14 @@ void PathWave::add_environment(const Context& context, const PathState& state, c
     if (context.job.profile != nullptr && context.depth > 1) ++context.job.profile->use().bsdf_met_light;
     float weight = 1.0f;
     if (context.options.sample_lights && !state.after_delta)
-        weight = power_heuristic(state.pdf_solid_angle, world.light_probability(state.from, world.environment()) *
+        weight = power_heuristic(state.pdf_solid_angle, world.light_probability(receiver(i), world.environment()) *
                                                             world.environment_pdf_solid_angle(ray.direction));
     add_light(state, world.environment_radiance(ray.direction) * weight, words_.environment_source());
 }
 
-void PathWave::add_emission(const Context& context, const PathState& state, const Ray& ray, const Hit& hit,
-                            const SurfacePoint& point) {
+void PathWave::add_emission(const Context& context, std::size_t i, const SurfacePoint& point) {
+    const PathState& state = states_[i];
+    const Ray& ray = rays_[i];
     if (state.edges < context.options.lengths.min_depth) return;
     const Rgb emitted = context.world.emission(point, -ray.direction);
     if (is_black(emitted)) return;
@@ -105,7 +144,7 @@ void PathWave::add_emission(const Context& context, const PathState& state, cons
     float weight = 1.0f;
     if (context.options.sample_lights && !state.after_delta)
         weight = power_heuristic(state.pdf_solid_angle,
-                                 context.world.emitter_pdf_solid_angle(state.from, point, ray.direction, hit.t));
+                                 context.world.emitter_pdf_solid_angle(receiver(i), point, ray.direction, hits_[i].t));
     add_light(state, emitted * weight, words_.surface_source(point));
 }
 

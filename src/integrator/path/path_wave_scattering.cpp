@@ -144,8 +144,7 @@ void PathWave::evaluate(std::size_t i, ShadedPath& path) const {
     path.sample = path.scattering->sample(choices_[i].x, bsdf_direction_[i], TransportMode::Radiance);
 }
 
-bool PathWave::scatter(const Context& context, std::size_t i, const Vec3f& position, const BsdfSample& sample,
-                       PathStep& next) const {
+bool PathWave::scatter(const Context& context, std::size_t i, const BsdfSample& sample, PathStep& next) const {
     WaveProfile* const profile = context.job.profile;
     if (profile != nullptr) ++profile->use().bsdf_samples;
     if (is_black(sample.weight)) {
@@ -157,7 +156,6 @@ bool PathWave::scatter(const Context& context, std::size_t i, const Vec3f& posit
     state = states_[i];
     state.throughput *= sample.weight;
     state.pdf_solid_angle = sample.pdf_solid_angle;
-    state.from = position;
     state.after_delta = sample.is_delta;
     state.is_direct = state.only_delta;
     state.only_delta = state.only_delta && sample.is_delta;
@@ -180,7 +178,7 @@ bool PathWave::scatter_by_lanes(const Context& context, std::size_t i, std::size
     sample.wi = lanes_.next_direction[lane];
     sample.weight = lanes_.next_weight[lane];
     sample.pdf_solid_angle = lanes_.next_pdf[lane];
-    if (!scatter(context, i, lanes_.position[lane], sample, next)) return false;
+    if (!scatter(context, i, sample, next)) return false;
     if (words_.are_followed())
         next.state.words = words_.scatter_from_eye(states_[i].words, wide_event(context, path, sample.wi));
     if (world.has_textures())
@@ -196,7 +194,7 @@ bool PathWave::scatter_at_surface(const Context& context, std::size_t i, const S
     const SurfacePoint& point = path.point;
     const Scattering& scattering = *path.scattering;
     const BsdfSample& sample = path.sample;
-    if (!scatter(context, i, point.position, sample, next)) return false;
+    if (!scatter(context, i, sample, next)) return false;
     if (words_.are_followed())
         next.state.words = words_.scatter_from_eye(
             state.words,
@@ -244,7 +242,7 @@ bool PathWave::scatter_in_medium(const Context& context, std::size_t i, PathStep
     next.ray.alpha_key = alpha_key(context, i);
     next.interior = interiors_[i];
     next.state.pdf_solid_angle = medium->phase.pdf_solid_angle(-ray.direction, next.ray.direction);
-    next.state.from = position;
+    if (!receivers_.empty()) next.receiver = position;
     next.state.after_delta = !samples_lights;
     next.state.is_direct = state.only_delta;
     next.state.only_delta = false;
@@ -256,6 +254,7 @@ bool PathWave::scatter_in_medium(const Context& context, std::size_t i, PathStep
 void PathWave::pass_hidden(const Context& context, std::size_t i, const SurfacePoint& point, const Crossing& crossing,
                            PathStep& next) {
     next.state = states_[i];
+    next.receiver = receiver(i);
     // No light sample passes a boundary, so what the path meets next could not have been sampled.
     next.state.after_delta = true;
     next.state.cone = next.state.cone.at(hits_[i].t);

@@ -117,6 +117,40 @@ TEST(PathIntegrator, StrategiesAgreeOnALampAndAGlossyWall) {
     }
 }
 
+// The choice between lamps depends on the surface: what samples of the BSDF meet must be weighed by the same choice.
+TEST(PathIntegrator, StrategiesAgreeOnManyLampsAndAnySurface) {
+    MaterialDesc plastic;
+    plastic.base_color = {0.9f, 0.6f, 0.3f};
+    plastic.metallic = 0.0f;
+    plastic.roughness = 0.4f;
+    MaterialDesc metal = plastic;
+    metal.metallic = 1.0f;
+    MaterialDesc anisotropic = metal;
+    anisotropic.anisotropy.strength = 0.8f;
+    MaterialDesc conductor;
+    conductor.override_model = ConductorDesc{.metal = "Au", .roughness = 0.4f};
+    MaterialDesc sheet = plastic;
+    sheet.transmission = 0.5f;
+    for (const auto& [name, wall] :
+         {std::pair{"matte", diffuse(Rgb(0.6f))}, std::pair{"plastic", plastic}, std::pair{"metal", metal},
+          std::pair{"anisotropic", anisotropic}, std::pair{"conductor", conductor}, std::pair{"sheet", sheet}}) {
+        SceneDesc scene = empty_scene();
+        add_object(scene, quad({0, 0, -3}, {4, 0, 0}, {0, 4, 0}), add_material(scene, wall));
+        // Two before the wall, a weak one where the wall mirrors it, and one behind it.
+        add_object(scene, quad({2.5f, 0, -1}, {0, 0, 0.8f}, {0, 0.8f, 0}), add_material(scene, emissive(Rgb(8.0f))));
+        add_object(scene, quad({0, 2.5f, -1}, {0, 0, -0.8f}, {0.8f, 0, 0}), add_material(scene, emissive(Rgb(4.0f))));
+        add_object(scene, quad({0, 0, 1}, {-0.8f, 0, 0}, {0, 0.8f, 0}), add_material(scene, emissive(Rgb(1.0f))));
+        add_object(scene, quad({0, 0, -5}, {0.8f, 0, 0}, {0, 0.8f, 0}), add_material(scene, emissive(Rgb(20.0f))));
+        const World world = compile(std::move(scene));
+        const TileResult by_mis = render_tile(world, path_of(2, 2, true), 4096);
+        const TileResult by_chance = render_tile(world, path_of(2, 2, false), 16384);
+        EXPECT_GT(by_mis.mean.g, 0.01f) << name;
+        EXPECT_NEAR(by_mis.mean.g, by_chance.mean.g, 5.0 * std::hypot(by_mis.error, by_chance.error)) << name;
+        EXPECT_LT(by_mis.error, by_chance.error) << name;
+        EXPECT_LT(by_chance.error, 0.01 * static_cast<double>(by_chance.mean.g)) << name;
+    }
+}
+
 /// A body whose boundary does not refract.
 MaterialDesc fog(const Rgb& multiscatter_color, float g) {
     MaterialDesc m;
