@@ -396,7 +396,6 @@ float LightTree::far_probability(double share, std::size_t index) const {
 }
 
 bool LightTree::begin(Walk& walk, const LightReceiver& receiver, Vec2f u) const {
-    if (single_ != kNone) return walk.end_at({single_, 1.0f});
     walk.rest = joined(u);
     if (near_.empty()) return walk.end_at(far_choice(1.0, walk.rest));
     const Importances importances = weigh(nodes_.front(), receiver);
@@ -425,6 +424,7 @@ bool LightTree::descend(Walk& walk, const Node& node, const Importances& importa
 }
 
 LightTree::Choice LightTree::sample(const LightReceiver& receiver, Vec2f u) const {
+    if (single_ != kNone) return {single_, 1.0f};
     Walk walk;
     for (bool ended = begin(walk, receiver, u); !ended;)
         ended = descend(walk, nodes_[walk.node], weigh(nodes_[walk.node], receiver));
