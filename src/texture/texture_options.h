@@ -31,6 +31,10 @@ struct TextureOptions {
 struct Texel {
     Rgb rgb;  ///< linear, in the image's own primaries
     float alpha = 1.0f;
+
+    /// Not trivial, so that it is returned in memory. In registers, of which each holds two numbers, GCC 12 puts it
+    /// together through memory, number by number, and the processor waits for what it has just stored.
+    ~Texel() {}  // NOLINT(modernize-use-equals-default)
 };
 
 [[nodiscard]] inline Texel operator+(const Texel& a, const Texel& b) {
