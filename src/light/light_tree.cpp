@@ -27,6 +27,8 @@ constexpr float kFloor = 1e-3f;
 constexpr float kByBound = 0.1f;
 /// Of wo, where a lobe grows without bound as it grazes.
 constexpr float kLeastCosine = 0.1f;
+/// m², whose power of 3/2 floats still hold.
+constexpr float kLeastSoftened = 1e-20f;
 /// 1/m², where no child has more.
 constexpr float kLeastImportance = 1e-30f;
 /// Of the squared diagonal of a box over the number of its lamps: how near the nearest is taken to be.
@@ -146,7 +148,7 @@ Wide falloff(const Shapes& shapes, const LightReceiver& receiver) {
     const Wide cos_i = clamp(height * sight.inverse_distance, -1.0f, 1.0f);
     const Wide cos_most = cos_i * sight.cos_b + sqrt(1.0f - cos_i * cos_i) * sqrt(sight.squared_sin_b);
     const Wide cosine = select(sight.is_inside || cos_i >= sight.cos_b, 1.0f, max(cos_most, kFloor));
-    const Wide softened = sight.squared + sight.squared_radius * (1.0f / 3.0f);
+    const Wide softened = max(sight.squared + sight.squared_radius * (1.0f / 3.0f), kLeastSoftened);
     const Wide mean = max(height, 0.0f) / (softened * sqrt(softened));
     const Wide matte = mean * (1.0f - kByBound) + sight.by_distance * cosine * kByBound;
     if (receiver.glossy == 0.0f) return sight.emitted * matte;

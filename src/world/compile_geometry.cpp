@@ -125,7 +125,7 @@ Geometry copied(const Geometry& geometry) {
     return copy;
 }
 
-/// Which meshes that stay where they are have copies at all of their places: those whose copies have the fewest
+/// Which meshes that stay where and as they are have copies at all of their places: those whose copies have the fewest
 /// triangles, `most_copied` together. `uses` counts the places of each mesh.
 std::vector<bool> meshes_to_copy(const SceneDesc& scene, std::span<const std::uint32_t> uses,
                                  std::size_t most_copied) {
@@ -139,9 +139,15 @@ std::vector<bool> meshes_to_copy(const SceneDesc& scene, std::span<const std::ui
     std::vector<Candidate> candidates;
     for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
         if (uses[m] < 2 || moves[m]) continue;
+        // Steps of motion would count many times, and vertices that no triangle has do not count at all.
         std::size_t triangles = 0;
-        for (const PrimitiveDesc& primitive : scene.meshes[m].primitives) triangles += primitive.triangles.size();
-        candidates.push_back({triangles * (uses[m] - 1), m});
+        bool is_plain = true;
+        for (const PrimitiveDesc& primitive : scene.meshes[m].primitives) {
+            triangles += primitive.triangles.size();
+            is_plain = is_plain && primitive.motion.empty() &&
+                       primitive.positions.size() <= 3 * primitive.triangles.size();
+        }
+        if (is_plain) candidates.push_back({triangles * (uses[m] - 1), m});
     }
     std::ranges::stable_sort(candidates, {}, &Candidate::triangles);
     std::vector<bool> is_copied(scene.meshes.size(), false);

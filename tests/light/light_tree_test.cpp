@@ -242,6 +242,21 @@ TEST(LightTree, ChoosesForManyAsForEach) {
     }
 }
 
+TEST(LightTree, LampsThatTouchTheSurfaceAreChosenToo) {
+    for (const float distance : {0.0f, 1e-30f, 1e-16f, 1e-10f}) {
+        const std::vector<Light> lights = {PointLight{{0, distance, 0}, Rgb(1.0f)}, PointLight{{0, 1, 0}, Rgb(1.0f)}};
+        const LightTree tree(lights, kSceneRadius);
+        LightReceiver receiver(Vec3f(0.0f), {0, 1, 0});
+        receiver.wo = receiver.normal;
+        receiver.alpha = 0.1f;
+        for (const float glossy : {0.0f, 1.0f}) {
+            receiver.glossy = glossy;
+            EXPECT_NEAR(tree.probability(receiver, 0) + tree.probability(receiver, 1), 1.0f, 1e-5f) << distance;
+            for (const float u : {0.0f, 0.5f, 0.9999999f}) EXPECT_LT(tree.sample(receiver, {u, u}).light, 2u);
+        }
+    }
+}
+
 // Far lamps of a hundred thousand share what digits the numbers have.
 TEST(LightTree, NumbersReachEveryLightOfMany) {
     constexpr std::size_t kCount = 100'000;

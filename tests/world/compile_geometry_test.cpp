@@ -96,6 +96,15 @@ TEST(CompileGeometry, SmallMeshesAreCopiedAsLongAsCopiesAreFew) {
     EXPECT_EQ(copied(3 * small + large), 3 * small + large);
 }
 
+TEST(CompileGeometry, MeshesThatDeformAreNotCopied) {
+    SceneDesc scene = repeated_meshes();
+    PrimitiveDesc& ball = scene.meshes[0].primitives[0];
+    ball.motion.assign(2, VertexStep{ball.positions, ball.normals});
+    const std::size_t stored = compile(repeated_meshes()).statistics().triangles;
+    EXPECT_EQ(compile(std::move(scene), CompileOptions{}).statistics().triangles,
+              stored + sphere(Vec3f(0.0f), 0.4f, 16).triangles.size());
+}
+
 TEST(CompileGeometry, MeshesThatMoveSomewhereAreNotCopied) {
     SceneDesc scene = repeated_meshes();
     const std::size_t stored = compile(repeated_meshes()).statistics().triangles;

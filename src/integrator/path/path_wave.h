@@ -124,7 +124,7 @@ class PathWave final : public IntegratorScratch {
                           PathStep& next);
     /// What the surface of a path that is_wide does towards `wi`.
     [[nodiscard]] VertexEvent wide_event(const Context& context, const ShadedPath& path, const Vec3f& wi) const;
-    /// What both have in common: `next` after `sample` at `position`. False if nothing was scattered.
+    /// What both have in common: `next` after `sample`. False if nothing was scattered.
     bool scatter(const Context& context, std::size_t i, const BsdfSample& sample, PathStep& next) const;
     /// Russian roulette; divides the throughput of those that survive by their chance.
     bool survives(const Context& context, std::size_t i, PathState& state) const;
