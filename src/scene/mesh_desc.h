@@ -66,7 +66,8 @@ struct NodeDesc {
     std::uint32_t number = 0;      ///< of the node in the file
 };
 
-/// A mesh placed in the world. Meshes used once and small ones are baked, other shared ones and those that move become instances of one BVH.
+/// A mesh placed in the world. Meshes used once and small ones are baked, other shared ones and those that move become
+/// instances of one BVH.
 struct InstanceDesc {
     std::string name;
     Handle<MeshDesc> mesh;

@@ -127,8 +127,7 @@ Geometry copied(const Geometry& geometry) {
 
 /// Which meshes that stay where and as they are have copies at all of their places: those whose copies have the fewest
 /// triangles, `most_copied` together. `uses` counts the places of each mesh.
-std::vector<bool> meshes_to_copy(const SceneDesc& scene, std::span<const std::uint32_t> uses,
-                                 std::size_t most_copied) {
+std::vector<bool> meshes_to_copy(const SceneDesc& scene, std::span<const std::uint32_t> uses, std::size_t most_copied) {
     std::vector<bool> moves(scene.meshes.size(), false);
     for (const InstanceDesc& desc : scene.instances)
         if (!desc.motion.empty()) moves[static_cast<std::size_t>(desc.mesh.index)] = true;
@@ -144,8 +143,8 @@ std::vector<bool> meshes_to_copy(const SceneDesc& scene, std::span<const std::ui
         bool is_plain = true;
         for (const PrimitiveDesc& primitive : scene.meshes[m].primitives) {
             triangles += primitive.triangles.size();
-            is_plain = is_plain && primitive.motion.empty() &&
-                       primitive.positions.size() <= 3 * primitive.triangles.size();
+            is_plain =
+                is_plain && primitive.motion.empty() && primitive.positions.size() <= 3 * primitive.triangles.size();
         }
         if (is_plain) candidates.push_back({triangles * (uses[m] - 1), m});
     }

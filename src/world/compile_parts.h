@@ -52,8 +52,8 @@ void compile_materials(const SceneDesc& scene, TextureCompiler& textures, WorldD
 /// What fills the closed surfaces of a material, if it has such.
 [[nodiscard]] std::optional<Filling> compile_filling(const MaterialDesc& desc, const ColorMatrix& from_rec709);
 
-/// Moves the meshes of `scene` into `data`: bakes those that are placed once and stay there, and copies of small ones at
-/// all of their places, together at most `most_copied` triangles more; keeps the others for instancing. Needs the
+/// Moves the meshes of `scene` into `data`: bakes those that are placed once and stay there, and copies of small ones
+/// at all of their places, together at most `most_copied` triangles more; keeps the others for instancing. Needs the
 /// materials in `data`, which say what needs tangents.
 void compile_geometry(SceneDesc& scene, const ThreadPool& threads, std::size_t most_copied, WorldData& data);
 

@@ -10,9 +10,9 @@
 
 namespace etendue {
 
-/// One primitive of a mesh, or of a copy of one. What is placed once and stays there is baked to world space, others stay
-/// in mesh space. Attributes are empty or one per vertex. 12 bytes a triangle, 12 to 76 bytes a vertex; 24 more for each step
-/// of motion.
+/// One primitive of a mesh, or of a copy of one. What is placed once and stays there is baked to world space, others
+/// stay in mesh space. Attributes are empty or one per vertex. 12 bytes a triangle, 12 to 76 bytes a vertex; 24 more
+/// for each step of motion.
 struct Geometry {
     std::vector<Vec3f> positions;
     std::vector<Vec3f> normals;

@@ -230,8 +230,8 @@ class World {
     /// False if samples of the BSDF find all light best by themselves: there are no lights, or none but an environment
     /// that is the same everywhere. `sample_light` and `choose_light` must not be called then.
     [[nodiscard]] bool has_sampled_lights() const { return !tree_.empty(); }
-    /// Light arriving at `receiver` from a light chosen for it by the light tree. Of an environment it finds only what is
-    /// brighter than its mean: to be combined with samples of the BSDF, by `environment_pdf_solid_angle`.
+    /// Light arriving at `receiver` from a light chosen for it by the light tree. Of an environment it finds only what
+    /// is brighter than its mean: to be combined with samples of the BSDF, by `environment_pdf_solid_angle`.
     [[nodiscard]] ChosenLight sample_light(const LightReceiver& receiver, const LightNumbers& u) const {
         return sample_light(choose_light(receiver, u.light), receiver.position, u);
     }

@@ -1,10 +1,10 @@
 #include "world/compile_parts.h"
 #include "world/test_scene.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <set>
+
+#include <gtest/gtest.h>
 
 namespace etendue::test {
 

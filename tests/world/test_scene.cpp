@@ -136,8 +136,7 @@ World compile(SceneDesc scene, const CompileOptions& options) {
     return compile(std::move(scene), kGltfColorSpace, problems, options);
 }
 
-World compile(SceneDesc scene, const std::string& working_space, ProblemList& problems,
-              const CompileOptions& options) {
+World compile(SceneDesc scene, const std::string& working_space, ProblemList& problems, const CompileOptions& options) {
     const ProblemList invalid = validate(scene);
     for (const Problem& problem : invalid.all()) EXPECT_NE(problem.severity, Severity::Error) << problem.str();
     const ThreadPool threads(2);
