@@ -12,13 +12,12 @@
 
 namespace etendue {
 
-/// How a scene is compiled; whatever they say, what is rendered is the same but for roundings, for the
-/// chance by which rays pass partly transparent surfaces and, under uneven scales, for how normals run between
-/// vertices.
+/// How a scene is compiled. Whatever they say, what is rendered is the same but for roundings, for the chance by which
+/// rays pass partly transparent surfaces and, under uneven scales, for how normals run between vertices.
 struct CompileOptions {
     /// Triangles, beyond those of the meshes themselves, for copies of meshes that are placed more than once. Rays pass
     /// one BVH over everything up to several times as fast as instances in one (docs/performance.md); a copied triangle
-    /// takes some 120 bytes. What is more stays instanced.
+    /// takes 100 to 210 bytes. What is more stays instanced.
     std::size_t most_copied_triangles = std::size_t{1} << 18;
 };
 

@@ -140,13 +140,13 @@ std::vector<bool> meshes_to_copy(const SceneDesc& scene, std::span<const std::ui
         if (uses[m] < 2 || moves[m]) continue;
         // Steps of motion would count many times, and vertices that no triangle has do not count at all.
         std::size_t triangles = 0;
-        bool is_plain = true;
+        bool can_be_copied = true;
         for (const PrimitiveDesc& primitive : scene.meshes[m].primitives) {
             triangles += primitive.triangles.size();
-            is_plain =
-                is_plain && primitive.motion.empty() && primitive.positions.size() <= 3 * primitive.triangles.size();
+            can_be_copied = can_be_copied && primitive.motion.empty() &&
+                            primitive.positions.size() <= 3 * primitive.triangles.size();
         }
-        if (is_plain) candidates.push_back({triangles * (uses[m] - 1), m});
+        if (can_be_copied) candidates.push_back({triangles * (uses[m] - 1), m});
     }
     std::ranges::stable_sort(candidates, {}, &Candidate::triangles);
     std::vector<bool> is_copied(scene.meshes.size(), false);
