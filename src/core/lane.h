@@ -17,6 +17,7 @@ using std::copysign;
 using std::expm1;
 using std::floor;
 using std::log;
+using std::log2;
 using std::max;
 using std::min;
 using std::sqrt;

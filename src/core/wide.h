@@ -1,13 +1,16 @@
 // Many floats that are computed with at once: what the functions that are templates of their lane type take for T,
 // beside float itself. As many as the machine's widest registers hold, 16 with AVX-512.
 //
-// Every operation is done lane by lane and is the one that IEEE 754 says, as with float; where the compiler contracts a
-// product and a sum to one rounding may differ between the two, and with it the last bit.
+// Every operation is done lane by lane and, but for logarithms and exponentials, is the one that IEEE 754 says, as with
+// float; where the compiler contracts a product and a sum to one rounding may differ between the two, and with it the
+// last bit.
 #pragma once
 
 #include "core/lane.h"
 
+#include <bit>
 #include <cstddef>
+#include <limits>
 
 // GCC 12 takes what its own intrinsics leave undefined on purpose for a mistake (its bug 105593).
 #pragma GCC diagnostic push
@@ -54,6 +57,7 @@ class Wide {
     [[nodiscard]] static Wide load(const float* from) { return Wide(Simd(from, std::experimental::vector_aligned)); }
     void store(float* to) const { lanes_.copy_to(to, std::experimental::vector_aligned); }
     [[nodiscard]] float operator[](std::size_t lane) const { return lanes_[lane]; }
+    [[nodiscard]] Simd simd() const { return lanes_; }
 
     Wide& operator+=(Wide o) { return *this = *this + o; }
     Wide& operator-=(Wide o) { return *this = *this - o; }
@@ -86,8 +90,6 @@ class Wide {
     [[nodiscard]] friend Wide clamp(Wide a, Wide low, Wide high) { return min(max(a, low), high); }
     [[nodiscard]] friend Wide abs(Wide a) { return Wide(std::experimental::abs(a.lanes_)); }
     [[nodiscard]] friend Wide floor(Wide a) { return Wide(std::experimental::floor(a.lanes_)); }
-    [[nodiscard]] friend Wide log(Wide a) { return Wide(std::experimental::log(a.lanes_)); }
-    [[nodiscard]] friend Wide expm1(Wide a) { return Wide(std::experimental::expm1(a.lanes_)); }
     [[nodiscard]] friend Wide sqrt(Wide a) { return Wide(std::experimental::sqrt(a.lanes_)); }
     [[nodiscard]] friend Wide copysign(Wide a, Wide sign) {
         return Wide(std::experimental::copysign(a.lanes_, sign.lanes_));
@@ -96,6 +98,73 @@ class Wide {
   private:
     Simd lanes_;
 };
+
+// The library takes logarithms and exponentials of one lane after the other; these are to some roundings.
+
+/// Numbers as 2^exponent mantissa, the mantissas between the roots of 1/2 and 2; normal positive ones.
+class WideBinary {
+  public:
+    explicit WideBinary(Wide a) : number_(a) {
+        constexpr int kRootOfHalf = 0x3f3504f3;  // its bits
+        const Int bits = std::bit_cast<Int>(a.simd());
+        const Int exponent = (bits - kRootOfHalf) >> kMantissaBits;
+        exponent_ = Wide(std::experimental::static_simd_cast<Wide::Simd>(exponent));
+        mantissa_ = Wide(std::bit_cast<Wide::Simd>(bits - (exponent << kMantissaBits)));
+    }
+
+    /// 2^`exponent`, which are whole numbers within [-126, 127].
+    [[nodiscard]] static Wide power_of_two(Wide exponent) {
+        constexpr int kBias = 127;
+        return Wide(std::bit_cast<Wide::Simd>((std::experimental::static_simd_cast<Int>(exponent.simd()) + kBias)
+                                              << kMantissaBits));
+    }
+
+    /// `of_exponent` times the exponent plus `of_mantissa` times the natural logarithm of the mantissa. Denormal
+    /// numbers count as zero.
+    [[nodiscard]] Wide logarithm(float of_exponent, float of_mantissa) const {
+        // The series of the inverse hyperbolic tangent; t is at most 0.172.
+        const Wide t = (mantissa_ - 1.0f) / (mantissa_ + 1.0f);
+        const Wide t2 = t * t;
+        const Wide natural =
+            t * (2.0f + t2 * (2.0f / 3.0f + t2 * (2.0f / 5.0f + t2 * (2.0f / 7.0f + t2 * (2.0f / 9.0f)))));
+        constexpr float kInfinity = std::numeric_limits<float>::infinity();
+        const Wide special = select(number_ >= Wide(0.0f), select(number_ > Wide(1.0f), number_, Wide(-kInfinity)),
+                                    Wide(std::numeric_limits<float>::quiet_NaN()));
+        return select(number_ >= Wide(std::numeric_limits<float>::min()) && number_ < Wide(kInfinity),
+                      of_exponent * exponent_ + of_mantissa * natural, special);
+    }
+
+  private:
+    using Int = std::experimental::rebind_simd_t<int, Wide::Simd>;
+    static constexpr int kMantissaBits = 23;
+
+    Wide number_, exponent_, mantissa_;
+};
+
+inline constexpr float kLn2 = 0.693147180559945309f;
+
+[[nodiscard]] inline Wide log(Wide a) {
+    return WideBinary(a).logarithm(kLn2, 1.0f);
+}
+[[nodiscard]] inline Wide log2(Wide a) {
+    return WideBinary(a).logarithm(1.0f, 1.0f / kLn2);
+}
+/// Up to e^87.
+[[nodiscard]] inline Wide expm1(Wide a) {
+    // e^a = 2^n e^r with |r| at most half of ln 2; taken off in two parts, of which the first is exact, n leaves r all
+    // its digits.
+    constexpr float kLn2High = 0.693359375f;
+    constexpr float kLn2Low = -2.12194440e-4f;
+    const Wide within = clamp(a, Wide(-87.0f), Wide(87.0f));
+    const Wide n = floor(within * (1.0f / kLn2) + 0.5f);
+    const Wide r = within - n * kLn2High - n * kLn2Low;
+    // Taylor's series of (e^r - 1) / r.
+    Wide series(1.0f / 40320.0f);
+    for (const float factorial : {5040.0f, 720.0f, 120.0f, 24.0f, 6.0f, 2.0f, 1.0f})
+        series = series * r + 1.0f / factorial;
+    const Wide power = WideBinary::power_of_two(n);
+    return power * (series * r) + (power - 1.0f);
+}
 
 /// As of single numbers, but both are evaluated whatever the lanes ask for: with a shortcut where all agree, the
 /// compiler could contract what follows in two ways, and a lane's last bits would depend on the lanes beside it.

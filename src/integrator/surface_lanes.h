@@ -1,7 +1,7 @@
 // Points on plain surfaces (World::plain_lobe) for a block of paths.
 #pragma once
 
-#include "integrator/columns.h"
+#include "core/columns.h"
 #include "world/world.h"
 
 #include <cstddef>

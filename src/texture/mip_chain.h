@@ -36,6 +36,23 @@ class MipChain {
     /// Mean of rgb and of alpha over all texels of the image, linear.
     [[nodiscard]] Texel mean() const;
 
+    /// A level whose texels are 8 bits a channel.
+    struct Level8 {
+        const std::uint8_t* texels;  ///< row by row, the channels of each together
+        int width;
+        int height;
+    };
+    [[nodiscard]] bool is_8bit() const { return std::holds_alternative<std::vector<std::uint8_t>>(values_); }
+    /// Of a chain that is_8bit.
+    [[nodiscard]] Level8 level8(int index) const {
+        const Level& level = levels_[static_cast<std::size_t>(index)];
+        return {std::get<std::vector<std::uint8_t>>(values_).data() + level.first, level.width, level.height};
+    }
+    [[nodiscard]] int level_count() const { return static_cast<int>(levels_.size()); }
+    [[nodiscard]] int channels() const { return channels_; }
+    /// Of colour in 8 bits.
+    [[nodiscard]] const Decoding8& decoding8() const { return *decoding8_; }
+
     [[nodiscard]] int width() const { return levels_.front().width; }
     [[nodiscard]] int height() const { return levels_.front().height; }
     [[nodiscard]] std::size_t bytes() const;

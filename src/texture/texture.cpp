@@ -23,18 +23,27 @@ Texel Texture::lookup(Vec2f uv) const {
 Texel Texture::lookup(Vec2f uv, const TextureFootprint& footprint) const {
     if (footprint.is_point()) return lookup(uv);
     const auto filter = [&](const auto& texels) {
-        const FilterTaps taps = plan_taps(footprint, texels.width(), texels.height());
+        const FilterTaps<float> taps =
+            plan_taps(footprint.diameter[0], footprint.diameter[1],
+                      {static_cast<float>(texels.width()), static_cast<float>(texels.height())});
         if (!taps.minified) return texels.sample(uv, 0.0f, options_.nearest, options_);
         const bool nearest = options_.nearest_minified;
         if (options_.mip_filter == MipFilter::None) return texels.sample(uv, 0.0f, nearest, options_);
         const float level = options_.mip_filter == MipFilter::Nearest ? std::round(taps.level) : taps.level;
-        if (taps.count == 1) return texels.sample(uv, level, nearest, options_);
+        const int count = static_cast<int>(taps.count);
+        if (count == 1) return texels.sample(uv, level, nearest, options_);
         Texel sum{Rgb(), 0.0f};
-        Vec2f at = uv - taps.step * (0.5f * static_cast<float>(taps.count - 1));
-        for (int i = 0; i < taps.count; ++i, at += taps.step) sum = sum + texels.sample(at, level, nearest, options_);
-        return sum * (1.0f / static_cast<float>(taps.count));
+        Vec2f at = uv - taps.step * (0.5f * (taps.count - 1.0f));
+        for (int i = 0; i < count; ++i, at += taps.step) sum = sum + texels.sample(at, level, nearest, options_);
+        return sum * (1.0f / taps.count);
     };
     return std::visit(filter, texels_);
+}
+
+const MipChain* Texture::usual_texels() const {
+    const MipChain* resident = std::get_if<MipChain>(&texels_);
+    const bool is_usual = !options_.nearest && !options_.nearest_minified && options_.mip_filter == MipFilter::Linear;
+    return resident != nullptr && resident->is_8bit() && is_usual ? resident : nullptr;
 }
 
 Texel Texture::mean() const {

@@ -134,19 +134,16 @@ ClearCoat evaluate_clear_coat(const WorldData& data, const GltfLayers& layers, c
     return coat;
 }
 
+void set_metallic_roughness(const GltfModel& model, const Rgb& texel, MetallicRoughness& lobe) {
+    lobe.metallic = unit(model.metallic * texel.b);
+    lobe.alpha_x = lobe.alpha_y = squared(unit(model.roughness * texel.g));
+}
+
 Bsdf evaluate_gltf_surface(const WorldData& data, const GltfModel& model, const SurfacePoint& point, float relative_ior,
                            bool from_back) {
     MetallicRoughness lobe;
     lobe.base = evaluate_base_color(data, model, point);
-    float roughness = model.roughness;
-    lobe.metallic = model.metallic;
-    if (model.metallic_roughness_texture.valid()) {
-        const Rgb texel = lookup(data, model.metallic_roughness_texture, point).rgb;
-        roughness *= texel.g;
-        lobe.metallic *= texel.b;
-    }
-    lobe.metallic = unit(lobe.metallic);
-    lobe.alpha_x = lobe.alpha_y = squared(unit(roughness));
+    set_metallic_roughness(model, scaled(data, Rgb(1.0f), model.metallic_roughness_texture, point), lobe);
     const Specular specular(data, model, point);
     lobe.f90 = specular.weight;
     lobe.f0 = specular.f0(data, model.f0);

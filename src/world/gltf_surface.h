@@ -12,6 +12,9 @@ namespace etendue {
 [[nodiscard]] Bsdf evaluate_gltf_surface(const WorldData& data, const GltfModel& model, const SurfacePoint& point,
                                          float relative_ior, bool from_back);
 
+/// Sets what the texture of metalness and roughness changes, where it reads `texel`; (1, 1, 1) if there is none.
+void set_metallic_roughness(const GltfModel& model, const Rgb& texel, MetallicRoughness& lobe);
+
 /// The clear coat alone.
 [[nodiscard]] ClearCoat evaluate_clear_coat(const WorldData& data, const GltfLayers& layers, const SurfacePoint& point,
                                             bool from_back);

@@ -18,6 +18,11 @@ namespace etendue {
     return transform_vector(slot, p) + Vec2f(slot.row0.z, slot.row1.z);
 }
 
+/// A footprint through the slot's transform.
+[[nodiscard]] inline TextureFootprint transform_footprint(const TextureSlot& slot, const TextureFootprint& footprint) {
+    return {{transform_vector(slot, footprint.diameter[0]), transform_vector(slot, footprint.diameter[1])}};
+}
+
 /// Unfiltered: what decides whether a ray passes, and what is emitted, must be one function of the point, whichever ray
 /// asks and however wide it is.
 [[nodiscard]] inline Texel lookup_point(const WorldData& data, const TextureSlot& slot, const Vec2f (&uv)[2]) {
@@ -26,10 +31,8 @@ namespace etendue {
 
 /// Filtered over the point's footprint.
 [[nodiscard]] inline Texel lookup(const WorldData& data, const TextureSlot& slot, const SurfacePoint& point) {
-    const TextureFootprint& footprint = point.footprint[slot.texcoord];
     return data.textures[static_cast<std::size_t>(slot.texture)].lookup(
-        transform_point(slot, point.uv[slot.texcoord]),
-        {{transform_vector(slot, footprint.diameter[0]), transform_vector(slot, footprint.diameter[1])}});
+        transform_point(slot, point.uv[slot.texcoord]), transform_footprint(slot, point.footprint[slot.texcoord]));
 }
 
 /// `factor` times the texture's `channel(texel)`, if there is a texture.

@@ -28,6 +28,10 @@ float evaluate_opacity(const WorldData& data, std::uint32_t geometry_index, std:
 Rgb evaluate_base_color(const WorldData& data, const GltfModel& model, const SurfacePoint& point) {
     Rgb color = model.base_color * Rgb(point.color.x, point.color.y, point.color.z);
     if (model.base_color_texture.valid()) color *= lookup(data, model.base_color_texture, point).rgb;
+    return working_base_color(data, color);
+}
+
+Rgb working_base_color(const WorldData& data, const Rgb& color) {
     return clamp_unit(data.from_rec709(color));
 }
 

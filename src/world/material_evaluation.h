@@ -16,6 +16,9 @@ namespace etendue {
 /// Base colour in the working space: factor, texture and vertex colour.
 [[nodiscard]] Rgb evaluate_base_color(const WorldData& data, const GltfModel& model, const SurfacePoint& point);
 
+/// `color` in linear Rec.709 as a base colour in the working space.
+[[nodiscard]] Rgb working_base_color(const WorldData& data, const Rgb& color);
+
 /// Emitted radiance without regard to sides, working space.
 [[nodiscard]] Rgb evaluate_emission(const WorldData& data, const Material& material, const SurfacePoint& point);
 

@@ -7,6 +7,7 @@
 #include "world/embree_scene.h"
 #include "world/gltf_surface.h"
 #include "world/interpolation.h"
+#include "world/lookup.h"
 #include "world/material_evaluation.h"
 #include "world/motion.h"
 
@@ -74,26 +75,6 @@ std::size_t geometry_bytes(const WorldData& data) {
     return bytes;
 }
 
-/// See World::plain_lobe; by geometry.
-std::vector<const Bsdf*> find_plain_bsdfs(const WorldData& data) {
-    std::vector<const Bsdf*> bsdfs(data.geometries.size(), nullptr);
-    if (!data.textures.empty()) return bsdfs;
-    for (const Instance& instance : data.instances) {
-        if (!instance.baked || instance.motion != kNone) continue;
-        for (std::uint32_t g = 0; g < instance.geometry_count; ++g) {
-            const Geometry& geometry = data.geometries[instance.first_geometry + g];
-            const Material& material = data.materials[geometry.material];
-            const Bsdf* bsdf = std::get_if<Bsdf>(&material.model);
-            const bool is_bare = !material.emits && !material.unlit && !material.has_coat &&
-                                 !material.needs_tangents() && material.filling == kNone;
-            const bool is_plain = std::get_if<Diffuse>(bsdf) != nullptr && is_bare && geometry.tangents.empty() &&
-                                  geometry.motion.empty();
-            if (is_plain) bsdfs[instance.first_geometry + g] = bsdf;
-        }
-    }
-    return bsdfs;
-}
-
 /// The interface of a dielectric between other indices than it was made for.
 Bsdf with_relative_ior(const Bsdf& bsdf, float relative_ior) {
     constexpr float kSameIor = 1e-4f;
@@ -117,7 +98,7 @@ World::World(WorldData data)
     data_->bvh->set_opacity(opacity_callback, data_.get());
     has_far_triangles_ = geometry_bytes(*data_) > kCachedGeometry;
     evaluate_uniform_materials(*data_);
-    plain_bsdfs_ = find_plain_bsdfs(*data_);
+    plain_surfaces_ = find_plain_surfaces(*data_);
     has_motion_ = data_->bvh->has_motion() || !data_->camera_motion.empty();
     has_transparency_ = std::any_of(data_->materials.begin(), data_->materials.end(),
                                     [](const Material& m) { return m.alpha_test != AlphaTest::Opaque; });
@@ -178,6 +159,30 @@ HitTriangle World::hit_triangle(const Hit& hit) const {
     const Vec3f& p0 = geometry.positions[triangle[0]];
     return {p0, geometry.positions[triangle[1]] - p0, geometry.positions[triangle[2]] - p0,
             geometry.normals.empty() ? Vec3f(0.0f) : interpolate(geometry.normals, triangle, {hit.u, hit.v})};
+}
+
+HitCoordinates World::hit_coordinates(const Hit& hit, const PlainSurface& surface) const {
+    const Geometry& geometry = data_->geometries[hit.geometry];
+    const std::vector<Vec2f>& uv = surface.texcoord == 0 ? geometry.uv0 : geometry.uv1;
+    if (uv.empty()) return {};
+    const auto& triangle = geometry.triangles[hit.triangle];
+    const Vec2f uv0 = uv[triangle[0]];
+    return {uv0, uv[triangle[1]] - uv0, uv[triangle[2]] - uv0};
+}
+
+void World::add_lookups(const PlainSurface& surface, Vec2f uv, const TextureFootprint& footprint,
+                        TextureLookups& lookups) const {
+    for (const TextureSlot* slot :
+         {&surface.textured->base_color_texture, &surface.textured->metallic_roughness_texture})
+        if (slot->valid())
+            lookups.add(data_->textures[static_cast<std::size_t>(slot->texture)], transform_point(*slot, uv),
+                        transform_footprint(*slot, footprint));
+}
+
+MetallicRoughness World::lobe(const PlainSurface& surface, const TextureLookups& lookups, std::size_t& next) const {
+    const auto texel = [&](const TextureSlot& slot) { return slot.valid() ? lookups[next++] : Rgb(1.0f); };
+    const Rgb base_color = texel(surface.textured->base_color_texture);
+    return surface.lobe(*data_, base_color, texel(surface.textured->metallic_roughness_texture));
 }
 
 void World::fetch_far_triangles(std::span<const Hit> hits) const {
@@ -419,7 +424,8 @@ WorldStatistics World::statistics() const {
             s.instanced_triangles += data_->geometries[instance.first_geometry + g].triangles.size();
     s.instance_bytes = vector_bytes(data_->instances, data_->motions, data_->filling_of_body, data_->body_of_slot);
     for (const TransformMotion& motion : data_->motions) s.instance_bytes += vector_bytes(motion);
-    s.material_bytes = vector_bytes(data_->materials, data_->fillings, plain_bsdfs_);
+    s.material_bytes =
+        vector_bytes(data_->materials, data_->fillings, plain_surfaces_.of_material, plain_surfaces_.of_geometry);
     s.textures = data_->textures.size();
     for (const Texture& texture : data_->textures) s.texture_bytes += texture.bytes();
     if (data_->texture_cache) {

@@ -11,9 +11,11 @@
 #include "light/light.h"
 #include "light/light_tree.h"
 #include "texture/texture.h"
+#include "texture/texture_lookups.h"
 #include "world/body.h"
 #include "world/geometry.h"
 #include "world/material.h"
+#include "world/plain_surface.h"
 #include "world/surface_point.h"
 
 #include <cstddef>
@@ -146,6 +148,11 @@ struct HitTriangle {
     Vec3f shading_normal;
 };
 
+/// The texture coordinates of its first vertex, and their differences to those of the others; zero where it has none.
+struct HitCoordinates {
+    Vec2f uv0{0.0f, 0.0f}, edge1{0.0f, 0.0f}, edge2{0.0f, 0.0f};
+};
+
 class World {
   public:
     explicit World(WorldData data);
@@ -166,13 +173,19 @@ class World {
     [[nodiscard]] SurfacePoint surface_point(const Hit& hit) const;
     /// The surface at `hit`, whose textures are filtered for `ray`, which hit it, with `cone` around it.
     [[nodiscard]] SurfacePoint surface_point(const Hit& hit, const Ray& ray, const RayCone& cone) const;
-    /// The lobe of a surface that is the same matte one everywhere, as most are: it neither emits nor moves, is placed
-    /// once, has no relief, and nothing in the scene is textured. Null where it is any other. What such a surface is
-    /// at a point, the functions of world/triangle_point.h say.
-    [[nodiscard]] const Diffuse* plain_lobe(const Hit& hit) const { return std::get_if<Diffuse>(plain_bsdf(hit)); }
-    /// The same as a BSDF.
-    [[nodiscard]] const Bsdf* plain_bsdf(const Hit& hit) const { return plain_bsdfs_[hit.geometry]; }
+    /// What a plain surface is made of, null where it is no such surface. What it is at a point, the functions of
+    /// world/triangle_point.h say.
+    [[nodiscard]] const PlainSurface* plain_surface(const Hit& hit) const {
+        return plain_surfaces_.of_geometry[hit.geometry];
+    }
+    /// The lobe of a plain surface that is the same matte one everywhere, in a scene without textures; else null.
+    [[nodiscard]] const Bsdf* plain_bsdf(const Hit& hit) const {
+        const PlainSurface* surface = plain_surface(hit);
+        return surface != nullptr && !has_textures() ? surface->matte : nullptr;
+    }
     [[nodiscard]] HitTriangle hit_triangle(const Hit& hit) const;
+    /// Those of the set that the textures of `surface` follow.
+    [[nodiscard]] HitCoordinates hit_coordinates(const Hit& hit, const PlainSurface& surface) const;
     /// Has the triangles of a few `hits`, some of which may be no hits, fetched from memory at once, where there are so
     /// many in the scene that they are in no cache. Whoever looks at them next would else wait for each by itself.
     void fetch_triangles(std::span<const Hit> hits) const {
@@ -182,6 +195,12 @@ class World {
     [[nodiscard]] const Material* material(const Hit& hit) const {
         return &data_->materials[data_->geometries[hit.geometry].material];
     }
+    /// Adds what the textures of a plain `surface` are asked for at `uv` over `footprint`, those of its set.
+    void add_lookups(const PlainSurface& surface, Vec2f uv, const TextureFootprint& footprint,
+                     TextureLookups& lookups) const;
+    /// The lobe that they make: the results begin with index `next`, which then is that of the next surface's.
+    [[nodiscard]] MetallicRoughness lobe(const PlainSurface& surface, const TextureLookups& lookups,
+                                         std::size_t& next) const;
     /// Of the surface around `point`, 1/m, positive where its front is convex; for `RayCone`s that are mirrored there.
     [[nodiscard]] float mean_curvature(const SurfacePoint& point) const;
     /// False if nothing is textured, so that rays need no cones.
@@ -346,7 +365,7 @@ class World {
     bool has_unlit_surfaces_ = false;
     bool has_scattering_bodies_ = false;
     bool has_lights_in_media_ = false;
-    std::vector<const Bsdf*> plain_bsdfs_;  ///< by geometry
+    PlainSurfaces plain_surfaces_;
     Interior camera_interior_;
     std::vector<Interior> light_interiors_;  ///< of each light; only if there are bodies
 };

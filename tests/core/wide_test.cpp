@@ -7,9 +7,12 @@
 #include "core/trigonometry.h"
 #include "support/lanes.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -58,12 +61,11 @@ TEST(Wide, SelectsByComparisons) {
 }
 
 TEST(Wide, FunctionsAreThoseOfFloat) {
-    EXPECT_EQ((largest_lane_difference<3>(
-                  -2.0f, 2.0f,
-                  [](const auto& in) {
-                      const auto a = in[0];
-                      return std::array{floor(a), clamp(a, in[1], in[1] + 1.0f), log(abs(a)), expm1(a)};
-                  })),
+    EXPECT_EQ((largest_lane_difference<3>(-2.0f, 2.0f,
+                                          [](const auto& in) {
+                                              const auto a = in[0];
+                                              return std::array{floor(a), clamp(a, in[1], in[1] + 1.0f)};
+                                          })),
               0.0f);
     EXPECT_LE((largest_lane_difference<1>(0.0f, 1.0f,
                                           [](const auto& in) {
@@ -71,6 +73,48 @@ TEST(Wide, FunctionsAreThoseOfFloat) {
                                               return std::array{angle.sin, angle.cos};
                                           })),
               4.0f);
+}
+
+/// Largest error of `wide` next to `exact`, in units of the epsilon times its size, over numbers of all sizes from
+/// 2^`low` to 2^`high`.
+template <typename Function, typename Exact>
+double largest_error(float low, float high, const Function& wide, const Exact& exact) {
+    double largest = 0.0;
+    for (float power = low; power < high; power += 1.0f / 512.0f) {
+        const float x = std::exp2(power);
+        const auto expected = exact(static_cast<double>(x));
+        const double difference = std::abs(static_cast<double>(wide(Wide(x))[0]) - expected);
+        largest = std::max(largest, difference / (std::abs(expected) * std::numeric_limits<float>::epsilon()));
+    }
+    return largest;
+}
+
+TEST(Wide, LogarithmsAndExponentialsHaveAllDigitsOfFloats) {
+    const auto wide_log = [](Wide x) { return log(x); };
+    const auto exact_log = [](double x) { return std::log(x); };
+    EXPECT_LE(largest_error(-126.0f, -0.01f, wide_log, exact_log), 3.0);
+    EXPECT_LE(largest_error(0.01f, 127.0f, wide_log, exact_log), 3.0);
+    const auto wide_log2 = [](Wide x) { return log2(x); };
+    const auto exact_log2 = [](double x) { return std::log2(x); };
+    EXPECT_LE(largest_error(-126.0f, -0.01f, wide_log2, exact_log2), 3.0);
+    EXPECT_LE(largest_error(0.01f, 127.0f, wide_log2, exact_log2), 3.0);
+    EXPECT_LE(largest_error(
+                  -100.0f, 6.4f, [](Wide x) { return expm1(x); }, [](double x) { return std::expm1(x); }),
+              3.0);
+    EXPECT_LE(largest_error(
+                  -100.0f, 6.4f, [](Wide x) { return expm1(-x); }, [](double x) { return std::expm1(-x); }),
+              3.0);
+}
+
+TEST(Wide, LogarithmsOfWhatHasNoneAreThoseOfFloat) {
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    for (const float x : {0.0f, -0.0f, -1.0f, -kInfinity, kInfinity, std::numeric_limits<float>::quiet_NaN(), 1.0f})
+        for (const auto& [found, expected] :
+             {std::pair(log(Wide(x))[0], std::log(x)), std::pair(log2(Wide(x))[0], std::log2(x))})
+            EXPECT_TRUE(found == expected || (std::isnan(found) && std::isnan(expected))) << x << " gives " << found;
+    EXPECT_TRUE(std::isnan(expm1(Wide(std::numeric_limits<float>::quiet_NaN()))[0]));
+    EXPECT_EQ(expm1(Wide(0.0f))[0], 0.0f);
+    EXPECT_EQ(expm1(Wide(-kInfinity))[0], -1.0f);
 }
 
 TEST(Wide, GathersFromTables) {

@@ -2,9 +2,11 @@
 #include "support/lanes.h"
 #include "world/lane_scattering.h"
 #include "world/scattering.h"
+#include "world/section_ellipse.h"
 #include "world/triangle_point.h"
 
 #include <array>
+#include <type_traits>
 
 #include <gtest/gtest.h>
 
@@ -77,6 +79,33 @@ TEST(WideShading, MatteSurfacesScatterAsTheLobeDoes) {
         for (const std::size_t o : {3u, 4u, 5u, 7u}) ASSERT_NEAR(found[o], expected[o], 1e-6f);
     }
     EXPECT_GT(scattered, 50'000);
+}
+
+// Of rays along the normal, the direction in the plane is what is left of two nearly equal vectors.
+TEST(WideShading, SectionsOfConesAreThoseOfFloat) {
+    EXPECT_LE((largest_lane_difference<17>(
+                  -1.0f, 1.0f,
+                  [](const auto& in) {
+                      using T = std::remove_cvref_t<decltype(in[0])>;
+                      const Imath::Vec3<T> edge1 = vec(in, 0) + Imath::Vec3<T>(T(3.0f), T(0.0f), T(0.0f));
+                      const Imath::Vec3<T> edge2 = vec(in, 3) + Imath::Vec3<T>(T(0.0f), T(3.0f), T(0.0f));
+                      const Imath::Vec3<T> normal = normalize(cross(edge1, edge2));
+                      const Imath::Vec3<T> towards = vec(in, 6) - normal * T(2.0f);
+                      const SectionEllipse<T> ellipse(normalize(towards), abs(in[9]), normal);
+                      const TextureEllipse<T> in_texture(ellipse, edge1, edge2, normal, Imath::Vec2<T>(in[10], in[11]),
+                                                         Imath::Vec2<T>(in[12], in[13]));
+                      return std::array{ellipse.along.x,    ellipse.across.z,    in_texture.along.x,
+                                        in_texture.along.y, in_texture.across.x, in_texture.across.y};
+                  })),
+              128.0f);
+    // A ray along the normal, where any diameter will do, and a triangle without an area.
+    const Imath::Vec3<Wide> up(Wide(0.0f), Wide(0.0f), Wide(1.0f));
+    const SectionEllipse<Wide> circle({Wide(0.0f), Wide(0.0f), Wide(-1.0f)}, Wide(0.5f), up);
+    EXPECT_NEAR(length(circle.along)[0], 0.5f, 1e-6f);
+    EXPECT_NEAR(length(circle.across)[0], 0.5f, 1e-6f);
+    const TextureEllipse<Wide> nothing(circle, up, up, up, {Wide(1.0f), Wide(0.0f)}, {Wide(0.0f), Wide(1.0f)});
+    EXPECT_EQ(nothing.along.x[0], 0.0f);
+    EXPECT_EQ(nothing.across.y[0], 0.0f);
 }
 
 }  // namespace

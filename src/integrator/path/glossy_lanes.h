@@ -3,7 +3,7 @@
 #pragma once
 
 #include "bsdf/metallic_roughness.h"
-#include "integrator/columns.h"
+#include "core/columns.h"
 
 #include <cstddef>
 

@@ -12,6 +12,7 @@
 #include "integrator/path/block_lanes.h"
 #include "integrator/path/glossy_lanes.h"
 #include "integrator/path/path_integrator.h"
+#include "integrator/path/textured_lanes.h"
 #include "integrator/profile/wave_profile.h"
 #include "world/scattering.h"
 
@@ -51,8 +52,8 @@ struct PathStep {
 
 /// A path whose ray has hit a surface, between the stages of its shading, with what is not in `BlockLanes`.
 struct ShadedPath {
-    SurfacePoint point;                         ///< of a plain surface, its material only
-    const Diffuse* plain = nullptr;             ///< see World::plain_lobe
+    SurfacePoint point;                         ///< of a plain surface, its material, its triangle and where that lies
+    const PlainSurface* plain = nullptr;        ///< see World::plain_surface
     const MetallicRoughness* glossy = nullptr;  ///< its lobe, where that is evaluated for many at once
     bool is_wide = false;                       ///< scattered by a lobe that is evaluated for many paths at once
     bool is_mesh_lit = false;                   ///< by an even mesh light, which is sampled for many at once
@@ -103,6 +104,10 @@ class PathWave final : public IntegratorScratch {
     bool set_up(const Context& context, std::size_t first, std::size_t k);
     /// Points on plain surfaces, all at once.
     void set_up_plain(const Context& context, std::size_t first);
+    /// Lobes of plain surfaces, whose textures are looked up all at once.
+    void make_plain_lobes(const Context& context, std::size_t first);
+    /// Has the path of a plain surface that mirrors after all go on as one of any other.
+    void set_up_singly(const Context& context, std::size_t i, ShadedPath& path) const;
     /// Looks up textures and makes the lobes of path `i`.
     void make_scattering(const Context& context, std::size_t i, std::size_t lane, ShadedPath& path);
     /// What light is chosen for at the surface of a path.
@@ -168,6 +173,8 @@ class PathWave final : public IntegratorScratch {
     std::size_t surfaces_ = 0;
     BlockLanes lanes_;
     GlossyLanes glossy_;
+    TexturedLanes textured_;
+    TextureLookups lookups_;
     std::array<LightReceiver, kBlock> to_light_;  ///< of the paths that sample lights, one after the other
     std::array<PathStep, kBlock> next_;
     std::array<bool, kBlock> goes_on_{};

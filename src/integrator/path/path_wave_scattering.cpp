@@ -24,9 +24,12 @@ bool PathWave::set_up(const Context& context, std::size_t first, std::size_t k) 
         return false;
     }
     const PathState& state = states_[i];
-    path.plain = world.plain_lobe(hit);
+    path.plain = world.plain_surface(hit);
     if (path.plain != nullptr) {
         path.point.material = world.material(hit);
+        path.point.instance = hit.instance;
+        path.point.geometry = hit.geometry;
+        path.point.triangle = hit.triangle;
         path.crossing.reset();
         if (state.edges < context.options.lengths.max_depth) return true;
         end_path(context, i, PathEnding::TooLong);
@@ -55,15 +58,51 @@ bool PathWave::set_up(const Context& context, std::size_t first, std::size_t k) 
 }
 
 void PathWave::set_up_plain(const Context& context, std::size_t first) {
+    const World& world = context.world;
     bool any = false;
+    bool any_textured = false;
     for (std::size_t lane = 0; lane < surfaces_; ++lane) {
         const std::size_t k = on_surface_[lane];
-        if (block_[k].plain == nullptr) continue;
+        const std::size_t i = first + k;
+        lanes_.wo.set(lane, -rays_[i].direction);
+        const PlainSurface* const plain = block_[k].plain;
+        if (plain == nullptr) continue;
         any = true;
-        const Hit& hit = hits_[first + k];
-        lanes_.set_hit(lane, context.world.hit_triangle(hit), {hit.u, hit.v});
+        const Hit& hit = hits_[i];
+        lanes_.set_hit(lane, world.hit_triangle(hit), {hit.u, hit.v});
+        if (plain->textured == nullptr) continue;
+        any_textured = true;
+        textured_.set_hit(lane, world.hit_coordinates(hit, *plain), std::abs(states_[i].cone.width_at(hit.t)));
     }
     if (any) lanes_.set_up_points(surfaces_);
+    if (any_textured) textured_.set_up(lanes_, surfaces_);
+}
+
+void PathWave::make_plain_lobes(const Context& context, std::size_t first) {
+    const World& world = context.world;
+    lookups_.clear();
+    for (std::size_t lane = 0; lane < surfaces_; ++lane) {
+        const PlainSurface* const plain = block_[on_surface_[lane]].plain;
+        if (plain != nullptr && plain->textured != nullptr)
+            world.add_lookups(*plain, textured_.uv[lane], textured_.footprint(lane), lookups_);
+    }
+    lookups_.finish();
+    std::size_t next = 0;
+    for (std::size_t lane = 0; lane < surfaces_; ++lane) {
+        ShadedPath& path = block_[on_surface_[lane]];
+        path.glossy = nullptr;
+        if (path.plain == nullptr || path.plain->matte != nullptr) continue;
+        path.glossy = path.plain->textured == nullptr
+                          ? &path.plain->glossy
+                          : &path.storage.emplace<MetallicRoughness>(world.lobe(*path.plain, lookups_, next));
+        if (!path.glossy->is_plain()) set_up_singly(context, first + on_surface_[lane], path);
+    }
+}
+
+void PathWave::set_up_singly(const Context& context, std::size_t i, ShadedPath& path) const {
+    path.plain = nullptr;
+    path.glossy = nullptr;
+    path.point = context.world.surface_point(hits_[i], rays_[i], states_[i].cone);
 }
 
 void PathWave::make_scattering(const Context& context, std::size_t i, std::size_t lane, ShadedPath& path) {
@@ -72,11 +111,19 @@ void PathWave::make_scattering(const Context& context, std::size_t i, std::size_
     const Vec3f wo = -rays_[i].direction;
     path.samples_light = context.options.sample_lights && world.has_sampled_lights() &&
                          state.edges + 1 >= context.options.lengths.min_depth;
-    path.glossy = nullptr;
-    lanes_.wo.set(lane, wo);
     lanes_.throughput.set(lane, state.throughput);
     path.is_wide = path.plain != nullptr;
-    if (path.is_wide) return lanes_.albedo.set(lane, path.plain->albedo);
+    if (path.is_wide) {
+        path.point.geometric_normal = lanes_.geometric_normal[lane];
+        if (path.glossy == nullptr) return lanes_.albedo.set(lane, std::get_if<Diffuse>(path.plain->matte)->albedo);
+        if (words_.are_followed()) {
+            if (path.plain->textured == nullptr) path.storage = *path.glossy;
+            path.scattering.emplace(path.storage,
+                                    Frame{lanes_.tangent[lane], lanes_.bitangent[lane], lanes_.normal[lane]},
+                                    path.point.geometric_normal, wo);
+        }
+        return;
+    }
     lanes_.position.set(lane, path.point.position);
     // Where the index depends on the wavelength, a path of all of them takes one to go on with.
     path.wavelength = {state.wavelength_nm, Rgb(1.0f)};

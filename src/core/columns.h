@@ -33,11 +33,16 @@ class Column {
 struct Vec2Columns {
     Column x, y;
 
+    [[nodiscard]] Vec2f operator[](std::size_t lane) const { return {x[lane], y[lane]}; }
     void set(std::size_t lane, Vec2f v) {
         x.set(lane, v.x);
         y.set(lane, v.y);
     }
     [[nodiscard]] Imath::Vec2<Wide> load(std::size_t first) const { return {x.load(first), y.load(first)}; }
+    void store(std::size_t first, const Imath::Vec2<Wide>& v) {
+        x.store(first, v.x);
+        y.store(first, v.y);
+    }
 };
 
 struct Vec3Columns {

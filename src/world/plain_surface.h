@@ -1,0 +1,37 @@
+// Surfaces simple enough to be set up and shaded many at a time.
+#pragma once
+
+#include "bsdf/metallic_roughness.h"
+#include "world/material.h"
+
+#include <vector>
+
+namespace etendue {
+
+struct WorldData;
+
+/// What most surfaces are: placed once or copied, still, of one side's look only by what they reflect. They do not emit
+/// light, bound no body, and have neither relief nor vertex colours; they are matte, or plain metallic-roughness
+/// (MetallicRoughness::is_plain) whose base colour, metalness and roughness may come from textures that share a set of
+/// coordinates.
+struct PlainSurface {
+    const Bsdf* matte = nullptr;          ///< its Diffuse lobe, or null
+    MetallicRoughness glossy{};           ///< if it is not matte: its lobe, but for what textures change
+    const GltfModel* textured = nullptr;  ///< what they change, or null
+    int texcoord = 0;                     ///< their set of coordinates
+
+    /// The lobe where the textures of the base colour and of metalness and roughness have these texels, linear Rec.709;
+    /// 1 where there is no texture. It need not be plain: textures may say that it mirrors.
+    [[nodiscard]] MetallicRoughness lobe(const WorldData& data, const Rgb& base_color,
+                                         const Rgb& metallic_roughness) const;
+};
+
+struct PlainSurfaces {
+    std::vector<PlainSurface> of_material;         ///< of each material, whether or not it is one
+    std::vector<const PlainSurface*> of_geometry;  ///< null where it is none
+};
+
+/// Uniform materials must have been evaluated.
+[[nodiscard]] PlainSurfaces find_plain_surfaces(const WorldData& data);
+
+}  // namespace etendue

@@ -1,0 +1,125 @@
+#include "world/plain_surface.h"
+
+#include "world/test_scene.h"
+
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace etendue::test {
+
+namespace {
+
+class PlainSurfaces : public testing::Test {
+  protected:
+    /// A square before the camera that a ray meets; a texture is there if one is asked for.
+    World with(
+        const std::function<void(MaterialDesc&)>& change,
+        const std::function<void(PrimitiveDesc&)>& reshape = [](PrimitiveDesc&) {}) {
+        SceneDesc scene = empty_scene();
+        std::vector<std::array<int, 4>> texels;
+        for (int i = 0; i < 64; ++i) texels.push_back({4 * i, 255 - 2 * i, 128 + i, 255});
+        add_texture(scene, png_, 8, texels);
+        MaterialDesc material;
+        material.roughness = 0.6f;
+        change(material);
+        PrimitiveDesc primitive = quad({0, 0, -2}, {1, 0, 0}, {0, 1, 0});
+        reshape(primitive);
+        add_object(scene, std::move(primitive), add_material(scene, std::move(material)));
+        return compile(std::move(scene));
+    }
+    static const PlainSurface* surface(const World& world) {
+        return world.plain_surface(intersect(world, {.direction = {0, 0, -1}}));
+    }
+    void TearDown() override { std::filesystem::remove(png_); }
+
+    std::filesystem::path png_ = temporary_file("etendue-plain-surface.png");
+};
+
+TEST_F(PlainSurfaces, AreMatteOrPlainMetallicRoughness) {
+    const World glossy = with([](MaterialDesc&) {});
+    ASSERT_NE(surface(glossy), nullptr);
+    EXPECT_EQ(surface(glossy)->matte, nullptr);
+    EXPECT_EQ(surface(glossy)->textured, nullptr);
+    EXPECT_FLOAT_EQ(surface(glossy)->glossy.alpha_x, 0.36f);
+
+    SceneDesc scene = empty_scene();
+    add_object(scene, quad({0, 0, -2}, {1, 0, 0}, {0, 1, 0}), add_material(scene, diffuse(Rgb(0.5f))));
+    const World matte = compile(std::move(scene));
+    ASSERT_NE(surface(matte), nullptr);
+    ASSERT_NE(surface(matte)->matte, nullptr);
+    EXPECT_EQ(std::get<Diffuse>(*surface(matte)->matte).albedo, Rgb(0.5f));
+    EXPECT_EQ(matte.plain_bsdf(intersect(matte, {.direction = {0, 0, -1}})), surface(matte)->matte);
+}
+
+TEST_F(PlainSurfaces, AreNotWhatMirrorsEmitsOrHasMoreLayers) {
+    const auto is_plain = [&](const std::function<void(MaterialDesc&)>& change) {
+        return surface(with(change)) != nullptr;
+    };
+    EXPECT_TRUE(is_plain([](MaterialDesc& m) { m.base_color_texture.texture = {0}; }));
+    EXPECT_TRUE(is_plain([](MaterialDesc& m) { m.metallic_roughness_texture.texture = {0}; }));
+    EXPECT_FALSE(is_plain([](MaterialDesc& m) { m.roughness = 0.0f; }));
+    EXPECT_FALSE(is_plain([](MaterialDesc& m) { m.emissive = Rgb(1.0f); }));
+    EXPECT_FALSE(is_plain([](MaterialDesc& m) { m.unlit = true; }));
+    EXPECT_FALSE(is_plain([](MaterialDesc& m) { m.normal_texture.texture = {0}; }));
+    EXPECT_FALSE(is_plain([](MaterialDesc& m) { m.transmission = 0.5f; }));
+    EXPECT_FALSE(is_plain([](MaterialDesc& m) { m.clearcoat.factor = 1.0f; }));
+    EXPECT_FALSE(is_plain([](MaterialDesc& m) {
+        m.base_color_texture.texture = {0};
+        m.metallic_roughness_texture = {.texture = {0}, .texcoord = 1, .transform = {}};
+    })) << "two sets of coordinates";
+}
+
+TEST_F(PlainSurfaces, AreNotWhatHasVertexColors) {
+    const World world = with([](MaterialDesc&) {}, [](PrimitiveDesc& p) { p.colors.assign(4, {1, 1, 1, 1}); });
+    EXPECT_EQ(surface(world), nullptr);
+}
+
+TEST_F(PlainSurfaces, HaveTheLobesOfTheirModelAtEveryPoint) {
+    const World world = with([](MaterialDesc& m) {
+        m.base_color = {0.9f, 0.7f, 0.5f};
+        m.metallic = 0.7f;
+        m.base_color_texture.texture = {0};
+        m.metallic_roughness_texture.texture = {0};
+    });
+    Random random(11);
+    TextureLookups lookups;
+    int seen = 0;
+    for (int i = 0; i < 500; ++i) {
+        Ray ray;
+        ray.direction = normalize(Vec3f(random.next() - 0.5f, random.next() - 0.5f, -1.2f));
+        const Hit hit = intersect(world, ray);
+        if (!hit.valid()) continue;
+        const RayCone cone{0.0f, 0.3f * random.next()};
+        const SurfacePoint point = world.surface_point(hit, ray, cone);
+        const PlainSurface* plain = world.plain_surface(hit);
+        ASSERT_NE(plain, nullptr);
+        const HitCoordinates coordinates = world.hit_coordinates(hit, *plain);
+        const Vec2f uv = coordinates.uv0 + coordinates.edge1 * hit.u + coordinates.edge2 * hit.v;
+        ASSERT_NEAR(uv.x, point.uv[0].x, 1e-6f);
+        ASSERT_NEAR(uv.y, point.uv[0].y, 1e-6f);
+        lookups.clear();
+        world.add_lookups(*plain, point.uv[0], point.footprint[0], lookups);
+        lookups.finish();
+        std::size_t next = 0;
+        const MetallicRoughness found = world.lobe(*plain, lookups, next);
+        EXPECT_EQ(next, 2u);
+        Bsdf storage;
+        const auto& expected = std::get<MetallicRoughness>(world.bsdf(point, -ray.direction, 0.0f, storage));
+        for (const auto& [a, b] : {std::pair(found.base.r, expected.base.r), std::pair(found.base.b, expected.base.b),
+                                   std::pair(found.metallic, expected.metallic), std::pair(found.f0.g, expected.f0.g),
+                                   std::pair(found.alpha_x, expected.alpha_x), std::pair(found.f90, expected.f90)})
+            EXPECT_NEAR(a, b, 1e-5f);
+        ++seen;
+    }
+    EXPECT_GT(seen, 200);
+}
+
+}  // namespace
+
+}  // namespace etendue::test
