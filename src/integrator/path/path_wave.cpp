@@ -106,7 +106,7 @@ void PathWave::shade_block(const Context& context, std::size_t first, std::size_
         for (std::size_t lane = 0; lane < surfaces_; ++lane)
             visit(first + on_surface_[lane], lane, block_[on_surface_[lane]]);
     };
-    make_plain_lobes(context, first);
+    look_up_textures(context, first);
     for_surfaces([&](std::size_t i, std::size_t lane, ShadedPath& path) { make_scattering(context, i, lane, path); });
     stamp(profile, Stage::Textures);
     sample_lights(context, first);

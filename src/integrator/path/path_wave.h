@@ -104,8 +104,8 @@ class PathWave final : public IntegratorScratch {
     bool set_up(const Context& context, std::size_t first, std::size_t k);
     /// Points on plain surfaces, all at once.
     void set_up_plain(const Context& context, std::size_t first);
-    /// Lobes of plain surfaces, whose textures are looked up all at once.
-    void make_plain_lobes(const Context& context, std::size_t first);
+    /// Lobes of textured plain surfaces, all at once.
+    void look_up_textures(const Context& context, std::size_t first);
     /// Has the path of a plain surface that mirrors after all go on as one of any other.
     void set_up_singly(const Context& context, std::size_t i, ShadedPath& path) const;
     /// Looks up textures and makes the lobes of path `i`.
@@ -173,6 +173,7 @@ class PathWave final : public IntegratorScratch {
     std::size_t surfaces_ = 0;
     BlockLanes lanes_;
     GlossyLanes glossy_;
+    bool any_textured_ = false;
     TexturedLanes textured_;
     TextureLookups lookups_;
     std::array<LightReceiver, kBlock> to_light_;  ///< of the paths that sample lights, one after the other

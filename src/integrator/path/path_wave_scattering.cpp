@@ -27,9 +27,11 @@ bool PathWave::set_up(const Context& context, std::size_t first, std::size_t k) 
     path.plain = world.plain_surface(hit);
     if (path.plain != nullptr) {
         path.point.material = world.material(hit);
-        path.point.instance = hit.instance;
-        path.point.geometry = hit.geometry;
-        path.point.triangle = hit.triangle;
+        if (world.has_textures()) {  // for scattered_cone
+            path.point.instance = hit.instance;
+            path.point.geometry = hit.geometry;
+            path.point.triangle = hit.triangle;
+        }
         path.crossing.reset();
         if (state.edges < context.options.lengths.max_depth) return true;
         end_path(context, i, PathEnding::TooLong);
@@ -60,7 +62,7 @@ bool PathWave::set_up(const Context& context, std::size_t first, std::size_t k) 
 void PathWave::set_up_plain(const Context& context, std::size_t first) {
     const World& world = context.world;
     bool any = false;
-    bool any_textured = false;
+    any_textured_ = false;
     for (std::size_t lane = 0; lane < surfaces_; ++lane) {
         const std::size_t k = on_surface_[lane];
         const std::size_t i = first + k;
@@ -71,37 +73,36 @@ void PathWave::set_up_plain(const Context& context, std::size_t first) {
         const Hit& hit = hits_[i];
         lanes_.set_hit(lane, world.hit_triangle(hit), {hit.u, hit.v});
         if (plain->textured == nullptr) continue;
-        any_textured = true;
+        any_textured_ = true;
         textured_.set_hit(lane, world.hit_coordinates(hit, *plain), std::abs(states_[i].cone.width_at(hit.t)));
     }
     if (any) lanes_.set_up_points(surfaces_);
-    if (any_textured) textured_.set_up(lanes_, surfaces_);
+    if (any_textured_) textured_.set_up(lanes_, surfaces_);
 }
 
-void PathWave::make_plain_lobes(const Context& context, std::size_t first) {
+void PathWave::look_up_textures(const Context& context, std::size_t first) {
+    if (!any_textured_) return;
     const World& world = context.world;
+    const auto is_textured = [](const ShadedPath& path) {
+        return path.plain != nullptr && path.plain->textured != nullptr;
+    };
     lookups_.clear();
-    for (std::size_t lane = 0; lane < surfaces_; ++lane) {
-        const PlainSurface* const plain = block_[on_surface_[lane]].plain;
-        if (plain != nullptr && plain->textured != nullptr)
-            world.add_lookups(*plain, textured_.uv[lane], textured_.footprint(lane), lookups_);
-    }
+    for (std::size_t lane = 0; lane < surfaces_; ++lane)
+        if (const ShadedPath& path = block_[on_surface_[lane]]; is_textured(path))
+            world.add_lookups(*path.plain, textured_.uv[lane], textured_.footprint(lane), lookups_);
     lookups_.finish();
     std::size_t next = 0;
     for (std::size_t lane = 0; lane < surfaces_; ++lane) {
         ShadedPath& path = block_[on_surface_[lane]];
-        path.glossy = nullptr;
-        if (path.plain == nullptr || path.plain->matte != nullptr) continue;
-        path.glossy = path.plain->textured == nullptr
-                          ? &path.plain->glossy
-                          : &path.storage.emplace<MetallicRoughness>(world.lobe(*path.plain, lookups_, next));
-        if (!path.glossy->is_plain()) set_up_singly(context, first + on_surface_[lane], path);
+        if (!is_textured(path)) continue;
+        const auto& lobe = path.storage.emplace<MetallicRoughness>(world.lobe(*path.plain, lookups_, next));
+        path.glossy = &lobe;
+        if (!lobe.is_plain()) set_up_singly(context, first + on_surface_[lane], path);
     }
 }
 
 void PathWave::set_up_singly(const Context& context, std::size_t i, ShadedPath& path) const {
     path.plain = nullptr;
-    path.glossy = nullptr;
     path.point = context.world.surface_point(hits_[i], rays_[i], states_[i].cone);
 }
 
@@ -114,16 +115,18 @@ void PathWave::make_scattering(const Context& context, std::size_t i, std::size_
     lanes_.throughput.set(lane, state.throughput);
     path.is_wide = path.plain != nullptr;
     if (path.is_wide) {
-        path.point.geometric_normal = lanes_.geometric_normal[lane];
+        if (path.plain->textured == nullptr) path.glossy = path.plain->matte == nullptr ? &path.plain->glossy : nullptr;
+        if (world.has_textures()) path.point.geometric_normal = lanes_.geometric_normal[lane];
         if (path.glossy == nullptr) return lanes_.albedo.set(lane, std::get_if<Diffuse>(path.plain->matte)->albedo);
         if (words_.are_followed()) {
             if (path.plain->textured == nullptr) path.storage = *path.glossy;
             path.scattering.emplace(path.storage,
                                     Frame{lanes_.tangent[lane], lanes_.bitangent[lane], lanes_.normal[lane]},
-                                    path.point.geometric_normal, wo);
+                                    lanes_.geometric_normal[lane], wo);
         }
         return;
     }
+    path.glossy = nullptr;
     lanes_.position.set(lane, path.point.position);
     // Where the index depends on the wavelength, a path of all of them takes one to go on with.
     path.wavelength = {state.wavelength_nm, Rgb(1.0f)};
