@@ -23,4 +23,9 @@ etendue_make_headers(etendue_headers HEADERS ${headers_of_all} LINK PkgConfig::I
 if(ETENDUE_BUILD_TESTS)
   etendue_make_headers(etendue_test_headers
     HEADERS ${headers_of_all} <gtest/gtest.h> LINK PkgConfig::Imath fmt::fmt GTest::gtest)
+  if(ETENDUE_SANITIZERS)  # for the tests that are built quickly
+    etendue_make_headers(etendue_quick_test_headers
+      HEADERS ${headers_of_all} <gtest/gtest.h> LINK PkgConfig::Imath fmt::fmt GTest::gtest)
+    target_compile_options(etendue_quick_test_headers PRIVATE -O0)
+  endif()
 endif()

@@ -12,17 +12,23 @@ function(etendue_room name)
   target_precompile_headers(etendue_${name} REUSE_FROM etendue_headers)
 endfunction()
 
-# etendue_test(<room> SOURCES ... [LINK target...])
+# etendue_test(<room> SOURCES ... [LINK target...] [QUICKLY])
 #
-# One test program per room, tests/<room>/, registered with CTest case by case.
+# One test program per room, tests/<room>/, registered with CTest case by case. QUICKLY: with sanitizers it is not
+# optimised, because what takes its time is the code of the rooms.
 function(etendue_test room)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "QUICKLY" "" "SOURCES;LINK" ${ARGN})
   add_executable(test_${room} ${ARG_SOURCES})
   target_include_directories(test_${room} PRIVATE "${PROJECT_SOURCE_DIR}/tests")
   target_include_directories(test_${room} SYSTEM PRIVATE "${ETENDUE_BOOST_MATH}")
   target_link_libraries(test_${room} PRIVATE etendue_options ${ARG_LINK} GTest::gtest_main)
   add_dependencies(unit_tests test_${room})
-  target_precompile_headers(test_${room} REUSE_FROM etendue_test_headers)
+  if(ARG_QUICKLY AND ETENDUE_SANITIZERS)
+    target_compile_options(test_${room} PRIVATE -O0)
+    target_precompile_headers(test_${room} REUSE_FROM etendue_quick_test_headers)
+  else()
+    target_precompile_headers(test_${room} REUSE_FROM etendue_test_headers)
+  endif()
   target_compile_definitions(test_${room} PRIVATE
     ETENDUE_SOURCE_DIR="${PROJECT_SOURCE_DIR}" ETENDUE_SHARED_ASSETS="${PROJECT_SOURCE_DIR}/../shared/assets")
   gtest_discover_tests(test_${room} TEST_PREFIX "${room}." DISCOVERY_TIMEOUT 120 PROPERTIES LABELS ${room} TIMEOUT 600
