@@ -5,28 +5,31 @@
 
 namespace etendue {
 
-void Connections::push(const Ray& ray, Pending pending, std::span<const ExpressionShare> shares) {
+Connections::Pending& Connections::push(const Ray& ray, std::span<const ExpressionShare> shares) {
     rays_.push_back(ray);
     if (!shares.empty()) shares_.insert(shares_.end(), shares.begin(), shares.end());
+    Pending& pending = pending_.emplace_back();
     pending.end_of_shares = static_cast<std::uint32_t>(shares_.size());
-    pending_.push_back(pending);
+    return pending;
 }
 
 void Connections::to_sample(const Ray& ray, std::uint32_t slot, const Rgb& contribution, LightKind kind,
                             std::span<const ExpressionShare> shares) {
-    push(ray, {.value = contribution, .slot = slot, .kind = kind}, shares);
+    Pending& pending = push(ray, shares);
+    pending.value = contribution;
+    pending.slot = slot;
+    pending.kind = kind;
 }
 
 void Connections::to_film(const Ray& ray, std::uint32_t slot, const Splat& splat, LightKind kind,
                           std::span<const ExpressionShare> shares) {
-    push(ray,
-         {.value = splat.value,
-          .position = splat.position,
-          .depth = splat.depth,
-          .slot = slot,
-          .is_splat = true,
-          .kind = kind},
-         shares);
+    Pending& pending = push(ray, shares);
+    pending.value = splat.value;
+    pending.position = splat.position;
+    pending.depth = splat.depth;
+    pending.slot = slot;
+    pending.is_splat = true;
+    pending.kind = kind;
 }
 
 void Connections::resolve(const World& world, const TileJob& job, std::span<const CameraSample> samples,

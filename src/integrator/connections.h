@@ -44,7 +44,9 @@ class Connections {
         bool is_splat = false;
         LightKind kind = LightKind::Direct;
     };
-    void push(const Ray& ray, Pending pending, std::span<const ExpressionShare> shares);
+    /// One more, to be filled in where it lies: a copy of what was just written, number by number, would wait until all
+    /// of that is in the cache.
+    Pending& push(const Ray& ray, std::span<const ExpressionShare> shares);
 
     RayKind kind_;
     std::vector<Ray> rays_;
