@@ -38,13 +38,13 @@ void generate_few(const World& world, const TileJob& job, std::span<CameraSample
     CameraNumbers lens;
     CameraNumbers time;
     film.draw(job.sequence, samples, kFilmDimension);
-    lens.draw(job.sequence, samples, kLensDimension);
+    if (world.has_lens()) lens.draw(job.sequence, samples, kLensDimension);
     if (world.has_motion()) time.draw(job.sequence, samples, kTimeDimension);
     for (std::size_t i = 0; i < samples.size(); ++i) {
         CameraSample& sample = samples[i];
         const PixelFilter::Sample filtered = job.filter->sample(film[i]);
         sample.weight = filtered.weight;
-        sample.lens = lens[i];
+        sample.lens = world.has_lens() ? lens[i] : Vec2f(0.0f);
         const Vec2i position = pixel_position(job, sample.pixel);
         const Vec2f on_film{(static_cast<float>(position.x) + 0.5f + filtered.offset.x) * to_film.x,
                             (static_cast<float>(position.y) + 0.5f + filtered.offset.y) * to_film.y};

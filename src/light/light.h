@@ -69,6 +69,7 @@ class LightSelector {
     [[nodiscard]] AliasTable::Choice sample(Vec2f u) const { return table_.sample(u); }
     [[nodiscard]] float probability(std::size_t light) const { return table_.probability(light); }
     [[nodiscard]] bool empty() const { return table_.empty(); }
+    [[nodiscard]] std::size_t size() const { return table_.size(); }
     [[nodiscard]] std::size_t bytes() const { return table_.bytes(); }
 
   private:

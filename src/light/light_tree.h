@@ -74,6 +74,8 @@ class LightTree {
     void sample(std::span<const LightReceiver> receivers, std::span<const Vec2f> u, std::span<Choice> choices) const;
     /// With what probability `sample` chooses the light of this index; to the bit what `sample` says.
     [[nodiscard]] float probability(const LightReceiver& receiver, std::size_t light) const;
+    /// False if there is but one that it can choose, whatever the numbers are.
+    [[nodiscard]] bool has_choice() const { return single_ == kNone; }
     /// False if every receiver has the same probabilities.
     [[nodiscard]] bool depends_on_receiver() const { return single_ == kNone && !near_.empty(); }
     /// True if there is nothing to choose from.

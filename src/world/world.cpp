@@ -260,9 +260,8 @@ Crossing World::crossing(const SurfacePoint& point, const Interior& current) con
     return crossing;
 }
 
-const HomogeneousMedium* World::medium(const Interior& interior) const {
+const HomogeneousMedium* World::medium_within(const Interior& interior) const {
     const std::uint32_t body = interior.filling();
-    if (body == kNone) return nullptr;
     const HomogeneousMedium& medium = data_->fillings[data_->filling_of_body[body]].medium;
     return medium.is_empty() ? nullptr : &medium;
 }

@@ -224,7 +224,9 @@ class World {
     /// A ray from within `current` at a boundary.
     [[nodiscard]] Crossing crossing(const SurfacePoint& point, const Interior& current) const;
     /// What fills the space, null in vacuum.
-    [[nodiscard]] const HomogeneousMedium* medium(const Interior& interior) const;
+    [[nodiscard]] const HomogeneousMedium* medium(const Interior& interior) const {
+        return interior.is_empty() ? nullptr : medium_within(interior);
+    }
     /// The bodies that `point` is in in the middle of the shutter, found by a ray through all that lies above it.
     [[nodiscard]] Interior interior_at(const Vec3f& point) const;
     /// Those that the camera is in.
@@ -254,6 +256,10 @@ class World {
     [[nodiscard]] ChosenLight sample_light(const LightReceiver& receiver, const LightNumbers& u) const {
         return sample_light(choose_light(receiver, u.light), receiver.position, u);
     }
+    /// False if `choose_light` needs no numbers, as there is but one light.
+    [[nodiscard]] bool chooses_lights() const { return tree_.has_choice(); }
+    /// The same of `sample_emission`.
+    [[nodiscard]] bool chooses_emitters() const { return selector_.size() > 1; }
     /// True if the choice of a light depends on what it is for.
     [[nodiscard]] bool chooses_lights_by_receiver() const { return tree_.depends_on_receiver(); }
     /// Its two halves: the choice, and light from what was chosen.
@@ -333,6 +339,8 @@ class World {
 
     /// In the middle of the shutter.
     [[nodiscard]] const Camera& camera() const { return data_->camera; }
+    /// False if numbers for a point on the lens mean nothing.
+    [[nodiscard]] bool has_lens() const { return std::holds_alternative<ThinLensCamera>(data_->camera); }
     /// How the camera as it is at `time` sees `point` through the lens point made from `lens` in [0, 1)².
     [[nodiscard]] CameraConnection connect_to_camera(const Vec3f& point, Vec2f lens, float time) const;
     /// The ray of the camera as it is at `time`, through film point `film` and the lens point made from `lens`, all in
@@ -351,6 +359,8 @@ class World {
                                     const Vec3f& direction) const;
     [[nodiscard]] Camera camera_at(float time) const;
     void fetch_far_triangles(std::span<const Hit> hits) const;
+    /// Of an interior that is not empty.
+    [[nodiscard]] const HomogeneousMedium* medium_within(const Interior& interior) const;
     [[nodiscard]] SceneSphere scene_sphere() const { return {data_->bounds.center(), bounding_radius()}; }
 
     // On the heap, so that Embree's callbacks keep their pointer to it when a World is moved.

@@ -37,6 +37,17 @@ Wavelength SubpathJob::wavelength(std::uint32_t slot) const {
     return world.spectral_response().sample(sample_2d(job.sequence, samples[slot].key, kWavelengthDimension).x);
 }
 
+bool SubpathJob::needs(SubpathEnd end, BounceNumbers which) const {
+    switch (which) {
+        case BounceNumbers::Medium:
+            return world.has_scattering_bodies();
+        case BounceNumbers::LightChoice:
+            return end == SubpathEnd::AtEye ? world.chooses_lights() : world.has_lens();
+        default:
+            return true;
+    }
+}
+
 std::uint32_t SubpathJob::connection_key(SubpathEnd end, int index, std::uint32_t slot) const {
     if (!world.has_transparency()) return 0;
     // Another one than that of the subpath's own ray.
@@ -116,7 +127,10 @@ void SubpathWave::begin_at_lights(const SubpathJob& job) {
     const auto draw = [&](std::uint32_t which, NumberPairs& numbers) {
         numbers.draw(job.job.sequence, keys_, kFirstLightDimension + which);
     };
-    draw(kEmitterChoice, light_choice_);
+    if (world.chooses_emitters())
+        draw(kEmitterChoice, light_choice_);
+    else
+        light_choice_.draw_none(keys_.size());
     draw(kTriangle, triangle_);
     draw(kPosition, position_);
     draw(kDirection, direction_);
@@ -147,7 +161,10 @@ void SubpathWave::draw_numbers(const SubpathJob& job) {
     keys_.clear();
     for (const SubpathState& state : states_) keys_.push_back(job.samples[state.slot].key);
     const auto draw = [&](BounceNumbers which, NumberPairs& numbers) {
-        numbers.draw(job.job.sequence, keys_, subpath_dimension(end_, bounce_, which));
+        if (job.needs(end_, which))
+            numbers.draw(job.job.sequence, keys_, subpath_dimension(end_, bounce_, which));
+        else
+            numbers.draw_none(keys_.size());
     };
     draw(BounceNumbers::Scattering, scattering_);
     draw(BounceNumbers::Choices, choices_);
@@ -283,7 +300,7 @@ bool SubpathWave::make_vertex(const SubpathJob& job, std::size_t i, ShadedSubpat
     place(world, path, relative_ior, vertex);
     if (world.has_bodies()) {
         vertex.outside = world.medium(crossing ? crossing->outside : interiors_[i]);
-        vertex.inside = world.medium(crossing ? crossing->inside : interiors_[i]);
+        vertex.inside = crossing ? world.medium(crossing->inside) : vertex.outside;
     }
     if (end_ == SubpathEnd::AtEye || state.edges + edges_to_connect(world) <= job.lengths.max_depth) return true;
     end_path(job, i, PathEnding::TooLong);

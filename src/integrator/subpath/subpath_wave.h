@@ -55,6 +55,8 @@ struct SubpathJob {
     [[nodiscard]] Rgb wavelength_weight(std::uint32_t slot, bool is_dispersed) const {
         return is_dispersed ? wavelength(slot).weight : Rgb(1.0f);
     }
+    /// False if such numbers mean nothing in this World.
+    [[nodiscard]] bool needs(SubpathEnd end, BounceNumbers which) const;
     /// Key of rays that connect a vertex; 0 if nothing is transparent.
     [[nodiscard]] std::uint32_t connection_key(SubpathEnd end, int index, std::uint32_t slot) const;
 };
