@@ -12,7 +12,9 @@ enum class Heuristic {
 struct Raised {
     Heuristic heuristic = Heuristic::Balance;
 
-    [[nodiscard]] double operator()(double ratio) const {
+    /// A template of its lane type, see core/lane.h, double besides.
+    template <typename T>
+    [[nodiscard]] T operator()(T ratio) const {
         return heuristic == Heuristic::Power ? ratio * ratio : ratio;
     }
 };

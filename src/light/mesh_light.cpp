@@ -77,15 +77,11 @@ EmissionSample MeshLight::sample_emission(const EmissionNumbers& u, const SceneS
 }
 
 float MeshLight::emission_pdf(const Vec3f&, float cos_light, const SceneSphere&) const {
-    const float cosine = two_sided_ ? 0.5f * std::abs(cos_light) : cos_light;
-    return cosine > 0.0f ? cosine * kInvPi : 0.0f;
+    return any_front().emission_pdf_solid_angle(cos_light);
 }
 
 float MeshLight::pdf_solid_angle(float distance, float cos_light) const {
-    LightTriangleFront<float> any{};
-    any.area = area_;
-    any.back = two_sided_ ? 1.0f : 0.0f;
-    return any.pdf_solid_angle(distance, cos_light);
+    return any_front().pdf_solid_angle(distance, cos_light);
 }
 
 float MeshLight::power(float) const {

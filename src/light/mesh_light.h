@@ -48,6 +48,12 @@ struct LightTriangleFront {
         const T cosine = max(cos_light, -cos_light * back);
         return select(cosine > T(0.0f), distance * distance / (area * cosine), T(0.0f));
     }
+    /// Of rays that leave the light from a given point, 1/sr.
+    [[nodiscard]] T emission_pdf_solid_angle(T cos_light) const {
+        // Of rays from two sides half leave each.
+        const T cosine = max(cos_light, -cos_light * back) * (1.0f - 0.5f * back);
+        return select(cosine > T(0.0f), cosine * kInvPi, T(0.0f));
+    }
     /// `u` in [0, 1)².
     [[nodiscard]] LightTriangleSample<T> sample(const Imath::Vec3<T>& point, const Imath::Vec2<T>& u) const {
         LightTriangleSample<T> s;
@@ -111,6 +117,14 @@ class MeshLight {
         Vec3f normal{0.0f};      ///< unit
         float clearance = 0.0f;  ///< metres, as in SurfacePoint
     };
+
+    /// What all triangles have in common.
+    [[nodiscard]] LightTriangleFront<float> any_front() const {
+        LightTriangleFront<float> any{};
+        any.area = area_;
+        any.back = two_sided_ ? 1.0f : 0.0f;
+        return any;
+    }
 
     std::vector<LightTriangle> triangles_;
     std::vector<Front> fronts_;  ///< of each triangle

@@ -39,6 +39,12 @@ struct OrientedSurface {
         return select(below > T(0.0f), above / below, T(0.0f));
     }
 
+    /// What of that does not depend on `w`: |wo·n_s| / |wo·n_g|.
+    [[nodiscard]] T adjoint_factor_of_wo() const {
+        const T below = abs(dot(wo, geometric_normal));
+        return select(below > T(0.0f), abs(wo_local.z) / below, T(0.0f));
+    }
+
   private:
     MaskOf<T> turn(bool turns) {
         if (turns) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "integrator/bdpt/bdpt_options.h"
+#include "integrator/bdpt/connection_lanes.h"
 #include "integrator/bdpt/reference_weights.h"
 #include "integrator/bdpt/strategy_sums.h"
 #include "integrator/connections.h"
@@ -9,7 +10,9 @@
 #include "integrator/subpath/connectible_vertices.h"
 #include "integrator/subpath/subpath_wave.h"
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -17,7 +20,7 @@ namespace etendue {
 
 class BdptWave final : public IntegratorScratch, private LightFinder {
   public:
-    /// Samples in a wave. A vertex takes 208 bytes, and 248 more for a lobe that was evaluated there: the ten or so of
+    /// Samples in a wave. A vertex takes 288 bytes, and 248 more for a lobe that was evaluated there: the ten or so of
     /// a sample stay in a cache of 2 MiB until they are connected.
     static constexpr std::size_t kCapacity = 512;
     /// Vertices whose connections go from one stage to the next together.
@@ -38,6 +41,7 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
         [[nodiscard]] bool is_shared(const PathVertex& vertex) const {
             return options.cached_connections > 0 && !world.has_motion() && !vertex.is_dispersed;
         }
+        [[nodiscard]] WeightRule rule() const { return {raised, options.weighted}; }
     };
 
     // s = 0: subpaths from the eye that meet a light.
@@ -49,7 +53,7 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
     void add(const SubpathState& state, const Rgb& light, const StrategySums& sums, const PathLightEnd& end,
              const AovSet::Source& source);
 
-    // Connections on their way through the stages.
+    // Connections on their way through the stages, one by one.
     struct ToLight {
         const PathVertex* vertex = nullptr;
         ChosenLight chosen{};
@@ -69,6 +73,27 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
         Scattering::TwoWayValue at_eye{};
         Scattering::TwoWayValue at_light{};
     };
+    // Those of plain matte surfaces, whose lanes are computed at once.
+    struct WideToLight {
+        const PathVertex* vertex;
+        std::uint32_t light;  ///< that was chosen
+    };
+    struct WideToCamera {
+        const PathVertex* vertex;
+        CameraView view;
+    };
+    struct WideBetween {
+        const PathVertex* eye;
+        const PathVertex* light;
+        float scale;
+    };
+    /// A light vertex, as eye vertices look for it.
+    struct Candidate {
+        const PathVertex* vertex;
+        int index;
+        int next_edges;
+        bool is_shared;
+    };
 
     /// s = 1 of eye vertices [first, last): to points on lights that are sampled for them.
     void connect_to_lights(const Context& context, std::size_t first, std::size_t last);
@@ -76,15 +101,29 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
     void connect_to_camera(const Context& context, std::size_t first, std::size_t last);
     /// s > 1, t > 1 of eye vertices [first, last).
     void connect_to_vertices(const Context& context, std::size_t first, std::size_t last);
+    /// Brings the light vertices into an order in which those of a sample are side by side, and into the cache.
+    void find_candidates(const Context& context);
     /// All of the sample's own light subpath that the cache does not have.
     void find_own(const Context& context, const PathVertex& eye);
     /// `count` vertices drawn from the cache, in place of all that it has of an average light subpath.
     void find_cached(const Context& context, const PathVertex& eye, int count);
-    void find(const Context& context, const PathVertex& eye, const PathVertex& light, float scale);
+    void find(const Context& context, const PathVertex& eye, const MatteEnd& eye_end, const Candidate& candidate,
+              float scale);
     // With what both ends scatter: weights, and the rays that will tell.
     void weigh(const Context& context, const ToLight& connection);
     void weigh(const Context& context, const ToCamera& connection);
     void weigh(const Context& context, const Between& connection);
+    // All of that at once, for those that are computed so.
+    void weigh_wide_to_lights(const Context& context);
+    void weigh_wide_to_camera(const Context& context);
+    void weigh_wide_between(const Context& context);
+    // Leaves the rays of connections, with what they bring, to `connections`.
+    void queue(const Context& context, const PathVertex& vertex, const PathLightEnd& end, Ray ray,
+               const Brought& brought, Connections& connections);
+    void queue(const Context& context, const PathVertex& vertex, const CameraView& view, Ray ray,
+               const Brought& brought, Connections& connections);
+    void queue(const Context& context, const PathVertex& eye, const PathVertex& light, Ray ray, const Brought& brought,
+               Connections& connections);
 
     [[nodiscard]] static float weight(const BdptOptions& options, const StrategySums& sums) {
         return options.weighted ? static_cast<float>(sums.weight()) : 1.0f;
@@ -107,16 +146,30 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
     SubpathWave light_{SubpathEnd::AtLight};
     VerticesToLight to_light_;
     VerticesToCamera to_camera_;
-    /// Light vertices that eye vertices of any sample may be connected to, if options ask for that.
-    std::vector<const PathVertex*> cache_;
+    std::vector<Candidate> own_;            ///< sample by sample, the last vertex first
+    std::vector<std::uint32_t> own_begin_;  ///< by slot, and the end of the last
+    /// Those that eye vertices of any sample may be connected to, if options ask for that.
+    std::vector<Candidate> cache_;
     // Of the block at hand.
     std::vector<ToLight> to_lights_;
     std::vector<ToCamera> to_cameras_;
     std::vector<Between> between_;
-    // That wait for their rays.
-    Connections light_connections_{RayKind::Shadow};
-    Connections camera_connections_{RayKind::LightToCamera};
-    Connections vertex_connections_{RayKind::Connection};
+    std::vector<LightReceiver> receivers_;
+    std::vector<Vec2f> choosing_;  ///< numbers for the choice of a light
+    std::vector<LightTree::Choice> choices_;
+    std::vector<std::size_t> lit_;  ///< whose they are
+    std::vector<WideToLight> wide_to_lights_;
+    std::vector<WideToCamera> wide_to_cameras_;
+    std::array<WideBetween, kBlockLanes> wide_between_{};
+    std::size_t wide_between_count_ = 0;
+    ToLightLanes to_light_lanes_;
+    ToCameraLanes to_camera_lanes_;
+    BetweenLanes between_lanes_;
+    // That wait for their rays. What is computed at once waits by itself: which comes first of it and of the others of
+    // a sample would depend on what other samples are beside it.
+    Connections light_connections_{RayKind::Shadow}, wide_light_connections_{RayKind::Shadow};
+    Connections camera_connections_{RayKind::LightToCamera}, wide_camera_connections_{RayKind::LightToCamera};
+    Connections vertex_connections_{RayKind::Connection}, wide_vertex_connections_{RayKind::Connection};
     const Context* context_ = nullptr;  ///< of the call of `trace` under way, for what eye subpaths find
     TileBuffer* tile_ = nullptr;        ///< the same
 };

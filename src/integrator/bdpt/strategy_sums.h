@@ -9,12 +9,24 @@
 namespace etendue {
 
 /// Of a path and the strategy that has made it: sums of ratios over the strategies with fewer vertices from one end.
-struct StrategySums {
-    double fewer_from_light = 0.0;
-    double fewer_from_eye = 0.0;
+/// A template of its lane type, see core/lane.h, double besides.
+template <typename T>
+struct BasicStrategySums {
+    T fewer_from_light{0.0f};
+    T fewer_from_eye{0.0f};
 
-    [[nodiscard]] double weight() const { return 1.0 / (1.0 + fewer_from_light + fewer_from_eye); }
+    [[nodiscard]] T weight() const { return T(1.0f) / (T(1.0f) + fewer_from_light + fewer_from_eye); }
 };
+
+using StrategySums = BasicStrategySums<double>;
+
+/// Of a strategy that connects two vertices: `from_eye` is the density per area, 1/m², with which the eye's makes that
+/// of the light, `fewer_of_light` what SubpathDensities::fewer says of the latter, and the same the other way around.
+template <typename T>
+[[nodiscard]] inline BasicStrategySums<T> sums_of_connection(const Raised& raised, T from_eye, T fewer_of_light,
+                                                             T from_light, T fewer_of_eye) {
+    return {.fewer_from_light = raised(from_eye) * fewer_of_light, .fewer_from_eye = raised(from_light) * fewer_of_eye};
+}
 
 /// Densities of a point of a light, 1/m², or at infinity of a direction, 1/sr, without the choice of the light.
 struct LightPointPdfs {
@@ -78,10 +90,9 @@ struct LightPointPdfs {
         for_vertex = static_cast<double>(pdf_solid_angle);
         if (!(pdf_solid_angle > 0.0f)) return {.fewer_from_light = std::numeric_limits<double>::infinity()};
     }
-    return {
-        .fewer_from_light = light.is_delta ? 0.0 : raised(static_cast<double>(value.pdf_solid_angle / pdf_solid_angle)),
-        .fewer_from_eye = raised(for_emission / for_vertex * from_light) *
-                          vertex.densities.fewer(raised, static_cast<double>(value.reverse_pdf_solid_angle))};
+    const double from_eye = light.is_delta ? 0.0 : static_cast<double>(value.pdf_solid_angle / pdf_solid_angle);
+    return sums_of_connection(raised, from_eye, 1.0, for_emission / for_vertex * from_light,
+                              vertex.densities.fewer(raised, static_cast<double>(value.reverse_pdf_solid_angle)));
 }
 
 /// t = 1: the last vertex of a light subpath scatters along `direction`, by `value`, to the lens.
@@ -99,10 +110,9 @@ struct LightPointPdfs {
                                                const Scattering::TwoWayValue& at_light) {
     const double from_eye = static_cast<double>(at_eye.pdf_solid_angle * light.cosine(w) / squared);
     const double from_light = static_cast<double>(at_light.pdf_solid_angle * eye.cosine(w) / squared);
-    return {.fewer_from_light =
-                raised(from_eye) * light.densities.fewer(raised, static_cast<double>(at_light.reverse_pdf_solid_angle)),
-            .fewer_from_eye =
-                raised(from_light) * eye.densities.fewer(raised, static_cast<double>(at_eye.reverse_pdf_solid_angle))};
+    return sums_of_connection(
+        raised, from_eye, light.densities.fewer(raised, static_cast<double>(at_light.reverse_pdf_solid_angle)),
+        from_light, eye.densities.fewer(raised, static_cast<double>(at_eye.reverse_pdf_solid_angle)));
 }
 
 }  // namespace etendue

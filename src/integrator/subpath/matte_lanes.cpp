@@ -7,7 +7,7 @@ namespace etendue {
 
 using WideVec3 = Imath::Vec3<Wide>;
 
-void MatteLanes::orient(std::size_t count) {
+void MatteLanes::orient(std::size_t count, TransportMode mode) {
     for (std::size_t l = 0; l < count; l += Wide::kWidth) {
         const OrientedSurface<Wide> faced({tangent.load(l), bitangent.load(l), normal.load(l)},
                                           geometric_normal.load(l), wo.load(l), true);
@@ -15,7 +15,13 @@ void MatteLanes::orient(std::size_t count) {
         normal.store(l, faced.frame.normal);
         facing_normal.store(l, faced.geometric_normal);
         wo_local.store(l, faced.wo_local);
-        wo_agrees.store(l, select(faced.wo_agrees, Wide(1.0f), Wide(0.0f)));
+        const Wide agrees = select(faced.wo_agrees, Wide(1.0f), Wide(0.0f));
+        wo_agrees.store(l, agrees);
+        reverse_pdf.store(l, cosine_hemisphere_pdf_solid_angle(faced.wo_local));
+        end_origin.store(
+            l, offset_origin(position.load(l), faced.geometric_normal, clearance.load(l), faced.geometric_normal));
+        const Wide factor = mode == TransportMode::Importance ? faced.adjoint_factor_of_wo() : Wide(1.0f);
+        end_weight.store(l, throughput.load(l) * albedo.load(l) * (factor * agrees));
     }
 }
 
@@ -27,7 +33,6 @@ void MatteLanes::sample(std::size_t count, TransportMode mode) {
         next_direction.store(l, sampled.wi);
         next_weight.store(l, sampled.weight);
         next_pdf.store(l, sampled.pdf_solid_angle);
-        next_reverse_pdf.store(l, cosine_hemisphere_pdf_solid_angle(faced.wo_local));
         const WideVec3 front = geometric_normal.load(l);
         next_cosine.store(l, abs(dot(sampled.wi, front)));
         next_origin.store(l, offset_origin(position.load(l), front, clearance.load(l), sampled.wi));

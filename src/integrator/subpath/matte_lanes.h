@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bsdf/bsdf_sample.h"
+#include "integrator/subpath/matte_end.h"
 #include "integrator/surface_lanes.h"
 #include "world/oriented_surface.h"
 
@@ -9,20 +10,26 @@
 
 namespace etendue {
 
-/// About 15 KiB, which stay in the first-level cache.
+/// About 18 KiB, which stay in the first-level cache.
 struct MatteLanes : SurfaceLanes {
     Vec3Columns wo;
     RgbColumns albedo;
+    RgbColumns throughput;  ///< that arrives
 
     // The surface as it faces wo: `tangent` and `normal` are turned to it, too.
     Vec3Columns facing_normal, wo_local;
-    Column wo_agrees;  ///< 1 or 0
+    Column wo_agrees;    ///< 1 or 0
+    Column reverse_pdf;  ///< of turning back, per solid angle, wherever the walk comes from
+
+    // What MatteEnd has besides.
+    Vec3Columns end_origin;
+    RgbColumns end_weight;
 
     // Where the subpath goes on.
     Vec3Columns next_origin, next_direction;
     RgbColumns next_weight;
-    Column next_pdf, next_reverse_pdf;  ///< per solid angle
-    Column next_cosine;                 ///< to the geometric normal, absolute
+    Column next_pdf;     ///< per solid angle
+    Column next_cosine;  ///< to the geometric normal, absolute
 
     [[nodiscard]] OrientedSurface<float> surface(std::size_t lane) const {
         return {{tangent[lane], bitangent[lane], normal[lane]},
@@ -32,10 +39,22 @@ struct MatteLanes : SurfaceLanes {
                 wo_agrees[lane] > 0.0f};
     }
 
+    /// `fewer` as in MatteEnd.
+    [[nodiscard]] MatteEnd end(std::size_t lane, float fewer) const {
+        MatteEnd end;
+        end.position = position[lane];
+        end.origin = end_origin[lane];
+        end.normal = normal[lane];
+        end.geometric_normal = facing_normal[lane];
+        end.weight = end_weight[lane];
+        end.fewer = fewer;
+        return end;
+    }
+
     // Each computes lanes [0, count), rounded up, from the columns that the one before and the caller have set.
 
-    /// What `surface` returns, from the points and `wo`.
-    void orient(std::size_t count);
+    /// What `surface` and `end` return, from the points, `wo`, `albedo` and `throughput`.
+    void orient(std::size_t count, TransportMode mode);
     /// Samples of the lobes, from `albedo` and `u`, which are now numbers for directions.
     void sample(std::size_t count, TransportMode mode);
 };

@@ -63,6 +63,7 @@ void SubpathWave::trace(const SubpathJob& job, int roulette_depth, LightFinder* 
     rays_.assign(job.camera_rays.begin(), job.camera_rays.end());
     interiors_.clear();
     vertices_.clear();
+    matte_ends_.clear();
     words_.reset(job.job.aovs);
     bsdf_count_ = 0;
     last_vertex_.assign(count, PathVertex::kNoVertex);
@@ -94,9 +95,10 @@ void SubpathWave::trace(const SubpathJob& job, int roulette_depth, LightFinder* 
 }
 
 std::size_t SubpathWave::bytes() const {
-    std::size_t bytes = sizeof *this +
-                        vector_bytes(states_, rays_, hits_, interiors_, emissions_, last_vertex_, vertices_) +
-                        keys_.bytes() + bsdfs_.size() * sizeof(Bsdf);
+    std::size_t bytes =
+        sizeof *this +
+        vector_bytes(states_, rays_, hits_, interiors_, emissions_, last_vertex_, vertices_, matte_ends_) +
+        keys_.bytes() + bsdfs_.size() * sizeof(Bsdf);
     for (const NumberPairs* numbers :
          {&scattering_, &choices_, &medium_, &light_choice_, &triangle_, &position_, &direction_})
         bytes += numbers->bytes();
@@ -231,6 +233,7 @@ bool SubpathWave::set_up(const SubpathJob& job, std::size_t i, ShadedSubpath& pa
         lanes_.set_hit(path.lane, world.hit_triangle(hits_[i]), {hits_[i].u, hits_[i].v});
         lanes_.wo.set(path.lane, -rays_[i].direction);
         lanes_.albedo.set(path.lane, std::get_if<Diffuse>(path.plain)->albedo);
+        lanes_.throughput.set(path.lane, states_[i].throughput);
         return true;
     }
     path.point = world.surface_point(hits_[i]);
@@ -245,7 +248,7 @@ void SubpathWave::set_up_plain(const SubpathJob& job, std::size_t first) {
     const std::span on_surface(on_surface_.data(), surfaces_);
     if (std::ranges::none_of(on_surface, is_plain)) return;
     lanes_.set_up_points(surfaces_);
-    lanes_.orient(surfaces_);
+    lanes_.orient(surfaces_, mode());
     for (const std::uint8_t k : on_surface) {
         ShadedSubpath& path = block_[k];
         if (is_plain(k))
@@ -302,6 +305,7 @@ bool SubpathWave::make_vertex(const SubpathJob& job, std::size_t i, ShadedSubpat
         vertex.outside = world.medium(crossing ? crossing->outside : interiors_[i]);
         vertex.inside = crossing ? world.medium(crossing->inside) : vertex.outside;
     }
+    if (path.plain != nullptr) make_matte_end(job, path, vertex);
     if (end_ == SubpathEnd::AtEye || state.edges + edges_to_connect(world) <= job.lengths.max_depth) return true;
     end_path(job, i, PathEnding::TooLong);
     return false;
@@ -327,6 +331,15 @@ void SubpathWave::place(const World& world, const ShadedSubpath& path, float rel
     vertex.is_connectible = vertex.surface->has_non_delta();
 }
 
+void SubpathWave::make_matte_end(const SubpathJob& job, const ShadedSubpath& path, const PathVertex& vertex) {
+    // What floats still hold when the other end's density comes to it; anything else is connected in double precision.
+    constexpr double kSmallest = 1e-30, kLargest = 1e30;
+    const double fewer = path.arrived.fewer(job.raised, static_cast<double>(lanes_.reverse_pdf[path.lane]));
+    if ((fewer > kSmallest && fewer < kLargest) || fewer == 0.0)
+        if (vertex.outside == nullptr && !vertex.is_dispersed)
+            matte_ends_.back() = lanes_.end(path.lane, static_cast<float>(fewer));
+}
+
 SubpathDensities SubpathWave::arrive(const SubpathJob& job, std::size_t i, const Vec3f& position, float cosine) const {
     const SubpathState& state = states_[i];
     const auto cos_arriving = static_cast<double>(cosine);
@@ -341,19 +354,18 @@ SubpathDensities SubpathWave::arrive(const SubpathJob& job, std::size_t i, const
 }
 
 void SubpathWave::sample_bsdfs(std::size_t first, std::size_t vertices) {
-    const TransportMode mode = end_ == SubpathEnd::AtEye ? TransportMode::Radiance : TransportMode::Importance;
     bool any_plain = false;
     for (std::size_t v = 0; v < vertices; ++v) {
         ShadedSubpath& path = block_[on_surface_[v]];
         const std::size_t i = first + on_surface_[v];
         if (path.plain == nullptr) {
-            path.sample = vertices_[path.vertex].surface->sample(choices_[i].x, scattering_[i], mode);
+            path.sample = vertices_[path.vertex].surface->sample(choices_[i].x, scattering_[i], mode());
         } else {
             lanes_.u.set(path.lane, scattering_[i]);
             any_plain = true;
         }
     }
-    if (any_plain) lanes_.sample(surfaces_, mode);
+    if (any_plain) lanes_.sample(surfaces_, mode());
 }
 
 bool SubpathWave::scatter(const SubpathJob& job, std::size_t i, const Vec3f& position, const Rgb& weight,
@@ -380,7 +392,7 @@ bool SubpathWave::scatter_at_plain(const SubpathJob& job, std::size_t i, const S
     if (!scatter(job, i, lanes_.position[lane], lanes_.next_weight[lane], false)) return false;
     SubpathState& state = states_[i];
     if (words_.are_followed()) follow_words(state, matte_event(vertices_[path.vertex].label));
-    state.departing = etendue::scatter(job.raised, path.arrived, lanes_.next_pdf[lane], lanes_.next_reverse_pdf[lane],
+    state.departing = etendue::scatter(job.raised, path.arrived, lanes_.next_pdf[lane], lanes_.reverse_pdf[lane],
                                        lanes_.next_cosine[lane]);
     rays_[i].origin = lanes_.next_origin[lane];
     rays_[i].direction = lanes_.next_direction[lane];
@@ -395,12 +407,11 @@ bool SubpathWave::scatter_at_surface(const SubpathJob& job, std::size_t i, const
     Ray& ray = rays_[i];
     PathVertex& vertex = vertices_[path.vertex];
     const Scattering& scattering = *vertex.surface;
-    const TransportMode mode = end_ == SubpathEnd::AtEye ? TransportMode::Radiance : TransportMode::Importance;
     vertex.is_left_by_delta = sample.is_delta;
     if (sample.is_delta) vertex.delta_reverse_ratio = scattering.reverse_density_ratio(sample);
     if (words_.are_followed())
-        follow_words(state, surface_event(scattering, sample.wi, sample.is_delta, mode, vertex.label));
-    if (mode == TransportMode::Radiance && sample.is_transmission) state.roulette_scale *= sample.eta * sample.eta;
+        follow_words(state, surface_event(scattering, sample.wi, sample.is_delta, mode(), vertex.label));
+    if (end_ == SubpathEnd::AtEye && sample.is_transmission) state.roulette_scale *= sample.eta * sample.eta;
     const float cosine = abs_dot(sample.wi, point.geometric_normal);
     state.departing = sample.is_delta ? scatter_by_delta(job.raised, path.arrived, vertex.delta_reverse_ratio, cosine)
                                       : etendue::scatter(job.raised, path.arrived, sample.pdf_solid_angle,
@@ -471,6 +482,7 @@ bool SubpathWave::survives(const SubpathJob& job, std::size_t i) {
 
 PathVertex& SubpathWave::store(SubpathState& state) {
     PathVertex& vertex = vertices_.emplace_back();
+    matte_ends_.emplace_back();
     vertex.throughput = state.throughput;
     vertex.words = state.words;
     vertex.slot = state.slot;

@@ -119,6 +119,11 @@ class SubpathWave {
     [[nodiscard]] std::span<const Emission> emissions() const { return emissions_; }
     /// Of all slots, in the order of their bounces.
     [[nodiscard]] std::span<const PathVertex> vertices() const { return vertices_; }
+    /// What connections of `vertex`, one of those, need of it, if it lies on a plain matte surface in vacuum and its
+    /// light is still of all wavelengths.
+    [[nodiscard]] const MatteEnd& matte_end(const PathVertex& vertex) const {
+        return matte_ends_[static_cast<std::size_t>(&vertex - vertices_.data())];
+    }
     /// The last vertex of each slot's subpath, from where `previous` leads on; kNoVertex if it has none.
     [[nodiscard]] std::uint32_t last_vertex(std::uint32_t slot) const { return last_vertex_[slot]; }
     /// Of the subpaths as they arrive at their vertices.
@@ -146,6 +151,8 @@ class SubpathWave {
     bool make_vertex(const SubpathJob& job, std::size_t i, ShadedSubpath& path);
     /// Puts `vertex` on the surface, with lobes for the index `relative_ior` as in World::bsdf.
     void place(const World& world, const ShadedSubpath& path, float relative_ior, PathVertex& vertex);
+    /// What connections need of the vertex just stored, which is plain.
+    void make_matte_end(const SubpathJob& job, const ShadedSubpath& path, const PathVertex& vertex);
     /// Samples the BSDFs of the first `vertices` in `on_surface_`.
     void sample_bsdfs(std::size_t first, std::size_t vertices);
     bool scatter_in_medium(const SubpathJob& job, std::size_t i);
@@ -163,6 +170,10 @@ class SubpathWave {
     void follow_words(SubpathState& state, const VertexEvent& event);
     /// The next vertex, with what the state knows of it.
     PathVertex& store(SubpathState& state);
+
+    [[nodiscard]] TransportMode mode() const {
+        return end_ == SubpathEnd::AtEye ? TransportMode::Radiance : TransportMode::Importance;
+    }
 
     SubpathEnd end_;
     int bounce_ = 0;
@@ -185,6 +196,7 @@ class SubpathWave {
     std::vector<Emission> emissions_;
     std::vector<std::uint32_t> last_vertex_;
     std::vector<PathVertex> vertices_;
+    std::vector<MatteEnd> matte_ends_;
     PathWords words_;
     std::size_t words_of_vertices_ = 0;  ///< the others are of the last connection
     // Lobes that vertices point to; it only grows, so that they stay where they are.

@@ -39,7 +39,7 @@ TEST_P(MatteLanesIn, ScatterAsThatOneSurfaceDoes) {
             lanes.albedo.set(l, Rgb(0.7f, 0.5f, 0.3f));
         }
         lanes.set_up_points(kCount);
-        lanes.orient(kCount);
+        lanes.orient(kCount, mode);
         for (std::size_t l = 0; l < kCount; ++l) lanes.u.set(l, numbers[l]);
         lanes.sample(kCount, mode);
         for (std::size_t l = 0; l < kCount; ++l) {
@@ -61,7 +61,7 @@ TEST_P(MatteLanesIn, ScatterAsThatOneSurfaceDoes) {
             ++scattered;
             ASSERT_LT(length(lanes.next_direction[l] - sample.wi), 1e-4f);
             ASSERT_NEAR(lanes.next_pdf[l], sample.pdf_solid_angle, 1e-5f);
-            ASSERT_NEAR(lanes.next_reverse_pdf[l], expected.reverse_pdf_solid_angle(sample.wi), 1e-5f);
+            ASSERT_NEAR(lanes.reverse_pdf[l], expected.reverse_pdf_solid_angle(sample.wi), 1e-5f);
             ASSERT_NEAR(lanes.next_cosine[l], abs_dot(sample.wi, point.normal), 1e-4f);
             const Vec3f origin = offset_origin(lanes.position[l], point.normal, lanes.clearance[l], sample.wi);
             ASSERT_LT(length(lanes.next_origin[l] - origin), 0.5f * lanes.clearance[l]);

@@ -1,0 +1,29 @@
+#include "integrator/bdpt/connection_lanes.h"
+
+namespace etendue {
+
+void BetweenLanes::connect(std::size_t count, const WeightRule& rule) {
+    for (std::size_t l = 0; l < count; l += Wide::kWidth)
+        store(l, etendue::connect(rule, eye.load(l), light.load(l), scale.load(l)));
+}
+
+void ToLightLanes::connect(std::size_t count, const WeightRule& rule) {
+    for (std::size_t l = 0; l < count; l += Wide::kWidth) {
+        const BasicMatteEnd<Wide> end = eye.load(l);
+        const LightTriangleFront<Wide> front{p0.load(l),        edge1.load(l), edge2.load(l), front_normal.load(l),
+                                             clearance.load(l), area.load(l),  back.load(l)};
+        const LightTriangleSample<Wide> sample = front.sample(end.position, u.load(l));
+        wi.store(l, sample.wi);
+        distance.store(l, sample.distance);
+        cos_light.store(l, sample.cos_light);
+        store(l,
+              etendue::connect(rule, end, front, sample, radiance.load(l), probability.load(l), choice_ratio.load(l)));
+    }
+}
+
+void ToCameraLanes::connect(std::size_t count, const WeightRule& rule, float samples_per_path) {
+    for (std::size_t l = 0; l < count; l += Wide::kWidth)
+        store(l, etendue::connect(rule, light.load(l), lens.load(l), w.load(l), importance.load(l), samples_per_path));
+}
+
+}  // namespace etendue

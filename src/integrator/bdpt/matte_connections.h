@@ -1,0 +1,86 @@
+// Connections of plain matte surfaces, each with its weight among the strategies and its ray.
+//
+// What strategy_sums.h says of any two vertices in double precision, here in that of lanes: ends whose densities that
+// does not hold are none (SubpathWave), and of matte surfaces all but the connection itself is known beforehand.
+#pragma once
+
+#include "integrator/bdpt/strategy_sums.h"
+#include "integrator/connecting_ray.h"
+#include "integrator/subpath/matte_end.h"
+#include "light/mesh_light.h"
+
+namespace etendue {
+
+/// How a render weighs strategies.
+struct WeightRule {
+    Raised raised;
+    bool weighted = true;  ///< if not, each counts in full
+
+    /// The densities, or ratios of them, are those of `sums_of_connection`.
+    template <typename T>
+    [[nodiscard]] T weight(T from_eye, T fewer_of_light, T from_light, T fewer_of_eye) const {
+        if (!weighted) return T(1.0f);
+        // What floats hold when raised: at 10⁻¹⁰ m a connection is lost in any case.
+        constexpr float kLargest = 1e19f;
+        return sums_of_connection(raised, min(from_eye, T(kLargest)), fewer_of_light, min(from_light, T(kLargest)),
+                                  fewer_of_eye)
+            .weight();
+    }
+};
+
+/// A template of its lane type, see core/lane.h.
+template <typename T>
+struct MatteConnection {
+    BasicRgb<T> contribution;  ///< if nothing is in the way; black where nothing would be scattered
+    T weight;                  ///< that it includes
+    Connection<T> ray;         ///< from the origin of the end on the eye's side, otherwise from that of the light's
+};
+
+template <typename T>
+[[nodiscard]] inline BasicRgb<T> black_unless(MaskOf<T> condition, const BasicRgb<T>& c) {
+    return {select(condition, c.r, T(0.0f)), select(condition, c.g, T(0.0f)), select(condition, c.b, T(0.0f))};
+}
+
+/// Of the ends of both subpaths, which stands for `scale` connections.
+template <typename T>
+[[nodiscard]] inline MatteConnection<T> connect(const WeightRule& rule, const BasicMatteEnd<T>& eye,
+                                                const BasicMatteEnd<T>& light, T scale) {
+    const Imath::Vec3<T> to_light = light.position - eye.position;
+    const T squared = length_squared(to_light);
+    const Imath::Vec3<T> w = to_light * (1.0f / sqrt(squared));
+    const T inverse = 1.0f / squared;
+    const T weight = rule.weight(eye.pdf(w) * light.cosine(-w) * inverse, light.fewer,
+                                 light.pdf(-w) * eye.cosine(w) * inverse, eye.fewer);
+    const BasicRgb<T> contribution = eye.radiance(w) * light.importance(-w) * (scale * weight * inverse);
+    return {black_unless<T>(eye.scatters(w) && light.scatters(-w), contribution), weight,
+            Connection<T>(eye.origin, light.origin)};
+}
+
+/// A sample of an evenly shining mesh light; `probability` is that of the choice of the light for `eye`,
+/// `choice_ratio` that for an emission over it.
+template <typename T>
+[[nodiscard]] inline MatteConnection<T> connect(const WeightRule& rule, const BasicMatteEnd<T>& eye,
+                                                const LightTriangleFront<T>& front, const LightTriangleSample<T>& light,
+                                                const BasicRgb<T>& radiance, T probability, T choice_ratio) {
+    const T pdf = light.pdf_solid_angle * probability;
+    const T from_light =
+        front.emission_pdf_solid_angle(light.cos_light) * eye.cosine(light.wi) / (light.distance * light.distance);
+    const T weight = rule.weight(eye.pdf(light.wi) / pdf, T(1.0f), choice_ratio * from_light, eye.fewer);
+    const BasicRgb<T> contribution = eye.radiance(light.wi) * radiance * (weight / pdf);
+    return {black_unless<T>(light.pdf_solid_angle > T(0.0f) && eye.scatters(light.wi), contribution), weight,
+            Connection<T>(eye.origin, light.end)};
+}
+
+/// To the point `lens`, which lies along `w` and sees the end of a light subpath with `importance` per area, 1/m²;
+/// `samples_per_path` as in SubpathJob::samples_per_light_path.
+template <typename T>
+[[nodiscard]] inline MatteConnection<T> connect(const WeightRule& rule, const BasicMatteEnd<T>& light,
+                                                const Imath::Vec3<T>& lens, const Imath::Vec3<T>& w, T importance,
+                                                float samples_per_path) {
+    const T from_eye = samples_per_path * importance * light.cosine(w);
+    const T weight = rule.weight(from_eye, light.fewer, T(0.0f), T(0.0f));
+    return {black_unless<T>(light.scatters(w), light.importance(w) * (importance * weight)), weight,
+            Connection<T>(light.origin, lens)};
+}
+
+}  // namespace etendue
