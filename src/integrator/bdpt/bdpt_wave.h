@@ -142,8 +142,8 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
     SampleLight found_;
     std::vector<float> alpha_;
     std::vector<ExpressionShare> shares_;  ///< of the path at hand
-    SubpathWave eye_{SubpathEnd::AtEye};
-    SubpathWave light_{SubpathEnd::AtLight};
+    SubpathWave eye_{SubpathEnd::AtEye, true};
+    SubpathWave light_{SubpathEnd::AtLight, true};
     VerticesToLight to_light_;
     VerticesToCamera to_camera_;
     std::vector<Candidate> own_;            ///< sample by sample, the last vertex first

@@ -33,7 +33,7 @@ class LightWave final : public IntegratorScratch {
     std::vector<float> alpha_;
     SampleLight found_;                    ///< nothing but rays: all light falls on the film
     std::vector<ExpressionShare> shares_;  ///< of the path at hand
-    SubpathWave subpaths_{SubpathEnd::AtLight};
+    SubpathWave subpaths_{SubpathEnd::AtLight, false};
     VerticesToCamera to_camera_;
     SampleKeys keys_;
     NumberPairs lens_;  ///< for the points of the lights

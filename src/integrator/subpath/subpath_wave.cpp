@@ -305,7 +305,7 @@ bool SubpathWave::make_vertex(const SubpathJob& job, std::size_t i, ShadedSubpat
         vertex.outside = world.medium(crossing ? crossing->outside : interiors_[i]);
         vertex.inside = crossing ? world.medium(crossing->inside) : vertex.outside;
     }
-    if (path.plain != nullptr) make_matte_end(job, path, vertex);
+    if (path.plain != nullptr && makes_matte_ends_) make_matte_end(job, path, vertex);
     if (end_ == SubpathEnd::AtEye || state.edges + edges_to_connect(world) <= job.lengths.max_depth) return true;
     end_path(job, i, PathEnding::TooLong);
     return false;
@@ -482,7 +482,7 @@ bool SubpathWave::survives(const SubpathJob& job, std::size_t i) {
 
 PathVertex& SubpathWave::store(SubpathState& state) {
     PathVertex& vertex = vertices_.emplace_back();
-    matte_ends_.emplace_back();
+    if (makes_matte_ends_) matte_ends_.emplace_back();
     vertex.throughput = state.throughput;
     vertex.words = state.words;
     vertex.slot = state.slot;

@@ -106,7 +106,8 @@ struct ShadedSubpath {
 
 class SubpathWave {
   public:
-    explicit SubpathWave(SubpathEnd end) : end_(end) {}
+    /// `makes_matte_ends`: whether `matte_end` will be asked.
+    SubpathWave(SubpathEnd end, bool makes_matte_ends) : end_(end), makes_matte_ends_(makes_matte_ends) {}
 
     /// Traces the subpath of each sample. From `roulette_depth` edges on Russian roulette may end it. Vertices of
     /// former calls are gone. `finder` may be null for lights. Rays are counted in `light`.
@@ -176,6 +177,7 @@ class SubpathWave {
     }
 
     SubpathEnd end_;
+    bool makes_matte_ends_;
     int bounce_ = 0;
     int roulette_depth_ = 1;
     // By active subpath; those that end are squeezed out after every bounce.
