@@ -5,6 +5,7 @@
 #include "image/write.h"
 #include "sampling/alias_table.h"
 #include "texture/texture.h"
+#include "texture/texture_lookups.h"
 
 #include <cmath>
 #include <cstdint>
@@ -113,21 +114,47 @@ class TextureFile {
         std::filesystem::temp_directory_path() / ("etendue-bench-" + std::to_string(getpid()) + ".png");
 };
 
-/// Looks up a walk of points that are a few texels apart, as neighbouring paths are, with footprints of `long_axis` by
-/// `short_axis` texels.
-void look_up(benchmark::State& state, const Texture& texture, float long_axis, float short_axis) {
-    const float texel = 1.0f / 2048.0f;
+constexpr float kTexel = 1.0f / 2048.0f;
+
+/// A walk of points that are a few texels apart, as neighbouring paths are.
+std::vector<Vec2f> walk() {
     std::vector<Vec2f> points;
-    for (const Input& input : inputs()) points.push_back(input.u * (200.0f * texel));
-    const TextureFootprint footprint{{{long_axis * texel * 0.8f, long_axis * texel * 0.6f},
-                                      {-short_axis * texel * 0.6f, short_axis * texel * 0.8f}}};
+    for (const Input& input : inputs()) points.push_back(input.u * (200.0f * kTexel));
+    return points;
+}
+
+/// Of `long_axis` by `short_axis` texels.
+TextureFootprint ellipse(float long_axis, float short_axis) {
+    return {{{long_axis * kTexel * 0.8f, long_axis * kTexel * 0.6f},
+             {-short_axis * kTexel * 0.6f, short_axis * kTexel * 0.8f}}};
+}
+
+void look_up(benchmark::State& state, const Texture& texture, float long_axis, float short_axis) {
+    const std::vector<Vec2f> points = walk();
+    const TextureFootprint footprint = ellipse(long_axis, short_axis);
     std::size_t i = 0;
     for (auto _ : state) benchmark::DoNotOptimize(texture.lookup(points[i++ % kInputs], footprint));
 }
 
-void register_texture(const std::string& name, const Texture& texture) {
+/// The same for the paths of a block at a time; the time is that of one look-up.
+void look_up_many(benchmark::State& state, const Texture& texture, float long_axis, float short_axis) {
+    const std::vector<Vec2f> points = walk();
+    const TextureFootprint footprint = ellipse(long_axis, short_axis);
+    TextureLookups lookups;
+    std::size_t i = 0;
+    while (state.KeepRunningBatch(kBlockLanes)) {
+        lookups.clear();
+        for (std::size_t lane = 0; lane < kBlockLanes; ++lane) lookups.add(texture, points[i++ % kInputs], footprint);
+        lookups.finish();
+        benchmark::DoNotOptimize(lookups[0]);
+    }
+}
+
+template <typename Function>
+void register_texture(const std::string& name, const Texture& texture, const Function& function) {
     const auto add = [&](const char* kind, float long_axis, float short_axis) {
-        benchmark::RegisterBenchmark(("Texture/" + name + "/" + kind).c_str(), look_up, texture, long_axis, short_axis);
+        benchmark::RegisterBenchmark(("Texture/" + name + "/" + kind).c_str(), function, texture, long_axis,
+                                     short_axis);
     };
     add("magnified", 0.5f, 0.5f);
     add("circle", 3.0f, 3.0f);
@@ -148,7 +175,9 @@ int main(int argc, char** argv) {
     const TextureFile file;
     const TextureOptions options{.encoding = Encoding::Srgb};
     TextureCache cache(std::uint64_t{1} << 30);
-    register_texture("resident", Texture(MipChain(read_image_levels(file.path()), Encoding::Srgb), options));
-    register_texture("cached", Texture(cache.add(file.path(), Encoding::Srgb), options));
+    const Texture resident(MipChain(read_image_levels(file.path()), Encoding::Srgb), options);
+    register_texture("resident", resident, look_up);
+    register_texture("resident_many", resident, look_up_many);
+    register_texture("cached", Texture(cache.add(file.path(), Encoding::Srgb), options), look_up);
     benchmark::RunSpecifiedBenchmarks();
 }
