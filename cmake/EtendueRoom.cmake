@@ -15,7 +15,7 @@ endfunction()
 # etendue_test(<room> SOURCES ... [LINK target...] [QUICKLY])
 #
 # One test program per room, tests/<room>/, registered with CTest case by case. QUICKLY: with sanitizers it is not
-# optimised, because what takes its time is the code of the rooms.
+# optimised. For tests that do little themselves: what is inline in the headers of a room comes from them, too.
 function(etendue_test room)
   cmake_parse_arguments(ARG "QUICKLY" "" "SOURCES;LINK" ${ARGN})
   add_executable(test_${room} ${ARG_SOURCES})

@@ -1,4 +1,5 @@
-// What lies between the stages of shading a block of paths, as columns that are computed with many paths at once.
+// What lies between the stages of shading a block of paths, or of its look-ups, as columns that are computed with many
+// at once.
 //
 // Which of its steps a path takes depends on the path alone, on its surface and on its light, never on how many others
 // take them too: lanes without such a path are computed with the rest, and what comes of them is not looked at.

@@ -105,11 +105,11 @@ class Wide {
 class WideBinary {
   public:
     explicit WideBinary(Wide a) : number_(a) {
-        constexpr int kRootOfHalf = 0x3f3504f3;  // its bits
-        const Int bits = std::bit_cast<Int>(a.simd());
-        const Int exponent = (bits - kRootOfHalf) >> kMantissaBits;
+        constexpr unsigned kRootOfHalf = 0x3f3504f3;  // its bits
+        const Bits bits = std::bit_cast<Bits>(a.simd());
+        const Int exponent = std::bit_cast<Int>(bits - kRootOfHalf) >> kMantissaBits;
         exponent_ = Wide(std::experimental::static_simd_cast<Wide::Simd>(exponent));
-        mantissa_ = Wide(std::bit_cast<Wide::Simd>(bits - (exponent << kMantissaBits)));
+        mantissa_ = Wide(std::bit_cast<Wide::Simd>(bits - (std::bit_cast<Bits>(exponent) << kMantissaBits)));
     }
 
     /// 2^`exponent`, which are whole numbers within [-126, 127].
@@ -136,6 +136,7 @@ class WideBinary {
 
   private:
     using Int = std::experimental::rebind_simd_t<int, Wide::Simd>;
+    using Bits = std::experimental::rebind_simd_t<unsigned, Wide::Simd>;
     static constexpr int kMantissaBits = 23;
 
     Wide number_, exponent_, mantissa_;
@@ -143,13 +144,14 @@ class WideBinary {
 
 inline constexpr float kLn2 = 0.693147180559945309f;
 
+/// Of denormal numbers as of zero, as is that to the base 2.
 [[nodiscard]] inline Wide log(Wide a) {
     return WideBinary(a).logarithm(kLn2, 1.0f);
 }
 [[nodiscard]] inline Wide log2(Wide a) {
     return WideBinary(a).logarithm(1.0f, 1.0f / kLn2);
 }
-/// Up to e^87.
+/// Beyond 87 as at 87.
 [[nodiscard]] inline Wide expm1(Wide a) {
     // e^a = 2^n e^r with |r| at most half of ln 2; taken off in two parts, of which the first is exact, n leaves r all
     // its digits.

@@ -1,4 +1,4 @@
-// Points on plain surfaces (World::plain_lobe) for a block of paths.
+// Points on plain surfaces (world/plain_surface.h) for a block of paths.
 #pragma once
 
 #include "core/columns.h"

@@ -8,12 +8,13 @@
 
 namespace etendue {
 
-/// A template of its lane type, see core/lane.h. Texels are whole numbers.
+/// A template of its lane type, see core/lane.h. Texels are whole numbers, which floats hold up to 2^23 texels a row;
+/// no image has more than 2^16 (image/read.h).
 template <typename T>
 struct TexelPair {
     T first;
     T second;
-    T fraction;  ///< of the way from the centre of the first to that of the second, [0, 1)
+    T fraction;  ///< of the way from the centre of the first to that of the second, [0, 1]
 };
 
 /// How a coordinate goes on beyond [0, 1]: one of `Wrap`, lane by lane.

@@ -4,6 +4,7 @@
 #include "core/columns.h"
 #include "core/rgb.h"
 #include "core/vec.h"
+#include "core/vector_bytes.h"
 #include "texture/footprint.h"
 #include "texture/texture.h"
 
@@ -27,6 +28,8 @@ class TextureLookups {
     void finish();
     /// Of look-up `i`, if none has been added since `finish`: linear, in the image's own primaries.
     [[nodiscard]] const Rgb& operator[](std::size_t i) const { return results_[i]; }
+    /// Held besides the object itself.
+    [[nodiscard]] std::size_t bytes() const { return vector_bytes(results_); }
 
   private:
     /// A level of a texture whose texels are one number or more of 8 bits.
@@ -38,11 +41,12 @@ class TextureLookups {
         std::array<Level, 2> levels;  ///< between which it lies
         std::uint8_t lookup = 0;
     };
+    static_assert(kBlockLanes <= 256);
 
     void plan_lookups();
     void add_taps(std::size_t lookup);
     void read_taps();
-    /// The four texels around 16 taps in one of their two levels, mixed.
+    /// The four texels around as many taps as are computed at once, in one of their two levels, mixed.
     [[nodiscard]] BasicRgb<Wide> read_level(std::size_t first, std::size_t level);
 
     std::vector<Rgb> results_;

@@ -10,10 +10,9 @@ namespace etendue {
 
 struct WorldData;
 
-/// What most surfaces are: placed once or copied, still, of one side's look only by what they reflect. They do not emit
-/// light, bound no body, and have neither relief nor vertex colours; they are matte, or plain metallic-roughness
-/// (MetallicRoughness::is_plain) whose base colour, metalness and roughness may come from textures that share a set of
-/// coordinates.
+/// What most surfaces are: placed once or copied, and still. They do not emit light, bound no body, and have no relief;
+/// they are matte, or plain metallic-roughness (MetallicRoughness::is_plain) without vertex colours, whose base colour,
+/// metalness and roughness may come from textures that share a set of coordinates.
 struct PlainSurface {
     const Bsdf* matte = nullptr;          ///< its Diffuse lobe, or null
     MetallicRoughness glossy{};           ///< if it is not matte: its lobe, but for what textures change

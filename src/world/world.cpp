@@ -3,6 +3,7 @@
 #include "bsdf/ggx.h"
 #include "core/position_error.h"
 #include "core/vector_bytes.h"
+#include "texture/texture_lookups.h"
 #include "world/cone_section.h"
 #include "world/embree_scene.h"
 #include "world/gltf_surface.h"

@@ -11,7 +11,6 @@
 #include "light/light.h"
 #include "light/light_tree.h"
 #include "texture/texture.h"
-#include "texture/texture_lookups.h"
 #include "world/body.h"
 #include "world/geometry.h"
 #include "world/material.h"
@@ -29,6 +28,7 @@
 namespace etendue {
 
 class EmbreeScene;
+class TextureLookups;
 
 /// The nearest surface along a ray. 28 bytes.
 struct Hit {

@@ -94,6 +94,11 @@ TEST(Wide, LogarithmsAndExponentialsHaveAllDigitsOfFloats) {
     const auto exact_log = [](double x) { return std::log(x); };
     EXPECT_LE(largest_error(-126.0f, -0.01f, wide_log, exact_log), 3.0);
     EXPECT_LE(largest_error(0.01f, 127.0f, wide_log, exact_log), 3.0);
+    for (float x : {0x1p-23f, -0x1p-24f, 1e-5f, -1e-5f, 1e-3f, -1e-3f}) {
+        x += 1.0f;
+        const double exact = std::log(static_cast<double>(x));
+        EXPECT_NEAR(static_cast<double>(log(Wide(x))[0]) / exact, 1.0, 4e-7) << x;
+    }
     const auto wide_log2 = [](Wide x) { return log2(x); };
     const auto exact_log2 = [](double x) { return std::log2(x); };
     EXPECT_LE(largest_error(-126.0f, -0.01f, wide_log2, exact_log2), 3.0);

@@ -44,7 +44,7 @@ TEST(TexelPair, IsWithinTheImageWhateverTheCoordinate) {
     for (const Wrap wrap : {Wrap::Repeat, Wrap::Mirror, Wrap::Clamp})
         for (const float coordinate : {kInfinity, -kInfinity, std::numeric_limits<float>::quiet_NaN(), 3e38f, -3e38f,
                                        -1e-9f, 1e-9f, 1.0f, -1.0f, 2.0f, 0.99999994f, 1.9999999f})
-            for (const int size : {1, 2, 5}) {
+            for (const int size : {1, 2, 5, 65535, 65536}) {
                 const TexelPair<Wide> found = pair<Wide>(coordinate, size, wrap);
                 for (const float texel : {found.first[0], found.second[0]}) {
                     EXPECT_GE(texel, 0.0f) << coordinate;

@@ -30,6 +30,11 @@ std::vector<Texture> usual_textures(Random& random) {
                     textures.push_back(
                         make_texture(noise(random, channels == 2 ? 37 : 64, channels == 3 ? 19 : 32, channels),
                                      {.wrap_u = wrap_u, .wrap_v = wrap_v, .encoding = encoding}));
+    // Single texels, rows and columns, and an image without levels.
+    textures.push_back(make_texture(noise(random, 1, 1, 3), {}));
+    textures.push_back(make_texture(noise(random, 1, 9, 4), {.wrap_u = Wrap::Clamp}));
+    textures.push_back(make_texture(noise(random, 9, 1, 1), {.wrap_v = Wrap::Mirror}));
+    textures.push_back(Texture::without_levels(noise(random, 12, 10, 3), {}));
     return textures;
 }
 

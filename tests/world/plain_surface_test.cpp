@@ -1,10 +1,12 @@
 #include "world/plain_surface.h"
 
+#include "texture/texture_lookups.h"
 #include "world/test_scene.h"
 
 #include <array>
 #include <filesystem>
 #include <functional>
+#include <tuple>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -80,13 +82,31 @@ TEST_F(PlainSurfaces, AreNotWhatHasVertexColors) {
     EXPECT_EQ(surface(world), nullptr);
 }
 
-TEST_F(PlainSurfaces, HaveTheLobesOfTheirModelAtEveryPoint) {
-    const World world = with([](MaterialDesc& m) {
-        m.base_color = {0.9f, 0.7f, 0.5f};
-        m.metallic = 0.7f;
-        m.base_color_texture.texture = {0};
-        m.metallic_roughness_texture.texture = {0};
-    });
+TEST_F(PlainSurfaces, AreNotWhatIsAnInstance) {
+    SceneDesc scene = empty_scene();
+    PrimitiveDesc primitive = quad({0, 0, -2}, {1, 0, 0}, {0, 1, 0});
+    primitive.material = add_material(scene, diffuse(Rgb(0.5f)));
+    const auto mesh = add_mesh(scene, {std::move(primitive)});
+    place(scene, mesh);
+    place(scene, mesh, translation({100, 0, 0}));
+    EXPECT_EQ(surface(compile(std::move(scene))), nullptr);
+}
+
+/// With the base colour's texture in `texcoord`, and that of metalness and roughness if it is there.
+class PlainSurfacesWithTextures : public PlainSurfaces, public testing::WithParamInterface<std::tuple<int, bool>> {};
+
+TEST_P(PlainSurfacesWithTextures, HaveTheLobesOfTheirModelAtEveryPoint) {
+    const auto [texcoord, has_both] = GetParam();
+    const World world = with(
+        [&](MaterialDesc& m) {
+            m.base_color = {0.9f, 0.7f, 0.5f};
+            m.metallic = 0.7f;
+            if (has_both) m.base_color_texture = {.texture = {0}, .texcoord = texcoord, .transform = {}};
+            m.metallic_roughness_texture = {.texture = {0}, .texcoord = texcoord, .transform = {}};
+        },
+        [](PrimitiveDesc& p) {
+            p.uv1 = {{0.3f, 0.1f}, {2.5f, 0.4f}, {2.0f, 1.9f}, {0.2f, 1.2f}};
+        });
     Random random(11);
     TextureLookups lookups;
     int seen = 0;
@@ -101,14 +121,16 @@ TEST_F(PlainSurfaces, HaveTheLobesOfTheirModelAtEveryPoint) {
         ASSERT_NE(plain, nullptr);
         const HitCoordinates coordinates = world.hit_coordinates(hit, *plain);
         const Vec2f uv = coordinates.uv0 + coordinates.edge1 * hit.u + coordinates.edge2 * hit.v;
-        ASSERT_NEAR(uv.x, point.uv[0].x, 1e-6f);
-        ASSERT_NEAR(uv.y, point.uv[0].y, 1e-6f);
+        ASSERT_EQ(plain->texcoord, texcoord);
+        const auto set = static_cast<std::size_t>(texcoord);
+        ASSERT_NEAR(uv.x, point.uv[set].x, 1e-5f);
+        ASSERT_NEAR(uv.y, point.uv[set].y, 1e-5f);
         lookups.clear();
-        world.add_lookups(*plain, point.uv[0], point.footprint[0], lookups);
+        world.add_lookups(*plain, point.uv[set], point.footprint[set], lookups);
         lookups.finish();
         std::size_t next = 0;
         const MetallicRoughness found = world.lobe(*plain, lookups, next);
-        EXPECT_EQ(next, 2u);
+        EXPECT_EQ(next, has_both ? 2u : 1u);
         Bsdf storage;
         const auto& expected = std::get<MetallicRoughness>(world.bsdf(point, -ray.direction, 0.0f, storage));
         for (const auto& [a, b] : {std::pair(found.base.r, expected.base.r), std::pair(found.base.b, expected.base.b),
@@ -119,6 +141,8 @@ TEST_F(PlainSurfaces, HaveTheLobesOfTheirModelAtEveryPoint) {
     }
     EXPECT_GT(seen, 200);
 }
+
+INSTANTIATE_TEST_SUITE_P(Sets, PlainSurfacesWithTextures, testing::Combine(testing::Values(0, 1), testing::Bool()));
 
 }  // namespace
 

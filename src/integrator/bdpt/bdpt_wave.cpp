@@ -255,7 +255,7 @@ void BdptWave::connect_to_lights(const Context& context, std::size_t first, std:
         const std::size_t lane = wide_to_lights_.size();
         wide_to_lights_.push_back({&vertex, choice.light});
         to_light_lanes_.eye.set(lane, end);
-        to_light_lanes_.set_front(lane, mesh->front(mesh->choose_triangle(triangle)));
+        to_light_lanes_.front.set(lane, mesh->front(mesh->choose_triangle(triangle)));
         to_light_lanes_.u.set(lane, direction);
         to_light_lanes_.radiance.set(lane, mesh->radiance());
         to_light_lanes_.probability.set(lane, choice.probability);

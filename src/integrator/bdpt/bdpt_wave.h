@@ -20,11 +20,11 @@ namespace etendue {
 
 class BdptWave final : public IntegratorScratch, private LightFinder {
   public:
-    /// Samples in a wave. A vertex takes 288 bytes, and 248 more for a lobe that was evaluated there: the ten or so of
-    /// a sample stay in a cache of 2 MiB until they are connected.
+    /// Samples in a wave. A vertex takes 288 bytes, its MatteEnd included, and 248 more for a lobe that was evaluated
+    /// there: the ten or so of a sample stay in a cache of 2 MiB until they are connected.
     static constexpr std::size_t kCapacity = 512;
     /// Vertices whose connections go from one stage to the next together.
-    static constexpr std::size_t kBlock = 64;
+    static constexpr std::size_t kBlock = kBlockLanes;
 
     [[nodiscard]] std::size_t bytes() const override;
 
@@ -166,7 +166,7 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
     ToCameraLanes to_camera_lanes_;
     BetweenLanes between_lanes_;
     // That wait for their rays. What is computed at once waits by itself: which comes first of it and of the others of
-    // a sample would depend on what other samples are beside it.
+    // a sample would depend on what other samples are beside it, and not only where a queue fills.
     Connections light_connections_{RayKind::Shadow}, wide_light_connections_{RayKind::Shadow};
     Connections camera_connections_{RayKind::LightToCamera}, wide_camera_connections_{RayKind::LightToCamera};
     Connections vertex_connections_{RayKind::Connection}, wide_vertex_connections_{RayKind::Connection};

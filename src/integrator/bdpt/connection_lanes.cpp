@@ -10,14 +10,13 @@ void BetweenLanes::connect(std::size_t count, const WeightRule& rule) {
 void ToLightLanes::connect(std::size_t count, const WeightRule& rule) {
     for (std::size_t l = 0; l < count; l += Wide::kWidth) {
         const BasicMatteEnd<Wide> end = eye.load(l);
-        const LightTriangleFront<Wide> front{p0.load(l),        edge1.load(l), edge2.load(l), front_normal.load(l),
-                                             clearance.load(l), area.load(l),  back.load(l)};
-        const LightTriangleSample<Wide> sample = front.sample(end.position, u.load(l));
+        const LightTriangleFront<Wide> triangle = front.load(l);
+        const LightTriangleSample<Wide> sample = triangle.sample(end.position, u.load(l));
         wi.store(l, sample.wi);
         distance.store(l, sample.distance);
         cos_light.store(l, sample.cos_light);
-        store(l,
-              etendue::connect(rule, end, front, sample, radiance.load(l), probability.load(l), choice_ratio.load(l)));
+        store(l, etendue::connect(rule, end, triangle, sample, radiance.load(l), probability.load(l),
+                                  choice_ratio.load(l)));
     }
 }
 

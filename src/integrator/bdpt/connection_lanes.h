@@ -3,6 +3,7 @@
 
 #include "core/columns.h"
 #include "integrator/bdpt/matte_connections.h"
+#include "integrator/light_front_columns.h"
 
 #include <cstddef>
 
@@ -50,8 +51,7 @@ struct BetweenLanes : ConnectionColumns {
 /// To samples of even mesh lights; about 13 KiB.
 struct ToLightLanes : ConnectionColumns {
     MatteEndColumns eye;
-    Vec3Columns p0, edge1, edge2, front_normal;  ///< as in LightTriangleFront, as are the next
-    Column clearance, area, back;
+    LightFrontColumns front;
     Vec2Columns u;  ///< for the point on the triangle
     RgbColumns radiance;
     Column probability;   ///< of the choice of the light
@@ -61,15 +61,6 @@ struct ToLightLanes : ConnectionColumns {
     Vec3Columns wi;
     Column distance, cos_light;
 
-    void set_front(std::size_t lane, const LightTriangleFront<float>& front) {
-        p0.set(lane, front.p0);
-        edge1.set(lane, front.edge1);
-        edge2.set(lane, front.edge2);
-        front_normal.set(lane, front.normal);
-        clearance.set(lane, front.clearance);
-        area.set(lane, front.area);
-        back.set(lane, front.back);
-    }
     void connect(std::size_t count, const WeightRule& rule);
 };
 

@@ -36,11 +36,6 @@ struct MatteConnection {
     Connection<T> ray;         ///< from the origin of the end on the eye's side, otherwise from that of the light's
 };
 
-template <typename T>
-[[nodiscard]] inline BasicRgb<T> black_unless(MaskOf<T> condition, const BasicRgb<T>& c) {
-    return {select(condition, c.r, T(0.0f)), select(condition, c.g, T(0.0f)), select(condition, c.b, T(0.0f))};
-}
-
 /// Of the ends of both subpaths, which stands for `scale` connections.
 template <typename T>
 [[nodiscard]] inline MatteConnection<T> connect(const WeightRule& rule, const BasicMatteEnd<T>& eye,
@@ -52,7 +47,7 @@ template <typename T>
     const T weight = rule.weight(eye.pdf(w) * light.cosine(-w) * inverse, light.fewer,
                                  light.pdf(-w) * eye.cosine(w) * inverse, eye.fewer);
     const BasicRgb<T> contribution = eye.radiance(w) * light.importance(-w) * (scale * weight * inverse);
-    return {black_unless<T>(eye.scatters(w) && light.scatters(-w), contribution), weight,
+    return {select(eye.scatters(w) && light.scatters(-w), contribution, BasicRgb<T>()), weight,
             Connection<T>(eye.origin, light.origin)};
 }
 
@@ -67,7 +62,7 @@ template <typename T>
         front.emission_pdf_solid_angle(light.cos_light) * eye.cosine(light.wi) / (light.distance * light.distance);
     const T weight = rule.weight(eye.pdf(light.wi) / pdf, T(1.0f), choice_ratio * from_light, eye.fewer);
     const BasicRgb<T> contribution = eye.radiance(light.wi) * radiance * (weight / pdf);
-    return {black_unless<T>(light.pdf_solid_angle > T(0.0f) && eye.scatters(light.wi), contribution), weight,
+    return {select(light.pdf_solid_angle > T(0.0f) && eye.scatters(light.wi), contribution, BasicRgb<T>()), weight,
             Connection<T>(eye.origin, light.end)};
 }
 
@@ -79,7 +74,7 @@ template <typename T>
                                                 float samples_per_path) {
     const T from_eye = samples_per_path * importance * light.cosine(w);
     const T weight = rule.weight(from_eye, light.fewer, T(0.0f), T(0.0f));
-    return {black_unless<T>(light.scatters(w), light.importance(w) * (importance * weight)), weight,
+    return {select(light.scatters(w), light.importance(w) * (importance * weight), BasicRgb<T>()), weight,
             Connection<T>(light.origin, lens)};
 }
 

@@ -48,7 +48,10 @@ void LightWave::connect_lights(const SubpathJob& job) {
     const World& world = job.world;
     keys_.clear();
     for (const CameraSample& sample : samples_) keys_.push_back(sample.key);
-    lens_.draw(job.job.sequence, keys_, subpath_dimension(SubpathEnd::AtLight, 0, BounceNumbers::LightChoice));
+    if (job.needs(SubpathEnd::AtLight, BounceNumbers::LightChoice))
+        lens_.draw(job.job.sequence, keys_, subpath_dimension(SubpathEnd::AtLight, 0, BounceNumbers::LightChoice));
+    else
+        lens_.draw_none(keys_.size());
     for (std::uint32_t slot = 0; slot < samples_.size(); ++slot) {
         const Emission& emission = subpaths_.emissions()[slot];
         if (is_black(emission.sample.radiance)) continue;

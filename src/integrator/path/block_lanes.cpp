@@ -14,10 +14,7 @@ using WideVec3 = Imath::Vec3<Wide>;
 
 void BlockLanes::sample_mesh_lights(std::size_t count) {
     for (std::size_t l = 0; l < count; l += Wide::kWidth) {
-        const LightTriangleFront<Wide> front{
-            p0.load(l),         edge1.load(l),     edge2.load(l), triangle_normal.load(l), light_clearance.load(l),
-            light_area.load(l), light_back.load(l)};
-        const LightTriangleSample<Wide> sample = front.sample(position.load(l), u.load(l));
+        const LightTriangleSample<Wide> sample = front.load(l).sample(position.load(l), u.load(l));
         light_wi.store(l, sample.wi);
         light_end.store(l, sample.end);
         light_distance.store(l, sample.distance);

@@ -1,22 +1,23 @@
 // What lies between the stages of shading a block of paths.
 #pragma once
 
+#include "integrator/light_front_columns.h"
 #include "integrator/surface_lanes.h"
 
 #include <cstddef>
 
 namespace etendue {
 
-/// About 19 KiB, which stay in the first-level cache. The triangle becomes the one on the light that is sampled, its
-/// normal that of the front, and `u` the numbers for a point there, then those for directions.
+/// About 21 KiB, which stay in the first-level cache. `u` becomes the numbers for a point on the light that is sampled,
+/// then those for directions.
 struct BlockLanes : SurfaceLanes {
     Vec3Columns wo;
     RgbColumns albedo;
     RgbColumns throughput;
 
     // The sample of a light.
-    Column light_clearance, light_area, light_back;  ///< see LightTriangleFront
-    Column light_probability;                        ///< of the choice
+    LightFrontColumns front;
+    Column light_probability;  ///< of the choice
     Vec3Columns light_wi, light_end;
     Column light_distance;
     Column light_pdf;        ///< the choice included; of a delta that alone; 0 if nothing arrives

@@ -14,7 +14,7 @@ PathWave::PathWave()
     : states_(kCapacity), rays_(kCapacity), hits_(kCapacity), block_(kBlock), samples_(kCapacity), alpha_(kCapacity) {}
 
 std::size_t PathWave::bytes() const {
-    std::size_t bytes = sizeof *this + light_.bytes() + keys_.bytes() + shadow_rays_.bytes() +
+    std::size_t bytes = sizeof *this + light_.bytes() + keys_.bytes() + shadow_rays_.bytes() + lookups_.bytes() +
                         vector_bytes(states_, rays_, hits_, interiors_, receivers_, shares_, block_, samples_, alpha_);
     for (const NumberPairs* numbers :
          {&light_choice_, &light_triangle_, &light_direction_, &bsdf_direction_, &choices_, &medium_})
@@ -62,12 +62,15 @@ void PathWave::draw_numbers(const Context& context) {
     for (std::size_t i = 0; i < active_; ++i) keys_.push_back(samples_[states_[i].slot].key);
     const bool has_bodies = context.world.has_bodies();
     if (context.depth >= context.options.lengths.max_depth && !has_bodies) return;
-    const auto draw = [&](std::uint32_t dimension, NumberPairs& numbers) {
-        numbers.draw(context.job.sequence, keys_, dimension);
+    const auto draw = [&](std::uint32_t dimension, NumberPairs& numbers, bool is_needed = true) {
+        if (is_needed)
+            numbers.draw(context.job.sequence, keys_, dimension);
+        else
+            numbers.draw_none(active_);
     };
-    if (has_bodies) draw(body_dimension(context.depth, kMedium), medium_);
-    if (context.options.sample_lights) {
-        draw(bounce_dimension(context.depth, kLightChoice), light_choice_);
+    if (has_bodies) draw(body_dimension(context.depth, kMedium), medium_, context.world.has_scattering_bodies());
+    if (context.options.sample_lights && context.world.has_sampled_lights()) {
+        draw(bounce_dimension(context.depth, kLightChoice), light_choice_, context.world.chooses_lights());
         draw(bounce_dimension(context.depth, kLightTriangle), light_triangle_);
         draw(bounce_dimension(context.depth, kLightDirection), light_direction_);
     }

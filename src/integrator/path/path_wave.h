@@ -14,6 +14,7 @@
 #include "integrator/path/path_integrator.h"
 #include "integrator/path/textured_lanes.h"
 #include "integrator/profile/wave_profile.h"
+#include "texture/texture_lookups.h"
 #include "world/scattering.h"
 
 #include <array>
@@ -52,7 +53,7 @@ struct PathStep {
 
 /// A path whose ray has hit a surface, between the stages of its shading, with what is not in `BlockLanes`.
 struct ShadedPath {
-    SurfacePoint point;                         ///< of a plain surface, its material, its triangle and where that lies
+    SurfacePoint point;  ///< of a plain surface its material, and where things are textured its triangle
     const PlainSurface* plain = nullptr;        ///< see World::plain_surface
     const MetallicRoughness* glossy = nullptr;  ///< its lobe, where that is evaluated for many at once
     bool is_wide = false;                       ///< scattered by a lobe that is evaluated for many paths at once

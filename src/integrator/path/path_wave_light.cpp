@@ -81,14 +81,7 @@ void PathWave::sample_lights(const Context& context, std::size_t first) {
         path.is_mesh_lit = true;
         path.light.probability = choice.probability;
         path.light.light = choice.light;
-        const LightTriangleFront<float> front = mesh->front(mesh->choose_triangle(light_triangle_[i]));
-        lanes_.p0.set(lane, front.p0);
-        lanes_.edge1.set(lane, front.edge1);
-        lanes_.edge2.set(lane, front.edge2);
-        lanes_.triangle_normal.set(lane, front.normal);
-        lanes_.light_clearance.set(lane, front.clearance);
-        lanes_.light_area.set(lane, front.area);
-        lanes_.light_back.set(lane, front.back);
+        lanes_.front.set(lane, mesh->front(mesh->choose_triangle(light_triangle_[i])));
         lanes_.light_probability.set(lane, choice.probability);
         lanes_.light_radiance.set(lane, mesh->radiance());
         lanes_.light_by_chance.set(lane, 1.0f);

@@ -25,7 +25,12 @@ class ConnectibleVertices {
             vertices_.push_back(&vertex);
             keys_.push_back(job.samples[vertex.slot].key);
         }
-        for (NumberPairs& pairs : numbers_) pairs.draw_none(vertices_.size());
+        for (std::size_t kind = 0; kind < kKinds.size(); ++kind) {
+            if (job.needs(end, kKinds[kind]))
+                numbers_[kind].resize(vertices_.size());
+            else
+                numbers_[kind].draw_none(vertices_.size());
+        }
         // Vertices come bounce by bounce: long runs of them have one index, and with it one dimension.
         for (std::size_t first = 0, next = 0; first < vertices_.size(); first = next) {
             const int index = vertices_[first]->index;

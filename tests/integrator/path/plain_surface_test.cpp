@@ -94,10 +94,13 @@ TEST_F(PlainSurfacesInPath, LookLikeOthers) {
     double relative = 0.0;
     double brightness = 0.0;
     for (std::size_t i = 0; i < found.size(); ++i) {
-        const double difference = static_cast<double>(found[i].g) - static_cast<double>(expected[i].g);
-        const double value = static_cast<double>(expected[i].g);
-        relative += difference * difference / (value * value + 0.01) / static_cast<double>(found.size());
-        brightness += value / static_cast<double>(found.size());
+        for (const auto& [a, b] : {std::pair(found[i].r, expected[i].r), std::pair(found[i].g, expected[i].g),
+                                   std::pair(found[i].b, expected[i].b)}) {
+            const double difference = static_cast<double>(a) - static_cast<double>(b);
+            const auto value = static_cast<double>(b);
+            relative += difference * difference / (value * value + 0.01) / static_cast<double>(3 * found.size());
+            brightness += value / static_cast<double>(3 * found.size());
+        }
     }
     // Roundings; where one decides how a path goes on, its sample is another one.
     EXPECT_LT(relative, 1e-5);
