@@ -3,7 +3,6 @@
 #include "bsdf/ggx.h"
 #include "core/position_error.h"
 #include "core/vector_bytes.h"
-#include "texture/texture_lookups.h"
 #include "world/cone_section.h"
 #include "world/embree_scene.h"
 #include "world/gltf_surface.h"
@@ -11,6 +10,7 @@
 #include "world/lookup.h"
 #include "world/material_evaluation.h"
 #include "world/motion.h"
+#include "world/plain_lookups.h"
 
 #include <algorithm>
 #include <cmath>
@@ -172,7 +172,7 @@ HitCoordinates World::hit_coordinates(const Hit& hit, const PlainSurface& surfac
 }
 
 void World::add_lookups(const PlainSurface& surface, Vec2f uv, const TextureFootprint& footprint,
-                        TextureLookups& lookups) const {
+                        PlainLookups& lookups) const {
     for (const TextureSlot* slot :
          {&surface.textured->base_color_texture, &surface.textured->metallic_roughness_texture})
         if (slot->valid())
@@ -180,8 +180,8 @@ void World::add_lookups(const PlainSurface& surface, Vec2f uv, const TextureFoot
                         transform_footprint(*slot, footprint));
 }
 
-MetallicRoughness World::lobe(const PlainSurface& surface, const TextureLookups& lookups, std::size_t& next) const {
-    const auto texel = [&](const TextureSlot& slot) { return slot.valid() ? lookups[next++] : Rgb(1.0f); };
+MetallicRoughness World::lobe(const PlainSurface& surface, PlainLookups& lookups) const {
+    const auto texel = [&](const TextureSlot& slot) { return slot.valid() ? lookups.take() : Rgb(1.0f); };
     const Rgb base_color = texel(surface.textured->base_color_texture);
     return surface.lobe(*data_, base_color, texel(surface.textured->metallic_roughness_texture));
 }

@@ -28,7 +28,7 @@
 namespace etendue {
 
 class EmbreeScene;
-class TextureLookups;
+class PlainLookups;
 
 /// The nearest surface along a ray. 28 bytes.
 struct Hit {
@@ -197,10 +197,9 @@ class World {
     }
     /// Adds what the textures of a plain `surface` are asked for at `uv` over `footprint`, those of its set.
     void add_lookups(const PlainSurface& surface, Vec2f uv, const TextureFootprint& footprint,
-                     TextureLookups& lookups) const;
-    /// The lobe that they make: the results begin with index `next`, which then is that of the next surface's.
-    [[nodiscard]] MetallicRoughness lobe(const PlainSurface& surface, const TextureLookups& lookups,
-                                         std::size_t& next) const;
+                     PlainLookups& lookups) const;
+    /// The lobe that they make, for one surface after the other in the order in which they were added.
+    [[nodiscard]] MetallicRoughness lobe(const PlainSurface& surface, PlainLookups& lookups) const;
     /// Of the surface around `point`, 1/m, positive where its front is convex; for `RayCone`s that are mirrored there.
     [[nodiscard]] float mean_curvature(const SurfacePoint& point) const;
     /// False if nothing is textured, so that rays need no cones.

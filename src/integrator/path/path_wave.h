@@ -14,7 +14,7 @@
 #include "integrator/path/path_integrator.h"
 #include "integrator/path/textured_lanes.h"
 #include "integrator/profile/wave_profile.h"
-#include "texture/texture_lookups.h"
+#include "world/plain_lookups.h"
 #include "world/scattering.h"
 
 #include <array>
@@ -176,7 +176,7 @@ class PathWave final : public IntegratorScratch {
     GlossyLanes glossy_;
     bool any_textured_ = false;
     TexturedLanes textured_;
-    TextureLookups lookups_;
+    PlainLookups lookups_;
     std::array<LightReceiver, kBlock> to_light_;  ///< of the paths that sample lights, one after the other
     std::array<PathStep, kBlock> next_;
     std::array<bool, kBlock> goes_on_{};

@@ -91,11 +91,10 @@ void PathWave::look_up_textures(const Context& context, std::size_t first) {
         if (const ShadedPath& path = block_[on_surface_[lane]]; is_textured(path))
             world.add_lookups(*path.plain, textured_.uv[lane], textured_.footprint(lane), lookups_);
     lookups_.finish();
-    std::size_t next = 0;
     for (std::size_t lane = 0; lane < surfaces_; ++lane) {
         ShadedPath& path = block_[on_surface_[lane]];
         if (!is_textured(path)) continue;
-        const auto& lobe = path.storage.emplace<MetallicRoughness>(world.lobe(*path.plain, lookups_, next));
+        const auto& lobe = path.storage.emplace<MetallicRoughness>(world.lobe(*path.plain, lookups_));
         path.glossy = &lobe;
         if (!lobe.is_plain()) set_up_singly(context, first + on_surface_[lane], path);
     }

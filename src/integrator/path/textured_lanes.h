@@ -3,7 +3,6 @@
 
 #include "core/columns.h"
 #include "integrator/path/block_lanes.h"
-#include "texture/footprint.h"
 #include "world/world.h"
 
 #include <cstddef>
