@@ -25,6 +25,7 @@ class PlainSurfaces : public testing::Test {
         const std::function<void(PrimitiveDesc&)>& reshape = [](PrimitiveDesc&) {}) {
         SceneDesc scene = empty_scene();
         std::vector<std::array<int, 4>> texels;
+        texels.reserve(64);
         for (int i = 0; i < 64; ++i) texels.push_back({4 * i, 255 - 2 * i, 128 + i, 255});
         add_texture(scene, png_, 8, texels);
         MaterialDesc material;
@@ -96,7 +97,8 @@ TEST_F(PlainSurfaces, AreNotWhatIsAnInstance) {
 class PlainSurfacesWithTextures : public PlainSurfaces, public testing::WithParamInterface<std::tuple<int, bool>> {};
 
 TEST_P(PlainSurfacesWithTextures, HaveTheLobesOfTheirModelAtEveryPoint) {
-    const auto [texcoord, has_both] = GetParam();
+    const int texcoord = std::get<0>(GetParam());
+    const bool has_both = std::get<1>(GetParam());
     const World world = with(
         [&](MaterialDesc& m) {
             m.base_color = {0.9f, 0.7f, 0.5f};
