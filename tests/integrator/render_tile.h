@@ -9,6 +9,26 @@
 
 namespace etendue::test {
 
+/// `spp` samples of the pixels of `window`, row by row, of an image of `width` × `height`.
+[[nodiscard]] inline std::vector<Rgb> render_pixels(const World& world, const Integrator& integrator,
+                                                    const PixelRect& window, int width, int height, std::uint32_t spp) {
+    const PixelFilter filter(FilterShape::Box);
+    const auto scratch = integrator.make_scratch();
+    const TileJob job{window, window, width, height, 0, spp, 1, SampleSequence::Sobol, &filter};
+    TileBuffer tile;
+    tile.reset(job.rect);
+    RenderCounters counters;
+    integrator.render_tile(world, job, *scratch, tile, counters);
+    std::vector<Rgb> pixels;
+    for (std::size_t i = 0; i < job.rect.area(); ++i) {
+        const PixelSum& sum = tile.pixel(i);
+        const double scale = 1.0 / static_cast<double>(sum.samples);
+        pixels.emplace_back(static_cast<float>(sum.r * scale), static_cast<float>(sum.g * scale),
+                            static_cast<float>(sum.b * scale));
+    }
+    return pixels;
+}
+
 struct TileResult {
     Rgb mean;            ///< over all pixels
     double error = 0.0;  ///< standard error of the mean's green channel

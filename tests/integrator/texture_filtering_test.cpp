@@ -51,21 +51,7 @@ class TextureAliasing : public testing::Test {
         return scene;
     }
     static std::vector<Rgb> render(const World& world, const PixelRect& window, std::uint32_t spp) {
-        const PixelFilter filter(FilterShape::Box);
-        const auto scratch = kPath.make_scratch();
-        const TileJob job{window, window, kFilteredWidth, kFilteredHeight, 0, spp, 1, SampleSequence::Sobol, &filter};
-        TileBuffer tile;
-        tile.reset(job.rect);
-        RenderCounters counters;
-        kPath.render_tile(world, job, *scratch, tile, counters);
-        std::vector<Rgb> pixels;
-        for (std::size_t i = 0; i < job.rect.area(); ++i) {
-            const PixelSum& sum = tile.pixel(i);
-            const double scale = 1.0 / static_cast<double>(sum.samples);
-            pixels.emplace_back(static_cast<float>(sum.r * scale), static_cast<float>(sum.g * scale),
-                                static_cast<float>(sum.b * scale));
-        }
-        return pixels;
+        return render_pixels(world, kPath, window, kFilteredWidth, kFilteredHeight, spp);
     }
     /// Root of the mean squared difference of green.
     static double rms(const std::vector<Rgb>& a, const std::vector<Rgb>& b) {

@@ -41,7 +41,20 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
         [[nodiscard]] bool is_shared(const PathVertex& vertex) const {
             return options.cached_connections > 0 && !world.has_motion() && !vertex.is_dispersed;
         }
-        [[nodiscard]] WeightRule rule() const { return {raised, options.weighted}; }
+        [[nodiscard]] bool wants(int edges) const { return edges >= lengths.min_depth && edges <= lengths.max_depth; }
+        [[nodiscard]] bool wants(const Strategy& strategy) const { return !options.only || *options.only == strategy; }
+        /// True if the weights of a sample's paths are to be compared with the reference: in debug builds those of one
+        /// sample in 64, because that takes longer than all the rest.
+        [[nodiscard]] bool checks([[maybe_unused]] std::uint32_t slot) const {
+#ifdef NDEBUG
+            return options.observer != nullptr;
+#else
+            return options.observer != nullptr || samples[slot].key.index % 64 == 0;
+#endif
+        }
+        [[nodiscard]] WeightRule rule() const {
+            return {raised, options.weighted};
+        }
     };
 
     // s = 0: subpaths from the eye that meet a light.

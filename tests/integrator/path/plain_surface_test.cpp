@@ -20,23 +20,7 @@ namespace {
 constexpr int kSize = 48;
 
 std::vector<Rgb> render(const World& world) {
-    const PathIntegrator integrator({.lengths = {6, 1, 3}});
-    const PixelFilter filter(FilterShape::Box);
-    const auto scratch = integrator.make_scratch();
-    const PixelRect window{0, 0, kSize, kSize};
-    const TileJob job{window, window, kSize, kSize, 0, 16, 3, SampleSequence::Sobol, &filter};
-    TileBuffer tile;
-    tile.reset(job.rect);
-    RenderCounters counters;
-    integrator.render_tile(world, job, *scratch, tile, counters);
-    std::vector<Rgb> pixels;
-    for (std::size_t i = 0; i < job.rect.area(); ++i) {
-        const PixelSum& sum = tile.pixel(i);
-        const double scale = 1.0 / static_cast<double>(sum.samples);
-        pixels.emplace_back(static_cast<float>(sum.r * scale), static_cast<float>(sum.g * scale),
-                            static_cast<float>(sum.b * scale));
-    }
-    return pixels;
+    return render_pixels(world, PathIntegrator({.lengths = {6, 1, 3}}), {0, 0, kSize, kSize}, kSize, kSize, 16);
 }
 
 class PlainSurfacesInPath : public testing::Test {

@@ -1,0 +1,320 @@
+// All connections between the subpaths of a wave, the camera and lights.
+#include "integrator/bdpt/bdpt_wave.h"
+#include "integrator/connecting_ray.h"
+#include "integrator/profile/wave_profile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace etendue {
+
+namespace {
+
+/// Of the choice from the cache for the eye vertex of index 0; far from those of subpaths.
+constexpr std::uint32_t kCacheDimension = 3u << 29;
+
+}  // namespace
+
+void BdptWave::connect_to_lights(const Context& context, std::size_t first, std::size_t last) {
+    const World& world = context.world;
+    WaveProfile* const profile = context.job.profile;
+    receivers_.clear();
+    choosing_.clear();
+    lit_.clear();
+    for (std::size_t v = first; v < last; ++v) {
+        const PathVertex& vertex = to_light_[v];
+        if (!context.wants(vertex.next_edges) || !context.wants({.s = 1, .t = vertex.index + 1})) continue;
+        receivers_.push_back(vertex.position);
+        choosing_.push_back(to_light_.numbers(v)[0]);
+        lit_.push_back(v);
+    }
+    choices_.resize(lit_.size());
+    world.choose_lights(receivers_, choosing_, choices_);
+    to_lights_.clear();
+    wide_to_lights_.clear();
+    for (std::size_t i = 0; i < lit_.size(); ++i) {
+        const PathVertex& vertex = to_light_[lit_[i]];
+        const MatteEnd& end = eye_.matte_end(vertex);
+        const auto [light, triangle, direction] = to_light_.numbers(lit_[i]);
+        const LightTree::Choice& choice = choices_[i];
+        const MeshLight* mesh = world.even_mesh_light(choice.light);
+        if (mesh == nullptr || !end.exists()) {
+            to_lights_.push_back(
+                {&vertex, world.sample_light(choice, vertex.position, {light, triangle, direction}), {}});
+            continue;
+        }
+        const std::size_t lane = wide_to_lights_.size();
+        wide_to_lights_.push_back({&vertex, choice.light});
+        to_light_lanes_.eye.set(lane, end);
+        to_light_lanes_.front.set(lane, mesh->front(mesh->choose_triangle(triangle)));
+        to_light_lanes_.u.set(lane, direction);
+        to_light_lanes_.radiance.set(lane, mesh->radiance());
+        to_light_lanes_.probability.set(lane, choice.probability);
+        to_light_lanes_.choice_ratio.set(lane, world.emission_probability(choice.light) / choice.probability);
+    }
+    if (profile != nullptr) profile->use().light_samples += lit_.size();
+    stamp(profile, Stage::LightSampling);
+    for (ToLight& connection : to_lights_)
+        if (const LightSample& light = connection.chosen.sample; !is_black(light.radiance))
+            connection.scattered = connection.vertex->evaluate_both_ways(light.wi, TransportMode::Radiance);
+    stamp(profile, Stage::Material);
+    for (const ToLight& connection : to_lights_)
+        if (!is_black(connection.scattered.f_cos)) weigh(context, connection);
+    weigh_wide_to_lights(context);
+    stamp(profile, Stage::Mis);
+}
+
+void BdptWave::weigh(const Context& context, const ToLight& connection) {
+    const PathVertex& vertex = *connection.vertex;
+    const ChosenLight& chosen = connection.chosen;
+    const LightSample& light = chosen.sample;
+    const Scattering::TwoWayValue& value = connection.scattered;
+    const float share = weight(context.options, sums_of_light_sample(context, vertex, chosen, value));
+    if (share == 0.0f) return;
+    const float density = light.is_delta ? chosen.probability : light.pdf_solid_angle;
+    queue(context, vertex,
+          {.light = chosen.light,
+           .position = vertex.position + light.wi * (std::isinf(light.distance) ? 0.0f : light.distance),
+           .direction = -light.wi,
+           .cos_light = light.cos_light},
+          shadow_ray(vertex.origin(light.wi), light),
+          {vertex.throughput * value.f_cos * light.radiance * vertex.transmittance(light.wi, light.distance) *
+               context.wavelength_weight(vertex.slot, vertex.is_dispersed) * (share / density),
+           share},
+          light_connections_);
+}
+
+void BdptWave::weigh_wide_to_lights(const Context& context) {
+    to_light_lanes_.connect(wide_to_lights_.size(), context.rule());
+    for (std::size_t lane = 0; lane < wide_to_lights_.size(); ++lane) {
+        const auto& [vertex, light] = wide_to_lights_[lane];
+        const Brought brought = to_light_lanes_.brought(lane);
+        if (is_black(brought.light)) continue;
+        const Vec3f wi = to_light_lanes_.wi[lane];
+        queue(context, *vertex,
+              {.light = light,
+               .position = vertex->position + wi * to_light_lanes_.distance[lane],
+               .direction = -wi,
+               .cos_light = to_light_lanes_.cos_light[lane]},
+              to_light_lanes_.ray(lane, to_light_lanes_.eye.origin[lane]), brought, wide_light_connections_);
+    }
+}
+
+void BdptWave::queue(const Context& context, const PathVertex& vertex, const PathLightEnd& end, Ray ray,
+                     const Brought& brought, Connections& connections) {
+    ray.time = context.camera_rays[vertex.slot].time;
+    ray.alpha_key = context.connection_key(SubpathEnd::AtEye, vertex.index, vertex.slot);
+    shares_.clear();
+    if (eye_.words().are_followed())
+        eye_.words().end_at_light(vertex.words, vertex.event(-end.direction, TransportMode::Radiance),
+                                  eye_.words().light_source(context.world, end.light), shares_);
+    connections.to_sample(ray, vertex.slot, brought.light,
+                          vertex.is_seen_directly ? LightKind::Direct : LightKind::Indirect, shares_);
+    if (context.checks(vertex.slot))
+        check(context, context.options, 1, brought.weight, end, nullptr, &vertex, camera_of(context, vertex));
+}
+
+void BdptWave::connect_to_camera(const Context& context, std::size_t first, std::size_t last) {
+    WaveProfile* const profile = context.job.profile;
+    to_cameras_.clear();
+    wide_to_cameras_.clear();
+    for (std::size_t v = first; v < last; ++v) {
+        const PathVertex& vertex = to_camera_[v];
+        if (!context.wants(vertex.next_edges) || !context.wants({.s = vertex.index + 1, .t = 1})) continue;
+        const auto [lens] = to_camera_.numbers(v);
+        const auto view =
+            view_from_camera(context.world, context.job, vertex.position, lens, context.camera_rays[vertex.slot].time);
+        if (!view) continue;
+        const MatteEnd& end = light_.matte_end(vertex);
+        if (!end.exists()) {
+            to_cameras_.push_back({&vertex, *view, {}});
+            continue;
+        }
+        const std::size_t lane = wide_to_cameras_.size();
+        wide_to_cameras_.push_back({&vertex, *view});
+        to_camera_lanes_.light.set(lane, end);
+        to_camera_lanes_.lens.set(lane, view->camera.lens);
+        to_camera_lanes_.w.set(lane, view->direction);
+        to_camera_lanes_.importance.set(lane, view->camera.importance_area);
+    }
+    stamp(profile, Stage::Mis);
+    for (ToCamera& connection : to_cameras_)
+        connection.scattered =
+            connection.vertex->evaluate_both_ways(connection.view.direction, TransportMode::Importance);
+    stamp(profile, Stage::Material);
+    for (const ToCamera& connection : to_cameras_)
+        if (!is_black(connection.scattered.f_cos)) weigh(context, connection);
+    weigh_wide_to_camera(context);
+    stamp(profile, Stage::Mis);
+}
+
+void BdptWave::weigh(const Context& context, const ToCamera& connection) {
+    const PathVertex& vertex = *connection.vertex;
+    const CameraView& view = connection.view;
+    const Scattering::TwoWayValue& value = connection.scattered;
+    const float share = weight(context.options, sums_at_lens(context, vertex, view.direction, view.camera, value));
+    queue(context, vertex, view, connecting_ray(vertex.origin(view.direction), view.camera.lens),
+          {vertex.throughput * value.f_cos * vertex.transmittance(view.direction, view.distance) *
+               context.wavelength_weight(vertex.slot, vertex.is_dispersed) * (view.camera.importance_area * share),
+           share},
+          camera_connections_);
+}
+
+void BdptWave::weigh_wide_to_camera(const Context& context) {
+    to_camera_lanes_.connect(wide_to_cameras_.size(), context.rule(),
+                             static_cast<float>(context.samples_per_light_path()));
+    for (std::size_t lane = 0; lane < wide_to_cameras_.size(); ++lane) {
+        const auto& [vertex, view] = wide_to_cameras_[lane];
+        if (const Brought brought = to_camera_lanes_.brought(lane); !is_black(brought.light))
+            queue(context, *vertex, view, to_camera_lanes_.ray(lane, to_camera_lanes_.light.origin[lane]), brought,
+                  wide_camera_connections_);
+    }
+}
+
+void BdptWave::queue(const Context& context, const PathVertex& vertex, const CameraView& view, Ray ray,
+                     const Brought& brought, Connections& connections) {
+    ray.time = context.camera_rays[vertex.slot].time;
+    ray.alpha_key = context.connection_key(SubpathEnd::AtLight, vertex.index, vertex.slot);
+    shares_.clear();
+    if (light_.words().are_followed())
+        light_.words().end_at_camera(light_.words_after(vertex, view.direction), shares_);
+    connections.to_film(ray, vertex.slot, {.position = view.pixel, .value = brought.light, .depth = view.depth},
+                        vertex.index > 1 ? LightKind::Indirect : LightKind::Direct, shares_);
+    if (context.checks(vertex.slot))
+        check(context, context.options, static_cast<std::size_t>(vertex.index) + 1, brought.weight,
+              light_end(vertex.slot), &vertex, nullptr, view.camera);
+}
+
+void BdptWave::connect_to_vertices(const Context& context, std::size_t first, std::size_t last) {
+    WaveProfile* const profile = context.job.profile;
+    between_.clear();
+    for (std::size_t v = first; v < last; ++v) {
+        const PathVertex& eye = to_light_[v];
+        find_own(context, eye);
+        if (context.is_shared(eye)) find_cached(context, eye, context.options.cached_connections);
+    }
+    weigh_wide_between(context);
+    stamp(profile, Stage::Mis);
+    for (Between& connection : between_) {
+        connection.at_eye = connection.eye->evaluate_both_ways(connection.w, TransportMode::Radiance);
+        if (!is_black(connection.at_eye.f_cos))
+            connection.at_light = connection.light->evaluate_both_ways(-connection.w, TransportMode::Importance);
+    }
+    stamp(profile, Stage::Material);
+    for (const Between& connection : between_)
+        if (!is_black(connection.at_light.f_cos)) weigh(context, connection);
+    stamp(profile, Stage::Mis);
+}
+
+void BdptWave::find_candidates(const Context& context) {
+    const std::span<const PathVertex> vertices = light_.vertices();
+    cache_.clear();
+    // The number of each slot's, then where those end; as they are written, backwards, where they begin.
+    own_begin_.assign(samples_.size() + 1, 0);
+    for (const PathVertex& vertex : vertices)
+        if (vertex.is_connectible) ++own_begin_[vertex.slot];
+    std::inclusive_scan(own_begin_.begin(), own_begin_.end(), own_begin_.begin());
+    own_.resize(own_begin_.back());
+    // Bounce by bounce, so that the last vertex of a slot comes first there.
+    for (const PathVertex& vertex : vertices) {
+        if (!vertex.is_connectible) continue;
+        const Candidate candidate{&vertex, vertex.index, vertex.next_edges, context.is_shared(vertex)};
+        own_[--own_begin_[vertex.slot]] = candidate;
+        if (candidate.is_shared) cache_.push_back(candidate);
+    }
+}
+
+void BdptWave::find_own(const Context& context, const PathVertex& eye) {
+    const bool has_cache = context.is_shared(eye);
+    const MatteEnd& eye_end = eye_.matte_end(eye);
+    for (std::uint32_t i = own_begin_[eye.slot]; i < own_begin_[eye.slot + 1]; ++i)
+        if (!(has_cache && own_[i].is_shared)) find(context, eye, eye_end, own_[i], 1.0f);
+}
+
+void BdptWave::find_cached(const Context& context, const PathVertex& eye, int count) {
+    if (cache_.empty()) return;
+    const auto size = static_cast<float>(cache_.size());
+    const float step = size / static_cast<float>(count);
+    const float scale = step / static_cast<float>(samples_.size());
+    // One number for all, and equal steps from one to the next: each is as likely as any other to be drawn.
+    const SampleKey key = samples_[eye.slot].key;
+    const float u = sample_2d(context.job.sequence, key, kCacheDimension + static_cast<std::uint32_t>(eye.index)).x;
+    const MatteEnd& eye_end = eye_.matte_end(eye);
+    for (int i = 0; i < count; ++i) {
+        const auto drawn = static_cast<std::size_t>((static_cast<float>(i) + u) * step);
+        find(context, eye, eye_end, cache_[std::min(drawn, cache_.size() - 1)], scale);
+    }
+}
+
+void BdptWave::find(const Context& context, const PathVertex& eye, const MatteEnd& eye_end, const Candidate& candidate,
+                    float scale) {
+    if (!context.wants(eye.next_edges + candidate.next_edges - 1) ||
+        !context.wants({.s = candidate.index + 1, .t = eye.index + 1}))
+        return;
+    const PathVertex& light = *candidate.vertex;
+    if (const MatteEnd& light_end = light_.matte_end(light); eye_end.exists() && light_end.exists()) {
+        // About every other one faces away, in no order that a branch could be foretold by.
+        const Vec3f w = light_end.position - eye_end.position;
+        wide_between_[wide_between_count_] = {&eye, &light, scale};
+        wide_between_count_ += static_cast<std::size_t>(dot(w, eye_end.geometric_normal) > 0.0f) &
+                               static_cast<std::size_t>(dot(w, light_end.geometric_normal) < 0.0f);
+        if (wide_between_count_ == wide_between_.size()) weigh_wide_between(context);
+        return;
+    }
+    const Vec3f to_light = light.position - eye.position;
+    if (!eye.may_scatter(to_light) || !light.may_scatter(-to_light)) return;
+    const float squared = length_squared(to_light);
+    if (!(squared > 0.0f)) return;
+    const Vec3f w = to_light * (1.0f / std::sqrt(squared));
+    // Between different media lies a boundary, which no connection passes.
+    if (eye.medium(w) != light.medium(-w)) return;
+    between_.push_back({.eye = &eye, .light = &light, .w = w, .squared = squared, .scale = scale});
+}
+
+void BdptWave::weigh(const Context& context, const Between& connection) {
+    const auto& [eye_vertex, light_vertex, w, squared, scale, at_eye, at_light] = connection;
+    const PathVertex& eye = *eye_vertex;
+    const PathVertex& light = *light_vertex;
+    const float share = weight(context.options, sums_between(context.raised, eye, light, w, squared, at_eye, at_light));
+    queue(
+        context, eye, light, connecting_ray(eye.origin(w), light.origin(-w)),
+        {eye.throughput * at_eye.f_cos * at_light.f_cos * light.throughput * eye.transmittance(w, std::sqrt(squared)) *
+             context.wavelength_weight(eye.slot, eye.is_dispersed || light.is_dispersed) * (scale * share / squared),
+         share},
+        vertex_connections_);
+}
+
+void BdptWave::weigh_wide_between(const Context& context) {
+    const std::size_t count = std::exchange(wide_between_count_, 0);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+        const auto& [eye, light, scale] = wide_between_[lane];
+        between_lanes_.eye.set(lane, eye_.matte_end(*eye));
+        between_lanes_.light.set(lane, light_.matte_end(*light));
+        between_lanes_.scale.set(lane, scale);
+    }
+    between_lanes_.connect(count, context.rule());
+    for (std::size_t lane = 0; lane < count; ++lane)
+        if (const Brought brought = between_lanes_.brought(lane); !is_black(brought.light))
+            queue(context, *wide_between_[lane].eye, *wide_between_[lane].light,
+                  between_lanes_.ray(lane, between_lanes_.eye.origin[lane]), brought, wide_vertex_connections_);
+}
+
+void BdptWave::queue(const Context& context, const PathVertex& eye, const PathVertex& light, Ray ray,
+                     const Brought& brought, Connections& connections) {
+    ray.time = context.camera_rays[eye.slot].time;
+    ray.alpha_key = context.connection_key(SubpathEnd::AtEye, eye.index, eye.slot) +
+                    context.connection_key(SubpathEnd::AtLight, light.index, light.slot);
+    shares_.clear();
+    if (eye_.words().are_followed()) {
+        const Vec3f w = normalize(light.position - eye.position);
+        eye_.words().join(eye_.words_after(eye, w), light_.words(), light_.words_after(light, -w), shares_);
+    }
+    connections.to_sample(ray, eye.slot, brought.light, LightKind::Indirect, shares_);
+    if (context.checks(eye.slot))
+        check(context, context.options, static_cast<std::size_t>(light.index) + 1, brought.weight,
+              light_end(light.slot), &light, &eye, camera_of(context, eye));
+}
+
+}  // namespace etendue
