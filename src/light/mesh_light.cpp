@@ -2,6 +2,7 @@
 
 #include "core/frame.h"
 #include "core/position_error.h"
+#include "light/opposite_triangles.h"
 #include "sampling/warp.h"
 
 #include <algorithm>
@@ -22,28 +23,43 @@ MeshLight::MeshLight(std::vector<LightTriangle> triangles, Rgb radiance, Rgb mea
     areas.reserve(triangles_.size());
     fronts_.reserve(triangles_.size());
     double total = 0.0;
-    for (const LightTriangle& t : triangles_) {
+    for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
+        const LightTriangle& t = triangles_[i];
         // In double: squares of small triangles' areas are below what single precision holds.
         const Imath::V3d edge1(t.edge1);
         areas.push_back(0.5 * edge1.cross(Imath::V3d(t.edge2)).length());
         total += areas.back();
         const Vec3f normal = triangle_normal(t.edge1, t.edge2) * (mirrored ? -1.0f : 1.0f);
-        fronts_.push_back({normal, clearance(normal, position_error)});
+        fronts_.push_back({normal, clearance(normal, position_error), i, 1.0f});
     }
     area_ = static_cast<float>(total);
     by_area_ = AliasTable(areas);
+    if (!two_sided_) pair_opposites(areas);
+}
+
+void MeshLight::pair_opposites(std::span<const double> areas) {
+    std::vector<Vec3f> normals;
+    normals.reserve(fronts_.size());
+    for (const Front& front : fronts_) normals.push_back(front.normal);
+    const std::vector<std::uint32_t> opposites = pair_opposite_triangles(normals, areas);
+    for (std::size_t i = 0; i < fronts_.size(); ++i) {
+        const std::uint32_t opposite = opposites[i];
+        if (opposite == i) continue;
+        fronts_[i].opposite = opposite;
+        fronts_[i].gain = static_cast<float>((areas[i] + areas[opposite]) / areas[i]);
+    }
 }
 
 LightSample MeshLight::sample(const Vec3f& point, Vec2f u_triangle, Vec2f u) const {
-    const std::uint32_t triangle = choose_triangle(u_triangle);
-    const LightTriangleSample<float> on_triangle = front(triangle).sample(point, u);
+    const TriangleChoice choice = choose_triangle(point, u_triangle);
+    const LightTriangleSample<float> on_triangle = front(choice).sample(point, u);
     if (!(on_triangle.distance > 0.0f)) return {};
     LightSample sample;
     sample.distance = on_triangle.distance;
     sample.wi = on_triangle.wi;
     sample.cos_light = on_triangle.cos_light;
     sample.pdf_solid_angle = on_triangle.pdf_solid_angle;
-    sample.triangle = triangle;
+    sample.triangle = choice.triangle;
     sample.barycentric = on_triangle.barycentric;
     if (!(sample.pdf_solid_angle > 0.0f)) return sample;
     sample.end = on_triangle.end;
@@ -80,8 +96,8 @@ float MeshLight::emission_pdf(const Vec3f&, float cos_light, const SceneSphere&)
     return any_front().emission_pdf_solid_angle(cos_light);
 }
 
-float MeshLight::pdf_solid_angle(float distance, float cos_light) const {
-    return any_front().pdf_solid_angle(distance, cos_light);
+float MeshLight::pdf_solid_angle(std::uint32_t triangle, const Vec3f& point, float distance, float cos_light) const {
+    return any_front().pdf_solid_angle(distance, cos_light) * gain(triangle, point);
 }
 
 float MeshLight::power(float) const {

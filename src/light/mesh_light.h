@@ -1,5 +1,10 @@
 // An emissive mesh: triangles chosen by area, points uniform by area.
 //
+// For a lit point half of a closed lamp would be chosen in vain, as it faces away. So triangles that face opposite ways
+// are paired where only their fronts emit, and a sample that falls on one which faces away moves to the other, if that
+// faces the point: where only one of two faces it, that one has the chance of both. Light subpaths leave all of them by
+// area.
+//
 // Radiance that varies over the mesh (textures, partial transparency) is the World's to evaluate at the sampled point:
 // the same code that evaluates it where a ray hits, so that both strategies of MIS agree.
 #pragma once
@@ -40,7 +45,7 @@ struct LightTriangleFront {
     Imath::Vec3<T> p0, edge1, edge2;
     Imath::Vec3<T> normal;  ///< unit, of the front
     T clearance;            ///< metres, as in SurfacePoint
-    T area;                 ///< of the whole mesh, m²
+    T area;                 ///< one over the density of points on the triangle, m²: if by area, the whole mesh's
     T back;                 ///< share of the front's radiance that the back emits: 1 if two-sided, else 0
 
     /// d² / (A |cos|), 0 where nothing is emitted. `cos_light` as in the sample.
@@ -75,18 +80,36 @@ class MeshLight {
     /// `two_sided`. `mean_radiance` is its mean over the area, for the choice between lights. Triangles without area
     /// get no samples. `mirrored`: the triangles went through a transform that turned their winding around, so that
     /// their front is where they are clockwise. `position_error`: of points of the mesh, metres per axis; shadow rays
-    /// end that far before it. 64 bytes a triangle.
+    /// end that far before it. 72 bytes a triangle.
     MeshLight(std::vector<LightTriangle> triangles, Rgb radiance, Rgb mean_radiance, bool two_sided, bool mirrored,
               bool is_uniform, const Vec3f& position_error);
 
     /// `u_triangle` chooses the triangle, `u` the point in it; both in [0, 1)².
     [[nodiscard]] LightSample sample(const Vec3f& point, Vec2f u_triangle, Vec2f u) const;
-    /// The triangle that `sample` chooses with `u_triangle`.
-    [[nodiscard]] std::uint32_t choose_triangle(Vec2f u_triangle) const { return by_area_.sample(u_triangle).index; }
-    [[nodiscard]] LightTriangleFront<float> front(std::uint32_t triangle) const {
-        const LightTriangle& t = triangles_[triangle];
+    struct TriangleChoice {
+        std::uint32_t triangle;
+        float gain;  ///< of its density, as below
+    };
+    /// The triangle that `sample` chooses for `point` with `u_triangle`.
+    [[nodiscard]] TriangleChoice choose_triangle(const Vec3f& point, Vec2f u_triangle) const {
+        const std::uint32_t first = by_area_.sample(u_triangle).index;
+        const std::uint32_t other = fronts_[first].opposite;
+        if (other == first) return {first, 1.0f};
+        const bool first_faces = faces(first, point);
+        if (first_faces == faces(other, point)) return {first, 1.0f};
+        const std::uint32_t chosen = first_faces ? first : other;
+        return {chosen, fronts_[chosen].gain};
+    }
+    /// Density of the samples for `point` on this triangle over that by area, >= 1.
+    [[nodiscard]] float gain(std::uint32_t triangle, const Vec3f& point) const {
         const Front& front = fronts_[triangle];
-        return {t.p0, t.edge1, t.edge2, front.normal, front.clearance, area_, two_sided_ ? 1.0f : 0.0f};
+        return front.opposite != triangle && faces(triangle, point) && !faces(front.opposite, point) ? front.gain
+                                                                                                     : 1.0f;
+    }
+    [[nodiscard]] LightTriangleFront<float> front(const TriangleChoice& choice) const {
+        const LightTriangle& t = triangles_[choice.triangle];
+        const Front& front = fronts_[choice.triangle];
+        return {t.p0, t.edge1, t.edge2, front.normal, front.clearance, area_ / choice.gain, two_sided_ ? 1.0f : 0.0f};
     }
     /// Has what a sample of a light of few triangles reads fetched from memory.
     void fetch() const {
@@ -96,9 +119,11 @@ class MeshLight {
     }
     /// Of the front.
     [[nodiscard]] const Rgb& radiance() const { return radiance_; }
-    /// Density of `sample` for a hit at `distance`, where `cos_light` is the cosine between the geometric normal and
-    /// the direction back to the lit point: d² / (A |cos|). 0 for the back of a one-sided light.
-    [[nodiscard]] float pdf_solid_angle(float distance, float cos_light) const;
+    /// Density of `sample` for a hit of this triangle at `distance` from `point`, where `cos_light` is the cosine
+    /// between the geometric normal and the direction back to the point: the gain of d² / (A |cos|). 0 for the back of
+    /// a one-sided light.
+    [[nodiscard]] float pdf_solid_angle(std::uint32_t triangle, const Vec3f& point, float distance,
+                                        float cos_light) const;
     /// Uniform over the area, by the cosine over the directions of each side that emits.
     [[nodiscard]] EmissionSample sample_emission(const EmissionNumbers& u, const SceneSphere& scene) const;
     [[nodiscard]] float emission_pdf(const Vec3f& direction, float cos_light, const SceneSphere& scene) const;
@@ -116,7 +141,14 @@ class MeshLight {
     struct Front {
         Vec3f normal{0.0f};      ///< unit
         float clearance = 0.0f;  ///< metres, as in SurfacePoint
+        std::uint32_t opposite;  ///< the triangle that faces the other way; itself if it has none
+        float gain;              ///< of the density where of the two only this one faces a point
     };
+
+    void pair_opposites(std::span<const double> areas);
+    [[nodiscard]] bool faces(std::uint32_t triangle, const Vec3f& point) const {
+        return dot(point - triangles_[triangle].p0, fronts_[triangle].normal) > 0.0f;
+    }
 
     /// What all triangles have in common.
     [[nodiscard]] LightTriangleFront<float> any_front() const {

@@ -364,12 +364,18 @@ float World::emitter_pdf_solid_angle(const LightReceiver& from, const SurfacePoi
     const std::uint32_t light = light_at(point);
     if (light == kNone) return 0.0f;
     const float cos_light = -dot(direction, point.geometric_normal);
-    return std::get<MeshLight>(data_->lights[light]).pdf_solid_angle(distance, cos_light) *
+    return std::get<MeshLight>(data_->lights[light])
+               .pdf_solid_angle(point.triangle, point.position - direction * distance, distance, cos_light) *
            light_probability(from, light);
 }
 
 float World::emitter_pdf_area(std::uint32_t light) const {
     return 1.0f / std::get<MeshLight>(data_->lights[light]).area();
+}
+
+float World::light_sample_gain(std::uint32_t light, std::uint32_t triangle, const Vec3f& point) const {
+    const MeshLight* mesh = std::get_if<MeshLight>(&data_->lights[light]);
+    return mesh != nullptr ? mesh->gain(triangle, point) : 1.0f;
 }
 
 Rgb World::environment_radiance(const Vec3f& direction) const {

@@ -320,9 +320,12 @@ class World {
     [[nodiscard]] float emitter_pdf_solid_angle(const LightReceiver& from, const SurfacePoint& point,
                                                 const Vec3f& direction, float distance) const;
 
-    /// Density per area, 1/m², without the choice, with which both kinds of samples pick a point of the mesh light of
-    /// this index.
+    /// Density per area, 1/m², without the choice, with which `sample_emission` picks a point of the mesh light of this
+    /// index.
     [[nodiscard]] float emitter_pdf_area(std::uint32_t light) const;
+    /// How many times as densely `sample_light` at `point` picks the points of this triangle of the light of this index
+    /// as `sample_emission` does, both without the choice; 1 for lights that are no meshes.
+    [[nodiscard]] float light_sample_gain(std::uint32_t light, std::uint32_t triangle, const Vec3f& point) const;
 
     [[nodiscard]] bool has_environment() const { return data_->environment != kNone; }
     [[nodiscard]] Rgb environment_radiance(const Vec3f& direction) const;

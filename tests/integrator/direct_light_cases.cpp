@@ -72,6 +72,14 @@ std::vector<ClosedFormCase> mesh_light_cases() {
     const double mirrored_factor = rectangle_form_factor(-2.4, -0.4, -0.3, 0.7, 1.0);
     cases.push_back({"quad_instances", instanced, kRho * 2.0 * (square_factor + mirrored_factor)});
 
+    // Closed: of its triangles those that face away are left out. Radiance times the projected solid angle of a sphere
+    // above the horizon, pi (r / d)² cos.
+    SceneDesc globe = floor_seen_at(0.75f);
+    add(globe, sphere({0.0f, 1.0f, kZ}, 0.4f, 5, Facing::Outwards), emitter(3.0f));
+    const double to_globe = std::hypot(0.75, 1.0);
+    const double globe_factor = 0.16 / (to_globe * to_globe) / to_globe;
+    cases.push_back({"globe", globe, kRho * 3.0 * globe_factor, 5e-4});
+
     // Lights of very different power, so that a wrong probability of the choice shows.
     SceneDesc several = square;
     add(several, disk_facing_down({0.0f, 1.5f, kZ}, 0.3f, kSegments), emitter(7.0f));

@@ -4,7 +4,9 @@
 #include "support/chi2.h"
 #include "support/t_test.h"
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -27,13 +29,16 @@ std::optional<float> meet(const LightTriangle& t, const Vec3f& o, const Vec3f& d
     return distance;
 }
 
-/// Density per solid angle, summed over all triangles that the direction meets: no matter which is nearest.
-double density(const MeshLight& light, const Vec3f& from, const Vec3f& direction) {
+/// Density per solid angle, summed over all triangles that the direction meets: no matter which is nearest. `front` is
+/// -1 if the light is mirrored.
+double density(const MeshLight& light, const Vec3f& from, const Vec3f& direction, float front = 1.0f) {
     double sum = 0.0;
-    for (const LightTriangle& t : light.triangles())
+    for (std::uint32_t i = 0; i < light.triangles().size(); ++i) {
+        const LightTriangle& t = light.triangles()[i];
         if (const auto distance = meet(t, from, direction))
             sum += static_cast<double>(
-                light.pdf_solid_angle(*distance, -dot(direction, normalize(cross(t.edge1, t.edge2)))));
+                light.pdf_solid_angle(i, from, *distance, -front * dot(direction, normalize(cross(t.edge1, t.edge2)))));
+    }
     return sum;
 }
 
@@ -88,7 +93,7 @@ TEST(MeshLight, SamplesStateTheDensityOfTheirHit) {
         const LightTriangle& t = light.triangles()[s.triangle];
         const Vec3f on_light = t.p0 + t.edge1 * s.barycentric.x + t.edge2 * s.barycentric.y;
         EXPECT_LT(length(from + s.wi * s.distance - on_light), 1e-5f);
-        EXPECT_NEAR(light.pdf_solid_angle(s.distance, s.wi.y) / s.pdf_solid_angle, 1.0f, 1e-4f);
+        EXPECT_NEAR(light.pdf_solid_angle(s.triangle, from, s.distance, s.wi.y) / s.pdf_solid_angle, 1.0f, 1e-4f);
     }
 }
 
@@ -111,6 +116,93 @@ TEST(MeshLight, TrianglesGetSamplesByArea) {
     const Chi2Result result = chi2_counts(observed, expected);
     EXPECT_GT(result.p_value, kFamilyLevel) << result.str();
     EXPECT_EQ(observed[2], 0.0);
+}
+
+/// The six sides of a box, facing outwards, cut in unequal triangles; `top` more half sides high on one side, so that
+/// the pairs are neither alike nor exactly opposite.
+std::vector<LightTriangle> box_triangles(const Vec3f& center, const Vec3f& half, float top) {
+    const auto corner = [&](int i) {
+        Vec3f p((i & 1) != 0 ? half.x : -half.x, (i & 2) != 0 ? half.y : -half.y, (i & 4) != 0 ? half.z : -half.z);
+        if (p.x > 0.0f && p.y > 0.0f) p.y += top * half.y;
+        return center + p;
+    };
+    std::vector<LightTriangle> triangles;
+    const auto add = [&](int a, int b, int c, int d) {
+        const Vec3f cut = corner(a) * 0.7f + corner(b) * 0.3f;  // on one edge, so that there are three
+        for (const auto& [p, q, r] : {std::array{cut, corner(b), corner(c)}, std::array{cut, corner(c), corner(d)},
+                                      std::array{cut, corner(d), corner(a)}})
+            triangles.push_back({p, q - p, r - p});
+    };
+    add(0, 4, 6, 2);
+    add(1, 3, 7, 5);
+    add(0, 1, 5, 4);
+    add(2, 6, 7, 3);
+    add(0, 2, 3, 1);
+    add(4, 5, 7, 6);
+    return triangles;
+}
+
+TEST(MeshLight, DirectionsToClosedLampsHaveTheStatedDensity) {
+    // Before three sides, near the slant, and turned inside out from outside and from within, where both sides of a
+    // pair face the point.
+    struct Case {
+        Vec3f point;
+        bool mirrored;
+    };
+    const Case cases[] = {
+        {{-2, -1.5f, 2.5f}, false}, {{1.3f, 1.05f, 0}, false}, {{0.1f, 3, 0.2f}, true}, {{0.2f, 0.1f, 0.3f}, true}};
+    for (const Case& c : cases) {
+        const MeshLight light = make_light(box_triangles(Vec3f(0.0f), {1, 0.7f, 0.5f}, 0.2f), false, c.mirrored);
+        const auto sampler = [&](Random& random) -> std::optional<Vec3f> {
+            const LightSample s = light.sample(c.point, random.next_2d(), random.next_2d());
+            if (!(s.pdf_solid_angle > 0.0f)) return std::nullopt;
+            return s.wi;
+        };
+        const float front = c.mirrored ? -1.0f : 1.0f;
+        const SamplerCheck check =
+            check_sphere_sampler(sampler, [&](const Vec3f& w) { return density(light, c.point, w, front); });
+        EXPECT_GT(check.chi2.p_value, sidak_level(kFamilyLevel, std::size(cases))) << check.chi2.str();
+    }
+}
+
+TEST(MeshLight, NoSampleFallsOnTheFarSideOfABox) {
+    const Light light = make_light(box_triangles({0, 3, 0}, {0.5f, 0.25f, 1}, 0.0f));
+    const MeshLight& box = std::get<MeshLight>(light);
+    Random random(4);
+    for (int i = 0; i < 1000; ++i) {
+        const Vec3f from(8.0f * random.next() - 4.0f, 0.0f, 8.0f * random.next() - 4.0f);
+        const LightSample s = box.sample(from, random.next_2d(), random.next_2d());
+        // Only from between two planes do both sides of a pair face away.
+        if (std::abs(from.x) > 0.5f && std::abs(from.z) > 1.0f) {
+            EXPECT_GT(s.pdf_solid_angle, 0.0f) << from;
+        }
+    }
+}
+
+// pi L (r / d)² on a surface that faces the middle of a sphere.
+TEST(MeshLight, ASphereBringsItsFormFactor) {
+    constexpr int kAround = 96;
+    const auto on_sphere = [](int ring, int step) {
+        const float theta = kPi * static_cast<float>(ring) / (kAround / 2.0f);
+        const float phi = 2.0f * kPi * static_cast<float>(step) / kAround;
+        return Vec3f(std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi));
+    };
+    std::vector<LightTriangle> triangles;
+    for (int ring = 0; ring < kAround / 2; ++ring)
+        for (int step = 0; step < kAround; ++step) {
+            const Vec3f a = on_sphere(ring, step);
+            const Vec3f b = on_sphere(ring, step + 1);
+            const Vec3f c = on_sphere(ring + 1, step + 1);
+            const Vec3f d = on_sphere(ring + 1, step);
+            triangles.push_back({a, b - a, c - a});
+            triangles.push_back({a, c - a, d - a});
+        }
+    // The mesh lies within the sphere, some 0.07% of the radius on average.
+    const Light light = make_light(triangles);
+    const Vec3f from(0, -3, 0);
+    const double expected = static_cast<double>(kPi) * 4.0 / 9.0;
+    const TTestResult result = t_test(irradiance_samples(light, from, {0, 1, 0}, 20'000, 5), expected, 2e-3);
+    EXPECT_GT(result.p_value, 0.001) << result.str();
 }
 
 TEST(MeshLight, OneSidedLightShinesToItsFrontOnly) {

@@ -79,10 +79,8 @@ TEST(World, LightSamplesAndHitsAgree) {
             }
         }
         EXPECT_GT(lit, 500);
-        EXPECT_EQ(dark > 500, !c.two_sided);
-        if (c.two_sided) {
-            EXPECT_EQ(dark, 0);
-        }
+        // Of a closed lamp few samples are, since most that would be move to the opposite triangle.
+        EXPECT_EQ(dark > 0, !c.two_sided);
     }
 }
 

@@ -125,6 +125,7 @@ void BdptWave::check(const SubpathJob& job, const BdptOptions& options, std::siz
 PathLightEnd BdptWave::light_end(std::uint32_t slot) const {
     const Emission& emission = light_.emissions()[slot];
     return {.light = emission.light,
+            .triangle = emission.sample.triangle,
             .position = emission.sample.position,
             .direction = emission.sample.direction,
             .cos_light = emission.sample.cos_theta};
@@ -166,9 +167,10 @@ void BdptWave::on_emitter(const SubpathState& state, const SurfacePoint& point, 
     const std::uint32_t light = world.light_at(point);
     const float cos_light = -dot(direction, point.geometric_normal);
     if (state.index > kDirectlySeen && light != kNone)
-        sums = sums_at_emitter(*context_, state.from, light, direction, cos_light, arrived);
+        sums = sums_at_emitter(*context_, state.from, light, point.triangle, direction, cos_light, arrived);
     add(state, emitted, sums,
         {.light = light,
+         .triangle = point.triangle,
          .position = point.position,
          .direction = -direction,
          .cos_light = cos_light,

@@ -89,7 +89,8 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
     // Those of plain matte surfaces, whose lanes are computed at once.
     struct WideToLight {
         const PathVertex* vertex;
-        std::uint32_t light;  ///< that was chosen
+        std::uint32_t light;     ///< that was chosen
+        std::uint32_t triangle;  ///< of it
     };
     struct WideToCamera {
         const PathVertex* vertex;

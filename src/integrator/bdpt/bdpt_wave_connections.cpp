@@ -46,13 +46,15 @@ void BdptWave::connect_to_lights(const Context& context, std::size_t first, std:
             continue;
         }
         const std::size_t lane = wide_to_lights_.size();
-        wide_to_lights_.push_back({&vertex, choice.light});
+        const MeshLight::TriangleChoice on_light = mesh->choose_triangle(vertex.position, triangle);
+        wide_to_lights_.push_back({&vertex, choice.light, on_light.triangle});
         to_light_lanes_.eye.set(lane, end);
-        to_light_lanes_.front.set(lane, mesh->front(mesh->choose_triangle(triangle)));
+        to_light_lanes_.front.set(lane, mesh->front(on_light));
         to_light_lanes_.u.set(lane, direction);
         to_light_lanes_.radiance.set(lane, mesh->radiance());
         to_light_lanes_.probability.set(lane, choice.probability);
-        to_light_lanes_.choice_ratio.set(lane, world.emission_probability(choice.light) / choice.probability);
+        to_light_lanes_.choice_ratio.set(
+            lane, world.emission_probability(choice.light) / (choice.probability * on_light.gain));
     }
     if (profile != nullptr) profile->use().light_samples += lit_.size();
     stamp(profile, Stage::LightSampling);
@@ -76,6 +78,7 @@ void BdptWave::weigh(const Context& context, const ToLight& connection) {
     const float density = light.is_delta ? chosen.probability : light.pdf_solid_angle;
     queue(context, vertex,
           {.light = chosen.light,
+           .triangle = light.triangle,
            .position = vertex.position + light.wi * (std::isinf(light.distance) ? 0.0f : light.distance),
            .direction = -light.wi,
            .cos_light = light.cos_light},
@@ -89,12 +92,13 @@ void BdptWave::weigh(const Context& context, const ToLight& connection) {
 void BdptWave::weigh_wide_to_lights(const Context& context) {
     to_light_lanes_.connect(wide_to_lights_.size(), context.rule());
     for (std::size_t lane = 0; lane < wide_to_lights_.size(); ++lane) {
-        const auto& [vertex, light] = wide_to_lights_[lane];
+        const auto& [vertex, light, triangle] = wide_to_lights_[lane];
         const Brought brought = to_light_lanes_.brought(lane);
         if (is_black(brought.light)) continue;
         const Vec3f wi = to_light_lanes_.wi[lane];
         queue(context, *vertex,
               {.light = light,
+               .triangle = triangle,
                .position = vertex->position + wi * to_light_lanes_.distance[lane],
                .direction = -wi,
                .cos_light = to_light_lanes_.cos_light[lane]},

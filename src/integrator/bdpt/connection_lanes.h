@@ -55,7 +55,7 @@ struct ToLightLanes : ConnectionColumns {
     Vec2Columns u;  ///< for the point on the triangle
     RgbColumns radiance;
     Column probability;   ///< of the choice of the light
-    Column choice_ratio;  ///< of the choice for an emission to that
+    Column choice_ratio;  ///< of light and triangle being chosen for an emission, over that for a sample
 
     // The sample.
     Vec3Columns wi;

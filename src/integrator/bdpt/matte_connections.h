@@ -52,7 +52,7 @@ template <typename T>
 }
 
 /// A sample of an evenly shining mesh light; `probability` is that of the choice of the light for `eye`,
-/// `choice_ratio` that for an emission over it.
+/// `choice_ratio` that of both light and triangle for an emission over that for `eye`.
 template <typename T>
 [[nodiscard]] inline MatteConnection<T> connect(const WeightRule& rule, const BasicMatteEnd<T>& eye,
                                                 const LightTriangleFront<T>& front, const LightTriangleSample<T>& light,

@@ -42,7 +42,11 @@ class Path {
                                                        : world.emission_probability(end_.light));
         // What only one direction or one point is made of has no density but that of the choice.
         if (!world.can_be_hit(end_.light)) return chosen;
-        if (!at_infinity_) return chosen * static_cast<double>(world.emitter_pdf_area(end_.light));
+        if (!at_infinity_) {
+            const float gain =
+                s == 1 ? world.light_sample_gain(end_.light, end_.triangle, inner_.front()->position) : 1.0f;
+            return chosen * static_cast<double>(world.emitter_pdf_area(end_.light) * gain);
+        }
         return chosen * static_cast<double>(s == 1 ? world.environment_pdf_solid_angle(-end_.direction)
                                                    : world.environment_emission_pdf_solid_angle(-end_.direction));
     }

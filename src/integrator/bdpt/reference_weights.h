@@ -14,6 +14,7 @@ namespace etendue {
 /// The first vertex of a path.
 struct PathLightEnd {
     std::uint32_t light = kNone;      ///< kNone if it is not sampled
+    std::uint32_t triangle = 0;       ///< of a mesh light
     Vec3f position{0.0f};             ///< not meaningful at infinity
     Vec3f direction{0.0f};            ///< unit, towards the second vertex
     float cos_light = 1.0f;           ///< between the direction and the normal of a mesh light's front

@@ -46,13 +46,15 @@ struct LightPointPdfs {
     return {.fewer_from_eye = sampled * arrived.a + emitted * arrived.b * raised(static_cast<double>(emission_pdf))};
 }
 
-/// The same for a surface that a ray along `direction` has met.
+/// The same for a triangle that a ray along `direction` has met.
 [[nodiscard]] inline StrategySums sums_at_emitter(const SubpathJob& job, const Vec3f& from, std::uint32_t light,
-                                                  const Vec3f& direction, float cos_light,
+                                                  std::uint32_t triangle, const Vec3f& direction, float cos_light,
                                                   const SubpathDensities& arrived) {
     const float pdf_area = job.world.emitter_pdf_area(light);
-    return sums_at_light(job, from, light, {.sampled = pdf_area, .emitted = pdf_area},
-                         job.world.emission_pdf(light, -direction, cos_light), arrived);
+    return sums_at_light(
+        job, from, light,
+        {.sampled = pdf_area * job.world.light_sample_gain(light, triangle, from), .emitted = pdf_area},
+        job.world.emission_pdf(light, -direction, cos_light), arrived);
 }
 
 /// The same for the environment. The vertex is a direction: its density is per solid angle on both sides, and so is
@@ -78,11 +80,12 @@ struct LightPointPdfs {
     const float arriving = world.emission_pdf(chosen.light, -light.wi, light.cos_light) * vertex.cosine(light.wi);
     const double from_light =
         static_cast<double>(std::isinf(light.distance) ? arriving : arriving / (light.distance * light.distance));
-    // The strategies with more vertices from the light have chosen it for its emission, not for this vertex, and so the
-    // direction of an environment: its densities jump from cell to cell, and both must be of the one that other
-    // strategies find the direction in.
+    // The strategies with more vertices from the light have chosen it for its emission, not for this vertex, and so its
+    // triangle, and the direction of an environment: its densities jump from cell to cell, and both must be of the one
+    // that other strategies find the direction in.
     auto for_emission = static_cast<double>(world.emission_probability(chosen.light));
-    auto for_vertex = static_cast<double>(chosen.probability);
+    auto for_vertex = static_cast<double>(chosen.probability *
+                                          world.light_sample_gain(chosen.light, light.triangle, vertex.position));
     float pdf_solid_angle = light.pdf_solid_angle;
     if (chosen.light == world.environment()) {
         for_emission *= static_cast<double>(world.environment_emission_pdf_solid_angle(light.wi));

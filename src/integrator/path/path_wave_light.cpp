@@ -81,7 +81,7 @@ void PathWave::sample_lights(const Context& context, std::size_t first) {
         path.is_mesh_lit = true;
         path.light.probability = choice.probability;
         path.light.light = choice.light;
-        lanes_.front.set(lane, mesh->front(mesh->choose_triangle(light_triangle_[i])));
+        lanes_.front.set(lane, mesh->front(mesh->choose_triangle(position, light_triangle_[i])));
         lanes_.light_probability.set(lane, choice.probability);
         lanes_.light_radiance.set(lane, mesh->radiance());
         lanes_.light_by_chance.set(lane, 1.0f);

@@ -26,8 +26,9 @@ namespace etendue {
     const EmissionSample& sample = emission.sample;
     const auto squared_distance = static_cast<double>(length_squared(position - sample.position));
     SubpathDensities arrived = departing.arrive(job.raised, squared_distance, cos_arriving);
-    // A light that is sampled for this vertex is chosen in another way than this one was.
-    auto for_vertex = static_cast<double>(job.world.light_probability(position, emission.light));
+    // A light that is sampled for this vertex is chosen in another way than this one was, and so are its triangles.
+    auto for_vertex = static_cast<double>(job.world.light_probability(position, emission.light) *
+                                          job.world.light_sample_gain(emission.light, sample.triangle, position));
     auto for_emission = static_cast<double>(emission.probability);
     if (emission.light == job.world.environment()) {
         for_vertex *= static_cast<double>(job.world.environment_pdf_solid_angle(-sample.direction));

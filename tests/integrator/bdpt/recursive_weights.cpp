@@ -133,6 +133,7 @@ class GivenPath {
         Emission emission;
         emission.light = end.light;
         emission.probability = world.emission_probability(end.light);
+        emission.sample.triangle = end.triangle;
         emission.sample.position = end.position;
         emission.sample.direction = end.direction;
         emission.sample.cos_theta = std::abs(end.cos_light);
@@ -156,13 +157,15 @@ class GivenPath {
         chosen.light = end.light;
         chosen.sample.wi = -end.direction;
         chosen.sample.cos_light = end.cos_light;
+        chosen.sample.triangle = end.triangle;
         chosen.sample.is_delta = !can_be_hit();
         if (at_infinity()) return chosen;
         const float squared = length_squared(end.position - position);
         chosen.sample.distance = std::sqrt(squared);
         if (can_be_hit())
             chosen.sample.pdf_solid_angle =
-                chosen.probability * world.emitter_pdf_area(end.light) * squared / std::abs(end.cos_light);
+                chosen.probability * world.emitter_pdf_area(end.light) *
+                world.light_sample_gain(end.light, end.triangle, position) * squared / std::abs(end.cos_light);
         return chosen;
     }
 
@@ -176,7 +179,8 @@ class GivenPath {
         const SubpathDensities arrived =
             departing.arrive(job_.raised, static_cast<double>(length_squared(path_.end.position - from)),
                              std::abs(static_cast<double>(path_.end.cos_light)));
-        return sums_at_emitter(job_, from, path_.end.light, direction, path_.end.cos_light, arrived).weight();
+        return sums_at_emitter(job_, from, path_.end.light, path_.end.triangle, direction, path_.end.cos_light, arrived)
+            .weight();
     }
     [[nodiscard]] double weight_of_light_sample() const {
         if (!job_.world.has_sampled_lights() || !scatters_freely(0) || !is_direct(0)) return 0.0;

@@ -1,0 +1,19 @@
+// Which triangles of a mesh face opposite ways.
+#pragma once
+
+#include "core/vec.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace etendue {
+
+/// For each triangle the index of one that faces the other way, within some 20 degrees, whose it is in turn; its own if
+/// there is none left for it. Of those that face alike the larger ones find the larger ones, and those without area
+/// find none. `normals` are unit vectors, `areas` in any unit, both of one length. n log n steps, and 16 bytes a
+/// triangle while it works.
+[[nodiscard]] std::vector<std::uint32_t> pair_opposite_triangles(std::span<const Vec3f> normals,
+                                                                 std::span<const double> areas);
+
+}  // namespace etendue
