@@ -45,6 +45,7 @@ void MeshLight::pair_opposites(std::span<const double> areas) {
     for (std::size_t i = 0; i < fronts_.size(); ++i) {
         const std::uint32_t opposite = opposites[i];
         if (opposite == i) continue;
+        has_opposites_ = true;
         fronts_[i].opposite = opposite;
         fronts_[i].gain = static_cast<float>((areas[i] + areas[opposite]) / areas[i]);
     }

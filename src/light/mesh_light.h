@@ -17,6 +17,7 @@
 #include "sampling/alias_table.h"
 #include "sampling/warp.h"
 
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -100,12 +101,17 @@ class MeshLight {
         const std::uint32_t chosen = first_faces ? first : other;
         return {chosen, fronts_[chosen].gain};
     }
-    /// Density of the samples for `point` on this triangle over that by area, >= 1.
+    /// Density of the samples for `point` on this triangle over that by area. `point` has to be the very one, not one
+    /// moved off its surface: of a triangle in whose plane it lies that may see another side.
     [[nodiscard]] float gain(std::uint32_t triangle, const Vec3f& point) const {
         const Front& front = fronts_[triangle];
-        return front.opposite != triangle && faces(triangle, point) && !faces(front.opposite, point) ? front.gain
-                                                                                                     : 1.0f;
+        if (front.opposite == triangle) return 1.0f;
+        const bool this_faces = faces(triangle, point);
+        if (this_faces == faces(front.opposite, point)) return 1.0f;
+        return this_faces ? front.gain : 0.0f;
     }
+    /// True if which triangles are sampled depends on the point.
+    [[nodiscard]] bool has_opposites() const { return has_opposites_; }
     [[nodiscard]] LightTriangleFront<float> front(const TriangleChoice& choice) const {
         const LightTriangle& t = triangles_[choice.triangle];
         const Front& front = fronts_[choice.triangle];
@@ -146,8 +152,11 @@ class MeshLight {
     };
 
     void pair_opposites(std::span<const double> areas);
+    /// Written so that compilers contract nothing: all who ask about a point get the same answer.
     [[nodiscard]] bool faces(std::uint32_t triangle, const Vec3f& point) const {
-        return dot(point - triangles_[triangle].p0, fronts_[triangle].normal) > 0.0f;
+        const Vec3f to_point = point - triangles_[triangle].p0;
+        const Vec3f& normal = fronts_[triangle].normal;
+        return std::fma(to_point.x, normal.x, std::fma(to_point.y, normal.y, to_point.z * normal.z)) > 0.0f;
     }
 
     /// What all triangles have in common.
@@ -166,6 +175,7 @@ class MeshLight {
     float area_ = 0.0f;  ///< m²
     bool two_sided_ = false;
     bool is_uniform_ = true;
+    bool has_opposites_ = false;
 };
 
 }  // namespace etendue

@@ -97,6 +97,11 @@ World::World(WorldData data)
       selector_(data_->lights, radius_of(data_->bounds)),
       tree_(data_->lights, radius_of(data_->bounds)) {
     data_->bvh->set_opacity(opacity_callback, data_.get());
+    chooses_lights_by_receiver_ =
+        tree_.depends_on_receiver() || std::ranges::any_of(data_->lights, [](const Light& light) {
+            const MeshLight* mesh = std::get_if<MeshLight>(&light);
+            return mesh != nullptr && mesh->has_opposites();
+        });
     has_far_triangles_ = geometry_bytes(*data_) > kCachedGeometry;
     evaluate_uniform_materials(*data_);
     plain_surfaces_ = find_plain_surfaces(*data_);
@@ -365,7 +370,7 @@ float World::emitter_pdf_solid_angle(const LightReceiver& from, const SurfacePoi
     if (light == kNone) return 0.0f;
     const float cos_light = -dot(direction, point.geometric_normal);
     return std::get<MeshLight>(data_->lights[light])
-               .pdf_solid_angle(point.triangle, point.position - direction * distance, distance, cos_light) *
+               .pdf_solid_angle(point.triangle, from.position, distance, cos_light) *
            light_probability(from, light);
 }
 

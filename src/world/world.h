@@ -259,8 +259,8 @@ class World {
     [[nodiscard]] bool chooses_lights() const { return tree_.has_choice(); }
     /// The same of `sample_emission`.
     [[nodiscard]] bool chooses_emitters() const { return selector_.size() > 1; }
-    /// True if the choice of a light depends on what it is for.
-    [[nodiscard]] bool chooses_lights_by_receiver() const { return tree_.depends_on_receiver(); }
+    /// True if the choice of a light, or of a triangle of one, depends on what it is for.
+    [[nodiscard]] bool chooses_lights_by_receiver() const { return chooses_lights_by_receiver_; }
     /// Its two halves: the choice, and light from what was chosen.
     [[nodiscard]] LightTree::Choice choose_light(const LightReceiver& receiver, Vec2f u) const {
         return tree_.sample(receiver, u);
@@ -315,8 +315,9 @@ class World {
     [[nodiscard]] std::uint32_t environment() const { return data_->environment; }
     /// The bodies that the light of this index shines in.
     [[nodiscard]] const Interior& light_interior(std::uint32_t light) const { return light_interiors_[light]; }
-    /// Density, choice included, with which `sample_light` at `from` would have picked the direction that hit the
-    /// emitter `point` at `distance`. 0 if it is no sampled light.
+    /// Density, choice included, with which `sample_light` for `from` would have picked the direction that hit the
+    /// emitter `point` at `distance`. 0 if it is no sampled light. `from` means nothing unless the World
+    /// `chooses_lights_by_receiver`.
     [[nodiscard]] float emitter_pdf_solid_angle(const LightReceiver& from, const SurfacePoint& point,
                                                 const Vec3f& direction, float distance) const;
 
@@ -369,6 +370,7 @@ class World {
     std::unique_ptr<WorldData> data_;
     LightSelector selector_;  ///< of emission
     LightTree tree_;          ///< of light for a point
+    bool chooses_lights_by_receiver_ = false;
     bool has_far_triangles_ = false;
     bool has_motion_ = false;
     bool has_transparency_ = false;

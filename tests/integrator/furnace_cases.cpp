@@ -4,6 +4,7 @@
 #include "integrator/closed_form_scene.h"
 
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 namespace etendue::test {
@@ -23,6 +24,29 @@ SceneDesc furnace(float emission, float albedo) {
     return scene;
 }
 
+/// The same as a room of one mesh: all of a wall lies in the planes of its triangles, whose pairs are in the wall
+/// opposite.
+SceneDesc square_furnace(float emission, float albedo) {
+    SceneDesc scene;
+    PrimitiveDesc walls;
+    for (int axis = 0; axis < 3; ++axis)
+        for (const float side : {-1.5f, 1.5f}) {
+            Vec3f center(0.0f);
+            center[axis] = side;
+            Vec3f u(0.0f);
+            Vec3f v(0.0f);
+            u[(axis + 1) % 3] = side < 0.0f ? 3.0f : -3.0f;
+            v[(axis + 2) % 3] = 3.0f;
+            const PrimitiveDesc wall = parallelogram(center, u, v);
+            const auto first = static_cast<std::uint32_t>(walls.positions.size());
+            walls.positions.insert(walls.positions.end(), wall.positions.begin(), wall.positions.end());
+            for (const auto& [a, b, c] : wall.triangles) walls.triangles.push_back({first + a, first + b, first + c});
+        }
+    add(scene, walls, glowing(emission, albedo));
+    look(scene, {0.1f, 0.2f, 1.2f}, {0.0f, 0.0f, -1.0f}, 0.9f);
+    return scene;
+}
+
 std::vector<ClosedFormCase> empty_furnace_cases() {
     const std::vector<std::string> kAll = light_too(kFindAllBounces);
     const std::vector<std::string> kOne = light_too(kFindDirectLight);
@@ -32,6 +56,9 @@ std::vector<ClosedFormCase> empty_furnace_cases() {
     cases.push_back({"furnace_roulette_at_once", half, 1.0, 1e-5, {.max_depth = 1000, .roulette_depth = 1}, kAll});
     cases.push_back({"furnace_without_roulette", half, 1.0, 1e-5, {.max_depth = 30, .roulette_depth = 1000}, kAll});
     cases.push_back({"furnace_bright_walls", furnace(0.1f, 0.9f), 1.0, 1e-5, {.max_depth = 400}, kAll});
+    const SceneDesc square = square_furnace(0.5f, 0.5f);
+    cases.push_back({"furnace_square", square, 1.0, 1e-5, {.max_depth = 64}, kAll});
+    cases.push_back({"furnace_square_depth_2", square, 0.75, 1e-5, {.max_depth = 2}, kOne});
     cases.push_back({"furnace_depth_1", half, 0.5, 1e-5, {.max_depth = 1}, kOne});
     cases.push_back({"furnace_depth_2", half, 0.75, 1e-5, {.max_depth = 2}, kOne});
     cases.push_back({"furnace_depth_5", half, 1.0 - std::exp2(-5.0), 1e-5, {.max_depth = 5}, kAll});

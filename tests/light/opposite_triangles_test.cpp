@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -58,11 +59,30 @@ TEST(OppositeTriangles, WhatFacesAlongAxesIsFoundWhateverTheSignsOfZerosAre) {
     }
 }
 
-TEST(OppositeTriangles, WithoutAreaThereIsNone) {
+TEST(OppositeTriangles, EdgesCutAtHalfARightAngleFindEachOtherHoweverTheyAreRounded) {
+    const float half = std::sqrt(0.5f);
+    const float more = std::nextafter(half, 1.0f);
+    for (int axis = 0; axis < 3; ++axis) {
+        Vec3f one(0.0f);
+        Vec3f other(0.0f);
+        one[axis] = more;
+        one[(axis + 1) % 3] = half;
+        other[axis] = -half;
+        other[(axis + 1) % 3] = -more;
+        EXPECT_EQ(pair_opposite_triangles(std::vector<Vec3f>{one, other}, std::vector<double>{1.0, 1.0}),
+                  (std::vector<std::uint32_t>{1, 0}));
+    }
+}
+
+TEST(OppositeTriangles, WithoutAreaOrNormalThereIsNone) {
     const Vec3f up(0, 1, 0);
-    const std::vector<Vec3f> normals{up, -up, -up};
-    const std::vector<double> areas{1.0, 0.0, 2.0};
-    EXPECT_EQ(pair_opposite_triangles(normals, areas), (std::vector<std::uint32_t>{2, 1, 0}));
+    const Vec3f none(std::numeric_limits<float>::quiet_NaN());
+    const std::vector<Vec3f> normals{up, -up, -up, none, Vec3f(0.0f)};
+    const std::vector<double> areas{1.0, 0.0, 2.0, 3.0, 1.0};
+    EXPECT_EQ(pair_opposite_triangles(normals, areas), (std::vector<std::uint32_t>{2, 1, 0, 3, 4}));
+    // Nor where areas differ so much that the larger one's chance would only be noise on the smaller.
+    EXPECT_EQ(pair_opposite_triangles(std::vector<Vec3f>{up, -up}, std::vector<double>{1.0, 1e5}),
+              (std::vector<std::uint32_t>{0, 1}));
     EXPECT_TRUE(pair_opposite_triangles({}, {}).empty());
 }
 

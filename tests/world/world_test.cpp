@@ -81,6 +81,7 @@ TEST(World, LightSamplesAndHitsAgree) {
         EXPECT_GT(lit, 500);
         // Of a closed lamp few samples are, since most that would be move to the opposite triangle.
         EXPECT_EQ(dark > 0, !c.two_sided);
+        EXPECT_LT(dark, lit / 4);
     }
 }
 

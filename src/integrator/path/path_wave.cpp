@@ -131,30 +131,30 @@ void PathWave::shade_block(const Context& context, std::size_t first, std::size_
     });
     stamp(profile, Stage::Mis);
     for_surfaces([&](std::size_t i, std::size_t lane, const ShadedPath& path) {
-        PathStep& next = next_[i - first];
         goes_on_[i - first] =
-            path.is_wide ? scatter_by_lanes(context, i, lane, path, next) : scatter_at_surface(context, i, path, next);
+            path.is_wide ? scatter_by_lanes(context, i, lane, path) : scatter_at_surface(context, i, path);
     });
     for (std::size_t k = 0; k < count; ++k) {
         const std::size_t i = first + k;
-        if (!goes_on_[k] || !survives(context, i, next_[k].state)) continue;
-        const PathStep& next = next_[k];
-        const float time = rays_[i].time;
-        states_[kept] = next.state;
-        rays_[kept] = next.ray;
-        rays_[kept].time = time;
-        if (world.has_bodies()) interiors_[kept] = next.interior;
-        if (!receivers_.empty()) receivers_[kept] = next.receiver;
+        if (block_[k].is_at_hidden) pass_hidden(context, i, block_[k].point, *block_[k].crossing);
+        if (!goes_on_[k] || !survives(context, i)) continue;
+        if (kept != i) {
+            states_[kept] = states_[i];
+            rays_[kept] = rays_[i];
+            if (world.has_bodies()) interiors_[kept] = interiors_[i];
+            if (!receivers_.empty()) receivers_[kept] = receivers_[i];
+        }
         ++kept;
     }
     stamp(profile, Stage::Roulette);
 }
 
-bool PathWave::survives(const Context& context, std::size_t i, PathState& state) const {
+bool PathWave::survives(const Context& context, std::size_t i) {
     // In bodies nothing but roulette bounds a walk: neither media nor hidden boundaries add edges.
     const int first = context.world.has_bodies() ? std::min(context.options.lengths.roulette_depth, kLongPath)
                                                  : context.options.lengths.roulette_depth;
     if (context.depth < first) return true;
+    PathState& state = states_[i];
     const float survival = eye_path_survival(max_component(state.throughput) * state.eta_scale, context.depth);
     if (choices_[i].y >= survival) {
         end_path(context, i, PathEnding::Roulette);

@@ -43,14 +43,6 @@ struct PathState {
     bool is_direct = true;    ///< every scattering but the last was: what it meets lights what the eye sees so
 };
 
-/// A path after its next step.
-struct PathStep {
-    PathState state;
-    Ray ray;
-    Interior interior;       ///< only if the World has bodies
-    LightReceiver receiver;  ///< where it starts; only if the World chooses lights by that
-};
-
 /// A path whose ray has hit a surface, between the stages of its shading, with what is not in `BlockLanes`.
 struct ShadedPath {
     SurfacePoint point;  ///< of a plain surface its material, and where things are textured its triangle
@@ -58,6 +50,7 @@ struct ShadedPath {
     const MetallicRoughness* glossy = nullptr;  ///< its lobe, where that is evaluated for many at once
     bool is_wide = false;                       ///< scattered by a lobe that is evaluated for many paths at once
     bool is_mesh_lit = false;                   ///< by an even mesh light, which is sampled for many at once
+    bool is_at_hidden = false;                  ///< on a boundary that another body hides
     std::optional<Crossing> crossing;
     Wavelength wavelength{};  ///< that it goes on with, and its weight
     bool chooses_wavelength = false;
@@ -120,20 +113,19 @@ class PathWave final : public IntegratorScratch {
     void evaluate_matte(std::size_t first);
     void evaluate_glossy(std::size_t first);
     /// Takes path `i` through the medium that its ray is in; true if it scatters there.
-    bool scatter_in_medium(const Context& context, std::size_t i, PathStep& next);
+    bool scatter_in_medium(const Context& context, std::size_t i);
     /// Takes path `i` through a boundary that another body hides.
-    void pass_hidden(const Context& context, std::size_t i, const SurfacePoint& point, const Crossing& crossing,
-                     PathStep& next);
+    void pass_hidden(const Context& context, std::size_t i, const SurfacePoint& point, const Crossing& crossing);
     /// Takes path `i` where the sample of its BSDF says; false if it ends.
-    bool scatter_at_surface(const Context& context, std::size_t i, const ShadedPath& path, PathStep& next);
-    bool scatter_by_lanes(const Context& context, std::size_t i, std::size_t lane, const ShadedPath& path,
-                          PathStep& next);
+    bool scatter_at_surface(const Context& context, std::size_t i, const ShadedPath& path);
+    bool scatter_by_lanes(const Context& context, std::size_t i, std::size_t lane, const ShadedPath& path);
     /// What the surface of a path that is_wide does towards `wi`.
     [[nodiscard]] VertexEvent wide_event(const Context& context, const ShadedPath& path, const Vec3f& wi) const;
-    /// What both have in common: `next` after `sample`. False if nothing was scattered.
-    bool scatter(const Context& context, std::size_t i, const BsdfSample& sample, PathStep& next) const;
+    /// What both have in common: the state of path `i` after `sample` at `point`, and the direction of its ray. False
+    /// if nothing was scattered.
+    bool scatter(const Context& context, std::size_t i, const SurfacePoint& point, const BsdfSample& sample);
     /// Russian roulette; divides the throughput of those that survive by their chance.
-    bool survives(const Context& context, std::size_t i, PathState& state) const;
+    bool survives(const Context& context, std::size_t i);
     /// Tells the profile, if there is one, of the end of path `i`.
     void end_path(const Context& context, std::size_t i, PathEnding ending) const;
     void add_environment(const Context& context, std::size_t i);
@@ -178,7 +170,6 @@ class PathWave final : public IntegratorScratch {
     TexturedLanes textured_;
     PlainLookups lookups_;
     std::array<LightReceiver, kBlock> to_light_;  ///< of the paths that sample lights, one after the other
-    std::array<PathStep, kBlock> next_;
     std::array<bool, kBlock> goes_on_{};
     // By slot, that is, by camera sample.
     std::vector<CameraSample> samples_;

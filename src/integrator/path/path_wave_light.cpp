@@ -56,7 +56,7 @@ void PathWave::sample_lights(const Context& context, std::size_t first) {
         path.is_mesh_lit = false;
         lanes_.light_pdf.set(lane, 0.0f);
         if (!path.samples_light) continue;
-        if (!receivers_.empty()) to_light_[count] = next_[on_surface_[lane]].receiver = make_receiver(lane, path);
+        if (!receivers_.empty()) to_light_[count] = receivers_[first + on_surface_[lane]] = make_receiver(lane, path);
         lanes[count] = static_cast<std::uint8_t>(lane);
         u[count] = light_choice_[first + on_surface_[lane]];
         ++count;

@@ -15,11 +15,12 @@ bool PathWave::set_up(const Context& context, std::size_t first, std::size_t k) 
     const Hit& hit = hits_[i];
     ShadedPath& path = block_[k];
     path.point.material = nullptr;
+    path.is_at_hidden = false;
     if (!hit.valid()) {
         end_path(context, i, PathEnding::Escaped);
         return false;
     }
-    if (world.has_bodies() && scatter_in_medium(context, i, next_[k])) {
+    if (world.has_bodies() && scatter_in_medium(context, i)) {
         goes_on_[k] = true;
         return false;
     }
@@ -42,7 +43,7 @@ bool PathWave::set_up(const Context& context, std::size_t first, std::size_t k) 
     if (world.has_bodies() && world.is_boundary(path.point)) {
         path.crossing = world.crossing(path.point, interiors_[i]);
         if (path.crossing->is_hidden) {
-            pass_hidden(context, i, path.point, *path.crossing, next_[k]);
+            path.is_at_hidden = true;
             goes_on_[k] = true;
             return false;
         }
@@ -193,7 +194,7 @@ void PathWave::evaluate(std::size_t i, ShadedPath& path) const {
     path.sample = path.scattering->sample(choices_[i].x, bsdf_direction_[i], TransportMode::Radiance);
 }
 
-bool PathWave::scatter(const Context& context, std::size_t i, const BsdfSample& sample, PathStep& next) const {
+bool PathWave::scatter(const Context& context, std::size_t i, const SurfacePoint& point, const BsdfSample& sample) {
     WaveProfile* const profile = context.job.profile;
     if (profile != nullptr) ++profile->use().bsdf_samples;
     if (is_black(sample.weight)) {
@@ -201,16 +202,17 @@ bool PathWave::scatter(const Context& context, std::size_t i, const BsdfSample& 
         end_path(context, i, PathEnding::Absorbed);
         return false;
     }
-    PathState& state = next.state;
-    state = states_[i];
+    PathState& state = states_[i];
     state.throughput *= sample.weight;
     state.pdf_solid_angle = sample.pdf_solid_angle;
     state.after_delta = sample.is_delta;
     state.is_direct = state.only_delta;
     state.only_delta = state.only_delta && sample.is_delta;
     ++state.edges;
-    next.ray.direction = sample.wi;
-    next.ray.alpha_key = alpha_key(context, i);
+    if (context.world.has_textures())
+        state.cone = scattered_cone(context.world, point, rays_[i].direction, state.cone.at(hits_[i].t), sample);
+    rays_[i].direction = sample.wi;
+    rays_[i].alpha_key = alpha_key(context, i);
     return true;
 }
 
@@ -220,32 +222,27 @@ VertexEvent PathWave::wide_event(const Context& context, const ShadedPath& path,
                                   : surface_event(*path.scattering, wi, false, TransportMode::Radiance, label);
 }
 
-bool PathWave::scatter_by_lanes(const Context& context, std::size_t i, std::size_t lane, const ShadedPath& path,
-                                PathStep& next) {
-    const World& world = context.world;
+bool PathWave::scatter_by_lanes(const Context& context, std::size_t i, std::size_t lane, const ShadedPath& path) {
     BsdfSample sample;
     sample.wi = lanes_.next_direction[lane];
     sample.weight = lanes_.next_weight[lane];
     sample.pdf_solid_angle = lanes_.next_pdf[lane];
-    if (!scatter(context, i, sample, next)) return false;
+    if (!scatter(context, i, path.point, sample)) return false;
     if (words_.are_followed())
-        next.state.words = words_.scatter_from_eye(states_[i].words, wide_event(context, path, sample.wi));
-    if (world.has_textures())
-        next.state.cone = scattered_cone(world, path.point, rays_[i].direction, states_[i].cone.at(hits_[i].t), sample);
-    next.ray.origin = lanes_.next_origin[lane];
-    if (world.has_bodies()) next.interior = interiors_[i];
+        states_[i].words = words_.scatter_from_eye(states_[i].words, wide_event(context, path, sample.wi));
+    rays_[i].origin = lanes_.next_origin[lane];
     return true;
 }
 
-bool PathWave::scatter_at_surface(const Context& context, std::size_t i, const ShadedPath& path, PathStep& next) {
+bool PathWave::scatter_at_surface(const Context& context, std::size_t i, const ShadedPath& path) {
     const World& world = context.world;
-    const PathState& state = states_[i];
+    PathState& state = states_[i];
     const SurfacePoint& point = path.point;
     const Scattering& scattering = *path.scattering;
     const BsdfSample& sample = path.sample;
-    if (!scatter(context, i, sample, next)) return false;
+    if (!scatter(context, i, point, sample)) return false;
     if (words_.are_followed())
-        next.state.words = words_.scatter_from_eye(
+        state.words = words_.scatter_from_eye(
             state.words,
             surface_event(scattering, sample.wi, sample.is_delta, TransportMode::Radiance, words_.label(world, point)));
     const auto* mirror = path.chooses_wavelength && sample.is_delta && !sample.is_transmission
@@ -253,29 +250,27 @@ bool PathWave::scatter_at_surface(const Context& context, std::size_t i, const S
                              : nullptr;
     if (mirror != nullptr && mirror->fresnel.is_bare()) {
         // All wavelengths go where a mirror sends them, each with its own share: the path need not choose.
-        next.state.throughput *= world.spectral_response().mean_over_chance(path.wavelength, [&](float nm) {
+        state.throughput *= world.spectral_response().mean_over_chance(path.wavelength, [&](float nm) {
             const float cos_o = scattering.wo_local().z;
             const float ior = path.crossing->relative_ior(nm);
             return mirror->fresnel(std::min(1.0f, std::abs(cos_o)), cos_o > 0.0f ? ior : 1.0f / ior, cos_o > 0.0f)
                 .reflection_share;
         });
     } else {
-        next.state.throughput *= path.wavelength.weight;
-        next.state.wavelength_nm = path.wavelength.nm;
+        state.throughput *= path.wavelength.weight;
+        state.wavelength_nm = path.wavelength.nm;
     }
-    if (sample.is_transmission) next.state.eta_scale *= sample.eta * sample.eta;
-    if (world.has_textures())
-        next.state.cone = scattered_cone(world, point, rays_[i].direction, state.cone.at(hits_[i].t), sample);
-    next.ray.origin = offset_origin(point.position, point.geometric_normal, point.clearance, sample.wi);
-    if (world.has_bodies()) next.interior = path.crossing ? beyond(*path.crossing, point, sample.wi) : interiors_[i];
+    if (sample.is_transmission) state.eta_scale *= sample.eta * sample.eta;
+    rays_[i].origin = offset_origin(point.position, point.geometric_normal, point.clearance, sample.wi);
+    if (path.crossing) interiors_[i] = beyond(*path.crossing, point, sample.wi);
     return true;
 }
 
-bool PathWave::scatter_in_medium(const Context& context, std::size_t i, PathStep& next) {
+bool PathWave::scatter_in_medium(const Context& context, std::size_t i) {
     const HomogeneousMedium* medium = context.world.medium(interiors_[i]);
     if (medium == nullptr) return false;
     PathState& state = states_[i];
-    const Ray& ray = rays_[i];
+    Ray& ray = rays_[i];
     const MediumSample sample = medium->sample(state.throughput, hits_[i].t, medium_[i]);
     state.throughput *= sample.weight;
     if (!sample.scatters) return false;
@@ -285,32 +280,29 @@ bool PathWave::scatter_in_medium(const Context& context, std::size_t i, PathStep
     const bool samples_lights = context.options.sample_lights && context.world.has_lights_in_media();
     if (samples_lights && state.edges >= context.options.lengths.min_depth)
         queue_direct_light_in_medium(context, i, position, *medium);
-    next.state = state;
-    next.ray.origin = position;
-    next.ray.direction = medium->phase.sample(-ray.direction, bsdf_direction_[i]);
-    next.ray.alpha_key = alpha_key(context, i);
-    next.interior = interiors_[i];
-    next.state.pdf_solid_angle = medium->phase.pdf_solid_angle(-ray.direction, next.ray.direction);
-    if (!receivers_.empty()) next.receiver = position;
-    next.state.after_delta = !samples_lights;
-    next.state.is_direct = state.only_delta;
-    next.state.only_delta = false;
-    if (words_.are_followed()) next.state.words = words_.scatter_from_eye(state.words, VertexEvent{});
-    next.state.cone = scatter_cone(state.cone.at(sample.distance), lobe_spread(next.state.pdf_solid_angle));
+    const Vec3f wo = -ray.direction;
+    ray.origin = position;
+    ray.direction = medium->phase.sample(wo, bsdf_direction_[i]);
+    ray.alpha_key = alpha_key(context, i);
+    state.pdf_solid_angle = medium->phase.pdf_solid_angle(wo, ray.direction);
+    if (!receivers_.empty()) receivers_[i] = position;
+    state.after_delta = !samples_lights;
+    state.is_direct = state.only_delta;
+    state.only_delta = false;
+    if (words_.are_followed()) state.words = words_.scatter_from_eye(state.words, VertexEvent{});
+    state.cone = scatter_cone(state.cone.at(sample.distance), lobe_spread(state.pdf_solid_angle));
     return true;
 }
 
-void PathWave::pass_hidden(const Context& context, std::size_t i, const SurfacePoint& point, const Crossing& crossing,
-                           PathStep& next) {
-    next.state = states_[i];
-    next.receiver = receiver(i);
+void PathWave::pass_hidden(const Context& context, std::size_t i, const SurfacePoint& point, const Crossing& crossing) {
+    PathState& state = states_[i];
+    Ray& ray = rays_[i];
     // No light sample passes a boundary, so what the path meets next could not have been sampled.
-    next.state.after_delta = true;
-    next.state.cone = next.state.cone.at(hits_[i].t);
-    next.ray.direction = rays_[i].direction;
-    next.ray.origin = offset_origin(point.position, point.geometric_normal, point.clearance, next.ray.direction);
-    next.ray.alpha_key = alpha_key(context, i);
-    next.interior = beyond(crossing, point, next.ray.direction);
+    state.after_delta = true;
+    state.cone = state.cone.at(hits_[i].t);
+    ray.origin = offset_origin(point.position, point.geometric_normal, point.clearance, ray.direction);
+    ray.alpha_key = alpha_key(context, i);
+    interiors_[i] = beyond(crossing, point, ray.direction);
 }
 
 }  // namespace etendue

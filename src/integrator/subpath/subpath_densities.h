@@ -25,10 +25,10 @@
 //   light: D_0 = 1 / P_0, or 0 if nothing can hit the light. For s = 1 the light is sampled anew, for x_1: with
 //     c' P_0 / c in place of P_0, where c is the density with which it was chosen to emit and c' that with which it is
 //     chosen for x_1: the probabilities of the choice (light/light_tree.h), of a mesh what triangles gain that face x_1
-//     (light/mesh_light.h), and of an environment the densities of the direction besides (light/environment_light.h). So a_1 is multiplied by c' / c, the sum that (1, t) compares
-//     itself with, P_1 (a + b q) of the eye's, by c / c', and where an eye subpath ends on the light, P_0 (a + b q) has
-//     c' P_0 / c with a, but P_0 with b. a_1 depends on x_0 and x_1 alone: at a light that reaches x_1 by a delta or through
-//     something hidden it is zero as ever.
+//     (light/mesh_light.h), and of an environment the densities of the direction besides (light/environment_light.h).
+//     So a_1 is multiplied by c' / c, the sum that (1, t) compares itself with, P_1 (a + b q) of the eye's, by c / c',
+//     and where an eye subpath ends on the light, P_0 (a + b q) has c' P_0 / c with a, but P_0 with b. a_1 depends on
+//     x_0 and x_1 alone: at a light that reaches x_1 by a delta or through something hidden it is zero as ever.
 //   eye: D = 0, as no light hits the lens. For t = 1 the lens is sampled anew. Each pixel of the window has one camera
 //     sample and one light path that may fall anywhere: P_1, per area of the film, is multiplied by the film's pixels
 //     over the window's.
