@@ -163,9 +163,9 @@ class GivenPath {
         const float squared = length_squared(end.position - position);
         chosen.sample.distance = std::sqrt(squared);
         if (can_be_hit())
-            chosen.sample.pdf_solid_angle =
-                chosen.probability * world.emitter_pdf_area(end.light) *
-                world.light_sample_gain(end.light, end.triangle, position) * squared / std::abs(end.cos_light);
+            chosen.sample.pdf_solid_angle = chosen.probability * world.emitter_pdf_area(end.light) *
+                                            world.light_sample_gain(end.light, end.triangle, position) * squared /
+                                            std::abs(end.cos_light);
         return chosen;
     }
 
