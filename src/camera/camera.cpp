@@ -164,6 +164,14 @@ Ray generate_ray(const Camera& camera, Vec2f film, Vec2f lens) {
     return std::visit([&](const auto& c) { return c.generate_ray(film, lens); }, camera);
 }
 
+void generate_rays(const Camera& camera, std::span<const Vec2f> film, std::span<const Vec2f> lens,
+                   std::span<Ray> rays) {
+    const auto generate = [&](const auto& c) {
+        for (std::size_t i = 0; i < rays.size(); ++i) rays[i] = c.generate_ray(film[i], lens[i]);
+    };
+    std::visit(generate, camera);
+}
+
 CameraConnection connect(const Camera& camera, const Vec3f& point, Vec2f lens) {
     return std::visit([&](const auto& c) { return c.connect(point, lens); }, camera);
 }

@@ -10,6 +10,7 @@
 #include "core/ray_cone.h"
 #include "core/vec.h"
 
+#include <span>
 #include <variant>
 
 namespace etendue {
@@ -86,6 +87,8 @@ using Camera = std::variant<PinholeCamera, ThinLensCamera, OrthographicCamera>;
 
 /// The ray through film point `film`, for a lens point made from `lens` in [0, 1)². Its direction is unit length.
 [[nodiscard]] Ray generate_ray(const Camera& camera, Vec2f film, Vec2f lens);
+/// The same for many; all spans have one length.
+void generate_rays(const Camera& camera, std::span<const Vec2f> film, std::span<const Vec2f> lens, std::span<Ray> rays);
 
 /// The inverse of `generate_ray`: how `point` is seen through the lens point made from `lens` in [0, 1)². Averaged over
 /// lens points and times the radiance and the cosine of a surface, `importance_area` integrates over surfaces to what

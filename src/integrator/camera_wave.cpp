@@ -31,8 +31,9 @@ class CameraNumbers {
     std::array<float, kCapacity> y_;
 };
 
-/// At most CameraNumbers::kCapacity samples, whose keys and pixels are known.
-void generate_few(const World& world, const TileJob& job, std::span<CameraSample> samples, std::span<Ray> rays) {
+/// At most CameraNumbers::kCapacity samples, whose keys are known, as are their pixels' `positions` in the full image.
+void generate_few(const World& world, const TileJob& job, std::span<CameraSample> samples,
+                  std::span<const Vec2i> positions, std::span<Ray> rays) {
     const Vec2f to_film{1.0f / static_cast<float>(job.full_width), 1.0f / static_cast<float>(job.full_height)};
     CameraNumbers film;
     CameraNumbers lens;
@@ -40,17 +41,23 @@ void generate_few(const World& world, const TileJob& job, std::span<CameraSample
     film.draw(job.sequence, samples, kFilmDimension);
     if (world.has_lens()) lens.draw(job.sequence, samples, kLensDimension);
     if (world.has_motion()) time.draw(job.sequence, samples, kTimeDimension);
+    std::array<Vec2f, CameraNumbers::kCapacity> on_film;
+    std::array<Vec2f, CameraNumbers::kCapacity> on_lens;
+    std::array<float, CameraNumbers::kCapacity> times;
     for (std::size_t i = 0; i < samples.size(); ++i) {
-        CameraSample& sample = samples[i];
         const PixelFilter::Sample filtered = job.filter->sample(film[i]);
-        sample.weight = filtered.weight;
-        sample.lens = world.has_lens() ? lens[i] : Vec2f(0.0f);
-        const Vec2i position = pixel_position(job, sample.pixel);
-        const Vec2f on_film{(static_cast<float>(position.x) + 0.5f + filtered.offset.x) * to_film.x,
-                            (static_cast<float>(position.y) + 0.5f + filtered.offset.y) * to_film.y};
-        rays[i] = world.generate_ray(on_film, sample.lens, world.has_motion() ? time[i].x : 0.0f);
-        rays[i].alpha_key = sample_bits(sample.key, kCameraAlphaDimension);
+        on_film[i] = {(static_cast<float>(positions[i].x) + 0.5f + filtered.offset.x) * to_film.x,
+                      (static_cast<float>(positions[i].y) + 0.5f + filtered.offset.y) * to_film.y};
+        on_lens[i] = world.has_lens() ? lens[i] : Vec2f(0.0f);
+        times[i] = world.has_motion() ? time[i].x : 0.0f;
+        samples[i].weight = filtered.weight;
+        samples[i].lens = on_lens[i];
     }
+    const auto part = [&](auto& all) { return std::span(all).first(samples.size()); };
+    world.generate_rays(part(on_film), part(on_lens), part(times), rays);
+    if (!world.has_transparency()) return;
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        rays[i].alpha_key = sample_bits(samples[i].key, kCameraAlphaDimension);
 }
 
 /// What of `light` is bright enough for the list.
@@ -118,21 +125,22 @@ void generate_camera_rays(const World& world, const TileJob& job, std::size_t fi
     const std::size_t pixels = job.pixels.empty() ? job.rect.area() : job.pixels.size();
     std::size_t which = first % pixels;
     auto round = static_cast<std::uint32_t>(first / pixels);
-    for (CameraSample& sample : samples.first(rays.size())) {
-        const PixelJob pixel =
-            job.pixels.empty() ? PixelJob{static_cast<std::uint32_t>(which), job.first_sample} : job.pixels[which];
-        sample.pixel = pixel.pixel;
-        const Vec2i position = pixel_position(job, sample.pixel);
-        sample.key = {
-            make_pixel_seed(job.seed, static_cast<std::uint32_t>(position.x), static_cast<std::uint32_t>(position.y)),
-            pixel.first_sample + round};
-        if (++which < pixels) continue;
-        which = 0;
-        ++round;
-    }
+    std::array<Vec2i, CameraNumbers::kCapacity> positions;
     for (std::size_t begin = 0; begin < rays.size(); begin += CameraNumbers::kCapacity) {
-        const std::size_t count = std::min(CameraNumbers::kCapacity, rays.size() - begin);
-        generate_few(world, job, samples.subspan(begin, count), rays.subspan(begin, count));
+        const auto few = samples.subspan(begin, std::min(CameraNumbers::kCapacity, rays.size() - begin));
+        for (std::size_t i = 0; i < few.size(); ++i) {
+            const PixelJob pixel =
+                job.pixels.empty() ? PixelJob{static_cast<std::uint32_t>(which), job.first_sample} : job.pixels[which];
+            const Vec2i position = positions[i] = pixel_position(job, pixel.pixel);
+            few[i].pixel = pixel.pixel;
+            few[i].key = {make_pixel_seed(job.seed, static_cast<std::uint32_t>(position.x),
+                                          static_cast<std::uint32_t>(position.y)),
+                          pixel.first_sample + round};
+            if (++which < pixels) continue;
+            which = 0;
+            ++round;
+        }
+        generate_few(world, job, few, positions, rays.subspan(begin, few.size()));
     }
 }
 

@@ -20,8 +20,9 @@ inline constexpr int kLongPath = 64;
 /// Chance with which Russian roulette lets a path of `depth` edges from the eye live, of whose light the share
 /// `throughput` arrives. The root spares where all light has come a long way, and little of it arrives, what a chance
 /// in proportion would add to the noise; docs/integrators.md has the figures.
-[[nodiscard]] inline float eye_path_survival(float throughput, int depth) {
-    return std::min(most_survival(depth), std::sqrt(throughput));
+template <typename T>
+[[nodiscard]] inline T eye_path_survival(const T& throughput, int depth) {
+    return min(T(most_survival(depth)), sqrt(throughput));
 }
 
 /// Share of light that arrives from `distance` metres away.

@@ -1,27 +1,28 @@
 #include "sampling/sampler.h"
 
+#include "sampling/wide_bits.h"
+
+#include <experimental/simd>
+
 namespace etendue {
 
 void sample_2d(SampleSequence sequence, std::span<const std::uint32_t> pixel_seeds,
                std::span<const std::uint32_t> indices, std::uint32_t dimension, std::span<float> x,
                std::span<float> y) {
-    // One loop per sequence: the choice inside would keep the loop from being vectorised.
     const std::size_t count = x.size();
-    const std::uint32_t* const seeds = pixel_seeds.data();
-    const std::uint32_t* const index = indices.data();
-    float* const out_x = x.data();
-    float* const out_y = y.data();
-    const auto fill = [&](SampleSequence constant_sequence) {
-        for (std::size_t i = 0; i < count; ++i) {
-            const Vec2f u = sample_2d(constant_sequence, {seeds[i], index[i]}, dimension);
-            out_x[i] = u.x;
-            out_y[i] = u.y;
-        }
-    };
+    std::size_t i = 0;
     if (sequence == SampleSequence::Sobol)
-        fill(SampleSequence::Sobol);
-    else
-        fill(SampleSequence::Random);
+        for (; i + Wide::kWidth <= count; i += Wide::kWidth) {
+            const WideBits seed = hash_combine(WideBits::load(&pixel_seeds[i]), dimension);
+            const PointBits<WideBits> point = owen_sobol_bits(WideBits::load(&indices[i]), seed);
+            to_unit_float(point.x).simd().copy_to(&x[i], std::experimental::element_aligned);
+            to_unit_float(point.y).simd().copy_to(&y[i], std::experimental::element_aligned);
+        }
+    for (; i < count; ++i) {
+        const Vec2f u = sample_2d(sequence, {pixel_seeds[i], indices[i]}, dimension);
+        x[i] = u.x;
+        y[i] = u.y;
+    }
 }
 
 }  // namespace etendue

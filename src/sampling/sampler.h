@@ -34,7 +34,7 @@ struct SampleKey {
 }
 
 /// The same for many samples at once: `x[i]`, `y[i]` are those of the key (`pixel_seeds[i]`, `indices[i]`). All spans
-/// have one length. Written so that compilers vectorise it: several times as fast as one call per sample.
+/// have one length. Several times as fast as one call per sample.
 void sample_2d(SampleSequence sequence, std::span<const std::uint32_t> pixel_seeds,
                std::span<const std::uint32_t> indices, std::uint32_t dimension, std::span<float> x, std::span<float> y);
 

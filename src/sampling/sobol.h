@@ -9,10 +9,12 @@
 #include "sampling/hash.h"
 
 #include <cstdint>
+#include <type_traits>
 
 namespace etendue {
 
-[[nodiscard]] constexpr std::uint32_t reverse_bits(std::uint32_t x) {
+template <HashBits Bits>
+[[nodiscard]] constexpr Bits reverse_bits(Bits x) {
     x = (x << 16) | (x >> 16);
     x = ((x & 0x00ff00ffu) << 8) | ((x & 0xff00ff00u) >> 8);
     x = ((x & 0x0f0f0f0fu) << 4) | ((x & 0xf0f0f0f0u) >> 4);
@@ -21,7 +23,8 @@ namespace etendue {
 }
 
 /// Owen scrambling of a number whose bits are reversed: every bit is flipped depending on the bits below it only.
-[[nodiscard]] constexpr std::uint32_t owen_scramble_reversed(std::uint32_t x, std::uint32_t seed) {
+template <HashBits Bits>
+[[nodiscard]] constexpr Bits owen_scramble_reversed(Bits x, const std::type_identity_t<Bits>& seed) {
     x ^= x * 0x3d20adeau;
     x += seed;
     x *= (seed >> 16) | 1u;
@@ -32,7 +35,8 @@ namespace etendue {
 
 /// Second dimension of the Sobol' sequence with its bits reversed: the index times the Pascal matrix modulo 2, by
 /// halves.
-[[nodiscard]] constexpr std::uint32_t sobol_second_reversed(std::uint32_t index) {
+template <HashBits Bits>
+[[nodiscard]] constexpr Bits sobol_second_reversed(Bits index) {
     index ^= (index >> 16);
     index ^= (index & 0xff00ff00u) >> 8;
     index ^= (index & 0xf0f0f0f0u) >> 4;
@@ -41,12 +45,25 @@ namespace etendue {
     return index;
 }
 
-/// Point `index` of a (0,2)-sequence in [0, 1)², scrambled and shuffled by `seed`.
+/// 32 bits of each coordinate of a point.
+template <HashBits Bits>
+struct PointBits {
+    Bits x, y;
+};
+
+/// Point `index` of a (0,2)-sequence, scrambled and shuffled by `seed`.
+template <HashBits Bits>
+[[nodiscard]] constexpr PointBits<Bits> owen_sobol_bits(Bits index, Bits seed) {
+    const Bits shuffled = reverse_bits(owen_scramble_reversed(reverse_bits(index), seed));
+    const Bits x = owen_scramble_reversed(shuffled, hash_u32(seed ^ 0x68bc21ebu));
+    const Bits y = owen_scramble_reversed(sobol_second_reversed(shuffled), hash_u32(seed ^ 0x02e5be93u));
+    return {reverse_bits(x), reverse_bits(y)};
+}
+
+/// The same in [0, 1)².
 [[nodiscard]] inline Vec2f owen_sobol_2d(std::uint32_t index, std::uint32_t seed) {
-    const std::uint32_t shuffled = reverse_bits(owen_scramble_reversed(reverse_bits(index), seed));
-    const std::uint32_t x = owen_scramble_reversed(shuffled, hash_u32(seed ^ 0x68bc21ebu));
-    const std::uint32_t y = owen_scramble_reversed(sobol_second_reversed(shuffled), hash_u32(seed ^ 0x02e5be93u));
-    return {to_unit_float(reverse_bits(x)), to_unit_float(reverse_bits(y))};
+    const PointBits<std::uint32_t> point = owen_sobol_bits(index, seed);
+    return {to_unit_float(point.x), to_unit_float(point.y)};
 }
 
 }  // namespace etendue

@@ -413,6 +413,16 @@ Ray World::generate_ray(Vec2f film, Vec2f lens, float time) const {
     return ray;
 }
 
+void World::generate_rays(std::span<const Vec2f> film, std::span<const Vec2f> lens, std::span<const float> times,
+                          std::span<Ray> rays) const {
+    if (data_->camera_motion.empty()) {
+        etendue::generate_rays(data_->camera, film, lens, rays);
+        for (std::size_t i = 0; i < rays.size(); ++i) rays[i].time = times[i];
+    } else {
+        for (std::size_t i = 0; i < rays.size(); ++i) rays[i] = generate_ray(film[i], lens[i], times[i]);
+    }
+}
+
 CameraConnection World::connect_to_camera(const Vec3f& point, Vec2f lens, float time) const {
     return data_->camera_motion.empty() ? connect(data_->camera, point, lens) : connect(camera_at(time), point, lens);
 }

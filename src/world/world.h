@@ -349,6 +349,9 @@ class World {
     /// The ray of the camera as it is at `time`, through film point `film` and the lens point made from `lens`, all in
     /// [0, 1); the ray has that time.
     [[nodiscard]] Ray generate_ray(Vec2f film, Vec2f lens, float time) const;
+    /// The same for many; all spans have one length.
+    void generate_rays(std::span<const Vec2f> film, std::span<const Vec2f> lens, std::span<const float> times,
+                       std::span<Ray> rays) const;
     [[nodiscard]] const Bounds& bounds() const { return data_->bounds; }
     /// Of a sphere around all geometry, metres; 1 for an empty world.
     [[nodiscard]] float bounding_radius() const;

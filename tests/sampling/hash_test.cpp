@@ -23,8 +23,8 @@ TEST(Hash, FlipsHalfOfTheBitsForOneThatChanges) {
 }
 
 TEST(Hash, CombineDependsOnOrder) {
-    EXPECT_NE(hash_combine(hash_combine(1, 2), 3), hash_combine(hash_combine(1, 3), 2));
-    EXPECT_NE(hash_combine(1, 2), hash_combine(2, 1));
+    EXPECT_NE(hash_combine(hash_combine(1u, 2), 3), hash_combine(hash_combine(1u, 3), 2));
+    EXPECT_NE(hash_combine(1u, 2), hash_combine(2u, 1));
 }
 
 TEST(ToUnitFloat, StaysBelowOne) {

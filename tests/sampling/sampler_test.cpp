@@ -44,7 +44,7 @@ TEST(Sampler, ManyAtOnceAreTheSameNumbers) {
     std::vector<std::uint32_t> indices(37);
     for (std::uint32_t i = 0; i < 37; ++i) {
         seeds[i] = hash_u32(i);
-        indices[i] = i * 11;
+        indices[i] = i % 2 == 0 ? i * 11 : hash_u32(i + 37);
     }
     for (const SampleSequence sequence : kSequences) {
         std::vector<float> x(37);

@@ -11,11 +11,11 @@
 namespace etendue {
 
 PathWave::PathWave()
-    : states_(kCapacity), rays_(kCapacity), hits_(kCapacity), block_(kBlock), samples_(kCapacity), alpha_(kCapacity) {}
+    : states_(kCapacity), rays_(kCapacity), hits_(kCapacity), singles_(kBlock), samples_(kCapacity), alpha_(kCapacity) {}
 
 std::size_t PathWave::bytes() const {
     std::size_t bytes = sizeof *this + light_.bytes() + keys_.bytes() + shadow_rays_.bytes() + lookups_.bytes() +
-                        vector_bytes(states_, rays_, hits_, interiors_, receivers_, shares_, block_, samples_, alpha_);
+                        vector_bytes(states_, rays_, hits_, interiors_, receivers_, shares_, singles_, samples_, alpha_);
     for (const NumberPairs* numbers :
          {&light_choice_, &light_triangle_, &light_direction_, &bsdf_direction_, &choices_, &medium_})
         bytes += numbers->bytes();
@@ -47,26 +47,23 @@ void PathWave::trace(const World& world, const TileJob& job, const PathOptions& 
             find_first_hits(world, job, std::span(samples_).first(count), std::span(rays_).first(count),
                             std::span(hits_).first(count), tile);
         stamp(job.profile, Stage::HitSetup);
-        const Context context{world, job, options, depth};
-        draw_numbers(context);
-        stamp(job.profile, Stage::Numbers);
-        shade(context);
+        shade({world, job, options, depth});
         shadow_rays_.resolve(world, job, samples_, light_, tile, counters);
     }
     accumulate(job, std::span(samples_).first(count), light_, alpha_, tile, counters);
     stamp(job.profile, Stage::Film);
 }
 
-void PathWave::draw_numbers(const Context& context) {
+void PathWave::draw_numbers(const Context& context, std::size_t count) {
     keys_.clear();
-    for (std::size_t i = 0; i < active_; ++i) keys_.push_back(samples_[states_[i].slot].key);
+    for (std::size_t k = 0; k < count; ++k) keys_.push_back(samples_[states_[first_ + k].slot].key);
     const bool has_bodies = context.world.has_bodies();
-    if (context.depth >= context.options.lengths.max_depth && !has_bodies) return;
+    const bool ends = context.depth >= context.options.lengths.max_depth && !has_bodies;
     const auto draw = [&](std::uint32_t dimension, NumberPairs& numbers, bool is_needed = true) {
-        if (is_needed)
+        if (is_needed && !ends)
             numbers.draw(context.job.sequence, keys_, dimension);
         else
-            numbers.draw_none(active_);
+            numbers.draw_none(count);
     };
     if (has_bodies) draw(body_dimension(context.depth, kMedium), medium_, context.world.has_scattering_bodies());
     if (context.options.sample_lights && context.world.has_sampled_lights()) {
@@ -88,92 +85,97 @@ void PathWave::shade(const Context& context) {
 void PathWave::shade_block(const Context& context, std::size_t first, std::size_t count, std::size_t& kept) {
     const World& world = context.world;
     WaveProfile* const profile = context.job.profile;
+    first_ = first;
+    draw_numbers(context, count);
+    stamp(profile, Stage::Numbers);
     surfaces_ = 0;
     world.fetch_triangles(std::span(hits_).subspan(first, count));
     for (std::size_t k = 0; k < count; ++k) {
         goes_on_[k] = false;
-        if (set_up(context, first, k)) on_surface_[surfaces_++] = static_cast<std::uint8_t>(k);
+        if (set_up(context, k)) on_surface_[surfaces_++] = static_cast<std::uint8_t>(k);
     }
-    set_up_plain(context, first);
+    set_up_plain(context);
     stamp(profile, Stage::HitSetup);
     for (std::size_t k = 0; k < count; ++k) {
-        const std::size_t i = first + k;
-        if (!hits_[i].valid())
+        if (!hits_[first + k].valid())
             // What leaves the scene was in no body, whatever holes in meshes made of its interior.
-            add_environment(context, i);
-        else if (const SurfacePoint& point = block_[k].point; point.material != nullptr && point.material->emits)
-            add_emission(context, i, point);
+            add_environment(context, k);
+        else if (block_[k].emits)
+            add_emission(context, k);
     }
     stamp(profile, Stage::Emission);
     const auto for_surfaces = [&](const auto& visit) {
-        for (std::size_t lane = 0; lane < surfaces_; ++lane)
-            visit(first + on_surface_[lane], lane, block_[on_surface_[lane]]);
+        for (std::size_t lane = 0; lane < surfaces_; ++lane) visit(on_surface_[lane], lane);
     };
-    look_up_textures(context, first);
-    for_surfaces([&](std::size_t i, std::size_t lane, ShadedPath& path) { make_scattering(context, i, lane, path); });
+    look_up_textures(context);
+    for_surfaces([&](std::size_t k, std::size_t lane) { make_scattering(context, k, lane); });
     stamp(profile, Stage::Textures);
-    sample_lights(context, first);
+    sample_lights(context);
     stamp(profile, Stage::LightSampling);
-    evaluate_matte(first);
-    evaluate_glossy(first);
+    evaluate_matte();
+    evaluate_glossy();
     lanes_.set_next_origins(surfaces_);
-    for_surfaces([&](std::size_t i, std::size_t, ShadedPath& path) {
-        if (!path.is_wide) evaluate(i, path);
+    for_surfaces([&](std::size_t k, std::size_t) {
+        if (!block_[k].is_wide) evaluate(k);
     });
     stamp(profile, Stage::Material);
     lanes_.weigh_light(surfaces_);
-    for_surfaces([&](std::size_t i, std::size_t lane, const ShadedPath& path) {
-        if (!path.samples_light) return;
-        if (path.is_wide)
-            queue_by_lanes(context, i, lane, path);
+    for_surfaces([&](std::size_t k, std::size_t lane) {
+        if (!block_[k].samples_light) return;
+        if (block_[k].is_wide)
+            queue_by_lanes(context, k, lane);
         else
-            queue_direct_light(context, i, path);
+            queue_direct_light(context, k);
     });
     stamp(profile, Stage::Mis);
-    for_surfaces([&](std::size_t i, std::size_t lane, const ShadedPath& path) {
-        goes_on_[i - first] =
-            path.is_wide ? scatter_by_lanes(context, i, lane, path) : scatter_at_surface(context, i, path);
+    for_surfaces([&](std::size_t k, std::size_t lane) {
+        goes_on_[k] = block_[k].is_wide ? scatter_by_lanes(context, k, lane) : scatter_at_surface(context, k);
     });
+    if (world.has_bodies())
+        for (std::size_t k = 0; k < count; ++k)
+            if (block_[k].is_at_hidden) pass_hidden(context, k);
+    play_roulette(context, count);
+    // Each is moved, whether or not it goes on: which do is so much by chance that to ask would take longer.
     for (std::size_t k = 0; k < count; ++k) {
         const std::size_t i = first + k;
-        if (block_[k].is_at_hidden) pass_hidden(context, i, block_[k].point, *block_[k].crossing);
-        if (!goes_on_[k] || !survives(context, i)) continue;
-        if (kept != i) {
-            states_[kept] = states_[i];
-            rays_[kept] = rays_[i];
-            if (world.has_bodies()) interiors_[kept] = interiors_[i];
-            if (!receivers_.empty()) receivers_[kept] = receivers_[i];
-        }
-        ++kept;
+        states_[kept] = states_[i];
+        rays_[kept] = rays_[i];
+        if (world.has_bodies()) interiors_[kept] = interiors_[i];
+        if (!receivers_.empty()) receivers_[kept] = receivers_[i];
+        kept += goes_on_[k] ? 1 : 0;
     }
     stamp(profile, Stage::Roulette);
 }
 
-bool PathWave::survives(const Context& context, std::size_t i) {
+void PathWave::play_roulette(const Context& context, std::size_t count) {
     // In bodies nothing but roulette bounds a walk: neither media nor hidden boundaries add edges.
     const int first = context.world.has_bodies() ? std::min(context.options.lengths.roulette_depth, kLongPath)
                                                  : context.options.lengths.roulette_depth;
-    if (context.depth < first) return true;
-    PathState& state = states_[i];
-    const float survival = eye_path_survival(max_component(state.throughput) * state.eta_scale, context.depth);
-    if (choices_[i].y >= survival) {
-        end_path(context, i, PathEnding::Roulette);
-        return false;
+    if (context.depth < first) return;
+    const auto states = std::span(states_).subspan(first_, count);
+    Column survival;
+    for (std::size_t k = 0; k < count; ++k)
+        survival.set(k, max_component(states[k].throughput) * states[k].eta_scale);
+    for (std::size_t k = 0; k < count; k += Wide::kWidth)
+        survival.store(k, eye_path_survival(survival.load(k), context.depth));
+    for (std::size_t k = 0; k < count; ++k) {
+        const bool survives = choices_[k].y < survival[k];
+        if (context.job.profile != nullptr && goes_on_[k] && !survives) end_path(context, k, PathEnding::Roulette);
+        goes_on_[k] = goes_on_[k] && survives;
+        states[k].throughput *= 1.0f / survival[k];
     }
-    state.throughput *= 1.0f / survival;
-    return true;
 }
 
-void PathWave::end_path(const Context& context, std::size_t i, PathEnding ending) const {
+void PathWave::end_path(const Context& context, std::size_t k, PathEnding ending) const {
     WaveProfile* const profile = context.job.profile;
     if (profile == nullptr) return;
-    const Vec2i pixel = pixel_position(context.job, samples_[states_[i].slot].pixel);
-    profile->end_eye_path(ending, {pixel.x, pixel.y, keys_[i].index, context.depth});
+    const Vec2i pixel = pixel_position(context.job, samples_[states_[first_ + k].slot].pixel);
+    profile->end_eye_path(ending, {pixel.x, pixel.y, keys_[k].index, context.depth});
 }
 
-std::uint32_t PathWave::alpha_key(const Context& context, std::size_t i) const {
+std::uint32_t PathWave::alpha_key(const Context& context, std::size_t k) const {
     if (!context.world.has_transparency()) return 0;
-    return sample_bits(keys_[i], bounce_dimension(context.depth, kAlpha));
+    return sample_bits(keys_[k], bounce_dimension(context.depth, kAlpha));
 }
 
 }  // namespace etendue

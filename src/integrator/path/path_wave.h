@@ -43,21 +43,27 @@ struct PathState {
     bool is_direct = true;    ///< every scattering but the last was: what it meets lights what the eye sees so
 };
 
-/// A path whose ray has hit a surface, between the stages of its shading, with what is not in `BlockLanes`.
+/// A path whose ray has hit a surface, between the stages of its shading: what all of them ask.
 struct ShadedPath {
-    SurfacePoint point;  ///< of a plain surface its material, and where things are textured its triangle
     const PlainSurface* plain = nullptr;        ///< see World::plain_surface
     const MetallicRoughness* glossy = nullptr;  ///< its lobe, where that is evaluated for many at once
-    bool is_wide = false;                       ///< scattered by a lobe that is evaluated for many paths at once
-    bool is_mesh_lit = false;                   ///< by an even mesh light, which is sampled for many at once
+    std::uint32_t light = kNone;                ///< that is sampled
+    bool emits = false;                         ///< where the ray has hit
     bool is_at_hidden = false;                  ///< on a boundary that another body hides
+    bool samples_light = false;
+    bool is_wide = false;      ///< scattered by a lobe that is evaluated for many paths at once
+    bool is_mesh_lit = false;  ///< by an even mesh light, which is sampled for many at once
+};
+
+/// The rest, which paths have that are shaded one by one: some 700 bytes, apart from what stays in the first-level
+/// cache.
+struct SingleShading {
+    SurfacePoint point;  ///< of a plain surface only what names it: for words its material, for cones its triangle
     std::optional<Crossing> crossing;
     Wavelength wavelength{};  ///< that it goes on with, and its weight
     bool chooses_wavelength = false;
-    bool samples_light = false;
     Bsdf storage;
     std::optional<Scattering> scattering;  ///< unless it is_wide; of glossy ones where words are followed
-    ChosenLight light;
     BsdfValue towards_light;
     BsdfSample sample;
 };
@@ -88,63 +94,67 @@ class PathWave final : public IntegratorScratch {
         int depth;  ///< rays that each path has traced; its edges, if the World has no bodies
     };
 
-    /// Random numbers of all active paths for this bounce, many at a time.
-    void draw_numbers(const Context& context);
+    /// Random numbers of the block for this bounce, many at a time.
+    void draw_numbers(const Context& context, std::size_t count);
     void shade(const Context& context);
     /// Advances paths [first, first + count), count <= kBlock, stage by stage, and moves those that go on to where
     /// `kept` says.
     void shade_block(const Context& context, std::size_t first, std::size_t count, std::size_t& kept);
-    /// Finds out where path `first` + `k` is; true if it is on a surface that may scatter it.
-    bool set_up(const Context& context, std::size_t first, std::size_t k);
+    // Path `k` of the block is path `first_` + `k` of the wave; if it is on a surface, one of `lanes_` is its.
+    /// Finds out where path `k` is; true if it is on a surface that may scatter it.
+    bool set_up(const Context& context, std::size_t k);
     /// Points on plain surfaces, all at once.
-    void set_up_plain(const Context& context, std::size_t first);
+    void set_up_plain(const Context& context);
     /// Lobes of textured plain surfaces, all at once.
-    void look_up_textures(const Context& context, std::size_t first);
+    void look_up_textures(const Context& context);
     /// Has the path of a plain surface that mirrors after all go on as one of any other.
-    void set_up_singly(const Context& context, std::size_t i, ShadedPath& path) const;
-    /// Looks up textures and makes the lobes of path `i`.
-    void make_scattering(const Context& context, std::size_t i, std::size_t lane, ShadedPath& path);
-    /// What light is chosen for at the surface of a path.
-    [[nodiscard]] LightReceiver make_receiver(std::size_t lane, const ShadedPath& path) const;
+    void set_up_singly(const Context& context, std::size_t k);
+    /// Looks up textures and makes the lobes of path `k`.
+    void make_scattering(const Context& context, std::size_t k, std::size_t lane);
+    /// What light is chosen for at the surface of path `k`.
+    [[nodiscard]] LightReceiver make_receiver(std::size_t k, std::size_t lane) const;
     /// Samples a light for each path that asks for one.
-    void sample_lights(const Context& context, std::size_t first);
+    void sample_lights(const Context& context);
     /// What the surface scatters towards the light, and where else to.
-    void evaluate(std::size_t i, ShadedPath& path) const;
-    void evaluate_matte(std::size_t first);
-    void evaluate_glossy(std::size_t first);
-    /// Takes path `i` through the medium that its ray is in; true if it scatters there.
-    bool scatter_in_medium(const Context& context, std::size_t i);
-    /// Takes path `i` through a boundary that another body hides.
-    void pass_hidden(const Context& context, std::size_t i, const SurfacePoint& point, const Crossing& crossing);
-    /// Takes path `i` where the sample of its BSDF says; false if it ends.
-    bool scatter_at_surface(const Context& context, std::size_t i, const ShadedPath& path);
-    bool scatter_by_lanes(const Context& context, std::size_t i, std::size_t lane, const ShadedPath& path);
-    /// What the surface of a path that is_wide does towards `wi`.
-    [[nodiscard]] VertexEvent wide_event(const Context& context, const ShadedPath& path, const Vec3f& wi) const;
-    /// What both have in common: the state of path `i` after `sample` at `point`, and the direction of its ray. False
-    /// if nothing was scattered.
-    bool scatter(const Context& context, std::size_t i, const SurfacePoint& point, const BsdfSample& sample);
-    /// Russian roulette; divides the throughput of those that survive by their chance.
-    bool survives(const Context& context, std::size_t i);
-    /// Tells the profile, if there is one, of the end of path `i`.
-    void end_path(const Context& context, std::size_t i, PathEnding ending) const;
-    void add_environment(const Context& context, std::size_t i);
-    void add_emission(const Context& context, std::size_t i, const SurfacePoint& point);
+    void evaluate(std::size_t k);
+    void evaluate_matte();
+    void evaluate_glossy();
+    /// Takes path `k` through the medium that its ray is in; true if it scatters there.
+    bool scatter_in_medium(const Context& context, std::size_t k);
+    /// Takes path `k` through a boundary that another body hides.
+    void pass_hidden(const Context& context, std::size_t k);
+    /// Takes path `k` where the sample of its BSDF says; false if it ends.
+    bool scatter_at_surface(const Context& context, std::size_t k);
+    bool scatter_by_lanes(const Context& context, std::size_t k, std::size_t lane);
+    /// What the surface of path `k`, which is_wide, does towards `wi`.
+    [[nodiscard]] VertexEvent wide_event(const Context& context, std::size_t k, const Vec3f& wi) const;
+    /// What both have in common: the state of path `k` after `sample`, and the direction of its ray. False if nothing
+    /// was scattered.
+    bool scatter(const Context& context, std::size_t k, const BsdfSample& sample);
+    /// Russian roulette for the block; divides the throughput of those that survive by their chance.
+    void play_roulette(const Context& context, std::size_t count);
+    /// Tells the profile, if there is one, of the end of path `k`.
+    void end_path(const Context& context, std::size_t k, PathEnding ending) const;
+    void add_environment(const Context& context, std::size_t k);
+    void add_emission(const Context& context, std::size_t k);
     /// Where the ray of path `i` starts, as far as the choice of a light depends on it.
     [[nodiscard]] LightReceiver receiver(std::size_t i) const {
         return receivers_.empty() ? LightReceiver{} : receivers_[i];
     }
-    void queue_direct_light(const Context& context, std::size_t i, const ShadedPath& path);
-    void queue_by_lanes(const Context& context, std::size_t i, std::size_t lane, const ShadedPath& path);
-    void queue_direct_light_in_medium(const Context& context, std::size_t i, const Vec3f& position,
+    void queue_direct_light(const Context& context, std::size_t k);
+    void queue_by_lanes(const Context& context, std::size_t k, std::size_t lane);
+    void queue_direct_light_in_medium(const Context& context, std::size_t k, const Vec3f& position,
                                       const HomogeneousMedium& medium);
-    [[nodiscard]] ChosenLight sample_light(const Context& context, std::size_t i, const Vec3f& position) const;
+    /// What the light that path `k` samples is made from.
+    [[nodiscard]] LightNumbers light_numbers(std::size_t k) const {
+        return {light_choice_[k], light_triangle_[k], light_direction_[k]};
+    }
     /// `event` is what the vertex does towards `light`.
-    void queue(const Context& context, std::size_t i, Ray ray, const Rgb& contribution, std::uint32_t light,
+    void queue(const Context& context, std::size_t k, Ray ray, const Rgb& contribution, std::uint32_t light,
                const VertexEvent& event);
     /// Adds `light` that the path has met.
     void add_light(const PathState& state, const Rgb& light, const AovSet::Source& source);
-    [[nodiscard]] std::uint32_t alpha_key(const Context& context, std::size_t i) const;
+    [[nodiscard]] std::uint32_t alpha_key(const Context& context, std::size_t k) const;
 
     // By active path; paths that end are squeezed out after every bounce.
     std::size_t active_ = 0;
@@ -153,15 +163,18 @@ class PathWave final : public IntegratorScratch {
     std::vector<Hit> hits_;
     std::vector<Interior> interiors_;       ///< only if the World has bodies
     std::vector<LightReceiver> receivers_;  ///< where rays start; only if the World chooses lights by that
-    SampleKeys keys_;
-    NumberPairs light_choice_, light_triangle_, light_direction_, bsdf_direction_;
-    NumberPairs choices_;  ///< x: which lobe, y: whether the path ends
-    NumberPairs medium_;   ///< x: how far, y: by which channel
     PathWords words_;
     std::vector<ExpressionShare> shares_;  ///< of the contribution at hand
     Connections shadow_rays_{RayKind::Shadow};
     // Of the block that is shaded.
-    std::vector<ShadedPath> block_;
+    std::size_t first_ = 0;  ///< its first path
+    SampleKeys keys_;
+    NumberPairs light_choice_, light_triangle_, light_direction_, bsdf_direction_;
+    NumberPairs choices_;  ///< x: which lobe, y: whether the path ends
+    NumberPairs medium_;   ///< x: how far, y: by which channel
+    std::array<ShadedPath, kBlock> block_{};
+    std::vector<SingleShading> singles_;
+    std::array<ChosenLight, kBlock> lights_{};  ///< samples of those that are not sampled for many at once
     std::array<std::uint8_t, kBlock> on_surface_{};  ///< places in the block of the paths on surfaces, which have lanes
     std::size_t surfaces_ = 0;
     BlockLanes lanes_;

@@ -25,7 +25,8 @@ LightKind kind_of_met_light(const PathState& state) {
 
 }  // namespace
 
-LightReceiver PathWave::make_receiver(std::size_t lane, const ShadedPath& path) const {
+LightReceiver PathWave::make_receiver(std::size_t k, std::size_t lane) const {
+    const ShadedPath& path = block_[k];
     LightReceiver receiver(lanes_.position[lane]);
     const auto face = [&](const Vec3f& normal, const Vec3f& wo) {
         receiver.normal = normal;
@@ -37,7 +38,7 @@ LightReceiver PathWave::make_receiver(std::size_t lane, const ShadedPath& path) 
         const Vec3f normal = lanes_.normal[lane];
         face(dot(lanes_.geometric_normal[lane], wo) < 0.0f ? -normal : normal, wo);
         if (path.glossy != nullptr) gloss = gloss_of(*path.glossy, dot(receiver.normal, wo));
-    } else if (const Scattering& scattering = *path.scattering; only_reflects(scattering.bsdf())) {
+    } else if (const Scattering& scattering = *singles_[k].scattering; only_reflects(scattering.bsdf())) {
         face(scattering.normal(), scattering.wo());
         gloss = gloss_of(scattering.bsdf(), scattering.wo_local().z);
     }
@@ -46,19 +47,20 @@ LightReceiver PathWave::make_receiver(std::size_t lane, const ShadedPath& path) 
     return receiver;
 }
 
-void PathWave::sample_lights(const Context& context, std::size_t first) {
+void PathWave::sample_lights(const Context& context) {
     const World& world = context.world;
     std::array<std::uint8_t, kBlock> lanes;
     std::array<Vec2f, kBlock> u;
     std::size_t count = 0;
     for (std::size_t lane = 0; lane < surfaces_; ++lane) {
-        ShadedPath& path = block_[on_surface_[lane]];
+        const std::size_t k = on_surface_[lane];
+        ShadedPath& path = block_[k];
         path.is_mesh_lit = false;
         lanes_.light_pdf.set(lane, 0.0f);
         if (!path.samples_light) continue;
-        if (!receivers_.empty()) to_light_[count] = receivers_[first + on_surface_[lane]] = make_receiver(lane, path);
+        if (!receivers_.empty()) to_light_[count] = receivers_[first_ + k] = make_receiver(k, lane);
         lanes[count] = static_cast<std::uint8_t>(lane);
-        u[count] = light_choice_[first + on_surface_[lane]];
+        u[count] = light_choice_[k];
         ++count;
     }
     if (count == 0) return;
@@ -67,31 +69,30 @@ void PathWave::sample_lights(const Context& context, std::size_t first) {
     bool any_mesh_lit = false;
     for (std::size_t chosen = 0; chosen < count; ++chosen) {
         const std::size_t lane = lanes[chosen];
-        const std::size_t i = first + on_surface_[lane];
-        ShadedPath& path = block_[on_surface_[lane]];
+        const std::size_t k = on_surface_[lane];
+        ShadedPath& path = block_[k];
         const LightTree::Choice& choice = choices[chosen];
+        path.light = choice.light;
         const Vec3f position = lanes_.position[lane];
         const MeshLight* mesh = world.even_mesh_light(choice.light);
         if (mesh == nullptr) {
-            path.light =
-                world.sample_light(choice, position, {light_choice_[i], light_triangle_[i], light_direction_[i]});
+            lights_[k] = world.sample_light(choice, position, light_numbers(k));
             continue;
         }
         any_mesh_lit = true;
         path.is_mesh_lit = true;
-        path.light.probability = choice.probability;
-        path.light.light = choice.light;
-        lanes_.front.set(lane, mesh->front(mesh->choose_triangle(position, light_triangle_[i])));
+        lanes_.front.set(lane, mesh->front(mesh->choose_triangle(position, light_triangle_[k])));
         lanes_.light_probability.set(lane, choice.probability);
         lanes_.light_radiance.set(lane, mesh->radiance());
         lanes_.light_by_chance.set(lane, 1.0f);
-        lanes_.u.set(lane, light_direction_[i]);
+        lanes_.u.set(lane, light_direction_[k]);
     }
     if (any_mesh_lit) lanes_.sample_mesh_lights(surfaces_);
     for (std::size_t lane = 0; lane < surfaces_; ++lane) {
-        ShadedPath& path = block_[on_surface_[lane]];
+        const std::size_t k = on_surface_[lane];
+        const ShadedPath& path = block_[k];
         if (path.is_wide == path.is_mesh_lit) continue;
-        LightSample& light = path.light.sample;
+        LightSample& light = lights_[k].sample;
         if (path.is_mesh_lit) {
             light.wi = lanes_.light_wi[lane];
             light.distance = lanes_.light_distance[lane];
@@ -103,15 +104,16 @@ void PathWave::sample_lights(const Context& context, std::size_t first) {
             lanes_.light_wi.set(lane, light.wi);
             lanes_.light_distance.set(lane, light.distance);
             lanes_.light_end.set(lane, light.end);
-            lanes_.light_pdf.set(lane, light.is_delta ? path.light.probability : light.pdf_solid_angle);
+            lanes_.light_pdf.set(lane, light.is_delta ? lights_[k].probability : light.pdf_solid_angle);
             lanes_.light_by_chance.set(lane, light.is_delta ? 0.0f : 1.0f);
             lanes_.light_radiance.set(lane, light.radiance);
         }
     }
 }
 
-void PathWave::add_environment(const Context& context, std::size_t i) {
+void PathWave::add_environment(const Context& context, std::size_t k) {
     const World& world = context.world;
+    const std::size_t i = first_ + k;
     const PathState& state = states_[i];
     const Ray& ray = rays_[i];
     if (context.depth == 1 && !(world.has_environment() && world.environment_visible_to_camera())) {
@@ -127,7 +129,9 @@ void PathWave::add_environment(const Context& context, std::size_t i) {
     add_light(state, world.environment_radiance(ray.direction) * weight, words_.environment_source());
 }
 
-void PathWave::add_emission(const Context& context, std::size_t i, const SurfacePoint& point) {
+void PathWave::add_emission(const Context& context, std::size_t k) {
+    const std::size_t i = first_ + k;
+    const SurfacePoint& point = singles_[k].point;
     const PathState& state = states_[i];
     const Ray& ray = rays_[i];
     if (state.edges < context.options.lengths.min_depth) return;
@@ -141,53 +145,50 @@ void PathWave::add_emission(const Context& context, std::size_t i, const Surface
     add_light(state, emitted * weight, words_.surface_source(point));
 }
 
-ChosenLight PathWave::sample_light(const Context& context, std::size_t i, const Vec3f& position) const {
-    return context.world.sample_light(position, {light_choice_[i], light_triangle_[i], light_direction_[i]});
-}
-
-void PathWave::queue_direct_light(const Context& context, std::size_t i, const ShadedPath& path) {
+void PathWave::queue_direct_light(const Context& context, std::size_t k) {
     if (context.job.profile != nullptr) ++context.job.profile->use().light_samples;
-    const LightSample& light = path.light.sample;
+    const SingleShading& path = singles_[k];
+    const LightSample& light = lights_[k].sample;
     if (is_black(light.radiance) || is_black(path.towards_light.f_cos)) return;
     const SurfacePoint& point = path.point;
-    Rgb contribution = states_[i].throughput * path.towards_light.f_cos * light.radiance *
-                       light_sample_scale(path.light, path.towards_light.pdf_solid_angle);
+    Rgb contribution = states_[first_ + k].throughput * path.towards_light.f_cos * light.radiance *
+                       light_sample_scale(lights_[k], path.towards_light.pdf_solid_angle);
     if (context.world.has_bodies())
-        contribution *=
-            path.wavelength.weight *
-            transmittance(context.world, path.crossing ? beyond(*path.crossing, point, light.wi) : interiors_[i],
-                          light.distance);
-    queue(context, i,
+        contribution *= path.wavelength.weight *
+                        transmittance(context.world,
+                                      path.crossing ? beyond(*path.crossing, point, light.wi) : interiors_[first_ + k],
+                                      light.distance);
+    queue(context, k,
           shadow_ray(offset_origin(point.position, point.geometric_normal, point.clearance, light.wi), light),
-          contribution, path.light.light,
+          contribution, block_[k].light,
           words_.are_followed() ? surface_event(*path.scattering, light.wi, false, TransportMode::Radiance,
                                                 words_.label(context.world, point))
                                 : VertexEvent{});
 }
 
-void PathWave::queue_by_lanes(const Context& context, std::size_t i, std::size_t lane, const ShadedPath& path) {
+void PathWave::queue_by_lanes(const Context& context, std::size_t k, std::size_t lane) {
     if (context.job.profile != nullptr) ++context.job.profile->use().light_samples;
     Rgb contribution = lanes_.contribution[lane];
     if (is_black(contribution)) return;
     if (context.world.has_bodies())
-        contribution *= transmittance(context.world, interiors_[i], lanes_.light_distance[lane]);
+        contribution *= transmittance(context.world, interiors_[first_ + k], lanes_.light_distance[lane]);
     Ray ray;
     ray.origin = lanes_.shadow_origin[lane];
     ray.direction = lanes_.shadow_direction[lane];
     ray.t_max = lanes_.shadow_t_max[lane];
-    queue(context, i, ray, contribution, path.light.light,
-          words_.are_followed() ? wide_event(context, path, lanes_.light_wi[lane]) : VertexEvent{});
+    queue(context, k, ray, contribution, block_[k].light,
+          words_.are_followed() ? wide_event(context, k, lanes_.light_wi[lane]) : VertexEvent{});
 }
 
-void PathWave::queue_direct_light_in_medium(const Context& context, std::size_t i, const Vec3f& position,
+void PathWave::queue_direct_light_in_medium(const Context& context, std::size_t k, const Vec3f& position,
                                             const HomogeneousMedium& medium) {
     if (context.job.profile != nullptr) ++context.job.profile->use().light_samples;
-    const ChosenLight chosen = sample_light(context, i, position);
+    const ChosenLight chosen = context.world.sample_light(position, light_numbers(k));
     const LightSample& light = chosen.sample;
     if (is_black(light.radiance)) return;
-    const float phase = medium.phase.pdf_solid_angle(-rays_[i].direction, light.wi);
-    queue(context, i, shadow_ray(position, light),
-          states_[i].throughput * light.radiance * medium.transmittance(light.distance) *
+    const float phase = medium.phase.pdf_solid_angle(-rays_[first_ + k].direction, light.wi);
+    queue(context, k, shadow_ray(position, light),
+          states_[first_ + k].throughput * light.radiance * medium.transmittance(light.distance) *
               (phase * light_sample_scale(chosen, phase)),
           chosen.light, VertexEvent{});
 }
@@ -200,16 +201,17 @@ void PathWave::add_light(const PathState& state, const Rgb& light, const AovSet:
     light_.add(state.slot, state.throughput * light, kind, shares_);
 }
 
-void PathWave::queue(const Context& context, std::size_t i, Ray ray, const Rgb& contribution, std::uint32_t light,
+void PathWave::queue(const Context& context, std::size_t k, Ray ray, const Rgb& contribution, std::uint32_t light,
                      const VertexEvent& event) {
     if (is_black(contribution)) return;
+    const PathState& state = states_[first_ + k];
     shares_.clear();
     if (words_.are_followed())
-        words_.end_at_light(states_[i].words, event, words_.light_source(context.world, light), shares_);
-    ray.time = rays_[i].time;
-    ray.alpha_key = ~alpha_key(context, i);  // another key than the bounce ray's
-    shadow_rays_.to_sample(ray, states_[i].slot, contribution,
-                           states_[i].only_delta ? LightKind::Direct : LightKind::Indirect, shares_);
+        words_.end_at_light(state.words, event, words_.light_source(context.world, light), shares_);
+    ray.time = rays_[first_ + k].time;
+    ray.alpha_key = ~alpha_key(context, k);  // another key than the bounce ray's
+    shadow_rays_.to_sample(ray, state.slot, contribution, state.only_delta ? LightKind::Direct : LightKind::Indirect,
+                           shares_);
 }
 
 }  // namespace etendue

@@ -1,0 +1,63 @@
+// 32 random bits for each of as many samples as `Wide` has lanes: what hashes and scrambling compute with many at once.
+#pragma once
+
+#include "core/wide.h"
+
+#include <bit>
+#include <cstdint>
+
+#if defined(__GFNI__) && defined(__AVX512BW__)
+#include <immintrin.h>
+#endif
+
+namespace etendue {
+
+class WideBits {
+  public:
+    using Simd = std::experimental::rebind_simd_t<std::uint32_t, Wide::Simd>;
+
+    /// The same bits in every lane.
+    WideBits(std::uint32_t bits) : lanes_(bits) {}  // NOLINT(google-explicit-constructor): as of Wide
+    explicit WideBits(Simd lanes) : lanes_(lanes) {}
+
+    /// `Wide::kWidth` numbers from any address.
+    [[nodiscard]] static WideBits load(const std::uint32_t* from) {
+        return WideBits(Simd(from, std::experimental::element_aligned));
+    }
+    [[nodiscard]] Simd simd() const { return lanes_; }
+
+    WideBits& operator^=(WideBits o) { return *this = *this ^ o; }
+    WideBits& operator+=(WideBits o) { return *this = *this + o; }
+    WideBits& operator*=(WideBits o) { return *this = *this * o; }
+
+    [[nodiscard]] friend WideBits operator^(WideBits a, WideBits b) { return WideBits(a.lanes_ ^ b.lanes_); }
+    [[nodiscard]] friend WideBits operator|(WideBits a, WideBits b) { return WideBits(a.lanes_ | b.lanes_); }
+    [[nodiscard]] friend WideBits operator&(WideBits a, WideBits b) { return WideBits(a.lanes_ & b.lanes_); }
+    [[nodiscard]] friend WideBits operator+(WideBits a, WideBits b) { return WideBits(a.lanes_ + b.lanes_); }
+    [[nodiscard]] friend WideBits operator*(WideBits a, WideBits b) { return WideBits(a.lanes_ * b.lanes_); }
+    [[nodiscard]] friend WideBits operator<<(WideBits a, int bits) { return WideBits(a.lanes_ << bits); }
+    [[nodiscard]] friend WideBits operator>>(WideBits a, int bits) { return WideBits(a.lanes_ >> bits); }
+
+    /// The upper 24 bits as floats in [0, 1).
+    [[nodiscard]] friend Wide to_unit_float(WideBits a) {
+        using Int = std::experimental::rebind_simd_t<int, Wide::Simd>;
+        return Wide(std::experimental::static_simd_cast<Wide::Simd>(std::bit_cast<Int>(a.lanes_ >> 8)) * 0x1p-24f);
+    }
+
+#if defined(__GFNI__) && defined(__AVX512BW__)
+    /// As `reverse_bits` does it with masks, in two steps in place of some fourteen: the bytes, then the bits of each,
+    /// by a matrix.
+    [[nodiscard]] friend WideBits reverse_bits(WideBits a) {
+        static_assert(sizeof(Simd) == sizeof(__m512i));
+        const __m512i bytes = _mm512_shuffle_epi8(std::bit_cast<__m512i>(a.lanes_),
+                                                  _mm512_set4_epi32(0x0c0d0e0f, 0x08090a0b, 0x04050607, 0x00010203));
+        const __m512i matrix = _mm512_set1_epi64(static_cast<std::int64_t>(0x8040201008040201u));
+        return WideBits(std::bit_cast<Simd>(_mm512_gf2p8affine_epi64_epi8(bytes, matrix, 0)));
+    }
+#endif
+
+  private:
+    Simd lanes_;
+};
+
+}  // namespace etendue
