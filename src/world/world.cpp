@@ -64,7 +64,8 @@ void evaluate_uniform_materials(WorldData& data) {
     }
 }
 
-/// Most bytes of geometry that are expected to lie in a second-level cache. Less is not fetched ahead.
+/// Most bytes of geometry and of the BVH over it that are expected to stay in a second-level cache. Less is not fetched
+/// ahead.
 constexpr std::size_t kCachedGeometry = std::size_t{2} << 20;
 
 std::size_t geometry_bytes(const WorldData& data) {
@@ -102,7 +103,7 @@ World::World(WorldData data)
             const MeshLight* mesh = std::get_if<MeshLight>(&light);
             return mesh != nullptr && mesh->has_opposites();
         });
-    has_far_triangles_ = geometry_bytes(*data_) > kCachedGeometry;
+    has_far_triangles_ = geometry_bytes(*data_) + data_->bvh->bytes() > kCachedGeometry;
     evaluate_uniform_materials(*data_);
     plain_surfaces_ = find_plain_surfaces(*data_);
     has_motion_ = data_->bvh->has_motion() || !data_->camera_motion.empty();

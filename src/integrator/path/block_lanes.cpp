@@ -50,9 +50,9 @@ void BlockLanes::weigh_light(std::size_t count) {
         const Wide weight = power_heuristic(by_light, pdf.load(l) * light_by_chance.load(l)) / by_light;
         // What is no number goes on, to be counted with what it makes of its sample.
         const auto is_dark = by_light <= Wide(0.0f) || is_black(f_cos.load(l));
-        const BasicRgb<Wide> arriving = throughput.load(l) * f_cos.load(l) * light_radiance.load(l) * weight;
-        contribution.store(l, {select(is_dark, Wide(0.0f), arriving.r), select(is_dark, Wide(0.0f), arriving.g),
-                               select(is_dark, Wide(0.0f), arriving.b)});
+        const BasicRgb<Wide> light = throughput.load(l) * f_cos.load(l) * light_radiance.load(l) * weight;
+        contribution.store(l, light);
+        arrives.store(l, select(is_dark || is_black(light), Wide(0.0f), Wide(1.0f)));
         const WideVec3 wi = light_wi.load(l);
         const WideVec3 origin = offset_origin(position.load(l), geometric_normal.load(l), clearance.load(l), wi);
         shadow_origin.store(l, origin);

@@ -28,6 +28,7 @@ struct BlockLanes : SurfaceLanes {
     RgbColumns f_cos;
     Column pdf;
     RgbColumns contribution;
+    Column arrives;  ///< 1 where the contribution is not black, else 0
     Vec3Columns shadow_origin, shadow_direction;
     Column shadow_t_max;
 
@@ -44,7 +45,7 @@ struct BlockLanes : SurfaceLanes {
     void evaluate_matte(std::size_t count);
     /// `next_origin`, from `next_direction`.
     void set_next_origins(std::size_t count);
-    /// `contribution` and its ray.
+    /// `contribution`, whether it `arrives`, and its ray.
     void weigh_light(std::size_t count);
 };
 

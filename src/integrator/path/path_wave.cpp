@@ -11,11 +11,17 @@
 namespace etendue {
 
 PathWave::PathWave()
-    : states_(kCapacity), rays_(kCapacity), hits_(kCapacity), singles_(kBlock), samples_(kCapacity), alpha_(kCapacity) {}
+    : states_(kCapacity),
+      rays_(kCapacity),
+      hits_(kCapacity),
+      singles_(kBlock),
+      samples_(kCapacity),
+      alpha_(kCapacity) {}
 
 std::size_t PathWave::bytes() const {
-    std::size_t bytes = sizeof *this + light_.bytes() + keys_.bytes() + shadow_rays_.bytes() + lookups_.bytes() +
-                        vector_bytes(states_, rays_, hits_, interiors_, receivers_, shares_, singles_, samples_, alpha_);
+    std::size_t bytes =
+        sizeof *this + light_.bytes() + keys_.bytes() + shadow_rays_.bytes() + lookups_.bytes() +
+        vector_bytes(states_, rays_, hits_, interiors_, receivers_, shares_, singles_, samples_, alpha_);
     for (const NumberPairs* numbers :
          {&light_choice_, &light_triangle_, &light_direction_, &bsdf_direction_, &choices_, &medium_})
         bytes += numbers->bytes();
@@ -119,14 +125,7 @@ void PathWave::shade_block(const Context& context, std::size_t first, std::size_
         if (!block_[k].is_wide) evaluate(k);
     });
     stamp(profile, Stage::Material);
-    lanes_.weigh_light(surfaces_);
-    for_surfaces([&](std::size_t k, std::size_t lane) {
-        if (!block_[k].samples_light) return;
-        if (block_[k].is_wide)
-            queue_by_lanes(context, k, lane);
-        else
-            queue_direct_light(context, k);
-    });
+    queue_direct_light(context);
     stamp(profile, Stage::Mis);
     for_surfaces([&](std::size_t k, std::size_t lane) {
         goes_on_[k] = block_[k].is_wide ? scatter_by_lanes(context, k, lane) : scatter_at_surface(context, k);
@@ -134,35 +133,34 @@ void PathWave::shade_block(const Context& context, std::size_t first, std::size_
     if (world.has_bodies())
         for (std::size_t k = 0; k < count; ++k)
             if (block_[k].is_at_hidden) pass_hidden(context, k);
-    play_roulette(context, count);
-    // Each is moved, whether or not it goes on: which do is so much by chance that to ask would take longer.
-    for (std::size_t k = 0; k < count; ++k) {
-        const std::size_t i = first + k;
-        states_[kept] = states_[i];
-        rays_[kept] = rays_[i];
-        if (world.has_bodies()) interiors_[kept] = interiors_[i];
-        if (!receivers_.empty()) receivers_[kept] = receivers_[i];
-        kept += goes_on_[k] ? 1 : 0;
-    }
+    keep_survivors(context, count, kept);
     stamp(profile, Stage::Roulette);
 }
 
-void PathWave::play_roulette(const Context& context, std::size_t count) {
+void PathWave::keep_survivors(const Context& context, std::size_t count, std::size_t& kept) {
     // In bodies nothing but roulette bounds a walk: neither media nor hidden boundaries add edges.
-    const int first = context.world.has_bodies() ? std::min(context.options.lengths.roulette_depth, kLongPath)
-                                                 : context.options.lengths.roulette_depth;
-    if (context.depth < first) return;
-    const auto states = std::span(states_).subspan(first_, count);
+    const int spared = context.world.has_bodies() ? std::min(context.options.lengths.roulette_depth, kLongPath)
+                                                  : context.options.lengths.roulette_depth;
+    const bool is_spared = context.depth < spared;
     Column survival;
-    for (std::size_t k = 0; k < count; ++k)
-        survival.set(k, max_component(states[k].throughput) * states[k].eta_scale);
-    for (std::size_t k = 0; k < count; k += Wide::kWidth)
-        survival.store(k, eye_path_survival(survival.load(k), context.depth));
     for (std::size_t k = 0; k < count; ++k) {
+        const PathState& state = states_[first_ + k];
+        survival.set(k, max_component(state.throughput) * state.eta_scale);
+    }
+    for (std::size_t k = 0; k < count; k += Wide::kWidth)
+        survival.store(k, is_spared ? Wide(1.0f) : eye_path_survival(survival.load(k), context.depth));
+    // Each is moved, whether or not it goes on: which do is so much by chance that a branch would take longer. Divided
+    // is only what has been moved: what was just written would have to arrive before it could be moved.
+    for (std::size_t k = 0; k < count; ++k) {
+        const std::size_t i = first_ + k;
         const bool survives = choices_[k].y < survival[k];
         if (context.job.profile != nullptr && goes_on_[k] && !survives) end_path(context, k, PathEnding::Roulette);
-        goes_on_[k] = goes_on_[k] && survives;
-        states[k].throughput *= 1.0f / survival[k];
+        states_[kept] = states_[i];
+        states_[kept].throughput *= 1.0f / survival[k];
+        rays_[kept] = rays_[i];
+        if (context.world.has_bodies()) interiors_[kept] = interiors_[i];
+        if (!receivers_.empty()) receivers_[kept] = receivers_[i];
+        kept += goes_on_[k] && survives ? 1 : 0;
     }
 }
 

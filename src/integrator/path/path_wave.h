@@ -131,8 +131,9 @@ class PathWave final : public IntegratorScratch {
     /// What both have in common: the state of path `k` after `sample`, and the direction of its ray. False if nothing
     /// was scattered.
     bool scatter(const Context& context, std::size_t k, const BsdfSample& sample);
-    /// Russian roulette for the block; divides the throughput of those that survive by their chance.
-    void play_roulette(const Context& context, std::size_t count);
+    /// Russian roulette for the `count` paths of the block. Moves those that go on to where `kept` says, their
+    /// throughput divided by their chance.
+    void keep_survivors(const Context& context, std::size_t count, std::size_t& kept);
     /// Tells the profile, if there is one, of the end of path `k`.
     void end_path(const Context& context, std::size_t k, PathEnding ending) const;
     void add_environment(const Context& context, std::size_t k);
@@ -141,7 +142,9 @@ class PathWave final : public IntegratorScratch {
     [[nodiscard]] LightReceiver receiver(std::size_t i) const {
         return receivers_.empty() ? LightReceiver{} : receivers_[i];
     }
-    void queue_direct_light(const Context& context, std::size_t k);
+    /// Shadow rays to the lights that the block has sampled.
+    void queue_direct_light(const Context& context);
+    void queue_singly(const Context& context, std::size_t k);
     void queue_by_lanes(const Context& context, std::size_t k, std::size_t lane);
     void queue_direct_light_in_medium(const Context& context, std::size_t k, const Vec3f& position,
                                       const HomogeneousMedium& medium);
@@ -174,7 +177,7 @@ class PathWave final : public IntegratorScratch {
     NumberPairs medium_;   ///< x: how far, y: by which channel
     std::array<ShadedPath, kBlock> block_{};
     std::vector<SingleShading> singles_;
-    std::array<ChosenLight, kBlock> lights_{};  ///< samples of those that are not sampled for many at once
+    std::array<ChosenLight, kBlock> lights_{};       ///< samples of those that are not sampled for many at once
     std::array<std::uint8_t, kBlock> on_surface_{};  ///< places in the block of the paths on surfaces, which have lanes
     std::size_t surfaces_ = 0;
     BlockLanes lanes_;

@@ -145,8 +145,26 @@ void PathWave::add_emission(const Context& context, std::size_t k) {
     add_light(state, emitted * weight, words_.surface_source(point));
 }
 
-void PathWave::queue_direct_light(const Context& context, std::size_t k) {
-    if (context.job.profile != nullptr) ++context.job.profile->use().light_samples;
+void PathWave::queue_direct_light(const Context& context) {
+    lanes_.weigh_light(surfaces_);
+    // First which ones light arrives at, without a branch: that is so much by chance that a branch would take longer.
+    std::array<std::uint8_t, kBlock> lit;
+    std::size_t count = 0;
+    for (std::size_t lane = 0; lane < surfaces_; ++lane) {
+        const ShadedPath& path = block_[on_surface_[lane]];
+        const bool arrives = lanes_.arrives[lane] != 0.0f;
+        lit[count] = static_cast<std::uint8_t>(lane);
+        count += (path.is_wide ? arrives : path.samples_light) ? 1 : 0;
+        if (context.job.profile != nullptr && path.samples_light) ++context.job.profile->use().light_samples;
+    }
+    for (const std::uint8_t lane : std::span(lit).first(count))
+        if (const std::size_t k = on_surface_[lane]; block_[k].is_wide)
+            queue_by_lanes(context, k, lane);
+        else
+            queue_singly(context, k);
+}
+
+void PathWave::queue_singly(const Context& context, std::size_t k) {
     const SingleShading& path = singles_[k];
     const LightSample& light = lights_[k].sample;
     if (is_black(light.radiance) || is_black(path.towards_light.f_cos)) return;
@@ -167,9 +185,7 @@ void PathWave::queue_direct_light(const Context& context, std::size_t k) {
 }
 
 void PathWave::queue_by_lanes(const Context& context, std::size_t k, std::size_t lane) {
-    if (context.job.profile != nullptr) ++context.job.profile->use().light_samples;
     Rgb contribution = lanes_.contribution[lane];
-    if (is_black(contribution)) return;
     if (context.world.has_bodies())
         contribution *= transmittance(context.world, interiors_[first_ + k], lanes_.light_distance[lane]);
     Ray ray;

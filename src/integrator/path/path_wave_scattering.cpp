@@ -215,8 +215,8 @@ bool PathWave::scatter(const Context& context, std::size_t k, const BsdfSample& 
     state.only_delta = state.only_delta && sample.is_delta;
     ++state.edges;
     if (context.world.has_textures())
-        state.cone = scattered_cone(context.world, singles_[k].point, rays_[i].direction, state.cone.at(hits_[i].t),
-                                    sample);
+        state.cone =
+            scattered_cone(context.world, singles_[k].point, rays_[i].direction, state.cone.at(hits_[i].t), sample);
     rays_[i].direction = sample.wi;
     rays_[i].alpha_key = alpha_key(context, k);
     return true;
