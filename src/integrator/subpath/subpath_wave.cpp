@@ -206,16 +206,7 @@ void SubpathWave::advance_block(const SubpathJob& job, LightFinder* finder, std:
         goes_on_[k] = block_[k].plain != nullptr ? scatter_at_plain(job, first + k, block_[k])
                                                  : scatter_at_surface(job, first + k, block_[k]);
     }
-    for (std::size_t k = 0; k < count; ++k) {
-        const std::size_t i = first + k;
-        if (!goes_on_[k] || !survives(job, i)) continue;
-        if (world.has_transparency())
-            rays_[i].alpha_key = sample_bits(keys_[i], subpath_dimension(end_, bounce_, BounceNumbers::Alpha));
-        states_[kept] = states_[i];
-        rays_[kept] = rays_[i];
-        if (!interiors_.empty()) interiors_[kept] = interiors_[i];
-        ++kept;
-    }
+    keep_survivors(job, first, count, kept);
     stamp(profile, Stage::Roulette);
 }
 
@@ -465,19 +456,31 @@ void SubpathWave::end_path(const SubpathJob& job, std::size_t i, PathEnding endi
     profile->end_eye_path(ending, {pixel.x, pixel.y, sample.key.index, bounce_});
 }
 
-bool SubpathWave::survives(const SubpathJob& job, std::size_t i) {
-    if (bounce_ < roulette_depth_) return true;
-    SubpathState& state = states_[i];
-    const float share = max_component(state.throughput) * state.roulette_scale;
-    // The root for light subpaths, too, is worse on as many scenes as it is better (docs/integrators.md).
-    const float survival =
-        end_ == SubpathEnd::AtEye ? eye_path_survival(share, bounce_) : std::min(most_survival(bounce_), share);
-    if (choices_[i].y >= survival) {
-        end_path(job, i, PathEnding::Roulette);
-        return false;
+void SubpathWave::keep_survivors(const SubpathJob& job, std::size_t first, std::size_t count, std::size_t& kept) {
+    Column survival;
+    for (std::size_t k = 0; k < count; ++k) {
+        const SubpathState& state = states_[first + k];
+        survival.set(k, max_component(state.throughput) * state.roulette_scale);
     }
-    state.throughput *= 1.0f / survival;
-    return true;
+    // The root for light subpaths, too, is worse on as many scenes as it is better (docs/integrators.md).
+    const auto chance = [&](const Wide& share) {
+        if (bounce_ < roulette_depth_) return Wide(1.0f);
+        return end_ == SubpathEnd::AtEye ? eye_path_survival(share, bounce_) : min(Wide(most_survival(bounce_)), share);
+    };
+    for (std::size_t k = 0; k < count; k += Wide::kWidth) survival.store(k, chance(survival.load(k)));
+    // Without a branch, as in PathWave.
+    for (std::size_t k = 0; k < count; ++k) {
+        const std::size_t i = first + k;
+        const bool survives = choices_[i].y < survival[k];
+        if (job.job.profile != nullptr && goes_on_[k] && !survives) end_path(job, i, PathEnding::Roulette);
+        if (job.world.has_transparency())
+            rays_[i].alpha_key = sample_bits(keys_[i], subpath_dimension(end_, bounce_, BounceNumbers::Alpha));
+        states_[kept] = states_[i];
+        states_[kept].throughput *= 1.0f / survival[k];
+        rays_[kept] = rays_[i];
+        if (!interiors_.empty()) interiors_[kept] = interiors_[i];
+        kept += goes_on_[k] && survives ? 1 : 0;
+    }
 }
 
 PathVertex& SubpathWave::store(SubpathState& state) {
