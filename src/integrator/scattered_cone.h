@@ -10,9 +10,19 @@ namespace etendue {
 /// The cone of one pixel around the camera ray `ray`.
 [[nodiscard]] RayCone camera_cone(const World& world, const TileJob& job, const Ray& ray);
 
-/// The cone that leaves `point` along `sample`, for one that arrives along `direction` with its width there. Mirrors
-/// and smooth refraction bend it by the curvature of the surface; lobes widen it as far as they are wide themselves.
-[[nodiscard]] RayCone scattered_cone(const World& world, const SurfacePoint& point, const Vec3f& direction,
-                                     const RayCone& arriving, const BsdfSample& sample);
+/// The cone that leaves the surface at `hit`, of `geometric_normal`, along `sample`, for one that arrives along
+/// `direction` with its width there. Mirrors and smooth refraction bend it by the curvature of the surface; lobes widen
+/// it as far as they are wide themselves.
+[[nodiscard]] inline RayCone scattered_cone(const World& world, const Hit& hit, const Vec3f& geometric_normal,
+                                            const Vec3f& direction, const RayCone& arriving, const BsdfSample& sample) {
+    const float spread = sample.is_delta ? 0.0f : lobe_spread(sample.pdf_solid_angle);
+    // Beside a lobe as wide as this the curvature does not show.
+    if (spread >= kMaxConeSpread) return scatter_cone(arriving, spread);
+    const float front_curvature = world.mean_curvature(hit);
+    const float curvature = dot(direction, geometric_normal) < 0.0f ? front_curvature : -front_curvature;
+    const RayCone bent =
+        sample.is_transmission ? refract_cone(arriving, curvature, sample.eta) : reflect_cone(arriving, curvature);
+    return sample.is_delta ? bent : scatter_cone(bent, spread);
+}
 
 }  // namespace etendue

@@ -23,11 +23,11 @@ void add_footprints(const Geometry& geometry, const Vec3f& edge1, const Vec3f& e
     if (!geometry.uv1.empty()) point.footprint[1] = to_texture(geometry.uv1);
 }
 
-float mean_curvature(const WorldData& data, const SurfacePoint& point) {
-    const Geometry& geometry = data.geometries[point.geometry];
+float mean_curvature(const WorldData& data, const Hit& hit) {
+    const Geometry& geometry = data.geometries[hit.geometry];
     if (geometry.normals.empty()) return 0.0f;
-    const Instance& instance = data.instances[point.instance];
-    const auto& triangle = geometry.triangles[point.triangle];
+    const Instance& instance = data.instances[hit.instance];
+    const auto& triangle = geometry.triangles[hit.triangle];
     Vec3f p[3];
     Vec3f n[3];
     for (std::size_t i = 0; i < 3; ++i) {

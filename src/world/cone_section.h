@@ -7,6 +7,8 @@
 
 namespace etendue {
 
+struct Hit;
+
 /// Where a ray's cone meets a surface. Without width it is a point, and textures are read unfiltered.
 struct ConeSection {
     Vec3f direction{0.0f};  ///< unit, of the ray
@@ -18,8 +20,8 @@ struct ConeSection {
 void add_footprints(const Geometry& geometry, const Vec3f& edge1, const Vec3f& edge2, const ConeSection& section,
                     SurfacePoint& point);
 
-/// Mean curvature of the surface around `point`'s triangle, 1/m: how fast the normals of its vertices turn away from
+/// Mean curvature of the surface around the triangle at `hit`, 1/m: how fast the normals of its vertices turn away from
 /// each other, positive where the front is convex. 0 without normals.
-[[nodiscard]] float mean_curvature(const WorldData& data, const SurfacePoint& point);
+[[nodiscard]] float mean_curvature(const WorldData& data, const Hit& hit);
 
 }  // namespace etendue

@@ -206,8 +206,8 @@ void World::fetch_far_triangles(std::span<const Hit> hits) const {
     }
 }
 
-float World::mean_curvature(const SurfacePoint& point) const {
-    return etendue::mean_curvature(*data_, point);
+float World::mean_curvature(const Hit& hit) const {
+    return etendue::mean_curvature(*data_, hit);
 }
 
 const Bsdf& World::bsdf(const SurfacePoint& point, const Vec3f& wo, float relative_ior, Bsdf& storage) const {

@@ -100,9 +100,9 @@ TEST(MeanCurvature, OfASphereIsOneOverItsRadius) {
         add_object(scene, sphere({0, 0, -10}, radius, 64), add_material(scene, diffuse(Rgb(0.5f))));
         add_object(scene, quad({0, 0, -20}, {9, 0, 0}, {0, 9, 0}), add_material(scene, diffuse(Rgb(0.5f))));
         const World world = compile(std::move(scene));
-        const SurfacePoint ball = world.surface_point(intersect(world, {.direction = {0, 0, -1}}));
+        const Hit ball = intersect(world, {.direction = {0, 0, -1}});
         EXPECT_NEAR(world.mean_curvature(ball), 1.0f / radius, 0.02f / radius);
-        const SurfacePoint wall = world.surface_point(intersect(world, {.origin = {5, 5, 0}, .direction = {0, 0, -1}}));
+        const Hit wall = intersect(world, {.origin = {5, 5, 0}, .direction = {0, 0, -1}});
         EXPECT_EQ(world.mean_curvature(wall), 0.0f);
     }
 }

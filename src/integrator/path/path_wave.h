@@ -58,7 +58,7 @@ struct ShadedPath {
 /// The rest, which paths have that are shaded one by one: some 700 bytes, apart from what stays in the first-level
 /// cache.
 struct SingleShading {
-    SurfacePoint point;  ///< of a plain surface only what names it: for words its material, for cones its triangle
+    SurfacePoint point;  ///< of a plain surface its material only, where words are followed
     std::optional<Crossing> crossing;
     Wavelength wavelength{};  ///< that it goes on with, and its weight
     bool chooses_wavelength = false;
@@ -130,7 +130,7 @@ class PathWave final : public IntegratorScratch {
     [[nodiscard]] VertexEvent wide_event(const Context& context, std::size_t k, const Vec3f& wi) const;
     /// What both have in common: the state of path `k` after `sample`, and the direction of its ray. False if nothing
     /// was scattered.
-    bool scatter(const Context& context, std::size_t k, const BsdfSample& sample);
+    bool scatter(const Context& context, std::size_t k, const Vec3f& geometric_normal, const BsdfSample& sample);
     /// Russian roulette for the `count` paths of the block. Moves those that go on to where `kept` says, their
     /// throughput divided by their chance.
     void keep_survivors(const Context& context, std::size_t count, std::size_t& kept);
@@ -184,6 +184,7 @@ class PathWave final : public IntegratorScratch {
     GlossyLanes glossy_;
     bool any_textured_ = false;
     TexturedLanes textured_;
+    std::array<MetallicRoughness, kBlock> textured_lobes_{};
     PlainLookups lookups_;
     std::array<LightReceiver, kBlock> to_light_;  ///< of the paths that sample lights, one after the other
     std::array<bool, kBlock> goes_on_{};

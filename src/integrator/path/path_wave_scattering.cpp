@@ -71,11 +71,6 @@ void PathWave::set_up_plain(const Context& context) {
         any = true;
         const Hit& hit = hits_[i];
         lanes_.set_hit(lane, world.hit_triangle(hit), {hit.u, hit.v});
-        if (world.has_textures()) {
-            singles_[k].point.instance = hit.instance;
-            singles_[k].point.geometry = hit.geometry;
-            singles_[k].point.triangle = hit.triangle;
-        }
         if (words_.are_followed()) singles_[k].point.material = world.material(hit);
         if (plain->textured == nullptr) continue;
         any_textured_ = true;
@@ -100,7 +95,7 @@ void PathWave::look_up_textures(const Context& context) {
         const std::size_t k = on_surface_[lane];
         ShadedPath& path = block_[k];
         if (!is_textured(path)) continue;
-        const auto& lobe = singles_[k].storage.emplace<MetallicRoughness>(world.lobe(*path.plain, lookups_));
+        const MetallicRoughness& lobe = textured_lobes_[k] = world.lobe(*path.plain, lookups_);
         path.glossy = &lobe;
         if (!lobe.is_plain()) set_up_singly(context, k);
     }
@@ -117,10 +112,9 @@ void PathWave::make_scattering(const Context& context, std::size_t k, std::size_
     path.is_wide = path.plain != nullptr;
     if (path.is_wide) {
         if (path.plain->textured == nullptr) path.glossy = path.plain->matte == nullptr ? &path.plain->glossy : nullptr;
-        if (world.has_textures()) single.point.geometric_normal = lanes_.geometric_normal[lane];
         if (path.glossy == nullptr) return lanes_.albedo.set(lane, std::get_if<Diffuse>(path.plain->matte)->albedo);
         if (words_.are_followed()) {
-            if (path.plain->textured == nullptr) single.storage = *path.glossy;
+            single.storage = *path.glossy;
             single.scattering.emplace(single.storage,
                                       Frame{lanes_.tangent[lane], lanes_.bitangent[lane], lanes_.normal[lane]},
                                       lanes_.geometric_normal[lane], lanes_.wo[lane]);
@@ -198,7 +192,7 @@ void PathWave::evaluate(std::size_t k) {
     path.sample = path.scattering->sample(choices_[k].x, bsdf_direction_[k], TransportMode::Radiance);
 }
 
-bool PathWave::scatter(const Context& context, std::size_t k, const BsdfSample& sample) {
+bool PathWave::scatter(const Context& context, std::size_t k, const Vec3f& geometric_normal, const BsdfSample& sample) {
     WaveProfile* const profile = context.job.profile;
     if (profile != nullptr) ++profile->use().bsdf_samples;
     if (is_black(sample.weight)) {
@@ -215,8 +209,8 @@ bool PathWave::scatter(const Context& context, std::size_t k, const BsdfSample& 
     state.only_delta = state.only_delta && sample.is_delta;
     ++state.edges;
     if (context.world.has_textures())
-        state.cone =
-            scattered_cone(context.world, singles_[k].point, rays_[i].direction, state.cone.at(hits_[i].t), sample);
+        state.cone = scattered_cone(context.world, hits_[i], geometric_normal, rays_[i].direction,
+                                    state.cone.at(hits_[i].t), sample);
     rays_[i].direction = sample.wi;
     rays_[i].alpha_key = alpha_key(context, k);
     return true;
@@ -234,7 +228,7 @@ bool PathWave::scatter_by_lanes(const Context& context, std::size_t k, std::size
     sample.wi = lanes_.next_direction[lane];
     sample.weight = lanes_.next_weight[lane];
     sample.pdf_solid_angle = lanes_.next_pdf[lane];
-    if (!scatter(context, k, sample)) return false;
+    if (!scatter(context, k, lanes_.geometric_normal[lane], sample)) return false;
     const std::size_t i = first_ + k;
     if (words_.are_followed())
         states_[i].words = words_.scatter_from_eye(states_[i].words, wide_event(context, k, sample.wi));
@@ -250,7 +244,7 @@ bool PathWave::scatter_at_surface(const Context& context, std::size_t k) {
     const SurfacePoint& point = path.point;
     const Scattering& scattering = *path.scattering;
     const BsdfSample& sample = path.sample;
-    if (!scatter(context, k, sample)) return false;
+    if (!scatter(context, k, point.geometric_normal, sample)) return false;
     if (words_.are_followed())
         state.words = words_.scatter_from_eye(
             state.words,

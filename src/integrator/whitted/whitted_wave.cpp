@@ -171,7 +171,8 @@ void WhittedWave::scatter(const Context& context, std::size_t i, const SurfacePo
         }
         if (delta.is_transmission) next.eta_scale *= delta.eta * delta.eta;
         if (world.has_textures())
-            next.cone = scattered_cone(world, point, branch.ray.direction, branch.cone.at(hits_[i].t), delta);
+            next.cone = scattered_cone(world, hits_[i], point.geometric_normal, branch.ray.direction,
+                                       branch.cone.at(hits_[i].t), delta);
         next.edges = branch.edges + 1;
         next.ray.origin = offset_origin(point.position, point.geometric_normal, point.clearance, delta.wi);
         next.ray.direction = delta.wi;
