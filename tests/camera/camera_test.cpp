@@ -5,6 +5,7 @@
 #include "support/random.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <optional>
@@ -89,6 +90,25 @@ TEST(Camera, ConnectIsTheInverseOfGenerateRay) {
             const Vec2f b = moved(across.bitangent);
             EXPECT_NEAR(std::abs(a.x * b.y - a.y * b.x) / connection.importance_area, 1.0f, 0.01f);
         }
+}
+
+TEST(Camera, ManyRaysAtOnceAreTheSameRays) {
+    Random random(13);
+    std::array<Vec2f, 5> film;
+    std::array<Vec2f, 5> lens;
+    for (std::size_t i = 0; i < film.size(); ++i) {
+        film[i] = random.next_2d();
+        lens[i] = random.next_2d();
+    }
+    for (const Camera& camera : cameras()) {
+        std::array<Ray, 5> rays;
+        generate_rays(camera, film, lens, rays);
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            const Ray ray = generate_ray(camera, film[i], lens[i]);
+            EXPECT_EQ(rays[i].origin, ray.origin);
+            EXPECT_EQ(rays[i].direction, ray.direction);
+        }
+    }
 }
 
 TEST(Camera, WhatLiesBehindIsNotSeen) {
