@@ -56,6 +56,8 @@ class Wide {
     /// `kWidth` floats from an aligned address.
     [[nodiscard]] static Wide load(const float* from) { return Wide(Simd(from, std::experimental::vector_aligned)); }
     void store(float* to) const { lanes_.copy_to(to, std::experimental::vector_aligned); }
+    /// To any address.
+    void store_unaligned(float* to) const { lanes_.copy_to(to, std::experimental::element_aligned); }
     [[nodiscard]] float operator[](std::size_t lane) const { return lanes_[lane]; }
     [[nodiscard]] Simd simd() const { return lanes_; }
 

@@ -1,5 +1,5 @@
 // Integer hashes: the source of every seed. Pure functions, so that a sample depends on nothing but its key. Templates
-// of how many are computed at once: std::uint32_t, or WideBits (sampling/wide_bits.h).
+// of how many are computed at once: std::uint32_t, or WideBits (core/wide_bits.h).
 #pragma once
 
 #include <concepts>

@@ -1,8 +1,6 @@
 #include "sampling/sampler.h"
 
-#include "sampling/wide_bits.h"
-
-#include <experimental/simd>
+#include "core/wide_bits.h"
 
 namespace etendue {
 
@@ -15,8 +13,8 @@ void sample_2d(SampleSequence sequence, std::span<const std::uint32_t> pixel_see
         for (; i + Wide::kWidth <= count; i += Wide::kWidth) {
             const WideBits seed = hash_combine(WideBits::load(&pixel_seeds[i]), dimension);
             const PointBits<WideBits> point = owen_sobol_bits(WideBits::load(&indices[i]), seed);
-            to_unit_float(point.x).simd().copy_to(&x[i], std::experimental::element_aligned);
-            to_unit_float(point.y).simd().copy_to(&y[i], std::experimental::element_aligned);
+            to_unit_float(point.x).store_unaligned(&x[i]);
+            to_unit_float(point.y).store_unaligned(&y[i]);
         }
     for (; i < count; ++i) {
         const Vec2f u = sample_2d(sequence, {pixel_seeds[i], indices[i]}, dimension);

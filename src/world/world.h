@@ -200,7 +200,8 @@ class World {
                      PlainLookups& lookups) const;
     /// The lobe that they make, for one surface after the other in the order in which they were added.
     [[nodiscard]] MetallicRoughness lobe(const PlainSurface& surface, PlainLookups& lookups) const;
-    /// Of the surface at `hit` (valid), 1/m, positive where its front is convex; for `RayCone`s that are mirrored there.
+    /// Of the surface at `hit` (valid), 1/m, positive where its front is convex; for `RayCone`s that are mirrored
+    /// there.
     [[nodiscard]] float mean_curvature(const Hit& hit) const;
     /// False if nothing is textured, so that rays need no cones.
     [[nodiscard]] bool has_textures() const { return !data_->textures.empty(); }

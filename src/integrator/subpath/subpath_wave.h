@@ -164,8 +164,8 @@ class SubpathWave {
     bool scatter(const SubpathJob& job, std::size_t i, const Vec3f& position, const Rgb& weight, bool is_delta);
     [[nodiscard]] SubpathDensities arrive(const SubpathJob& job, std::size_t i, const Vec3f& position,
                                           float cosine) const;
-    /// Russian roulette for subpaths [first, first + count). Moves those that go on to where `kept` says, their throughput
-    /// divided by their chance.
+    /// Russian roulette for subpaths [first, first + count). Moves those that go on to where `kept` says, their
+    /// throughput divided by their chance.
     void keep_survivors(const SubpathJob& job, std::size_t first, std::size_t count, std::size_t& kept);
     /// Tells the profile, if there is one, of the end of eye subpath `i`.
     void end_path(const SubpathJob& job, std::size_t i, PathEnding ending) const;

@@ -24,7 +24,6 @@ class WideBits {
     [[nodiscard]] static WideBits load(const std::uint32_t* from) {
         return WideBits(Simd(from, std::experimental::element_aligned));
     }
-    [[nodiscard]] Simd simd() const { return lanes_; }
 
     WideBits& operator^=(WideBits o) { return *this = *this ^ o; }
     WideBits& operator+=(WideBits o) { return *this = *this + o; }
