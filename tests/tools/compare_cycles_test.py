@@ -221,19 +221,28 @@ class Comparisons(unittest.TestCase):
         (self.directory / "render.json").write_text('{"environment": {"scale": 2}}')
         self.assertNotEqual(self.keys()[0], cycles)
 
-    def test_an_image_is_rendered_once_for_each_key(self):
-        comparison = tool.Comparison(self.arguments, "box")
+    def renders_of(self, spp_of, renderer_keys, programs):
+        """Of which numbers of samples an image had to be rendered, for one key of its renderer and program after the other."""
         renders = []
 
         def render(image, spp, seed):
             renders.append((spp, seed))
             image.touch()
             return 0.5
-        renderer = types.SimpleNamespace(name="path", key="a", render=render)
-        for key in "aaba":
-            renderer.key = key
-            self.assertEqual(comparison.image(renderer, 4, 1)[1], 0.5)
-        self.assertEqual(renders, [(4, 1)] * 2)
+        for key, program in zip(renderer_keys, programs):
+            self.program.write_text(program)
+            comparison = tool.Comparison(self.arguments, "box")
+            renderer = types.SimpleNamespace(name="cycles", key=key, render=render)
+            self.assertEqual(comparison.image(renderer, spp_of(comparison), 1)[1], 0.5)
+        return [spp for spp, _ in renders]
+
+    def test_a_long_image_is_rendered_once_for_each_key_of_its_renderer(self):
+        many = tool.Comparison(self.arguments, "box").many
+        self.assertEqual(self.renders_of(lambda c: c.many, "aaba", ["one", "two", "two", "one"]), [many] * 2)
+
+    def test_times_are_of_one_run_of_both_programs(self):
+        spp = tool.Comparison(self.arguments, "box").spp
+        self.assertEqual(self.renders_of(lambda c: c.spp, "aaaa", ["one", "one", "two", "one"]), [spp] * 2)
 
     def test_a_scene_that_is_missing_leaves_the_others(self):
         self.arguments.scenes = ["missing", "box"]
