@@ -77,7 +77,7 @@ void BdptWave::trace(const World& world, const TileJob& job, const BdptOptions& 
         light_.trace(context, spared_of_light, nullptr, found_, counters);
         find_candidates(context);
         stamp(job.profile, Stage::Mis);
-        to_light_.collect(context, SubpathEnd::AtEye, eye_.vertices());
+        to_light_.collect(context, SubpathEnd::AtEye, eye_);
         stamp(job.profile, Stage::Numbers);
         const auto resolve_if_full = [&](Connections& connections) {
             if (connections.is_full()) connections.resolve(world, job, samples_, found_, tile, counters);
@@ -91,7 +91,7 @@ void BdptWave::trace(const World& world, const TileJob& job, const BdptOptions& 
             resolve_if_full(vertex_connections_);
             resolve_if_full(wide_vertex_connections_);
         }
-        to_camera_.collect(context, SubpathEnd::AtLight, light_.vertices());
+        to_camera_.collect(context, SubpathEnd::AtLight, light_);
         stamp(job.profile, Stage::Numbers);
         for (std::size_t begin = 0; begin < to_camera_.size(); begin += kBlock) {
             connect_to_camera(context, begin, std::min(begin + kBlock, to_camera_.size()));

@@ -99,11 +99,14 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
     struct WideBetween {
         const PathVertex* eye;
         const PathVertex* light;
+        const MatteEnd* eye_end;
+        const MatteEnd* light_end;
         float scale;
     };
     /// A light vertex, as eye vertices look for it.
     struct Candidate {
         const PathVertex* vertex;
+        const MatteEnd* end;
         int index;
         int next_edges;
         bool is_shared;
@@ -123,6 +126,7 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
     void find_cached(const Context& context, const PathVertex& eye, int count);
     void find(const Context& context, const PathVertex& eye, const MatteEnd& eye_end, const Candidate& candidate,
               float scale);
+    void find_singly(const PathVertex& eye, const PathVertex& light, float scale);
     // With what both ends scatter: weights, and the rays that will tell.
     void weigh(const Context& context, const ToLight& connection);
     void weigh(const Context& context, const ToCamera& connection);

@@ -213,19 +213,19 @@ void BdptWave::connect_to_vertices(const Context& context, std::size_t first, st
 }
 
 void BdptWave::find_candidates(const Context& context) {
-    const std::span<const PathVertex> vertices = light_.vertices();
+    const std::span<const ConnectibleVertex> vertices = light_.connectible_vertices();
     cache_.clear();
     // The number of each slot's, then where those end; as they are written, backwards, where they begin.
     own_begin_.assign(samples_.size() + 1, 0);
-    for (const PathVertex& vertex : vertices)
-        if (vertex.is_connectible) ++own_begin_[vertex.slot];
+    for (const ConnectibleVertex& vertex : vertices) ++own_begin_[vertex.slot];
     std::inclusive_scan(own_begin_.begin(), own_begin_.end(), own_begin_.begin());
     own_.resize(own_begin_.back());
     // Bounce by bounce, so that the last vertex of a slot comes first there.
-    for (const PathVertex& vertex : vertices) {
-        if (!vertex.is_connectible) continue;
-        const Candidate candidate{&vertex, vertex.index, vertex.next_edges, context.is_shared(vertex)};
-        own_[--own_begin_[vertex.slot]] = candidate;
+    for (const ConnectibleVertex& connectible : vertices) {
+        const PathVertex& vertex = light_.vertices()[connectible.vertex];
+        const Candidate candidate{&vertex, &light_.matte_end(vertex), connectible.index, connectible.next_edges,
+                                  context.is_shared(vertex)};
+        own_[--own_begin_[connectible.slot]] = candidate;
         if (candidate.is_shared) cache_.push_back(candidate);
     }
 }
@@ -257,16 +257,17 @@ void BdptWave::find(const Context& context, const PathVertex& eye, const MatteEn
     if (!context.wants(eye.next_edges + candidate.next_edges - 1) ||
         !context.wants({.s = candidate.index + 1, .t = eye.index + 1}))
         return;
-    const PathVertex& light = *candidate.vertex;
-    if (const MatteEnd& light_end = light_.matte_end(light); eye_end.exists() && light_end.exists()) {
-        // About every other one faces away, in no order that a branch could be foretold by.
-        const Vec3f w = light_end.position - eye_end.position;
-        wide_between_[wide_between_count_] = {&eye, &light, scale};
-        wide_between_count_ += static_cast<std::size_t>(dot(w, eye_end.geometric_normal) > 0.0f) &
-                               static_cast<std::size_t>(dot(w, light_end.geometric_normal) < 0.0f);
-        if (wide_between_count_ == wide_between_.size()) weigh_wide_between(context);
-        return;
-    }
+    const MatteEnd& light_end = *candidate.end;
+    if (!eye_end.exists() || !light_end.exists()) return find_singly(eye, *candidate.vertex, scale);
+    // About every other one faces away, in no order that a branch could be foretold by.
+    const Vec3f w = light_end.position - eye_end.position;
+    wide_between_[wide_between_count_] = {&eye, candidate.vertex, &eye_end, &light_end, scale};
+    wide_between_count_ += static_cast<std::size_t>(dot(w, eye_end.geometric_normal) > 0.0f) &
+                           static_cast<std::size_t>(dot(w, light_end.geometric_normal) < 0.0f);
+    if (wide_between_count_ == wide_between_.size()) weigh_wide_between(context);
+}
+
+void BdptWave::find_singly(const PathVertex& eye, const PathVertex& light, float scale) {
     const Vec3f to_light = light.position - eye.position;
     if (!eye.may_scatter(to_light) || !light.may_scatter(-to_light)) return;
     const float squared = length_squared(to_light);
@@ -293,10 +294,10 @@ void BdptWave::weigh(const Context& context, const Between& connection) {
 void BdptWave::weigh_wide_between(const Context& context) {
     const std::size_t count = std::exchange(wide_between_count_, 0);
     for (std::size_t lane = 0; lane < count; ++lane) {
-        const auto& [eye, light, scale] = wide_between_[lane];
-        between_lanes_.eye.set(lane, eye_.matte_end(*eye));
-        between_lanes_.light.set(lane, light_.matte_end(*light));
-        between_lanes_.scale.set(lane, scale);
+        const WideBetween& connection = wide_between_[lane];
+        between_lanes_.eye.set(lane, *connection.eye_end);
+        between_lanes_.light.set(lane, *connection.light_end);
+        between_lanes_.scale.set(lane, connection.scale);
     }
     between_lanes_.connect(count, context.rule());
     for (std::size_t lane = 0; lane < count; ++lane)

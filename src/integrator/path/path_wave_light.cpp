@@ -1,5 +1,6 @@
 // Light that paths meet, and light that is sampled for where they are.
 #include "bsdf/gloss.h"
+#include "core/in_place.h"
 #include "integrator/connecting_ray.h"
 #include "integrator/path/path_wave.h"
 #include "integrator/walk.h"
@@ -76,7 +77,7 @@ void PathWave::sample_lights(const Context& context) {
         const Vec3f position = lanes_.position[lane];
         const MeshLight* mesh = world.even_mesh_light(choice.light);
         if (mesh == nullptr) {
-            lights_[k] = world.sample_light(choice, position, light_numbers(k));
+            make_in_place(lights_[k], [&] { return world.sample_light(choice, position, light_numbers(k)); });
             continue;
         }
         any_mesh_lit = true;

@@ -1,4 +1,5 @@
 // Where paths are, and where surfaces and media send them.
+#include "core/in_place.h"
 #include "integrator/path/path_dimensions.h"
 #include "integrator/path/path_wave.h"
 #include "integrator/scattered_cone.h"
@@ -31,7 +32,7 @@ bool PathWave::set_up(const Context& context, std::size_t k) {
         const SurfacePoint& point = singles_[k].point;
         path.emits = point.material->emits;
         if (world.has_bodies() && world.is_boundary(point)) {
-            const Crossing& crossing = singles_[k].crossing.emplace(world.crossing(point, interiors_[i]));
+            const Crossing& crossing = singles_[k].crossing.emplace(InPlace{[&] { return world.crossing(point, interiors_[i]); }});
             if (crossing.is_hidden) {
                 path.is_at_hidden = true;
                 goes_on_[k] = true;
@@ -54,7 +55,7 @@ bool PathWave::set_up(const Context& context, std::size_t k) {
 void PathWave::set_up_singly(const Context& context, std::size_t k) {
     const std::size_t i = first_ + k;
     block_[k].plain = nullptr;
-    singles_[k].point = context.world.surface_point(hits_[i], rays_[i], states_[i].cone);
+    make_in_place(singles_[k].point, [&] { return context.world.surface_point(hits_[i], rays_[i], states_[i].cone); });
     singles_[k].crossing.reset();
 }
 

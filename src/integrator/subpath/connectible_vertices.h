@@ -16,13 +16,13 @@ namespace etendue {
 template <BounceNumbers... Kinds>
 class ConnectibleVertices {
   public:
-    /// Those of `vertices`, which belong to subpaths from `end`, in their order.
-    void collect(const SubpathJob& job, SubpathEnd end, std::span<const PathVertex> vertices) {
+    /// Those of `wave`, whose subpaths are from `end`, in their order.
+    void collect(const SubpathJob& job, SubpathEnd end, const SubpathWave& wave) {
+        const std::span<const ConnectibleVertex> connectible = wave.connectible_vertices();
         vertices_.clear();
         keys_.clear();
-        for (const PathVertex& vertex : vertices) {
-            if (!vertex.is_connectible) continue;
-            vertices_.push_back(&vertex);
+        for (const ConnectibleVertex& vertex : connectible) {
+            vertices_.push_back(&wave.vertices()[vertex.vertex]);
             keys_.push_back(job.samples[vertex.slot].key);
         }
         for (std::size_t kind = 0; kind < kKinds.size(); ++kind) {
@@ -33,8 +33,8 @@ class ConnectibleVertices {
         }
         // Vertices come bounce by bounce: long runs of them have one index, and with it one dimension.
         for (std::size_t first = 0, next = 0; first < vertices_.size(); first = next) {
-            const int index = vertices_[first]->index;
-            while (next < vertices_.size() && vertices_[next]->index == index) ++next;
+            const int index = connectible[first].index;
+            while (next < connectible.size() && connectible[next].index == index) ++next;
             for (std::size_t kind = 0; kind < kKinds.size(); ++kind)
                 if (job.needs(end, kKinds[kind]))
                     numbers_[kind].draw(job.job.sequence, keys_, subpath_dimension(end, index, kKinds[kind]), first,

@@ -75,4 +75,13 @@ struct PathVertex {
     }
 };
 
+/// What the search for connections asks of a vertex that can be connected: of one after the other, so that it lies side
+/// by side.
+struct ConnectibleVertex {
+    std::uint32_t vertex;  ///< its place among those of its wave
+    std::uint32_t slot;    ///< these as in PathVertex
+    int index;
+    int next_edges;
+};
+
 }  // namespace etendue

@@ -74,11 +74,12 @@ struct DepartingDensities {
     /// cancels in b, and divides nothing in a: media scatter light again after no distance at all.
     [[nodiscard]] SubpathDensities arrive(const Raised& raised, double squared_distance, double cos_arriving) const {
         const double across = pdf_forward * cos_arriving;
-        if (!(across > 0.0)) return {};
+        // Without a branch, so that compilers do it for many at once.
+        const bool arrives = across > 0.0;
         const double inverse = 1.0 / raised(across);
         const double back = is_from_infinity ? 1.0 : raised(cosine);
         const double area = is_from_infinity ? 1.0 : raised(squared_distance);
-        return {is_connectible ? area * inverse : 0.0, back * d * inverse};
+        return {arrives && is_connectible ? area * inverse : 0.0, arrives ? back * d * inverse : 0.0};
     }
 };
 

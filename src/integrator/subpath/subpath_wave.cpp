@@ -1,5 +1,6 @@
 #include "integrator/subpath/subpath_wave.h"
 
+#include "core/in_place.h"
 #include "integrator/ray_batch.h"
 #include "integrator/subpath/subpath_steps.h"
 #include "integrator/walk.h"
@@ -63,6 +64,7 @@ void SubpathWave::trace(const SubpathJob& job, int roulette_depth, LightFinder* 
     rays_.assign(job.camera_rays.begin(), job.camera_rays.end());
     interiors_.clear();
     vertices_.clear();
+    connectible_vertices_.clear();
     matte_ends_.clear();
     words_.reset(job.job.aovs);
     bsdf_count_ = 0;
@@ -97,7 +99,8 @@ void SubpathWave::trace(const SubpathJob& job, int roulette_depth, LightFinder* 
 std::size_t SubpathWave::bytes() const {
     std::size_t bytes =
         sizeof *this +
-        vector_bytes(states_, rays_, hits_, interiors_, emissions_, last_vertex_, vertices_, matte_ends_) +
+        vector_bytes(states_, rays_, hits_, interiors_, emissions_, last_vertex_, vertices_, connectible_vertices_,
+                     matte_ends_) +
         keys_.bytes() + bsdfs_.size() * sizeof(Bsdf);
     for (const NumberPairs* numbers :
          {&scattering_, &choices_, &medium_, &light_choice_, &triangle_, &position_, &direction_})
@@ -139,7 +142,8 @@ void SubpathWave::begin_at_lights(const SubpathJob& job) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < job.samples.size(); ++i) {
         const EmissionNumbers u{triangle_[i], position_[i], direction_[i]};
-        const Emission& emission = emissions_[i] = world.sample_emission(light_choice_[i], u, rays_[i].time);
+        const Emission& emission = emissions_[i];
+        make_in_place(emissions_[i], [&] { return world.sample_emission(light_choice_[i], u, rays_[i].time); });
         if (job.lengths.max_depth < edges_to_connect(world) || is_black(emission.weight)) continue;
         const EmissionSample& sample = emission.sample;
         SubpathState state;
@@ -187,7 +191,8 @@ void SubpathWave::advance_block(const SubpathJob& job, LightFinder* finder, std:
         else
             goes_on_[k] = hits_[first + k].valid();
     }
-    set_up_plain(job, first);
+    set_up_plain();
+    arrive_at_surfaces(job, first);
     stamp(profile, Stage::HitSetup);
     if (finder != nullptr)
         for (std::size_t k = 0; k < count; ++k)
@@ -227,25 +232,41 @@ bool SubpathWave::set_up(const SubpathJob& job, std::size_t i, ShadedSubpath& pa
         lanes_.throughput.set(path.lane, states_[i].throughput);
         return true;
     }
-    path.point = world.surface_point(hits_[i]);
-    path.arrived = arrive(job, i, path.point.position, abs_dot(rays_[i].direction, path.point.geometric_normal));
+    make_in_place(path.point, [&] { return world.surface_point(hits_[i]); });
     path.crossing.reset();
-    if (world.has_bodies() && world.is_boundary(path.point)) path.crossing = world.crossing(path.point, interiors_[i]);
+    if (world.has_bodies() && world.is_boundary(path.point))
+        path.crossing.emplace(InPlace{[&] { return world.crossing(path.point, interiors_[i]); }});
     return true;
 }
 
-void SubpathWave::set_up_plain(const SubpathJob& job, std::size_t first) {
+void SubpathWave::set_up_plain() {
     const auto is_plain = [&](std::uint8_t k) { return block_[k].plain != nullptr; };
-    const std::span on_surface(on_surface_.data(), surfaces_);
-    if (std::ranges::none_of(on_surface, is_plain)) return;
+    if (std::ranges::none_of(std::span(on_surface_.data(), surfaces_), is_plain)) return;
     lanes_.set_up_points(surfaces_);
     lanes_.orient(surfaces_, mode());
-    for (const std::uint8_t k : on_surface) {
-        ShadedSubpath& path = block_[k];
-        if (is_plain(k))
-            path.arrived = arrive(job, first + k, lanes_.position[path.lane],
-                                  abs_dot(rays_[first + k].direction, lanes_.geometric_normal[path.lane]));
+}
+
+void SubpathWave::arrive_at_surfaces(const SubpathJob& job, std::size_t first) {
+    bool any_departed = false;
+    for (std::size_t s = 0; s < surfaces_; ++s) {
+        const std::size_t i = first + on_surface_[s];
+        const SubpathState& state = states_[i];
+        ShadedSubpath& path = block_[on_surface_[s]];
+        const bool is_plain = path.plain != nullptr;
+        const Vec3f position = is_plain ? lanes_.position[path.lane] : path.point.position;
+        const Vec3f normal = is_plain ? lanes_.geometric_normal[path.lane] : path.point.geometric_normal;
+        const auto cosine = static_cast<double>(abs_dot(rays_[i].direction, normal));
+        if (state.index > 1) {
+            arrivals_.set(s, state.departing, static_cast<double>(length_squared(position - state.from)), cosine);
+            any_departed = true;
+        } else {
+            path.arrived = arrive(job, i, position, cosine);
+        }
     }
+    if (!any_departed) return;
+    arrivals_.arrive(surfaces_, job.raised);
+    for (std::size_t s = 0; s < surfaces_; ++s)
+        if (states_[first + on_surface_[s]].index > 1) block_[on_surface_[s]].arrived = arrivals_[s];
 }
 
 void SubpathWave::find_light(LightFinder& finder, std::size_t i, const ShadedSubpath& path) const {
@@ -296,6 +317,7 @@ bool SubpathWave::make_vertex(const SubpathJob& job, std::size_t i, ShadedSubpat
         vertex.outside = world.medium(crossing ? crossing->outside : interiors_[i]);
         vertex.inside = crossing ? world.medium(crossing->inside) : vertex.outside;
     }
+    if (vertex.is_connectible) list_connectible();
     if (path.plain != nullptr && makes_matte_ends_) make_matte_end(job, path, vertex);
     if (end_ == SubpathEnd::AtEye || state.edges + edges_to_connect(world) <= job.lengths.max_depth) return true;
     end_path(job, i, PathEnding::TooLong);
@@ -331,17 +353,14 @@ void SubpathWave::make_matte_end(const SubpathJob& job, const ShadedSubpath& pat
             matte_ends_.back() = lanes_.end(path.lane, static_cast<float>(fewer));
 }
 
-SubpathDensities SubpathWave::arrive(const SubpathJob& job, std::size_t i, const Vec3f& position, float cosine) const {
+SubpathDensities SubpathWave::arrive(const SubpathJob& job, std::size_t i, const Vec3f& position, double cosine) const {
     const SubpathState& state = states_[i];
-    const auto cos_arriving = static_cast<double>(cosine);
     if (state.index > 1)
-        return state.departing.arrive(job.raised, static_cast<double>(length_squared(position - state.from)),
-                                      cos_arriving);
+        return state.departing.arrive(job.raised, static_cast<double>(length_squared(position - state.from)), cosine);
     if (end_ == SubpathEnd::AtLight)
-        return arrive_from_light(job, emissions_[state.slot], state.departing, position, cos_arriving);
+        return arrive_from_light(job, emissions_[state.slot], state.departing, position, cosine);
     const Vec2f lens = job.samples[state.slot].lens;
-    return arrive_from_lens(job, state.departing, job.world.connect_to_camera(position, lens, rays_[i].time),
-                            cos_arriving);
+    return arrive_from_lens(job, state.departing, job.world.connect_to_camera(position, lens, rays_[i].time), cosine);
 }
 
 void SubpathWave::sample_bsdfs(std::size_t first, std::size_t vertices) {
@@ -427,8 +446,9 @@ bool SubpathWave::scatter_in_medium(const SubpathJob& job, std::size_t i) {
     vertex.position = ray.origin + ray.direction * sample.distance;
     vertex.wo = wo;
     vertex.outside = vertex.inside = medium;
-    vertex.densities = arrive(job, i, vertex.position, 1.0f);
+    vertex.densities = arrive(job, i, vertex.position, 1.0);
     vertex.next_edges = state.edges;
+    list_connectible();
     ray.origin = vertex.position;
     ray.direction = medium->phase.sample(wo, scattering_[i]);
     // Forwards and backwards a phase function has one density.
@@ -498,6 +518,12 @@ PathVertex& SubpathWave::store(SubpathState& state) {
     state.is_direct = true;
     last_vertex_[state.slot] = state.last_vertex;
     return vertex;
+}
+
+void SubpathWave::list_connectible() {
+    const PathVertex& vertex = vertices_.back();
+    connectible_vertices_.push_back(
+        {static_cast<std::uint32_t>(vertices_.size() - 1), vertex.slot, vertex.index, vertex.next_edges});
 }
 
 }  // namespace etendue

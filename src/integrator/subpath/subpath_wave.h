@@ -7,6 +7,7 @@
 #include "integrator/camera_wave.h"
 #include "integrator/number_pairs.h"
 #include "integrator/profile/wave_profile.h"
+#include "integrator/subpath/arrival_columns.h"
 #include "integrator/subpath/matte_lanes.h"
 #include "integrator/subpath/path_vertex.h"
 
@@ -120,6 +121,8 @@ class SubpathWave {
     [[nodiscard]] std::span<const Emission> emissions() const { return emissions_; }
     /// Of all slots, in the order of their bounces.
     [[nodiscard]] std::span<const PathVertex> vertices() const { return vertices_; }
+    /// Those that can be connected, in the same order.
+    [[nodiscard]] std::span<const ConnectibleVertex> connectible_vertices() const { return connectible_vertices_; }
     /// What connections of `vertex`, one of those, need of it, if it lies on a plain matte surface in vacuum and its
     /// light is still of all wavelengths.
     [[nodiscard]] const MatteEnd& matte_end(const PathVertex& vertex) const {
@@ -145,7 +148,9 @@ class SubpathWave {
     /// Finds out where subpath `i` is; false if it is on no surface: it left the scene, or a medium has scattered it.
     bool set_up(const SubpathJob& job, std::size_t i, ShadedSubpath& path);
     /// The same of those on plain surfaces, all at once.
-    void set_up_plain(const SubpathJob& job, std::size_t first);
+    void set_up_plain();
+    /// With which densities subpaths arrive at the surfaces.
+    void arrive_at_surfaces(const SubpathJob& job, std::size_t first);
     /// What light there is at its end.
     void find_light(LightFinder& finder, std::size_t i, const ShadedSubpath& path) const;
     /// Stores the vertex with its lobes, if the subpath may have one more; false if it ends, or only passes through.
@@ -163,7 +168,7 @@ class SubpathWave {
     /// What both have in common; false if the sample is black.
     bool scatter(const SubpathJob& job, std::size_t i, const Vec3f& position, const Rgb& weight, bool is_delta);
     [[nodiscard]] SubpathDensities arrive(const SubpathJob& job, std::size_t i, const Vec3f& position,
-                                          float cosine) const;
+                                          double cosine) const;
     /// Russian roulette for subpaths [first, first + count). Moves those that go on to where `kept` says, their
     /// throughput divided by their chance.
     void keep_survivors(const SubpathJob& job, std::size_t first, std::size_t count, std::size_t& kept);
@@ -173,6 +178,8 @@ class SubpathWave {
     void follow_words(SubpathState& state, const VertexEvent& event);
     /// The next vertex, with what the state knows of it.
     PathVertex& store(SubpathState& state);
+    /// Puts the vertex just stored among those that can be connected.
+    void list_connectible();
 
     [[nodiscard]] TransportMode mode() const {
         return end_ == SubpathEnd::AtEye ? TransportMode::Radiance : TransportMode::Importance;
@@ -194,12 +201,14 @@ class SubpathWave {
     std::array<std::uint8_t, kBlock> on_surface_{};  ///< places in the block of those on surfaces, then with vertices
     std::size_t surfaces_ = 0;
     MatteLanes lanes_;
+    ArrivalColumns arrivals_;
     std::array<bool, kBlock> goes_on_{};
     // By slot.
     NumberPairs light_choice_, triangle_, position_, direction_;  ///< of where subpaths from lights begin
     std::vector<Emission> emissions_;
     std::vector<std::uint32_t> last_vertex_;
     std::vector<PathVertex> vertices_;
+    std::vector<ConnectibleVertex> connectible_vertices_;
     std::vector<MatteEnd> matte_ends_;
     PathWords words_;
     std::size_t words_of_vertices_ = 0;  ///< the others are of the last connection

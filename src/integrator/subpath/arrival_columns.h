@@ -1,0 +1,34 @@
+// Densities with which the subpaths of a block arrive where their rays have hit.
+#pragma once
+
+#include "core/columns.h"
+#include "integrator/subpath/subpath_densities.h"
+
+#include <array>
+#include <cstddef>
+
+namespace etendue {
+
+/// About 4 KiB.
+class ArrivalColumns {
+  public:
+    /// What DepartingDensities::arrive takes. `departing` is not from infinity.
+    void set(std::size_t lane, const DepartingDensities& departing, double squared_distance, double cos_arriving) {
+        d_[lane] = departing.d;
+        pdf_forward_[lane] = departing.pdf_forward;
+        cosine_[lane] = departing.cosine;
+        is_connectible_[lane] = departing.is_connectible ? 1.0 : 0.0;
+        squared_distance_[lane] = squared_distance;
+        cos_arriving_[lane] = cos_arriving;
+    }
+    /// Lanes [0, count), rounded up, from all that was set.
+    void arrive(std::size_t count, const Raised& raised);
+    [[nodiscard]] SubpathDensities operator[](std::size_t lane) const { return {a_[lane], b_[lane]}; }
+
+  private:
+    using Doubles = std::array<double, kBlockLanes>;
+    Doubles d_{}, pdf_forward_{}, cosine_{}, is_connectible_{}, squared_distance_{}, cos_arriving_{};
+    Doubles a_{}, b_{};
+};
+
+}  // namespace etendue
