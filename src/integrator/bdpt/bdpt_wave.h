@@ -68,18 +68,18 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
 
     // Connections on their way through the stages, one by one.
     struct ToLight {
-        const PathVertex* vertex = nullptr;
+        const ConnectibleVertex* vertex = nullptr;
         ChosenLight chosen{};
         Scattering::TwoWayValue scattered{};
     };
     struct ToCamera {
-        const PathVertex* vertex = nullptr;
+        const ConnectibleVertex* vertex = nullptr;
         CameraView view{};
         Scattering::TwoWayValue scattered{};
     };
     struct Between {
-        const PathVertex* eye = nullptr;
-        const PathVertex* light = nullptr;
+        const ConnectibleVertex* eye = nullptr;
+        const ConnectibleVertex* light = nullptr;
         Vec3f w{0.0f};         ///< unit, from `eye` to `light`
         float squared = 0.0f;  ///< of the distance, m²
         float scale = 1.0f;    ///< how many connections this one stands for
@@ -88,27 +88,24 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
     };
     // Those of plain matte surfaces, whose lanes are computed at once.
     struct WideToLight {
-        const PathVertex* vertex;
+        const ConnectibleVertex* vertex;
         std::uint32_t light;     ///< that was chosen
         std::uint32_t triangle;  ///< of it
     };
     struct WideToCamera {
-        const PathVertex* vertex;
+        const ConnectibleVertex* vertex;
         CameraView view;
     };
     struct WideBetween {
-        const PathVertex* eye;
-        const PathVertex* light;
+        const ConnectibleVertex* eye;
+        const ConnectibleVertex* light;
         const MatteEnd* eye_end;
         const MatteEnd* light_end;
         float scale;
     };
     /// A light vertex, as eye vertices look for it.
     struct Candidate {
-        const PathVertex* vertex;
-        const MatteEnd* end;
-        int index;
-        int next_edges;
+        ConnectibleVertex vertex;
         bool is_shared;
     };
 
@@ -121,12 +118,12 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
     /// Brings the light vertices into an order in which those of a sample are side by side, and into the cache.
     void find_candidates(const Context& context);
     /// All of the sample's own light subpath that the cache does not have.
-    void find_own(const Context& context, const PathVertex& eye);
+    void find_own(const Context& context, const ConnectibleVertex& eye);
     /// `count` vertices drawn from the cache, in place of all that it has of an average light subpath.
-    void find_cached(const Context& context, const PathVertex& eye, int count);
-    void find(const Context& context, const PathVertex& eye, const MatteEnd& eye_end, const Candidate& candidate,
-              float scale);
-    void find_singly(const PathVertex& eye, const PathVertex& light, float scale);
+    void find_cached(const Context& context, const ConnectibleVertex& eye, int count);
+    void find(const Context& context, const ConnectibleVertex& eye, const MatteEnd& eye_end,
+              const ConnectibleVertex& light, float scale);
+    void find_singly(const ConnectibleVertex& eye, const ConnectibleVertex& light, float scale);
     // With what both ends scatter: weights, and the rays that will tell.
     void weigh(const Context& context, const ToLight& connection);
     void weigh(const Context& context, const ToCamera& connection);
@@ -136,12 +133,12 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
     void weigh_wide_to_camera(const Context& context);
     void weigh_wide_between(const Context& context);
     // Leaves the rays of connections, with what they bring, to `connections`.
-    void queue(const Context& context, const PathVertex& vertex, const PathLightEnd& end, Ray ray,
+    void queue(const Context& context, const ConnectibleVertex& vertex, const PathLightEnd& end, Ray ray,
                const Brought& brought, Connections& connections);
-    void queue(const Context& context, const PathVertex& vertex, const CameraView& view, Ray ray,
+    void queue(const Context& context, const ConnectibleVertex& vertex, const CameraView& view, Ray ray,
                const Brought& brought, Connections& connections);
-    void queue(const Context& context, const PathVertex& eye, const PathVertex& light, Ray ray, const Brought& brought,
-               Connections& connections);
+    void queue(const Context& context, const ConnectibleVertex& eye, const ConnectibleVertex& light, Ray ray,
+               const Brought& brought, Connections& connections);
 
     [[nodiscard]] static float weight(const BdptOptions& options, const StrategySums& sums) {
         return options.weighted ? static_cast<float>(sums.weight()) : 1.0f;

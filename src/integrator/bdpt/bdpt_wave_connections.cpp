@@ -24,9 +24,10 @@ void BdptWave::connect_to_lights(const Context& context, std::size_t first, std:
     choosing_.clear();
     lit_.clear();
     for (std::size_t v = first; v < last; ++v) {
-        const PathVertex& vertex = to_light_[v];
+        const ConnectibleVertex& vertex = to_light_[v];
         if (!context.wants(vertex.next_edges) || !context.wants({.s = 1, .t = vertex.index + 1})) continue;
-        receivers_.push_back(vertex.position);
+        const MatteEnd& end = eye_.matte_end(vertex);
+        receivers_.push_back(end.exists() ? end.position : eye_.whole(vertex).position);
         choosing_.push_back(to_light_.numbers(v)[0]);
         lit_.push_back(v);
     }
@@ -35,18 +36,18 @@ void BdptWave::connect_to_lights(const Context& context, std::size_t first, std:
     to_lights_.clear();
     wide_to_lights_.clear();
     for (std::size_t i = 0; i < lit_.size(); ++i) {
-        const PathVertex& vertex = to_light_[lit_[i]];
+        const ConnectibleVertex& vertex = to_light_[lit_[i]];
+        const Vec3f& position = receivers_[i].position;
         const MatteEnd& end = eye_.matte_end(vertex);
         const auto [light, triangle, direction] = to_light_.numbers(lit_[i]);
         const LightTree::Choice& choice = choices_[i];
         const MeshLight* mesh = world.even_mesh_light(choice.light);
         if (mesh == nullptr || !end.exists()) {
-            to_lights_.push_back(
-                {&vertex, world.sample_light(choice, vertex.position, {light, triangle, direction}), {}});
+            to_lights_.push_back({&vertex, world.sample_light(choice, position, {light, triangle, direction}), {}});
             continue;
         }
         const std::size_t lane = wide_to_lights_.size();
-        const MeshLight::TriangleChoice on_light = mesh->choose_triangle(vertex.position, triangle);
+        const MeshLight::TriangleChoice on_light = mesh->choose_triangle(position, triangle);
         wide_to_lights_.push_back({&vertex, choice.light, on_light.triangle});
         to_light_lanes_.eye.set(lane, end);
         to_light_lanes_.front.set(lane, mesh->front(on_light));
@@ -60,7 +61,7 @@ void BdptWave::connect_to_lights(const Context& context, std::size_t first, std:
     stamp(profile, Stage::LightSampling);
     for (ToLight& connection : to_lights_)
         if (const LightSample& light = connection.chosen.sample; !is_black(light.radiance))
-            connection.scattered = connection.vertex->evaluate_both_ways(light.wi, TransportMode::Radiance);
+            connection.scattered = eye_.whole(*connection.vertex).evaluate_both_ways(light.wi, TransportMode::Radiance);
     stamp(profile, Stage::Material);
     for (const ToLight& connection : to_lights_)
         if (!is_black(connection.scattered.f_cos)) weigh(context, connection);
@@ -69,14 +70,14 @@ void BdptWave::connect_to_lights(const Context& context, std::size_t first, std:
 }
 
 void BdptWave::weigh(const Context& context, const ToLight& connection) {
-    const PathVertex& vertex = *connection.vertex;
+    const PathVertex& vertex = eye_.whole(*connection.vertex);
     const ChosenLight& chosen = connection.chosen;
     const LightSample& light = chosen.sample;
     const Scattering::TwoWayValue& value = connection.scattered;
     const float share = weight(context.options, sums_of_light_sample(context, vertex, chosen, value));
     if (share == 0.0f) return;
     const float density = light.is_delta ? chosen.probability : light.pdf_solid_angle;
-    queue(context, vertex,
+    queue(context, *connection.vertex,
           {.light = chosen.light,
            .triangle = light.triangle,
            .position = vertex.position + light.wi * (std::isinf(light.distance) ? 0.0f : light.distance),
@@ -99,25 +100,29 @@ void BdptWave::weigh_wide_to_lights(const Context& context) {
         queue(context, *vertex,
               {.light = light,
                .triangle = triangle,
-               .position = vertex->position + wi * to_light_lanes_.distance[lane],
+               .position = to_light_lanes_.eye[lane].position + wi * to_light_lanes_.distance[lane],
                .direction = -wi,
                .cos_light = to_light_lanes_.cos_light[lane]},
-              to_light_lanes_.ray(lane, to_light_lanes_.eye.origin[lane]), brought, wide_light_connections_);
+              to_light_lanes_.ray(lane, to_light_lanes_.eye[lane].origin), brought, wide_light_connections_);
     }
 }
 
-void BdptWave::queue(const Context& context, const PathVertex& vertex, const PathLightEnd& end, Ray ray,
+void BdptWave::queue(const Context& context, const ConnectibleVertex& vertex, const PathLightEnd& end, Ray ray,
                      const Brought& brought, Connections& connections) {
     ray.time = context.camera_rays[vertex.slot].time;
     ray.alpha_key = context.connection_key(SubpathEnd::AtEye, vertex.index, vertex.slot);
     shares_.clear();
-    if (eye_.words().are_followed())
-        eye_.words().end_at_light(vertex.words, vertex.event(-end.direction, TransportMode::Radiance),
-                                  eye_.words().light_source(context.world, end.light), shares_);
+    if (PathWords& words = eye_.words(); words.are_followed()) {
+        const PathVertex& whole = eye_.whole(vertex);
+        words.end_at_light(whole.words, whole.event(-end.direction, TransportMode::Radiance),
+                           words.light_source(context.world, end.light), shares_);
+    }
     connections.to_sample(ray, vertex.slot, brought.light,
                           vertex.is_seen_directly ? LightKind::Direct : LightKind::Indirect, shares_);
-    if (context.checks(vertex.slot))
-        check(context, context.options, 1, brought.weight, end, nullptr, &vertex, camera_of(context, vertex));
+    if (context.checks(vertex.slot)) {
+        const PathVertex& whole = eye_.whole(vertex);
+        check(context, context.options, 1, brought.weight, end, nullptr, &whole, camera_of(context, whole));
+    }
 }
 
 void BdptWave::connect_to_camera(const Context& context, std::size_t first, std::size_t last) {
@@ -125,13 +130,14 @@ void BdptWave::connect_to_camera(const Context& context, std::size_t first, std:
     to_cameras_.clear();
     wide_to_cameras_.clear();
     for (std::size_t v = first; v < last; ++v) {
-        const PathVertex& vertex = to_camera_[v];
+        const ConnectibleVertex& vertex = to_camera_[v];
         if (!context.wants(vertex.next_edges) || !context.wants({.s = vertex.index + 1, .t = 1})) continue;
         const auto [lens] = to_camera_.numbers(v);
-        const auto view =
-            view_from_camera(context.world, context.job, vertex.position, lens, context.camera_rays[vertex.slot].time);
-        if (!view) continue;
         const MatteEnd& end = light_.matte_end(vertex);
+        const Vec3f& position = end.exists() ? end.position : light_.whole(vertex).position;
+        const auto view =
+            view_from_camera(context.world, context.job, position, lens, context.camera_rays[vertex.slot].time);
+        if (!view) continue;
         if (!end.exists()) {
             to_cameras_.push_back({&vertex, *view, {}});
             continue;
@@ -146,7 +152,7 @@ void BdptWave::connect_to_camera(const Context& context, std::size_t first, std:
     stamp(profile, Stage::Mis);
     for (ToCamera& connection : to_cameras_)
         connection.scattered =
-            connection.vertex->evaluate_both_ways(connection.view.direction, TransportMode::Importance);
+            light_.whole(*connection.vertex).evaluate_both_ways(connection.view.direction, TransportMode::Importance);
     stamp(profile, Stage::Material);
     for (const ToCamera& connection : to_cameras_)
         if (!is_black(connection.scattered.f_cos)) weigh(context, connection);
@@ -155,11 +161,11 @@ void BdptWave::connect_to_camera(const Context& context, std::size_t first, std:
 }
 
 void BdptWave::weigh(const Context& context, const ToCamera& connection) {
-    const PathVertex& vertex = *connection.vertex;
+    const PathVertex& vertex = light_.whole(*connection.vertex);
     const CameraView& view = connection.view;
     const Scattering::TwoWayValue& value = connection.scattered;
     const float share = weight(context.options, sums_at_lens(context, vertex, view.direction, view.camera, value));
-    queue(context, vertex, view, connecting_ray(vertex.origin(view.direction), view.camera.lens),
+    queue(context, *connection.vertex, view, connecting_ray(vertex.origin(view.direction), view.camera.lens),
           {vertex.throughput * value.f_cos * vertex.transmittance(view.direction, view.distance) *
                context.wavelength_weight(vertex.slot, vertex.is_dispersed) * (view.camera.importance_area * share),
            share},
@@ -172,39 +178,40 @@ void BdptWave::weigh_wide_to_camera(const Context& context) {
     for (std::size_t lane = 0; lane < wide_to_cameras_.size(); ++lane) {
         const auto& [vertex, view] = wide_to_cameras_[lane];
         if (const Brought brought = to_camera_lanes_.brought(lane); !is_black(brought.light))
-            queue(context, *vertex, view, to_camera_lanes_.ray(lane, to_camera_lanes_.light.origin[lane]), brought,
+            queue(context, *vertex, view, to_camera_lanes_.ray(lane, to_camera_lanes_.light[lane].origin), brought,
                   wide_camera_connections_);
     }
 }
 
-void BdptWave::queue(const Context& context, const PathVertex& vertex, const CameraView& view, Ray ray,
+void BdptWave::queue(const Context& context, const ConnectibleVertex& vertex, const CameraView& view, Ray ray,
                      const Brought& brought, Connections& connections) {
     ray.time = context.camera_rays[vertex.slot].time;
     ray.alpha_key = context.connection_key(SubpathEnd::AtLight, vertex.index, vertex.slot);
     shares_.clear();
     if (light_.words().are_followed())
-        light_.words().end_at_camera(light_.words_after(vertex, view.direction), shares_);
+        light_.words().end_at_camera(light_.words_after(light_.whole(vertex), view.direction), shares_);
     connections.to_film(ray, vertex.slot, {.position = view.pixel, .value = brought.light, .depth = view.depth},
                         vertex.index > 1 ? LightKind::Indirect : LightKind::Direct, shares_);
     if (context.checks(vertex.slot))
         check(context, context.options, static_cast<std::size_t>(vertex.index) + 1, brought.weight,
-              light_end(vertex.slot), &vertex, nullptr, view.camera);
+              light_end(vertex.slot), &light_.whole(vertex), nullptr, view.camera);
 }
 
 void BdptWave::connect_to_vertices(const Context& context, std::size_t first, std::size_t last) {
     WaveProfile* const profile = context.job.profile;
     between_.clear();
     for (std::size_t v = first; v < last; ++v) {
-        const PathVertex& eye = to_light_[v];
+        const ConnectibleVertex& eye = to_light_[v];
         find_own(context, eye);
-        if (context.is_shared(eye)) find_cached(context, eye, context.options.cached_connections);
+        if (context.is_shared(eye_.whole(eye))) find_cached(context, eye, context.options.cached_connections);
     }
     weigh_wide_between(context);
     stamp(profile, Stage::Mis);
     for (Between& connection : between_) {
-        connection.at_eye = connection.eye->evaluate_both_ways(connection.w, TransportMode::Radiance);
+        connection.at_eye = eye_.whole(*connection.eye).evaluate_both_ways(connection.w, TransportMode::Radiance);
         if (!is_black(connection.at_eye.f_cos))
-            connection.at_light = connection.light->evaluate_both_ways(-connection.w, TransportMode::Importance);
+            connection.at_light =
+                light_.whole(*connection.light).evaluate_both_ways(-connection.w, TransportMode::Importance);
     }
     stamp(profile, Stage::Material);
     for (const Between& connection : between_)
@@ -221,23 +228,21 @@ void BdptWave::find_candidates(const Context& context) {
     std::inclusive_scan(own_begin_.begin(), own_begin_.end(), own_begin_.begin());
     own_.resize(own_begin_.back());
     // Bounce by bounce, so that the last vertex of a slot comes first there.
-    for (const ConnectibleVertex& connectible : vertices) {
-        const PathVertex& vertex = light_.vertices()[connectible.vertex];
-        const Candidate candidate{&vertex, &light_.matte_end(vertex), connectible.index, connectible.next_edges,
-                                  context.is_shared(vertex)};
-        own_[--own_begin_[connectible.slot]] = candidate;
+    for (const ConnectibleVertex& vertex : vertices) {
+        const Candidate candidate{vertex, context.is_shared(light_.whole(vertex))};
+        own_[--own_begin_[vertex.slot]] = candidate;
         if (candidate.is_shared) cache_.push_back(candidate);
     }
 }
 
-void BdptWave::find_own(const Context& context, const PathVertex& eye) {
-    const bool has_cache = context.is_shared(eye);
+void BdptWave::find_own(const Context& context, const ConnectibleVertex& eye) {
+    const bool has_cache = context.is_shared(eye_.whole(eye));
     const MatteEnd& eye_end = eye_.matte_end(eye);
     for (std::uint32_t i = own_begin_[eye.slot]; i < own_begin_[eye.slot + 1]; ++i)
-        if (!(has_cache && own_[i].is_shared)) find(context, eye, eye_end, own_[i], 1.0f);
+        if (!(has_cache && own_[i].is_shared)) find(context, eye, eye_end, own_[i].vertex, 1.0f);
 }
 
-void BdptWave::find_cached(const Context& context, const PathVertex& eye, int count) {
+void BdptWave::find_cached(const Context& context, const ConnectibleVertex& eye, int count) {
     if (cache_.empty()) return;
     const auto size = static_cast<float>(cache_.size());
     const float step = size / static_cast<float>(count);
@@ -248,26 +253,28 @@ void BdptWave::find_cached(const Context& context, const PathVertex& eye, int co
     const MatteEnd& eye_end = eye_.matte_end(eye);
     for (int i = 0; i < count; ++i) {
         const auto drawn = static_cast<std::size_t>((static_cast<float>(i) + u) * step);
-        find(context, eye, eye_end, cache_[std::min(drawn, cache_.size() - 1)], scale);
+        find(context, eye, eye_end, cache_[std::min(drawn, cache_.size() - 1)].vertex, scale);
     }
 }
 
-void BdptWave::find(const Context& context, const PathVertex& eye, const MatteEnd& eye_end, const Candidate& candidate,
-                    float scale) {
-    if (!context.wants(eye.next_edges + candidate.next_edges - 1) ||
-        !context.wants({.s = candidate.index + 1, .t = eye.index + 1}))
+void BdptWave::find(const Context& context, const ConnectibleVertex& eye, const MatteEnd& eye_end,
+                    const ConnectibleVertex& light, float scale) {
+    if (!context.wants(eye.next_edges + light.next_edges - 1) ||
+        !context.wants({.s = light.index + 1, .t = eye.index + 1}))
         return;
-    const MatteEnd& light_end = *candidate.end;
-    if (!eye_end.exists() || !light_end.exists()) return find_singly(eye, *candidate.vertex, scale);
+    const MatteEnd& light_end = light_.matte_end(light);
+    if (!eye_end.exists() || !light_end.exists()) return find_singly(eye, light, scale);
     // About every other one faces away, in no order that a branch could be foretold by.
     const Vec3f w = light_end.position - eye_end.position;
-    wide_between_[wide_between_count_] = {&eye, candidate.vertex, &eye_end, &light_end, scale};
+    wide_between_[wide_between_count_] = {&eye, &light, &eye_end, &light_end, scale};
     wide_between_count_ += static_cast<std::size_t>(dot(w, eye_end.geometric_normal) > 0.0f) &
                            static_cast<std::size_t>(dot(w, light_end.geometric_normal) < 0.0f);
     if (wide_between_count_ == wide_between_.size()) weigh_wide_between(context);
 }
 
-void BdptWave::find_singly(const PathVertex& eye, const PathVertex& light, float scale) {
+void BdptWave::find_singly(const ConnectibleVertex& eye_vertex, const ConnectibleVertex& light_vertex, float scale) {
+    const PathVertex& eye = eye_.whole(eye_vertex);
+    const PathVertex& light = light_.whole(light_vertex);
     const Vec3f to_light = light.position - eye.position;
     if (!eye.may_scatter(to_light) || !light.may_scatter(-to_light)) return;
     const float squared = length_squared(to_light);
@@ -275,16 +282,16 @@ void BdptWave::find_singly(const PathVertex& eye, const PathVertex& light, float
     const Vec3f w = to_light * (1.0f / std::sqrt(squared));
     // Between different media lies a boundary, which no connection passes.
     if (eye.medium(w) != light.medium(-w)) return;
-    between_.push_back({.eye = &eye, .light = &light, .w = w, .squared = squared, .scale = scale});
+    between_.push_back({.eye = &eye_vertex, .light = &light_vertex, .w = w, .squared = squared, .scale = scale});
 }
 
 void BdptWave::weigh(const Context& context, const Between& connection) {
     const auto& [eye_vertex, light_vertex, w, squared, scale, at_eye, at_light] = connection;
-    const PathVertex& eye = *eye_vertex;
-    const PathVertex& light = *light_vertex;
+    const PathVertex& eye = eye_.whole(*eye_vertex);
+    const PathVertex& light = light_.whole(*light_vertex);
     const float share = weight(context.options, sums_between(context.raised, eye, light, w, squared, at_eye, at_light));
     queue(
-        context, eye, light, connecting_ray(eye.origin(w), light.origin(-w)),
+        context, *eye_vertex, *light_vertex, connecting_ray(eye.origin(w), light.origin(-w)),
         {eye.throughput * at_eye.f_cos * at_light.f_cos * light.throughput * eye.transmittance(w, std::sqrt(squared)) *
              context.wavelength_weight(eye.slot, eye.is_dispersed || light.is_dispersed) * (scale * share / squared),
          share},
@@ -303,23 +310,25 @@ void BdptWave::weigh_wide_between(const Context& context) {
     for (std::size_t lane = 0; lane < count; ++lane)
         if (const Brought brought = between_lanes_.brought(lane); !is_black(brought.light))
             queue(context, *wide_between_[lane].eye, *wide_between_[lane].light,
-                  between_lanes_.ray(lane, between_lanes_.eye.origin[lane]), brought, wide_vertex_connections_);
+                  between_lanes_.ray(lane, between_lanes_.eye[lane].origin), brought, wide_vertex_connections_);
 }
 
-void BdptWave::queue(const Context& context, const PathVertex& eye, const PathVertex& light, Ray ray,
+void BdptWave::queue(const Context& context, const ConnectibleVertex& eye, const ConnectibleVertex& light, Ray ray,
                      const Brought& brought, Connections& connections) {
     ray.time = context.camera_rays[eye.slot].time;
     ray.alpha_key = context.connection_key(SubpathEnd::AtEye, eye.index, eye.slot) +
                     context.connection_key(SubpathEnd::AtLight, light.index, light.slot);
     shares_.clear();
     if (eye_.words().are_followed()) {
-        const Vec3f w = normalize(light.position - eye.position);
-        eye_.words().join(eye_.words_after(eye, w), light_.words(), light_.words_after(light, -w), shares_);
+        const PathVertex& at_eye = eye_.whole(eye);
+        const PathVertex& at_light = light_.whole(light);
+        const Vec3f w = normalize(at_light.position - at_eye.position);
+        eye_.words().join(eye_.words_after(at_eye, w), light_.words(), light_.words_after(at_light, -w), shares_);
     }
     connections.to_sample(ray, eye.slot, brought.light, LightKind::Indirect, shares_);
     if (context.checks(eye.slot))
         check(context, context.options, static_cast<std::size_t>(light.index) + 1, brought.weight,
-              light_end(light.slot), &light, &eye, camera_of(context, eye));
+              light_end(light.slot), &light_.whole(light), &eye_.whole(eye), camera_of(context, eye_.whole(eye)));
 }
 
 }  // namespace etendue

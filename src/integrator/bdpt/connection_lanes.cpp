@@ -4,12 +4,12 @@ namespace etendue {
 
 void BetweenLanes::connect(std::size_t count, const WeightRule& rule) {
     for (std::size_t l = 0; l < count; l += Wide::kWidth)
-        store(l, etendue::connect(rule, eye.load(l), light.load(l), scale.load(l)));
+        store(l, etendue::connect(rule, eye.load(l, count), light.load(l, count), scale.load(l)));
 }
 
 void ToLightLanes::connect(std::size_t count, const WeightRule& rule) {
     for (std::size_t l = 0; l < count; l += Wide::kWidth) {
-        const BasicMatteEnd<Wide> end = eye.load(l);
+        const BasicMatteEnd<Wide> end = eye.load(l, count);
         const LightTriangleFront<Wide> triangle = front.load(l);
         const LightTriangleSample<Wide> sample = triangle.sample(end.position, u.load(l));
         wi.store(l, sample.wi);
@@ -22,7 +22,8 @@ void ToLightLanes::connect(std::size_t count, const WeightRule& rule) {
 
 void ToCameraLanes::connect(std::size_t count, const WeightRule& rule, float samples_per_path) {
     for (std::size_t l = 0; l < count; l += Wide::kWidth)
-        store(l, etendue::connect(rule, light.load(l), lens.load(l), w.load(l), importance.load(l), samples_per_path));
+        store(l, etendue::connect(rule, light.load(l, count), lens.load(l), w.load(l), importance.load(l),
+                                  samples_per_path));
 }
 
 }  // namespace etendue

@@ -40,17 +40,17 @@ struct ConnectionColumns {
 
 // Each computes lanes [0, count), rounded up, from what the caller has set.
 
-/// Of two subpaths; about 10 KiB.
+/// Of two subpaths; about 4 KiB.
 struct BetweenLanes : ConnectionColumns {
-    MatteEndColumns eye, light;
+    MatteEndsOfBlock eye, light;
     Column scale;  ///< how many connections one stands for
 
     void connect(std::size_t count, const WeightRule& rule);
 };
 
-/// To samples of even mesh lights; about 13 KiB.
+/// To samples of even mesh lights; about 10 KiB.
 struct ToLightLanes : ConnectionColumns {
-    MatteEndColumns eye;
+    MatteEndsOfBlock eye;
     LightFrontColumns front;
     Vec2Columns u;  ///< for the point on the triangle
     RgbColumns radiance;
@@ -64,9 +64,9 @@ struct ToLightLanes : ConnectionColumns {
     void connect(std::size_t count, const WeightRule& rule);
 };
 
-/// To the camera; about 8 KiB.
+/// To the camera; about 5 KiB.
 struct ToCameraLanes : ConnectionColumns {
-    MatteEndColumns light;
+    MatteEndsOfBlock light;
     Vec3Columns lens, w;  ///< the point there, and the unit vector to it
     Column importance;    ///< CameraConnection::importance_area
 

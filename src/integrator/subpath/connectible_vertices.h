@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 namespace etendue {
 
@@ -18,13 +17,9 @@ class ConnectibleVertices {
   public:
     /// Those of `wave`, whose subpaths are from `end`, in their order.
     void collect(const SubpathJob& job, SubpathEnd end, const SubpathWave& wave) {
-        const std::span<const ConnectibleVertex> connectible = wave.connectible_vertices();
-        vertices_.clear();
+        vertices_ = wave.connectible_vertices();
         keys_.clear();
-        for (const ConnectibleVertex& vertex : connectible) {
-            vertices_.push_back(&wave.vertices()[vertex.vertex]);
-            keys_.push_back(job.samples[vertex.slot].key);
-        }
+        for (const ConnectibleVertex& vertex : vertices_) keys_.push_back(job.samples[vertex.slot].key);
         for (std::size_t kind = 0; kind < kKinds.size(); ++kind) {
             if (job.needs(end, kKinds[kind]))
                 numbers_[kind].resize(vertices_.size());
@@ -33,8 +28,8 @@ class ConnectibleVertices {
         }
         // Vertices come bounce by bounce: long runs of them have one index, and with it one dimension.
         for (std::size_t first = 0, next = 0; first < vertices_.size(); first = next) {
-            const int index = connectible[first].index;
-            while (next < connectible.size() && connectible[next].index == index) ++next;
+            const int index = vertices_[first].index;
+            while (next < vertices_.size() && vertices_[next].index == index) ++next;
             for (std::size_t kind = 0; kind < kKinds.size(); ++kind)
                 if (job.needs(end, kKinds[kind]))
                     numbers_[kind].draw(job.job.sequence, keys_, subpath_dimension(end, index, kKinds[kind]), first,
@@ -43,7 +38,7 @@ class ConnectibleVertices {
     }
 
     [[nodiscard]] std::size_t size() const { return vertices_.size(); }
-    [[nodiscard]] const PathVertex& operator[](std::size_t i) const { return *vertices_[i]; }
+    [[nodiscard]] const ConnectibleVertex& operator[](std::size_t i) const { return vertices_[i]; }
     /// Of vertex `i`, in the order of `Kinds`.
     [[nodiscard]] std::array<Vec2f, sizeof...(Kinds)> numbers(std::size_t i) const {
         std::array<Vec2f, sizeof...(Kinds)> pairs;
@@ -51,7 +46,7 @@ class ConnectibleVertices {
         return pairs;
     }
     [[nodiscard]] std::size_t bytes() const {
-        std::size_t bytes = vector_bytes(vertices_) + keys_.bytes();
+        std::size_t bytes = keys_.bytes();
         for (const NumberPairs& pairs : numbers_) bytes += pairs.bytes();
         return bytes;
     }
@@ -59,7 +54,7 @@ class ConnectibleVertices {
   private:
     static constexpr std::array kKinds{Kinds...};
 
-    std::vector<const PathVertex*> vertices_;
+    std::span<const ConnectibleVertex> vertices_;
     SampleKeys keys_;
     std::array<NumberPairs, sizeof...(Kinds)> numbers_;
 };

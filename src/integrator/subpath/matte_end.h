@@ -5,9 +5,12 @@
 #include "core/columns.h"
 #include "core/rgb.h"
 #include "core/vec.h"
+#include "core/wide_rows.h"
 #include "integrator/connecting_ray.h"
 #include "sampling/warp.h"
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 
 namespace etendue {
@@ -53,24 +56,46 @@ struct alignas(64) MatteEnd : BasicMatteEnd<float> {
     [[nodiscard]] bool exists() const { return fewer >= 0.0f; }
 };
 
-/// Ends of connections of a block.
-struct MatteEndColumns {
-    Vec3Columns position, origin, normal, geometric_normal;
-    RgbColumns weight;
-    Column fewer;
+static_assert(sizeof(MatteEnd) == kRowFloats * sizeof(float));
 
-    void set(std::size_t lane, const MatteEnd& end) {
-        position.set(lane, end.position);
-        origin.set(lane, end.origin);
-        normal.set(lane, end.normal);
-        geometric_normal.set(lane, end.geometric_normal);
-        weight.set(lane, end.weight);
-        fewer.set(lane, end.fewer);
+/// Of as many ends as `Wide` has lanes.
+[[nodiscard]] inline BasicMatteEnd<Wide> load_ends(const std::array<const MatteEnd*, Wide::kWidth>& ends) {
+    std::array<const float*, Wide::kWidth> rows;
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = &ends[i]->position.x;
+    const WideRow row = load_rows(rows);
+    return {.position{row[0], row[1], row[2]},
+            .origin{row[3], row[4], row[5]},
+            .normal{row[6], row[7], row[8]},
+            .geometric_normal{row[9], row[10], row[11]},
+            .weight{row[12], row[13], row[14]},
+            .fewer = row[15]};
+}
+
+/// The way back.
+inline void store_ends(const BasicMatteEnd<Wide>& from, const std::array<MatteEnd*, Wide::kWidth>& ends) {
+    const auto& [position, origin, normal, geometric_normal, weight, fewer] = from;
+    std::array<float*, Wide::kWidth> rows;
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = &ends[i]->position.x;
+    store_rows({position.x, position.y, position.z, origin.x, origin.y, origin.z, normal.x, normal.y, normal.z,
+                geometric_normal.x, geometric_normal.y, geometric_normal.z, weight.r, weight.g, weight.b, fewer},
+               rows);
+}
+
+/// Ends of connections of a block, where they lie.
+class MatteEndsOfBlock {
+  public:
+    void set(std::size_t lane, const MatteEnd& end) { ends_[lane] = &end; }
+    [[nodiscard]] const MatteEnd& operator[](std::size_t lane) const { return *ends_[lane]; }
+    /// Lanes from `first` on, of which those from `count` on are the same as the last before: they may have been set
+    /// for a block whose ends are gone.
+    [[nodiscard]] BasicMatteEnd<Wide> load(std::size_t first, std::size_t count) const {
+        std::array<const MatteEnd*, Wide::kWidth> ends;
+        for (std::size_t i = 0; i < ends.size(); ++i) ends[i] = ends_[std::min(first + i, count - 1)];
+        return load_ends(ends);
     }
-    [[nodiscard]] BasicMatteEnd<Wide> load(std::size_t first) const {
-        return {position.load(first),         origin.load(first), normal.load(first),
-                geometric_normal.load(first), weight.load(first), fewer.load(first)};
-    }
+
+  private:
+    std::array<const MatteEnd*, kBlockLanes> ends_{};
 };
 
 }  // namespace etendue

@@ -3,6 +3,8 @@
 #include "core/ray.h"
 #include "world/lane_scattering.h"
 
+#include <array>
+
 namespace etendue {
 
 using WideVec3 = Imath::Vec3<Wide>;
@@ -36,6 +38,22 @@ void MatteLanes::sample(std::size_t count, TransportMode mode) {
         const WideVec3 front = geometric_normal.load(l);
         next_cosine.store(l, abs(dot(sampled.wi, front)));
         next_origin.store(l, offset_origin(position.load(l), front, clearance.load(l), sampled.wi));
+    }
+}
+
+void MatteLanes::store_ends(std::span<MatteEnd* const> ends) const {
+    MatteEnd nowhere;
+    for (std::size_t l = 0; l < ends.size(); l += Wide::kWidth) {
+        std::array<MatteEnd*, Wide::kWidth> to;
+        for (std::size_t i = 0; i < to.size(); ++i)
+            to[i] = l + i < ends.size() && ends[l + i] != nullptr ? ends[l + i] : &nowhere;
+        etendue::store_ends({.position = position.load(l),
+                             .origin = end_origin.load(l),
+                             .normal = normal.load(l),
+                             .geometric_normal = facing_normal.load(l),
+                             .weight = end_weight.load(l),
+                             .fewer = end_fewer.load(l)},
+                            to);
     }
 }
 

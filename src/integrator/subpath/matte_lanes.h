@@ -7,6 +7,7 @@
 #include "world/oriented_surface.h"
 
 #include <cstddef>
+#include <span>
 
 namespace etendue {
 
@@ -24,6 +25,7 @@ struct MatteLanes : SurfaceLanes {
     // What MatteEnd has besides.
     Vec3Columns end_origin;
     RgbColumns end_weight;
+    Column end_fewer;  ///< set by the caller
 
     // Where the subpath goes on.
     Vec3Columns next_origin, next_direction;
@@ -39,24 +41,14 @@ struct MatteLanes : SurfaceLanes {
                 wo_agrees[lane] > 0.0f};
     }
 
-    /// `fewer` as in MatteEnd.
-    [[nodiscard]] MatteEnd end(std::size_t lane, float fewer) const {
-        MatteEnd end;
-        end.position = position[lane];
-        end.origin = end_origin[lane];
-        end.normal = normal[lane];
-        end.geometric_normal = facing_normal[lane];
-        end.weight = end_weight[lane];
-        end.fewer = fewer;
-        return end;
-    }
-
     // Each computes lanes [0, count), rounded up, from the columns that the one before and the caller have set.
 
-    /// What `surface` and `end` return, from the points, `wo`, `albedo` and `throughput`.
+    /// What `surface` returns and ends have, but `end_fewer`, from the points, `wo`, `albedo` and `throughput`.
     void orient(std::size_t count, TransportMode mode);
     /// Samples of the lobes, from `albedo` and `u`, which are now numbers for directions.
     void sample(std::size_t count, TransportMode mode);
+    /// Writes the end of each lane to where `ends` has its place; null if it has none.
+    void store_ends(std::span<MatteEnd* const> ends) const;
 };
 
 }  // namespace etendue

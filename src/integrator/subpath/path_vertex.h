@@ -82,6 +82,7 @@ struct ConnectibleVertex {
     std::uint32_t slot;    ///< these as in PathVertex
     int index;
     int next_edges;
+    bool is_seen_directly;
 };
 
 }  // namespace etendue

@@ -97,11 +97,10 @@ void SubpathWave::trace(const SubpathJob& job, int roulette_depth, LightFinder* 
 }
 
 std::size_t SubpathWave::bytes() const {
-    std::size_t bytes =
-        sizeof *this +
-        vector_bytes(states_, rays_, hits_, interiors_, emissions_, last_vertex_, vertices_, connectible_vertices_,
-                     matte_ends_) +
-        keys_.bytes() + bsdfs_.size() * sizeof(Bsdf);
+    std::size_t bytes = sizeof *this +
+                        vector_bytes(states_, rays_, hits_, interiors_, emissions_, last_vertex_, vertices_,
+                                     connectible_vertices_, matte_ends_) +
+                        keys_.bytes() + bsdfs_.size() * sizeof(Bsdf);
     for (const NumberPairs* numbers :
          {&scattering_, &choices_, &medium_, &light_choice_, &triangle_, &position_, &direction_})
         bytes += numbers->bytes();
@@ -199,10 +198,12 @@ void SubpathWave::advance_block(const SubpathJob& job, LightFinder* finder, std:
             if (!goes_on_[k]) find_light(*finder, first + k, block_[k]);
     stamp(profile, Stage::Emission);
     std::size_t vertices = 0;
+    ends_.fill(PathVertex::kNoVertex);
     for (std::size_t s = 0; s < surfaces_; ++s) {
         const std::uint8_t k = on_surface_[s];
         if (make_vertex(job, first + k, block_[k])) on_surface_[vertices++] = k;
     }
+    if (makes_matte_ends_) store_matte_ends();
     stamp(profile, Stage::Textures);
     sample_bsdfs(first, vertices);
     stamp(profile, Stage::Material);
@@ -317,7 +318,7 @@ bool SubpathWave::make_vertex(const SubpathJob& job, std::size_t i, ShadedSubpat
         vertex.outside = world.medium(crossing ? crossing->outside : interiors_[i]);
         vertex.inside = crossing ? world.medium(crossing->inside) : vertex.outside;
     }
-    if (vertex.is_connectible) list_connectible();
+    if (vertex.is_connectible) list_connectible(state, state.edges + 1);
     if (path.plain != nullptr && makes_matte_ends_) make_matte_end(job, path, vertex);
     if (end_ == SubpathEnd::AtEye || state.edges + edges_to_connect(world) <= job.lengths.max_depth) return true;
     end_path(job, i, PathEnding::TooLong);
@@ -349,8 +350,17 @@ void SubpathWave::make_matte_end(const SubpathJob& job, const ShadedSubpath& pat
     constexpr double kSmallest = 1e-30, kLargest = 1e30;
     const double fewer = path.arrived.fewer(job.raised, static_cast<double>(lanes_.reverse_pdf[path.lane]));
     if ((fewer > kSmallest && fewer < kLargest) || fewer == 0.0)
-        if (vertex.outside == nullptr && !vertex.is_dispersed)
-            matte_ends_.back() = lanes_.end(path.lane, static_cast<float>(fewer));
+        if (vertex.outside == nullptr && !vertex.is_dispersed) {
+            ends_[path.lane] = path.vertex;
+            lanes_.end_fewer.set(path.lane, static_cast<float>(fewer));
+        }
+}
+
+void SubpathWave::store_matte_ends() {
+    std::array<MatteEnd*, kBlock> ends;
+    for (std::size_t lane = 0; lane < surfaces_; ++lane)
+        ends[lane] = ends_[lane] == PathVertex::kNoVertex ? nullptr : &matte_ends_[ends_[lane]];
+    lanes_.store_ends(std::span(ends).first(surfaces_));
 }
 
 SubpathDensities SubpathWave::arrive(const SubpathJob& job, std::size_t i, const Vec3f& position, double cosine) const {
@@ -448,7 +458,7 @@ bool SubpathWave::scatter_in_medium(const SubpathJob& job, std::size_t i) {
     vertex.outside = vertex.inside = medium;
     vertex.densities = arrive(job, i, vertex.position, 1.0);
     vertex.next_edges = state.edges;
-    list_connectible();
+    list_connectible(state, state.edges);
     ray.origin = vertex.position;
     ray.direction = medium->phase.sample(wo, scattering_[i]);
     // Forwards and backwards a phase function has one density.
@@ -520,10 +530,9 @@ PathVertex& SubpathWave::store(SubpathState& state) {
     return vertex;
 }
 
-void SubpathWave::list_connectible() {
-    const PathVertex& vertex = vertices_.back();
+void SubpathWave::list_connectible(const SubpathState& state, int next_edges) {
     connectible_vertices_.push_back(
-        {static_cast<std::uint32_t>(vertices_.size() - 1), vertex.slot, vertex.index, vertex.next_edges});
+        {static_cast<std::uint32_t>(vertices_.size() - 1), state.slot, state.index, next_edges, state.only_delta});
 }
 
 }  // namespace etendue

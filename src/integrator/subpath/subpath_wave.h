@@ -123,10 +123,11 @@ class SubpathWave {
     [[nodiscard]] std::span<const PathVertex> vertices() const { return vertices_; }
     /// Those that can be connected, in the same order.
     [[nodiscard]] std::span<const ConnectibleVertex> connectible_vertices() const { return connectible_vertices_; }
-    /// What connections of `vertex`, one of those, need of it, if it lies on a plain matte surface in vacuum and its
-    /// light is still of all wavelengths.
-    [[nodiscard]] const MatteEnd& matte_end(const PathVertex& vertex) const {
-        return matte_ends_[static_cast<std::size_t>(&vertex - vertices_.data())];
+    [[nodiscard]] const PathVertex& whole(const ConnectibleVertex& vertex) const { return vertices_[vertex.vertex]; }
+    /// What connections of `vertex` need of it, if it lies on a plain matte surface in vacuum and its light is still of
+    /// all wavelengths.
+    [[nodiscard]] const MatteEnd& matte_end(const ConnectibleVertex& vertex) const {
+        return matte_ends_[vertex.vertex];
     }
     /// The last vertex of each slot's subpath, from where `previous` leads on; kNoVertex if it has none.
     [[nodiscard]] std::uint32_t last_vertex(std::uint32_t slot) const { return last_vertex_[slot]; }
@@ -157,8 +158,10 @@ class SubpathWave {
     bool make_vertex(const SubpathJob& job, std::size_t i, ShadedSubpath& path);
     /// Puts `vertex` on the surface, with lobes for the index `relative_ior` as in World::bsdf.
     void place(const World& world, const ShadedSubpath& path, float relative_ior, PathVertex& vertex);
-    /// What connections need of the vertex just stored, which is plain.
+    /// What connections need of the vertex just stored, which is plain, but for what its lane holds.
     void make_matte_end(const SubpathJob& job, const ShadedSubpath& path, const PathVertex& vertex);
+    /// The rest, of the whole block.
+    void store_matte_ends();
     /// Samples the BSDFs of the first `vertices` in `on_surface_`.
     void sample_bsdfs(std::size_t first, std::size_t vertices);
     bool scatter_in_medium(const SubpathJob& job, std::size_t i);
@@ -178,8 +181,8 @@ class SubpathWave {
     void follow_words(SubpathState& state, const VertexEvent& event);
     /// The next vertex, with what the state knows of it.
     PathVertex& store(SubpathState& state);
-    /// Puts the vertex just stored among those that can be connected.
-    void list_connectible();
+    /// Puts the vertex just stored among those that can be connected. `state` is that before it scatters.
+    void list_connectible(const SubpathState& state, int next_edges);
 
     [[nodiscard]] TransportMode mode() const {
         return end_ == SubpathEnd::AtEye ? TransportMode::Radiance : TransportMode::Importance;
@@ -201,6 +204,7 @@ class SubpathWave {
     std::array<std::uint8_t, kBlock> on_surface_{};  ///< places in the block of those on surfaces, then with vertices
     std::size_t surfaces_ = 0;
     MatteLanes lanes_;
+    std::array<std::uint32_t, kBlock> ends_{};  ///< by lane, whose MatteEnd that is; kNoVertex if there is none
     ArrivalColumns arrivals_;
     std::array<bool, kBlock> goes_on_{};
     // By slot.

@@ -65,9 +65,11 @@ class MatteConnectionsIn : public testing::TestWithParam<Heuristic> {
             vertex.geometric_normal = lanes.geometric_normal[l];
             vertex.clearance = lanes.clearance[l];
             vertex.surface.emplace(matte_, lanes.surface(l));
-            ends[l].end = lanes.end(
+            lanes.end_fewer.set(
                 l, static_cast<float>(vertex.densities.fewer(raised_, static_cast<double>(lanes.reverse_pdf[l]))));
+            places[l] = &ends[l].end;
         }
+        lanes.store_ends(places);
         return ends;
     }
     /// True if roundings may have put a direction on another side, or moved the factor of importance, which knows no
