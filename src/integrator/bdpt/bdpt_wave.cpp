@@ -33,9 +33,9 @@ constexpr int kDirectlySeen = 1;
 }
 
 /// The vertices of the subpath that ends in `last`, the last one first.
-void append_subpath(const SubpathWave& wave, const PathVertex* last, std::vector<const PathVertex*>& path) {
+void append_subpath(SubpathWave& wave, const PathVertex* last, std::vector<const PathVertex*>& path) {
     for (const PathVertex* v = last; v != nullptr;
-         v = v->previous != PathVertex::kNoVertex ? &wave.vertices()[v->previous] : nullptr)
+         v = v->previous != PathVertex::kNoVertex ? &wave.whole(v->previous) : nullptr)
         path.push_back(v);
 }
 
@@ -108,7 +108,7 @@ void BdptWave::trace(const World& world, const TileJob& job, const BdptOptions& 
 
 void BdptWave::check(const SubpathJob& job, const BdptOptions& options, std::size_t s, float weight,
                      const PathLightEnd& end, const PathVertex* light, const PathVertex* eye,
-                     const CameraConnection& camera) const {
+                     const CameraConnection& camera) {
     std::vector<const PathVertex*> path;
     append_subpath(light_, light, path);
     std::reverse(path.begin(), path.end());
@@ -152,7 +152,7 @@ void BdptWave::add(const SubpathState& state, const Rgb& light, const StrategySu
     found_.add(state.slot, state.throughput * light * context.wavelength_weight(state.slot, state.is_dispersed) * share,
                kind_of_met_light(state), shares_);
     if (context.checks(state.slot) && state.index > kDirectlySeen) {
-        const PathVertex& last = eye_.vertices()[state.last_vertex];
+        const PathVertex& last = eye_.whole(state.last_vertex);
         check(context, context.options, 0, share, end, nullptr, &last, camera_of(context, last));
     }
 }

@@ -38,7 +38,7 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
 
         /// True if the vertex may be connected to those of other samples: each sample has a time and a wavelength of
         /// its own.
-        [[nodiscard]] bool is_shared(const PathVertex& vertex) const {
+        [[nodiscard]] bool is_shared(const ConnectibleVertex& vertex) const {
             return options.cached_connections > 0 && !world.has_motion() && !vertex.is_dispersed;
         }
         [[nodiscard]] bool wants(int edges) const { return edges >= lengths.min_depth && edges <= lengths.max_depth; }
@@ -147,7 +147,7 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
     /// Shows the weight of a path to the observer, and in debug builds compares it with the reference. The path leads
     /// from `end` over the subpath that ends in `light` and back over that which ends in `eye`; either may be null.
     void check(const SubpathJob& job, const BdptOptions& options, std::size_t s, float weight, const PathLightEnd& end,
-               const PathVertex* light, const PathVertex* eye, const CameraConnection& camera) const;
+               const PathVertex* light, const PathVertex* eye, const CameraConnection& camera);
     [[nodiscard]] PathLightEnd light_end(std::uint32_t slot) const;
     /// How the camera sees the first vertex of a sample's eye subpath.
     [[nodiscard]] CameraConnection camera_of(const SubpathJob& job, const PathVertex& eye) const;

@@ -203,7 +203,7 @@ void BdptWave::connect_to_vertices(const Context& context, std::size_t first, st
     for (std::size_t v = first; v < last; ++v) {
         const ConnectibleVertex& eye = to_light_[v];
         find_own(context, eye);
-        if (context.is_shared(eye_.whole(eye))) find_cached(context, eye, context.options.cached_connections);
+        if (context.is_shared(eye)) find_cached(context, eye, context.options.cached_connections);
     }
     weigh_wide_between(context);
     stamp(profile, Stage::Mis);
@@ -229,14 +229,14 @@ void BdptWave::find_candidates(const Context& context) {
     own_.resize(own_begin_.back());
     // Bounce by bounce, so that the last vertex of a slot comes first there.
     for (const ConnectibleVertex& vertex : vertices) {
-        const Candidate candidate{vertex, context.is_shared(light_.whole(vertex))};
+        const Candidate candidate{vertex, context.is_shared(vertex)};
         own_[--own_begin_[vertex.slot]] = candidate;
         if (candidate.is_shared) cache_.push_back(candidate);
     }
 }
 
 void BdptWave::find_own(const Context& context, const ConnectibleVertex& eye) {
-    const bool has_cache = context.is_shared(eye_.whole(eye));
+    const bool has_cache = context.is_shared(eye);
     const MatteEnd& eye_end = eye_.matte_end(eye);
     for (std::uint32_t i = own_begin_[eye.slot]; i < own_begin_[eye.slot + 1]; ++i)
         if (!(has_cache && own_[i].is_shared)) find(context, eye, eye_end, own_[i].vertex, 1.0f);

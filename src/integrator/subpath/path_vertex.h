@@ -19,11 +19,12 @@ namespace etendue {
 struct PathVertex {
     static constexpr std::uint32_t kNoVertex = std::numeric_limits<std::uint32_t>::max();
 
-    Vec3f position{0.0f};                        ///< metres
-    Vec3f wo{0.0f};                              ///< unit, to the vertex before
-    std::optional<Scattering> surface{};         ///< none in a medium
-    Vec3f geometric_normal{0.0f};                ///< of the surface's front, unit
-    float clearance = 0.0f;                      ///< metres, as in SurfacePoint
+    Vec3f position{0.0f};                 ///< metres
+    Vec3f wo{0.0f};                       ///< unit, to the vertex before
+    std::optional<Scattering> surface{};  ///< none in a medium, nor yet where `matte` is given
+    const Bsdf* matte = nullptr;          ///< of a vertex with a MatteEnd, from which SubpathWave::whole makes it
+    Vec3f geometric_normal{0.0f};         ///< of the surface's front, unit
+    float clearance = 0.0f;               ///< metres, as in SurfacePoint
     const HomogeneousMedium* outside = nullptr;  ///< what fills the space on the front; null in vacuum
     const HomogeneousMedium* inside = nullptr;   ///< and on the back; in a medium both are that
     Rgb throughput{};                            ///< of the subpath that arrives, without the weight of its wavelength
@@ -83,6 +84,7 @@ struct ConnectibleVertex {
     int index;
     int next_edges;
     bool is_seen_directly;
+    bool is_dispersed;
 };
 
 }  // namespace etendue

@@ -107,6 +107,15 @@ std::size_t SubpathWave::bytes() const {
     return bytes;
 }
 
+const PathVertex& SubpathWave::whole(std::uint32_t index) {
+    PathVertex& vertex = vertices_[index];
+    if (vertex.matte != nullptr && !vertex.surface) {
+        const MatteEnd& end = matte_ends_[index];
+        vertex.surface.emplace(*vertex.matte, Frame::from_normal(end.normal), end.geometric_normal, vertex.wo);
+    }
+    return vertex;
+}
+
 WordRange SubpathWave::words_after(const PathVertex& vertex, const Vec3f& w) {
     words_.shrink_to(words_of_vertices_);
     return end_ == SubpathEnd::AtEye
@@ -319,7 +328,12 @@ bool SubpathWave::make_vertex(const SubpathJob& job, std::size_t i, ShadedSubpat
         vertex.inside = crossing ? world.medium(crossing->inside) : vertex.outside;
     }
     if (vertex.is_connectible) list_connectible(state, state.edges + 1);
-    if (path.plain != nullptr && makes_matte_ends_) make_matte_end(job, path, vertex);
+    if (path.plain != nullptr) {
+        if (make_matte_end(job, path, vertex))
+            vertex.matte = path.plain;
+        else
+            vertex.surface.emplace(*path.plain, lanes_.surface(path.lane));
+    }
     if (end_ == SubpathEnd::AtEye || state.edges + edges_to_connect(world) <= job.lengths.max_depth) return true;
     end_path(job, i, PathEnding::TooLong);
     return false;
@@ -330,7 +344,6 @@ void SubpathWave::place(const World& world, const ShadedSubpath& path, float rel
         vertex.position = lanes_.position[path.lane];
         vertex.geometric_normal = lanes_.geometric_normal[path.lane];
         vertex.clearance = lanes_.clearance[path.lane];
-        vertex.surface.emplace(*path.plain, lanes_.surface(path.lane));
         return;
     }
     const SurfacePoint& point = path.point;
@@ -345,15 +358,15 @@ void SubpathWave::place(const World& world, const ShadedSubpath& path, float rel
     vertex.is_connectible = vertex.surface->has_non_delta();
 }
 
-void SubpathWave::make_matte_end(const SubpathJob& job, const ShadedSubpath& path, const PathVertex& vertex) {
+bool SubpathWave::make_matte_end(const SubpathJob& job, const ShadedSubpath& path, const PathVertex& vertex) {
+    if (!makes_matte_ends_ || vertex.outside != nullptr || vertex.is_dispersed) return false;
     // What floats still hold when the other end's density comes to it; anything else is connected in double precision.
     constexpr double kSmallest = 1e-30, kLargest = 1e30;
     const double fewer = path.arrived.fewer(job.raised, static_cast<double>(lanes_.reverse_pdf[path.lane]));
-    if ((fewer > kSmallest && fewer < kLargest) || fewer == 0.0)
-        if (vertex.outside == nullptr && !vertex.is_dispersed) {
-            ends_[path.lane] = path.vertex;
-            lanes_.end_fewer.set(path.lane, static_cast<float>(fewer));
-        }
+    if (!((fewer > kSmallest && fewer < kLargest) || fewer == 0.0)) return false;
+    ends_[path.lane] = path.vertex;
+    lanes_.end_fewer.set(path.lane, static_cast<float>(fewer));
+    return true;
 }
 
 void SubpathWave::store_matte_ends() {
@@ -531,8 +544,8 @@ PathVertex& SubpathWave::store(SubpathState& state) {
 }
 
 void SubpathWave::list_connectible(const SubpathState& state, int next_edges) {
-    connectible_vertices_.push_back(
-        {static_cast<std::uint32_t>(vertices_.size() - 1), state.slot, state.index, next_edges, state.only_delta});
+    connectible_vertices_.push_back({static_cast<std::uint32_t>(vertices_.size() - 1), state.slot, state.index,
+                                     next_edges, state.only_delta, state.is_dispersed});
 }
 
 }  // namespace etendue

@@ -119,11 +119,13 @@ class SubpathWave {
 
     /// Where the subpaths from lights began, by slot.
     [[nodiscard]] std::span<const Emission> emissions() const { return emissions_; }
-    /// Of all slots, in the order of their bounces.
+    /// Of all slots, in the order of their bounces; see `whole`.
     [[nodiscard]] std::span<const PathVertex> vertices() const { return vertices_; }
     /// Those that can be connected, in the same order.
     [[nodiscard]] std::span<const ConnectibleVertex> connectible_vertices() const { return connectible_vertices_; }
-    [[nodiscard]] const PathVertex& whole(const ConnectibleVertex& vertex) const { return vertices_[vertex.vertex]; }
+    /// One of `vertices` with its surface, which few connections of plain matte ones ask for.
+    [[nodiscard]] const PathVertex& whole(std::uint32_t vertex);
+    [[nodiscard]] const PathVertex& whole(const ConnectibleVertex& vertex) { return whole(vertex.vertex); }
     /// What connections of `vertex` need of it, if it lies on a plain matte surface in vacuum and its light is still of
     /// all wavelengths.
     [[nodiscard]] const MatteEnd& matte_end(const ConnectibleVertex& vertex) const {
@@ -158,8 +160,9 @@ class SubpathWave {
     bool make_vertex(const SubpathJob& job, std::size_t i, ShadedSubpath& path);
     /// Puts `vertex` on the surface, with lobes for the index `relative_ior` as in World::bsdf.
     void place(const World& world, const ShadedSubpath& path, float relative_ior, PathVertex& vertex);
-    /// What connections need of the vertex just stored, which is plain, but for what its lane holds.
-    void make_matte_end(const SubpathJob& job, const ShadedSubpath& path, const PathVertex& vertex);
+    /// What connections need of the vertex just stored, which is plain, but for what its lane holds; false if there is
+    /// no such end.
+    bool make_matte_end(const SubpathJob& job, const ShadedSubpath& path, const PathVertex& vertex);
     /// The rest, of the whole block.
     void store_matte_ends();
     /// Samples the BSDFs of the first `vertices` in `on_surface_`.
