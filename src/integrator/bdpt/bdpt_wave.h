@@ -20,7 +20,7 @@ namespace etendue {
 
 class BdptWave final : public IntegratorScratch, private LightFinder {
   public:
-    /// Samples in a wave. A vertex takes 288 bytes, its MatteEnd included, and 248 more for a lobe that was evaluated
+    /// Samples in a wave. A vertex takes 316 bytes, its MatteEnd included, and 248 more for a lobe that was evaluated
     /// there: the ten or so of a sample stay in a cache of 2 MiB until they are connected.
     static constexpr std::size_t kCapacity = 512;
     /// Vertices whose connections go from one stage to the next together.
