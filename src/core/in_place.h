@@ -1,5 +1,5 @@
-// Values made where they stay. What a function has just returned through memory waits, when it is copied from there, for
-// all that was written number by number to reach the cache.
+// Values made where they stay. What a function has just returned through memory waits, when it is copied from there,
+// for all that was written number by number to reach the cache.
 #pragma once
 
 #include <memory>
@@ -21,7 +21,7 @@ InPlace(Make) -> InPlace<Make>;
 
 /// `object` becomes what `make` returns, which must not look at it.
 template <typename T, typename Make>
-    requires std::is_trivially_destructible_v<T>
+requires std::is_trivially_destructible_v<T>
 inline void make_in_place(T& object, Make make) {
     std::construct_at(&object, InPlace{std::move(make)});
 }

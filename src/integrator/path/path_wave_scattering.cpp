@@ -32,7 +32,8 @@ bool PathWave::set_up(const Context& context, std::size_t k) {
         const SurfacePoint& point = singles_[k].point;
         path.emits = point.material->emits;
         if (world.has_bodies() && world.is_boundary(point)) {
-            const Crossing& crossing = singles_[k].crossing.emplace(InPlace{[&] { return world.crossing(point, interiors_[i]); }});
+            const Crossing& crossing =
+                singles_[k].crossing.emplace(InPlace{[&] { return world.crossing(point, interiors_[i]); }});
             if (crossing.is_hidden) {
                 path.is_at_hidden = true;
                 goes_on_[k] = true;
