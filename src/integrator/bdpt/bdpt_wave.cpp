@@ -25,7 +25,7 @@ constexpr int kDirectlySeen = 1;
         const Vec3f edge = next - vertex.position;
         const float distance = length(edge);
         const float scale = std::max(length(vertex.position), length(next));
-        if (!vertex.surface || !(distance > kShortest * scale)) return false;
+        if (!vertex.is_on_surface() || !(distance > kShortest * scale)) return false;
         if (vertex.cosine(edge / distance) < kSmallestCosine || vertex.cosine(vertex.wo) < kSmallestCosine)
             return false;
     }

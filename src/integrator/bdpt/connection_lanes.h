@@ -40,7 +40,7 @@ struct ConnectionColumns {
 
 // Each computes lanes [0, count), rounded up, from what the caller has set.
 
-/// Of two subpaths; about 4 KiB.
+/// Of two subpaths; about 3 KiB. Ends stay where they are until rays are asked for.
 struct BetweenLanes : ConnectionColumns {
     MatteEndsOfBlock eye, light;
     Column scale;  ///< how many connections one stands for
@@ -64,7 +64,7 @@ struct ToLightLanes : ConnectionColumns {
     void connect(std::size_t count, const WeightRule& rule);
 };
 
-/// To the camera; about 5 KiB.
+/// To the camera; about 4 KiB.
 struct ToCameraLanes : ConnectionColumns {
     MatteEndsOfBlock light;
     Vec3Columns lens, w;  ///< the point there, and the unit vector to it

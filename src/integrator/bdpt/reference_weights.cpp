@@ -14,7 +14,7 @@ double cosine(const PathVertex& vertex, const Vec3f& w) {
 
 /// Density per solid angle of going on along `to` when a walk arrives from `from`.
 double scattering_density(const PathVertex& vertex, const Vec3f& from, const Vec3f& to) {
-    if (!vertex.surface) return static_cast<double>(vertex.outside->phase.pdf_solid_angle(from, to));
+    if (!vertex.is_on_surface()) return static_cast<double>(vertex.outside->phase.pdf_solid_angle(from, to));
     return static_cast<double>(vertex.surface->seen_from(from).evaluate(to, TransportMode::Radiance).pdf_solid_angle);
 }
 

@@ -21,7 +21,7 @@ class ArrivalColumns {
         squared_distance_[lane] = squared_distance;
         cos_arriving_[lane] = cos_arriving;
     }
-    /// Lanes [0, count), rounded up, from all that was set.
+    /// Lanes [0, count), whether or not they were set.
     void arrive(std::size_t count, const Raised& raised);
     [[nodiscard]] SubpathDensities operator[](std::size_t lane) const { return {a_[lane], b_[lane]}; }
 

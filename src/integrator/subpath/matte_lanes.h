@@ -11,7 +11,7 @@
 
 namespace etendue {
 
-/// About 18 KiB, which stay in the first-level cache.
+/// About 16 KiB, which stay in the first-level cache.
 struct MatteLanes : SurfaceLanes {
     Vec3Columns wo;
     RgbColumns albedo;

@@ -8,6 +8,7 @@
 #include "medium/homogeneous_medium.h"
 #include "world/scattering.h"
 
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -42,28 +43,35 @@ struct PathVertex {
     bool is_left_by_delta = false;       ///< the subpath went on by one
     float delta_reverse_ratio = 1.0f;    ///< of that one, Scattering::reverse_density_ratio
 
+    /// False in a medium.
+    [[nodiscard]] bool is_on_surface() const {
+        assert(surface || matte == nullptr);
+        return surface.has_value();
+    }
     /// f |cos theta| towards `w`.
     [[nodiscard]] Rgb evaluate(const Vec3f& w, TransportMode mode) const {
-        return surface ? surface->evaluate(w, mode).f_cos : Rgb(outside->phase.pdf_solid_angle(wo, w));
+        return is_on_surface() ? surface->evaluate(w, mode).f_cos : Rgb(outside->phase.pdf_solid_angle(wo, w));
     }
     /// The same with the densities of going there and of coming back.
     [[nodiscard]] Scattering::TwoWayValue evaluate_both_ways(const Vec3f& w, TransportMode mode) const {
-        if (surface) return surface->evaluate_both_ways(w, mode);
+        if (is_on_surface()) return surface->evaluate_both_ways(w, mode);
         // Forwards and backwards a phase function has one density.
         const float phase = outside->phase.pdf_solid_angle(wo, w);
         return {Rgb(phase), phase, phase};
     }
     /// False if nothing is scattered towards `towards`, of any length; quick to ask.
-    [[nodiscard]] bool may_scatter(const Vec3f& towards) const { return !surface || surface->may_scatter(towards); }
+    [[nodiscard]] bool may_scatter(const Vec3f& towards) const {
+        return !is_on_surface() || surface->may_scatter(towards);
+    }
     /// What light that goes on to `w` may be taken for.
     [[nodiscard]] VertexEvent event(const Vec3f& w, TransportMode mode) const {
-        return surface ? surface_event(*surface, w, false, mode, label) : VertexEvent{};
+        return is_on_surface() ? surface_event(*surface, w, false, mode, label) : VertexEvent{};
     }
     /// Cosine between `w` and the geometric normal; 1 in a medium.
-    [[nodiscard]] float cosine(const Vec3f& w) const { return surface ? abs_dot(w, geometric_normal) : 1.0f; }
+    [[nodiscard]] float cosine(const Vec3f& w) const { return is_on_surface() ? abs_dot(w, geometric_normal) : 1.0f; }
     /// Where a ray along `w` starts.
     [[nodiscard]] Vec3f origin(const Vec3f& w) const {
-        return surface ? offset_origin(position, geometric_normal, clearance, w) : position;
+        return is_on_surface() ? offset_origin(position, geometric_normal, clearance, w) : position;
     }
     /// What fills the space towards `w`, null in vacuum.
     [[nodiscard]] const HomogeneousMedium* medium(const Vec3f& w) const {

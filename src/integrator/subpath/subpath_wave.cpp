@@ -68,7 +68,6 @@ void SubpathWave::trace(const SubpathJob& job, int roulette_depth, LightFinder* 
     matte_ends_.clear();
     words_.reset(job.job.aovs);
     bsdf_count_ = 0;
-    last_vertex_.assign(count, PathVertex::kNoVertex);
     if (end_ == SubpathEnd::AtEye)
         begin_at_eye(job);
     else
@@ -97,10 +96,10 @@ void SubpathWave::trace(const SubpathJob& job, int roulette_depth, LightFinder* 
 }
 
 std::size_t SubpathWave::bytes() const {
-    std::size_t bytes = sizeof *this +
-                        vector_bytes(states_, rays_, hits_, interiors_, emissions_, last_vertex_, vertices_,
-                                     connectible_vertices_, matte_ends_) +
-                        keys_.bytes() + bsdfs_.size() * sizeof(Bsdf);
+    std::size_t bytes =
+        sizeof *this +
+        vector_bytes(states_, rays_, hits_, interiors_, emissions_, vertices_, connectible_vertices_, matte_ends_) +
+        keys_.bytes() + bsdfs_.size() * sizeof(Bsdf);
     for (const NumberPairs* numbers :
          {&scattering_, &choices_, &medium_, &light_choice_, &triangle_, &position_, &direction_})
         bytes += numbers->bytes();
@@ -539,7 +538,6 @@ PathVertex& SubpathWave::store(SubpathState& state) {
     vertex.is_seen_directly = state.only_delta;
     state.last_vertex = static_cast<std::uint32_t>(vertices_.size() - 1);
     state.is_direct = true;
-    last_vertex_[state.slot] = state.last_vertex;
     return vertex;
 }
 

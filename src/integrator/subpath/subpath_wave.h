@@ -131,8 +131,6 @@ class SubpathWave {
     [[nodiscard]] const MatteEnd& matte_end(const ConnectibleVertex& vertex) const {
         return matte_ends_[vertex.vertex];
     }
-    /// The last vertex of each slot's subpath, from where `previous` leads on; kNoVertex if it has none.
-    [[nodiscard]] std::uint32_t last_vertex(std::uint32_t slot) const { return last_vertex_[slot]; }
     /// Of the subpaths as they arrive at their vertices.
     [[nodiscard]] PathWords& words() { return words_; }
     /// Those of a connection that leaves `vertex` along `w`; of use until the next call for this subpath's wave.
@@ -156,9 +154,10 @@ class SubpathWave {
     void arrive_at_surfaces(const SubpathJob& job, std::size_t first);
     /// What light there is at its end.
     void find_light(LightFinder& finder, std::size_t i, const ShadedSubpath& path) const;
-    /// Stores the vertex with its lobes, if the subpath may have one more; false if it ends, or only passes through.
+    /// Stores the vertex, if the subpath may have one more; false if it ends, or only passes through.
     bool make_vertex(const SubpathJob& job, std::size_t i, ShadedSubpath& path);
-    /// Puts `vertex` on the surface, with lobes for the index `relative_ior` as in World::bsdf.
+    /// Puts `vertex` where the surface is; unless that is plain, with lobes for the index `relative_ior` as in
+    /// World::bsdf.
     void place(const World& world, const ShadedSubpath& path, float relative_ior, PathVertex& vertex);
     /// What connections need of the vertex just stored, which is plain, but for what its lane holds; false if there is
     /// no such end.
@@ -213,7 +212,6 @@ class SubpathWave {
     // By slot.
     NumberPairs light_choice_, triangle_, position_, direction_;  ///< of where subpaths from lights begin
     std::vector<Emission> emissions_;
-    std::vector<std::uint32_t> last_vertex_;
     std::vector<PathVertex> vertices_;
     std::vector<ConnectibleVertex> connectible_vertices_;
     std::vector<MatteEnd> matte_ends_;

@@ -70,6 +70,37 @@ TEST_P(MatteLanesIn, ScatterAsThatOneSurfaceDoes) {
     EXPECT_GT(scattered, 5'000);
 }
 
+TEST(MatteLanes, StoreTheEndsOfThoseThatHaveOne) {
+    Random random(59);
+    const auto vec = [&] { return Vec3f(random.next(), random.next(), random.next()); };
+    constexpr std::size_t kCount = kBlockLanes - 3;
+    MatteLanes lanes;
+    std::array<MatteEnd, kBlockLanes> ends;
+    std::array<MatteEnd*, kCount> places;
+    for (std::size_t l = 0; l < kCount; ++l) {
+        lanes.position.set(l, vec());
+        lanes.end_origin.set(l, vec());
+        lanes.normal.set(l, vec());
+        lanes.facing_normal.set(l, vec());
+        lanes.end_weight.set(l, {random.next(), random.next(), random.next()});
+        lanes.end_fewer.set(l, random.next());
+        // Backwards, and every fourth has none.
+        places[l] = l % 4 == 1 ? nullptr : &ends[kBlockLanes - 1 - l];
+    }
+    lanes.store_ends(places);
+    for (std::size_t l = 0; l < kBlockLanes; ++l) {
+        const MatteEnd& end = ends[kBlockLanes - 1 - l];
+        ASSERT_EQ(end.exists(), l < kCount && l % 4 != 1) << l;
+        if (!end.exists()) continue;
+        EXPECT_EQ(end.position, lanes.position[l]);
+        EXPECT_EQ(end.origin, lanes.end_origin[l]);
+        EXPECT_EQ(end.normal, lanes.normal[l]);
+        EXPECT_EQ(end.geometric_normal, lanes.facing_normal[l]);
+        EXPECT_EQ(end.weight, lanes.end_weight[l]);
+        EXPECT_EQ(end.fewer, lanes.end_fewer[l]);
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Modes, MatteLanesIn, testing::Values(TransportMode::Radiance, TransportMode::Importance),
                          [](const auto& mode) {
                              return mode.param == TransportMode::Radiance ? "Radiance" : "Importance";
