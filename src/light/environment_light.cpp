@@ -5,6 +5,7 @@
 #include "sampling/warp.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <span>
@@ -147,8 +148,7 @@ Rgb ImageEnvironment::radiance(const Vec3f& direction) const {
     return texture_.lookup(to_image(direction)).rgb;
 }
 
-LightSample ImageEnvironment::sample_from(const Distribution2D& distribution, Vec2f u) const {
-    const Distribution2D::Sample position = distribution.sample(u);
+LightSample ImageEnvironment::sample_at(const Distribution2D::Sample& position) const {
     const float sin_theta = sin_cos_turns(0.5f * position.position.y).sin;
     if (!(sin_theta > 0.0f) || !(position.pdf > 0.0f)) return {};
     LightSample sample;
@@ -171,11 +171,22 @@ double ImageEnvironment::sphere_mean(const Distribution2D& distribution) const {
 }
 
 LightSample ImageEnvironment::sample(const Vec3f&, Vec2f u) const {
-    return sample_from(densities_.complete, u);
+    return sample_at(densities_.complete.sample(u));
 }
 
 LightSample ImageEnvironment::sample_compensated(const Vec3f&, Vec2f u) const {
-    return sample_from(densities_.compensated, u);
+    return sample_at(densities_.compensated.sample(u));
+}
+
+void ImageEnvironment::sample_compensated(std::span<const Vec2f> u, std::span<LightSample> samples) const {
+    constexpr std::size_t kAtOnce = 64;
+    std::array<Distribution2D::Sample, kAtOnce> positions;
+    for (std::size_t first = 0; first < samples.size(); first += kAtOnce) {
+        const std::size_t count = std::min(kAtOnce, samples.size() - first);
+        densities_.compensated.sample(u.subspan(first), std::span(positions).first(count));
+        for (std::size_t i = 0; i < count; ++i) texture_.fetch(positions[i].position);
+        for (std::size_t i = 0; i < count; ++i) samples[first + i] = sample_at(positions[i]);
+    }
 }
 
 EmissionSample ImageEnvironment::sample_emission(const EmissionNumbers& u, const SceneSphere& scene) const {

@@ -17,6 +17,7 @@
 #include "texture/texture.h"
 
 #include <memory>
+#include <span>
 
 namespace etendue {
 
@@ -52,6 +53,8 @@ class ImageEnvironment {
     [[nodiscard]] float pdf_solid_angle(const Vec3f& direction) const;
     [[nodiscard]] float power(float scene_radius) const;
     [[nodiscard]] LightSample sample_compensated(const Vec3f& point, Vec2f u) const;
+    /// As many at once as there are `samples`.
+    void sample_compensated(std::span<const Vec2f> u, std::span<LightSample> samples) const;
     [[nodiscard]] float compensated_pdf_solid_angle(const Vec3f& direction) const;
     [[nodiscard]] float compensated_power(float scene_radius) const;
     [[nodiscard]] std::size_t bytes() const {
@@ -63,7 +66,7 @@ class ImageEnvironment {
     };
 
   private:
-    [[nodiscard]] LightSample sample_from(const Distribution2D& distribution, Vec2f u) const;
+    [[nodiscard]] LightSample sample_at(const Distribution2D::Sample& position) const;
     [[nodiscard]] float density_of(const Distribution2D& distribution, const Vec3f& direction) const;
     /// Of the function that a distribution is made from, over the sphere.
     [[nodiscard]] double sphere_mean(const Distribution2D& distribution) const;

@@ -22,6 +22,12 @@ LightSample sample_light_compensated(const Light& light, const Vec3f& point, Vec
     return sample_light(light, point, u_triangle, u);
 }
 
+void sample_environment_compensated(const Light& light, std::span<const Vec2f> u, std::span<LightSample> samples) {
+    if (const auto* image = std::get_if<ImageEnvironment>(&light)) return image->sample_compensated(u, samples);
+    // A constant one has nothing that is brighter than its mean.
+    std::ranges::fill(samples, LightSample());
+}
+
 EmissionSample sample_emission(const Light& light, const EmissionNumbers& u, const SceneSphere& scene) {
     return std::visit([&](const auto& l) { return l.sample_emission(u, scene); }, light);
 }

@@ -28,6 +28,8 @@ using Light = std::variant<PointLight, SpotLight, ProfileLight, DirectionalLight
 /// The same, but of an environment only what `compensated_environment_pdf_solid_angle` says: the samples of the BSDF,
 /// combined with these by multiple importance sampling, find the rest (light/environment_light.h).
 [[nodiscard]] LightSample sample_light_compensated(const Light& light, const Vec3f& point, Vec2f u_triangle, Vec2f u);
+/// The same of an environment, as many at once as there are `samples`.
+void sample_environment_compensated(const Light& light, std::span<const Vec2f> u, std::span<LightSample> samples);
 
 /// A ray that leaves the light, for subpaths that begin there. Black where the light emits nothing.
 [[nodiscard]] EmissionSample sample_emission(const Light& light, const EmissionNumbers& u, const SceneSphere& scene);

@@ -3,6 +3,7 @@
 #include "sampling/warp.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 
@@ -43,9 +44,21 @@ Distribution1D::Distribution1D(std::span<const float> weights) : cdf_(weights.si
     }
 }
 
-std::size_t Distribution1D::find(float u) const {
+std::size_t Distribution1D::start_of(float u) const {
     // Exact, since the number of starts is a power of two.
-    const std::size_t start = cell(u, guide_.size() - 1);
+    return cell(u, guide_.size() - 1);
+}
+
+void Distribution1D::fetch_guide(float u) const {
+    __builtin_prefetch(&guide_[start_of(u)]);
+}
+
+void Distribution1D::fetch_interval(float u) const {
+    __builtin_prefetch(&cdf_[guide_[start_of(u)]]);
+}
+
+std::size_t Distribution1D::find(float u) const {
+    const std::size_t start = start_of(u);
     const auto first = cdf_.begin() + 1;
     const auto above = std::upper_bound(first + guide_[start], first + guide_[start + 1], u);
     return static_cast<std::size_t>(above - first);
@@ -93,6 +106,26 @@ Distribution2D::Sample Distribution2D::sample(Vec2f u) const {
     const Distribution1D::Sample y = marginal_.sample(u.y);
     const Distribution1D::Sample x = rows_[y.index].sample(u.x);
     return {{x.x, y.x}, x.pdf * y.pdf};
+}
+
+void Distribution2D::sample(std::span<const Vec2f> u, std::span<Sample> samples) const {
+    constexpr std::size_t kAtOnce = 64;
+    std::array<const Distribution1D*, kAtOnce> rows;
+    for (std::size_t first = 0; first < samples.size(); first += kAtOnce) {
+        const std::size_t count = std::min(kAtOnce, samples.size() - first);
+        for (std::size_t i = 0; i < count; ++i) {
+            const Distribution1D::Sample y = marginal_.sample(u[first + i].y);
+            samples[first + i] = {{0.0f, y.x}, y.pdf};
+            rows[i] = &rows_[y.index];
+            rows[i]->fetch_guide(u[first + i].x);
+        }
+        for (std::size_t i = 0; i < count; ++i) rows[i]->fetch_interval(u[first + i].x);
+        for (std::size_t i = 0; i < count; ++i) {
+            const Distribution1D::Sample x = rows[i]->sample(u[first + i].x);
+            samples[first + i].position.x = x.x;
+            samples[first + i].pdf *= x.pdf;
+        }
+    }
 }
 
 float Distribution2D::pdf(Vec2f position) const {

@@ -25,6 +25,9 @@ class Distribution1D {
         std::size_t index;
     };
     [[nodiscard]] Sample sample(float u) const;
+    // Have what `sample` reads fetched from memory, in this order.
+    void fetch_guide(float u) const;
+    void fetch_interval(float u) const;
     [[nodiscard]] float pdf(float x) const;
     /// The u that `sample` maps to `x`.
     [[nodiscard]] float inverse(float x) const;
@@ -37,6 +40,8 @@ class Distribution1D {
   private:
     /// The interval that `u` falls into: as many values of cdf_ but the first are at most u, other than the last.
     [[nodiscard]] std::size_t find(float u) const;
+    /// Of the entry of the guide that `find` begins with.
+    [[nodiscard]] std::size_t start_of(float u) const;
 
     std::vector<float> cdf_;  ///< size() + 1 values from 0 to 1
     /// `find` of the multiples of a power of two's inverse, from 0 to 1.
@@ -56,6 +61,8 @@ class Distribution2D {
         float pdf;
     };
     [[nodiscard]] Sample sample(Vec2f u) const;
+    /// The same of as many as there are `samples`: what each reads is on its way while the others are looked at.
+    void sample(std::span<const Vec2f> u, std::span<Sample> samples) const;
     [[nodiscard]] float pdf(Vec2f position) const;
     [[nodiscard]] Vec2f inverse(Vec2f position) const;
     [[nodiscard]] double integral() const { return marginal_.integral(); }

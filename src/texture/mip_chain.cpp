@@ -181,6 +181,22 @@ Texel MipChain::sample(Vec2f uv, float level, bool nearest, const TextureOptions
         values_);
 }
 
+void MipChain::fetch(Vec2f uv) const {
+    const auto texel = [](float coordinate, int size) {
+        return std::clamp(static_cast<int>(coordinate * static_cast<float>(size) - 0.5f), 0, size - 1);
+    };
+    const int column = texel(uv.x, width());
+    const int row = texel(uv.y, height());
+    std::visit(
+        [&](const auto& values) {
+            for (const int y : {row, std::min(row + 1, height() - 1)})
+                __builtin_prefetch(&values[(static_cast<std::size_t>(y) * static_cast<std::size_t>(width()) +
+                                            static_cast<std::size_t>(column)) *
+                                           static_cast<std::size_t>(channels_)]);
+        },
+        values_);
+}
+
 template <int Channels, typename T>
 Texel MipChain::sample_levels(const T* values, Vec2f uv, float level, bool nearest,
                               const TextureOptions& options) const {

@@ -33,6 +33,9 @@ class MipChain {
     /// or the nearest texel of both.
     [[nodiscard]] Texel sample(Vec2f uv, float level, bool nearest, const TextureOptions& options) const;
 
+    /// Has the texels around `uv` in [0, 1)² of the image itself fetched from memory.
+    void fetch(Vec2f uv) const;
+
     /// Mean of rgb and of alpha over all texels of the image, linear.
     [[nodiscard]] Texel mean() const;
 

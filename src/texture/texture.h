@@ -25,6 +25,11 @@ class Texture {
     /// read as (0, 0).
     [[nodiscard]] Texel lookup(Vec2f uv) const;
 
+    /// Has what `lookup` at `uv` in [0, 1)² reads fetched from memory, if it is there.
+    void fetch(Vec2f uv) const {
+        if (const auto* chain = std::get_if<MipChain>(&texels_)) chain->fetch(uv);
+    }
+
     /// Mean over `footprint` around `uv`, as the options say: of a few taps along the ellipse in mip levels that fit
     /// its width. The same as a point where the footprint is smaller than a texel.
     [[nodiscard]] Texel lookup(Vec2f uv, const TextureFootprint& footprint) const;

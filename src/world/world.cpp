@@ -311,6 +311,10 @@ ChosenLight World::sample_light(const LightTree::Choice& choice, const Vec3f& po
     return chosen;
 }
 
+void World::sample_environment_light(std::span<const Vec2f> u, std::span<LightSample> samples) const {
+    sample_environment_compensated(data_->lights[data_->environment], u, samples);
+}
+
 void World::choose_lights(std::span<const LightReceiver> receivers, std::span<const Vec2f> u,
                           std::span<LightTree::Choice> choices) const {
     tree_.sample(receivers, u, choices);

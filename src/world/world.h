@@ -276,6 +276,9 @@ class World {
         const MeshLight* mesh = std::get_if<MeshLight>(&data_->lights[light]);
         return mesh != nullptr && mesh->is_uniform() ? mesh : nullptr;
     }
+    /// What the second one finds of the environment, which there has to be, as many at once as there are `samples`;
+    /// their densities are without the choice.
+    void sample_environment_light(std::span<const Vec2f> u, std::span<LightSample> samples) const;
     /// Probability with which `sample_light` chooses the light of this index for `receiver`.
     [[nodiscard]] float light_probability(const LightReceiver& receiver, std::uint32_t light) const {
         return tree_.probability(receiver, light);

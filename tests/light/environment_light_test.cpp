@@ -146,6 +146,23 @@ TEST(Environment, LightSamplesIntegrateWhatLookUpsDo) {
     }
 }
 
+TEST(Environment, ManySamplesAtOnceAreTheSame) {
+    for (const auto& [name, light] : environments()) {
+        SCOPED_TRACE(name);
+        Random random(37);
+        std::vector<Vec2f> u(150);
+        for (Vec2f& pair : u) pair = random.next_2d();
+        std::vector<LightSample> samples(u.size());
+        sample_environment_compensated(light, u, samples);
+        for (std::size_t i = 0; i < u.size(); ++i) {
+            const LightSample expected = sample_light_compensated(light, Vec3f(0.0f), {0.0f, 0.0f}, u[i]);
+            ASSERT_EQ(samples[i].wi, expected.wi);
+            ASSERT_EQ(samples[i].radiance, expected.radiance);
+            ASSERT_EQ(samples[i].pdf_solid_angle, expected.pdf_solid_angle);
+        }
+    }
+}
+
 // False-positive rate of the table: kFamilyLevel.
 TEST(Environment, CompensatedDirectionsHaveTheStatedDensity) {
     std::vector<NamedEnvironment> list = environments();

@@ -156,6 +156,25 @@ TEST(Distribution2D, SamplesInvertAndHaveTheirDensity) {
     }
 }
 
+TEST(Distribution2D, ManySamplesAtOnceAreTheSame) {
+    for (const Image& image : images()) {
+        SCOPED_TRACE(image.name);
+        const Distribution2D distribution(image.weights, image.width, image.height);
+        Random random(6);
+        for (const std::size_t count : {0, 1, 64, 200}) {
+            std::vector<Vec2f> u(count);
+            for (Vec2f& pair : u) pair = random.next_2d();
+            std::vector<Distribution2D::Sample> samples(count);
+            distribution.sample(u, samples);
+            for (std::size_t i = 0; i < count; ++i) {
+                const Distribution2D::Sample expected = distribution.sample(u[i]);
+                ASSERT_EQ(samples[i].position, expected.position);
+                ASSERT_EQ(samples[i].pdf, expected.pdf);
+            }
+        }
+    }
+}
+
 TEST(Distribution2D, SamplesFollowTheImage) {
     const std::vector<Image> all = images();
     for (const Image& image : all) {

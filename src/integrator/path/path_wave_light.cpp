@@ -68,6 +68,8 @@ void PathWave::sample_lights(const Context& context) {
     std::array<LightTree::Choice, kBlock> choices;
     world.choose_lights(std::span(to_light_).first(count), std::span(u).first(count), std::span(choices).first(count));
     bool any_mesh_lit = false;
+    std::array<std::uint8_t, kBlock> environment_lit;  // places among the chosen
+    std::size_t environment_lit_count = 0;
     for (std::size_t chosen = 0; chosen < count; ++chosen) {
         const std::size_t lane = lanes[chosen];
         const std::size_t k = on_surface_[lane];
@@ -76,6 +78,11 @@ void PathWave::sample_lights(const Context& context) {
         path.light = choice.light;
         const Vec3f position = lanes_.position[lane];
         const MeshLight* mesh = world.even_mesh_light(choice.light);
+        if (choice.light == world.environment()) {
+            u[environment_lit_count] = light_direction_[k];
+            environment_lit[environment_lit_count++] = static_cast<std::uint8_t>(chosen);
+            continue;
+        }
         if (mesh == nullptr) {
             make_in_place(lights_[k], [&] { return world.sample_light(choice, position, light_numbers(k)); });
             continue;
@@ -89,6 +96,18 @@ void PathWave::sample_lights(const Context& context) {
         lanes_.u.set(lane, light_direction_[k]);
     }
     if (any_mesh_lit) lanes_.sample_mesh_lights(surfaces_);
+    if (environment_lit_count > 0) {
+        world.sample_environment_light(std::span(u).first(environment_lit_count),
+                                       std::span(environment_samples_).first(environment_lit_count));
+        for (std::size_t i = 0; i < environment_lit_count; ++i) {
+            const std::size_t chosen = environment_lit[i];
+            ChosenLight& light = lights_[on_surface_[lanes[chosen]]];
+            light.sample = environment_samples_[i];
+            light.sample.pdf_solid_angle *= choices[chosen].probability;
+            light.probability = choices[chosen].probability;
+            light.light = choices[chosen].light;
+        }
+    }
     for (std::size_t lane = 0; lane < surfaces_; ++lane) {
         const std::size_t k = on_surface_[lane];
         const ShadedPath& path = block_[k];
