@@ -30,6 +30,7 @@ T encode(float value, bool curved) {
         if constexpr (std::is_same_v<T, std::uint8_t>)
             if (curved) return srgb8_from_linear(value);
         const float encoded = std::clamp(curved ? srgb_from_linear(value) : value, 0.0f, 1.0f);
+        // NOLINTNEXTLINE(bugprone-incorrect-roundings): it is never negative
         return static_cast<T>(encoded * static_cast<float>(std::numeric_limits<T>::max()) + 0.5f);
     } else {
         return static_cast<T>(curved ? srgb_from_linear(value) : value);

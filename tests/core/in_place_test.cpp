@@ -12,11 +12,7 @@ namespace {
 struct Located {
     Located() = default;
     Located(const Located& other) : value(other.value), copies(other.copies + 1) {}
-    Located& operator=(const Located& other) {
-        value = other.value;
-        copies = other.copies + 1;
-        return *this;
-    }
+    Located& operator=(const Located&) = delete;
 
     int value = 0;
     int copies = 0;

@@ -161,7 +161,7 @@ TEST(Distribution2D, ManySamplesAtOnceAreTheSame) {
         SCOPED_TRACE(image.name);
         const Distribution2D distribution(image.weights, image.width, image.height);
         Random random(6);
-        for (const std::size_t count : {0, 1, 64, 200}) {
+        for (const std::size_t count : {0u, 1u, 64u, 200u}) {
             std::vector<Vec2f> u(count);
             for (Vec2f& pair : u) pair = random.next_2d();
             std::vector<Distribution2D::Sample> samples(count);
