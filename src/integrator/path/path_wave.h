@@ -177,8 +177,8 @@ class PathWave final : public IntegratorScratch {
     NumberPairs medium_;   ///< x: how far, y: by which channel
     std::array<ShadedPath, kBlock> block_{};
     std::vector<SingleShading> singles_;
-    std::array<ChosenLight, kBlock> lights_{};  ///< samples of those that are not sampled for many at once
-    std::array<LightSample, kBlock> environment_samples_{};
+    std::array<ChosenLight, kBlock> lights_{};               ///< samples of those that are not sampled for many at once
+    std::array<LightSample, kBlock> environment_samples_{};  ///< of those among them that are the environment's
     std::array<std::uint8_t, kBlock> on_surface_{};  ///< places in the block of the paths on surfaces, which have lanes
     std::size_t surfaces_ = 0;
     BlockLanes lanes_;
