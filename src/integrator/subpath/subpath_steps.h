@@ -5,6 +5,12 @@
 
 namespace etendue {
 
+/// Edges of the shortest way from a light, or from a surface, to the camera by another vertex: where that scatters in a
+/// medium it adds none.
+[[nodiscard]] inline int edges_to_connect(const World& world) {
+    return world.has_scattering_bodies() ? 1 : 2;
+}
+
 /// Along the ray of `emission`.
 [[nodiscard]] inline DepartingDensities leave_light(const SubpathJob& job, const Emission& emission) {
     const EmissionSample& sample = emission.sample;
