@@ -59,6 +59,7 @@ class Wide {
     /// To any address.
     void store_unaligned(float* to) const { lanes_.copy_to(to, std::experimental::element_aligned); }
     [[nodiscard]] float operator[](std::size_t lane) const { return lanes_[lane]; }
+    void set(std::size_t lane, float value) { lanes_[lane] = value; }
     [[nodiscard]] Simd simd() const { return lanes_; }
 
     Wide& operator+=(Wide o) { return *this = *this + o; }
@@ -77,7 +78,8 @@ class Wide {
     [[nodiscard]] friend WideMask operator>=(Wide a, Wide b) { return WideMask(a.lanes_ >= b.lanes_); }
     [[nodiscard]] friend WideMask operator==(Wide a, Wide b) { return WideMask(a.lanes_ == b.lanes_); }
 
-    [[nodiscard]] friend Wide select(WideMask condition, Wide if_true, Wide if_false) {
+    // Two instructions, which the compiler takes for too many where there are many of it; a call saves every register.
+    [[nodiscard, gnu::always_inline]] friend Wide select(WideMask condition, Wide if_true, Wide if_false) {
         std::experimental::where(condition.simd(), if_false.lanes_) = if_true.lanes_;
         return if_false;
     }

@@ -5,8 +5,9 @@
 
 namespace etendue {
 
-/// How a surface reflects, roughly: a share as a matte surface does, and the rest around the mirror's direction.
-struct LightReceiver {
+/// How a surface reflects, roughly: a share as a matte surface does, and the rest around the mirror's direction. Eleven
+/// floats, from the position on, in a row that lanes are loaded from (core/wide_rows.h).
+struct alignas(64) LightReceiver {
     Vec3f position{0.0f};  ///< metres
     /// Unit, on the side that light is reflected on; zero where light from everywhere may count: in media, and on
     /// surfaces that let light through.

@@ -47,6 +47,7 @@
 
 #include "light/light.h"
 #include "light/light_bounds.h"
+#include "light/light_importance.h"
 #include "light/light_receiver.h"
 
 #include <array>
@@ -89,24 +90,12 @@ class LightTree {
     static constexpr std::size_t kChildren = 16;
     static constexpr int kBitsOfALevel = 4;
     static_assert(kChildren == 1u << kBitsOfALevel);
-    /// A number of each child.
-    struct alignas(64) PerChild : std::array<float, kChildren> {};
-    struct Importances {
-        PerChild each;
-        std::array<double, kChildren> ends;  ///< sums from the first on
-
-        [[nodiscard]] double sum() const { return ends.back(); }  ///< more than zero
-    };
-
     struct Node {
-        std::array<PerChild, 3> low{}, high{};  ///< of its box
-        std::array<PerChild, 3> axis{};
-        PerChild squared_spacing{};  ///< m², see the importance
-        PerChild intensity{};        ///< along the axis, the strongest child's is one; 0 where there is no child
-        PerChild cos_o{}, sin_o{}, cos_e{};
-        PerChild two_sided{};                       ///< 1, or 0
-        std::array<std::uint32_t, kChildren> next;  ///< a node, a light with `kLeaf`, or kNone
+        /// Its children, of which the strongest has an intensity of one.
+        std::array<LightNodeLanes, kChildren / Wide::kWidth> children{};
+        std::array<std::uint32_t, kChildren> next{};  ///< a node, a light with `kLeaf`, or kNone
     };
+    static_assert(kChildren % Wide::kWidth == 0);
     /// Where a light is found.
     struct Place {
         std::uint64_t trail = 0;      ///< from the lowest bits on: which child the way from the root takes
@@ -130,32 +119,42 @@ class LightTree {
     };
 
     struct Leaf;
+    struct NodeImportances;
+    struct RootImportances;
+    /// Walks that go on together: as many as have nodes under way in the first-level cache.
+    static constexpr std::size_t kTogether = 16;
 
     /// Reorders lights so that those of the first part come first; says how many they are.
     static std::size_t split_by_cost(std::span<Leaf> leaves);
     /// Which of a node's parts to split next; their number, if all are single lights.
     static std::size_t next_to_split(std::span<const std::span<Leaf>> parts);
-    static void set_child(Node& node, std::size_t child, const LightBounds& bounds, double unit);
     /// Makes the node of these lights at this level from the root, in `nodes_[node]`. Returns the intensity of its
     /// strongest child, W/sr.
     double build(std::uint32_t node, std::span<Leaf> leaves, std::uint64_t trail, int level);
     /// Both go one step on, and return true if that is the last.
-    bool begin(Walk& walk, const LightReceiver& receiver, Vec2f u) const;
+    template <typename Importances>
+    bool begin(Walk& walk, const LightReceiver& receiver, Vec2f u, const Importances& importances) const;
+    template <typename Importances>
     bool descend(Walk& walk, const Node& node, const Importances& importances) const;
     static void fetch(const Node& node);
-    /// What each child of `node` may bring to `receiver`, in units of the node's strongest.
-    [[nodiscard]] static Importances weigh(const Node& node, const LightReceiver& receiver);
-    /// Of taking one at infinity, where there are others; 0 if there are none. `near` is of the root for the point.
-    [[nodiscard]] double far_share(const Importances& near) const;
+    /// What each child of `node` may bring to `receiver` (in all lanes), in units of the node's strongest.
+    [[nodiscard]] static NodeImportances weigh(const Node& node, const LightReceiverLanes& receiver);
+    /// The same of the root for `kTogether` receivers at most.
+    void weigh_root(std::span<const LightReceiver> receivers, RootImportances& importances) const;
+    /// Of taking one at infinity, where there are others; 0 if there are none. `near` is the sum of what the root's
+    /// children may bring.
+    [[nodiscard]] double far_share(double near) const;
     /// One at infinity if the probability of that is `share`, by a number in [0, 1), and the probability of this one.
     [[nodiscard]] Choice far_choice(double share, double u) const;
     [[nodiscard]] float far_probability(double share, std::size_t index) const;
     /// The probability of a child.
+    template <typename Importances>
     [[nodiscard]] static double share(const Importances& importances, std::size_t child);
     /// The probability of a near light to which `by_tree` is that of the walk.
     [[nodiscard]] float near_probability(double far_share, double by_tree) const;
 
     std::vector<Node> nodes_;          ///< the first is the root
+    std::vector<LightNode> at_root_;   ///< its children once more, one by one
     double root_intensity_ = 0.0;      ///< of the strongest of its children, W/sr
     std::vector<Place> places_;        ///< of each light
     std::vector<std::uint32_t> near_;  ///< lights with power that are in the tree

@@ -37,6 +37,20 @@ double intensity(const LightBounds& bounds) {
     return bounds.power / bounds.cone.measure();
 }
 
+/// What importances need of these lights; the intensity in `unit`.
+LightNode light_node(const LightBounds& bounds, double unit) {
+    const EmissionCone& cone = bounds.cone;
+    return {.low = bounds.box.min,
+            .high = bounds.box.max,
+            .axis = cone.axis,
+            .squared_spacing = kNear * length_squared(bounds.box.size()) / static_cast<float>(bounds.count),
+            .intensity = static_cast<float>(intensity(bounds) / unit),
+            .cos_o = cone.theta_o < std::numbers::pi ? static_cast<float>(std::cos(cone.theta_o)) : -1.0f,
+            .sin_o = static_cast<float>(std::sin(cone.theta_o)),
+            .cos_e = static_cast<float>(std::cos(cone.theta_e)),
+            .two_sided = cone.two_sided ? 1.0f : 0.0f};
+}
+
 }  // namespace
 
 struct LightTree::Leaf {
@@ -142,22 +156,6 @@ std::size_t LightTree::split_by_cost(std::span<Leaf> leaves) {
     return static_cast<std::size_t>(middle - leaves.begin());
 }
 
-void LightTree::set_child(Node& node, std::size_t child, const LightBounds& bounds, double unit) {
-    const EmissionCone& cone = bounds.cone;
-    for (int axis = 0; axis < 3; ++axis) {
-        const auto i = static_cast<std::size_t>(axis);
-        node.low[i][child] = bounds.box.min[axis];
-        node.high[i][child] = bounds.box.max[axis];
-        node.axis[i][child] = cone.axis[axis];
-    }
-    node.squared_spacing[child] = kNear * length_squared(bounds.box.size()) / static_cast<float>(bounds.count);
-    node.intensity[child] = static_cast<float>(intensity(bounds) / unit);
-    node.cos_o[child] = cone.theta_o < std::numbers::pi ? static_cast<float>(std::cos(cone.theta_o)) : -1.0f;
-    node.sin_o[child] = static_cast<float>(std::sin(cone.theta_o));
-    node.cos_e[child] = static_cast<float>(std::cos(cone.theta_e));
-    node.two_sided[child] = cone.two_sided ? 1.0f : 0.0f;
-}
-
 std::size_t LightTree::next_to_split(std::span<const std::span<Leaf>> parts) {
     const auto fewer = [](std::span<Leaf> a, std::span<Leaf> b) { return a.size() < b.size(); };
     const auto largest = std::max_element(parts.begin(), parts.end(), fewer);
@@ -191,7 +189,9 @@ double LightTree::build(std::uint32_t node, std::span<Leaf> leaves, std::uint64_
     nodes_[node].next.fill(kNone);
     for (std::size_t child = 0; child < parts.size(); ++child) {
         const std::span<Leaf> part = parts[child];
-        set_child(nodes_[node], child, bounds[child], strongest);
+        const LightNode as_node = light_node(bounds[child], strongest);
+        nodes_[node].children[child / Wide::kWidth].set(child % Wide::kWidth, as_node);
+        if (level == 0) at_root_.push_back(as_node);
         const std::uint64_t way = trail | std::uint64_t{child} << (kBitsOfALevel * level);
         if (part.size() == 1) {
             nodes_[node].next[child] = part.front().light | kLeaf;

@@ -1,0 +1,52 @@
+// What nodes of the light tree may bring to receivers, by the formula of light/light_tree.h, in lanes: many nodes for
+// one receiver, or one node for many.
+#pragma once
+
+#include "core/wide.h"
+#include "core/wide_rows.h"
+#include "light/light_receiver.h"
+
+#include <cstddef>
+#include <span>
+
+namespace etendue {
+
+/// Where the lights of a node are and which way they shine.
+template <typename T>
+struct BasicLightNode {
+    Imath::Vec3<T> low{T(0.0f)}, high{T(0.0f)};  ///< of its box, metres
+    Imath::Vec3<T> axis{T(0.0f)};                ///< unit, of the cone around their normals
+    T squared_spacing = 0.0f;                    ///< m², how near the nearest light is at least
+    T intensity = 0.0f;                          ///< along the axis, in any unit; 0 where there is no node
+    T cos_o = 0.0f, sin_o = 0.0f, cos_e = 0.0f;  ///< of theta_o and theta_e
+    T two_sided = 0.0f;                          ///< 1, or 0
+};
+
+using LightNode = BasicLightNode<float>;
+
+struct LightNodeLanes : BasicLightNode<Wide> {
+    /// None in any lane.
+    LightNodeLanes() = default;
+    /// One in all lanes.
+    explicit LightNodeLanes(const LightNode& node);
+
+    void set(std::size_t lane, const LightNode& node);
+};
+
+struct LightReceiverLanes {
+    Imath::Vec3<Wide> position, normal, wo;
+    Wide glossy, alpha;
+    bool any_normal = false;
+    bool any_glossy = false;
+
+    /// One in all lanes.
+    explicit LightReceiverLanes(const LightReceiver& receiver);
+    /// As many as there are lanes; lanes that are left over are the same as the last. At least one.
+    explicit LightReceiverLanes(std::span<const LightReceiver> receivers);
+};
+
+/// Intensity times `emitted` times `received`, and 0 where that is no number, since floats overflow. What is in a lane
+/// has no say in another, down to the bit: this is compiled once, for all callers.
+[[nodiscard, gnu::noinline]] Wide light_importance(const LightNodeLanes& nodes, const LightReceiverLanes& receivers);
+
+}  // namespace etendue
