@@ -12,25 +12,24 @@
 
 namespace etendue {
 
-MeshLight::MeshLight(std::vector<LightTriangle> triangles, Rgb radiance, Rgb mean_radiance, bool two_sided,
+MeshLight::MeshLight(const std::vector<LightTriangle>& triangles, Rgb radiance, Rgb mean_radiance, bool two_sided,
                      bool mirrored, bool is_uniform, const Vec3f& position_error)
-    : triangles_(std::move(triangles)),
-      radiance_(radiance),
-      mean_radiance_(mean_radiance),
-      two_sided_(two_sided),
-      is_uniform_(is_uniform) {
+    : radiance_(radiance), mean_radiance_(mean_radiance), two_sided_(two_sided), is_uniform_(is_uniform) {
     std::vector<double> areas;
-    areas.reserve(triangles_.size());
-    fronts_.reserve(triangles_.size());
+    areas.reserve(triangles.size());
+    faces_.reserve(triangles.size());
     double total = 0.0;
-    for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
-        const LightTriangle& t = triangles_[i];
+    for (const LightTriangle& t : triangles) {
         // In double: squares of small triangles' areas are below what single precision holds.
         const Imath::V3d edge1(t.edge1);
         areas.push_back(0.5 * edge1.cross(Imath::V3d(t.edge2)).length());
         total += areas.back();
         const Vec3f normal = triangle_normal(t.edge1, t.edge2) * (mirrored ? -1.0f : 1.0f);
-        fronts_.push_back({normal, clearance(normal, position_error), i, 1.0f});
+        Face face{t};
+        face.normal = normal;
+        face.clearance = clearance(normal, position_error);
+        face.opposite = static_cast<std::uint32_t>(faces_.size());
+        faces_.push_back(face);
     }
     area_ = static_cast<float>(total);
     by_area_ = AliasTable(areas);
@@ -39,16 +38,35 @@ MeshLight::MeshLight(std::vector<LightTriangle> triangles, Rgb radiance, Rgb mea
 
 void MeshLight::pair_opposites(std::span<const double> areas) {
     std::vector<Vec3f> normals;
-    normals.reserve(fronts_.size());
-    for (const Front& front : fronts_) normals.push_back(front.normal);
+    normals.reserve(faces_.size());
+    for (const Face& face : faces_) normals.push_back(face.normal);
     const std::vector<std::uint32_t> opposites = pair_opposite_triangles(normals, areas);
-    for (std::size_t i = 0; i < fronts_.size(); ++i) {
+    for (std::size_t i = 0; i < faces_.size(); ++i) {
         const std::uint32_t opposite = opposites[i];
         if (opposite == i) continue;
         has_opposites_ = true;
-        fronts_[i].opposite = opposite;
-        fronts_[i].gain = static_cast<float>((areas[i] + areas[opposite]) / areas[i]);
+        faces_[i].opposite = opposite;
+        faces_[i].gain = static_cast<float>((areas[i] + areas[opposite]) / areas[i]);
     }
+}
+
+void MeshLight::choose_triangles(std::span<const MeshLight* const> lights, std::span<const Vec3f> points,
+                                 std::span<const Vec2f> u_triangle, std::span<TriangleChoice> choices) {
+    const auto for_each = [lights](const auto& step) {
+        for (std::size_t i = 0; i < lights.size(); ++i)
+            if (lights[i] != nullptr) step(*lights[i], i);
+    };
+    for_each([&](const MeshLight& light, std::size_t i) { light.by_area_.fetch(u_triangle[i]); });
+    for_each([&](const MeshLight& light, std::size_t i) {
+        choices[i].triangle = light.by_area_.sample(u_triangle[i]).index;
+        __builtin_prefetch(&light.faces_[choices[i].triangle]);
+    });
+    for_each([&](const MeshLight& light, std::size_t i) {
+        __builtin_prefetch(&light.faces_[light.faces_[choices[i].triangle].opposite]);
+    });
+    for_each([&](const MeshLight& light, std::size_t i) {
+        choices[i] = light.choose_of_pair(choices[i].triangle, points[i]);
+    });
 }
 
 LightSample MeshLight::sample(const Vec3f& point, Vec2f u_triangle, Vec2f u) const {
@@ -70,9 +88,9 @@ LightSample MeshLight::sample(const Vec3f& point, Vec2f u_triangle, Vec2f u) con
 
 EmissionSample MeshLight::sample_emission(const EmissionNumbers& u, const SceneSphere&) const {
     const AliasTable::Choice choice = by_area_.sample(u.triangle);
-    const LightTriangle& t = triangles_[choice.index];
+    const Face& face = faces_[choice.index];
     const Vec2f b = square_to_triangle(u.position);
-    Vec3f normal = fronts_[choice.index].normal;
+    Vec3f normal = face.normal;
     Vec2f u_direction = u.direction;
     if (two_sided_) {
         const bool back = u_direction.x >= 0.5f;
@@ -82,8 +100,8 @@ EmissionSample MeshLight::sample_emission(const EmissionNumbers& u, const SceneS
     const Vec3f local = square_to_cosine_hemisphere(u_direction);
     EmissionSample sample;
     sample.direction = Frame::from_normal(normal).to_world(local);
-    sample.position = t.p0 + t.edge1 * b.x + t.edge2 * b.y;
-    sample.offset = normal * fronts_[choice.index].clearance;
+    sample.position = face.p0 + face.edge1 * b.x + face.edge2 * b.y;
+    sample.offset = normal * face.clearance;
     sample.cos_theta = local.z;
     sample.pdf_position_area = 1.0f / area_;
     sample.pdf_direction_solid_angle = cosine_hemisphere_pdf_solid_angle(local) * (two_sided_ ? 0.5f : 1.0f);
@@ -109,17 +127,17 @@ LightBounds MeshLight::bounds() const {
     LightBounds bounds;
     bounds.power = static_cast<double>(power(0.0f));
     Vec3d facing(0.0);
-    for (std::size_t i = 0; i < triangles_.size(); ++i) {
-        const LightTriangle& t = triangles_[i];
+    for (std::size_t i = 0; i < faces_.size(); ++i) {
+        const Face& t = faces_[i];
         for (const Vec3f& p : {t.p0, t.p0 + t.edge1, t.p0 + t.edge2}) bounds.box.extend(p);
-        facing += Vec3d(fronts_[i].normal) * static_cast<double>(by_area_.probability(i));
+        facing += Vec3d(t.normal) * static_cast<double>(by_area_.probability(i));
     }
     EmissionCone& cone = bounds.cone;
     cone = {.axis = Vec3f(facing.normalized()), .theta_e = 0.5 * std::numbers::pi, .two_sided = two_sided_};
     if (!(facing.length() > 0.0)) cone.theta_o = std::numbers::pi;
-    for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    for (std::size_t i = 0; i < faces_.size(); ++i) {
         if (!(by_area_.probability(i) > 0.0f)) continue;
-        const auto cosine = static_cast<double>(dot(fronts_[i].normal, cone.axis));
+        const auto cosine = static_cast<double>(dot(faces_[i].normal, cone.axis));
         cone.theta_o = std::max(cone.theta_o, std::acos(std::clamp(cosine, -1.0, 1.0)));
     }
     return bounds;

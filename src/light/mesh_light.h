@@ -81,9 +81,9 @@ class MeshLight {
     /// `two_sided`. `mean_radiance` is its mean over the area, for the choice between lights. Triangles without area
     /// get no samples. `mirrored`: the triangles went through a transform that turned their winding around, so that
     /// their front is where they are clockwise. `position_error`: of points of the mesh, metres per axis; shadow rays
-    /// end that far before it. 72 bytes a triangle.
-    MeshLight(std::vector<LightTriangle> triangles, Rgb radiance, Rgb mean_radiance, bool two_sided, bool mirrored,
-              bool is_uniform, const Vec3f& position_error);
+    /// end that far before it. 76 bytes a triangle.
+    MeshLight(const std::vector<LightTriangle>& triangles, Rgb radiance, Rgb mean_radiance, bool two_sided,
+              bool mirrored, bool is_uniform, const Vec3f& position_error);
 
     /// `u_triangle` chooses the triangle, `u` the point in it; both in [0, 1)².
     [[nodiscard]] LightSample sample(const Vec3f& point, Vec2f u_triangle, Vec2f u) const;
@@ -93,35 +93,32 @@ class MeshLight {
     };
     /// The triangle that `sample` chooses for `point` with `u_triangle`.
     [[nodiscard]] TriangleChoice choose_triangle(const Vec3f& point, Vec2f u_triangle) const {
-        const std::uint32_t first = by_area_.sample(u_triangle).index;
-        const std::uint32_t other = fronts_[first].opposite;
-        if (other == first) return {first, 1.0f};
-        const bool first_faces = faces(first, point);
-        if (first_faces == faces(other, point)) return {first, 1.0f};
-        const std::uint32_t chosen = first_faces ? first : other;
-        return {chosen, fronts_[chosen].gain};
+        return choose_of_pair(by_area_.sample(u_triangle).index, point);
     }
+    /// The same of many lights, each for its point with its numbers; those that are null are left out. What a step
+    /// reads has been fetched in the one before: tables and triangles of large lights are far apart in memory.
+    static void choose_triangles(std::span<const MeshLight* const> lights, std::span<const Vec3f> points,
+                                 std::span<const Vec2f> u_triangle, std::span<TriangleChoice> choices);
     /// Density of the samples for `point` on this triangle over that by area. `point` has to be the very one, not one
     /// moved off its surface: of a triangle in whose plane it lies that may see another side.
     [[nodiscard]] float gain(std::uint32_t triangle, const Vec3f& point) const {
-        const Front& front = fronts_[triangle];
-        if (front.opposite == triangle) return 1.0f;
-        const bool this_faces = faces(triangle, point);
-        if (this_faces == faces(front.opposite, point)) return 1.0f;
-        return this_faces ? front.gain : 0.0f;
+        const Face& face = faces_[triangle];
+        if (face.opposite == triangle) return 1.0f;
+        const bool is_seen = face.is_seen_from(point);
+        if (is_seen == faces_[face.opposite].is_seen_from(point)) return 1.0f;
+        return is_seen ? face.gain : 0.0f;
     }
     /// True if which triangles are sampled depends on the point.
     [[nodiscard]] bool has_opposites() const { return has_opposites_; }
     [[nodiscard]] LightTriangleFront<float> front(const TriangleChoice& choice) const {
-        const LightTriangle& t = triangles_[choice.triangle];
-        const Front& front = fronts_[choice.triangle];
-        return {t.p0, t.edge1, t.edge2, front.normal, front.clearance, area_ / choice.gain, two_sided_ ? 1.0f : 0.0f};
-    }
-    /// Has what a sample of a light of few triangles reads fetched from memory.
-    void fetch() const {
-        by_area_.fetch();
-        __builtin_prefetch(triangles_.data());
-        __builtin_prefetch(fronts_.data());
+        const Face& face = faces_[choice.triangle];
+        return {face.p0,
+                face.edge1,
+                face.edge2,
+                face.normal,
+                face.clearance,
+                area_ / choice.gain,
+                two_sided_ ? 1.0f : 0.0f};
     }
     /// Of the front.
     [[nodiscard]] const Rgb& radiance() const { return radiance_; }
@@ -140,23 +137,34 @@ class MeshLight {
     [[nodiscard]] float area() const { return area_; }
     /// True if `radiance` of a sample is right as it is; false if the World must evaluate it at the sampled point.
     [[nodiscard]] bool is_uniform() const { return is_uniform_; }
-    [[nodiscard]] std::span<const LightTriangle> triangles() const { return triangles_; }
-    [[nodiscard]] std::size_t bytes() const { return vector_bytes(triangles_, fronts_) + by_area_.bytes(); }
+    [[nodiscard]] std::size_t triangle_count() const { return faces_.size(); }
+    [[nodiscard]] const LightTriangle& triangle(std::size_t index) const { return faces_[index]; }
+    [[nodiscard]] std::size_t bytes() const { return vector_bytes(faces_) + by_area_.bytes(); }
 
   private:
-    struct Front {
-        Vec3f normal{0.0f};      ///< unit
-        float clearance = 0.0f;  ///< metres, as in SurfacePoint
-        std::uint32_t opposite;  ///< the triangle that faces the other way; itself if it has none
-        float gain;              ///< of the density where of the two only this one faces a point
+    /// All that is known of a triangle, in one line of the cache.
+    struct alignas(64) Face : LightTriangle {
+        Vec3f normal{0.0f};          ///< unit
+        float clearance = 0.0f;      ///< metres, as in SurfacePoint
+        std::uint32_t opposite = 0;  ///< the triangle that faces the other way; itself if it has none
+        float gain = 1.0f;           ///< of the density where of the two only this one faces a point
+
+        /// Written so that compilers contract nothing: all who ask about a point get the same answer.
+        [[nodiscard]] bool is_seen_from(const Vec3f& point) const {
+            const Vec3f to_point = point - p0;
+            return std::fma(to_point.x, normal.x, std::fma(to_point.y, normal.y, to_point.z * normal.z)) > 0.0f;
+        }
     };
 
     void pair_opposites(std::span<const double> areas);
-    /// Written so that compilers contract nothing: all who ask about a point get the same answer.
-    [[nodiscard]] bool faces(std::uint32_t triangle, const Vec3f& point) const {
-        const Vec3f to_point = point - triangles_[triangle].p0;
-        const Vec3f& normal = fronts_[triangle].normal;
-        return std::fma(to_point.x, normal.x, std::fma(to_point.y, normal.y, to_point.z * normal.z)) > 0.0f;
+    /// This triangle or its opposite, whichever faces the point alone.
+    [[nodiscard]] TriangleChoice choose_of_pair(std::uint32_t triangle, const Vec3f& point) const {
+        const std::uint32_t other = faces_[triangle].opposite;
+        if (other == triangle) return {triangle, 1.0f};
+        const bool is_seen = faces_[triangle].is_seen_from(point);
+        if (is_seen == faces_[other].is_seen_from(point)) return {triangle, 1.0f};
+        const std::uint32_t chosen = is_seen ? triangle : other;
+        return {chosen, faces_[chosen].gain};
     }
 
     /// What all triangles have in common.
@@ -167,8 +175,7 @@ class MeshLight {
         return any;
     }
 
-    std::vector<LightTriangle> triangles_;
-    std::vector<Front> fronts_;  ///< of each triangle
+    std::vector<Face> faces_;
     AliasTable by_area_;
     Rgb radiance_;
     Rgb mean_radiance_;

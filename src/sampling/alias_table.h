@@ -27,8 +27,8 @@ class AliasTable {
     /// would have no digits left for the decision in a large table. The table must not be empty.
     [[nodiscard]] Choice sample(Vec2f u) const;
     [[nodiscard]] float probability(std::size_t index) const { return bins_[index].probability; }
-    /// Has the first entries fetched from memory.
-    void fetch() const { __builtin_prefetch(bins_.data()); }
+    /// Has what `sample` will look at fetched from memory.
+    void fetch(Vec2f u) const { __builtin_prefetch(&bins_[bin(u)]); }
     [[nodiscard]] std::size_t size() const { return bins_.size(); }
     [[nodiscard]] bool empty() const { return bins_.empty(); }
     [[nodiscard]] std::size_t bytes() const { return bins_.capacity() * sizeof(Bin); }
@@ -39,14 +39,18 @@ class AliasTable {
         std::uint32_t alias;  ///< entry that owns the rest
         float probability;
     };
+    [[nodiscard]] std::size_t bin(Vec2f u) const {
+        const auto bin = static_cast<std::uint32_t>(u.x * static_cast<float>(bins_.size()));
+        return std::min<std::size_t>(bin, bins_.size() - 1);
+    }
+
     std::vector<Bin> bins_;
 };
 
 inline AliasTable::Choice AliasTable::sample(Vec2f u) const {
-    const float scaled = u.x * static_cast<float>(bins_.size());
-    const auto bin = std::min(static_cast<std::uint32_t>(scaled), static_cast<std::uint32_t>(bins_.size() - 1));
-    const Bin& b = bins_[bin];
-    const std::uint32_t index = u.y < b.threshold ? bin : b.alias;
+    const std::size_t first = bin(u);
+    const Bin& b = bins_[first];
+    const std::uint32_t index = u.y < b.threshold ? static_cast<std::uint32_t>(first) : b.alias;
     return {index, bins_[index].probability};
 }
 

@@ -318,10 +318,7 @@ void World::sample_environment_light(std::span<const Vec2f> u, std::span<LightSa
 void World::choose_lights(std::span<const LightReceiver> receivers, std::span<const Vec2f> u,
                           std::span<LightTree::Choice> choices) const {
     tree_.sample(receivers, u, choices);
-    // In two steps, since the first line says where the others are.
     for (const LightTree::Choice& choice : choices) __builtin_prefetch(&data_->lights[choice.light]);
-    for (const LightTree::Choice& choice : choices)
-        if (const MeshLight* mesh = even_mesh_light(choice.light)) mesh->fetch();
 }
 
 bool World::has_uneven_emission(std::uint32_t light) const {
@@ -359,7 +356,7 @@ Rgb World::surface_emission(const Emission& emission, const Vec3f& direction) co
     const MeshLight* mesh = std::get_if<MeshLight>(&data_->lights[emission.light]);
     if (mesh == nullptr) return {};
     const EmissionSample& sample = emission.sample;
-    const LightTriangle& t = mesh->triangles()[sample.triangle];
+    const LightTriangle& t = mesh->triangle(sample.triangle);
     return mesh_emission(emission.light, sample.triangle, sample.barycentric, direction) *
            abs_dot(triangle_normal(t.edge1, t.edge2), direction);
 }

@@ -33,8 +33,8 @@ std::optional<float> meet(const LightTriangle& t, const Vec3f& o, const Vec3f& d
 /// -1 if the light is mirrored.
 double density(const MeshLight& light, const Vec3f& from, const Vec3f& direction, float front = 1.0f) {
     double sum = 0.0;
-    for (std::uint32_t i = 0; i < light.triangles().size(); ++i) {
-        const LightTriangle& t = light.triangles()[i];
+    for (std::uint32_t i = 0; i < light.triangle_count(); ++i) {
+        const LightTriangle& t = light.triangle(i);
         if (const auto distance = meet(t, from, direction))
             sum += static_cast<double>(
                 light.pdf_solid_angle(i, from, *distance, -front * dot(direction, normalize(cross(t.edge1, t.edge2)))));
@@ -90,7 +90,7 @@ TEST(MeshLight, SamplesStateTheDensityOfTheirHit) {
     for (int i = 0; i < 1000; ++i) {
         const Vec3f from(random.next() - 0.5f, random.next(), random.next());
         const LightSample s = light.sample(from, random.next_2d(), random.next_2d());
-        const LightTriangle& t = light.triangles()[s.triangle];
+        const LightTriangle& t = light.triangle(s.triangle);
         const Vec3f on_light = t.p0 + t.edge1 * s.barycentric.x + t.edge2 * s.barycentric.y;
         EXPECT_LT(length(from + s.wi * s.distance - on_light), 1e-5f);
         EXPECT_NEAR(light.pdf_solid_angle(s.triangle, from, s.distance, s.wi.y) / s.pdf_solid_angle, 1.0f, 1e-4f);

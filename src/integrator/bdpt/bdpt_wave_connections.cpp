@@ -33,23 +33,32 @@ void BdptWave::connect_to_lights(const Context& context, std::size_t first, std:
     }
     choices_.resize(lit_.size());
     world.choose_lights(receivers_, choosing_, choices_);
+    std::array<const MeshLight*, kBlock> meshes;
+    std::array<Vec3f, kBlock> points;
+    std::array<Vec2f, kBlock> u_triangle;
+    for (std::size_t i = 0; i < lit_.size(); ++i) {
+        const bool is_wide = eye_.matte_end(to_light_[lit_[i]]).exists();
+        meshes[i] = is_wide ? world.even_mesh_light(choices_[i].light) : nullptr;
+        points[i] = receivers_[i].position;
+        u_triangle[i] = to_light_.numbers(lit_[i])[1];
+    }
+    std::array<MeshLight::TriangleChoice, kBlock> triangles;
+    MeshLight::choose_triangles(std::span(meshes).first(lit_.size()), points, u_triangle, triangles);
     to_lights_.clear();
     wide_to_lights_.clear();
     for (std::size_t i = 0; i < lit_.size(); ++i) {
         const ConnectibleVertex& vertex = to_light_[lit_[i]];
-        const Vec3f& position = receivers_[i].position;
-        const MatteEnd& end = eye_.matte_end(vertex);
         const auto [light, triangle, direction] = to_light_.numbers(lit_[i]);
         const LightTree::Choice& choice = choices_[i];
-        const MeshLight* mesh = world.even_mesh_light(choice.light);
-        if (mesh == nullptr || !end.exists()) {
-            to_lights_.push_back({&vertex, world.sample_light(choice, position, {light, triangle, direction}), {}});
+        const MeshLight* mesh = meshes[i];
+        if (mesh == nullptr) {
+            to_lights_.push_back({&vertex, world.sample_light(choice, points[i], {light, triangle, direction}), {}});
             continue;
         }
         const std::size_t lane = wide_to_lights_.size();
-        const MeshLight::TriangleChoice on_light = mesh->choose_triangle(position, triangle);
+        const MeshLight::TriangleChoice& on_light = triangles[i];
         wide_to_lights_.push_back({&vertex, choice.light, on_light.triangle});
-        to_light_lanes_.eye.set(lane, end);
+        to_light_lanes_.eye.set(lane, eye_.matte_end(vertex));
         to_light_lanes_.front.set(lane, mesh->front(on_light));
         to_light_lanes_.u.set(lane, direction);
         to_light_lanes_.radiance.set(lane, mesh->radiance());

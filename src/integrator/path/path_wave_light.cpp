@@ -67,6 +67,16 @@ void PathWave::sample_lights(const Context& context) {
     if (count == 0) return;
     std::array<LightTree::Choice, kBlock> choices;
     world.choose_lights(std::span(to_light_).first(count), std::span(u).first(count), std::span(choices).first(count));
+    std::array<const MeshLight*, kBlock> meshes;
+    std::array<Vec3f, kBlock> points;
+    std::array<Vec2f, kBlock> u_triangle;
+    for (std::size_t chosen = 0; chosen < count; ++chosen) {
+        meshes[chosen] = world.even_mesh_light(choices[chosen].light);
+        points[chosen] = lanes_.position[lanes[chosen]];
+        u_triangle[chosen] = light_triangle_[on_surface_[lanes[chosen]]];
+    }
+    std::array<MeshLight::TriangleChoice, kBlock> triangles;
+    MeshLight::choose_triangles(std::span(meshes).first(count), points, u_triangle, triangles);
     bool any_mesh_lit = false;
     std::array<std::uint8_t, kBlock> environment_lit;  // places among the chosen
     std::size_t environment_lit_count = 0;
@@ -76,20 +86,19 @@ void PathWave::sample_lights(const Context& context) {
         ShadedPath& path = block_[k];
         const LightTree::Choice& choice = choices[chosen];
         path.light = choice.light;
-        const Vec3f position = lanes_.position[lane];
-        const MeshLight* mesh = world.even_mesh_light(choice.light);
+        const MeshLight* mesh = meshes[chosen];
         if (choice.light == world.environment()) {
             u[environment_lit_count] = light_direction_[k];
             environment_lit[environment_lit_count++] = static_cast<std::uint8_t>(chosen);
             continue;
         }
         if (mesh == nullptr) {
-            make_in_place(lights_[k], [&] { return world.sample_light(choice, position, light_numbers(k)); });
+            make_in_place(lights_[k], [&] { return world.sample_light(choice, points[chosen], light_numbers(k)); });
             continue;
         }
         any_mesh_lit = true;
         path.is_mesh_lit = true;
-        lanes_.front.set(lane, mesh->front(mesh->choose_triangle(position, light_triangle_[k])));
+        lanes_.front.set(lane, mesh->front(triangles[chosen]));
         lanes_.light_probability.set(lane, choice.probability);
         lanes_.light_radiance.set(lane, mesh->radiance());
         lanes_.light_by_chance.set(lane, 1.0f);
