@@ -40,9 +40,10 @@
 // The tree is built from the top: lights are split where, of 12 bins along each axis, the cost is least (ibid.,
 // equation 2), below eight levels in halves, so that 64 bits hold the way to any light, four for each level. Sixteen
 // children and not two: what nodes between them would say is less certain than what the children do, and the children
-// are looked at together, as many as a register holds. Memory: 1 KiB a node, which is usually some 100 bytes a light
-// and at most 540 where there are many, and 20 more. Built by one thread, so that every build of the same lights is the
-// same.
+// are looked at together, as many as a register holds. Of the root, where every choice begins and which in scenes of
+// few lamps is all there is, it is receivers that are looked at together, for one child after the other. Memory: 1 KiB
+// a node, which is usually some 100 bytes a light and at most 540 where there are many, and 20 more. Built by one
+// thread, so that every build of the same lights is the same.
 #pragma once
 
 #include "light/light.h"

@@ -179,6 +179,34 @@ TEST(MeshLight, NoSampleFallsOnTheFarSideOfABox) {
     }
 }
 
+TEST(MeshLight, ChoosesTrianglesForManyAsForEach) {
+    const MeshLight box = make_light(box_triangles({0, 3, 0}, {0.5f, 0.25f, 1}, 0.2f));
+    const MeshLight quad = make_light(quad_triangles({0, 3, 0}, {1.5f, 0, 0}, {0, 0, 0.5f}));
+    const std::array<const MeshLight*, 4> any = {&box, nullptr, &quad, &box};
+    constexpr MeshLight::TriangleChoice kUntouched{1234, 5.0f};
+    constexpr std::size_t kCount = 200;
+    std::vector<const MeshLight*> lights;
+    std::vector<Vec3f> points;
+    std::vector<Vec2f> u;
+    Random random(9);
+    for (std::size_t i = 0; i < kCount; ++i) {
+        lights.push_back(any[i % any.size()]);
+        points.emplace_back(8.0f * random.next() - 4.0f, 6.0f * random.next(), 8.0f * random.next() - 4.0f);
+        u.push_back(random.next_2d());
+    }
+    std::vector<MeshLight::TriangleChoice> choices(kCount, kUntouched);
+    MeshLight::choose_triangles(lights, points, u, choices);
+    std::size_t moved = 0;
+    for (std::size_t i = 0; i < kCount; ++i) {
+        const MeshLight::TriangleChoice alone =
+            lights[i] != nullptr ? lights[i]->choose_triangle(points[i], u[i]) : kUntouched;
+        EXPECT_EQ(choices[i].triangle, alone.triangle) << i;
+        EXPECT_EQ(choices[i].gain, alone.gain) << i;
+        moved += lights[i] == &box && alone.gain != 1.0f ? 1 : 0;
+    }
+    EXPECT_GT(moved, kCount / 10) << "of the box, sides that face away give way to others";
+}
+
 // pi L (r / d)² on a surface that faces the middle of a sphere.
 TEST(MeshLight, ASphereBringsItsFormFactor) {
     constexpr int kAround = 96;
