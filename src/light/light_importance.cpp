@@ -1,6 +1,6 @@
 #include "light/light_importance.h"
 
-#include "core/vec.h"
+#include "core/wide_rows.h"
 
 #include <algorithm>
 #include <array>
@@ -84,7 +84,8 @@ Sight look_at(const LightNodeLanes& nodes, const Imath::Vec3<Wide>& point) {
             .emitted = select(is_anywhere || is_within, 1.0f, cosine)};
 }
 
-/// 1/m².
+/// 1/m². What is left out where no lane asks for it is no term of a sum that follows: nothing is contracted in two
+/// ways.
 Wide received(const Sight& sight, const LightReceiverLanes& receivers) {
     if (!receivers.any_normal) return sight.by_distance;
 
@@ -111,6 +112,8 @@ Wide received(const Sight& sight, const LightReceiverLanes& receivers) {
     const WideMask has_normal = dot(receivers.normal, receivers.normal) > 0.0f;
     return select(has_normal, by_surface, sight.by_distance);
 }
+
+static_assert(sizeof(LightNode) == 15 * sizeof(float));
 
 /// Calls `take` with every number of `nodes` and the same one of `node`.
 template <typename Take>
@@ -146,6 +149,9 @@ LightReceiverLanes::LightReceiverLanes(const LightReceiver& receiver)
       alpha(receiver.alpha),
       any_normal(receiver.has_normal()),
       any_glossy(receiver.glossy != 0.0f) {}
+
+static_assert(sizeof(LightReceiver) == kRowFloats * sizeof(float) &&
+              offsetof(LightReceiver, alpha) == 10 * sizeof(float));
 
 LightReceiverLanes::LightReceiverLanes(std::span<const LightReceiver> receivers) {
     std::array<const float*, Wide::kWidth> rows;

@@ -2,8 +2,8 @@
 // one receiver, or one node for many.
 #pragma once
 
+#include "core/vec.h"
 #include "core/wide.h"
-#include "core/wide_rows.h"
 #include "light/light_receiver.h"
 
 #include <cstddef>

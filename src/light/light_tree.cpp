@@ -87,6 +87,7 @@ void LightTree::weigh_root(std::span<const LightReceiver> receivers, RootImporta
     importances.count = at_root_.size();
     static_assert(kTogether % Wide::kWidth == 0);
     for (std::size_t first = 0; first < kTogether; first += Wide::kWidth) {
+        // Where none is left, the last once more.
         const LightReceiverLanes lanes(receivers.subspan(std::min(first, receivers.size() - 1)));
         for (std::size_t child = 0; child < at_root_.size(); ++child)
             light_importance(LightNodeLanes(at_root_[child]), lanes).store(&importances.each[child][first]);
@@ -199,15 +200,22 @@ void LightTree::sample(std::span<const LightReceiver> receivers, std::span<const
                 under_way[left++] = static_cast<std::uint8_t>(i);
             }
         };
-        weigh_root(receivers.subspan(first, count), root);
-        for (std::size_t i = 0; i < count; ++i)
-            take(i, begin(walks[i], receivers[first + i], u[first + i], RootImportances::OfReceiver{root, i}));
+        const std::span<const LightReceiver> group = receivers.subspan(first, count);
+        const auto begin_all = [&](const auto& importances_of) {
+            for (std::size_t i = 0; i < count; ++i) take(i, begin(walks[i], group[i], u[first + i], importances_of(i)));
+        };
+        if (count > at_root_.size()) {
+            weigh_root(group, root);
+            begin_all([&](std::size_t i) { return RootImportances::OfReceiver{root, i}; });
+        } else {
+            begin_all([&](std::size_t i) { return weigh(nodes_.front(), LightReceiverLanes(group[i])); });
+        }
         while (left > 0) {
             const std::size_t before = std::exchange(left, 0);
             for (std::size_t w = 0; w < before; ++w) {
                 const std::size_t i = under_way[w];
                 const Node& node = nodes_[walks[i].node];
-                take(i, descend(walks[i], node, weigh(node, LightReceiverLanes(receivers[first + i]))));
+                take(i, descend(walks[i], node, weigh(node, LightReceiverLanes(group[i]))));
             }
         }
     }

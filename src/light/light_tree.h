@@ -41,11 +41,12 @@
 // equation 2), below eight levels in halves, so that 64 bits hold the way to any light, four for each level. Sixteen
 // children and not two: what nodes between them would say is less certain than what the children do, and the children
 // are looked at together, as many as a register holds. Of the root, where every choice begins and which in scenes of
-// few lamps is all there is, it is receivers that are looked at together, for one child after the other. Memory: 1 KiB
-// a node, which is usually some 100 bytes a light and at most 540 where there are many, and 20 more. Built by one
-// thread, so that every build of the same lights is the same.
+// few lamps is all there is, it is the receivers of many choices that are looked at together, for one child after the
+// other, if they are more than the children. Memory: 1 KiB a node, which is usually some 100 bytes a light and at most
+// 540 where there are many, and 20 more. Built by one thread, so that every build of the same lights is the same.
 #pragma once
 
+#include "core/wide.h"
 #include "light/light.h"
 #include "light/light_bounds.h"
 #include "light/light_importance.h"
@@ -91,7 +92,7 @@ class LightTree {
     static constexpr std::size_t kChildren = 16;
     static constexpr int kBitsOfALevel = 4;
     static_assert(kChildren == 1u << kBitsOfALevel);
-    struct Node {
+    struct alignas(64) Node {
         /// Its children, of which the strongest has an intensity of one.
         std::array<LightNodeLanes, kChildren / Wide::kWidth> children{};
         std::array<std::uint32_t, kChildren> next{};  ///< a node, a light with `kLeaf`, or kNone
@@ -140,7 +141,7 @@ class LightTree {
     static void fetch(const Node& node);
     /// What each child of `node` may bring to `receiver` (in all lanes), in units of the node's strongest.
     [[nodiscard]] static NodeImportances weigh(const Node& node, const LightReceiverLanes& receiver);
-    /// The same of the root for `kTogether` receivers at most.
+    /// The same of the root for one receiver to `kTogether`.
     void weigh_root(std::span<const LightReceiver> receivers, RootImportances& importances) const;
     /// Of taking one at infinity, where there are others; 0 if there are none. `near` is the sum of what the root's
     /// children may bring.

@@ -95,8 +95,9 @@ class MeshLight {
     [[nodiscard]] TriangleChoice choose_triangle(const Vec3f& point, Vec2f u_triangle) const {
         return choose_of_pair(by_area_.sample(u_triangle).index, point);
     }
-    /// The same of many lights, each for its point with its numbers; those that are null are left out. What a step
-    /// reads has been fetched in the one before: tables and triangles of large lights are far apart in memory.
+    /// The same of many lights, each for its point with its numbers, of which there have to be as many; choices of
+    /// those that are null stay as they are. What a step reads has been fetched in the one before: tables and triangles
+    /// of large lights are far apart in memory.
     static void choose_triangles(std::span<const MeshLight* const> lights, std::span<const Vec3f> points,
                                  std::span<const Vec2f> u_triangle, std::span<TriangleChoice> choices);
     /// Density of the samples for `point` on this triangle over that by area. `point` has to be the very one, not one
@@ -155,6 +156,8 @@ class MeshLight {
             return std::fma(to_point.x, normal.x, std::fma(to_point.y, normal.y, to_point.z * normal.z)) > 0.0f;
         }
     };
+
+    static_assert(sizeof(Face) == 64);
 
     void pair_opposites(std::span<const double> areas);
     /// This triangle or its opposite, whichever faces the point alone.

@@ -222,22 +222,33 @@ TEST(LightTree, ChoosesWithTheProbabilitiesItStates) {
 }
 
 TEST(LightTree, ChoosesForManyAsForEach) {
-    for (const std::vector<Light>& lights :
-         {random_lights(1, 4), lights_of_all_kinds(), random_lights(3000, 5), std::vector<Light>{half_sky(0.1f)}}) {
-        const LightTree tree(lights, kSceneRadius);
+    // Roots of one child, of some, of all that there may be, and none; lamps that have no power.
+    const std::vector<std::vector<Light>> scenes = {
+        random_lights(1, 4), random_lights(2, 4),    {PointLight{{1, 2, 1}, Rgb(1.0f)}, half_sky(0.1f)},
+        random_lights(5, 9), lights_of_all_kinds(),  {PointLight{{1, 1, 1}, Rgb()}, PointLight{{2, 1, 1}, Rgb()}},
+        row_of_lamps(16),    random_lights(3000, 5), {half_sky(0.1f)}};
+    for (std::size_t scene = 0; scene < scenes.size(); ++scene) {
+        const LightTree tree(scenes[scene], kSceneRadius);
         Random random(21);
-        std::vector<LightReceiver> receivers;
-        std::vector<Vec2f> u;
-        for (int i = 0; i < 75; ++i) {
-            receivers.push_back(random_receiver(random, 8.0f, i));
-            u.push_back(random.next_2d());
-        }
-        std::vector<LightTree::Choice> choices(receivers.size());
-        tree.sample(receivers, u, choices);
-        for (std::size_t i = 0; i < receivers.size(); ++i) {
-            const LightTree::Choice alone = tree.sample(receivers[i], u[i]);
-            EXPECT_EQ(choices[i].light, alone.light) << lights.size() << " lights, receiver " << i;
-            EXPECT_EQ(choices[i].probability, alone.probability) << lights.size() << " lights, receiver " << i;
+        for (const std::size_t count : {0u, 1u, 5u, 16u, 17u, 75u}) {
+            // All bare, all matte, all glossy, and in turn.
+            for (int kinds = 0; kinds < 4; ++kinds) {
+                std::vector<LightReceiver> receivers;
+                std::vector<Vec2f> u;
+                for (std::size_t i = 0; i < count; ++i) {
+                    // From so far away floats do not tell lamps apart.
+                    const float size = i % 7 == 3 ? 1e25f : 8.0f;
+                    receivers.push_back(random_receiver(random, size, kinds < 3 ? kinds : static_cast<int>(i)));
+                    u.push_back(random.next_2d());
+                }
+                std::vector<LightTree::Choice> choices(count);
+                tree.sample(receivers, u, choices);
+                for (std::size_t i = 0; i < count; ++i) {
+                    const LightTree::Choice alone = tree.sample(receivers[i], u[i]);
+                    EXPECT_EQ(choices[i].light, alone.light) << "scene " << scene << ", receiver " << i;
+                    EXPECT_EQ(choices[i].probability, alone.probability) << "scene " << scene << ", receiver " << i;
+                }
+            }
         }
     }
 }

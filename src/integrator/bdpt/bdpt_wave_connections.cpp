@@ -4,8 +4,10 @@
 #include "integrator/profile/wave_profile.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
+#include <span>
 #include <utility>
 
 namespace etendue {
@@ -40,7 +42,8 @@ void BdptWave::connect_to_lights(const Context& context, std::size_t first, std:
         const bool is_wide = eye_.matte_end(to_light_[lit_[i]]).exists();
         meshes[i] = is_wide ? world.even_mesh_light(choices_[i].light) : nullptr;
         points[i] = receivers_[i].position;
-        u_triangle[i] = to_light_.numbers(lit_[i])[1];
+        const auto [light, triangle, direction] = to_light_.numbers(lit_[i]);
+        u_triangle[i] = triangle;
     }
     std::array<MeshLight::TriangleChoice, kBlock> triangles;
     MeshLight::choose_triangles(std::span(meshes).first(lit_.size()), points, u_triangle, triangles);
