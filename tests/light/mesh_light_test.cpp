@@ -42,8 +42,8 @@ double density(const MeshLight& light, const Vec3f& from, const Vec3f& direction
     return sum;
 }
 
-MeshLight make_light(std::vector<LightTriangle> triangles, bool two_sided = false, bool mirrored = false) {
-    return {std::move(triangles), {2.0f, 4.0f, 6.0f}, {2.0f, 4.0f, 6.0f}, two_sided, mirrored, true, Vec3f(0.0f)};
+MeshLight make_light(const std::vector<LightTriangle>& triangles, bool two_sided = false, bool mirrored = false) {
+    return {triangles, {2.0f, 4.0f, 6.0f}, {2.0f, 4.0f, 6.0f}, two_sided, mirrored, true, Vec3f(0.0f)};
 }
 
 std::vector<LightTriangle> quad_triangles(const Vec3f& center, const Vec3f& x, const Vec3f& y) {
