@@ -8,9 +8,11 @@
 #include "core/rgb.h"
 #include "core/vec.h"
 #include "core/wide.h"
+#include "core/wide_bits.h"
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 namespace etendue {
 
@@ -18,21 +20,42 @@ namespace etendue {
 inline constexpr std::size_t kBlockLanes = 64;
 static_assert(kBlockLanes % Wide::kWidth == 0);
 
-/// A number of each path.
-class Column {
+/// A number of each of `kSize` paths.
+template <std::size_t kSize>
+class BasicColumn {
   public:
     [[nodiscard]] float operator[](std::size_t lane) const { return values_[lane]; }
     void set(std::size_t lane, float value) { values_[lane] = value; }
     /// Of `Wide::kWidth` paths from `first` on.
     [[nodiscard]] Wide load(std::size_t first) const { return Wide::load(&values_[first]); }
     void store(std::size_t first, Wide values) { values.store(&values_[first]); }
+    void store_unaligned(std::size_t first, Wide values) { values.store_unaligned(&values_[first]); }
+    [[nodiscard]] const float* data() const { return values_.data(); }
 
   private:
-    alignas(Wide::kAlignment) std::array<float, kBlockLanes> values_{};
+    static_assert(kSize % Wide::kWidth == 0);
+    alignas(Wide::kAlignment) std::array<float, kSize> values_{};
 };
 
-struct Vec2Columns {
-    Column x, y;
+/// 32 bits of each.
+template <std::size_t kSize>
+class BasicBitColumn {
+  public:
+    [[nodiscard]] std::uint32_t operator[](std::size_t lane) const { return values_[lane]; }
+    void set(std::size_t lane, std::uint32_t bits) { values_[lane] = bits; }
+    [[nodiscard]] WideBits load(std::size_t first) const { return WideBits::load(&values_[first]); }
+    void store(std::size_t first, WideBits bits) { bits.store(&values_[first]); }
+    void store_unaligned(std::size_t first, WideBits bits) { bits.store(&values_[first]); }
+    [[nodiscard]] const std::uint32_t* data() const { return values_.data(); }
+
+  private:
+    static_assert(kSize % Wide::kWidth == 0);
+    alignas(Wide::kAlignment) std::array<std::uint32_t, kSize> values_{};
+};
+
+template <std::size_t kSize>
+struct BasicVec2Columns {
+    BasicColumn<kSize> x, y;
 
     [[nodiscard]] Vec2f operator[](std::size_t lane) const { return {x[lane], y[lane]}; }
     void set(std::size_t lane, Vec2f v) {
@@ -46,8 +69,9 @@ struct Vec2Columns {
     }
 };
 
-struct Vec3Columns {
-    Column x, y, z;
+template <std::size_t kSize>
+struct BasicVec3Columns {
+    BasicColumn<kSize> x, y, z;
 
     [[nodiscard]] Vec3f operator[](std::size_t lane) const { return {x[lane], y[lane], z[lane]}; }
     void set(std::size_t lane, const Vec3f& v) {
@@ -65,8 +89,9 @@ struct Vec3Columns {
     }
 };
 
-struct RgbColumns {
-    Column r, g, b;
+template <std::size_t kSize>
+struct BasicRgbColumns {
+    BasicColumn<kSize> r, g, b;
 
     [[nodiscard]] Rgb operator[](std::size_t lane) const { return {r[lane], g[lane], b[lane]}; }
     void set(std::size_t lane, const Rgb& c) {
@@ -81,5 +106,10 @@ struct RgbColumns {
         b.store(first, c.b);
     }
 };
+
+using Column = BasicColumn<kBlockLanes>;
+using Vec2Columns = BasicVec2Columns<kBlockLanes>;
+using Vec3Columns = BasicVec3Columns<kBlockLanes>;
+using RgbColumns = BasicRgbColumns<kBlockLanes>;
 
 }  // namespace etendue

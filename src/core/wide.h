@@ -8,6 +8,7 @@
 
 #include "core/lane.h"
 
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <limits>
@@ -20,6 +21,9 @@
 #endif
 #include <experimental/simd>
 #pragma GCC diagnostic pop
+#ifdef __AVX512F__
+#include <immintrin.h>
+#endif
 
 namespace etendue {
 
@@ -28,6 +32,7 @@ class WideMask {
   public:
     using Simd = std::experimental::native_simd_mask<float>;
 
+    WideMask() = default;
     explicit WideMask(Simd mask) : mask_(mask) {}
 
     [[nodiscard]] Simd simd() const { return mask_; }
@@ -36,6 +41,11 @@ class WideMask {
     [[nodiscard]] friend WideMask operator&&(WideMask a, WideMask b) { return WideMask(a.mask_ && b.mask_); }
     [[nodiscard]] friend WideMask operator||(WideMask a, WideMask b) { return WideMask(a.mask_ || b.mask_); }
     [[nodiscard]] friend WideMask operator!(WideMask a) { return WideMask(!a.mask_); }
+
+    /// In how many lanes it is true.
+    [[nodiscard]] friend std::size_t count(WideMask a) {
+        return static_cast<std::size_t>(std::experimental::popcount(a.mask_));
+    }
 
   private:
     Simd mask_;
@@ -55,6 +65,10 @@ class Wide {
 
     /// `kWidth` floats from an aligned address.
     [[nodiscard]] static Wide load(const float* from) { return Wide(Simd(from, std::experimental::vector_aligned)); }
+    /// From any address.
+    [[nodiscard]] static Wide load_unaligned(const float* from) {
+        return Wide(Simd(from, std::experimental::element_aligned));
+    }
     void store(float* to) const { lanes_.copy_to(to, std::experimental::vector_aligned); }
     /// To any address.
     void store_unaligned(float* to) const { lanes_.copy_to(to, std::experimental::element_aligned); }
@@ -77,6 +91,7 @@ class Wide {
     [[nodiscard]] friend WideMask operator<=(Wide a, Wide b) { return WideMask(a.lanes_ <= b.lanes_); }
     [[nodiscard]] friend WideMask operator>=(Wide a, Wide b) { return WideMask(a.lanes_ >= b.lanes_); }
     [[nodiscard]] friend WideMask operator==(Wide a, Wide b) { return WideMask(a.lanes_ == b.lanes_); }
+    [[nodiscard]] friend WideMask operator!=(Wide a, Wide b) { return WideMask(a.lanes_ != b.lanes_); }
 
     // Two instructions, which the compiler takes for too many where there are many of it; a call saves every register.
     [[nodiscard, gnu::always_inline]] friend Wide select(WideMask condition, Wide if_true, Wide if_false) {
@@ -88,13 +103,41 @@ class Wide {
         const auto whole = std::experimental::static_simd_cast<int>(index.lanes_);
         return Wide(Simd([&](auto lane) { return table[whole[lane]]; }));
     }
+    /// The lanes of `a` that are `kept`, one after the other; those behind them are of no meaning.
+    [[nodiscard]] friend Wide compress(Wide a, WideMask kept) {
+#ifdef __AVX512F__
+        static_assert(sizeof(Simd) == sizeof(__m512));
+        return Wide(std::bit_cast<Simd>(
+            _mm512_maskz_compress_ps(std::bit_cast<__mmask16>(kept.simd()), std::bit_cast<__m512>(a.lanes_))));
+#else
+        std::array<float, kWidth> lanes{};
+        std::size_t next = 0;
+        for (std::size_t lane = 0; lane < kWidth; ++lane) {
+            lanes[next] = a[lane];
+            next += kept[lane] ? 1 : 0;
+        }
+        return Wide(Simd(lanes.data(), std::experimental::element_aligned));
+#endif
+    }
     // As those of the standard library are for what is no number.
-    [[nodiscard]] friend Wide min(Wide a, Wide b) { return select(b < a, b, a); }
-    [[nodiscard]] friend Wide max(Wide a, Wide b) { return select(a < b, b, a); }
-    [[nodiscard]] friend Wide clamp(Wide a, Wide low, Wide high) { return min(max(a, low), high); }
-    [[nodiscard]] friend Wide abs(Wide a) { return Wide(std::experimental::abs(a.lanes_)); }
-    [[nodiscard]] friend Wide floor(Wide a) { return Wide(std::experimental::floor(a.lanes_)); }
-    [[nodiscard]] friend Wide sqrt(Wide a) { return Wide(std::experimental::sqrt(a.lanes_)); }
+    [[nodiscard]] friend Wide min(Wide a, Wide b) {
+        return select(b < a, b, a);
+    }
+    [[nodiscard]] friend Wide max(Wide a, Wide b) {
+        return select(a < b, b, a);
+    }
+    [[nodiscard]] friend Wide clamp(Wide a, Wide low, Wide high) {
+        return min(max(a, low), high);
+    }
+    [[nodiscard]] friend Wide abs(Wide a) {
+        return Wide(std::experimental::abs(a.lanes_));
+    }
+    [[nodiscard]] friend Wide floor(Wide a) {
+        return Wide(std::experimental::floor(a.lanes_));
+    }
+    [[nodiscard]] friend Wide sqrt(Wide a) {
+        return Wide(std::experimental::sqrt(a.lanes_));
+    }
     [[nodiscard]] friend Wide copysign(Wide a, Wide sign) {
         return Wide(std::experimental::copysign(a.lanes_, sign.lanes_));
     }

@@ -25,6 +25,9 @@ class WideBits {
         return WideBits(Simd(from, std::experimental::element_aligned));
     }
 
+    /// To any address.
+    void store(std::uint32_t* to) const { lanes_.copy_to(to, std::experimental::element_aligned); }
+
     WideBits& operator^=(WideBits o) { return *this = *this ^ o; }
     WideBits& operator+=(WideBits o) { return *this = *this + o; }
     WideBits& operator*=(WideBits o) { return *this = *this * o; }
@@ -36,6 +39,12 @@ class WideBits {
     [[nodiscard]] friend WideBits operator*(WideBits a, WideBits b) { return WideBits(a.lanes_ * b.lanes_); }
     [[nodiscard]] friend WideBits operator<<(WideBits a, int bits) { return WideBits(a.lanes_ << bits); }
     [[nodiscard]] friend WideBits operator>>(WideBits a, int bits) { return WideBits(a.lanes_ >> bits); }
+
+    [[nodiscard]] friend WideBits select(WideMask condition, WideBits if_true, WideBits if_false) {
+        return of(select(condition, if_true.as_floats(), if_false.as_floats()));
+    }
+    /// As that of `Wide`.
+    [[nodiscard]] friend WideBits compress(WideBits a, WideMask kept) { return of(compress(a.as_floats(), kept)); }
 
     /// The upper 24 bits as floats in [0, 1).
     [[nodiscard]] friend Wide to_unit_float(WideBits a) {
@@ -56,6 +65,14 @@ class WideBits {
 #endif
 
   private:
+    // Only to be moved: what they stand for as floats is of no meaning.
+    [[nodiscard]] Wide as_floats() const {
+        return Wide(std::bit_cast<Wide::Simd>(lanes_));
+    }
+    [[nodiscard]] static WideBits of(Wide floats) {
+        return WideBits(std::bit_cast<Simd>(floats.simd()));
+    }
+
     Simd lanes_;
 };
 

@@ -1,7 +1,9 @@
 // Pairs of random numbers for many paths at once.
 #pragma once
 
+#include "core/vec.h"
 #include "core/vector_bytes.h"
+#include "core/wide.h"
 #include "sampling/sampler.h"
 
 #include <cstddef>
@@ -48,18 +50,26 @@ class NumberPairs {
                   part(std::span(y_)));
     }
     void resize(std::size_t count) {
-        x_.resize(count);
-        y_.resize(count);
+        x_.resize(whole(count));
+        y_.resize(whole(count));
     }
     /// What nothing asks for: zeros take less time.
     void draw_none(std::size_t count) {
-        x_.assign(count, 0.0f);
-        y_.assign(count, 0.0f);
+        x_.assign(whole(count), 0.0f);
+        y_.assign(whole(count), 0.0f);
     }
     [[nodiscard]] Vec2f operator[](std::size_t i) const { return {x_[i], y_[i]}; }
+    /// Of `Wide::kWidth` keys from `first`, a multiple of that, on; those behind the last are of no meaning.
+    [[nodiscard]] Imath::Vec2<Wide> load(std::size_t first) const {
+        return {Wide::load_unaligned(&x_[first]), Wide::load_unaligned(&y_[first])};
+    }
     [[nodiscard]] std::size_t bytes() const { return vector_bytes(x_, y_); }
 
   private:
+    [[nodiscard]] static constexpr std::size_t whole(std::size_t count) {
+        return (count + Wide::kWidth - 1) / Wide::kWidth * Wide::kWidth;
+    }
+
     std::vector<float> x_;
     std::vector<float> y_;
 };

@@ -6,8 +6,11 @@
 
 namespace etendue {
 
-void intersect_batch(const World& world, const TileJob& job, RayKind kind, std::span<const Ray> rays,
-                     std::span<Hit> hits, RenderCounters& counters) {
+namespace {
+
+template <typename Batch>
+void intersect_any(const World& world, const TileJob& job, RayKind kind, const Batch& rays, std::span<Hit> hits,
+                   RenderCounters& counters) {
     WaveProfile* profile = job.profile;
     if (profile != nullptr) profile->record(kind, rays);
     world.intersect(rays, hits, kind == RayKind::Primary ? Coherence::Coherent : Coherence::Incoherent);
@@ -15,6 +18,18 @@ void intersect_batch(const World& world, const TileJob& job, RayKind kind, std::
     if (profile == nullptr) return;
     profile->stamp(Stage::Intersect, kind);
     profile->count_hits(kind, static_cast<std::uint64_t>(std::ranges::count_if(hits, &Hit::valid)));
+}
+
+}  // namespace
+
+void intersect_batch(const World& world, const TileJob& job, RayKind kind, std::span<const Ray> rays,
+                     std::span<Hit> hits, RenderCounters& counters) {
+    intersect_any(world, job, kind, rays, hits, counters);
+}
+
+void intersect_batch(const World& world, const TileJob& job, RayKind kind, const RayColumns& rays, std::span<Hit> hits,
+                     RenderCounters& counters) {
+    intersect_any(world, job, kind, rays, hits, counters);
 }
 
 void occluded_batch(const World& world, const TileJob& job, RayKind kind, std::span<const Ray> rays,

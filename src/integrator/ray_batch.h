@@ -12,6 +12,8 @@ namespace etendue {
 /// The nearest surfaces along rays of one kind; `hits` is as long as `rays`.
 void intersect_batch(const World& world, const TileJob& job, RayKind kind, std::span<const Ray> rays,
                      std::span<Hit> hits, RenderCounters& counters);
+void intersect_batch(const World& world, const TileJob& job, RayKind kind, const RayColumns& rays, std::span<Hit> hits,
+                     RenderCounters& counters);
 
 /// 1 where something is in the way of a ray, else 0; `occluded` is as long as `rays`.
 void occluded_batch(const World& world, const TileJob& job, RayKind kind, std::span<const Ray> rays,

@@ -2,11 +2,14 @@
 #pragma once
 
 #include "core/ray.h"
+#include "core/ray_columns.h"
 #include "world/embree.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <span>
 
 namespace etendue {
@@ -17,7 +20,22 @@ class EmbreeScene;
 struct QueryContext {
     embree::Context base;  // first, so that Embree's pointer to it is a pointer to this
     const EmbreeScene* scene;
-    const Ray* rays;
+    const Ray* rays;  ///< or null
+    const std::uint32_t* alpha_keys;
+
+    QueryContext(const EmbreeScene& owner, std::span<const Ray> batch, bool coherent)
+        : scene(&owner), rays(batch.data()), alpha_keys(nullptr) {
+        embree::init_context(base, coherent);
+    }
+    QueryContext(const EmbreeScene& owner, const RayColumns& batch, bool coherent)
+        : scene(&owner), rays(nullptr), alpha_keys(batch.alpha_key) {
+        embree::init_context(base, coherent);
+    }
+
+    /// Of the ray with that index in its batch.
+    [[nodiscard]] std::uint32_t alpha_key(unsigned int id) const {
+        return rays != nullptr ? rays[id].alpha_key : alpha_keys[id];
+    }
 };
 
 /// `id` is the ray's index in its batch.
@@ -65,11 +83,9 @@ struct PacketMask {
     alignas(64) int valid[Width];
 };
 
-/// Rays `first` … of the batch, of which there is at least one, as a packet; lanes beyond the end are invalid.
+/// Of lane `lane` of `Width`: what a packet takes from rays `first` … of a batch, `count` of which are in it.
 template <std::size_t Width>
-void fill_packet(std::span<const Ray> rays, std::size_t first, typename Packet<Width>::Rays& packet,
-                 PacketMask<Width>& mask) {
-    const std::size_t count = std::min(Width, rays.size() - first);
+void fill_rays(std::span<const Ray> rays, std::size_t first, std::size_t count, typename Packet<Width>::Rays& packet) {
     for (std::size_t lane = 0; lane < Width; ++lane) {
         const Ray& ray = rays[first + std::min(lane, count - 1)];
         packet.org_x[lane] = ray.origin.x;
@@ -81,6 +97,25 @@ void fill_packet(std::span<const Ray> rays, std::size_t first, typename Packet<W
         packet.time[lane] = ray.time;
         packet.tfar[lane] = ray.t_max;
     }
+}
+template <std::size_t Width>
+void fill_rays(const RayColumns& rays, std::size_t first, std::size_t /*count*/, typename Packet<Width>::Rays& packet) {
+    static_assert(Width <= RayColumns::kPacket);
+    std::copy_n(rays.origin_x + first, Width, packet.org_x);
+    std::copy_n(rays.origin_y + first, Width, packet.org_y);
+    std::copy_n(rays.origin_z + first, Width, packet.org_z);
+    std::copy_n(rays.direction_x + first, Width, packet.dir_x);
+    std::copy_n(rays.direction_y + first, Width, packet.dir_y);
+    std::copy_n(rays.direction_z + first, Width, packet.dir_z);
+    std::copy_n(rays.time + first, Width, packet.time);
+    std::fill_n(packet.tfar, Width, std::numeric_limits<float>::infinity());
+}
+
+/// Rays `first` … of the batch, of which there is at least one, as a packet; lanes beyond the end are invalid.
+template <std::size_t Width, typename Batch>
+void fill_packet(const Batch& rays, std::size_t first, typename Packet<Width>::Rays& packet, PacketMask<Width>& mask) {
+    const std::size_t count = std::min(Width, rays.size() - first);
+    fill_rays<Width>(rays, first, count, packet);
     // What does not come from the rays, in loops of its own, which are vectorised.
     for (std::size_t lane = 0; lane < Width; ++lane) {
         mask.valid[lane] = lane < count ? -1 : 0;
@@ -92,8 +127,8 @@ void fill_packet(std::span<const Ray> rays, std::size_t first, typename Packet<W
 }
 
 /// The same with hits that are none yet.
-template <std::size_t Width>
-void fill_packet(std::span<const Ray> rays, std::size_t first, typename Packet<Width>::RayHits& packet,
+template <std::size_t Width, typename Batch>
+void fill_packet(const Batch& rays, std::size_t first, typename Packet<Width>::RayHits& packet,
                  PacketMask<Width>& mask) {
     fill_packet<Width>(rays, first, packet.ray, mask);
     std::fill_n(packet.hit.geomID, Width, RTC_INVALID_GEOMETRY_ID);
@@ -102,9 +137,9 @@ void fill_packet(std::span<const Ray> rays, std::size_t first, typename Packet<W
 
 /// Calls `trace(mask, packet, first, count)` for packets of type `Rays` of all rays, `count` of which, from `first` on,
 /// are in that packet.
-template <std::size_t Width, typename Rays, typename Trace>
-void for_each_packet(std::span<const Ray> rays, const Trace& trace) {
-    if (rays.empty()) return;
+template <std::size_t Width, typename Rays, typename Batch, typename Trace>
+void for_each_packet(const Batch& rays, const Trace& trace) {
+    if (rays.size() == 0) return;
     // The next packet is filled before this one is traced: Embree would wait for what was just stored piece by piece.
     std::array<PacketMask<Width>, 2> masks;
     std::array<Rays, 2> packets;

@@ -35,7 +35,7 @@ void filter_by_opacity(const RTCFilterFunctionNArguments* args) {
         const unsigned int triangle = RTCHitN_primID(args->hit, args->N, i);
         const Vec2f barycentric{RTCHitN_u(args->hit, args->N, i), RTCHitN_v(args->hit, args->N, i)};
         const float opacity = context->scene->opacity(entry.geometry, triangle, barycentric);
-        const std::uint32_t key = context->rays[RTCRayN_id(args->ray, args->N, i)].alpha_key;
+        const std::uint32_t key = context->alpha_key(RTCRayN_id(args->ray, args->N, i));
         const std::uint32_t bits =
             hash_combine(hash_combine(hash_combine(key, entry.instance), entry.geometry), triangle);
         if (to_unit_float(bits) >= opacity) args->valid[i] = 0;
@@ -163,7 +163,8 @@ void EmbreeScene::set_opacity(OpacityFunction function, const void* world) {
     world_ = world;
 }
 
-void EmbreeScene::intersect(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence, QueryForm form) const {
+template <typename Batch>
+void EmbreeScene::intersect_batch(const Batch& rays, std::span<Hit> hits, Coherence coherence, QueryForm form) const {
     switch (form) {
         case QueryForm::Single:
             intersect_single(rays, hits);
@@ -176,6 +177,14 @@ void EmbreeScene::intersect(std::span<const Ray> rays, std::span<Hit> hits, Cohe
             intersect_packets<16>(rays, hits, takes_as_coherent(coherence));
             break;
     }
+}
+
+void EmbreeScene::intersect(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence, QueryForm form) const {
+    intersect_batch(rays, hits, coherence, form);
+}
+
+void EmbreeScene::intersect(const RayColumns& rays, std::span<Hit> hits, Coherence coherence, QueryForm form) const {
+    intersect_batch(rays, hits, coherence, form);
 }
 
 void EmbreeScene::occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, QueryForm form) const {
@@ -205,37 +214,35 @@ Hit EmbreeScene::make_hit(float t, float u, float v, unsigned int triangle, unsi
     return {t, u, v, triangle, entry.geometry, entry.instance, time};
 }
 
-void EmbreeScene::intersect_single(std::span<const Ray> rays, std::span<Hit> hits) const {
-    QueryContext context{{}, this, rays.data()};
-    embree::init_context(context.base, false);
+template <typename Batch>
+void EmbreeScene::intersect_single(const Batch& rays, std::span<Hit> hits) const {
+    QueryContext context(*this, rays, false);
     RTCRayHit query;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         query = make_ray_hit(rays[i], static_cast<unsigned int>(i));
         embree::intersect1(top_, context.base, query);
         hits[i] = make_hit(query.ray.tfar, query.hit.u, query.hit.v, query.hit.primID, query.hit.geomID,
-                           query.hit.instID[0], rays[i].time);
+                           query.hit.instID[0], query.ray.time);
     }
 }
 
-template <std::size_t Width>
-void EmbreeScene::intersect_packets(std::span<const Ray> rays, std::span<Hit> hits, bool coherent) const {
-    QueryContext context{{}, this, rays.data()};
-    embree::init_context(context.base, coherent);
+template <std::size_t Width, typename Batch>
+void EmbreeScene::intersect_packets(const Batch& rays, std::span<Hit> hits, bool coherent) const {
+    QueryContext context(*this, rays, coherent);
     for_each_packet<Width, typename Packet<Width>::RayHits>(
         rays, [&](const PacketMask<Width>& mask, auto& packet, std::size_t first, std::size_t count) {
             embree::intersect(mask.valid, top_, context.base, coherent, packet);
             for (std::size_t lane = 0; lane < count; ++lane)
                 hits[first + lane] =
                     make_hit(packet.ray.tfar[lane], packet.hit.u[lane], packet.hit.v[lane], packet.hit.primID[lane],
-                             packet.hit.geomID[lane], packet.hit.instID[0][lane], rays[first + lane].time);
+                             packet.hit.geomID[lane], packet.hit.instID[0][lane], packet.ray.time[lane]);
         });
 }
 
 // Embree marks occluded rays with tfar = -inf.
 
 void EmbreeScene::occluded_single(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const {
-    QueryContext context{{}, this, rays.data()};
-    embree::init_context(context.base, false);
+    QueryContext context(*this, rays, false);
     for (std::size_t i = 0; i < rays.size(); ++i) {
         RTCRay query = make_ray(rays[i], static_cast<unsigned int>(i));
         embree::occluded1(top_, context.base, query);
@@ -245,8 +252,7 @@ void EmbreeScene::occluded_single(std::span<const Ray> rays, std::span<std::uint
 
 template <std::size_t Width>
 void EmbreeScene::occluded_packets(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const {
-    QueryContext context{{}, this, rays.data()};
-    embree::init_context(context.base, false);
+    QueryContext context(*this, rays, false);
     for_each_packet<Width, typename Packet<Width>::Rays>(
         rays, [&](const PacketMask<Width>& mask, auto& packet, std::size_t first, std::size_t count) {
             embree::occluded(mask.valid, top_, context.base, packet);

@@ -4,6 +4,7 @@
 #include "core/bounds.h"
 #include "core/parallel.h"
 #include "core/ray.h"
+#include "core/ray_columns.h"
 #include "world/embree.h"
 #include "world/geometry.h"
 #include "world/world.h"
@@ -38,6 +39,7 @@ class EmbreeScene {
     void set_opacity(OpacityFunction function, const void* world);
 
     void intersect(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence, QueryForm form) const;
+    void intersect(const RayColumns& rays, std::span<Hit> hits, Coherence coherence, QueryForm form) const;
     void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, QueryForm form) const;
 
     /// See World::replay.
@@ -67,9 +69,13 @@ class EmbreeScene {
     }
 
   private:
-    void intersect_single(std::span<const Ray> rays, std::span<Hit> hits) const;
-    template <std::size_t Width>
-    void intersect_packets(std::span<const Ray> rays, std::span<Hit> hits, bool coherent) const;
+    // A `Batch` is a span of rays or RayColumns.
+    template <typename Batch>
+    void intersect_batch(const Batch& rays, std::span<Hit> hits, Coherence coherence, QueryForm form) const;
+    template <typename Batch>
+    void intersect_single(const Batch& rays, std::span<Hit> hits) const;
+    template <std::size_t Width, typename Batch>
+    void intersect_packets(const Batch& rays, std::span<Hit> hits, bool coherent) const;
     void occluded_single(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const;
     template <std::size_t Width>
     void occluded_packets(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const;

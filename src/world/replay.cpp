@@ -48,8 +48,7 @@ double EmbreeScene::replay_single(std::span<const Ray> rays, QueryContext& conte
 
 double EmbreeScene::replay(std::span<const Ray> rays, bool occlusion, Coherence coherence, QueryForm form) const {
     const bool coherent = !occlusion && takes_as_coherent(coherence) && form != QueryForm::Single;
-    QueryContext context{{}, this, rays.data()};
-    embree::init_context(context.base, coherent);
+    QueryContext context(*this, rays, coherent);
     switch (form) {
         case QueryForm::Single:
             return replay_single(rays, context, occlusion);

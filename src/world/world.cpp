@@ -142,6 +142,10 @@ void World::intersect(std::span<const Ray> rays, std::span<Hit> hits, Coherence 
     data_->bvh->intersect(rays, hits, coherence, form);
 }
 
+void World::intersect(const RayColumns& rays, std::span<Hit> hits, Coherence coherence, QueryForm form) const {
+    data_->bvh->intersect(rays, hits, coherence, form);
+}
+
 void World::occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, QueryForm form) const {
     data_->bvh->occluded(rays, occluded, form);
 }

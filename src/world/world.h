@@ -7,6 +7,7 @@
 #include "camera/camera.h"
 #include "core/bounds.h"
 #include "core/ray.h"
+#include "core/ray_columns.h"
 #include "core/ray_cone.h"
 #include "light/light.h"
 #include "light/light_tree.h"
@@ -162,6 +163,8 @@ class World {
 
     /// Nearest hit of each ray; `hits` is as long as `rays`.
     void intersect(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence,
+                   QueryForm form = QueryForm::Best) const;
+    void intersect(const RayColumns& rays, std::span<Hit> hits, Coherence coherence,
                    QueryForm form = QueryForm::Best) const;
     /// 1 where something lies within (0, t_max], else 0; `occluded` is as long as `rays`.
     void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, QueryForm form = QueryForm::Best) const;

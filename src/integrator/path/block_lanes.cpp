@@ -43,14 +43,14 @@ void BlockLanes::set_next_origins(std::size_t count) {
             l, offset_origin(position.load(l), geometric_normal.load(l), clearance.load(l), next_direction.load(l)));
 }
 
-void BlockLanes::weigh_light(std::size_t count) {
+void BlockLanes::weigh_light(std::size_t count, const PathColumns& paths, std::size_t first) {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     for (std::size_t l = 0; l < count; l += Wide::kWidth) {
         const Wide by_light = light_pdf.load(l);
         const Wide weight = power_heuristic(by_light, pdf.load(l) * light_by_chance.load(l)) / by_light;
         // What is no number goes on, to be counted with what it makes of its sample.
         const auto is_dark = by_light <= Wide(0.0f) || is_black(f_cos.load(l));
-        const BasicRgb<Wide> light = throughput.load(l) * f_cos.load(l) * light_radiance.load(l) * weight;
+        const BasicRgb<Wide> light = paths.throughput.load(first + l) * f_cos.load(l) * light_radiance.load(l) * weight;
         contribution.store(l, light);
         arrives.store(l, select(is_dark || is_black(light), Wide(0.0f), Wide(1.0f)));
         const WideVec3 wi = light_wi.load(l);
@@ -62,6 +62,29 @@ void BlockLanes::weigh_light(std::size_t count) {
             l, {select(is_far, wi.x, connection.direction.x), select(is_far, wi.y, connection.direction.y),
                 select(is_far, wi.z, connection.direction.z)});
         shadow_t_max.store(l, select(is_far, Wide(kInfinity), connection.t_max));
+    }
+}
+
+void BlockLanes::scatter(std::size_t count, PathColumns& paths, std::size_t first) {
+    for (std::size_t l = 0; l < count; l += Wide::kWidth) {
+        const std::size_t i = first + l;
+        const WideMask by_lanes = is_wide.load(l) != Wide(0.0f);
+        const BasicRgb<Wide> weight = next_weight.load(l);
+        goes_on.store(l, select(by_lanes, select(is_black(weight), Wide(0.0f), Wide(1.0f)), goes_on.load(l)));
+        const BasicRgb<Wide> before = paths.throughput.load(i);
+        paths.throughput.store(i, select<Wide>(by_lanes, before * weight, before));
+        paths.pdf_solid_angle.store(i, select(by_lanes, next_pdf.load(l), paths.pdf_solid_angle.load(i)));
+        const WideBits history = paths.history.load(i);
+        paths.history.store(i, select(by_lanes, path_history::after_lobe(history, 1), history));
+        const auto move = [&](auto& column, const auto& next) {
+            column.store(i, select(by_lanes, next.load(l), column.load(i)));
+        };
+        move(paths.origin.x, next_origin.x);
+        move(paths.origin.y, next_origin.y);
+        move(paths.origin.z, next_origin.z);
+        move(paths.direction.x, next_direction.x);
+        move(paths.direction.y, next_direction.y);
+        move(paths.direction.z, next_direction.z);
     }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "integrator/light_front_columns.h"
+#include "integrator/path/path_columns.h"
 #include "integrator/surface_lanes.h"
 
 #include <cstddef>
@@ -13,7 +14,6 @@ namespace etendue {
 struct BlockLanes : SurfaceLanes {
     Vec3Columns wo;
     RgbColumns albedo;
-    RgbColumns throughput;
 
     // The sample of a light.
     LightFrontColumns front;
@@ -36,6 +36,17 @@ struct BlockLanes : SurfaceLanes {
     Vec3Columns next_origin, next_direction;
     RgbColumns next_weight;
     Column next_pdf;
+    Column is_wide;  ///< 1 where the path is scattered by the columns above, else 0
+    Column goes_on;  ///< 1 where it does, else 0
+
+    /// Of a block of whose paths nothing is known yet.
+    void start() {
+        for (std::size_t l = 0; l < kBlockLanes; l += Wide::kWidth) {
+            is_wide.store(l, Wide(0.0f));
+            goes_on.store(l, Wide(0.0f));
+            light_pdf.store(l, Wide(0.0f));
+        }
+    }
 
     // Each computes lanes [0, count), rounded up, from the columns that the one before and the caller have set.
 
@@ -45,8 +56,10 @@ struct BlockLanes : SurfaceLanes {
     void evaluate_matte(std::size_t count);
     /// `next_origin`, from `next_direction`.
     void set_next_origins(std::size_t count);
-    /// `contribution`, whether it `arrives`, and its ray.
-    void weigh_light(std::size_t count);
+    /// `contribution`, whether it `arrives`, and its ray, of the paths from `first` of the wave on.
+    void weigh_light(std::size_t count, const PathColumns& paths, std::size_t first);
+    /// Takes those that are `is_wide` on, unless nothing was scattered.
+    void scatter(std::size_t count, PathColumns& paths, std::size_t first);
 };
 
 }  // namespace etendue

@@ -11,6 +11,7 @@
 #include "integrator/number_pairs.h"
 #include "integrator/path/block_lanes.h"
 #include "integrator/path/glossy_lanes.h"
+#include "integrator/path/path_columns.h"
 #include "integrator/path/path_integrator.h"
 #include "integrator/path/textured_lanes.h"
 #include "integrator/profile/wave_profile.h"
@@ -25,23 +26,6 @@
 #include <vector>
 
 namespace etendue {
-
-/// A path under way; its ray stands beside it in `PathWave::rays`.
-struct PathState {
-    Rgb throughput{1.0f};
-    /// Product of eta² over the refractions so far: what radiance scaling took from the throughput and Russian roulette
-    /// must not see.
-    float eta_scale = 1.0f;
-    float pdf_solid_angle = 0.0f;  ///< of the ray's direction; not meaningful after a delta
-    float wavelength_nm = 0.0f;    ///< nanometres once a dispersive body has refracted it, 0 for all wavelengths
-    RayCone cone;                  ///< around the ray; followed only where there are textures to filter
-    WordRange words;               ///< what it has been so far, if that is followed
-    std::uint32_t slot = 0;        ///< which camera sample
-    int edges = 1;                 ///< of the path when its ray has hit; media and hidden boundaries add none
-    bool after_delta = true;  ///< the last scattering was a delta, or there was none: lights cannot be sampled for it
-    bool only_delta = true;   ///< every scattering was: the eye sees this directly or in mirrors
-    bool is_direct = true;    ///< every scattering but the last was: what it meets lights what the eye sees so
-};
 
 /// A path whose ray has hit a surface, between the stages of its shading: what all of them ask.
 struct ShadedPath {
@@ -68,13 +52,11 @@ struct SingleShading {
     BsdfSample sample;
 };
 
-/// The state of a wave: states, rays and hits of its paths as arrays, and a block of them as columns. About 200 bytes a
-/// path, 250 among bodies.
+/// The state of a wave: its paths as columns, and what lies between the stages of a block of them as shorter ones.
+/// About 200 bytes a path, 250 among bodies.
 class PathWave final : public IntegratorScratch {
   public:
-    /// Paths in a wave: enough to fill ray packets after many have ended, and about 400 KiB, which stay in an L2 cache
-    /// of 1 MiB.
-    static constexpr std::size_t kCapacity = 2048;
+    static constexpr std::size_t kCapacity = PathColumns::kCapacity;
     /// Paths that go from one stage of shading to the next together: what lies between the stages stays in the
     /// first-level cache.
     static constexpr std::size_t kBlock = kBlockLanes;
@@ -95,12 +77,12 @@ class PathWave final : public IntegratorScratch {
     };
 
     /// Random numbers of the block for this bounce, many at a time.
-    void draw_numbers(const Context& context, std::size_t count);
+    void draw_numbers(const Context& context);
     void shade(const Context& context);
     /// Advances paths [first, first + count), count <= kBlock, stage by stage, and moves those that go on to where
     /// `kept` says.
     void shade_block(const Context& context, std::size_t first, std::size_t count, std::size_t& kept);
-    // Path `k` of the block is path `first_` + `k` of the wave; if it is on a surface, one of `lanes_` is its.
+    // Path `k` of the block is path `first_` + `k` of the wave, and has lane `k` of `lanes_`.
     /// Finds out where path `k` is; true if it is on a surface that may scatter it.
     bool set_up(const Context& context, std::size_t k);
     /// Points on plain surfaces, all at once.
@@ -110,9 +92,9 @@ class PathWave final : public IntegratorScratch {
     /// Has the path of a plain surface that mirrors after all go on as one of any other.
     void set_up_singly(const Context& context, std::size_t k);
     /// Looks up textures and makes the lobes of path `k`.
-    void make_scattering(const Context& context, std::size_t k, std::size_t lane);
+    void make_scattering(const Context& context, std::size_t k);
     /// What light is chosen for at the surface of path `k`.
-    [[nodiscard]] LightReceiver make_receiver(std::size_t k, std::size_t lane) const;
+    [[nodiscard]] LightReceiver make_receiver(std::size_t k) const;
     /// Samples a light for each path that asks for one.
     void sample_lights(const Context& context);
     /// What the surface scatters towards the light, and where else to.
@@ -123,17 +105,24 @@ class PathWave final : public IntegratorScratch {
     bool scatter_in_medium(const Context& context, std::size_t k);
     /// Takes path `k` through a boundary that another body hides.
     void pass_hidden(const Context& context, std::size_t k);
+    [[nodiscard]] std::span<const std::uint8_t> on_surface() const { return std::span(on_surface_).first(surfaces_); }
     /// Takes path `k` where the sample of its BSDF says; false if it ends.
     bool scatter_at_surface(const Context& context, std::size_t k);
-    bool scatter_by_lanes(const Context& context, std::size_t k, std::size_t lane);
+    /// The same for all paths that are_wide, at once.
+    void scatter_by_lanes(const Context& context);
     /// What the surface of path `k`, which is_wide, does towards `wi`.
     [[nodiscard]] VertexEvent wide_event(const Context& context, std::size_t k, const Vec3f& wi) const;
-    /// What both have in common: the state of path `k` after `sample`, and the direction of its ray. False if nothing
-    /// was scattered.
-    bool scatter(const Context& context, std::size_t k, const Vec3f& geometric_normal, const BsdfSample& sample);
-    /// Russian roulette for the `count` paths of the block. Moves those that go on to where `kept` says, their
-    /// throughput divided by their chance.
-    void keep_survivors(const Context& context, std::size_t count, std::size_t& kept);
+    /// Tells the profile, if there is one, how path `k` scattered.
+    void count_sample(const Context& context, std::size_t k, const BsdfSample& sample) const;
+    /// The cone of path `k` after `sample`, before its ray has been changed.
+    void bend_cone(const World& world, std::size_t k, const Vec3f& geometric_normal, const BsdfSample& sample);
+    /// What path `k` has been so far, with `event`.
+    void follow(std::size_t k, const VertexEvent& event) {
+        ranges_[first_ + k] = words_.scatter_from_eye(ranges_[first_ + k], event);
+    }
+    /// Russian roulette for the paths of the block. Moves those that go on to where `kept` says, their throughput
+    /// divided by their chance.
+    void keep_survivors(const Context& context, std::size_t& kept);
     /// Tells the profile, if there is one, of the end of path `k`.
     void end_path(const Context& context, std::size_t k, PathEnding ending) const;
     void add_environment(const Context& context, std::size_t k);
@@ -145,7 +134,7 @@ class PathWave final : public IntegratorScratch {
     /// Shadow rays to the lights that the block has sampled.
     void queue_direct_light(const Context& context);
     void queue_singly(const Context& context, std::size_t k);
-    void queue_by_lanes(const Context& context, std::size_t k, std::size_t lane);
+    void queue_by_lanes(const Context& context, std::size_t k);
     void queue_direct_light_in_medium(const Context& context, std::size_t k, const Vec3f& position,
                                       const HomogeneousMedium& medium);
     /// What the light that path `k` samples is made from.
@@ -155,22 +144,23 @@ class PathWave final : public IntegratorScratch {
     /// `event` is what the vertex does towards `light`.
     void queue(const Context& context, std::size_t k, Ray ray, const Rgb& contribution, std::uint32_t light,
                const VertexEvent& event);
-    /// Adds `light` that the path has met.
-    void add_light(const PathState& state, const Rgb& light, const AovSet::Source& source);
+    /// Adds `light` that path `i` of the wave has met.
+    void add_light(std::size_t i, const Rgb& light, const AovSet::Source& source);
     [[nodiscard]] std::uint32_t alpha_key(const Context& context, std::size_t k) const;
 
     // By active path; paths that end are squeezed out after every bounce.
     std::size_t active_ = 0;
-    std::vector<PathState> states_;
-    std::vector<Ray> rays_;
+    PathColumns paths_;
     std::vector<Hit> hits_;
     std::vector<Interior> interiors_;       ///< only if the World has bodies
     std::vector<LightReceiver> receivers_;  ///< where rays start; only if the World chooses lights by that
+    std::vector<WordRange> ranges_;         ///< what they have been so far; only if that is followed
     PathWords words_;
     std::vector<ExpressionShare> shares_;  ///< of the contribution at hand
     Connections shadow_rays_{RayKind::Shadow};
     // Of the block that is shaded.
     std::size_t first_ = 0;  ///< its first path
+    std::size_t count_ = 0;  ///< its paths
     SampleKeys keys_;
     NumberPairs light_choice_, light_triangle_, light_direction_, bsdf_direction_;
     NumberPairs choices_;  ///< x: which lobe, y: whether the path ends
@@ -179,7 +169,7 @@ class PathWave final : public IntegratorScratch {
     std::vector<SingleShading> singles_;
     std::array<ChosenLight, kBlock> lights_{};               ///< samples of those that are not sampled for many at once
     std::array<LightSample, kBlock> environment_samples_{};  ///< of those among them that are the environment's
-    std::array<std::uint8_t, kBlock> on_surface_{};  ///< places in the block of the paths on surfaces, which have lanes
+    std::array<std::uint8_t, kBlock> on_surface_{};          ///< places in the block of the paths on surfaces
     std::size_t surfaces_ = 0;
     BlockLanes lanes_;
     GlossyLanes glossy_;
@@ -188,9 +178,9 @@ class PathWave final : public IntegratorScratch {
     std::array<MetallicRoughness, kBlock> textured_lobes_{};
     PlainLookups lookups_;
     std::array<LightReceiver, kBlock> to_light_;  ///< of the paths that sample lights, one after the other
-    std::array<bool, kBlock> goes_on_{};
     // By slot, that is, by camera sample.
     std::vector<CameraSample> samples_;
+    std::vector<Ray> camera_rays_;
     SampleLight light_;
     std::vector<float> alpha_;
 };

@@ -19,25 +19,25 @@ float light_sample_scale(const ChosenLight& chosen, float pdf_solid_angle) {
 }
 
 /// Of light that a path meets.
-LightKind kind_of_met_light(const PathState& state) {
-    if (state.edges == 1 && state.only_delta) return LightKind::Seen;
-    return state.is_direct ? LightKind::Direct : LightKind::Indirect;
+LightKind kind_of_met_light(std::uint32_t history) {
+    if (path_history::edges(history) == 1 && (history & path_history::kOnlyDelta) != 0) return LightKind::Seen;
+    return (history & path_history::kIsDirect) != 0 ? LightKind::Direct : LightKind::Indirect;
 }
 
 }  // namespace
 
-LightReceiver PathWave::make_receiver(std::size_t k, std::size_t lane) const {
+LightReceiver PathWave::make_receiver(std::size_t k) const {
     const ShadedPath& path = block_[k];
-    LightReceiver receiver(lanes_.position[lane]);
+    LightReceiver receiver(lanes_.position[k]);
     const auto face = [&](const Vec3f& normal, const Vec3f& wo) {
         receiver.normal = normal;
         receiver.wo = wo;
     };
     Gloss gloss;
     if (path.is_wide) {
-        const Vec3f wo = lanes_.wo[lane];
-        const Vec3f normal = lanes_.normal[lane];
-        face(dot(lanes_.geometric_normal[lane], wo) < 0.0f ? -normal : normal, wo);
+        const Vec3f wo = lanes_.wo[k];
+        const Vec3f normal = lanes_.normal[k];
+        face(dot(lanes_.geometric_normal[k], wo) < 0.0f ? -normal : normal, wo);
         if (path.glossy != nullptr) gloss = gloss_of(*path.glossy, dot(receiver.normal, wo));
     } else if (const Scattering& scattering = *singles_[k].scattering; only_reflects(scattering.bsdf())) {
         face(scattering.normal(), scattering.wo());
@@ -50,17 +50,15 @@ LightReceiver PathWave::make_receiver(std::size_t k, std::size_t lane) const {
 
 void PathWave::sample_lights(const Context& context) {
     const World& world = context.world;
-    std::array<std::uint8_t, kBlock> lanes;
+    std::array<std::uint8_t, kBlock> paths;
     std::array<Vec2f, kBlock> u;
     std::size_t count = 0;
-    for (std::size_t lane = 0; lane < surfaces_; ++lane) {
-        const std::size_t k = on_surface_[lane];
+    for (const std::uint8_t k : on_surface()) {
         ShadedPath& path = block_[k];
         path.is_mesh_lit = false;
-        lanes_.light_pdf.set(lane, 0.0f);
         if (!path.samples_light) continue;
-        if (!receivers_.empty()) to_light_[count] = receivers_[first_ + k] = make_receiver(k, lane);
-        lanes[count] = static_cast<std::uint8_t>(lane);
+        if (!receivers_.empty()) to_light_[count] = receivers_[first_ + k] = make_receiver(k);
+        paths[count] = k;
         u[count] = light_choice_[k];
         ++count;
     }
@@ -72,8 +70,8 @@ void PathWave::sample_lights(const Context& context) {
     std::array<Vec2f, kBlock> u_triangle;
     for (std::size_t chosen = 0; chosen < count; ++chosen) {
         meshes[chosen] = world.even_mesh_light(choices[chosen].light);
-        points[chosen] = lanes_.position[lanes[chosen]];
-        u_triangle[chosen] = light_triangle_[on_surface_[lanes[chosen]]];
+        points[chosen] = lanes_.position[paths[chosen]];
+        u_triangle[chosen] = light_triangle_[paths[chosen]];
     }
     std::array<MeshLight::TriangleChoice, kBlock> triangles;
     MeshLight::choose_triangles(std::span(meshes).first(count), points, u_triangle, triangles);
@@ -81,8 +79,7 @@ void PathWave::sample_lights(const Context& context) {
     std::array<std::uint8_t, kBlock> environment_lit;  // places among the chosen
     std::size_t environment_lit_count = 0;
     for (std::size_t chosen = 0; chosen < count; ++chosen) {
-        const std::size_t lane = lanes[chosen];
-        const std::size_t k = on_surface_[lane];
+        const std::size_t k = paths[chosen];
         ShadedPath& path = block_[k];
         const LightTree::Choice& choice = choices[chosen];
         path.light = choice.light;
@@ -98,44 +95,43 @@ void PathWave::sample_lights(const Context& context) {
         }
         any_mesh_lit = true;
         path.is_mesh_lit = true;
-        lanes_.front.set(lane, mesh->front(triangles[chosen]));
-        lanes_.light_probability.set(lane, choice.probability);
-        lanes_.light_radiance.set(lane, mesh->radiance());
-        lanes_.light_by_chance.set(lane, 1.0f);
-        lanes_.u.set(lane, light_direction_[k]);
+        lanes_.front.set(k, mesh->front(triangles[chosen]));
+        lanes_.light_probability.set(k, choice.probability);
+        lanes_.light_radiance.set(k, mesh->radiance());
+        lanes_.light_by_chance.set(k, 1.0f);
+        lanes_.u.set(k, light_direction_[k]);
     }
-    if (any_mesh_lit) lanes_.sample_mesh_lights(surfaces_);
+    if (any_mesh_lit) lanes_.sample_mesh_lights(count_);
     if (environment_lit_count > 0) {
         world.sample_environment_light(std::span(u).first(environment_lit_count),
                                        std::span(environment_samples_).first(environment_lit_count));
         for (std::size_t i = 0; i < environment_lit_count; ++i) {
             const std::size_t chosen = environment_lit[i];
-            ChosenLight& light = lights_[on_surface_[lanes[chosen]]];
+            ChosenLight& light = lights_[paths[chosen]];
             light.sample = environment_samples_[i];
             light.sample.pdf_solid_angle *= choices[chosen].probability;
             light.probability = choices[chosen].probability;
             light.light = choices[chosen].light;
         }
     }
-    for (std::size_t lane = 0; lane < surfaces_; ++lane) {
-        const std::size_t k = on_surface_[lane];
+    for (const std::uint8_t k : on_surface()) {
         const ShadedPath& path = block_[k];
         if (path.is_wide == path.is_mesh_lit) continue;
         LightSample& light = lights_[k].sample;
         if (path.is_mesh_lit) {
-            light.wi = lanes_.light_wi[lane];
-            light.distance = lanes_.light_distance[lane];
-            light.end = lanes_.light_end[lane];
-            light.pdf_solid_angle = lanes_.light_pdf[lane];
-            light.radiance = light.pdf_solid_angle > 0.0f ? lanes_.light_radiance[lane] : Rgb();
+            light.wi = lanes_.light_wi[k];
+            light.distance = lanes_.light_distance[k];
+            light.end = lanes_.light_end[k];
+            light.pdf_solid_angle = lanes_.light_pdf[k];
+            light.radiance = light.pdf_solid_angle > 0.0f ? lanes_.light_radiance[k] : Rgb();
             light.is_delta = false;
         } else if (path.samples_light) {
-            lanes_.light_wi.set(lane, light.wi);
-            lanes_.light_distance.set(lane, light.distance);
-            lanes_.light_end.set(lane, light.end);
-            lanes_.light_pdf.set(lane, light.is_delta ? lights_[k].probability : light.pdf_solid_angle);
-            lanes_.light_by_chance.set(lane, light.is_delta ? 0.0f : 1.0f);
-            lanes_.light_radiance.set(lane, light.radiance);
+            lanes_.light_wi.set(k, light.wi);
+            lanes_.light_distance.set(k, light.distance);
+            lanes_.light_end.set(k, light.end);
+            lanes_.light_pdf.set(k, light.is_delta ? lights_[k].probability : light.pdf_solid_angle);
+            lanes_.light_by_chance.set(k, light.is_delta ? 0.0f : 1.0f);
+            lanes_.light_radiance.set(k, light.radiance);
         }
     }
 }
@@ -143,52 +139,50 @@ void PathWave::sample_lights(const Context& context) {
 void PathWave::add_environment(const Context& context, std::size_t k) {
     const World& world = context.world;
     const std::size_t i = first_ + k;
-    const PathState& state = states_[i];
-    const Ray& ray = rays_[i];
     if (context.depth == 1 && !(world.has_environment() && world.environment_visible_to_camera())) {
-        alpha_[state.slot] = 0.0f;
+        alpha_[paths_.slot[i]] = 0.0f;
         return;
     }
-    if (!world.has_environment() || state.edges < context.options.lengths.min_depth) return;
+    if (!world.has_environment() || paths_.edges(i) < context.options.lengths.min_depth) return;
     if (context.job.profile != nullptr && context.depth > 1) ++context.job.profile->use().bsdf_met_light;
+    const Vec3f direction = paths_.direction[i];
     float weight = 1.0f;
-    if (context.options.sample_lights && !state.after_delta)
-        weight = power_heuristic(state.pdf_solid_angle, world.light_probability(receiver(i), world.environment()) *
-                                                            world.environment_pdf_solid_angle(ray.direction));
-    add_light(state, world.environment_radiance(ray.direction) * weight, words_.environment_source());
+    if (context.options.sample_lights && !paths_.is(path_history::kAfterDelta, i))
+        weight = power_heuristic(paths_.pdf_solid_angle[i], world.light_probability(receiver(i), world.environment()) *
+                                                                world.environment_pdf_solid_angle(direction));
+    add_light(i, world.environment_radiance(direction) * weight, words_.environment_source());
 }
 
 void PathWave::add_emission(const Context& context, std::size_t k) {
     const std::size_t i = first_ + k;
     const SurfacePoint& point = singles_[k].point;
-    const PathState& state = states_[i];
-    const Ray& ray = rays_[i];
-    if (state.edges < context.options.lengths.min_depth) return;
-    const Rgb emitted = context.world.emission(point, -ray.direction);
+    if (paths_.edges(i) < context.options.lengths.min_depth) return;
+    const Vec3f direction = paths_.direction[i];
+    const Rgb emitted = context.world.emission(point, -direction);
     if (is_black(emitted)) return;
     if (context.job.profile != nullptr && context.depth > 1) ++context.job.profile->use().bsdf_met_light;
     float weight = 1.0f;
-    if (context.options.sample_lights && !state.after_delta)
-        weight = power_heuristic(state.pdf_solid_angle,
-                                 context.world.emitter_pdf_solid_angle(receiver(i), point, ray.direction, hits_[i].t));
-    add_light(state, emitted * weight, words_.surface_source(point));
+    if (context.options.sample_lights && !paths_.is(path_history::kAfterDelta, i))
+        weight = power_heuristic(paths_.pdf_solid_angle[i],
+                                 context.world.emitter_pdf_solid_angle(receiver(i), point, direction, hits_[i].t));
+    add_light(i, emitted * weight, words_.surface_source(point));
 }
 
 void PathWave::queue_direct_light(const Context& context) {
-    lanes_.weigh_light(surfaces_);
+    lanes_.weigh_light(count_, paths_, first_);
     // First which ones light arrives at, without a branch: that is so much by chance that a branch would take longer.
     std::array<std::uint8_t, kBlock> lit;
     std::size_t count = 0;
-    for (std::size_t lane = 0; lane < surfaces_; ++lane) {
-        const ShadedPath& path = block_[on_surface_[lane]];
-        const bool arrives = lanes_.arrives[lane] != 0.0f;
-        lit[count] = static_cast<std::uint8_t>(lane);
+    for (const std::uint8_t k : on_surface()) {
+        const ShadedPath& path = block_[k];
+        const bool arrives = lanes_.arrives[k] != 0.0f;
+        lit[count] = k;
         count += (path.is_wide ? arrives : path.samples_light) ? 1 : 0;
         if (context.job.profile != nullptr && path.samples_light) ++context.job.profile->use().light_samples;
     }
-    for (const std::uint8_t lane : std::span(lit).first(count))
-        if (const std::size_t k = on_surface_[lane]; block_[k].is_wide)
-            queue_by_lanes(context, k, lane);
+    for (const std::uint8_t k : std::span(lit).first(count))
+        if (block_[k].is_wide)
+            queue_by_lanes(context, k);
         else
             queue_singly(context, k);
 }
@@ -198,7 +192,7 @@ void PathWave::queue_singly(const Context& context, std::size_t k) {
     const LightSample& light = lights_[k].sample;
     if (is_black(light.radiance) || is_black(path.towards_light.f_cos)) return;
     const SurfacePoint& point = path.point;
-    Rgb contribution = states_[first_ + k].throughput * path.towards_light.f_cos * light.radiance *
+    Rgb contribution = paths_.throughput[first_ + k] * path.towards_light.f_cos * light.radiance *
                        light_sample_scale(lights_[k], path.towards_light.pdf_solid_angle);
     if (context.world.has_bodies())
         contribution *= path.wavelength.weight *
@@ -213,16 +207,16 @@ void PathWave::queue_singly(const Context& context, std::size_t k) {
                                 : VertexEvent{});
 }
 
-void PathWave::queue_by_lanes(const Context& context, std::size_t k, std::size_t lane) {
-    Rgb contribution = lanes_.contribution[lane];
+void PathWave::queue_by_lanes(const Context& context, std::size_t k) {
+    Rgb contribution = lanes_.contribution[k];
     if (context.world.has_bodies())
-        contribution *= transmittance(context.world, interiors_[first_ + k], lanes_.light_distance[lane]);
+        contribution *= transmittance(context.world, interiors_[first_ + k], lanes_.light_distance[k]);
     Ray ray;
-    ray.origin = lanes_.shadow_origin[lane];
-    ray.direction = lanes_.shadow_direction[lane];
-    ray.t_max = lanes_.shadow_t_max[lane];
+    ray.origin = lanes_.shadow_origin[k];
+    ray.direction = lanes_.shadow_direction[k];
+    ray.t_max = lanes_.shadow_t_max[k];
     queue(context, k, ray, contribution, block_[k].light,
-          words_.are_followed() ? wide_event(context, k, lanes_.light_wi[lane]) : VertexEvent{});
+          words_.are_followed() ? wide_event(context, k, lanes_.light_wi[k]) : VertexEvent{});
 }
 
 void PathWave::queue_direct_light_in_medium(const Context& context, std::size_t k, const Vec3f& position,
@@ -231,32 +225,31 @@ void PathWave::queue_direct_light_in_medium(const Context& context, std::size_t 
     const ChosenLight chosen = context.world.sample_light(position, light_numbers(k));
     const LightSample& light = chosen.sample;
     if (is_black(light.radiance)) return;
-    const float phase = medium.phase.pdf_solid_angle(-rays_[first_ + k].direction, light.wi);
+    const float phase = medium.phase.pdf_solid_angle(-paths_.direction[first_ + k], light.wi);
     queue(context, k, shadow_ray(position, light),
-          states_[first_ + k].throughput * light.radiance * medium.transmittance(light.distance) *
+          paths_.throughput[first_ + k] * light.radiance * medium.transmittance(light.distance) *
               (phase * light_sample_scale(chosen, phase)),
           chosen.light, VertexEvent{});
 }
 
-void PathWave::add_light(const PathState& state, const Rgb& light, const AovSet::Source& source) {
-    const LightKind kind = kind_of_met_light(state);
-    if (!words_.are_followed()) return light_.add(state.slot, state.throughput * light, kind);
+void PathWave::add_light(std::size_t i, const Rgb& light, const AovSet::Source& source) {
+    const LightKind kind = kind_of_met_light(paths_.history[i]);
     shares_.clear();
-    words_.end_at_light(state.words, source, shares_);
-    light_.add(state.slot, state.throughput * light, kind, shares_);
+    if (words_.are_followed()) words_.end_at_light(ranges_[i], source, shares_);
+    light_.add(paths_.slot[i], paths_.throughput[i] * light, kind, shares_);
 }
 
 void PathWave::queue(const Context& context, std::size_t k, Ray ray, const Rgb& contribution, std::uint32_t light,
                      const VertexEvent& event) {
     if (is_black(contribution)) return;
-    const PathState& state = states_[first_ + k];
+    const std::size_t i = first_ + k;
     shares_.clear();
     if (words_.are_followed())
-        words_.end_at_light(state.words, event, words_.light_source(context.world, light), shares_);
-    ray.time = rays_[first_ + k].time;
+        words_.end_at_light(ranges_[i], event, words_.light_source(context.world, light), shares_);
+    ray.time = paths_.time[i];
     ray.alpha_key = ~alpha_key(context, k);  // another key than the bounce ray's
-    shadow_rays_.to_sample(ray, state.slot, contribution, state.only_delta ? LightKind::Direct : LightKind::Indirect,
-                           shares_);
+    shadow_rays_.to_sample(ray, paths_.slot[i], contribution,
+                           paths_.is(path_history::kOnlyDelta, i) ? LightKind::Direct : LightKind::Indirect, shares_);
 }
 
 }  // namespace etendue

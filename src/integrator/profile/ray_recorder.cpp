@@ -47,6 +47,12 @@ void RayRecorder::offer(std::span<const Ray> batch) {
     }
 }
 
+void RayRecorder::offer(const RayColumns& batch) {
+    std::vector<Ray> rays(batch.size());
+    for (std::size_t i = 0; i < rays.size(); ++i) rays[i] = batch[i];
+    offer(rays);
+}
+
 std::size_t RayRecorder::ray_count() const {
     std::size_t count = 0;
     for (const std::vector<Ray>& segment : segments_) count += segment.size();

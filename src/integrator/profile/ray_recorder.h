@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/ray.h"
+#include "core/ray_columns.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -21,6 +22,7 @@ class RayRecorder {
     explicit RayRecorder(std::size_t capacity) : most_segments_((capacity + kSegment - 1) / kSegment) {}
 
     void offer(std::span<const Ray> batch);
+    void offer(const RayColumns& batch);
 
     [[nodiscard]] std::span<const std::vector<Ray>> segments() const { return segments_; }
     [[nodiscard]] std::size_t ray_count() const;

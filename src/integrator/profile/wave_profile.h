@@ -86,7 +86,8 @@ class WaveProfile {
         ticks_of_kind_[static_cast<std::size_t>(kind)] += elapsed;
     }
     /// Keeps some of them for the replay.
-    void record(RayKind kind, std::span<const Ray> rays) {
+    template <typename Batch>
+    void record(RayKind kind, const Batch& rays) {
         recorders_[static_cast<std::size_t>(kind)].offer(rays);
         skip();
     }

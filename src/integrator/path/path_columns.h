@@ -1,0 +1,139 @@
+// The paths of a wave that are under way, as columns: their rays, and what they have become so far.
+#pragma once
+
+#include "core/columns.h"
+#include "core/ray_columns.h"
+#include "core/ray_cone.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace etendue {
+
+/// How a path has come to where it is, as bits that lanes compute with. `Bits` is std::uint32_t or WideBits.
+namespace path_history {
+
+/// The last scattering was a delta, or there was none: lights cannot be sampled for it.
+inline constexpr std::uint32_t kAfterDelta = 1u;
+/// Every scattering was: the eye sees this directly or in mirrors.
+inline constexpr std::uint32_t kOnlyDelta = 2u;
+/// Every scattering but the last was: what the path meets lights what the eye sees so.
+inline constexpr std::uint32_t kIsDirect = 4u;
+/// Of the path when its ray has hit; media and hidden boundaries add none.
+inline constexpr std::uint32_t kOneEdge = 8u;
+inline constexpr std::uint32_t kFlags = kOneEdge - 1u;
+
+inline constexpr std::uint32_t kAtEye = kOneEdge | kAfterDelta | kOnlyDelta | kIsDirect;
+
+[[nodiscard]] constexpr int edges(std::uint32_t history) {
+    return static_cast<int>(history / kOneEdge);
+}
+/// After a scattering that was no delta, `edges` edges on.
+template <typename Bits>
+[[nodiscard]] Bits after_lobe(Bits history, std::uint32_t edges) {
+    return ((history & Bits(~kFlags)) + Bits(edges * kOneEdge)) | ((history & Bits(kOnlyDelta)) << 1);
+}
+[[nodiscard]] constexpr std::uint32_t after_delta(std::uint32_t history) {
+    const std::uint32_t only_delta = history & kOnlyDelta;
+    return ((history & ~kFlags) + kOneEdge) | (only_delta << 1) | only_delta | kAfterDelta;
+}
+
+}  // namespace path_history
+
+/// Which paths of a block go on, and where they are moved to, a `Wide` of them at a time.
+class BlockSurvivors {
+  public:
+    /// Starts with the block of paths [first, first + count), whose first survivor becomes path `kept`.
+    BlockSurvivors(std::size_t first, std::size_t kept) : first_(first), kept_(kept) {}
+
+    /// The next ones.
+    void add(WideMask goes_on) {
+        masks_[groups_] = goes_on;
+        to_[groups_++] = kept_;
+        kept_ += count(goes_on);
+    }
+    /// Moves them; no path is moved behind where it was.
+    template <typename AnyColumn>
+    void move(AnyColumn& column) const {
+        for (std::size_t group = 0; group < groups_; ++group)
+            column.store_unaligned(to_[group], compress(column.load(first_ + group * Wide::kWidth), masks_[group]));
+    }
+    /// Calls `move(from, to)` for each in turn.
+    template <typename Move>
+    void for_each(const Move& move) const {
+        for (std::size_t group = 0; group < groups_; ++group)
+            for (std::size_t lane = 0, to = to_[group]; lane < Wide::kWidth; ++lane)
+                if (masks_[group][lane]) move(first_ + group * Wide::kWidth + lane, to++);
+    }
+    /// How many there are now in all.
+    [[nodiscard]] std::size_t kept() const { return kept_; }
+
+  private:
+    static constexpr std::size_t kGroups = kBlockLanes / Wide::kWidth;
+
+    std::size_t first_;
+    std::size_t kept_;
+    std::size_t groups_ = 0;
+    std::array<WideMask, kGroups> masks_;
+    std::array<std::size_t, kGroups> to_;
+};
+
+struct PathColumns {
+    /// Paths in a wave: enough to fill ray packets after many have ended, and few enough that they stay in an L2 cache
+    /// of 1 MiB.
+    static constexpr std::size_t kCapacity = 2048;
+    /// With as much behind them as a packet reads, which also keeps columns apart in the sets of a cache.
+    static constexpr std::size_t kSize = kCapacity + RayColumns::kPacket;
+
+    BasicVec3Columns<kSize> origin, direction;
+    BasicColumn<kSize> time;
+    BasicBitColumn<kSize> alpha_key;
+    BasicRgbColumns<kSize> throughput;
+    /// Product of eta² over the refractions so far: what radiance scaling took from the throughput and Russian roulette
+    /// must not see.
+    BasicColumn<kSize> eta_scale;
+    BasicColumn<kSize> pdf_solid_angle;  ///< of the ray's direction; not meaningful after a delta
+    BasicColumn<kSize> wavelength_nm;    ///< nanometres once a dispersive body has refracted it, 0 for all wavelengths
+    BasicColumn<kSize> cone_width, cone_spread;  ///< around the ray; followed only where there are textures to filter
+    BasicBitColumn<kSize> slot;                  ///< which camera sample
+    BasicBitColumn<kSize> history;               ///< see path_history
+
+    [[nodiscard]] RayColumns rays(std::size_t count) const {
+        return {origin.x.data(),    origin.y.data(),    origin.z.data(),
+                direction.x.data(), direction.y.data(), direction.z.data(),
+                time.data(),        alpha_key.data(),   count};
+    }
+    void set_ray(std::size_t i, const Ray& ray) {
+        origin.set(i, ray.origin);
+        direction.set(i, ray.direction);
+        time.set(i, ray.time);
+        alpha_key.set(i, ray.alpha_key);
+    }
+    /// Paths of `rays` from the eye, which have come nowhere yet.
+    void begin(std::span<const Ray> rays) {
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            set_ray(i, rays[i]);
+            slot.set(i, static_cast<std::uint32_t>(i));
+        }
+        for (std::size_t i = 0; i < rays.size(); i += Wide::kWidth) {
+            throughput.store(i, BasicRgb<Wide>(Wide(1.0f)));
+            eta_scale.store(i, Wide(1.0f));
+            pdf_solid_angle.store(i, Wide(0.0f));
+            wavelength_nm.store(i, Wide(0.0f));
+            history.store(i, WideBits(path_history::kAtEye));
+        }
+    }
+    [[nodiscard]] Ray ray(std::size_t i) const { return rays(i)[i]; }
+    [[nodiscard]] RayCone cone(std::size_t i) const { return {cone_width[i], cone_spread[i]}; }
+    void set_cone(std::size_t i, const RayCone& cone) {
+        cone_width.set(i, cone.width);
+        cone_spread.set(i, cone.spread);
+    }
+    void multiply_throughput(std::size_t i, const Rgb& by) { throughput.set(i, throughput[i] * by); }
+    [[nodiscard]] bool is(std::uint32_t flag, std::size_t i) const { return (history[i] & flag) != 0; }
+    [[nodiscard]] int edges(std::size_t i) const { return path_history::edges(history[i]); }
+};
+
+}  // namespace etendue
