@@ -44,8 +44,8 @@ class BasicBitColumn {
     [[nodiscard]] std::uint32_t operator[](std::size_t lane) const { return values_[lane]; }
     void set(std::size_t lane, std::uint32_t bits) { values_[lane] = bits; }
     [[nodiscard]] WideBits load(std::size_t first) const { return WideBits::load(&values_[first]); }
-    void store(std::size_t first, WideBits bits) { bits.store(&values_[first]); }
-    void store_unaligned(std::size_t first, WideBits bits) { bits.store(&values_[first]); }
+    void store(std::size_t first, WideBits bits) { bits.store_unaligned(&values_[first]); }
+    void store_unaligned(std::size_t first, WideBits bits) { bits.store_unaligned(&values_[first]); }
     [[nodiscard]] const std::uint32_t* data() const { return values_.data(); }
 
   private:
@@ -108,6 +108,7 @@ struct BasicRgbColumns {
 };
 
 using Column = BasicColumn<kBlockLanes>;
+using BitColumn = BasicBitColumn<kBlockLanes>;
 using Vec2Columns = BasicVec2Columns<kBlockLanes>;
 using Vec3Columns = BasicVec3Columns<kBlockLanes>;
 using RgbColumns = BasicRgbColumns<kBlockLanes>;

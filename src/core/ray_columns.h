@@ -8,8 +8,8 @@
 
 namespace etendue {
 
-/// Rays that reach as far as there is anything, a number of each after the other, in columns that belong to somebody
-/// else. Each can be read for a whole packet from any ray on, beyond the last one too.
+/// Rays as columns that belong to somebody else. Each can be read for a whole packet from any ray on, beyond the last
+/// one too.
 struct RayColumns {
     static constexpr std::size_t kPacket = 16;
 
@@ -19,6 +19,7 @@ struct RayColumns {
     const float* direction_x = nullptr;
     const float* direction_y = nullptr;
     const float* direction_z = nullptr;
+    const float* t_max = nullptr;  ///< null if all reach as far as there is anything
     const float* time = nullptr;
     const std::uint32_t* alpha_key = nullptr;
     std::size_t count = 0;
@@ -28,6 +29,7 @@ struct RayColumns {
         Ray ray;
         ray.origin = {origin_x[i], origin_y[i], origin_z[i]};
         ray.direction = {direction_x[i], direction_y[i], direction_z[i]};
+        if (t_max != nullptr) ray.t_max = t_max[i];
         ray.time = time[i];
         ray.alpha_key = alpha_key[i];
         return ray;

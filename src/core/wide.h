@@ -42,6 +42,11 @@ class WideMask {
     [[nodiscard]] friend WideMask operator||(WideMask a, WideMask b) { return WideMask(a.mask_ || b.mask_); }
     [[nodiscard]] friend WideMask operator!(WideMask a) { return WideMask(!a.mask_); }
 
+    /// True in the first `lanes` of them.
+    [[nodiscard]] static WideMask first(std::size_t lanes) {
+        using Floats = std::experimental::native_simd<float>;
+        return WideMask(Floats([](auto lane) { return static_cast<float>(lane); }) < static_cast<float>(lanes));
+    }
     /// In how many lanes it is true.
     [[nodiscard]] friend std::size_t count(WideMask a) {
         return static_cast<std::size_t>(std::experimental::popcount(a.mask_));

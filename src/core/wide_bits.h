@@ -26,7 +26,7 @@ class WideBits {
     }
 
     /// To any address.
-    void store(std::uint32_t* to) const { lanes_.copy_to(to, std::experimental::element_aligned); }
+    void store_unaligned(std::uint32_t* to) const { lanes_.copy_to(to, std::experimental::element_aligned); }
 
     WideBits& operator^=(WideBits o) { return *this = *this ^ o; }
     WideBits& operator+=(WideBits o) { return *this = *this + o; }
@@ -40,6 +40,10 @@ class WideBits {
     [[nodiscard]] friend WideBits operator<<(WideBits a, int bits) { return WideBits(a.lanes_ << bits); }
     [[nodiscard]] friend WideBits operator>>(WideBits a, int bits) { return WideBits(a.lanes_ >> bits); }
 
+    [[nodiscard]] friend WideMask operator!=(WideBits a, WideBits b) {
+        // The masks of both are the same bits, but the library knows them as two types.
+        return WideMask(std::bit_cast<WideMask::Simd>(a.lanes_ != b.lanes_));
+    }
     [[nodiscard]] friend WideBits select(WideMask condition, WideBits if_true, WideBits if_false) {
         return of(select(condition, if_true.as_floats(), if_false.as_floats()));
     }

@@ -5,56 +5,106 @@
 
 namespace etendue {
 
-Connections::Pending& Connections::push(const Ray& ray, std::span<const ExpressionShare> shares) {
-    rays_.push_back(ray);
+std::size_t Connections::bytes() const {
+    std::size_t bytes = vector_bytes(places_, shares_, occluded_);
+    for (const auto& column : floats_) bytes += vector_bytes(column);
+    for (const auto& column : bits_) bytes += vector_bytes(column);
+    return bytes;
+}
+
+void Connections::make_room() {
+    const std::size_t needed = count_ + 2 * RayColumns::kPacket;
+    if (needed <= floats_[0].size()) return;
+    for (auto& column : floats_) column.resize(2 * needed);
+    for (auto& column : bits_) column.resize(2 * needed);
+}
+
+void Connections::push(const Ray& ray, std::uint32_t slot, const Rgb& value, LightKind kind,
+                       std::span<const ExpressionShare> shares) {
     if (!shares.empty()) shares_.insert(shares_.end(), shares.begin(), shares.end());
-    Pending& pending = pending_.emplace_back();
-    pending.end_of_shares = static_cast<std::uint32_t>(shares_.size());
-    return pending;
+    make_room();
+    const std::size_t i = count_++;
+    floats_[kOriginX][i] = ray.origin.x;
+    floats_[kOriginY][i] = ray.origin.y;
+    floats_[kOriginZ][i] = ray.origin.z;
+    floats_[kDirectionX][i] = ray.direction.x;
+    floats_[kDirectionY][i] = ray.direction.y;
+    floats_[kDirectionZ][i] = ray.direction.z;
+    floats_[kTMax][i] = ray.t_max;
+    floats_[kTime][i] = ray.time;
+    floats_[kRed][i] = value.r;
+    floats_[kGreen][i] = value.g;
+    floats_[kBlue][i] = value.b;
+    bits_[kAlphaKey][i] = ray.alpha_key;
+    bits_[kSlot][i] = slot;
+    bits_[kLightKind][i] = static_cast<std::uint32_t>(kind);
+    bits_[kEndOfShares][i] = static_cast<std::uint32_t>(shares_.size());
 }
 
 void Connections::to_sample(const Ray& ray, std::uint32_t slot, const Rgb& contribution, LightKind kind,
                             std::span<const ExpressionShare> shares) {
-    Pending& pending = push(ray, shares);
-    pending.value = contribution;
-    pending.slot = slot;
-    pending.kind = kind;
+    push(ray, slot, contribution, kind, shares);
+}
+
+void Connections::to_sample(const WideConnections& connections, WideMask which) {
+    make_room();
+    const auto put = [&](auto& column, auto lanes) { compress(lanes, which).store_unaligned(&column[count_]); };
+    put(floats_[kOriginX], connections.origin.x);
+    put(floats_[kOriginY], connections.origin.y);
+    put(floats_[kOriginZ], connections.origin.z);
+    put(floats_[kDirectionX], connections.direction.x);
+    put(floats_[kDirectionY], connections.direction.y);
+    put(floats_[kDirectionZ], connections.direction.z);
+    put(floats_[kTMax], connections.t_max);
+    put(floats_[kTime], connections.time);
+    put(floats_[kRed], connections.contribution.r);
+    put(floats_[kGreen], connections.contribution.g);
+    put(floats_[kBlue], connections.contribution.b);
+    put(bits_[kAlphaKey], connections.alpha_key);
+    put(bits_[kSlot], connections.slot);
+    put(bits_[kLightKind], select(connections.is_direct, WideBits(static_cast<std::uint32_t>(LightKind::Direct)),
+                                  WideBits(static_cast<std::uint32_t>(LightKind::Indirect))));
+    put(bits_[kEndOfShares], WideBits(static_cast<std::uint32_t>(shares_.size())));
+    count_ += count(which);
 }
 
 void Connections::to_film(const Ray& ray, std::uint32_t slot, const Splat& splat, LightKind kind,
                           std::span<const ExpressionShare> shares) {
-    Pending& pending = push(ray, shares);
-    pending.value = splat.value;
-    pending.position = splat.position;
-    pending.depth = splat.depth;
-    pending.slot = slot;
-    pending.is_splat = true;
-    pending.kind = kind;
+    push(ray, slot, splat.value, kind, shares);
+    places_.push_back({splat.position, splat.depth});
+}
+
+RayColumns Connections::rays() const {
+    const auto floats = [&](FloatColumn column) { return floats_[column].data(); };
+    return {floats(kOriginX),    floats(kOriginY), floats(kOriginZ), floats(kDirectionX),     floats(kDirectionY),
+            floats(kDirectionZ), floats(kTMax),    floats(kTime),    bits_[kAlphaKey].data(), count_};
 }
 
 void Connections::resolve(const World& world, const TileJob& job, std::span<const CameraSample> samples,
                           SampleLight& light, TileBuffer& tile, RenderCounters& counters) {
-    if (rays_.empty()) return;
-    occluded_.resize(rays_.size());
-    occluded_batch(world, job, kind_, rays_, occluded_, counters);
+    if (count_ == 0) return;
+    occluded_.resize(count_);
+    occluded_batch(world, job, kind_, rays(), occluded_, counters);
     const std::span<const ExpressionShare> all_shares(shares_);
-    for (std::size_t i = 0, first = 0; i < pending_.size(); ++i) {
-        const Pending& pending = pending_[i];
-        const auto shares = all_shares.subspan(first, pending.end_of_shares - first);
-        first = pending.end_of_shares;
-        light.count_ray(pending.slot);
+    for (std::size_t i = 0, first = 0; i < count_; ++i) {
+        const auto shares = all_shares.subspan(first, bits_[kEndOfShares][i] - first);
+        first = bits_[kEndOfShares][i];
+        const std::uint32_t slot = bits_[kSlot][i];
+        light.count_ray(slot);
         if (occluded_[i] != 0) continue;
-        if (!pending.is_splat)
-            light.add(pending.slot, pending.value, pending.kind, shares);
-        else if (is_finite(pending.value) && min_component(pending.value) >= 0.0f)
-            light.add_splat(pending.slot, samples[pending.slot].key.index,
-                            {.position = pending.position, .value = pending.value, .depth = pending.depth},
-                            pending.kind, shares, tile.splats());
+        const Rgb value{floats_[kRed][i], floats_[kGreen][i], floats_[kBlue][i]};
+        const auto kind = static_cast<LightKind>(bits_[kLightKind][i]);
+        if (places_.empty())
+            light.add(slot, value, kind, shares);
+        else if (is_finite(value) && min_component(value) >= 0.0f)
+            light.add_splat(slot, samples[slot].key.index,
+                            {.position = places_[i].position, .value = value, .depth = places_[i].depth}, kind, shares,
+                            tile.splats());
         else
-            counters.drop(located(job, samples[pending.slot]));
+            counters.drop(located(job, samples[slot]));
     }
-    rays_.clear();
-    pending_.clear();
+    count_ = 0;
+    places_.clear();
     shares_.clear();
     stamp(job.profile, Stage::Splat);
 }

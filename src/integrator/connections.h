@@ -2,15 +2,34 @@
 #pragma once
 
 #include "core/ray.h"
+#include "core/ray_columns.h"
+#include "core/wide_bits.h"
 #include "film/splat_film.h"
 #include "integrator/camera_wave.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace etendue {
+
+/// Connections to samples, of as many paths as `Wide` has lanes and without shares of expressions.
+struct WideConnections {
+    Imath::Vec3<Wide> origin, direction;
+    Wide t_max, time;
+    WideBits alpha_key;
+    WideBits slot;
+    BasicRgb<Wide> contribution;
+    WideMask is_direct;
+};
+
+/// Where a connection falls on the film, as in Splat.
+struct SplatPlace {
+    Vec2f position{0.0f, 0.0f};
+    float depth = 0.0f;
+};
 
 class Connections {
   public:
@@ -20,37 +39,64 @@ class Connections {
     /// To the light of sample `slot`. `shares` are those of expressions.
     void to_sample(const Ray& ray, std::uint32_t slot, const Rgb& contribution, LightKind kind,
                    std::span<const ExpressionShare> shares);
+    /// The same of those that `which` says.
+    void to_sample(const WideConnections& connections, WideMask which);
     /// To the place on the film that `splat` says, by the light path of sample `slot`.
     void to_film(const Ray& ray, std::uint32_t slot, const Splat& splat, LightKind kind,
                  std::span<const ExpressionShare> shares);
+    /// The same of those that `which` says; `place_of` says it of a lane.
+    template <typename PlaceOf>
+    void to_film(const WideConnections& connections, WideMask which, const PlaceOf& place_of) {
+        to_sample(connections, which);
+        for (std::size_t lane = 0; lane < Wide::kWidth; ++lane)
+            if (which[lane]) places_.push_back(place_of(lane));
+    }
 
     /// Traces all rays and adds what arrives, in the order of the calls above.
     void resolve(const World& world, const TileJob& job, std::span<const CameraSample> samples, SampleLight& light,
                  TileBuffer& tile, RenderCounters& counters);
-    [[nodiscard]] std::size_t bytes() const { return vector_bytes(rays_, pending_, shares_, occluded_); }
+    [[nodiscard]] std::size_t bytes() const;
     /// True once there are enough to fill a batch.
-    [[nodiscard]] bool is_full() const { return rays_.size() >= kBatch; }
+    [[nodiscard]] bool is_full() const { return count_ >= kBatch; }
 
   private:
     /// Rays traced together: enough for full packets, and their 36 bytes each stay in a cache of 1 MiB.
     static constexpr std::size_t kBatch = 8192;
 
-    struct Pending {
-        Rgb value;
-        Vec2f position{0.0f, 0.0f};  ///< on the film, if it is a splat
-        float depth = 0.0f;          ///< of that
-        std::uint32_t slot = 0;
-        std::uint32_t end_of_shares = 0;  ///< its shares are those from where the one before has ended
-        bool is_splat = false;
-        LightKind kind = LightKind::Direct;
+    /// Columns of floats.
+    enum FloatColumn : std::size_t {
+        kOriginX,
+        kOriginY,
+        kOriginZ,
+        kDirectionX,
+        kDirectionY,
+        kDirectionZ,
+        kTMax,
+        kTime,
+        kRed,
+        kGreen,
+        kBlue,
+        kFloatColumns
     };
-    /// One more, to be filled in where it lies: a copy of what was just written, number by number, would wait until all
-    /// of that is in the cache.
-    Pending& push(const Ray& ray, std::span<const ExpressionShare> shares);
+    /// Of bits.
+    enum BitColumn : std::size_t {
+        kAlphaKey,
+        kSlot,
+        kLightKind,
+        kEndOfShares,  ///< its shares are those from where the one before has ended
+        kBitColumns
+    };
+    /// Makes room for as many as a packet has, and for a packet behind them.
+    void make_room();
+    void push(const Ray& ray, std::uint32_t slot, const Rgb& value, LightKind kind,
+              std::span<const ExpressionShare> shares);
+    [[nodiscard]] RayColumns rays() const;
 
     RayKind kind_;
-    std::vector<Ray> rays_;
-    std::vector<Pending> pending_;
+    std::size_t count_ = 0;
+    std::array<std::vector<float>, kFloatColumns> floats_;
+    std::array<std::vector<std::uint32_t>, kBitColumns> bits_;
+    std::vector<SplatPlace> places_;  ///< of splats: of all connections or of none
     std::vector<ExpressionShare> shares_;
     std::vector<std::uint8_t> occluded_;
 };

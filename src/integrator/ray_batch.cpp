@@ -32,7 +32,7 @@ void intersect_batch(const World& world, const TileJob& job, RayKind kind, const
     intersect_any(world, job, kind, rays, hits, counters);
 }
 
-void occluded_batch(const World& world, const TileJob& job, RayKind kind, std::span<const Ray> rays,
+void occluded_batch(const World& world, const TileJob& job, RayKind kind, const RayColumns& rays,
                     std::span<std::uint8_t> occluded, RenderCounters& counters) {
     WaveProfile* profile = job.profile;
     if (profile != nullptr) profile->record(kind, rays);

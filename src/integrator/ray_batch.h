@@ -16,7 +16,7 @@ void intersect_batch(const World& world, const TileJob& job, RayKind kind, const
                      RenderCounters& counters);
 
 /// 1 where something is in the way of a ray, else 0; `occluded` is as long as `rays`.
-void occluded_batch(const World& world, const TileJob& job, RayKind kind, std::span<const Ray> rays,
+void occluded_batch(const World& world, const TileJob& job, RayKind kind, const RayColumns& rays,
                     std::span<std::uint8_t> occluded, RenderCounters& counters);
 
 }  // namespace etendue

@@ -108,7 +108,10 @@ void fill_rays(const RayColumns& rays, std::size_t first, std::size_t /*count*/,
     std::copy_n(rays.direction_y + first, Width, packet.dir_y);
     std::copy_n(rays.direction_z + first, Width, packet.dir_z);
     std::copy_n(rays.time + first, Width, packet.time);
-    std::fill_n(packet.tfar, Width, std::numeric_limits<float>::infinity());
+    if (rays.t_max != nullptr)
+        std::copy_n(rays.t_max + first, Width, packet.tfar);
+    else
+        std::fill_n(packet.tfar, Width, std::numeric_limits<float>::infinity());
 }
 
 /// Rays `first` … of the batch, of which there is at least one, as a packet; lanes beyond the end are invalid.

@@ -187,7 +187,8 @@ void EmbreeScene::intersect(const RayColumns& rays, std::span<Hit> hits, Coheren
     intersect_batch(rays, hits, coherence, form);
 }
 
-void EmbreeScene::occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, QueryForm form) const {
+template <typename Batch>
+void EmbreeScene::occluded_batch(const Batch& rays, std::span<std::uint8_t> occluded, QueryForm form) const {
     switch (form) {
         case QueryForm::Single:
             occluded_single(rays, occluded);
@@ -200,6 +201,14 @@ void EmbreeScene::occluded(std::span<const Ray> rays, std::span<std::uint8_t> oc
             occluded_packets<16>(rays, occluded);
             break;
     }
+}
+
+void EmbreeScene::occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, QueryForm form) const {
+    occluded_batch(rays, occluded, form);
+}
+
+void EmbreeScene::occluded(const RayColumns& rays, std::span<std::uint8_t> occluded, QueryForm form) const {
+    occluded_batch(rays, occluded, form);
 }
 
 bool EmbreeScene::takes_as_coherent(Coherence coherence) const {
@@ -241,7 +250,8 @@ void EmbreeScene::intersect_packets(const Batch& rays, std::span<Hit> hits, bool
 
 // Embree marks occluded rays with tfar = -inf.
 
-void EmbreeScene::occluded_single(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const {
+template <typename Batch>
+void EmbreeScene::occluded_single(const Batch& rays, std::span<std::uint8_t> occluded) const {
     QueryContext context(*this, rays, false);
     for (std::size_t i = 0; i < rays.size(); ++i) {
         RTCRay query = make_ray(rays[i], static_cast<unsigned int>(i));
@@ -250,8 +260,8 @@ void EmbreeScene::occluded_single(std::span<const Ray> rays, std::span<std::uint
     }
 }
 
-template <std::size_t Width>
-void EmbreeScene::occluded_packets(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const {
+template <std::size_t Width, typename Batch>
+void EmbreeScene::occluded_packets(const Batch& rays, std::span<std::uint8_t> occluded) const {
     QueryContext context(*this, rays, false);
     for_each_packet<Width, typename Packet<Width>::Rays>(
         rays, [&](const PacketMask<Width>& mask, auto& packet, std::size_t first, std::size_t count) {

@@ -41,6 +41,7 @@ class EmbreeScene {
     void intersect(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence, QueryForm form) const;
     void intersect(const RayColumns& rays, std::span<Hit> hits, Coherence coherence, QueryForm form) const;
     void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, QueryForm form) const;
+    void occluded(const RayColumns& rays, std::span<std::uint8_t> occluded, QueryForm form) const;
 
     /// See World::replay.
     [[nodiscard]] double replay(std::span<const Ray> rays, bool occlusion, Coherence coherence, QueryForm form) const;
@@ -76,9 +77,12 @@ class EmbreeScene {
     void intersect_single(const Batch& rays, std::span<Hit> hits) const;
     template <std::size_t Width, typename Batch>
     void intersect_packets(const Batch& rays, std::span<Hit> hits, bool coherent) const;
-    void occluded_single(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const;
-    template <std::size_t Width>
-    void occluded_packets(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const;
+    template <typename Batch>
+    void occluded_batch(const Batch& rays, std::span<std::uint8_t> occluded, QueryForm form) const;
+    template <typename Batch>
+    void occluded_single(const Batch& rays, std::span<std::uint8_t> occluded) const;
+    template <std::size_t Width, typename Batch>
+    void occluded_packets(const Batch& rays, std::span<std::uint8_t> occluded) const;
     template <std::size_t Width>
     [[nodiscard]] double replay_packets(std::span<const Ray> rays, QueryContext& context, bool occlusion,
                                         bool coherent) const;

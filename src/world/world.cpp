@@ -150,6 +150,10 @@ void World::occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded
     data_->bvh->occluded(rays, occluded, form);
 }
 
+void World::occluded(const RayColumns& rays, std::span<std::uint8_t> occluded, QueryForm form) const {
+    data_->bvh->occluded(rays, occluded, form);
+}
+
 double World::replay(std::span<const Ray> rays, bool occlusion, Coherence coherence, QueryForm form) const {
     return data_->bvh->replay(rays, occlusion, coherence, form);
 }

@@ -168,6 +168,7 @@ class World {
                    QueryForm form = QueryForm::Best) const;
     /// 1 where something lies within (0, t_max], else 0; `occluded` is as long as `rays`.
     void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, QueryForm form = QueryForm::Best) const;
+    void occluded(const RayColumns& rays, std::span<std::uint8_t> occluded, QueryForm form = QueryForm::Best) const;
     /// Seconds that bare Embree takes to trace `rays`, without what it takes to hand them over or to look at what they
     /// hit: the ceiling for any renderer. `occlusion`: whether they only ask if something is in the way.
     [[nodiscard]] double replay(std::span<const Ray> rays, bool occlusion, Coherence coherence, QueryForm form) const;

@@ -5,11 +5,14 @@
 #include "core/ray.h"
 #include "core/rgb.h"
 #include "core/trigonometry.h"
+#include "core/wide_bits.h"
 #include "support/lanes.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <type_traits>
 #include <utility>
@@ -128,6 +131,48 @@ TEST(Wide, GathersFromTables) {
                   0.0f, 4.0f, [&](const auto& in) { return std::array{gather(kTable.data(), floor(in[0]))}; })),
               0.0f);
     EXPECT_EQ(gather(kTable.data(), 2.0f), 5.0f);
+}
+
+TEST(Wide, CompressesWhatIsKept) {
+    std::array<float, Wide::kWidth> numbers;
+    std::array<std::uint32_t, Wide::kWidth> bits;
+    for (std::size_t lane = 0; lane < Wide::kWidth; ++lane) {
+        numbers[lane] = static_cast<float>(lane + 1);
+        bits[lane] = 0xff800000u + static_cast<std::uint32_t>(lane);  // as floats none are numbers
+    }
+    for (std::uint32_t pattern = 0; pattern < 1u << Wide::kWidth; pattern += 1u + pattern / 64u) {
+        std::array<float, Wide::kWidth> is_kept;
+        for (std::size_t lane = 0; lane < Wide::kWidth; ++lane)
+            is_kept[lane] = static_cast<float>((pattern >> lane) & 1u);
+        const WideMask mask = Wide::load_unaligned(is_kept.data()) != Wide(0.0f);
+        std::array<float, Wide::kWidth> kept;
+        std::array<std::uint32_t, Wide::kWidth> kept_bits;
+        compress(Wide::load_unaligned(numbers.data()), mask).store_unaligned(kept.data());
+        compress(WideBits::load(bits.data()), mask).store_unaligned(kept_bits.data());
+        std::size_t next = 0;
+        for (std::size_t lane = 0; lane < Wide::kWidth; ++lane) {
+            if (is_kept[lane] == 0.0f) continue;
+            EXPECT_EQ(kept[next], numbers[lane]);
+            EXPECT_EQ(kept_bits[next++], bits[lane]);
+        }
+        EXPECT_EQ(count(mask), next);
+    }
+}
+
+TEST(Wide, TheFirstLanesAreThoseBeforeANumber) {
+    for (std::size_t lanes = 0; lanes <= 2 * Wide::kWidth; ++lanes)
+        for (std::size_t lane = 0; lane < Wide::kWidth; ++lane)
+            EXPECT_EQ(WideMask::first(lanes)[lane], lane < lanes) << lanes;
+}
+
+TEST(Wide, BitsAreSelectedAndCompared) {
+    std::array<std::uint32_t, Wide::kWidth> bits;
+    for (std::size_t lane = 0; lane < Wide::kWidth; ++lane) bits[lane] = static_cast<std::uint32_t>(lane % 3);
+    const WideBits all = WideBits::load(bits.data());
+    std::array<std::uint32_t, Wide::kWidth> selected;
+    select(all != WideBits(1u), all, WideBits(0x7fc00001u)).store_unaligned(selected.data());
+    for (std::size_t lane = 0; lane < Wide::kWidth; ++lane)
+        EXPECT_EQ(selected[lane], bits[lane] != 1u ? bits[lane] : 0x7fc00001u);
 }
 
 TEST(Wide, ChoosesWhatIsAskedFor) {

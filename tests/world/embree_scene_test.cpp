@@ -132,6 +132,50 @@ std::vector<Ray> random_rays(std::uint32_t seed, std::size_t count) {
     return rays;
 }
 
+/// Rays as columns, with room for a packet behind the last.
+class ColumnsOf {
+  public:
+    explicit ColumnsOf(std::span<const Ray> rays) {
+        for (auto& column : floats_) column.resize(rays.size() + RayColumns::kPacket);
+        alpha_keys_.resize(rays.size() + RayColumns::kPacket);
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            const Ray& ray = rays[i];
+            const std::array numbers{ray.origin.x,    ray.origin.y, ray.origin.z, ray.direction.x, ray.direction.y,
+                                     ray.direction.z, ray.t_max,    ray.time};
+            for (std::size_t column = 0; column < numbers.size(); ++column) floats_[column][i] = numbers[column];
+            alpha_keys_[i] = ray.alpha_key;
+        }
+        columns_ = {floats_[0].data(), floats_[1].data(), floats_[2].data(), floats_[3].data(), floats_[4].data(),
+                    floats_[5].data(), floats_[6].data(), floats_[7].data(), alpha_keys_.data(), rays.size()};
+    }
+    [[nodiscard]] const RayColumns& columns() const { return columns_; }
+
+  private:
+    std::array<std::vector<float>, 8> floats_;
+    std::vector<std::uint32_t> alpha_keys_;
+    RayColumns columns_;
+};
+
+/// Fails if the rays, as columns, do not meet `hits` and `occluded`.
+void expect_the_same_of_columns(const World& world, std::span<const Ray> rays, Coherence coherence, QueryForm form,
+                                std::span<const Hit> hits, std::span<const std::uint8_t> occluded) {
+    const ColumnsOf columns(rays);
+    std::vector<Hit> hits_of_columns(rays.size());
+    std::vector<std::uint8_t> occluded_of_columns(rays.size());
+    world.intersect(columns.columns(), hits_of_columns, coherence, form);
+    world.occluded(columns.columns(), occluded_of_columns, form);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        EXPECT_EQ(hits_of_columns[i].t, hits[i].t) << "ray " << i;
+        EXPECT_EQ(hits_of_columns[i].u, hits[i].u) << "ray " << i;
+        EXPECT_EQ(hits_of_columns[i].v, hits[i].v) << "ray " << i;
+        EXPECT_EQ(hits_of_columns[i].triangle, hits[i].triangle) << "ray " << i;
+        EXPECT_EQ(hits_of_columns[i].geometry, hits[i].geometry) << "ray " << i;
+        EXPECT_EQ(hits_of_columns[i].instance, hits[i].instance) << "ray " << i;
+        EXPECT_EQ(hits_of_columns[i].time, hits[i].time) << "ray " << i;
+        EXPECT_EQ(occluded_of_columns[i], occluded[i]) << "ray " << i;
+    }
+}
+
 constexpr QueryForm kForms[] = {QueryForm::Best, QueryForm::Single, QueryForm::Packet8, QueryForm::Packet16};
 constexpr Coherence kCoherences[] = {Coherence::Coherent, Coherence::Incoherent};
 
@@ -187,6 +231,7 @@ TEST(EmbreeScene, OccludedAgreesWithTheSearchUpToTMax) {
             world.occluded(rays, results, form);
             std::vector<Hit> hits(rays.size());
             world.intersect(rays, hits, coherence, form);
+            expect_the_same_of_columns(world, rays, coherence, form, hits, results);
             std::size_t compared = 0;
             for (std::size_t i = 0; i < rays.size(); ++i) {
                 const ReferenceHit expected = search(triangles, rays[i]);
@@ -285,6 +330,7 @@ double stopped_share(const World& world, const std::vector<Ray>& rays) {
         std::vector<std::uint8_t> results(rays.size());
         world.intersect(rays, hits, Coherence::Coherent, form);
         world.occluded(rays, results, form);
+        expect_the_same_of_columns(world, rays, Coherence::Coherent, form, hits, results);
         for (std::size_t i = 0; i < rays.size(); ++i) {
             EXPECT_EQ(hits[i].valid(), first[i].valid()) << "ray " << i;
             EXPECT_EQ(results[i] != 0, first[i].valid()) << "ray " << i;

@@ -61,6 +61,7 @@ void BdptWave::connect_to_lights(const Context& context, std::size_t first, std:
         const std::size_t lane = wide_to_lights_.size();
         const MeshLight::TriangleChoice& on_light = triangles[i];
         wide_to_lights_.push_back({&vertex, choice.light, on_light.triangle});
+        to_light_lanes_.set_sample(lane, vertex.slot, vertex.is_seen_directly);
         to_light_lanes_.eye.set(lane, eye_.matte_end(vertex));
         to_light_lanes_.front.set(lane, mesh->front(on_light));
         to_light_lanes_.u.set(lane, direction);
@@ -104,6 +105,7 @@ void BdptWave::weigh(const Context& context, const ToLight& connection) {
 
 void BdptWave::weigh_wide_to_lights(const Context& context) {
     to_light_lanes_.connect(wide_to_lights_.size(), context.rule());
+    if (!asks_for_each(context)) return queue_wide(to_light_lanes_, wide_to_lights_.size(), wide_light_connections_);
     for (std::size_t lane = 0; lane < wide_to_lights_.size(); ++lane) {
         const auto& [vertex, light, triangle] = wide_to_lights_[lane];
         const Brought brought = to_light_lanes_.brought(lane);
@@ -115,7 +117,7 @@ void BdptWave::weigh_wide_to_lights(const Context& context) {
                .position = to_light_lanes_.eye[lane].position + wi * to_light_lanes_.distance[lane],
                .direction = -wi,
                .cos_light = to_light_lanes_.cos_light[lane]},
-              to_light_lanes_.ray(lane, to_light_lanes_.eye[lane].origin), brought, wide_light_connections_);
+              to_light_lanes_.ray(lane), brought, wide_light_connections_);
     }
 }
 
@@ -156,6 +158,7 @@ void BdptWave::connect_to_camera(const Context& context, std::size_t first, std:
         }
         const std::size_t lane = wide_to_cameras_.size();
         wide_to_cameras_.push_back({&vertex, *view});
+        to_camera_lanes_.set_sample(lane, vertex.slot, vertex.index <= 1);
         to_camera_lanes_.light.set(lane, end);
         to_camera_lanes_.lens.set(lane, view->camera.lens);
         to_camera_lanes_.w.set(lane, view->direction);
@@ -187,11 +190,18 @@ void BdptWave::weigh(const Context& context, const ToCamera& connection) {
 void BdptWave::weigh_wide_to_camera(const Context& context) {
     to_camera_lanes_.connect(wide_to_cameras_.size(), context.rule(),
                              static_cast<float>(context.samples_per_light_path()));
+    if (!asks_for_each(context))
+        return to_camera_lanes_.for_each_wide(
+            wide_to_cameras_.size(), [&](const WideConnections& connections, WideMask which, std::size_t first) {
+                wide_camera_connections_.to_film(connections, which, [&](std::size_t lane) {
+                    const CameraView& view = wide_to_cameras_[first + lane].view;
+                    return SplatPlace{view.pixel, view.depth};
+                });
+            });
     for (std::size_t lane = 0; lane < wide_to_cameras_.size(); ++lane) {
         const auto& [vertex, view] = wide_to_cameras_[lane];
         if (const Brought brought = to_camera_lanes_.brought(lane); !is_black(brought.light))
-            queue(context, *vertex, view, to_camera_lanes_.ray(lane, to_camera_lanes_.light[lane].origin), brought,
-                  wide_camera_connections_);
+            queue(context, *vertex, view, to_camera_lanes_.ray(lane), brought, wide_camera_connections_);
     }
 }
 
@@ -314,15 +324,28 @@ void BdptWave::weigh_wide_between(const Context& context) {
     const std::size_t count = std::exchange(wide_between_count_, 0);
     for (std::size_t lane = 0; lane < count; ++lane) {
         const WideBetween& connection = wide_between_[lane];
+        between_lanes_.set_sample(lane, connection.eye->slot, false);
         between_lanes_.eye.set(lane, *connection.eye_end);
         between_lanes_.light.set(lane, *connection.light_end);
         between_lanes_.scale.set(lane, connection.scale);
     }
     between_lanes_.connect(count, context.rule());
+    if (!asks_for_each(context)) return queue_wide(between_lanes_, count, wide_vertex_connections_);
     for (std::size_t lane = 0; lane < count; ++lane)
         if (const Brought brought = between_lanes_.brought(lane); !is_black(brought.light))
-            queue(context, *wide_between_[lane].eye, *wide_between_[lane].light,
-                  between_lanes_.ray(lane, between_lanes_.eye[lane].origin), brought, wide_vertex_connections_);
+            queue(context, *wide_between_[lane].eye, *wide_between_[lane].light, between_lanes_.ray(lane), brought,
+                  wide_vertex_connections_);
+}
+
+bool BdptWave::asks_for_each(const Context& context) {
+    return context.checks_any() || eye_.words().are_followed() || context.world.has_motion() ||
+           context.world.has_transparency();
+}
+
+void BdptWave::queue_wide(const ConnectionColumns& lanes, std::size_t count, Connections& connections) {
+    lanes.for_each_wide(count, [&](const WideConnections& wide, WideMask which, std::size_t /*first*/) {
+        connections.to_sample(wide, which);
+    });
 }
 
 void BdptWave::queue(const Context& context, const ConnectibleVertex& eye, const ConnectibleVertex& light, Ray ray,

@@ -3,8 +3,10 @@
 namespace etendue {
 
 void BetweenLanes::connect(std::size_t count, const WeightRule& rule) {
-    for (std::size_t l = 0; l < count; l += Wide::kWidth)
-        store(l, etendue::connect(rule, eye.load(l, count), light.load(l, count), scale.load(l)));
+    for (std::size_t l = 0; l < count; l += Wide::kWidth) {
+        const BasicMatteEnd<Wide> end = eye.load(l, count);
+        store(l, end.origin, etendue::connect(rule, end, light.load(l, count), scale.load(l)));
+    }
 }
 
 void ToLightLanes::connect(std::size_t count, const WeightRule& rule) {
@@ -15,15 +17,18 @@ void ToLightLanes::connect(std::size_t count, const WeightRule& rule) {
         wi.store(l, sample.wi);
         distance.store(l, sample.distance);
         cos_light.store(l, sample.cos_light);
-        store(l, etendue::connect(rule, end, triangle, sample, radiance.load(l), probability.load(l),
-                                  choice_ratio.load(l)));
+        store(
+            l, end.origin,
+            etendue::connect(rule, end, triangle, sample, radiance.load(l), probability.load(l), choice_ratio.load(l)));
     }
 }
 
 void ToCameraLanes::connect(std::size_t count, const WeightRule& rule, float samples_per_path) {
-    for (std::size_t l = 0; l < count; l += Wide::kWidth)
-        store(l, etendue::connect(rule, light.load(l, count), lens.load(l), w.load(l), importance.load(l),
-                                  samples_per_path));
+    for (std::size_t l = 0; l < count; l += Wide::kWidth) {
+        const BasicMatteEnd<Wide> end = light.load(l, count);
+        store(l, end.origin,
+              etendue::connect(rule, end, lens.load(l), w.load(l), importance.load(l), samples_per_path));
+    }
 }
 
 }  // namespace etendue

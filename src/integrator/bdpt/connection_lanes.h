@@ -3,6 +3,7 @@
 
 #include "core/columns.h"
 #include "integrator/bdpt/matte_connections.h"
+#include "integrator/connections.h"
 #include "integrator/light_front_columns.h"
 
 #include <cstddef>
@@ -16,21 +17,45 @@ struct Brought {
 };
 
 struct ConnectionColumns {
+    BitColumn slot;       ///< of the sample whose light it is
+    BitColumn is_direct;  ///< 1 where that is direct light, else 0
+
     RgbColumns contribution;
     Column weight;
-    Vec3Columns direction;
+    Vec3Columns origin, direction;
     Column t_max;
 
+    void set_sample(std::size_t lane, std::uint32_t slot_of_lane, bool is_direct_light) {
+        slot.set(lane, slot_of_lane);
+        is_direct.set(lane, is_direct_light ? 1u : 0u);
+    }
     [[nodiscard]] Brought brought(std::size_t lane) const { return {contribution[lane], weight[lane]}; }
-    /// From `origin`, that of the end.
-    [[nodiscard]] Ray ray(std::size_t lane, const Vec3f& origin) const {
+    [[nodiscard]] Ray ray(std::size_t lane) const {
         Ray ray;
-        ray.origin = origin;
+        ray.origin = origin[lane];
         ray.direction = direction[lane];
         ray.t_max = t_max[lane];
         return ray;
     }
-    void store(std::size_t first, const MatteConnection<Wide>& connection) {
+    /// Calls `queue(connections, which, first)` for all of the `count` that bring anything, where rays have no time and
+    /// nothing is partly transparent.
+    template <typename Queue>
+    void for_each_wide(std::size_t count, const Queue& queue) const {
+        for (std::size_t first = 0; first < count; first += Wide::kWidth) {
+            const BasicRgb<Wide> light = contribution.load(first);
+            queue(WideConnections{.origin = origin.load(first),
+                                  .direction = direction.load(first),
+                                  .t_max = t_max.load(first),
+                                  .time = 0.0f,
+                                  .alpha_key = 0u,
+                                  .slot = slot.load(first),
+                                  .contribution = light,
+                                  .is_direct = is_direct.load(first) != WideBits(0u)},
+                  WideMask::first(count - first) && !is_black(light), first);
+        }
+    }
+    void store(std::size_t first, const Imath::Vec3<Wide>& from, const MatteConnection<Wide>& connection) {
+        origin.store(first, from);
         contribution.store(first, connection.contribution);
         weight.store(first, connection.weight);
         direction.store(first, connection.ray.direction);
@@ -40,7 +65,7 @@ struct ConnectionColumns {
 
 // Each computes lanes [0, count), rounded up, from what the caller has set.
 
-/// Of two subpaths; about 3 KiB. Ends stay where they are until rays are asked for.
+/// Of two subpaths; about 5 KiB. Ends stay where they are until rays are asked for.
 struct BetweenLanes : ConnectionColumns {
     MatteEndsOfBlock eye, light;
     Column scale;  ///< how many connections one stands for
@@ -48,7 +73,7 @@ struct BetweenLanes : ConnectionColumns {
     void connect(std::size_t count, const WeightRule& rule);
 };
 
-/// To samples of even mesh lights; about 10 KiB.
+/// To samples of even mesh lights; about 11 KiB.
 struct ToLightLanes : ConnectionColumns {
     MatteEndsOfBlock eye;
     LightFrontColumns front;
@@ -64,7 +89,7 @@ struct ToLightLanes : ConnectionColumns {
     void connect(std::size_t count, const WeightRule& rule);
 };
 
-/// To the camera; about 4 KiB.
+/// To the camera; about 5 KiB.
 struct ToCameraLanes : ConnectionColumns {
     MatteEndsOfBlock light;
     Vec3Columns lens, w;  ///< the point there, and the unit vector to it

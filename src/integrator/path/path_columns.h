@@ -101,9 +101,8 @@ struct PathColumns {
     BasicBitColumn<kSize> history;               ///< see path_history
 
     [[nodiscard]] RayColumns rays(std::size_t count) const {
-        return {origin.x.data(),    origin.y.data(),    origin.z.data(),
-                direction.x.data(), direction.y.data(), direction.z.data(),
-                time.data(),        alpha_key.data(),   count};
+        return {origin.x.data(),    origin.y.data(), origin.z.data(), direction.x.data(), direction.y.data(),
+                direction.z.data(), nullptr,         time.data(),     alpha_key.data(),   count};
     }
     void set_ray(std::size_t i, const Ray& ray) {
         origin.set(i, ray.origin);
@@ -133,6 +132,10 @@ struct PathColumns {
     }
     void multiply_throughput(std::size_t i, const Rgb& by) { throughput.set(i, throughput[i] * by); }
     [[nodiscard]] bool is(std::uint32_t flag, std::size_t i) const { return (history[i] & flag) != 0; }
+    /// The same of a `Wide` of them.
+    [[nodiscard]] WideMask are(std::uint32_t flag, std::size_t first) const {
+        return (history.load(first) & WideBits(flag)) != WideBits(0u);
+    }
     [[nodiscard]] int edges(std::size_t i) const { return path_history::edges(history[i]); }
 };
 

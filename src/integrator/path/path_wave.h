@@ -135,6 +135,8 @@ class PathWave final : public IntegratorScratch {
     void queue_direct_light(const Context& context);
     void queue_singly(const Context& context, std::size_t k);
     void queue_by_lanes(const Context& context, std::size_t k);
+    /// The same for all that are_wide, at once, where no words are followed and nothing lies on the way.
+    void queue_by_lanes(const Context& context);
     void queue_direct_light_in_medium(const Context& context, std::size_t k, const Vec3f& position,
                                       const HomogeneousMedium& medium);
     /// What the light that path `k` samples is made from.
@@ -147,6 +149,10 @@ class PathWave final : public IntegratorScratch {
     /// Adds `light` that path `i` of the wave has met.
     void add_light(std::size_t i, const Rgb& light, const AovSet::Source& source);
     [[nodiscard]] std::uint32_t alpha_key(const Context& context, std::size_t k) const;
+    /// Another than that of the ray that goes on.
+    [[nodiscard]] std::uint32_t shadow_alpha_key(const Context& context, std::size_t k) const {
+        return ~alpha_key(context, k);
+    }
 
     // By active path; paths that end are squeezed out after every bounce.
     std::size_t active_ = 0;

@@ -170,21 +170,36 @@ void PathWave::add_emission(const Context& context, std::size_t k) {
 
 void PathWave::queue_direct_light(const Context& context) {
     lanes_.weigh_light(count_, paths_, first_);
-    // First which ones light arrives at, without a branch: that is so much by chance that a branch would take longer.
-    std::array<std::uint8_t, kBlock> lit;
-    std::size_t count = 0;
-    for (const std::uint8_t k : on_surface()) {
-        const ShadedPath& path = block_[k];
-        const bool arrives = lanes_.arrives[k] != 0.0f;
-        lit[count] = k;
-        count += (path.is_wide ? arrives : path.samples_light) ? 1 : 0;
-        if (context.job.profile != nullptr && path.samples_light) ++context.job.profile->use().light_samples;
+    if (context.job.profile != nullptr)
+        for (const std::uint8_t k : on_surface())
+            if (block_[k].samples_light) ++context.job.profile->use().light_samples;
+    if (words_.are_followed() || context.world.has_bodies()) {
+        for (const std::uint8_t k : on_surface())
+            if (block_[k].is_wide && lanes_.arrives[k] != 0.0f) queue_by_lanes(context, k);
+    } else {
+        queue_by_lanes(context);
     }
-    for (const std::uint8_t k : std::span(lit).first(count))
-        if (block_[k].is_wide)
-            queue_by_lanes(context, k);
-        else
-            queue_singly(context, k);
+    for (const std::uint8_t k : on_surface())
+        if (!block_[k].is_wide && block_[k].samples_light) queue_singly(context, k);
+}
+
+void PathWave::queue_by_lanes(const Context& context) {
+    const bool has_transparency = context.world.has_transparency();
+    for (std::size_t l = 0; l < count_; l += Wide::kWidth) {
+        const std::size_t i = first_ + l;
+        if (has_transparency)
+            for (std::size_t k = l; k < std::min(l + Wide::kWidth, count_); ++k)
+                paths_.alpha_key.set(first_ + k, shadow_alpha_key(context, k));
+        shadow_rays_.to_sample({.origin = lanes_.shadow_origin.load(l),
+                                .direction = lanes_.shadow_direction.load(l),
+                                .t_max = lanes_.shadow_t_max.load(l),
+                                .time = paths_.time.load(i),
+                                .alpha_key = paths_.alpha_key.load(i),
+                                .slot = paths_.slot.load(i),
+                                .contribution = lanes_.contribution.load(l),
+                                .is_direct = paths_.are(path_history::kOnlyDelta, i)},
+                               lanes_.arrives.load(l) != Wide(0.0f) && lanes_.is_wide.load(l) != Wide(0.0f));
+    }
 }
 
 void PathWave::queue_singly(const Context& context, std::size_t k) {
@@ -247,7 +262,7 @@ void PathWave::queue(const Context& context, std::size_t k, Ray ray, const Rgb& 
     if (words_.are_followed())
         words_.end_at_light(ranges_[i], event, words_.light_source(context.world, light), shares_);
     ray.time = paths_.time[i];
-    ray.alpha_key = ~alpha_key(context, k);  // another key than the bounce ray's
+    ray.alpha_key = shadow_alpha_key(context, k);
     shadow_rays_.to_sample(ray, paths_.slot[i], contribution,
                            paths_.is(path_history::kOnlyDelta, i) ? LightKind::Direct : LightKind::Indirect, shares_);
 }
