@@ -28,6 +28,11 @@ class WideBits {
     /// To any address.
     void store_unaligned(std::uint32_t* to) const { lanes_.copy_to(to, std::experimental::element_aligned); }
 
+    /// Only to be moved: what they stand for as floats is of no meaning.
+    [[nodiscard]] Wide as_floats() const { return Wide(std::bit_cast<Wide::Simd>(lanes_)); }
+    /// The way back.
+    [[nodiscard]] static WideBits of(Wide floats) { return WideBits(std::bit_cast<Simd>(floats.simd())); }
+
     WideBits& operator^=(WideBits o) { return *this = *this ^ o; }
     WideBits& operator+=(WideBits o) { return *this = *this + o; }
     WideBits& operator*=(WideBits o) { return *this = *this * o; }
@@ -69,14 +74,6 @@ class WideBits {
 #endif
 
   private:
-    // Only to be moved: what they stand for as floats is of no meaning.
-    [[nodiscard]] Wide as_floats() const {
-        return Wide(std::bit_cast<Wide::Simd>(lanes_));
-    }
-    [[nodiscard]] static WideBits of(Wide floats) {
-        return WideBits(std::bit_cast<Simd>(floats.simd()));
-    }
-
     Simd lanes_;
 };
 

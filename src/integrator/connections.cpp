@@ -3,6 +3,9 @@
 #include "integrator/profile/wave_profile.h"
 #include "integrator/ray_batch.h"
 
+#include <bit>
+#include <utility>
+
 namespace etendue {
 
 std::size_t Connections::bytes() const {
@@ -22,23 +25,36 @@ void Connections::make_room() {
 void Connections::push(const Ray& ray, std::uint32_t slot, const Rgb& value, LightKind kind,
                        std::span<const ExpressionShare> shares) {
     if (!shares.empty()) shares_.insert(shares_.end(), shares.begin(), shares.end());
+    if (rows_ == Wide::kWidth) flush();
+    const auto bits = [](std::uint32_t number) { return std::bit_cast<float>(number); };
+    row_[rows_++] = {ray.origin.x,
+                     ray.origin.y,
+                     ray.origin.z,
+                     ray.direction.x,
+                     ray.direction.y,
+                     ray.direction.z,
+                     ray.t_max,
+                     ray.time,
+                     value.r,
+                     value.g,
+                     value.b,
+                     bits(ray.alpha_key),
+                     bits(slot),
+                     bits(static_cast<std::uint32_t>(kind)),
+                     bits(static_cast<std::uint32_t>(shares_.size()))};
+}
+
+void Connections::flush() {
+    if (rows_ == 0) return;
     make_room();
-    const std::size_t i = count_++;
-    floats_[kOriginX][i] = ray.origin.x;
-    floats_[kOriginY][i] = ray.origin.y;
-    floats_[kOriginZ][i] = ray.origin.z;
-    floats_[kDirectionX][i] = ray.direction.x;
-    floats_[kDirectionY][i] = ray.direction.y;
-    floats_[kDirectionZ][i] = ray.direction.z;
-    floats_[kTMax][i] = ray.t_max;
-    floats_[kTime][i] = ray.time;
-    floats_[kRed][i] = value.r;
-    floats_[kGreen][i] = value.g;
-    floats_[kBlue][i] = value.b;
-    bits_[kAlphaKey][i] = ray.alpha_key;
-    bits_[kSlot][i] = slot;
-    bits_[kLightKind][i] = static_cast<std::uint32_t>(kind);
-    bits_[kEndOfShares][i] = static_cast<std::uint32_t>(shares_.size());
+    std::array<const float*, Wide::kWidth> rows;
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = row_[i].data();
+    const WideRow row = load_rows(rows);
+    for (std::size_t column = 0; column < kFloatColumns; ++column)
+        row[column].store_unaligned(&floats_[column][count_]);
+    for (std::size_t column = 0; column < kBitColumns; ++column)
+        WideBits::of(row[kFloatColumns + column]).store_unaligned(&bits_[column][count_]);
+    count_ += std::exchange(rows_, 0);
 }
 
 void Connections::to_sample(const Ray& ray, std::uint32_t slot, const Rgb& contribution, LightKind kind,
@@ -47,6 +63,7 @@ void Connections::to_sample(const Ray& ray, std::uint32_t slot, const Rgb& contr
 }
 
 void Connections::to_sample(const WideConnections& connections, WideMask which) {
+    flush();
     make_room();
     const auto put = [&](auto& column, auto lanes) { compress(lanes, which).store_unaligned(&column[count_]); };
     put(floats_[kOriginX], connections.origin.x);
@@ -82,6 +99,7 @@ RayColumns Connections::rays() const {
 
 void Connections::resolve(const World& world, const TileJob& job, std::span<const CameraSample> samples,
                           SampleLight& light, TileBuffer& tile, RenderCounters& counters) {
+    flush();
     if (count_ == 0) return;
     occluded_.resize(count_);
     occluded_batch(world, job, kind_, rays(), occluded_, counters);

@@ -4,6 +4,7 @@
 #include "core/ray.h"
 #include "core/ray_columns.h"
 #include "core/wide_bits.h"
+#include "core/wide_rows.h"
 #include "film/splat_film.h"
 #include "integrator/camera_wave.h"
 
@@ -57,7 +58,7 @@ class Connections {
                  TileBuffer& tile, RenderCounters& counters);
     [[nodiscard]] std::size_t bytes() const;
     /// True once there are enough to fill a batch.
-    [[nodiscard]] bool is_full() const { return count_ >= kBatch; }
+    [[nodiscard]] bool is_full() const { return count_ + rows_ >= kBatch; }
 
   private:
     /// Rays traced together: enough for full packets, and their 36 bytes each stay in a cache of 1 MiB.
@@ -86,14 +87,23 @@ class Connections {
         kEndOfShares,  ///< its shares are those from where the one before has ended
         kBitColumns
     };
+    /// A number for each column: floats, then bits.
+    struct alignas(kRowFloats * sizeof(float)) Row : std::array<float, kRowFloats> {};
+    static_assert(std::size_t{kFloatColumns} + std::size_t{kBitColumns} <= kRowFloats);
+
     /// Makes room for as many as a packet has, and for a packet behind them.
     void make_room();
+    /// Moves rows to where columns end.
+    void flush();
     void push(const Ray& ray, std::uint32_t slot, const Rgb& value, LightKind kind,
               std::span<const ExpressionShare> shares);
     [[nodiscard]] RayColumns rays() const;
 
     RayKind kind_;
-    std::size_t count_ = 0;
+    // Those that come one by one are put into rows, and moved to the columns many at a time.
+    std::array<Row, Wide::kWidth> row_{};
+    std::size_t rows_ = 0;
+    std::size_t count_ = 0;  ///< in columns
     std::array<std::vector<float>, kFloatColumns> floats_;
     std::array<std::vector<std::uint32_t>, kBitColumns> bits_;
     std::vector<SplatPlace> places_;  ///< of splats: of all connections or of none

@@ -168,14 +168,6 @@ SurfacePoint World::surface_point(const Hit& hit, const Ray& ray, const RayCone&
                               ConeSection{ray.direction, std::abs(cone.width_at(hit.t))});
 }
 
-HitTriangle World::hit_triangle(const Hit& hit) const {
-    const Geometry& geometry = data_->geometries[hit.geometry];
-    const auto& triangle = geometry.triangles[hit.triangle];
-    const Vec3f& p0 = geometry.positions[triangle[0]];
-    return {p0, geometry.positions[triangle[1]] - p0, geometry.positions[triangle[2]] - p0,
-            geometry.normals.empty() ? Vec3f(0.0f) : interpolate(geometry.normals, triangle, {hit.u, hit.v})};
-}
-
 HitCoordinates World::hit_coordinates(const Hit& hit, const PlainSurface& surface) const {
     const Geometry& geometry = data_->geometries[hit.geometry];
     const std::vector<Vec2f>& uv = surface.texcoord == 0 ? geometry.uv0 : geometry.uv1;

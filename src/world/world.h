@@ -14,6 +14,7 @@
 #include "texture/texture.h"
 #include "world/body.h"
 #include "world/geometry.h"
+#include "world/interpolation.h"
 #include "world/material.h"
 #include "world/plain_surface.h"
 #include "world/surface_point.h"
@@ -187,7 +188,13 @@ class World {
         const PlainSurface* surface = plain_surface(hit);
         return surface != nullptr && !has_textures() ? surface->matte : nullptr;
     }
-    [[nodiscard]] HitTriangle hit_triangle(const Hit& hit) const;
+    [[nodiscard]] HitTriangle hit_triangle(const Hit& hit) const {
+        const Geometry& geometry = data_->geometries[hit.geometry];
+        const auto& triangle = geometry.triangles[hit.triangle];
+        const Vec3f& p0 = geometry.positions[triangle[0]];
+        return {p0, geometry.positions[triangle[1]] - p0, geometry.positions[triangle[2]] - p0,
+                geometry.normals.empty() ? Vec3f(0.0f) : interpolate(geometry.normals, triangle, {hit.u, hit.v})};
+    }
     /// Those of the set that the textures of `surface` follow.
     [[nodiscard]] HitCoordinates hit_coordinates(const Hit& hit, const PlainSurface& surface) const;
     /// Has the triangles of a few `hits`, some of which may be no hits, fetched from memory at once, where there are so

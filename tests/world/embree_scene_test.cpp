@@ -140,12 +140,12 @@ class ColumnsOf {
         alpha_keys_.resize(rays.size() + RayColumns::kPacket);
         for (std::size_t i = 0; i < rays.size(); ++i) {
             const Ray& ray = rays[i];
-            const std::array numbers{ray.origin.x,    ray.origin.y, ray.origin.z, ray.direction.x, ray.direction.y,
-                                     ray.direction.z, ray.t_max,    ray.time};
+            const std::array numbers{ray.origin.x,    ray.origin.y,    ray.origin.z, ray.direction.x,
+                                     ray.direction.y, ray.direction.z, ray.t_max,    ray.time};
             for (std::size_t column = 0; column < numbers.size(); ++column) floats_[column][i] = numbers[column];
             alpha_keys_[i] = ray.alpha_key;
         }
-        columns_ = {floats_[0].data(), floats_[1].data(), floats_[2].data(), floats_[3].data(), floats_[4].data(),
+        columns_ = {floats_[0].data(), floats_[1].data(), floats_[2].data(), floats_[3].data(),  floats_[4].data(),
                     floats_[5].data(), floats_[6].data(), floats_[7].data(), alpha_keys_.data(), rays.size()};
     }
     [[nodiscard]] const RayColumns& columns() const { return columns_; }

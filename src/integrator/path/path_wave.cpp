@@ -89,11 +89,9 @@ void PathWave::shade_block(const Context& context, std::size_t first, std::size_
     count_ = count;
     draw_numbers(context);
     stamp(profile, Stage::Numbers);
-    surfaces_ = 0;
     world.fetch_triangles(std::span(hits_).subspan(first, count));
     lanes_.start();
-    for (std::size_t k = 0; k < count; ++k)
-        if (set_up(context, k)) on_surface_[surfaces_++] = static_cast<std::uint8_t>(k);
+    set_up(context);
     set_up_plain(context);
     stamp(profile, Stage::HitSetup);
     for (std::size_t k = 0; k < count; ++k) {
@@ -105,7 +103,7 @@ void PathWave::shade_block(const Context& context, std::size_t first, std::size_
     }
     stamp(profile, Stage::Emission);
     look_up_textures(context);
-    for (const std::uint8_t k : on_surface()) make_scattering(context, k);
+    make_scattering(context);
     stamp(profile, Stage::Textures);
     sample_lights(context);
     stamp(profile, Stage::LightSampling);

@@ -83,16 +83,22 @@ class PathWave final : public IntegratorScratch {
     /// `kept` says.
     void shade_block(const Context& context, std::size_t first, std::size_t count, std::size_t& kept);
     // Path `k` of the block is path `first_` + `k` of the wave, and has lane `k` of `lanes_`.
-    /// Finds out where path `k` is; true if it is on a surface that may scatter it.
-    bool set_up(const Context& context, std::size_t k);
+    /// Finds out where the paths are, and which of them are on surfaces that may scatter them.
+    void set_up(const Context& context);
+    /// The same of path `k`, which is on a surface that is not plain; false if that ends it or lets it pass.
+    bool set_up_any(const Context& context, std::size_t k);
     /// Points on plain surfaces, all at once.
     void set_up_plain(const Context& context);
     /// Lobes of textured plain surfaces, all at once.
     void look_up_textures(const Context& context);
     /// Has the path of a plain surface that mirrors after all go on as one of any other.
     void set_up_singly(const Context& context, std::size_t k);
-    /// Looks up textures and makes the lobes of path `k`.
-    void make_scattering(const Context& context, std::size_t k);
+    /// Makes the lobes of all.
+    void make_scattering(const Context& context);
+    /// Of path `k`, which is not on a plain surface, with all its textures.
+    void make_scattering_singly(const Context& context, std::size_t k);
+    /// What words ask of path `k`, whose lobe is plain.
+    void make_wide_scattering(std::size_t k);
     /// What light is chosen for at the surface of path `k`.
     [[nodiscard]] LightReceiver make_receiver(std::size_t k) const;
     /// Samples a light for each path that asks for one.

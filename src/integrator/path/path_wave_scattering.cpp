@@ -10,45 +10,53 @@
 
 namespace etendue {
 
-bool PathWave::set_up(const Context& context, std::size_t k) {
+void PathWave::set_up(const Context& context) {
+    const World& world = context.world;
+    surfaces_ = 0;
+    for (std::size_t k = 0; k < count_; ++k) {
+        const std::size_t i = first_ + k;
+        const Hit& hit = hits_[i];
+        ShadedPath& path = block_[k];
+        path.emits = false;
+        path.is_at_hidden = false;
+        if (!hit.valid()) {
+            end_path(context, k, PathEnding::Escaped);
+            continue;
+        }
+        if (world.has_bodies() && scatter_in_medium(context, k)) {
+            lanes_.goes_on.set(k, 1.0f);
+            continue;
+        }
+        path.plain = world.plain_surface(hit);
+        if (path.plain == nullptr && !set_up_any(context, k)) continue;
+        if (paths_.edges(i) < context.options.lengths.max_depth)
+            on_surface_[surfaces_++] = static_cast<std::uint8_t>(k);
+        else
+            end_path(context, k, PathEnding::TooLong);
+    }
+}
+
+bool PathWave::set_up_any(const Context& context, std::size_t k) {
     const World& world = context.world;
     const std::size_t i = first_ + k;
-    const Hit& hit = hits_[i];
     ShadedPath& path = block_[k];
-    path.emits = false;
-    path.is_at_hidden = false;
-    if (!hit.valid()) {
-        end_path(context, k, PathEnding::Escaped);
-        return false;
-    }
-    if (world.has_bodies() && scatter_in_medium(context, k)) {
-        lanes_.goes_on.set(k, 1.0f);
-        return false;
-    }
-    path.plain = world.plain_surface(hit);
-    if (path.plain == nullptr) {
-        set_up_singly(context, k);
-        const SurfacePoint& point = singles_[k].point;
-        path.emits = point.material->emits;
-        if (world.has_bodies() && world.is_boundary(point)) {
-            const Crossing& crossing =
-                singles_[k].crossing.emplace(InPlace{[&] { return world.crossing(point, interiors_[i]); }});
-            if (crossing.is_hidden) {
-                path.is_at_hidden = true;
-                lanes_.goes_on.set(k, 1.0f);
-                return false;
-            }
-        }
-        if (point.material->unlit) {
-            // Only what the eye sees directly or in mirrors shows an unlit surface; it lights nothing.
-            if (paths_.is(path_history::kOnlyDelta, i) && paths_.edges(i) >= context.options.lengths.min_depth)
-                add_light(i, world.unlit_color(point), words_.surface_source(point));
-            end_path(context, k, PathEnding::Unlit);
+    set_up_singly(context, k);
+    const SurfacePoint& point = singles_[k].point;
+    path.emits = point.material->emits;
+    if (world.has_bodies() && world.is_boundary(point)) {
+        const Crossing& crossing =
+            singles_[k].crossing.emplace(InPlace{[&] { return world.crossing(point, interiors_[i]); }});
+        if (crossing.is_hidden) {
+            path.is_at_hidden = true;
+            lanes_.goes_on.set(k, 1.0f);
             return false;
         }
     }
-    if (paths_.edges(i) < context.options.lengths.max_depth) return true;
-    end_path(context, k, PathEnding::TooLong);
+    if (!point.material->unlit) return true;
+    // Only what the eye sees directly or in mirrors shows an unlit surface; it lights nothing.
+    if (paths_.is(path_history::kOnlyDelta, i) && paths_.edges(i) >= context.options.lengths.min_depth)
+        add_light(i, world.unlit_color(point), words_.surface_source(point));
+    end_path(context, k, PathEnding::Unlit);
     return false;
 }
 
@@ -104,25 +112,37 @@ void PathWave::look_up_textures(const Context& context) {
     }
 }
 
-void PathWave::make_scattering(const Context& context, std::size_t k) {
+void PathWave::make_scattering(const Context& context) {
+    const bool samples_lights = context.options.sample_lights && context.world.has_sampled_lights();
+    for (const std::uint8_t k : on_surface()) {
+        ShadedPath& path = block_[k];
+        path.samples_light = samples_lights && paths_.edges(first_ + k) + 1 >= context.options.lengths.min_depth;
+        path.is_wide = path.plain != nullptr;
+        if (!path.is_wide) {
+            make_scattering_singly(context, k);
+            continue;
+        }
+        lanes_.is_wide.set(k, 1.0f);
+        if (path.plain->textured == nullptr) path.glossy = path.plain->matte == nullptr ? &path.plain->glossy : nullptr;
+        if (path.glossy == nullptr)
+            lanes_.albedo.set(k, std::get_if<Diffuse>(path.plain->matte)->albedo);
+        else if (words_.are_followed())
+            make_wide_scattering(k);
+    }
+}
+
+void PathWave::make_wide_scattering(std::size_t k) {
+    SingleShading& single = singles_[k];
+    single.storage = *block_[k].glossy;
+    single.scattering.emplace(single.storage, Frame{lanes_.tangent[k], lanes_.bitangent[k], lanes_.normal[k]},
+                              lanes_.geometric_normal[k], lanes_.wo[k]);
+}
+
+void PathWave::make_scattering_singly(const Context& context, std::size_t k) {
     const World& world = context.world;
     const std::size_t i = first_ + k;
     ShadedPath& path = block_[k];
     SingleShading& single = singles_[k];
-    path.samples_light = context.options.sample_lights && world.has_sampled_lights() &&
-                         paths_.edges(i) + 1 >= context.options.lengths.min_depth;
-    path.is_wide = path.plain != nullptr;
-    if (path.is_wide) {
-        lanes_.is_wide.set(k, 1.0f);
-        if (path.plain->textured == nullptr) path.glossy = path.plain->matte == nullptr ? &path.plain->glossy : nullptr;
-        if (path.glossy == nullptr) return lanes_.albedo.set(k, std::get_if<Diffuse>(path.plain->matte)->albedo);
-        if (words_.are_followed()) {
-            single.storage = *path.glossy;
-            single.scattering.emplace(single.storage, Frame{lanes_.tangent[k], lanes_.bitangent[k], lanes_.normal[k]},
-                                      lanes_.geometric_normal[k], lanes_.wo[k]);
-        }
-        return;
-    }
     const SurfacePoint& point = single.point;
     const std::optional<Crossing>& crossing = single.crossing;
     const Vec3f wo = lanes_.wo[k];

@@ -42,8 +42,8 @@ TEST(PathHistory, FollowsEveryWayToScatter) {
         for (int step = 0, left = sequence; step < 8; ++step, left /= 3) {
             const int kind = left % 3;
             expected.scatter(kind == 0, kind < 2 ? 1 : 0);
-            history = kind == 0 ? path_history::after_delta(history)
-                                : path_history::after_lobe(history, kind == 1 ? 1u : 0u);
+            history =
+                kind == 0 ? path_history::after_delta(history) : path_history::after_lobe(history, kind == 1 ? 1u : 0u);
             ASSERT_EQ(history, expected.bits()) << "sequence " << sequence << ", step " << step;
             ASSERT_EQ(path_history::edges(history), expected.edges);
         }
@@ -63,8 +63,8 @@ TEST(PathHistory, IsTheSameInLanes) {
 // A wave whose paths end at random, block by block: those that are left stand one after the other, in their order.
 TEST(BlockSurvivors, AreMovedTogetherInTheirOrder) {
     Random random(1);
-    for (const std::size_t paths : {std::size_t{1}, std::size_t{63}, std::size_t{64}, std::size_t{65}, std::size_t{1000},
-                                    PathColumns::kCapacity}) {
+    for (const std::size_t paths : {std::size_t{1}, std::size_t{63}, std::size_t{64}, std::size_t{65},
+                                    std::size_t{1000}, PathColumns::kCapacity}) {
         const auto columns = std::make_unique<PathColumns>();
         std::vector<std::uint32_t> expected;
         std::vector<std::uint32_t> one_by_one(paths);
