@@ -26,22 +26,27 @@ void Connections::push(const Ray& ray, std::uint32_t slot, const Rgb& value, Lig
                        std::span<const ExpressionShare> shares) {
     if (!shares.empty()) shares_.insert(shares_.end(), shares.begin(), shares.end());
     if (rows_ == Wide::kWidth) flush();
-    const auto bits = [](std::uint32_t number) { return std::bit_cast<float>(number); };
-    row_[rows_++] = {ray.origin.x,
-                     ray.origin.y,
-                     ray.origin.z,
-                     ray.direction.x,
-                     ray.direction.y,
-                     ray.direction.z,
-                     ray.t_max,
-                     ray.time,
-                     value.r,
-                     value.g,
-                     value.b,
-                     bits(ray.alpha_key),
-                     bits(slot),
-                     bits(static_cast<std::uint32_t>(kind)),
-                     bits(static_cast<std::uint32_t>(shares_.size()))};
+    // Filled in where it lies: a copy of what was just written, number by number, would wait until all of that is in
+    // the cache.
+    Row& row = row_[rows_++];
+    row[kOriginX] = ray.origin.x;
+    row[kOriginY] = ray.origin.y;
+    row[kOriginZ] = ray.origin.z;
+    row[kDirectionX] = ray.direction.x;
+    row[kDirectionY] = ray.direction.y;
+    row[kDirectionZ] = ray.direction.z;
+    row[kTMax] = ray.t_max;
+    row[kTime] = ray.time;
+    row[kRed] = value.r;
+    row[kGreen] = value.g;
+    row[kBlue] = value.b;
+    const auto set_bits = [&](BitColumn column, std::uint32_t bits) {
+        row[std::size_t{kFloatColumns} + column] = std::bit_cast<float>(bits);
+    };
+    set_bits(kAlphaKey, ray.alpha_key);
+    set_bits(kSlot, slot);
+    set_bits(kLightKind, static_cast<std::uint32_t>(kind));
+    set_bits(kEndOfShares, static_cast<std::uint32_t>(shares_.size()));
 }
 
 void Connections::flush() {

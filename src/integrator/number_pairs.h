@@ -39,8 +39,13 @@ class NumberPairs {
   public:
     /// One pair of `dimension` for each key.
     void draw(SampleSequence sequence, const SampleKeys& keys, std::uint32_t dimension) {
-        resize(keys.size());
-        draw(sequence, keys, dimension, 0, keys.size());
+        draw(sequence, keys.pixel_seeds(), keys.indices(), dimension);
+    }
+    void draw(SampleSequence sequence, std::span<const std::uint32_t> pixel_seeds,
+              std::span<const std::uint32_t> indices, std::uint32_t dimension) {
+        resize(indices.size());
+        const auto part = [&](auto& all) { return std::span(all).first(indices.size()); };
+        sample_2d(sequence, pixel_seeds, indices, dimension, part(x_), part(y_));
     }
     /// Of keys [first, end) only; the others keep theirs.
     void draw(SampleSequence sequence, const SampleKeys& keys, std::uint32_t dimension, std::size_t first,

@@ -45,6 +45,7 @@ struct BlockLanes : SurfaceLanes {
             is_wide.store(l, Wide(0.0f));
             goes_on.store(l, Wide(0.0f));
             light_pdf.store(l, Wide(0.0f));
+            light_by_chance.store(l, Wide(1.0f));
         }
     }
 

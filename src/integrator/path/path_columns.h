@@ -4,6 +4,7 @@
 #include "core/columns.h"
 #include "core/ray_columns.h"
 #include "core/ray_cone.h"
+#include "integrator/camera_wave.h"
 
 #include <array>
 #include <cstddef>
@@ -98,6 +99,7 @@ struct PathColumns {
     BasicColumn<kSize> wavelength_nm;    ///< nanometres once a dispersive body has refracted it, 0 for all wavelengths
     BasicColumn<kSize> cone_width, cone_spread;  ///< around the ray; followed only where there are textures to filter
     BasicBitColumn<kSize> slot;                  ///< which camera sample
+    BasicBitColumn<kSize> pixel_seed, index;     ///< its SampleKey
     BasicBitColumn<kSize> history;               ///< see path_history
 
     [[nodiscard]] RayColumns rays(std::size_t count) const {
@@ -110,11 +112,13 @@ struct PathColumns {
         time.set(i, ray.time);
         alpha_key.set(i, ray.alpha_key);
     }
-    /// Paths of `rays` from the eye, which have come nowhere yet.
-    void begin(std::span<const Ray> rays) {
+    /// Paths of `rays` from the eye, those of `samples`, which have come nowhere yet.
+    void begin(std::span<const Ray> rays, std::span<const CameraSample> samples) {
         for (std::size_t i = 0; i < rays.size(); ++i) {
             set_ray(i, rays[i]);
             slot.set(i, static_cast<std::uint32_t>(i));
+            pixel_seed.set(i, samples[i].key.pixel_seed);
+            index.set(i, samples[i].key.index);
         }
         for (std::size_t i = 0; i < rays.size(); i += Wide::kWidth) {
             throughput.store(i, BasicRgb<Wide>(Wide(1.0f)));
@@ -125,6 +129,7 @@ struct PathColumns {
         }
     }
     [[nodiscard]] Ray ray(std::size_t i) const { return rays(i)[i]; }
+    [[nodiscard]] SampleKey key(std::size_t i) const { return {pixel_seed[i], index[i]}; }
     [[nodiscard]] RayCone cone(std::size_t i) const { return {cone_width[i], cone_spread[i]}; }
     void set_cone(std::size_t i, const RayCone& cone) {
         cone_width.set(i, cone.width);

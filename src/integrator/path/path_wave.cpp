@@ -15,7 +15,7 @@ PathWave::PathWave()
 
 std::size_t PathWave::bytes() const {
     std::size_t bytes =
-        sizeof *this + light_.bytes() + keys_.bytes() + shadow_rays_.bytes() + lookups_.bytes() +
+        sizeof *this + light_.bytes() + shadow_rays_.bytes() + lookups_.bytes() +
         vector_bytes(hits_, interiors_, receivers_, ranges_, shares_, singles_, samples_, camera_rays_, alpha_);
     for (const NumberPairs* numbers :
          {&light_choice_, &light_triangle_, &light_direction_, &bsdf_direction_, &choices_, &medium_})
@@ -32,7 +32,7 @@ void PathWave::trace(const World& world, const TileJob& job, const PathOptions& 
     words_.reset(job.aovs);
     if (words_.are_followed()) ranges_.assign(kCapacity, words_.begin_at_eye());
     light_.reset(count, job, counters.brightest.threshold());
-    paths_.begin(camera_rays);
+    paths_.begin(camera_rays, samples_);
     if (world.has_textures())
         for (std::size_t i = 0; i < count; ++i) paths_.set_cone(i, camera_cone(world, job, camera_rays[i]));
     std::fill_n(alpha_.begin(), count, 1.0f);
@@ -55,13 +55,13 @@ void PathWave::trace(const World& world, const TileJob& job, const PathOptions& 
 }
 
 void PathWave::draw_numbers(const Context& context) {
-    keys_.clear();
-    for (std::size_t k = 0; k < count_; ++k) keys_.push_back(samples_[paths_.slot[first_ + k]].key);
+    const std::span pixel_seeds(paths_.pixel_seed.data() + first_, count_);
+    const std::span indices(paths_.index.data() + first_, count_);
     const bool has_bodies = context.world.has_bodies();
     const bool ends = context.depth >= context.options.lengths.max_depth && !has_bodies;
     const auto draw = [&](std::uint32_t dimension, NumberPairs& numbers, bool is_needed = true) {
         if (is_needed && !ends)
-            numbers.draw(context.job.sequence, keys_, dimension);
+            numbers.draw(context.job.sequence, pixel_seeds, indices, dimension);
         else
             numbers.draw_none(count_);
     };
@@ -150,8 +150,7 @@ void PathWave::keep_survivors(const Context& context, std::size_t& kept) {
                          &paths_.direction.z, &paths_.throughput.r, &paths_.throughput.g, &paths_.throughput.b,
                          &paths_.eta_scale, &paths_.pdf_solid_angle})
         survivors.move(*column);
-    survivors.move(paths_.slot);
-    survivors.move(paths_.history);
+    for (auto* column : {&paths_.slot, &paths_.pixel_seed, &paths_.index, &paths_.history}) survivors.move(*column);
     if (world.has_motion()) survivors.move(paths_.time);
     if (world.has_transparency()) survivors.move(paths_.alpha_key);
     if (world.has_textures()) {
@@ -173,12 +172,12 @@ void PathWave::end_path(const Context& context, std::size_t k, PathEnding ending
     WaveProfile* const profile = context.job.profile;
     if (profile == nullptr) return;
     const Vec2i pixel = pixel_position(context.job, samples_[paths_.slot[first_ + k]].pixel);
-    profile->end_eye_path(ending, {pixel.x, pixel.y, keys_[k].index, context.depth});
+    profile->end_eye_path(ending, {pixel.x, pixel.y, paths_.index[first_ + k], context.depth});
 }
 
 std::uint32_t PathWave::alpha_key(const Context& context, std::size_t k) const {
     if (!context.world.has_transparency()) return 0;
-    return sample_bits(keys_[k], bounce_dimension(context.depth, kAlpha));
+    return sample_bits(paths_.key(first_ + k), bounce_dimension(context.depth, kAlpha));
 }
 
 }  // namespace etendue

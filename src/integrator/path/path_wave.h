@@ -173,7 +173,6 @@ class PathWave final : public IntegratorScratch {
     // Of the block that is shaded.
     std::size_t first_ = 0;  ///< its first path
     std::size_t count_ = 0;  ///< its paths
-    SampleKeys keys_;
     NumberPairs light_choice_, light_triangle_, light_direction_, bsdf_direction_;
     NumberPairs choices_;  ///< x: which lobe, y: whether the path ends
     NumberPairs medium_;   ///< x: how far, y: by which channel

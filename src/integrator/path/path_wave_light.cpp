@@ -98,10 +98,11 @@ void PathWave::sample_lights(const Context& context) {
         lanes_.front.set(k, mesh->front(triangles[chosen]));
         lanes_.light_probability.set(k, choice.probability);
         lanes_.light_radiance.set(k, mesh->radiance());
-        lanes_.light_by_chance.set(k, 1.0f);
-        lanes_.u.set(k, light_direction_[k]);
     }
-    if (any_mesh_lit) lanes_.sample_mesh_lights(count_);
+    if (any_mesh_lit) {
+        for (std::size_t l = 0; l < count_; l += Wide::kWidth) lanes_.u.store(l, light_direction_.load(l));
+        lanes_.sample_mesh_lights(count_);
+    }
     if (environment_lit_count > 0) {
         world.sample_environment_light(std::span(u).first(environment_lit_count),
                                        std::span(environment_samples_).first(environment_lit_count));

@@ -153,7 +153,7 @@ void PathWave::make_scattering_singly(const Context& context, std::size_t k) {
     single.chooses_wavelength = crossing && crossing->disperses() && paths_.wavelength_nm[i] == 0.0f;
     if (single.chooses_wavelength)
         single.wavelength = world.spectral_response().sample(
-            sample_2d(context.job.sequence, keys_[k], body_dimension(context.depth, kWavelength)).x);
+            sample_2d(context.job.sequence, paths_.key(i), body_dimension(context.depth, kWavelength)).x);
     const Bsdf& bsdf =
         world.bsdf(point, wo, crossing ? crossing->relative_ior(single.wavelength.nm) : 0.0f, single.storage);
     const auto* diffuse = std::get_if<Diffuse>(&bsdf);

@@ -111,7 +111,10 @@ TEST(PathColumns, HoldTheRaysThatBeginAtTheEye) {
         rays[i].time = 0.01f * number;
         rays[i].alpha_key = static_cast<std::uint32_t>(i) * 7u;
     }
-    columns->begin(rays);
+    std::vector<CameraSample> samples(rays.size());
+    for (std::size_t i = 0; i < rays.size(); ++i)
+        samples[i].key = {static_cast<std::uint32_t>(i) + 100u, static_cast<std::uint32_t>(i) + 200u};
+    columns->begin(rays, samples);
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const Ray ray = columns->ray(i);
         EXPECT_EQ(ray.origin, rays[i].origin);
@@ -120,6 +123,8 @@ TEST(PathColumns, HoldTheRaysThatBeginAtTheEye) {
         EXPECT_EQ(ray.alpha_key, rays[i].alpha_key);
         EXPECT_EQ(ray.t_max, rays[i].t_max);
         EXPECT_EQ(columns->slot[i], i);
+        EXPECT_EQ(columns->key(i).pixel_seed, samples[i].key.pixel_seed);
+        EXPECT_EQ(columns->key(i).index, samples[i].key.index);
         EXPECT_EQ(columns->throughput[i], Rgb(1.0f));
         EXPECT_EQ(columns->eta_scale[i], 1.0f);
         EXPECT_TRUE(columns->is(path_history::kAfterDelta, i));
