@@ -1,5 +1,5 @@
-// What lies between the stages of shading a block of paths, or of its look-ups, as columns that are computed with many
-// at once.
+// What lies between the stages of shading a block of paths, or of its look-ups, and what paths of a wave are between
+// their rays, as columns that are computed with many at once.
 //
 // Which of its steps a path takes depends on the path alone, on its surface and on its light, never on how many others
 // take them too: lanes without such a path are computed with the rest, and what comes of them is not looked at.
@@ -44,7 +44,7 @@ class BasicBitColumn {
     [[nodiscard]] std::uint32_t operator[](std::size_t lane) const { return values_[lane]; }
     void set(std::size_t lane, std::uint32_t bits) { values_[lane] = bits; }
     [[nodiscard]] WideBits load(std::size_t first) const { return WideBits::load(&values_[first]); }
-    void store(std::size_t first, WideBits bits) { bits.store_unaligned(&values_[first]); }
+    void store(std::size_t first, WideBits bits) { store_unaligned(first, bits); }
     void store_unaligned(std::size_t first, WideBits bits) { bits.store_unaligned(&values_[first]); }
     [[nodiscard]] const std::uint32_t* data() const { return values_.data(); }
 

@@ -25,6 +25,7 @@ struct RayColumns {
     std::size_t count = 0;
 
     [[nodiscard]] std::size_t size() const { return count; }
+    /// Ray `i`, of those that there are and of those behind them.
     [[nodiscard]] Ray operator[](std::size_t i) const {
         Ray ray;
         ray.origin = {origin_x[i], origin_y[i], origin_z[i]};

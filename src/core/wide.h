@@ -108,41 +108,13 @@ class Wide {
         const auto whole = std::experimental::static_simd_cast<int>(index.lanes_);
         return Wide(Simd([&](auto lane) { return table[whole[lane]]; }));
     }
-    /// The lanes of `a` that are `kept`, one after the other; those behind them are of no meaning.
-    [[nodiscard]] friend Wide compress(Wide a, WideMask kept) {
-#ifdef __AVX512F__
-        static_assert(sizeof(Simd) == sizeof(__m512));
-        return Wide(std::bit_cast<Simd>(
-            _mm512_maskz_compress_ps(std::bit_cast<__mmask16>(kept.simd()), std::bit_cast<__m512>(a.lanes_))));
-#else
-        std::array<float, kWidth> lanes{};
-        std::size_t next = 0;
-        for (std::size_t lane = 0; lane < kWidth; ++lane) {
-            lanes[next] = a[lane];
-            next += kept[lane] ? 1 : 0;
-        }
-        return Wide(Simd(lanes.data(), std::experimental::element_aligned));
-#endif
-    }
     // As those of the standard library are for what is no number.
-    [[nodiscard]] friend Wide min(Wide a, Wide b) {
-        return select(b < a, b, a);
-    }
-    [[nodiscard]] friend Wide max(Wide a, Wide b) {
-        return select(a < b, b, a);
-    }
-    [[nodiscard]] friend Wide clamp(Wide a, Wide low, Wide high) {
-        return min(max(a, low), high);
-    }
-    [[nodiscard]] friend Wide abs(Wide a) {
-        return Wide(std::experimental::abs(a.lanes_));
-    }
-    [[nodiscard]] friend Wide floor(Wide a) {
-        return Wide(std::experimental::floor(a.lanes_));
-    }
-    [[nodiscard]] friend Wide sqrt(Wide a) {
-        return Wide(std::experimental::sqrt(a.lanes_));
-    }
+    [[nodiscard]] friend Wide min(Wide a, Wide b) { return select(b < a, b, a); }
+    [[nodiscard]] friend Wide max(Wide a, Wide b) { return select(a < b, b, a); }
+    [[nodiscard]] friend Wide clamp(Wide a, Wide low, Wide high) { return min(max(a, low), high); }
+    [[nodiscard]] friend Wide abs(Wide a) { return Wide(std::experimental::abs(a.lanes_)); }
+    [[nodiscard]] friend Wide floor(Wide a) { return Wide(std::experimental::floor(a.lanes_)); }
+    [[nodiscard]] friend Wide sqrt(Wide a) { return Wide(std::experimental::sqrt(a.lanes_)); }
     [[nodiscard]] friend Wide copysign(Wide a, Wide sign) {
         return Wide(std::experimental::copysign(a.lanes_, sign.lanes_));
     }
@@ -150,6 +122,23 @@ class Wide {
   private:
     Simd lanes_;
 };
+
+/// The lanes of `a` that are `kept`, one after the other; those behind them are of no meaning.
+[[nodiscard]] inline Wide compress(Wide a, WideMask kept) {
+#ifdef __AVX512F__
+    static_assert(sizeof(Wide::Simd) == sizeof(__m512));
+    return Wide(std::bit_cast<Wide::Simd>(
+        _mm512_maskz_compress_ps(std::bit_cast<__mmask16>(kept.simd()), std::bit_cast<__m512>(a.simd()))));
+#else
+    std::array<float, Wide::kWidth> lanes{};
+    std::size_t next = 0;
+    for (std::size_t lane = 0; lane < Wide::kWidth; ++lane) {
+        lanes[next] = a[lane];
+        next += kept[lane] ? 1 : 0;
+    }
+    return Wide::load_unaligned(lanes.data());
+#endif
+}
 
 // The library takes logarithms and exponentials of one lane after the other; these are to some roundings.
 

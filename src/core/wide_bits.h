@@ -46,8 +46,8 @@ class WideBits {
     [[nodiscard]] friend WideBits operator>>(WideBits a, int bits) { return WideBits(a.lanes_ >> bits); }
 
     [[nodiscard]] friend WideMask operator!=(WideBits a, WideBits b) {
-        // The masks of both are the same bits, but the library knows them as two types.
-        return WideMask(std::bit_cast<WideMask::Simd>(a.lanes_ != b.lanes_));
+        // Masks of bits are another type than those of floats; whatever is not zero is not zero as a float.
+        return WideMask(std::experimental::static_simd_cast<Wide::Simd>(a.lanes_ ^ b.lanes_) != 0.0f);
     }
     [[nodiscard]] friend WideBits select(WideMask condition, WideBits if_true, WideBits if_false) {
         return of(select(condition, if_true.as_floats(), if_false.as_floats()));

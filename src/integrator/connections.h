@@ -61,8 +61,10 @@ class Connections {
     [[nodiscard]] bool is_full() const { return count_ + rows_ >= kBatch; }
 
   private:
-    /// Rays traced together: enough for full packets, and their 36 bytes each stay in a cache of 1 MiB.
+    /// Rays traced together: enough for full packets, and their 36 bytes each, 60 with what they bring, stay in a cache
+    /// of 1 MiB.
     static constexpr std::size_t kBatch = 8192;
+    static_assert(Wide::kWidth <= RayColumns::kPacket);
 
     /// Columns of floats.
     enum FloatColumn : std::size_t {

@@ -11,12 +11,14 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <type_traits>
 
 namespace etendue {
 
 class EmbreeScene;
 
-/// What a filter function needs beside the hit: the scene, and the rays of the batch for their alpha keys.
+/// What a filter function needs beside the hit: the scene, and the alpha keys of the batch, in its rays or their
+/// column.
 struct QueryContext {
     embree::Context base;  // first, so that Embree's pointer to it is a pointer to this
     const EmbreeScene* scene;
@@ -37,6 +39,7 @@ struct QueryContext {
         return rays != nullptr ? rays[id].alpha_key : alpha_keys[id];
     }
 };
+static_assert(std::is_standard_layout_v<QueryContext>);
 
 /// `id` is the ray's index in its batch.
 [[nodiscard]] inline RTCRay make_ray(const Ray& ray, unsigned int id) {
@@ -83,7 +86,7 @@ struct PacketMask {
     alignas(64) int valid[Width];
 };
 
-/// Of lane `lane` of `Width`: what a packet takes from rays `first` … of a batch, `count` of which are in it.
+/// What a packet takes from rays `first` … of a batch, `count` of which are in it.
 template <std::size_t Width>
 void fill_rays(std::span<const Ray> rays, std::size_t first, std::size_t count, typename Packet<Width>::Rays& packet) {
     for (std::size_t lane = 0; lane < Width; ++lane) {

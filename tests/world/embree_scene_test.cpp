@@ -4,9 +4,14 @@
 #include "world/test_scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -145,8 +150,22 @@ class ColumnsOf {
             for (std::size_t column = 0; column < numbers.size(); ++column) floats_[column][i] = numbers[column];
             alpha_keys_[i] = ray.alpha_key;
         }
-        columns_ = {floats_[0].data(), floats_[1].data(), floats_[2].data(), floats_[3].data(),  floats_[4].data(),
-                    floats_[5].data(), floats_[6].data(), floats_[7].data(), alpha_keys_.data(), rays.size()};
+        // What is read behind the last ray may be anything.
+        for (auto& column : floats_)
+            for (std::size_t i = rays.size(); i < column.size(); ++i)
+                column[i] = std::array{std::numeric_limits<float>::quiet_NaN(), -std::numeric_limits<float>::infinity(),
+                                       1e30f}[i % 3];
+        const bool are_endless = std::ranges::all_of(rays, [](const Ray& ray) { return std::isinf(ray.t_max); });
+        columns_ = {floats_[0].data(),
+                    floats_[1].data(),
+                    floats_[2].data(),
+                    floats_[3].data(),
+                    floats_[4].data(),
+                    floats_[5].data(),
+                    are_endless ? nullptr : floats_[6].data(),
+                    floats_[7].data(),
+                    alpha_keys_.data(),
+                    rays.size()};
     }
     [[nodiscard]] const RayColumns& columns() const { return columns_; }
 

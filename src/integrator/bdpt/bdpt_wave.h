@@ -52,14 +52,6 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
             return options.observer != nullptr || samples[slot].key.index % 64 == 0;
 #endif
         }
-        /// True if there is any such sample.
-        [[nodiscard]] bool checks_any() const {
-#ifdef NDEBUG
-            return options.observer != nullptr;
-#else
-            return true;
-#endif
-        }
         [[nodiscard]] WeightRule rule() const {
             return {raised, options.weighted};
         }
@@ -140,8 +132,8 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
     void weigh_wide_to_lights(const Context& context);
     void weigh_wide_to_camera(const Context& context);
     void weigh_wide_between(const Context& context);
-    /// False if there is nothing to say of a connection but its ray and what it brings.
-    [[nodiscard]] bool asks_for_each(const Context& context);
+    /// False if there is nothing to say of the first `count` connections of a block but their rays and what they bring.
+    [[nodiscard]] bool asks_for_each(const Context& context, const ConnectionColumns& lanes, std::size_t count);
     /// The first `count` of a block then.
     static void queue_wide(const ConnectionColumns& lanes, std::size_t count, Connections& connections);
     // Leaves the rays of connections, with what they bring, to `connections`.

@@ -105,7 +105,8 @@ void BdptWave::weigh(const Context& context, const ToLight& connection) {
 
 void BdptWave::weigh_wide_to_lights(const Context& context) {
     to_light_lanes_.connect(wide_to_lights_.size(), context.rule());
-    if (!asks_for_each(context)) return queue_wide(to_light_lanes_, wide_to_lights_.size(), wide_light_connections_);
+    if (!asks_for_each(context, to_light_lanes_, wide_to_lights_.size()))
+        return queue_wide(to_light_lanes_, wide_to_lights_.size(), wide_light_connections_);
     for (std::size_t lane = 0; lane < wide_to_lights_.size(); ++lane) {
         const auto& [vertex, light, triangle] = wide_to_lights_[lane];
         const Brought brought = to_light_lanes_.brought(lane);
@@ -190,7 +191,7 @@ void BdptWave::weigh(const Context& context, const ToCamera& connection) {
 void BdptWave::weigh_wide_to_camera(const Context& context) {
     to_camera_lanes_.connect(wide_to_cameras_.size(), context.rule(),
                              static_cast<float>(context.samples_per_light_path()));
-    if (!asks_for_each(context))
+    if (!asks_for_each(context, to_camera_lanes_, wide_to_cameras_.size()))
         return to_camera_lanes_.for_each_wide(
             wide_to_cameras_.size(), [&](const WideConnections& connections, WideMask which, std::size_t first) {
                 wide_camera_connections_.to_film(connections, which, [&](std::size_t lane) {
@@ -330,16 +331,19 @@ void BdptWave::weigh_wide_between(const Context& context) {
         between_lanes_.scale.set(lane, connection.scale);
     }
     between_lanes_.connect(count, context.rule());
-    if (!asks_for_each(context)) return queue_wide(between_lanes_, count, wide_vertex_connections_);
+    if (!asks_for_each(context, between_lanes_, count))
+        return queue_wide(between_lanes_, count, wide_vertex_connections_);
     for (std::size_t lane = 0; lane < count; ++lane)
         if (const Brought brought = between_lanes_.brought(lane); !is_black(brought.light))
             queue(context, *wide_between_[lane].eye, *wide_between_[lane].light, between_lanes_.ray(lane), brought,
                   wide_vertex_connections_);
 }
 
-bool BdptWave::asks_for_each(const Context& context) {
-    return context.checks_any() || eye_.words().are_followed() || context.world.has_motion() ||
-           context.world.has_transparency();
+bool BdptWave::asks_for_each(const Context& context, const ConnectionColumns& lanes, std::size_t count) {
+    if (eye_.words().are_followed() || context.world.has_motion() || context.world.has_transparency()) return true;
+    for (std::size_t lane = 0; lane < count; ++lane)
+        if (context.checks(lanes.slot[lane])) return true;
+    return false;
 }
 
 void BdptWave::queue_wide(const ConnectionColumns& lanes, std::size_t count, Connections& connections) {

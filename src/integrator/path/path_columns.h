@@ -87,6 +87,7 @@ struct PathColumns {
     static constexpr std::size_t kCapacity = 2048;
     /// With as much behind them as a packet reads, which also keeps columns apart in the sets of a cache.
     static constexpr std::size_t kSize = kCapacity + RayColumns::kPacket;
+    static_assert(Wide::kWidth <= RayColumns::kPacket);
 
     BasicVec3Columns<kSize> origin, direction;
     BasicColumn<kSize> time;
@@ -128,7 +129,7 @@ struct PathColumns {
             history.store(i, WideBits(path_history::kAtEye));
         }
     }
-    [[nodiscard]] Ray ray(std::size_t i) const { return rays(i)[i]; }
+    [[nodiscard]] Ray ray(std::size_t i) const { return rays(kCapacity)[i]; }
     [[nodiscard]] SampleKey key(std::size_t i) const { return {pixel_seed[i], index[i]}; }
     [[nodiscard]] RayCone cone(std::size_t i) const { return {cone_width[i], cone_spread[i]}; }
     void set_cone(std::size_t i, const RayCone& cone) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "core/ray.h"
-#include "core/ray_cone.h"
 #include "core/rgb.h"
 #include "integrator/aov/path_words.h"
 #include "integrator/aov/sample_light.h"
@@ -53,7 +52,7 @@ struct SingleShading {
 };
 
 /// The state of a wave: its paths as columns, and what lies between the stages of a block of them as shorter ones.
-/// About 200 bytes a path, 250 among bodies.
+/// About 250 bytes a path with its shadow ray, 50 more where lights are chosen by what they light.
 class PathWave final : public IntegratorScratch {
   public:
     static constexpr std::size_t kCapacity = PathColumns::kCapacity;
@@ -97,6 +96,10 @@ class PathWave final : public IntegratorScratch {
     void make_scattering(const Context& context);
     /// Of path `k`, which is not on a plain surface, with all its textures.
     void make_scattering_singly(const Context& context, std::size_t k);
+    void set_wide(std::size_t k, bool is_wide) {
+        block_[k].is_wide = is_wide;
+        lanes_.is_wide.set(k, is_wide ? 1.0f : 0.0f);
+    }
     /// What words ask of path `k`, whose lobe is plain.
     void make_wide_scattering(std::size_t k);
     /// What light is chosen for at the surface of path `k`.
@@ -141,7 +144,7 @@ class PathWave final : public IntegratorScratch {
     void queue_direct_light(const Context& context);
     void queue_singly(const Context& context, std::size_t k);
     void queue_by_lanes(const Context& context, std::size_t k);
-    /// The same for all that are_wide, at once, where no words are followed and nothing lies on the way.
+    /// The same for all that are_wide, at once, where no words are followed and there are no bodies.
     void queue_by_lanes(const Context& context);
     void queue_direct_light_in_medium(const Context& context, std::size_t k, const Vec3f& position,
                                       const HomogeneousMedium& medium);

@@ -6,6 +6,9 @@
 #include "integrator/walk.h"
 #include "sampling/mis.h"
 
+#include <algorithm>
+#include <array>
+
 namespace etendue {
 
 namespace {
@@ -133,6 +136,8 @@ void PathWave::sample_lights(const Context& context) {
             lanes_.light_pdf.set(k, light.is_delta ? lights_[k].probability : light.pdf_solid_angle);
             lanes_.light_by_chance.set(k, light.is_delta ? 0.0f : 1.0f);
             lanes_.light_radiance.set(k, light.radiance);
+        } else {
+            lanes_.light_pdf.set(k, 0.0f);  // whatever the lanes of mesh lights made of what lay there
         }
     }
 }
@@ -188,14 +193,15 @@ void PathWave::queue_by_lanes(const Context& context) {
     const bool has_transparency = context.world.has_transparency();
     for (std::size_t l = 0; l < count_; l += Wide::kWidth) {
         const std::size_t i = first_ + l;
+        std::array<std::uint32_t, Wide::kWidth> alpha_keys{};
         if (has_transparency)
             for (std::size_t k = l; k < std::min(l + Wide::kWidth, count_); ++k)
-                paths_.alpha_key.set(first_ + k, shadow_alpha_key(context, k));
+                alpha_keys[k - l] = shadow_alpha_key(context, k);
         shadow_rays_.to_sample({.origin = lanes_.shadow_origin.load(l),
                                 .direction = lanes_.shadow_direction.load(l),
                                 .t_max = lanes_.shadow_t_max.load(l),
                                 .time = paths_.time.load(i),
-                                .alpha_key = paths_.alpha_key.load(i),
+                                .alpha_key = WideBits::load(alpha_keys.data()),
                                 .slot = paths_.slot.load(i),
                                 .contribution = lanes_.contribution.load(l),
                                 .is_direct = paths_.are(path_history::kOnlyDelta, i)},

@@ -117,12 +117,11 @@ void PathWave::make_scattering(const Context& context) {
     for (const std::uint8_t k : on_surface()) {
         ShadedPath& path = block_[k];
         path.samples_light = samples_lights && paths_.edges(first_ + k) + 1 >= context.options.lengths.min_depth;
-        path.is_wide = path.plain != nullptr;
+        set_wide(k, path.plain != nullptr);
         if (!path.is_wide) {
             make_scattering_singly(context, k);
             continue;
         }
-        lanes_.is_wide.set(k, 1.0f);
         if (path.plain->textured == nullptr) path.glossy = path.plain->matte == nullptr ? &path.plain->glossy : nullptr;
         if (path.glossy == nullptr)
             lanes_.albedo.set(k, std::get_if<Diffuse>(path.plain->matte)->albedo);
@@ -159,9 +158,8 @@ void PathWave::make_scattering_singly(const Context& context, std::size_t k) {
     const auto* diffuse = std::get_if<Diffuse>(&bsdf);
     if (const auto* lobe = std::get_if<MetallicRoughness>(&bsdf); lobe != nullptr && lobe->is_plain() && !crossing)
         path.glossy = lobe;
-    path.is_wide = path.glossy != nullptr || (diffuse != nullptr && !crossing);
+    set_wide(k, path.glossy != nullptr || (diffuse != nullptr && !crossing));
     if (path.is_wide) {
-        lanes_.is_wide.set(k, 1.0f);
         lanes_.geometric_normal.set(k, point.geometric_normal);
         lanes_.clearance.set(k, point.clearance);
         lanes_.tangent.set(k, point.shading.tangent);

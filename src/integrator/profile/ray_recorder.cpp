@@ -32,25 +32,32 @@ void keep_share(std::vector<std::vector<Ray>>& segments, double share, std::uint
 
 }  // namespace
 
-void RayRecorder::offer(std::span<const Ray> batch) {
+template <typename Batch>
+void RayRecorder::offer_segments(const Batch& batch) {
     for (std::size_t first = 0; first < batch.size(); first += kSegment) {
-        const auto segment = batch.subspan(first, std::min(kSegment, batch.size() - first));
+        const std::size_t count = std::min(kSegment, batch.size() - first);
+        const auto keep_in = [&](std::vector<Ray>& segment) {
+            segment.resize(count);
+            for (std::size_t i = 0; i < count; ++i) segment[i] = batch[first + i];
+        };
         const std::uint64_t number = offered_++;
         if (segments_.size() < most_segments_) {
-            segments_.emplace_back(segment.begin(), segment.end());
+            keep_in(segments_.emplace_back());
             continue;
         }
         chance_ = static_cast<double>(most_segments_) / static_cast<double>(offered_);
         // Of the numbers up to this segment's own; the remainder's bias is less than 2^-32 times their count.
         const std::uint64_t place = (std::uint64_t{bits_of(number)} * (number + 1)) >> 32;
-        if (place < segments_.size()) segments_[place].assign(segment.begin(), segment.end());
+        if (place < segments_.size()) keep_in(segments_[place]);
     }
 }
 
+void RayRecorder::offer(std::span<const Ray> batch) {
+    offer_segments(batch);
+}
+
 void RayRecorder::offer(const RayColumns& batch) {
-    std::vector<Ray> rays(batch.size());
-    for (std::size_t i = 0; i < rays.size(); ++i) rays[i] = batch[i];
-    offer(rays);
+    offer_segments(batch);
 }
 
 std::size_t RayRecorder::ray_count() const {

@@ -33,6 +33,9 @@ class RayRecorder {
     void add(const RayRecorder& other);
 
   private:
+    template <typename Batch>
+    void offer_segments(const Batch& batch);
+
     std::size_t most_segments_;
     std::uint64_t offered_ = 0;
     double chance_ = 1.0;

@@ -123,7 +123,7 @@ TEST_P(MatteConnectionsIn, JoinSubpathsAsOneByOne) {
                 static_cast<float>(sums_between(raised_, eye, light, w, squared, at_eye, at_light).weight());
             ASSERT_TRUE(is_near(brought.weight, weight)) << brought.weight << " instead of " << weight;
             ASSERT_TRUE(is_near(brought.light, product * (lanes.scale[l] * weight / squared)));
-            expect_ray(lanes.ray(l, lanes.eye[l].origin), connecting_ray(eye.origin(w), light.origin(-w)));
+            expect_ray(lanes.ray(l), connecting_ray(eye.origin(w), light.origin(-w)));
         }
     }
     EXPECT_GT(connected, 1'000);
@@ -171,7 +171,7 @@ TEST_P(MatteConnectionsIn, ReachSamplesOfLightsAsOneByOne) {
             ASSERT_TRUE(is_near(brought.light, product * (weight / pdf)));
             ASSERT_NEAR(lanes.cos_light[l], light.cos_light, 1e-4f);
             ASSERT_NEAR(lanes.distance[l], light.distance, 1e-4f * light.distance);
-            expect_ray(lanes.ray(l, lanes.eye[l].origin), shadow_ray(eye.origin(light.wi), light));
+            expect_ray(lanes.ray(l), shadow_ray(eye.origin(light.wi), light));
         }
     }
     EXPECT_GT(lit, 1'000);
@@ -209,7 +209,7 @@ TEST_P(MatteConnectionsIn, ReachTheLensAsOneByOne) {
             const auto weight = static_cast<float>(1.0 / (1.0 + raised_(from_eye) * fewer));
             ASSERT_TRUE(is_near(brought.weight, weight)) << brought.weight << " instead of " << weight;
             ASSERT_TRUE(is_near(brought.light, light.throughput * value.f_cos * (importances[l] * weight)));
-            expect_ray(lanes.ray(l, lanes.light[l].origin), connecting_ray(light.origin(w), lenses[l]));
+            expect_ray(lanes.ray(l), connecting_ray(light.origin(w), lenses[l]));
         }
     }
     EXPECT_GT(seen, 1'000);

@@ -2,7 +2,9 @@
 
 #include "support/random.h"
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>

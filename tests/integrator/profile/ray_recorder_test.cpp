@@ -101,6 +101,35 @@ TEST(RayRecorder, EverySegmentOfAllThreadsIsKeptWithTheSameChance) {
         for (const double count : kept[t]) EXPECT_NEAR(count, expected[t], 4.5 * std::sqrt(expected[t])) << t;
 }
 
+TEST(RayRecorder, KeepsOfColumnsWhatItKeepsOfRays) {
+    constexpr std::size_t kRays = 300;
+    std::vector<float> numbers(kRays + RayColumns::kPacket);
+    std::vector<std::uint32_t> keys(numbers.size());
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        numbers[i] = static_cast<float>(i);
+        keys[i] = static_cast<std::uint32_t>(i);
+    }
+    const float* column = numbers.data();
+    const RayColumns batch{column, column, column, column, column, column, column, column, keys.data(), kRays};
+    RayRecorder of_columns(512);
+    RayRecorder of_rays(512);
+    for (int round = 0; round < 20; ++round) {
+        of_columns.offer(batch);
+        of_rays.offer(numbered(0, kRays));
+    }
+    ASSERT_EQ(of_columns.segments().size(), of_rays.segments().size());
+    EXPECT_EQ(of_columns.chance(), of_rays.chance());
+    for (std::size_t s = 0; s < of_rays.segments().size(); ++s) {
+        ASSERT_EQ(of_columns.segments()[s].size(), of_rays.segments()[s].size());
+        for (std::size_t i = 0; i < of_rays.segments()[s].size(); ++i) {
+            const Ray& ray = of_columns.segments()[s][i];
+            EXPECT_EQ(ray.t_max, of_rays.segments()[s][i].t_max);
+            EXPECT_EQ(ray.direction.z, ray.t_max);
+            EXPECT_EQ(static_cast<float>(ray.alpha_key), ray.t_max);
+        }
+    }
+}
+
 TEST(RayRecorder, NothingIsKeptWithoutRoom) {
     RayRecorder recorder(0);
     recorder.offer(numbered(0, 1000));
