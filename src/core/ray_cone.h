@@ -27,11 +27,15 @@ inline constexpr float kMaxConeSpread = 0.2f;
 /// pixel share the lobe between them.
 inline constexpr float kConeLobeShare = 1.0f / 64.0f;
 
+/// False where a lobe spreads by kMaxConeSpread around a direction sampled with `pdf_solid_angle` (1/sr), as it does
+/// where that is zero.
+[[nodiscard]] inline bool is_narrow_lobe(float pdf_solid_angle) {
+    return pdf_solid_angle * (kMaxConeSpread * kMaxConeSpread) > kConeLobeShare;
+}
+
 /// Spread, radians, of a cone as large as the share of a lobe around a direction sampled with `pdf_solid_angle` (1/sr).
 [[nodiscard]] inline float lobe_spread(float pdf_solid_angle) {
-    // Also where the density is zero.
-    if (!(pdf_solid_angle * (kMaxConeSpread * kMaxConeSpread) > kConeLobeShare)) return kMaxConeSpread;
-    return std::sqrt(kConeLobeShare / pdf_solid_angle);
+    return is_narrow_lobe(pdf_solid_angle) ? std::sqrt(kConeLobeShare / pdf_solid_angle) : kMaxConeSpread;
 }
 
 /// The cone behind a surface of `curvature` (1/m, positive where it is convex towards the arriving ray), reflected in

@@ -2,30 +2,44 @@
 #pragma once
 
 #include "core/columns.h"
+#include "core/wide_rows.h"
 #include "light/mesh_light.h"
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 
 namespace etendue {
 
-/// As in LightTriangleFront.
-struct LightFrontColumns {
-    Vec3Columns p0, edge1, edge2, normal;
-    Column clearance, area, back;
-
-    void set(std::size_t lane, const LightTriangleFront<float>& front) {
-        p0.set(lane, front.p0);
-        edge1.set(lane, front.edge1);
-        edge2.set(lane, front.edge2);
-        normal.set(lane, front.normal);
-        clearance.set(lane, front.clearance);
-        area.set(lane, front.area);
-        back.set(lane, front.back);
+/// As in LightTriangleFront. What the triangle alone decides stays where it is, in a row, until it is computed with.
+class LightFrontColumns {
+  public:
+    /// Until they are set, lanes have triangles of no meaning.
+    void clear() { rows_.fill(kNoTriangle.data()); }
+    void set(std::size_t lane, const MeshLight& light, const MeshLight::TriangleChoice& choice) {
+        rows_[lane] = light.row(choice.triangle);
+        area_.set(lane, light.area());
+        gain_.set(lane, choice.gain);
+        back_.set(lane, light.back());
     }
     [[nodiscard]] LightTriangleFront<Wide> load(std::size_t first) const {
-        return {p0.load(first),        edge1.load(first), edge2.load(first), normal.load(first),
-                clearance.load(first), area.load(first),  back.load(first)};
+        std::array<const float*, Wide::kWidth> rows;
+        std::copy_n(&rows_[first], rows.size(), rows.begin());
+        const WideRow row = load_rows(rows);
+        return {{row[0], row[1], row[2]},
+                {row[3], row[4], row[5]},
+                {row[6], row[7], row[8]},
+                {row[9], row[10], row[11]},
+                row[12],
+                area_.load(first) / gain_.load(first),
+                back_.load(first)};
     }
+
+  private:
+    alignas(kRowFloats * sizeof(float)) static constexpr std::array<float, kRowFloats> kNoTriangle{};
+
+    std::array<const float*, kBlockLanes> rows_{};
+    Column area_, gain_, back_;
 };
 
 }  // namespace etendue

@@ -113,14 +113,12 @@ class MeshLight {
     [[nodiscard]] bool has_opposites() const { return has_opposites_; }
     [[nodiscard]] LightTriangleFront<float> front(const TriangleChoice& choice) const {
         const Face& face = faces_[choice.triangle];
-        return {face.p0,
-                face.edge1,
-                face.edge2,
-                face.normal,
-                face.clearance,
-                area_ / choice.gain,
-                two_sided_ ? 1.0f : 0.0f};
+        return {face.p0, face.edge1, face.edge2, face.normal, face.clearance, area_ / choice.gain, back()};
     }
+    /// The first five of `front` where they stand, number after number: a row of core/wide_rows.h.
+    [[nodiscard]] const float* row(std::uint32_t triangle) const { return &faces_[triangle].p0.x; }
+    /// As in LightTriangleFront.
+    [[nodiscard]] float back() const { return two_sided_ ? 1.0f : 0.0f; }
     /// Of the front.
     [[nodiscard]] const Rgb& radiance() const { return radiance_; }
     /// Density of `sample` for a hit of this triangle at `distance` from `point`, where `cos_light` is the cosine
@@ -174,7 +172,7 @@ class MeshLight {
     [[nodiscard]] LightTriangleFront<float> any_front() const {
         LightTriangleFront<float> any{};
         any.area = area_;
-        any.back = two_sided_ ? 1.0f : 0.0f;
+        any.back = back();
         return any;
     }
 

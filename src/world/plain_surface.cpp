@@ -16,8 +16,9 @@ std::optional<PlainSurface> make_plain_surface(const WorldData& data, const Mate
     if (material.emits || material.unlit || material.has_coat || material.needs_tangents() || material.filling != kNone)
         return std::nullopt;
     if (const Bsdf* constant = std::get_if<Bsdf>(&material.model)) {
-        if (!std::holds_alternative<Diffuse>(*constant)) return std::nullopt;
-        return PlainSurface{.matte = constant};
+        const auto* diffuse = std::get_if<Diffuse>(constant);
+        if (diffuse == nullptr) return std::nullopt;
+        return PlainSurface{.matte = constant, .albedo = diffuse->albedo};
     }
     const GltfModel& model = std::get<GltfModel>(material.model);
     const TextureSlot& base_color = model.base_color_texture;

@@ -15,10 +15,15 @@ struct WorldData;
 /// metalness and roughness may come from textures that share a set of coordinates.
 struct PlainSurface {
     const Bsdf* matte = nullptr;          ///< its Diffuse lobe, or null
+    Rgb albedo{};                         ///< of that lobe
     MetallicRoughness glossy{};           ///< if it is not matte: its lobe, but for what textures change
     const GltfModel* textured = nullptr;  ///< what they change, or null
     int texcoord = 0;                     ///< their set of coordinates
 
+    /// The lobe of one that is neither matte nor textured, else null.
+    [[nodiscard]] const MetallicRoughness* untextured_lobe() const {
+        return matte == nullptr && textured == nullptr ? &glossy : nullptr;
+    }
     /// The lobe where the textures of the base colour and of metalness and roughness have these texels, linear Rec.709;
     /// 1 where there is no texture. It need not be plain: textures may say that it mirrors.
     [[nodiscard]] MetallicRoughness lobe(const WorldData& data, const Rgb& base_color,

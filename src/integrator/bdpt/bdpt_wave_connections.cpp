@@ -49,6 +49,7 @@ void BdptWave::connect_to_lights(const Context& context, std::size_t first, std:
     MeshLight::choose_triangles(std::span(meshes).first(lit_.size()), points, u_triangle, triangles);
     to_lights_.clear();
     wide_to_lights_.clear();
+    to_light_lanes_.front.clear();
     for (std::size_t i = 0; i < lit_.size(); ++i) {
         const ConnectibleVertex& vertex = to_light_[lit_[i]];
         const auto [light, triangle, direction] = to_light_.numbers(lit_[i]);
@@ -63,7 +64,7 @@ void BdptWave::connect_to_lights(const Context& context, std::size_t first, std:
         wide_to_lights_.push_back({&vertex, choice.light, on_light.triangle});
         to_light_lanes_.set_sample(lane, vertex.slot, vertex.is_seen_directly);
         to_light_lanes_.eye.set(lane, eye_.matte_end(vertex));
-        to_light_lanes_.front.set(lane, mesh->front(on_light));
+        to_light_lanes_.front.set(lane, *mesh, on_light);
         to_light_lanes_.u.set(lane, direction);
         to_light_lanes_.radiance.set(lane, mesh->radiance());
         to_light_lanes_.probability.set(lane, choice.probability);

@@ -17,7 +17,7 @@ struct BlockLanes : SurfaceLanes {
 
     // The sample of a light.
     LightFrontColumns front;
-    Column light_probability;  ///< of the choice
+    Column light_probability;  ///< of the choice; 0 where `front` is not what is sampled
     Vec3Columns light_wi, light_end;
     Column light_distance;
     Column light_pdf;        ///< the choice included; of a delta that alone; 0 if nothing arrives
@@ -41,8 +41,10 @@ struct BlockLanes : SurfaceLanes {
 
     /// Of a block of whose paths nothing is known yet.
     void start() {
+        front.clear();
         for (std::size_t l = 0; l < kBlockLanes; l += Wide::kWidth) {
             is_wide.store(l, Wide(0.0f));
+            light_probability.store(l, Wide(0.0f));
             goes_on.store(l, Wide(0.0f));
             light_pdf.store(l, Wide(0.0f));
             light_by_chance.store(l, Wide(1.0f));

@@ -10,6 +10,7 @@
 #include "integrator/number_pairs.h"
 #include "integrator/path/block_lanes.h"
 #include "integrator/path/glossy_lanes.h"
+#include "integrator/path/lane_list.h"
 #include "integrator/path/path_columns.h"
 #include "integrator/path/path_integrator.h"
 #include "integrator/path/textured_lanes.h"
@@ -31,11 +32,8 @@ struct ShadedPath {
     const PlainSurface* plain = nullptr;        ///< see World::plain_surface
     const MetallicRoughness* glossy = nullptr;  ///< its lobe, where that is evaluated for many at once
     std::uint32_t light = kNone;                ///< that is sampled
-    bool emits = false;                         ///< where the ray has hit
-    bool is_at_hidden = false;                  ///< on a boundary that another body hides
     bool samples_light = false;
-    bool is_wide = false;      ///< scattered by a lobe that is evaluated for many paths at once
-    bool is_mesh_lit = false;  ///< by an even mesh light, which is sampled for many at once
+    bool is_wide = false;  ///< scattered by a lobe that is evaluated for many paths at once
 };
 
 /// The rest, which paths have that are shaded one by one: some 700 bytes, apart from what stays in the first-level
@@ -106,6 +104,9 @@ class PathWave final : public IntegratorScratch {
     [[nodiscard]] LightReceiver make_receiver(std::size_t k) const;
     /// Samples a light for each path that asks for one.
     void sample_lights(const Context& context);
+    // The sample of path `k`, from the lanes or to them.
+    void take_light_from_lanes(std::size_t k);
+    void put_light_into_lanes(std::size_t k);
     /// What the surface scatters towards the light, and where else to.
     void evaluate(std::size_t k);
     void evaluate_matte();
@@ -114,7 +115,6 @@ class PathWave final : public IntegratorScratch {
     bool scatter_in_medium(const Context& context, std::size_t k);
     /// Takes path `k` through a boundary that another body hides.
     void pass_hidden(const Context& context, std::size_t k);
-    [[nodiscard]] std::span<const std::uint8_t> on_surface() const { return std::span(on_surface_).first(surfaces_); }
     /// Takes path `k` where the sample of its BSDF says; false if it ends.
     bool scatter_at_surface(const Context& context, std::size_t k);
     /// The same for all paths that are_wide, at once.
@@ -123,8 +123,14 @@ class PathWave final : public IntegratorScratch {
     [[nodiscard]] VertexEvent wide_event(const Context& context, std::size_t k, const Vec3f& wi) const;
     /// Tells the profile, if there is one, how path `k` scattered.
     void count_sample(const Context& context, std::size_t k, const BsdfSample& sample) const;
-    /// The cone of path `k` after `sample`, before its ray has been changed.
-    void bend_cone(const World& world, std::size_t k, const Vec3f& geometric_normal, const BsdfSample& sample);
+    /// The cone of path `k`, which has arrived as `arriving`, after `sample`, before its ray has been changed.
+    void bend_cone(const World& world, std::size_t k, const RayCone& arriving, const Vec3f& geometric_normal,
+                   const BsdfSample& sample);
+    /// Those of all paths that are_wide.
+    void bend_cones(const World& world);
+    [[nodiscard]] RayCone arriving_cone(std::size_t k) const { return paths_.cone(first_ + k).at(hits_[first_ + k].t); }
+    /// What the lanes have sampled for path `k`, where that is not black.
+    [[nodiscard]] BsdfSample sample_of_lane(std::size_t k) const;
     /// What path `k` has been so far, with `event`.
     void follow(std::size_t k, const VertexEvent& event) {
         ranges_[first_ + k] = words_.scatter_from_eye(ranges_[first_ + k], event);
@@ -183,11 +189,12 @@ class PathWave final : public IntegratorScratch {
     std::vector<SingleShading> singles_;
     std::array<ChosenLight, kBlock> lights_{};               ///< samples of those that are not sampled for many at once
     std::array<LightSample, kBlock> environment_samples_{};  ///< of those among them that are the environment's
-    std::array<std::uint8_t, kBlock> on_surface_{};          ///< places in the block of the paths on surfaces
-    std::size_t surfaces_ = 0;
+    LaneList escaped_;                                       ///< paths that have left the scene
+    LaneList on_emitter_, on_hidden_;                        ///< on surfaces that emit, on hidden boundaries
+    LaneList on_surface_;                                    ///< on surfaces that may scatter them
+    LaneList on_texture_, on_gloss_;                         ///< of those: on textured plain ones, on GlossyLanes
     BlockLanes lanes_;
     GlossyLanes glossy_;
-    bool any_textured_ = false;
     TexturedLanes textured_;
     std::array<MetallicRoughness, kBlock> textured_lobes_{};
     PlainLookups lookups_;

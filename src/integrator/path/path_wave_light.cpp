@@ -53,93 +53,91 @@ LightReceiver PathWave::make_receiver(std::size_t k) const {
 
 void PathWave::sample_lights(const Context& context) {
     const World& world = context.world;
-    std::array<std::uint8_t, kBlock> paths;
+    LaneList paths;
     std::array<Vec2f, kBlock> u;
-    std::size_t count = 0;
-    for (const std::uint8_t k : on_surface()) {
-        ShadedPath& path = block_[k];
-        path.is_mesh_lit = false;
-        if (!path.samples_light) continue;
-        if (!receivers_.empty()) to_light_[count] = receivers_[first_ + k] = make_receiver(k);
-        paths[count] = k;
-        u[count] = light_choice_[k];
-        ++count;
+    for (const std::uint8_t k : on_surface_) {
+        if (!block_[k].samples_light) continue;
+        const std::size_t place = paths.size();
+        if (!receivers_.empty()) to_light_[place] = receivers_[first_ + k] = make_receiver(k);
+        u[place] = light_choice_[k];
+        paths.add(k);
     }
-    if (count == 0) return;
+    if (paths.empty()) return;
+    const std::size_t count = paths.size();
     std::array<LightTree::Choice, kBlock> choices;
     world.choose_lights(std::span(to_light_).first(count), std::span(u).first(count), std::span(choices).first(count));
+    // Places among the paths, by how their lights are sampled.
+    LaneList by_mesh;
+    LaneList by_environment;
+    LaneList singly;
     std::array<const MeshLight*, kBlock> meshes;
     std::array<Vec3f, kBlock> points;
-    std::array<Vec2f, kBlock> u_triangle;
-    for (std::size_t chosen = 0; chosen < count; ++chosen) {
-        meshes[chosen] = world.even_mesh_light(choices[chosen].light);
-        points[chosen] = lanes_.position[paths[chosen]];
-        u_triangle[chosen] = light_triangle_[paths[chosen]];
+    for (std::size_t place = 0; place < count; ++place) {
+        const std::uint8_t k = paths[place];
+        const std::uint32_t light = block_[k].light = choices[place].light;
+        meshes[place] = world.even_mesh_light(light);
+        points[place] = lanes_.position[k];
+        u[place] = light_triangle_[k];
+        const bool is_mesh = meshes[place] != nullptr;
+        const bool is_environment = light == world.environment();
+        by_mesh.add_if(is_mesh, place);
+        by_environment.add_if(is_environment, place);
+        singly.add_if(!is_mesh && !is_environment, place);
     }
     std::array<MeshLight::TriangleChoice, kBlock> triangles;
-    MeshLight::choose_triangles(std::span(meshes).first(count), points, u_triangle, triangles);
-    bool any_mesh_lit = false;
-    std::array<std::uint8_t, kBlock> environment_lit;  // places among the chosen
-    std::size_t environment_lit_count = 0;
-    for (std::size_t chosen = 0; chosen < count; ++chosen) {
-        const std::size_t k = paths[chosen];
-        ShadedPath& path = block_[k];
-        const LightTree::Choice& choice = choices[chosen];
-        path.light = choice.light;
-        const MeshLight* mesh = meshes[chosen];
-        if (choice.light == world.environment()) {
-            u[environment_lit_count] = light_direction_[k];
-            environment_lit[environment_lit_count++] = static_cast<std::uint8_t>(chosen);
-            continue;
-        }
-        if (mesh == nullptr) {
-            make_in_place(lights_[k], [&] { return world.sample_light(choice, points[chosen], light_numbers(k)); });
-            continue;
-        }
-        any_mesh_lit = true;
-        path.is_mesh_lit = true;
-        lanes_.front.set(k, mesh->front(triangles[chosen]));
-        lanes_.light_probability.set(k, choice.probability);
-        lanes_.light_radiance.set(k, mesh->radiance());
+    MeshLight::choose_triangles(std::span(meshes).first(count), points, u, triangles);
+    for (const std::uint8_t place : by_mesh) {
+        const std::uint8_t k = paths[place];
+        const MeshLight& mesh = *meshes[place];
+        lanes_.front.set(k, mesh, triangles[place]);
+        lanes_.light_probability.set(k, choices[place].probability);
+        lanes_.light_radiance.set(k, mesh.radiance());
     }
-    if (any_mesh_lit) {
+    if (!by_mesh.empty()) {
         for (std::size_t l = 0; l < count_; l += Wide::kWidth) lanes_.u.store(l, light_direction_.load(l));
         lanes_.sample_mesh_lights(count_);
     }
-    if (environment_lit_count > 0) {
-        world.sample_environment_light(std::span(u).first(environment_lit_count),
-                                       std::span(environment_samples_).first(environment_lit_count));
-        for (std::size_t i = 0; i < environment_lit_count; ++i) {
-            const std::size_t chosen = environment_lit[i];
-            ChosenLight& light = lights_[paths[chosen]];
-            light.sample = environment_samples_[i];
-            light.sample.pdf_solid_angle *= choices[chosen].probability;
-            light.probability = choices[chosen].probability;
-            light.light = choices[chosen].light;
+    if (!by_environment.empty()) {
+        const std::size_t samples = by_environment.size();
+        for (std::size_t i = 0; i < samples; ++i) u[i] = light_direction_[paths[by_environment[i]]];
+        world.sample_environment_light(std::span(u).first(samples), std::span(environment_samples_).first(samples));
+        for (std::size_t i = 0; i < samples; ++i) {
+            const LightTree::Choice& choice = choices[by_environment[i]];
+            ChosenLight& light = lights_[paths[by_environment[i]]];
+            light = {environment_samples_[i], choice.probability, choice.light};
+            light.sample.pdf_solid_angle *= choice.probability;
         }
     }
-    for (const std::uint8_t k : on_surface()) {
-        const ShadedPath& path = block_[k];
-        if (path.is_wide == path.is_mesh_lit) continue;
-        LightSample& light = lights_[k].sample;
-        if (path.is_mesh_lit) {
-            light.wi = lanes_.light_wi[k];
-            light.distance = lanes_.light_distance[k];
-            light.end = lanes_.light_end[k];
-            light.pdf_solid_angle = lanes_.light_pdf[k];
-            light.radiance = light.pdf_solid_angle > 0.0f ? lanes_.light_radiance[k] : Rgb();
-            light.is_delta = false;
-        } else if (path.samples_light) {
-            lanes_.light_wi.set(k, light.wi);
-            lanes_.light_distance.set(k, light.distance);
-            lanes_.light_end.set(k, light.end);
-            lanes_.light_pdf.set(k, light.is_delta ? lights_[k].probability : light.pdf_solid_angle);
-            lanes_.light_by_chance.set(k, light.is_delta ? 0.0f : 1.0f);
-            lanes_.light_radiance.set(k, light.radiance);
-        } else {
-            lanes_.light_pdf.set(k, 0.0f);  // whatever the lanes of mesh lights made of what lay there
-        }
+    for (const std::uint8_t place : singly) {
+        const std::uint8_t k = paths[place];
+        make_in_place(lights_[k], [&] { return world.sample_light(choices[place], points[place], light_numbers(k)); });
     }
+    // What is where those who ask next do not look for it.
+    for (const std::uint8_t place : by_mesh)
+        if (const std::uint8_t k = paths[place]; !block_[k].is_wide) take_light_from_lanes(k);
+    for (const LaneList* list : {&by_environment, &singly})
+        for (const std::uint8_t place : *list)
+            if (const std::uint8_t k = paths[place]; block_[k].is_wide) put_light_into_lanes(k);
+}
+
+void PathWave::take_light_from_lanes(std::size_t k) {
+    LightSample& light = lights_[k].sample;
+    light.wi = lanes_.light_wi[k];
+    light.distance = lanes_.light_distance[k];
+    light.end = lanes_.light_end[k];
+    light.pdf_solid_angle = lanes_.light_pdf[k];
+    light.radiance = light.pdf_solid_angle > 0.0f ? lanes_.light_radiance[k] : Rgb();
+    light.is_delta = false;
+}
+
+void PathWave::put_light_into_lanes(std::size_t k) {
+    const LightSample& light = lights_[k].sample;
+    lanes_.light_wi.set(k, light.wi);
+    lanes_.light_distance.set(k, light.distance);
+    lanes_.light_end.set(k, light.end);
+    lanes_.light_pdf.set(k, light.is_delta ? lights_[k].probability : light.pdf_solid_angle);
+    lanes_.light_by_chance.set(k, light.is_delta ? 0.0f : 1.0f);
+    lanes_.light_radiance.set(k, light.radiance);
 }
 
 void PathWave::add_environment(const Context& context, std::size_t k) {
@@ -177,15 +175,15 @@ void PathWave::add_emission(const Context& context, std::size_t k) {
 void PathWave::queue_direct_light(const Context& context) {
     lanes_.weigh_light(count_, paths_, first_);
     if (context.job.profile != nullptr)
-        for (const std::uint8_t k : on_surface())
+        for (const std::uint8_t k : on_surface_)
             if (block_[k].samples_light) ++context.job.profile->use().light_samples;
     if (words_.are_followed() || context.world.has_bodies()) {
-        for (const std::uint8_t k : on_surface())
+        for (const std::uint8_t k : on_surface_)
             if (block_[k].is_wide && lanes_.arrives[k] != 0.0f) queue_by_lanes(context, k);
     } else {
         queue_by_lanes(context);
     }
-    for (const std::uint8_t k : on_surface())
+    for (const std::uint8_t k : on_surface_)
         if (!block_[k].is_wide && block_[k].samples_light) queue_singly(context, k);
 }
 

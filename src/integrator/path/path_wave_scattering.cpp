@@ -12,25 +12,24 @@ namespace etendue {
 
 void PathWave::set_up(const Context& context) {
     const World& world = context.world;
-    surfaces_ = 0;
+    for (LaneList* list : {&escaped_, &on_emitter_, &on_hidden_, &on_surface_}) list->clear();
+    LaneList has_hit;
     for (std::size_t k = 0; k < count_; ++k) {
+        const bool is_valid = hits_[first_ + k].valid();
+        has_hit.add_if(is_valid, k);
+        escaped_.add_if(!is_valid, k);
+    }
+    for (const std::uint8_t k : escaped_) end_path(context, k, PathEnding::Escaped);
+    for (const std::uint8_t k : has_hit) {
         const std::size_t i = first_ + k;
-        const Hit& hit = hits_[i];
-        ShadedPath& path = block_[k];
-        path.emits = false;
-        path.is_at_hidden = false;
-        if (!hit.valid()) {
-            end_path(context, k, PathEnding::Escaped);
-            continue;
-        }
         if (world.has_bodies() && scatter_in_medium(context, k)) {
             lanes_.goes_on.set(k, 1.0f);
             continue;
         }
-        path.plain = world.plain_surface(hit);
-        if (path.plain == nullptr && !set_up_any(context, k)) continue;
+        const PlainSurface* const plain = block_[k].plain = world.plain_surface(hits_[i]);
+        if (plain == nullptr && !set_up_any(context, k)) continue;
         if (paths_.edges(i) < context.options.lengths.max_depth)
-            on_surface_[surfaces_++] = static_cast<std::uint8_t>(k);
+            on_surface_.add(k);
         else
             end_path(context, k, PathEnding::TooLong);
     }
@@ -39,15 +38,14 @@ void PathWave::set_up(const Context& context) {
 bool PathWave::set_up_any(const Context& context, std::size_t k) {
     const World& world = context.world;
     const std::size_t i = first_ + k;
-    ShadedPath& path = block_[k];
     set_up_singly(context, k);
     const SurfacePoint& point = singles_[k].point;
-    path.emits = point.material->emits;
+    on_emitter_.add_if(point.material->emits, k);
     if (world.has_bodies() && world.is_boundary(point)) {
         const Crossing& crossing =
             singles_[k].crossing.emplace(InPlace{[&] { return world.crossing(point, interiors_[i]); }});
         if (crossing.is_hidden) {
-            path.is_at_hidden = true;
+            on_hidden_.add(k);
             lanes_.goes_on.set(k, 1.0f);
             return false;
         }
@@ -71,62 +69,59 @@ void PathWave::set_up_singly(const Context& context, std::size_t k) {
 void PathWave::set_up_plain(const Context& context) {
     const World& world = context.world;
     bool any = false;
-    any_textured_ = false;
+    on_texture_.clear();
     for (std::size_t l = 0; l < count_; l += Wide::kWidth) {
         const Imath::Vec3<Wide> direction = paths_.direction.load(first_ + l);
         lanes_.wo.store(l, {-direction.x, -direction.y, -direction.z});
     }
-    for (const std::uint8_t k : on_surface()) {
-        const std::size_t i = first_ + k;
+    for (const std::uint8_t k : on_surface_) {
         const PlainSurface* const plain = block_[k].plain;
         if (plain == nullptr) continue;
         any = true;
-        const Hit& hit = hits_[i];
+        const Hit& hit = hits_[first_ + k];
         lanes_.set_hit(k, world.hit_triangle(hit), {hit.u, hit.v});
         if (words_.are_followed()) singles_[k].point.material = world.material(hit);
-        if (plain->textured == nullptr) continue;
-        any_textured_ = true;
-        textured_.set_hit(k, world.hit_coordinates(hit, *plain), std::abs(paths_.cone(i).width_at(hit.t)));
+        on_texture_.add_if(plain->textured != nullptr, k);
     }
     if (any) lanes_.set_up_points(count_);
-    if (any_textured_) textured_.set_up(lanes_, count_);
+    if (on_texture_.empty()) return;
+    for (const std::uint8_t k : on_texture_) {
+        const Hit& hit = hits_[first_ + k];
+        textured_.set_hit(k, world.hit_coordinates(hit, *block_[k].plain),
+                          std::abs(paths_.cone(first_ + k).width_at(hit.t)));
+    }
+    textured_.set_up(lanes_, count_);
 }
 
 void PathWave::look_up_textures(const Context& context) {
-    if (!any_textured_) return;
+    if (on_texture_.empty()) return;
     const World& world = context.world;
-    const auto is_textured = [](const ShadedPath& path) {
-        return path.plain != nullptr && path.plain->textured != nullptr;
-    };
     lookups_.clear();
-    for (const std::uint8_t k : on_surface())
-        if (const ShadedPath& path = block_[k]; is_textured(path))
-            world.add_lookups(*path.plain, textured_.uv[k], textured_.footprint(k), lookups_);
+    for (const std::uint8_t k : on_texture_)
+        world.add_lookups(*block_[k].plain, textured_.uv[k], textured_.footprint(k), lookups_);
     lookups_.finish();
-    for (const std::uint8_t k : on_surface()) {
-        ShadedPath& path = block_[k];
-        if (!is_textured(path)) continue;
-        const MetallicRoughness& lobe = textured_lobes_[k] = world.lobe(*path.plain, lookups_);
-        path.glossy = &lobe;
-        if (!lobe.is_plain()) set_up_singly(context, k);
+    for (const std::uint8_t k : on_texture_) {
+        textured_lobes_[k] = world.lobe(*block_[k].plain, lookups_);
+        if (!textured_lobes_[k].is_plain()) set_up_singly(context, k);
     }
 }
 
 void PathWave::make_scattering(const Context& context) {
     const bool samples_lights = context.options.sample_lights && context.world.has_sampled_lights();
-    for (const std::uint8_t k : on_surface()) {
+    on_gloss_.clear();
+    for (const std::uint8_t k : on_surface_) {
         ShadedPath& path = block_[k];
         path.samples_light = samples_lights && paths_.edges(first_ + k) + 1 >= context.options.lengths.min_depth;
         set_wide(k, path.plain != nullptr);
-        if (!path.is_wide) {
+        if (path.is_wide) {
+            const PlainSurface& plain = *path.plain;
+            path.glossy = plain.textured != nullptr ? &textured_lobes_[k] : plain.untextured_lobe();
+            lanes_.albedo.set(k, plain.albedo);
+            if (path.glossy != nullptr && words_.are_followed()) make_wide_scattering(k);
+        } else {
             make_scattering_singly(context, k);
-            continue;
         }
-        if (path.plain->textured == nullptr) path.glossy = path.plain->matte == nullptr ? &path.plain->glossy : nullptr;
-        if (path.glossy == nullptr)
-            lanes_.albedo.set(k, std::get_if<Diffuse>(path.plain->matte)->albedo);
-        else if (words_.are_followed())
-            make_wide_scattering(k);
+        on_gloss_.add_if(path.glossy != nullptr, k);
     }
 }
 
@@ -178,24 +173,21 @@ void PathWave::evaluate_matte() {
 }
 
 void PathWave::evaluate_glossy() {
-    std::array<std::uint8_t, kBlock> path_of{};
-    std::size_t count = 0;
-    for (const std::uint8_t k : on_surface()) {
-        if (block_[k].glossy == nullptr) continue;
-        glossy_.set_lobe(count, *block_[k].glossy);
-        glossy_.tangent.set(count, lanes_.tangent[k]);
-        glossy_.bitangent.set(count, lanes_.bitangent[k]);
-        glossy_.normal.set(count, lanes_.normal[k]);
-        glossy_.geometric_normal.set(count, lanes_.geometric_normal[k]);
-        glossy_.wo.set(count, lanes_.wo[k]);
-        glossy_.light_wi.set(count, lanes_.light_wi[k]);
-        glossy_.u_lobe.set(count, choices_[k].x);
-        glossy_.u.set(count, bsdf_direction_[k]);
-        path_of[count++] = k;
+    for (std::size_t g = 0; g < on_gloss_.size(); ++g) {
+        const std::size_t k = on_gloss_[g];
+        glossy_.set_lobe(g, *block_[k].glossy);
+        glossy_.tangent.set(g, lanes_.tangent[k]);
+        glossy_.bitangent.set(g, lanes_.bitangent[k]);
+        glossy_.normal.set(g, lanes_.normal[k]);
+        glossy_.geometric_normal.set(g, lanes_.geometric_normal[k]);
+        glossy_.wo.set(g, lanes_.wo[k]);
+        glossy_.light_wi.set(g, lanes_.light_wi[k]);
+        glossy_.u_lobe.set(g, choices_[k].x);
+        glossy_.u.set(g, bsdf_direction_[k]);
     }
-    glossy_.evaluate(count);
-    for (std::size_t g = 0; g < count; ++g) {
-        const std::size_t k = path_of[g];
+    glossy_.evaluate(on_gloss_.size());
+    for (std::size_t g = 0; g < on_gloss_.size(); ++g) {
+        const std::size_t k = on_gloss_[g];
         lanes_.f_cos.set(k, glossy_.f_cos[g]);
         lanes_.pdf.set(k, glossy_.pdf[g]);
         lanes_.next_direction.set(k, glossy_.next_direction[g]);
@@ -221,19 +213,13 @@ VertexEvent PathWave::wide_event(const Context& context, std::size_t k, const Ve
 
 void PathWave::scatter_by_lanes(const Context& context) {
     const World& world = context.world;
-    if (world.has_textures() || context.job.profile != nullptr) {
-        for (const std::uint8_t k : on_surface()) {
-            if (!block_[k].is_wide) continue;
-            BsdfSample sample;
-            sample.weight = lanes_.next_weight[k];
-            sample.pdf_solid_angle = lanes_.next_pdf[k];
-            count_sample(context, k, sample);
-            if (world.has_textures()) bend_cone(world, k, lanes_.geometric_normal[k], sample);
-        }
-    }
+    if (context.job.profile != nullptr)
+        for (const std::uint8_t k : on_surface_)
+            if (block_[k].is_wide) count_sample(context, k, sample_of_lane(k));
+    if (world.has_textures()) bend_cones(world);
     lanes_.scatter(count_, paths_, first_);
     if (!world.has_transparency() && !words_.are_followed()) return;
-    for (const std::uint8_t k : on_surface()) {
+    for (const std::uint8_t k : on_surface_) {
         if (!block_[k].is_wide || lanes_.goes_on[k] == 0.0f) continue;
         paths_.alpha_key.set(first_ + k, alpha_key(context, k));
         if (words_.are_followed()) follow(k, wide_event(context, k, lanes_.next_direction[k]));
@@ -249,10 +235,30 @@ void PathWave::count_sample(const Context& context, std::size_t k, const BsdfSam
     end_path(context, k, PathEnding::Absorbed);
 }
 
-void PathWave::bend_cone(const World& world, std::size_t k, const Vec3f& geometric_normal, const BsdfSample& sample) {
+BsdfSample PathWave::sample_of_lane(std::size_t k) const {
+    BsdfSample sample;
+    sample.weight = lanes_.next_weight[k];
+    sample.pdf_solid_angle = lanes_.next_pdf[k];
+    return sample;
+}
+
+void PathWave::bend_cone(const World& world, std::size_t k, const RayCone& arriving, const Vec3f& geometric_normal,
+                         const BsdfSample& sample) {
     const std::size_t i = first_ + k;
-    paths_.set_cone(i, scattered_cone(world, hits_[i], geometric_normal, paths_.direction[i],
-                                      paths_.cone(i).at(hits_[i].t), sample));
+    paths_.set_cone(i, scattered_cone(world, hits_[i], geometric_normal, paths_.direction[i], arriving, sample));
+}
+
+void PathWave::bend_cones(const World& world) {
+    // All as if their lobes were wide; then once more those whose are not.
+    LaneList narrow;
+    std::array<RayCone, kBlock> arriving;
+    for (const std::uint8_t k : on_surface_) {
+        if (!block_[k].is_wide) continue;
+        arriving[k] = arriving_cone(k);
+        paths_.set_cone(first_ + k, scatter_cone(arriving[k], kMaxConeSpread));
+        narrow.add_if(is_narrow_lobe(lanes_.next_pdf[k]), k);
+    }
+    for (const std::uint8_t k : narrow) bend_cone(world, k, arriving[k], lanes_.geometric_normal[k], sample_of_lane(k));
 }
 
 bool PathWave::scatter_at_surface(const Context& context, std::size_t k) {
@@ -268,7 +274,7 @@ bool PathWave::scatter_at_surface(const Context& context, std::size_t k) {
     paths_.pdf_solid_angle.set(i, sample.pdf_solid_angle);
     paths_.history.set(i, sample.is_delta ? path_history::after_delta(paths_.history[i])
                                           : path_history::after_lobe(paths_.history[i], 1));
-    if (world.has_textures()) bend_cone(world, k, point.geometric_normal, sample);
+    if (world.has_textures()) bend_cone(world, k, arriving_cone(k), point.geometric_normal, sample);
     if (words_.are_followed())
         follow(k, surface_event(scattering, sample.wi, sample.is_delta, TransportMode::Radiance,
                                 words_.label(world, point)));
