@@ -158,10 +158,10 @@ LightSample ImageEnvironment::sample_at(const Distribution2D::Sample& position) 
     return sample;
 }
 
-float ImageEnvironment::density_of(const Distribution2D& distribution, const Vec3f& direction) const {
+float ImageEnvironment::density_of(const Distribution2D& distribution, const Vec3f& direction, Vec2f position) {
     const float sin_theta = std::hypot(direction.x, direction.z);
     if (!(sin_theta > 0.0f)) return 0.0f;
-    return distribution.pdf(to_image(direction)) / (2.0f * kPi * kPi * sin_theta);
+    return distribution.pdf(position) / (2.0f * kPi * kPi * sin_theta);
 }
 
 // A row between the polar angles a and b covers 2 pi (cos a - cos b) = 4 pi sin((a + b) / 2) sin(pi / (2 height)); the
@@ -189,6 +189,22 @@ void ImageEnvironment::sample_compensated(std::span<const Vec2f> u, std::span<Li
     }
 }
 
+void ImageEnvironment::look(std::span<const Vec3f> directions, std::span<EnvironmentRadiance> seen) const {
+    constexpr std::size_t kAtOnce = 64;
+    std::array<Vec2f, kAtOnce> positions;
+    for (std::size_t first = 0; first < directions.size(); first += kAtOnce) {
+        const std::size_t count = std::min(kAtOnce, directions.size() - first);
+        for (std::size_t i = 0; i < count; ++i) {
+            positions[i] = to_image(directions[first + i]);
+            texture_.fetch(positions[i]);
+            densities_.compensated.fetch_pdf(positions[i]);
+        }
+        for (std::size_t i = 0; i < count; ++i)
+            seen[first + i] = {texture_.lookup(positions[i]).rgb,
+                               density_of(densities_.compensated, directions[first + i], positions[i])};
+    }
+}
+
 EmissionSample ImageEnvironment::sample_emission(const EmissionNumbers& u, const SceneSphere& scene) const {
     return emission_from(sample(scene.center, u.direction), u, scene);
 }
@@ -198,11 +214,11 @@ float ImageEnvironment::emission_pdf(const Vec3f&, float, const SceneSphere& sce
 }
 
 float ImageEnvironment::pdf_solid_angle(const Vec3f& direction) const {
-    return density_of(densities_.complete, direction);
+    return density_of(densities_.complete, direction, to_image(direction));
 }
 
 float ImageEnvironment::compensated_pdf_solid_angle(const Vec3f& direction) const {
-    return density_of(densities_.compensated, direction);
+    return density_of(densities_.compensated, direction, to_image(direction));
 }
 
 float ImageEnvironment::power(float scene_radius) const {

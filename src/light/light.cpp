@@ -98,6 +98,12 @@ float compensated_environment_pdf_solid_angle(const Light& light, const Vec3f& d
     return image != nullptr ? image->compensated_pdf_solid_angle(direction) : 0.0f;
 }
 
+void look_at_environment(const Light& light, std::span<const Vec3f> directions, std::span<EnvironmentRadiance> seen) {
+    if (const auto* image = std::get_if<ImageEnvironment>(&light)) return image->look(directions, seen);
+    const auto* constant = std::get_if<ConstantEnvironment>(&light);
+    std::ranges::fill(seen, EnvironmentRadiance{constant != nullptr ? constant->value : Rgb()});
+}
+
 LightSelector::LightSelector(std::span<const Light> lights, float scene_radius) {
     constexpr double kAny = 0.1;
     std::vector<double> weights;

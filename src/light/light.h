@@ -60,6 +60,9 @@ void sample_environment_compensated(const Light& light, std::span<const Vec2f> u
 /// The same of `sample_light_compensated`.
 [[nodiscard]] float compensated_environment_pdf_solid_angle(const Light& light, const Vec3f& direction);
 
+/// Both along as many `directions` at once.
+void look_at_environment(const Light& light, std::span<const Vec3f> directions, std::span<EnvironmentRadiance> seen);
+
 /// Chooses a light by its power, and one time in ten any: a lamp beside the sun must be found too, and the light of one
 /// that is almost never chosen would come as fireflies.
 class LightSelector {

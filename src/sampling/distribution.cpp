@@ -1,5 +1,6 @@
 #include "sampling/distribution.h"
 
+#include "core/wide.h"
 #include "sampling/warp.h"
 
 #include <algorithm>
@@ -22,17 +23,19 @@ std::size_t cell(float x, std::size_t count) {
 
 }  // namespace
 
-Distribution1D::Distribution1D(std::span<const float> weights) : cdf_(weights.size() + 1) {
+Distribution1D::Distribution1D(std::span<const float> weights)
+    : cdf_(weights.size() + 1 + Wide::kWidth, 1.0f), size_(weights.size()) {
     double sum = 0.0;
     for (const float weight : weights) sum += static_cast<double>(weight);
     const auto count = static_cast<double>(weights.size());
     integral_ = sum / count;
     double running = 0.0;
+    cdf_[0] = 0.0f;
     for (std::size_t i = 0; i < weights.size(); ++i) {
         running += sum > 0.0 ? static_cast<double>(weights[i]) / sum : 1.0 / count;
         cdf_[i + 1] = static_cast<float>(std::min(running, 1.0));
     }
-    cdf_.back() = 1.0f;
+    cdf_[size_] = 1.0f;
 
     const std::size_t starts = std::max<std::size_t>(1, std::bit_ceil(weights.size()) / kIntervalsPerStart);
     guide_.reserve(starts + 1);
@@ -59,9 +62,13 @@ void Distribution1D::fetch_interval(float u) const {
 
 std::size_t Distribution1D::find(float u) const {
     const std::size_t start = start_of(u);
-    const auto first = cdf_.begin() + 1;
-    const auto above = std::upper_bound(first + guide_[start], first + guide_[start + 1], u);
-    return static_cast<std::size_t>(above - first);
+    const std::size_t low = guide_[start];
+    const std::size_t high = guide_[start + 1];
+    const float* const ends = &cdf_[1];
+    // Of the few there mostly are all at once, as no processor foretells which one it is.
+    if (high - low <= Wide::kWidth)
+        return low + count(Wide::load_unaligned(ends + low) <= Wide(u) && WideMask::first(high - low));
+    return static_cast<std::size_t>(std::upper_bound(ends + low, ends + high, u) - ends);
 }
 
 Distribution1D::Sample Distribution1D::sample(float u) const {
@@ -80,6 +87,10 @@ Distribution1D::Sample Distribution1D::sample(float u) const {
 float Distribution1D::pdf(float x) const {
     const std::size_t index = cell(x, size());
     return (cdf_[index + 1] - cdf_[index]) * static_cast<float>(size());
+}
+
+void Distribution1D::fetch_pdf(float x) const {
+    __builtin_prefetch(&cdf_[cell(x, size())]);
 }
 
 float Distribution1D::inverse(float x) const {

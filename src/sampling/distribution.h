@@ -29,9 +29,11 @@ class Distribution1D {
     void fetch_guide(float u) const;
     void fetch_interval(float u) const;
     [[nodiscard]] float pdf(float x) const;
+    /// Has what `pdf` reads fetched.
+    void fetch_pdf(float x) const;
     /// The u that `sample` maps to `x`.
     [[nodiscard]] float inverse(float x) const;
-    [[nodiscard]] std::size_t size() const { return cdf_.empty() ? 0 : cdf_.size() - 1; }
+    [[nodiscard]] std::size_t size() const { return size_; }
     /// Mean of the weights: the integral over [0,1) of the function that they describe.
     [[nodiscard]] double integral() const { return integral_; }
 
@@ -43,7 +45,9 @@ class Distribution1D {
     /// Of the entry of the guide that `find` begins with.
     [[nodiscard]] std::size_t start_of(float u) const;
 
-    std::vector<float> cdf_;  ///< size() + 1 values from 0 to 1
+    /// size() + 1 values from 0 to 1, and as many behind them as are compared at once.
+    std::vector<float> cdf_;
+    std::size_t size_ = 0;
     /// `find` of the multiples of a power of two's inverse, from 0 to 1.
     std::vector<std::uint32_t> guide_;
     double integral_ = 0.0;
@@ -64,6 +68,8 @@ class Distribution2D {
     /// The same of as many as there are `samples`: what each reads is on its way while the others are looked at.
     void sample(std::span<const Vec2f> u, std::span<Sample> samples) const;
     [[nodiscard]] float pdf(Vec2f position) const;
+    /// Has most of what `pdf` reads fetched from memory.
+    void fetch_pdf(Vec2f position) const { row(position.y).fetch_pdf(position.x); }
     [[nodiscard]] Vec2f inverse(Vec2f position) const;
     [[nodiscard]] double integral() const { return marginal_.integral(); }
     [[nodiscard]] std::size_t bytes() const;

@@ -394,6 +394,10 @@ float World::environment_pdf_solid_angle(const Vec3f& direction) const {
     return compensated_environment_pdf_solid_angle(data_->lights[data_->environment], direction);
 }
 
+void World::look_at_environment(std::span<const Vec3f> directions, std::span<EnvironmentRadiance> seen) const {
+    etendue::look_at_environment(data_->lights[data_->environment], directions, seen);
+}
+
 float World::environment_emission_pdf_solid_angle(const Vec3f& direction) const {
     if (!has_environment()) return 0.0f;
     return etendue::environment_pdf_solid_angle(data_->lights[data_->environment], direction);

@@ -348,6 +348,8 @@ class World {
     /// Density with which `sample_light` picks `direction`, without the choice of the environment; zero where that is
     /// dimmer than its mean.
     [[nodiscard]] float environment_pdf_solid_angle(const Vec3f& direction) const;
+    /// Both along as many `directions` at once, of the environment, which there has to be.
+    void look_at_environment(std::span<const Vec3f> directions, std::span<EnvironmentRadiance> seen) const;
     /// The same of `sample_emission` and `sample_environment`; zero only where the environment is black.
     [[nodiscard]] float environment_emission_pdf_solid_angle(const Vec3f& direction) const;
     /// Light arriving at `point` from all of the environment, where nothing but light samples looks for it. `u` in

@@ -164,6 +164,22 @@ TEST(Environment, ManySamplesAtOnceAreTheSame) {
 }
 
 // False-positive rate of the table: kFamilyLevel.
+TEST(Environment, LookingAlongManyDirectionsAtOnceIsTheSame) {
+    Random random(9);
+    std::vector<Vec3f> directions{{0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+    while (directions.size() < 150) directions.push_back(square_to_sphere(random.next_2d()));
+    for (const NamedEnvironment& environment : environments()) {
+        std::vector<EnvironmentRadiance> seen(directions.size());
+        look_at_environment(environment.light, directions, seen);
+        for (std::size_t i = 0; i < directions.size(); ++i) {
+            EXPECT_EQ(seen[i].radiance, environment_radiance(environment.light, directions[i])) << environment.name;
+            EXPECT_EQ(seen[i].pdf_solid_angle,
+                      compensated_environment_pdf_solid_angle(environment.light, directions[i]))
+                << environment.name;
+        }
+    }
+}
+
 TEST(Environment, CompensatedDirectionsHaveTheStatedDensity) {
     std::vector<NamedEnvironment> list = environments();
     list.push_back(

@@ -1,5 +1,6 @@
 #include "sampling/distribution.h"
 
+#include "core/wide.h"
 #include "support/chi2.h"
 
 #include <algorithm>
@@ -17,13 +18,17 @@ std::vector<std::vector<float>> function_lists() {
     std::vector<float> many(2048);
     Random random(1);
     for (float& weight : many) weight = random.next() < 0.3f ? 0.0f : std::pow(random.next(), 4.0f);
+    // Nearly all intervals share an entry of the guide.
+    std::vector<float> concentrated(300, 1e-5f);
+    concentrated[150] = 1.0f;
     return {{2.0f},
             {1.0f, 1.0f},
             {0.0f, 1.0f, 0.0f, 0.0f, 3.0f, 0.0f},
             {0.0f, 0.0f, 1.0f},
             {1.0f, 0.0f, 0.0f},
             {1e-6f, 1.0f, 1e6f},
-            many};
+            many,
+            concentrated};
 }
 
 constexpr float kLargest = 0x1.fffffep-1f;
@@ -236,11 +241,12 @@ TEST(Distribution2D, KeepsStratification) {
 
 TEST(Distribution2D, CountsItsBytes) {
     // 4 bytes a value of a distribution function, which has one more than there are intervals, and the same for the
-    // guide's, which begins with one for four intervals.
+    // guide's, which begins with one for four intervals. As many values as are compared at once stand behind them.
+    constexpr std::size_t kBehind = Wide::kWidth;
     const Distribution2D distribution(std::vector<float>(12, 1.0f), 4, 3);
-    EXPECT_EQ(distribution.bytes(), 3u * (5u + 2u) * 4u + (4u + 2u) * 4u);
+    EXPECT_EQ(distribution.bytes(), 3u * (5u + 2u + kBehind) * 4u + (4u + 2u + kBehind) * 4u);
     const Distribution2D wide(std::vector<float>(2048, 1.0f), 1024, 2);
-    EXPECT_EQ(wide.bytes(), 2u * (1025u + 257u) * 4u + (3u + 2u) * 4u);
+    EXPECT_EQ(wide.bytes(), 2u * (1025u + 257u + kBehind) * 4u + (3u + 2u + kBehind) * 4u);
 }
 
 }  // namespace

@@ -95,7 +95,7 @@ void PathWave::shade_block(const Context& context, std::size_t first, std::size_
     set_up_plain(context);
     stamp(profile, Stage::HitSetup);
     // What leaves the scene was in no body, whatever holes in meshes made of its interior.
-    for (const std::uint8_t k : escaped_) add_environment(context, k);
+    add_environment(context);
     for (const std::uint8_t k : on_emitter_) add_emission(context, k);
     stamp(profile, Stage::Emission);
     look_up_textures(context);

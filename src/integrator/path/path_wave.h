@@ -140,7 +140,8 @@ class PathWave final : public IntegratorScratch {
     void keep_survivors(const Context& context, std::size_t& kept);
     /// Tells the profile, if there is one, of the end of path `k`.
     void end_path(const Context& context, std::size_t k, PathEnding ending) const;
-    void add_environment(const Context& context, std::size_t k);
+    /// What those that have left the scene meet there.
+    void add_environment(const Context& context);
     void add_emission(const Context& context, std::size_t k);
     /// Where the ray of path `i` starts, as far as the choice of a light depends on it.
     [[nodiscard]] LightReceiver receiver(std::size_t i) const {

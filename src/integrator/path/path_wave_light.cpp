@@ -140,21 +140,33 @@ void PathWave::put_light_into_lanes(std::size_t k) {
     lanes_.light_radiance.set(k, light.radiance);
 }
 
-void PathWave::add_environment(const Context& context, std::size_t k) {
+void PathWave::add_environment(const Context& context) {
     const World& world = context.world;
-    const std::size_t i = first_ + k;
     if (context.depth == 1 && !(world.has_environment() && world.environment_visible_to_camera())) {
-        alpha_[paths_.slot[i]] = 0.0f;
+        for (const std::uint8_t k : escaped_) alpha_[paths_.slot[first_ + k]] = 0.0f;
         return;
     }
-    if (!world.has_environment() || paths_.edges(i) < context.options.lengths.min_depth) return;
-    if (context.job.profile != nullptr && context.depth > 1) ++context.job.profile->use().bsdf_met_light;
-    const Vec3f direction = paths_.direction[i];
-    float weight = 1.0f;
-    if (context.options.sample_lights && !paths_.is(path_history::kAfterDelta, i))
-        weight = power_heuristic(paths_.pdf_solid_angle[i], world.light_probability(receiver(i), world.environment()) *
-                                                                world.environment_pdf_solid_angle(direction));
-    add_light(i, world.environment_radiance(direction) * weight, words_.environment_source());
+    if (!world.has_environment()) return;
+    LaneList meeting;
+    std::array<Vec3f, kBlock> directions;
+    for (const std::uint8_t k : escaped_) {
+        if (paths_.edges(first_ + k) < context.options.lengths.min_depth) continue;
+        directions[meeting.size()] = paths_.direction[first_ + k];
+        meeting.add(k);
+    }
+    if (context.job.profile != nullptr && context.depth > 1)
+        context.job.profile->use().bsdf_met_light += meeting.size();
+    std::array<EnvironmentRadiance, kBlock> met;
+    world.look_at_environment(std::span(directions).first(meeting.size()), std::span(met).first(meeting.size()));
+    for (std::size_t m = 0; m < meeting.size(); ++m) {
+        const std::size_t i = first_ + meeting[m];
+        float weight = 1.0f;
+        if (context.options.sample_lights && !paths_.is(path_history::kAfterDelta, i))
+            weight =
+                power_heuristic(paths_.pdf_solid_angle[i],
+                                world.light_probability(receiver(i), world.environment()) * met[m].pdf_solid_angle);
+        add_light(i, met[m].radiance * weight, words_.environment_source());
+    }
 }
 
 void PathWave::add_emission(const Context& context, std::size_t k) {
