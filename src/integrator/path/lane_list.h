@@ -12,24 +12,26 @@ namespace etendue {
 /// Lanes in the order in which they were offered, each at most once.
 class LaneList {
   public:
+    /// Not a byte: that may be a part of anything, and compilers would read the count anew after every one they write.
+    using Lane = std::uint16_t;
+
     void clear() { count_ = 0; }
     void add(std::size_t lane) { add_if(true, lane); }
     /// Without a branch: which paths these are is chance, which no processor foretells.
     void add_if(bool is_one, std::size_t lane) {
-        lanes_[count_] = static_cast<std::uint8_t>(lane);
+        lanes_[count_] = static_cast<Lane>(lane);
         count_ += is_one ? 1 : 0;
     }
 
     [[nodiscard]] std::size_t size() const { return count_; }
     [[nodiscard]] bool empty() const { return count_ == 0; }
-    [[nodiscard]] std::uint8_t operator[](std::size_t i) const { return lanes_[i]; }
-    [[nodiscard]] const std::uint8_t* begin() const { return lanes_.data(); }
-    [[nodiscard]] const std::uint8_t* end() const { return lanes_.data() + count_; }
+    [[nodiscard]] std::size_t operator[](std::size_t i) const { return lanes_[i]; }
+    [[nodiscard]] const Lane* begin() const { return lanes_.data(); }
+    [[nodiscard]] const Lane* end() const { return lanes_.data() + count_; }
 
   private:
-    static_assert(kBlockLanes <= 256);
     std::size_t count_ = 0;
-    std::array<std::uint8_t, kBlockLanes> lanes_{};
+    std::array<Lane, kBlockLanes> lanes_{};
 };
 
 }  // namespace etendue

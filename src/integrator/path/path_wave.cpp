@@ -96,7 +96,7 @@ void PathWave::shade_block(const Context& context, std::size_t first, std::size_
     stamp(profile, Stage::HitSetup);
     // What leaves the scene was in no body, whatever holes in meshes made of its interior.
     add_environment(context);
-    for (const std::uint8_t k : on_emitter_) add_emission(context, k);
+    for (const std::size_t k : on_emitter_) add_emission(context, k);
     stamp(profile, Stage::Emission);
     look_up_textures(context);
     make_scattering(context);
@@ -106,15 +106,15 @@ void PathWave::shade_block(const Context& context, std::size_t first, std::size_
     evaluate_matte();
     evaluate_glossy();
     lanes_.set_next_origins(count);
-    for (const std::uint8_t k : on_surface_)
+    for (const std::size_t k : on_surface_)
         if (!block_[k].is_wide) evaluate(k);
     stamp(profile, Stage::Material);
     queue_direct_light(context);
     stamp(profile, Stage::Mis);
     scatter_by_lanes(context);
-    for (const std::uint8_t k : on_surface_)
+    for (const std::size_t k : on_surface_)
         if (!block_[k].is_wide) lanes_.goes_on.set(k, scatter_at_surface(context, k) ? 1.0f : 0.0f);
-    for (const std::uint8_t k : on_hidden_) pass_hidden(context, k);
+    for (const std::size_t k : on_hidden_) pass_hidden(context, k);
     keep_survivors(context, kept);
     stamp(profile, Stage::Roulette);
 }

@@ -55,7 +55,7 @@ void PathWave::sample_lights(const Context& context) {
     const World& world = context.world;
     LaneList paths;
     std::array<Vec2f, kBlock> u;
-    for (const std::uint8_t k : on_surface_) {
+    for (const std::size_t k : on_surface_) {
         if (!block_[k].samples_light) continue;
         const std::size_t place = paths.size();
         if (!receivers_.empty()) to_light_[place] = receivers_[first_ + k] = make_receiver(k);
@@ -73,7 +73,7 @@ void PathWave::sample_lights(const Context& context) {
     std::array<const MeshLight*, kBlock> meshes;
     std::array<Vec3f, kBlock> points;
     for (std::size_t place = 0; place < count; ++place) {
-        const std::uint8_t k = paths[place];
+        const std::size_t k = paths[place];
         const std::uint32_t light = block_[k].light = choices[place].light;
         meshes[place] = world.even_mesh_light(light);
         points[place] = lanes_.position[k];
@@ -86,8 +86,8 @@ void PathWave::sample_lights(const Context& context) {
     }
     std::array<MeshLight::TriangleChoice, kBlock> triangles;
     MeshLight::choose_triangles(std::span(meshes).first(count), points, u, triangles);
-    for (const std::uint8_t place : by_mesh) {
-        const std::uint8_t k = paths[place];
+    for (const std::size_t place : by_mesh) {
+        const std::size_t k = paths[place];
         const MeshLight& mesh = *meshes[place];
         lanes_.front.set(k, mesh, triangles[place]);
         lanes_.light_probability.set(k, choices[place].probability);
@@ -108,16 +108,16 @@ void PathWave::sample_lights(const Context& context) {
             light.sample.pdf_solid_angle *= choice.probability;
         }
     }
-    for (const std::uint8_t place : singly) {
-        const std::uint8_t k = paths[place];
+    for (const std::size_t place : singly) {
+        const std::size_t k = paths[place];
         make_in_place(lights_[k], [&] { return world.sample_light(choices[place], points[place], light_numbers(k)); });
     }
     // What is where those who ask next do not look for it.
-    for (const std::uint8_t place : by_mesh)
-        if (const std::uint8_t k = paths[place]; !block_[k].is_wide) take_light_from_lanes(k);
+    for (const std::size_t place : by_mesh)
+        if (const std::size_t k = paths[place]; !block_[k].is_wide) take_light_from_lanes(k);
     for (const LaneList* list : {&by_environment, &singly})
-        for (const std::uint8_t place : *list)
-            if (const std::uint8_t k = paths[place]; block_[k].is_wide) put_light_into_lanes(k);
+        for (const std::size_t place : *list)
+            if (const std::size_t k = paths[place]; block_[k].is_wide) put_light_into_lanes(k);
 }
 
 void PathWave::take_light_from_lanes(std::size_t k) {
@@ -143,13 +143,13 @@ void PathWave::put_light_into_lanes(std::size_t k) {
 void PathWave::add_environment(const Context& context) {
     const World& world = context.world;
     if (context.depth == 1 && !(world.has_environment() && world.environment_visible_to_camera())) {
-        for (const std::uint8_t k : escaped_) alpha_[paths_.slot[first_ + k]] = 0.0f;
+        for (const std::size_t k : escaped_) alpha_[paths_.slot[first_ + k]] = 0.0f;
         return;
     }
     if (!world.has_environment()) return;
     LaneList meeting;
     std::array<Vec3f, kBlock> directions;
-    for (const std::uint8_t k : escaped_) {
+    for (const std::size_t k : escaped_) {
         if (paths_.edges(first_ + k) < context.options.lengths.min_depth) continue;
         directions[meeting.size()] = paths_.direction[first_ + k];
         meeting.add(k);
@@ -187,15 +187,15 @@ void PathWave::add_emission(const Context& context, std::size_t k) {
 void PathWave::queue_direct_light(const Context& context) {
     lanes_.weigh_light(count_, paths_, first_);
     if (context.job.profile != nullptr)
-        for (const std::uint8_t k : on_surface_)
+        for (const std::size_t k : on_surface_)
             if (block_[k].samples_light) ++context.job.profile->use().light_samples;
     if (words_.are_followed() || context.world.has_bodies()) {
-        for (const std::uint8_t k : on_surface_)
+        for (const std::size_t k : on_surface_)
             if (block_[k].is_wide && lanes_.arrives[k] != 0.0f) queue_by_lanes(context, k);
     } else {
         queue_by_lanes(context);
     }
-    for (const std::uint8_t k : on_surface_)
+    for (const std::size_t k : on_surface_)
         if (!block_[k].is_wide && block_[k].samples_light) queue_singly(context, k);
 }
 

@@ -19,8 +19,8 @@ void PathWave::set_up(const Context& context) {
         has_hit.add_if(is_valid, k);
         escaped_.add_if(!is_valid, k);
     }
-    for (const std::uint8_t k : escaped_) end_path(context, k, PathEnding::Escaped);
-    for (const std::uint8_t k : has_hit) {
+    for (const std::size_t k : escaped_) end_path(context, k, PathEnding::Escaped);
+    for (const std::size_t k : has_hit) {
         const std::size_t i = first_ + k;
         if (world.has_bodies() && scatter_in_medium(context, k)) {
             lanes_.goes_on.set(k, 1.0f);
@@ -74,7 +74,7 @@ void PathWave::set_up_plain(const Context& context) {
         const Imath::Vec3<Wide> direction = paths_.direction.load(first_ + l);
         lanes_.wo.store(l, {-direction.x, -direction.y, -direction.z});
     }
-    for (const std::uint8_t k : on_surface_) {
+    for (const std::size_t k : on_surface_) {
         const PlainSurface* const plain = block_[k].plain;
         if (plain == nullptr) continue;
         any = true;
@@ -85,7 +85,7 @@ void PathWave::set_up_plain(const Context& context) {
     }
     if (any) lanes_.set_up_points(count_);
     if (on_texture_.empty()) return;
-    for (const std::uint8_t k : on_texture_) {
+    for (const std::size_t k : on_texture_) {
         const Hit& hit = hits_[first_ + k];
         textured_.set_hit(k, world.hit_coordinates(hit, *block_[k].plain),
                           std::abs(paths_.cone(first_ + k).width_at(hit.t)));
@@ -97,10 +97,10 @@ void PathWave::look_up_textures(const Context& context) {
     if (on_texture_.empty()) return;
     const World& world = context.world;
     lookups_.clear();
-    for (const std::uint8_t k : on_texture_)
+    for (const std::size_t k : on_texture_)
         world.add_lookups(*block_[k].plain, textured_.uv[k], textured_.footprint(k), lookups_);
     lookups_.finish();
-    for (const std::uint8_t k : on_texture_) {
+    for (const std::size_t k : on_texture_) {
         textured_lobes_[k] = world.lobe(*block_[k].plain, lookups_);
         if (!textured_lobes_[k].is_plain()) set_up_singly(context, k);
     }
@@ -109,7 +109,7 @@ void PathWave::look_up_textures(const Context& context) {
 void PathWave::make_scattering(const Context& context) {
     const bool samples_lights = context.options.sample_lights && context.world.has_sampled_lights();
     on_gloss_.clear();
-    for (const std::uint8_t k : on_surface_) {
+    for (const std::size_t k : on_surface_) {
         ShadedPath& path = block_[k];
         path.samples_light = samples_lights && paths_.edges(first_ + k) + 1 >= context.options.lengths.min_depth;
         set_wide(k, path.plain != nullptr);
@@ -214,12 +214,12 @@ VertexEvent PathWave::wide_event(const Context& context, std::size_t k, const Ve
 void PathWave::scatter_by_lanes(const Context& context) {
     const World& world = context.world;
     if (context.job.profile != nullptr)
-        for (const std::uint8_t k : on_surface_)
+        for (const std::size_t k : on_surface_)
             if (block_[k].is_wide) count_sample(context, k, sample_of_lane(k));
     if (world.has_textures()) bend_cones(world);
     lanes_.scatter(count_, paths_, first_);
     if (!world.has_transparency() && !words_.are_followed()) return;
-    for (const std::uint8_t k : on_surface_) {
+    for (const std::size_t k : on_surface_) {
         if (!block_[k].is_wide || lanes_.goes_on[k] == 0.0f) continue;
         paths_.alpha_key.set(first_ + k, alpha_key(context, k));
         if (words_.are_followed()) follow(k, wide_event(context, k, lanes_.next_direction[k]));
@@ -252,13 +252,13 @@ void PathWave::bend_cones(const World& world) {
     // All as if their lobes were wide; then once more those whose are not.
     LaneList narrow;
     std::array<RayCone, kBlock> arriving;
-    for (const std::uint8_t k : on_surface_) {
+    for (const std::size_t k : on_surface_) {
         if (!block_[k].is_wide) continue;
         arriving[k] = arriving_cone(k);
         paths_.set_cone(first_ + k, scatter_cone(arriving[k], kMaxConeSpread));
         narrow.add_if(is_narrow_lobe(lanes_.next_pdf[k]), k);
     }
-    for (const std::uint8_t k : narrow) bend_cone(world, k, arriving[k], lanes_.geometric_normal[k], sample_of_lane(k));
+    for (const std::size_t k : narrow) bend_cone(world, k, arriving[k], lanes_.geometric_normal[k], sample_of_lane(k));
 }
 
 bool PathWave::scatter_at_surface(const Context& context, std::size_t k) {
