@@ -29,6 +29,7 @@ class BasicColumn {
     /// Of `Wide::kWidth` paths from `first` on.
     [[nodiscard]] Wide load(std::size_t first) const { return Wide::load(&values_[first]); }
     void store(std::size_t first, Wide values) { values.store(&values_[first]); }
+    [[nodiscard]] Wide load_unaligned(std::size_t first) const { return Wide::load_unaligned(&values_[first]); }
     void store_unaligned(std::size_t first, Wide values) { values.store_unaligned(&values_[first]); }
     [[nodiscard]] const float* data() const { return values_.data(); }
 

@@ -140,6 +140,20 @@ class Wide {
 #endif
 }
 
+/// The way back: the first lanes of `a` where lanes are `kept`, `otherwise` in the others.
+[[nodiscard]] inline Wide expand(Wide a, WideMask kept, Wide otherwise) {
+#ifdef __AVX512F__
+    return Wide(std::bit_cast<Wide::Simd>(_mm512_mask_expand_ps(std::bit_cast<__m512>(otherwise.simd()),
+                                                                std::bit_cast<__mmask16>(kept.simd()),
+                                                                std::bit_cast<__m512>(a.simd()))));
+#else
+    std::size_t next = 0;
+    for (std::size_t lane = 0; lane < Wide::kWidth; ++lane)
+        if (kept[lane]) otherwise.set(lane, a[next++]);
+    return otherwise;
+#endif
+}
+
 // The library takes logarithms and exponentials of one lane after the other; these are to some roundings.
 
 /// Numbers as 2^exponent mantissa, the mantissas between the roots of 1/2 and 2; normal positive ones.

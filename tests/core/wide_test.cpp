@@ -133,7 +133,7 @@ TEST(Wide, GathersFromTables) {
     EXPECT_EQ(gather(kTable.data(), 2.0f), 5.0f);
 }
 
-TEST(Wide, CompressesWhatIsKept) {
+TEST(Wide, CompressesAndExpandsWhatIsKept) {
     std::array<float, Wide::kWidth> numbers;
     std::array<std::uint32_t, Wide::kWidth> bits;
     for (std::size_t lane = 0; lane < Wide::kWidth; ++lane) {
@@ -156,6 +156,9 @@ TEST(Wide, CompressesWhatIsKept) {
             EXPECT_EQ(kept_bits[next++], bits[lane]);
         }
         EXPECT_EQ(count(mask), next);
+        const Wide expanded = expand(Wide::load_unaligned(kept.data()), mask, Wide(-1.0f));
+        for (std::size_t lane = 0; lane < Wide::kWidth; ++lane)
+            EXPECT_EQ(expanded[lane], is_kept[lane] != 0.0f ? numbers[lane] : -1.0f);
     }
 }
 

@@ -36,13 +36,15 @@ struct BlockLanes : SurfaceLanes {
     Vec3Columns next_origin, next_direction;
     RgbColumns next_weight;
     Column next_pdf;
-    Column is_wide;  ///< 1 where the path is scattered by the columns above, else 0
-    Column goes_on;  ///< 1 where it does, else 0
+    Column is_glossy;  ///< 1 where its lobe is one of GlossyLanes, else 0
+    Column is_wide;    ///< 1 where the path is scattered by the columns above, else 0
+    Column goes_on;    ///< 1 where it does, else 0
 
     /// Of a block of whose paths nothing is known yet.
     void start() {
         front.clear();
         for (std::size_t l = 0; l < kBlockLanes; l += Wide::kWidth) {
+            is_glossy.store(l, Wide(0.0f));
             is_wide.store(l, Wide(0.0f));
             light_probability.store(l, Wide(0.0f));
             goes_on.store(l, Wide(0.0f));

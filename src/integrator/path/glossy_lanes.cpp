@@ -5,6 +5,65 @@
 
 namespace etendue {
 
+namespace {
+
+/// Calls `move` with each pair of columns of one number, of which both are part.
+template <typename Move, typename A, typename B>
+void for_vector(const Move& move, A& a, B& b) {
+    move(a.x, b.x);
+    move(a.y, b.y);
+    move(a.z, b.z);
+}
+template <typename Move, typename A, typename B>
+void for_color(const Move& move, A& a, B& b) {
+    move(a.r, b.r);
+    move(a.g, b.g);
+    move(a.b, b.b);
+}
+
+}  // namespace
+
+void GlossyLanes::take(const BlockLanes& lanes, std::size_t paths, const NumberPairs& choices,
+                       const NumberPairs& directions) {
+    std::size_t to = 0;
+    for (std::size_t l = 0; l < paths; l += Wide::kWidth) {
+        const WideMask which = lanes.is_glossy.load(l) != Wide(0.0f);
+        const std::size_t lanes_here = count(which);
+        if (lanes_here == 0) continue;
+        const auto put = [&](Column& column, Wide values) { column.store_unaligned(to, compress(values, which)); };
+        const auto move = [&](const etendue::Column& from, Column& column) { put(column, from.load(l)); };
+        for_vector(move, lanes.tangent, tangent);
+        for_vector(move, lanes.bitangent, bitangent);
+        for_vector(move, lanes.normal, normal);
+        for_vector(move, lanes.geometric_normal, geometric_normal);
+        for_vector(move, lanes.wo, wo);
+        for_vector(move, lanes.light_wi, light_wi);
+        put(u_lobe, choices.load(l).x);
+        const Imath::Vec2<Wide> direction = directions.load(l);
+        put(u.x, direction.x);
+        put(u.y, direction.y);
+        to += lanes_here;
+    }
+}
+
+void GlossyLanes::give(BlockLanes& lanes, std::size_t paths) const {
+    std::size_t from = 0;
+    for (std::size_t l = 0; l < paths; l += Wide::kWidth) {
+        const WideMask which = lanes.is_glossy.load(l) != Wide(0.0f);
+        const std::size_t lanes_here = count(which);
+        if (lanes_here == 0) continue;
+        const auto move = [&](const Column& column, etendue::Column& to) {
+            to.store(l, expand(column.load_unaligned(from), which, to.load(l)));
+        };
+        for_color(move, f_cos, lanes.f_cos);
+        move(pdf, lanes.pdf);
+        for_vector(move, next_direction, lanes.next_direction);
+        for_color(move, next_weight, lanes.next_weight);
+        move(next_pdf, lanes.next_pdf);
+        from += lanes_here;
+    }
+}
+
 void GlossyLanes::evaluate(std::size_t count) {
     for (std::size_t l = 0; l < count; l += Wide::kWidth) {
         const OrientedSurface<Wide> surface({tangent.load(l), bitangent.load(l), normal.load(l)},

@@ -4,29 +4,36 @@
 
 #include "bsdf/metallic_roughness.h"
 #include "core/columns.h"
+#include "integrator/number_pairs.h"
+#include "integrator/path/block_lanes.h"
 
 #include <cstddef>
 
 namespace etendue {
 
-/// About 10 KiB.
+/// About 13 KiB.
 struct GlossyLanes {
+    /// With as much behind them as is written at once.
+    static constexpr std::size_t kSize = kBlockLanes + Wide::kWidth;
+    using Column = BasicColumn<kSize>;
+    using Vec2Columns = BasicVec2Columns<kSize>;
+    using Vec3Columns = BasicVec3Columns<kSize>;
+    using RgbColumns = BasicRgbColumns<kSize>;
+
     RgbColumns base, f0;
     Column metallic, alpha, f90;
 
-    // The surface, as in SurfacePoint.
+    // As in SurfacePoint and in BlockLanes.
     Vec3Columns tangent, bitangent, normal, geometric_normal;
     Vec3Columns wo;
 
     Column u_lobe;
     Vec2Columns u;
-    Vec3Columns light_wi;  ///< of the sampled light
+    Vec3Columns light_wi;
 
-    // Towards it.
     RgbColumns f_cos;
     Column pdf;
 
-    // Where the path goes on.
     Vec3Columns next_direction;
     RgbColumns next_weight;
     Column next_pdf;
@@ -40,8 +47,13 @@ struct GlossyLanes {
         f90.set(lane, lobe.f90);
     }
 
+    /// Moves what is known of those paths [0, paths) of a block that are on gloss here, side by side. `choices` are
+    /// their numbers for the choice of a lobe, x, `directions` for the direction.
+    void take(const BlockLanes& lanes, std::size_t paths, const NumberPairs& choices, const NumberPairs& directions);
     /// Lanes [0, count), rounded up.
     void evaluate(std::size_t count);
+    /// Moves what has come of it back.
+    void give(BlockLanes& lanes, std::size_t paths) const;
 };
 
 }  // namespace etendue

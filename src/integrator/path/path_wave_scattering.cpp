@@ -121,6 +121,7 @@ void PathWave::make_scattering(const Context& context) {
         } else {
             make_scattering_singly(context, k);
         }
+        lanes_.is_glossy.set(k, path.glossy != nullptr ? 1.0f : 0.0f);
         on_gloss_.add_if(path.glossy != nullptr, k);
     }
 }
@@ -173,27 +174,11 @@ void PathWave::evaluate_matte() {
 }
 
 void PathWave::evaluate_glossy() {
-    for (std::size_t g = 0; g < on_gloss_.size(); ++g) {
-        const std::size_t k = on_gloss_[g];
-        glossy_.set_lobe(g, *block_[k].glossy);
-        glossy_.tangent.set(g, lanes_.tangent[k]);
-        glossy_.bitangent.set(g, lanes_.bitangent[k]);
-        glossy_.normal.set(g, lanes_.normal[k]);
-        glossy_.geometric_normal.set(g, lanes_.geometric_normal[k]);
-        glossy_.wo.set(g, lanes_.wo[k]);
-        glossy_.light_wi.set(g, lanes_.light_wi[k]);
-        glossy_.u_lobe.set(g, choices_[k].x);
-        glossy_.u.set(g, bsdf_direction_[k]);
-    }
+    if (on_gloss_.empty()) return;
+    for (std::size_t g = 0; g < on_gloss_.size(); ++g) glossy_.set_lobe(g, *block_[on_gloss_[g]].glossy);
+    glossy_.take(lanes_, count_, choices_, bsdf_direction_);
     glossy_.evaluate(on_gloss_.size());
-    for (std::size_t g = 0; g < on_gloss_.size(); ++g) {
-        const std::size_t k = on_gloss_[g];
-        lanes_.f_cos.set(k, glossy_.f_cos[g]);
-        lanes_.pdf.set(k, glossy_.pdf[g]);
-        lanes_.next_direction.set(k, glossy_.next_direction[g]);
-        lanes_.next_weight.set(k, glossy_.next_weight[g]);
-        lanes_.next_pdf.set(k, glossy_.next_pdf[g]);
-    }
+    glossy_.give(lanes_, count_);
 }
 
 void PathWave::evaluate(std::size_t k) {
