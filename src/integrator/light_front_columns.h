@@ -14,6 +14,8 @@ namespace etendue {
 /// As in LightTriangleFront. What the triangle alone decides stays where it is, in a row, until it is computed with.
 class LightFrontColumns {
   public:
+    LightFrontColumns() { clear(); }
+
     /// Until they are set, lanes have triangles of no meaning.
     void clear() { rows_.fill(kNoTriangle.data()); }
     void set(std::size_t lane, const MeshLight& light, const MeshLight::TriangleChoice& choice) {
@@ -38,7 +40,7 @@ class LightFrontColumns {
   private:
     alignas(kRowFloats * sizeof(float)) static constexpr std::array<float, kRowFloats> kNoTriangle{};
 
-    std::array<const float*, kBlockLanes> rows_{};
+    std::array<const float*, kBlockLanes> rows_;
     Column area_, gain_, back_;
 };
 

@@ -29,7 +29,7 @@ class Distribution1D {
     void fetch_guide(float u) const;
     void fetch_interval(float u) const;
     [[nodiscard]] float pdf(float x) const;
-    /// Has what `pdf` reads fetched.
+    /// Has what `pdf` reads fetched, unless it goes across two lines of the cache.
     void fetch_pdf(float x) const;
     /// The u that `sample` maps to `x`.
     [[nodiscard]] float inverse(float x) const;

@@ -163,7 +163,6 @@ TEST(Environment, ManySamplesAtOnceAreTheSame) {
     }
 }
 
-// False-positive rate of the table: kFamilyLevel.
 TEST(Environment, LookingAlongManyDirectionsAtOnceIsTheSame) {
     Random random(9);
     std::vector<Vec3f> directions{{0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
@@ -180,6 +179,7 @@ TEST(Environment, LookingAlongManyDirectionsAtOnceIsTheSame) {
     }
 }
 
+// False-positive rate of the table: kFamilyLevel.
 TEST(Environment, CompensatedDirectionsHaveTheStatedDensity) {
     std::vector<NamedEnvironment> list = environments();
     list.push_back(

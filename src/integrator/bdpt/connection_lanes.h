@@ -73,7 +73,7 @@ struct BetweenLanes : ConnectionColumns {
     void connect(std::size_t count, const WeightRule& rule);
 };
 
-/// To samples of even mesh lights; about 11 KiB.
+/// To samples of even mesh lights; about 8 KiB.
 struct ToLightLanes : ConnectionColumns {
     MatteEndsOfBlock eye;
     LightFrontColumns front;

@@ -9,7 +9,7 @@
 
 namespace etendue {
 
-/// About 23 KiB, which stay in the first-level cache. `u` becomes the numbers for a point on the light that is sampled,
+/// About 21 KiB, which stay in the first-level cache. `u` becomes the numbers for a point on the light that is sampled,
 /// then those for directions.
 struct BlockLanes : SurfaceLanes {
     Vec3Columns wo;

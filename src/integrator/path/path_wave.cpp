@@ -7,6 +7,7 @@
 #include "integrator/walk.h"
 
 #include <algorithm>
+#include <span>
 
 namespace etendue {
 

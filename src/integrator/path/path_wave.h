@@ -22,7 +22,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <vector>
 
 namespace etendue {
@@ -129,7 +128,7 @@ class PathWave final : public IntegratorScratch {
     /// Those of all paths that are_wide.
     void bend_cones(const World& world);
     [[nodiscard]] RayCone arriving_cone(std::size_t k) const { return paths_.cone(first_ + k).at(hits_[first_ + k].t); }
-    /// What the lanes have sampled for path `k`, where that is not black.
+    /// What the lanes have sampled for path `k`, but for its direction.
     [[nodiscard]] BsdfSample sample_of_lane(std::size_t k) const;
     /// What path `k` has been so far, with `event`.
     void follow(std::size_t k, const VertexEvent& event) {
