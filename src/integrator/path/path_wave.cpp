@@ -86,38 +86,44 @@ void PathWave::shade(const Context& context) {
 void PathWave::shade_block(const Context& context, std::size_t first, std::size_t count, std::size_t& kept) {
     const World& world = context.world;
     WaveProfile* const profile = context.job.profile;
+    const bool is_timed = profile != nullptr && profile->start_block();
+    const auto stamp = [&](Stage stage) {
+        if (is_timed) [[unlikely]]
+            profile->stamp_in_block(stage);
+    };
     first_ = first;
     count_ = count;
     draw_numbers(context);
-    stamp(profile, Stage::Numbers);
+    stamp(Stage::Numbers);
     world.fetch_triangles(std::span(hits_).subspan(first, count));
     lanes_.start();
     set_up(context);
     set_up_plain(context);
-    stamp(profile, Stage::HitSetup);
+    stamp(Stage::HitSetup);
     // What leaves the scene was in no body, whatever holes in meshes made of its interior.
     add_environment(context);
     for (const std::size_t k : on_emitter_) add_emission(context, k);
-    stamp(profile, Stage::Emission);
+    stamp(Stage::Emission);
     look_up_textures(context);
     make_scattering(context);
-    stamp(profile, Stage::Textures);
+    stamp(Stage::Textures);
     sample_lights(context);
-    stamp(profile, Stage::LightSampling);
+    stamp(Stage::LightSampling);
     evaluate_matte();
     evaluate_glossy();
     lanes_.set_next_origins(count);
     for (const std::size_t k : on_surface_)
         if (!block_[k].is_wide) evaluate(k);
-    stamp(profile, Stage::Material);
+    stamp(Stage::Material);
     queue_direct_light(context);
-    stamp(profile, Stage::Mis);
+    stamp(Stage::Mis);
     scatter_by_lanes(context);
     for (const std::size_t k : on_surface_)
         if (!block_[k].is_wide) lanes_.goes_on.set(k, scatter_at_surface(context, k) ? 1.0f : 0.0f);
     for (const std::size_t k : on_hidden_) pass_hidden(context, k);
     keep_survivors(context, kept);
-    stamp(profile, Stage::Roulette);
+    stamp(Stage::Roulette);
+    if (profile != nullptr && !is_timed) profile->stamp_block();
 }
 
 void PathWave::keep_survivors(const Context& context, std::size_t& kept) {

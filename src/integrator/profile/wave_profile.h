@@ -79,6 +79,14 @@ class WaveProfile {
     void skip() { last_ = ticks_now(); }
     /// All that was done since the last stamp was `stage`.
     void stamp(Stage stage) { ticks_[static_cast<std::size_t>(stage)] += lap(); }
+    /// Begins a block of paths. True if its stages are told apart: of every second one only, as stamps would take more
+    /// than a hundredth of the time where paths are short.
+    [[nodiscard]] bool start_block() { return tells_apart_ = !tells_apart_; }
+    /// As `stamp`, in a block of which stages are told apart.
+    void stamp_in_block(Stage stage) { ticks_in_blocks_[static_cast<std::size_t>(stage)] += lap(); }
+    /// All that was done since the last stamp was another block: the stages of those that are told apart have their
+    /// shares of it.
+    void stamp_block() { ticks_of_blocks_ += lap(); }
     /// The same of rays that were traced.
     void stamp(Stage stage, RayKind kind) {
         const std::uint64_t elapsed = lap();
@@ -102,7 +110,7 @@ class WaveProfile {
     /// Adds what another thread has found.
     void add(const WaveProfile& other);
 
-    [[nodiscard]] double seconds(Stage stage) const { return in_seconds(ticks_[static_cast<std::size_t>(stage)]); }
+    [[nodiscard]] double seconds(Stage stage) const;
     [[nodiscard]] double seconds(RayKind kind) const {
         return in_seconds(ticks_of_kind_[static_cast<std::size_t>(kind)]);
     }
@@ -125,14 +133,16 @@ class WaveProfile {
         ++stamps_;
         return now - std::exchange(last_, now);
     }
-    [[nodiscard]] double in_seconds(std::uint64_t ticks) const {
-        return scale_.seconds_per_tick() * static_cast<double>(ticks);
-    }
+    [[nodiscard]] double in_seconds(std::uint64_t ticks) const { return in_seconds(static_cast<double>(ticks)); }
+    [[nodiscard]] double in_seconds(double ticks) const { return scale_.seconds_per_tick() * ticks; }
 
     TickScale scale_;
     std::uint64_t last_ = ticks_now();
     std::uint64_t stamps_ = 0;
     std::array<std::uint64_t, kStages> ticks_{};
+    std::array<std::uint64_t, kStages> ticks_in_blocks_{};
+    std::uint64_t ticks_of_blocks_ = 0;
+    bool tells_apart_ = false;
     std::array<std::uint64_t, kRayKinds> ticks_of_kind_{};
     RaysByKind hits_;
     PathTally eye_paths_;
