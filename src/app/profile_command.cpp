@@ -10,6 +10,7 @@
 #include "app/render_identity.h"
 #include "app/render_setup.h"
 #include "core/log.h"
+#include "core/memory_nodes.h"
 #include "core/process_time.h"
 #include "core/write_file.h"
 #include "image/write.h"
@@ -184,6 +185,7 @@ void describe(ProfileReport& report, const ProfileArguments& arguments, const Re
     report.settings = settings_of_work(settings);
     report.processor = processor_name();
     report.processors = static_cast<int>(std::thread::hardware_concurrency());
+    report.memory_nodes = std::max(1, static_cast<int>(memory_nodes().size()));
     report.isa = of_world.isa;
     report.ray_tracer = "Embree " + ray_tracer_version();
     report.bvh = {.build_seconds = of_world.bvh_build_seconds,

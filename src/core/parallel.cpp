@@ -1,5 +1,7 @@
 #include "core/parallel.h"
 
+#include "core/node_binding.h"
+
 #include <algorithm>
 #include <optional>
 
@@ -26,19 +28,22 @@ FlushDenormals::~FlushDenormals() {
 }
 
 struct ThreadPool::Impl {
-    explicit Impl(int thread_count) : arena(thread_count) {
+    Impl(int thread_count, std::span<const ProcessorSet> nodes) : arena(thread_count) {
         // TBB keeps one worker per processor; more are allowed when asked for, so that determinism can be tested on a
         // small machine. Fewer are the arena's business: a global limit would hold for other pools too.
         if (thread_count > tbb::info::default_concurrency())
             limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(thread_count));
+        if (nodes.size() > 1 && thread_count >= size_of_all(nodes)) binding = NodeBinding(thread_count, nodes);
     }
 
     std::optional<tbb::global_control> limit;
     tbb::task_arena arena;
+    NodeBinding binding;
 };
 
-ThreadPool::ThreadPool(int thread_count)
-    : impl_(std::make_unique<Impl>(thread_count > 0 ? thread_count : std::max(1, tbb::info::default_concurrency()))) {}
+ThreadPool::ThreadPool(int thread_count, std::span<const ProcessorSet> nodes)
+    : impl_(std::make_unique<Impl>(thread_count > 0 ? thread_count : std::max(1, tbb::info::default_concurrency()),
+                                   nodes)) {}
 
 ThreadPool::~ThreadPool() = default;
 
@@ -53,6 +58,7 @@ void ThreadPool::parallel_for(std::size_t count, const std::function<void(std::s
             [&](const tbb::blocked_range<std::size_t>& range) {
                 const FlushDenormals flush_denormals;
                 const int slot = tbb::this_task_arena::current_thread_index();
+                const NodeBinding::Stay stay(impl_->binding, slot);
                 for (std::size_t index = range.begin(); index != range.end(); ++index) body(index, slot);
             },
             tbb::simple_partitioner());

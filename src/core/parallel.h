@@ -1,9 +1,12 @@
 // Parallel loops over one task arena, and the floating-point mode that every thread renders in.
 #pragma once
 
+#include "core/memory_nodes.h"
+
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 
 namespace etendue {
@@ -23,10 +26,15 @@ class FlushDenormals {
 
 /// The threads of one render. Everything parallel, Embree's BVH build included, runs in this one arena, so that no more
 /// than `thread_count()` threads ever work at once.
+///
+/// A pool that has a thread for every processor of a machine with several memory nodes keeps each slot on one of them
+/// while it works, so that what a slot touches first lies near whoever works in it. Smaller pools go where the system
+/// sends them: several processes that share a machine would else crowd the same node.
 class ThreadPool {
   public:
     /// `thread_count` worker threads, the caller included; 0 for one per processor.
-    explicit ThreadPool(int thread_count = 0);
+    /// @param nodes the machine's memory nodes
+    explicit ThreadPool(int thread_count = 0, std::span<const ProcessorSet> nodes = memory_nodes());
     ~ThreadPool();
     ThreadPool(const ThreadPool&) = delete;
     ThreadPool& operator=(const ThreadPool&) = delete;

@@ -44,13 +44,11 @@ ProgressiveRender::ProgressiveRender(const World& world, const Integrator& integ
       threads_(threads),
       state_(std::move(state)),
       tiles_(make_tiles(options.window)),
-      workers_(static_cast<std::size_t>(threads.thread_count())) {
-    for (Worker& worker : workers_) worker.scratch = integrator.make_scratch();
-}
+      workers_(static_cast<std::size_t>(threads.thread_count())) {}
 
 std::size_t ProgressiveRender::scratch_bytes() const {
     std::size_t bytes = 0;
-    for (const Worker& worker : workers_) bytes += worker.scratch->bytes();
+    for (const Worker& worker : workers_) bytes += worker.scratch ? worker.scratch->bytes() : 0;
     return bytes;
 }
 
@@ -202,6 +200,8 @@ void ProgressiveRender::render_group(std::size_t first, std::size_t size, const 
         }
         const std::uint64_t rays_before = worker.counters.rays.total();
         worker.tile.reset(job.rect, state_.film.layers().layout());
+        // Made here, in its slot, it is touched first where the slot works, and lies on that memory node.
+        if (!worker.scratch) worker.scratch = integrator_.make_scratch();
         integrator_.render_tile(world_, job, *worker.scratch, worker.tile, worker.counters);
         add_tile(worker, second);
         is_done = 1;

@@ -101,7 +101,7 @@ class ProgressiveRender {
 
     /// Of a pass that was stopped, what its complete tiles have is in the film.
     [[nodiscard]] const RenderState& state() const { return state_; }
-    /// That all threads keep between tiles, without the tiles themselves.
+    /// That all threads keep between tiles, without the tiles themselves; of those that have had one.
     [[nodiscard]] std::size_t scratch_bytes() const;
     /// Tiles under way, and splats that wait to be added; without layers.
     [[nodiscard]] std::size_t tile_bytes() const;
@@ -111,7 +111,7 @@ class ProgressiveRender {
   private:
     /// What one thread keeps between tiles.
     struct Worker {
-        std::unique_ptr<IntegratorScratch> scratch;
+        std::unique_ptr<IntegratorScratch> scratch;  ///< made with its first tile
         TileBuffer tile;
         RenderCounters counters;
         std::vector<PixelJob> pixels;                   ///< of the tile, if only some are active

@@ -201,6 +201,7 @@ std::string to_json(const ProfileReport& report) {
                   {"machine",
                    {{"processor", report.processor},
                     {"processors", report.processors},
+                    {"memory_nodes", report.memory_nodes},
                     {"isa", report.isa},
                     {"ray_tracer", report.ray_tracer}}},
                   {"load",

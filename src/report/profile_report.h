@@ -125,6 +125,7 @@ struct ProfileReport {
     std::map<std::string, std::string> settings{};  ///< what else decides how much work a sample is, by names
     std::string processor{};                        ///< its model
     int processors = 0;
+    int memory_nodes = 1;  ///< parts of the machine with memory of their own, of which the process has processors
     std::string isa{};
     std::string ray_tracer{};
     std::vector<NamedValue> load{};    ///< phases from the start of the process, seconds

@@ -160,8 +160,10 @@ std::string memory(const ProfileReport& report) {
 std::string to_table(const ProfileReport& report) {
     std::string text = wrapped(fmt::format("{}, {} x {} pixels, paths of up to {} edges", report.scene, report.width,
                                            report.height, report.max_depth));
-    text += wrapped(
-        fmt::format("{}, {} processors, {}; {}", report.processor, report.processors, report.isa, report.ray_tracer));
+    const std::string nodes =
+        report.memory_nodes > 1 ? fmt::format(" at {} memory nodes", report.memory_nodes) : std::string();
+    text += wrapped(fmt::format("{}, {} processors{}, {}; {}", report.processor, report.processors, nodes, report.isa,
+                                report.ray_tracer));
     text += '\n' + overview(report.runs);
     text += wrapped(
         "efficiency: time that bare Embree takes for the same rays, one by one, over that of the render; best: "

@@ -1,8 +1,10 @@
 #include "core/parallel.h"
 
 #include <atomic>
+#include <chrono>
 #include <limits>
 #include <memory>
+#include <span>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -80,6 +82,74 @@ TEST(ThreadPool, NestedLoopsStayInTheArena) {
     std::atomic<int> calls = 0;
     pool.parallel_for(10, [&](std::size_t, int) { pool.parallel_for(10, [&](std::size_t, int) { ++calls; }); });
     EXPECT_EQ(calls, 100);
+}
+
+/// One node for each of two processors that this process may use; fewer where there are not two.
+std::vector<ProcessorSet> nodes_of_one_processor_each() {
+    const ProcessorSet allowed = ProcessorSet::of_this_thread();
+    std::vector<ProcessorSet> nodes;
+    for (int processor = 0; processor < ProcessorSet::kMostProcessors && nodes.size() < 2; ++processor)
+        if (allowed.contains(processor)) nodes.emplace_back().add(processor);
+    return nodes;
+}
+
+/// Where the thread in each of the pool's slots may run, which is the same in all of its calls.
+std::vector<ProcessorSet> processors_of_slots(const ThreadPool& pool) {
+    std::vector<ProcessorSet> found(static_cast<std::size_t>(pool.thread_count()));
+    std::atomic<int> differing = 0;
+    pool.parallel_for(2000, [&](std::size_t, int slot) {
+        ProcessorSet& known = found[static_cast<std::size_t>(slot)];
+        const ProcessorSet now = ProcessorSet::of_this_thread();
+        if (known.size() == 0) known = now;
+        if (known.common_with(now).size() != known.size() || known.size() != now.size()) ++differing;
+        std::this_thread::sleep_for(std::chrono::microseconds(20));  // so that every slot is taken
+    });
+    EXPECT_EQ(differing, 0);
+    return found;
+}
+
+TEST(ThreadPool, KeepsEverySlotOnAMemoryNode) {
+    const std::vector<ProcessorSet> nodes = nodes_of_one_processor_each();
+    if (nodes.size() < 2) GTEST_SKIP() << "needs two processors";
+    const int free_processors = ProcessorSet::of_this_thread().size();
+    for (const int threads : {2, 3, 6}) {
+        const ThreadPool pool(threads, nodes);
+        const std::vector<ProcessorSet> slots = processors_of_slots(pool);
+        int on_the_first = 0;
+        for (std::size_t slot = 0; slot < slots.size(); ++slot) {
+            if (slots[slot].size() == 0) continue;  // no worker came to it
+            EXPECT_EQ(slots[slot].size(), 1);
+            const bool first = static_cast<int>(slot) < threads / 2;
+            EXPECT_EQ(slots[slot].common_with(nodes[first ? 0 : 1]).size(), 1) << "slot " << slot << " of " << threads;
+            on_the_first += first ? 1 : 0;
+        }
+        EXPECT_GE(on_the_first, 1) << "the caller";
+        EXPECT_EQ(ProcessorSet::of_this_thread().size(), free_processors) << "the caller goes free again";
+    }
+}
+
+void expect_free_slots(const ThreadPool& pool, int free_processors) {
+    for (const ProcessorSet& slot : processors_of_slots(pool)) {
+        if (slot.size() == 0) continue;  // no worker came to it
+        EXPECT_EQ(slot.size(), free_processors);
+    }
+}
+
+TEST(ThreadPool, BindsNobodyWhereItIsSmallerThanTheMachineOrThereIsOneNode) {
+    const std::vector<ProcessorSet> nodes = nodes_of_one_processor_each();
+    if (nodes.size() < 2) GTEST_SKIP() << "needs two processors";
+    const int free_processors = ProcessorSet::of_this_thread().size();
+    expect_free_slots(ThreadPool(1, nodes), free_processors);
+    expect_free_slots(ThreadPool(2, std::span(nodes).first(1)), free_processors);
+    expect_free_slots(ThreadPool(2, {}), free_processors);
+}
+
+TEST(ThreadPool, WorkersThatABoundCallerStartedAreFreeInOtherPools) {
+    const std::vector<ProcessorSet> nodes = nodes_of_one_processor_each();
+    if (nodes.size() < 2) GTEST_SKIP() << "needs two processors";
+    const int free_processors = ProcessorSet::of_this_thread().size();
+    processors_of_slots(ThreadPool(3, nodes));
+    expect_free_slots(ThreadPool(3, {}), free_processors);
 }
 
 TEST(FlushDenormals, LastsAsLongAsItLives) {
