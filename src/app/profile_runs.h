@@ -35,7 +35,7 @@ struct ProfileRuns {
     std::vector<ProfileRun> runs{};       ///< by integrator, then by threads
     std::vector<CostMap> costs{};         ///< of each integrator
     std::size_t film_bytes = 0;           ///< of the largest
-    std::size_t wave_bytes = 0;           ///< of all threads, of the largest
+    std::size_t wave_bytes = 0;           ///< of all threads that had a tile, of the largest
     std::size_t tile_bytes = 0;           ///< the same, with the splats that wait
     std::uint64_t peak_memory_bytes = 0;  ///< before anything was recorded
     bool interrupted = false;             ///< there may be fewer repetitions then, or none

@@ -16,6 +16,10 @@ namespace etendue {
 
 namespace {
 
+namespace fs = std::filesystem;
+
+using KernelSet = std::array<cpu_set_t, ProcessorSet::kMostProcessors / CPU_SETSIZE>;
+
 /// The number that `text` begins with, which is taken off it; nothing where it begins with none.
 std::optional<int> take_number(std::string_view& text) {
     int number = 0;
@@ -46,9 +50,10 @@ ProcessorSet listed_processors(std::string_view text) {
 }  // namespace
 
 ProcessorSet ProcessorSet::of_this_thread() {
+    KernelSet set{};
     ProcessorSet processors;
-    auto* const words = reinterpret_cast<cpu_set_t*>(processors.words_.data());
-    if (sched_getaffinity(0, sizeof(processors.words_), words) != 0) return {};
+    if (sched_getaffinity(0, sizeof(set), set.data()) == 0)
+        processors.words_ = std::bit_cast<decltype(processors.words_)>(set);
     return processors;
 }
 
@@ -75,7 +80,8 @@ ProcessorSet ProcessorSet::common_with(const ProcessorSet& other) const {
 }
 
 bool ProcessorSet::bind_this_thread() const {
-    return sched_setaffinity(0, sizeof(words_), reinterpret_cast<const cpu_set_t*>(words_.data())) == 0;
+    const auto set = std::bit_cast<KernelSet>(words_);
+    return sched_setaffinity(0, sizeof(set), set.data()) == 0;
 }
 
 int size_of_all(std::span<const ProcessorSet> sets) {
@@ -89,14 +95,14 @@ std::vector<ProcessorSet> memory_nodes(const std::filesystem::path& directory) {
     const ProcessorSet allowed = ProcessorSet::of_this_thread();
     std::map<int, ProcessorSet> by_number;
     std::error_code error;
-    for (const auto& entry : std::filesystem::directory_iterator(directory, error)) {
-        const std::string name = entry.path().filename().string();
+    for (fs::directory_iterator entry(directory, error); entry != fs::directory_iterator(); entry.increment(error)) {
+        const std::string name = entry->path().filename().string();
         if (!name.starts_with(kPrefix)) continue;
         std::string_view rest = std::string_view(name).substr(kPrefix.size());
         const std::optional<int> number = take_number(rest);
         if (!number || !rest.empty()) continue;
         std::string list;
-        std::getline(std::ifstream(entry.path() / "cpulist"), list);
+        std::getline(std::ifstream(entry->path() / "cpulist"), list);
         const ProcessorSet processors = listed_processors(list).common_with(allowed);
         if (processors.size() > 0) by_number.emplace(*number, processors);
     }

@@ -29,6 +29,8 @@ class ProcessorSet {
     /// From now on the calling thread runs on these only. False, and nothing changes, where the system refuses.
     bool bind_this_thread() const;  // NOLINT(modernize-use-nodiscard): a thread that stays free renders the same
 
+    bool operator==(const ProcessorSet&) const = default;
+
   private:
     std::array<std::uint64_t, kMostProcessors / 64> words_{};  ///< a bit each, as the kernel has them
 };

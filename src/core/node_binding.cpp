@@ -4,7 +4,7 @@
 
 namespace etendue {
 
-NodeBinding::NodeBinding(int slots, std::span<const ProcessorSet> nodes) : everywhere_(ProcessorSet::of_this_thread()) {
+NodeBinding::NodeBinding(int slots, std::span<const ProcessorSet> nodes) {
     const auto processors = static_cast<std::size_t>(size_of_all(nodes));
     std::size_t dealt = 0;
     for (const ProcessorSet& node : nodes) {
@@ -13,12 +13,14 @@ NodeBinding::NodeBinding(int slots, std::span<const ProcessorSet> nodes) : every
     }
 }
 
-NodeBinding::Stay::Stay(const NodeBinding& binding, int slot) : binding_(binding) {
-    if (!binding_.node_of_slot_.empty()) binding_.node_of_slot_[static_cast<std::size_t>(slot)].bind_this_thread();
+NodeBinding::Stay::Stay(const NodeBinding& binding, int slot) {
+    if (binding.node_of_slot_.empty()) return;
+    const ProcessorSet before = ProcessorSet::of_this_thread();
+    if (binding.node_of_slot_[static_cast<std::size_t>(slot)].bind_this_thread()) before_ = before;
 }
 
 NodeBinding::Stay::~Stay() {
-    if (!binding_.node_of_slot_.empty()) binding_.everywhere_.bind_this_thread();
+    if (before_) before_->bind_this_thread();
 }
 
 }  // namespace etendue

@@ -3,6 +3,7 @@
 
 #include "core/memory_nodes.h"
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,24 +19,20 @@ class NodeBinding {
     /// @param nodes at least one, none empty
     NodeBinding(int slots, std::span<const ProcessorSet> nodes);
 
-    /// While it lives, the calling thread runs on the processors of its slot's node. Afterwards it may run wherever the
-    /// maker of the binding might, not where it might before: a worker inherits that from the thread that happened to
-    /// start it, which can be one that is bound.
+    /// While it lives, the calling thread runs on the processors of its slot's node; afterwards wherever it did before.
     class Stay {
       public:
-        /// @param binding outlives this
         Stay(const NodeBinding& binding, int slot);
         ~Stay();
         Stay(const Stay&) = delete;
         Stay& operator=(const Stay&) = delete;
 
       private:
-        const NodeBinding& binding_;
+        std::optional<ProcessorSet> before_;  ///< if it is bound
     };
 
   private:
     std::vector<ProcessorSet> node_of_slot_;  ///< none where nobody is bound
-    ProcessorSet everywhere_;
 };
 
 }  // namespace etendue

@@ -1,7 +1,5 @@
 #include "core/parallel.h"
 
-#include "core/node_binding.h"
-
 #include <algorithm>
 #include <optional>
 
@@ -58,7 +56,6 @@ void ThreadPool::parallel_for(std::size_t count, const std::function<void(std::s
             [&](const tbb::blocked_range<std::size_t>& range) {
                 const FlushDenormals flush_denormals;
                 const int slot = tbb::this_task_arena::current_thread_index();
-                const NodeBinding::Stay stay(impl_->binding, slot);
                 for (std::size_t index = range.begin(); index != range.end(); ++index) body(index, slot);
             },
             tbb::simple_partitioner());
@@ -70,6 +67,10 @@ void ThreadPool::execute(const std::function<void()>& body) const {
         const FlushDenormals flush_denormals;
         body();
     });
+}
+
+NodeBinding::Stay ThreadPool::stay_on_node(int slot) const {
+    return {impl_->binding, slot};
 }
 
 std::string parallel_library_version() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/memory_nodes.h"
+#include "core/node_binding.h"
 
 #include <cstddef>
 #include <functional>
@@ -26,14 +27,10 @@ class FlushDenormals {
 
 /// The threads of one render. Everything parallel, Embree's BVH build included, runs in this one arena, so that no more
 /// than `thread_count()` threads ever work at once.
-///
-/// A pool that has a thread for every processor of a machine with several memory nodes keeps each slot on one of them
-/// while it works, so that what a slot touches first lies near whoever works in it. Smaller pools go where the system
-/// sends them: several processes that share a machine would else crowd the same node.
 class ThreadPool {
   public:
     /// `thread_count` worker threads, the caller included; 0 for one per processor.
-    /// @param nodes the machine's memory nodes
+    /// @param nodes the memory nodes of the machine, for `stay_on_node`
     explicit ThreadPool(int thread_count = 0, std::span<const ProcessorSet> nodes = memory_nodes());
     ~ThreadPool();
     ThreadPool(const ThreadPool&) = delete;
@@ -45,6 +42,13 @@ class ThreadPool {
     /// [0, thread_count()) and no two calls share one at the same time, so it can index per-thread scratch memory.
     /// FTZ and DAZ are set around every call. Exceptions leave through the caller once the other calls have ended.
     void parallel_for(std::size_t count, const std::function<void(std::size_t index, int slot)>& body) const;
+
+    /// Keeps the calling thread, in a call of `parallel_for`, on the memory node of its slot while the result lives:
+    /// what belongs to a slot and is touched first in it then lies near whoever works there later. It costs three
+    /// system calls, and so is for calls that take long. Slots have a node where the machine has several and the pool a
+    /// thread for every processor; threads of smaller pools go where the system sends them, since processes that share
+    /// a machine would else choose the same nodes.
+    [[nodiscard]] NodeBinding::Stay stay_on_node(int slot) const;
 
     /// Runs `body` inside the arena: libraries that use TBB themselves (Embree's build) then use its threads only.
     void execute(const std::function<void()>& body) const;

@@ -172,7 +172,9 @@ void ProgressiveRender::render_group(std::size_t first, std::size_t size, const 
         std::uint8_t& is_done = state_.tiles_done[first + order[index]];
         // Splats of a tile after one that is missing would come too early.
         if (is_done != 0 || (!makes_splats && stop())) return;
+        const NodeBinding::Stay stay = threads_.stay_on_node(slot);
         Worker& worker = workers_[static_cast<std::size_t>(slot)];
+        if (!worker.scratch) worker.scratch = integrator_.make_scratch();  // here, so as to lie on the slot's node
         choose_pixels(tiles_[first + order[index]], worker);
         if (!state_.adaptive.is_uniform() && worker.pixels.empty()) {
             is_done = 1;
@@ -200,8 +202,6 @@ void ProgressiveRender::render_group(std::size_t first, std::size_t size, const 
         }
         const std::uint64_t rays_before = worker.counters.rays.total();
         worker.tile.reset(job.rect, state_.film.layers().layout());
-        // Made here, in its slot, it is touched first where the slot works, and lies on that memory node.
-        if (!worker.scratch) worker.scratch = integrator_.make_scratch();
         integrator_.render_tile(world_, job, *worker.scratch, worker.tile, worker.counters);
         add_tile(worker, second);
         is_done = 1;

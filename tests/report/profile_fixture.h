@@ -52,6 +52,7 @@ inline ProfileReport made_up_profile() {
                          .settings = {{"film", "film: filter box"}, {"sampler", "sobol"}},
                          .processor = "made up",
                          .processors = 2,
+                         .memory_nodes = 2,
                          .isa = "AVX2",
                          .ray_tracer = "Embree 3.13.5"};
     report.load = {{"read", 0.25}, {"compile", 0.5}};

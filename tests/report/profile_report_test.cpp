@@ -55,7 +55,11 @@ TEST(ProfileJson, HoldsWhatWasMeasured) {
                                    {"max_depth", 12},
                                    {"seed", 7},
                                    {"settings", {{"film", "film: filter box"}, {"sampler", "sobol"}}}}));
-    EXPECT_EQ(json["machine"]["isa"], "AVX2");
+    EXPECT_EQ(json["machine"], Json({{"processor", "made up"},
+                                     {"processors", 2},
+                                     {"memory_nodes", 2},
+                                     {"isa", "AVX2"},
+                                     {"ray_tracer", "Embree 3.13.5"}}));
     EXPECT_EQ(json["load"]["phases"][1], Json({{"name", "compile"}, {"seconds", 0.5}}));
     EXPECT_EQ(json["load"]["seconds"], 0.75);
     EXPECT_EQ(json["bvh"]["triangles_per_second"], 2000.0);
@@ -127,7 +131,7 @@ TEST(ProfileTable, SaysWhereTheTimeGoes) {
     const std::string table = to_table(made_up_profile());
     for (const char* text : {"path, 2 threads", "camera", "intersect", "16.7%", "########", "0.62", "1.00 MiB",
                              "most expensive tiles: (0, 0) 1.00 s (66.7%)", "9 vertices at (3, 4), sample 5",
-                             "cycles 2.00 G", "875 ms", "64 bytes a triangle"})
+                             "cycles 2.00 G", "875 ms", "64 bytes a triangle", "2 processors at 2 memory nodes"})
         EXPECT_NE(table.find(text), std::string::npos) << text << " is missing in\n" << table;
     EXPECT_EQ(table.find("nan"), std::string::npos) << table;
 }
