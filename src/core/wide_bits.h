@@ -6,7 +6,7 @@
 #include <bit>
 #include <cstdint>
 
-#if defined(__AVX512BW__)
+#if defined(__GFNI__) && defined(__AVX512BW__)
 #include <immintrin.h>
 #endif
 
@@ -61,23 +61,15 @@ class WideBits {
         return Wide(std::experimental::static_simd_cast<Wide::Simd>(std::bit_cast<Int>(a.lanes_ >> 8)) * 0x1p-24f);
     }
 
-#if defined(__AVX512BW__)
-    /// As `reverse_bits` does it with masks in some fourteen steps: the bytes by one, then the bits of each by a matrix,
-    /// or by a table of each half where the processor has no matrices.
+#if defined(__GFNI__) && defined(__AVX512BW__)
+    /// As `reverse_bits` does it with masks, in two steps in place of some fourteen: the bytes, then the bits of each,
+    /// by a matrix.
     [[nodiscard]] friend WideBits reverse_bits(WideBits a) {
         static_assert(sizeof(Simd) == sizeof(__m512i));
         const __m512i bytes = _mm512_shuffle_epi8(std::bit_cast<__m512i>(a.lanes_),
                                                   _mm512_set4_epi32(0x0c0d0e0f, 0x08090a0b, 0x04050607, 0x00010203));
-#if defined(__GFNI__)
         const __m512i matrix = _mm512_set1_epi64(static_cast<std::int64_t>(0x8040201008040201u));
         return WideBits(std::bit_cast<Simd>(_mm512_gf2p8affine_epi64_epi8(bytes, matrix, 0)));
-#else
-        const __m512i reversed = _mm512_set4_epi32(0x0f070b03, 0x0d050901, 0x0e060a02, 0x0c040800);
-        const __m512i half = _mm512_set1_epi8(0x0f);
-        const __m512i low = _mm512_shuffle_epi8(reversed, _mm512_and_si512(bytes, half));
-        const __m512i high = _mm512_shuffle_epi8(reversed, _mm512_and_si512(_mm512_srli_epi16(bytes, 4), half));
-        return WideBits(std::bit_cast<Simd>(_mm512_or_si512(_mm512_slli_epi16(low, 4), high)));
-#endif
     }
 #endif
 
