@@ -107,6 +107,7 @@ std::vector<ProcessorSet> memory_nodes(const std::filesystem::path& directory) {
         if (processors.size() > 0) by_number.emplace(*number, processors);
     }
     std::vector<ProcessorSet> nodes;
+    nodes.reserve(by_number.size());
     for (const auto& [number, processors] : by_number) nodes.push_back(processors);
     return nodes;
 }
