@@ -21,6 +21,7 @@ void report_dropped(const RenderCounters& counters, const std::filesystem::path&
         settings.film.height, first.x, first.y, first.x + 1, first.y + 1, first.sample, first.sample + 1, settings.seed,
         quoted(working_space));
     if (overrides.min_depth) command += fmt::format(" --min-depth {}", *overrides.min_depth);
+    if (overrides.light_samples) command += fmt::format(" --light-samples {}", *overrides.light_samples);
     if (const auto& strategy = settings.integrator.strategy)
         command += fmt::format(" --strategy {},{}{}", (*strategy)[0], (*strategy)[1],
                                settings.integrator.weighted ? "" : " --unweighted");

@@ -62,6 +62,7 @@ IntegratorOptions integrator_options(const RenderSettings& settings) {
     const IntegratorSettings& s = settings.integrator;
     IntegratorOptions options{
         .lengths = {s.max_depth, s.min_depth, s.roulette_depth},
+        .light_samples = static_cast<std::uint32_t>(s.light_samples),
         .heuristic = s.heuristic == HeuristicType::Balance ? Heuristic::Balance : Heuristic::Power,
         .weighted = s.weighted,
         .cached_connections = s.cached_connections};
@@ -131,11 +132,15 @@ std::vector<std::string> ineffective_settings(const RenderSettings& settings, bo
     without_error("/min_spp", "--min-spp");
     without_error("/adaptive", settings.adaptive ? "--adaptive" : "--no-adaptive");
     // A render.json may well hold these for when another integrator is asked for.
+    const std::string& type = settings.integrator.type;
+    const auto without_use = [&](const char* pointer, bool has_use, std::string_view whose) {
+        if (const auto option = settings.options.find(pointer); option != settings.options.end() && !has_use)
+            sentences.push_back(fmt::format("{} has no effect with '{}': it is for {}", option->second, type, whose));
+    };
     for (const char* pointer : {"/integrator/heuristic", "/integrator/connections"})
-        if (const auto option = settings.options.find(pointer);
-            option != settings.options.end() && !has_strategies(settings.integrator.type))
-            sentences.push_back(fmt::format("{} has no effect with '{}': it is for 'bdpt', which has strategies",
-                                            option->second, settings.integrator.type));
+        without_use(pointer, has_strategies(type), "'bdpt', which has strategies");
+    const IntegratorEntry* const entry = find_integrator(type);
+    without_use("/integrator/light_samples", entry != nullptr && entry->splits_light_samples, "'path' and 'direct'");
     if (settings.clamp_indirect > 0.0f && settings.integrator.max_depth < kShortestIndirect && !has_bodies)
         sentences.push_back(fmt::format(
             "{} has no effect: paths have at most {} (--max-depth), and indirect light takes {}",

@@ -177,6 +177,11 @@ void SettingsOverrides::add_options(CLI::App& command) {
     command.add_option("--min-depth", min_depth, "Least edges of a path that is kept (default: 1)")
         ->check(CLI::Range(1, kMostEdges));
     command
+        .add_option("--light-samples", light_samples,
+                    "Lights that path and direct sample where the eye looks, directly or in mirrors (default: 1); more "
+                    "take noise out of soft shadows and of the light of many lamps, for more time")
+        ->check(CLI::Range(1, kMostLightSamples));
+    command
         .add_option_function<std::string>(
             "--heuristic", [this](const std::string& text) { heuristic = kHeuristics.at(text); },
             "How bdpt weighs its strategies: balance (default) or power")
@@ -293,6 +298,7 @@ void SettingsOverrides::apply(SceneDesc& scene) const {
     set(integrator, settings.integrator.type, "/integrator/type", "--integrator");
     set(max_depth, settings.integrator.max_depth, "/integrator/max_depth", "--max-depth");
     set(min_depth, settings.integrator.min_depth, "/integrator/min_depth", "--min-depth");
+    set(light_samples, settings.integrator.light_samples, "/integrator/light_samples", "--light-samples");
     set(heuristic, settings.integrator.heuristic, "/integrator/heuristic", "--heuristic");
     set(strategy, settings.integrator.strategy, "/integrator/strategy", "--strategy");
     set(weighted, settings.integrator.weighted, "/integrator/weighted", "--unweighted");

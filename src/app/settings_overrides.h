@@ -45,6 +45,7 @@ struct SettingsOverrides {
     std::optional<int> min_spp;
     std::optional<int> max_depth;
     std::optional<int> min_depth;
+    std::optional<int> light_samples;
     std::optional<HeuristicType> heuristic;
     std::optional<std::array<int, 2>> strategy;
     std::optional<bool> weighted;

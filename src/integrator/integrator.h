@@ -79,6 +79,7 @@ struct PathLengths {
 /// What can be asked of integrators; each takes what concerns it.
 struct IntegratorOptions {
     PathLengths lengths{};
+    std::uint32_t light_samples = 1;           ///< see PathOptions
     Heuristic heuristic = Heuristic::Balance;  ///< of those that have strategies
     std::optional<Strategy> strategy{};        ///< this one alone; it exists
     bool weighted = true;                      ///< false: the strategy is all there is, as if no other made its paths
@@ -120,6 +121,7 @@ struct IntegratorEntry {
     std::string_view summary;  ///< for --help
     std::unique_ptr<const Integrator> (*make)(const IntegratorOptions&);
     int longest_path = std::numeric_limits<int>::max();  ///< edges
+    bool splits_light_samples = false;                   ///< it looks at IntegratorOptions::light_samples
     bool has_strategies = false;                         ///< it looks at the options for them
     bool has_expressions = true;                         ///< it tells the light of paths apart
     bool shows_light = true;                             ///< false: something else, for finding out what is wrong

@@ -16,13 +16,15 @@ namespace {
 constexpr int kDirectPath = 2;
 
 std::unique_ptr<const Integrator> make_path(const IntegratorOptions& options) {
-    return std::make_unique<PathIntegrator>(PathOptions{.lengths = options.lengths});
+    return std::make_unique<PathIntegrator>(
+        PathOptions{.lengths = options.lengths, .light_samples = options.light_samples});
 }
 
 std::unique_ptr<const Integrator> make_direct(const IntegratorOptions& options) {
     PathLengths one_bounce = options.lengths;
     one_bounce.max_depth = std::min(one_bounce.max_depth, kDirectPath);
-    return std::make_unique<PathIntegrator>(PathOptions{.lengths = one_bounce, .leaves_out_indirect = true});
+    return std::make_unique<PathIntegrator>(
+        PathOptions{.lengths = one_bounce, .light_samples = options.light_samples, .leaves_out_indirect = true});
 }
 
 std::unique_ptr<const Integrator> make_naive(const IntegratorOptions& options) {
@@ -54,8 +56,15 @@ std::unique_ptr<const Integrator> make_albedo(const IntegratorOptions&) {
 }
 
 constexpr IntegratorEntry kRegistry[] = {
-    {"path", "eye paths with light sampling, combined by MIS", make_path},
-    {"direct", "path, one bounce only", make_direct, kDirectPath},
+    {.name = "path",
+     .summary = "eye paths with light sampling, combined by MIS",
+     .make = make_path,
+     .splits_light_samples = true},
+    {.name = "direct",
+     .summary = "path, one bounce only",
+     .make = make_direct,
+     .longest_path = kDirectPath,
+     .splits_light_samples = true},
     {"naive", "eye paths that find lights by chance", make_naive},
     {"light", "paths from the lights, connected to the camera", make_light},
     {.name = "bdpt",

@@ -268,6 +268,7 @@ std::string dump(const RenderSettings& s) {
                        (*s.integrator.strategy)[0], (*s.integrator.strategy)[1]);
     if (const int count = s.integrator.cached_connections; count > 0)
         fmt::format_to(out, ", connections cache:{}", count);
+    if (const int count = s.integrator.light_samples; count > 1) fmt::format_to(out, ", {} light samples", count);
     if (s.clamp_indirect > 0.0f) fmt::format_to(out, ", indirect light up to {:g}", s.clamp_indirect);
     if (s.robust_buckets > 0) fmt::format_to(out, ", mon:{}", s.robust_buckets);
     if (s.brightest != RenderSettings{}.brightest) fmt::format_to(out, ", {} brightest", s.brightest);

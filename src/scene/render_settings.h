@@ -23,6 +23,8 @@ struct IntegratorSettings {
     int max_depth = 32;         ///< most edges of a path from camera to light, >= 1; 1 is emission seen directly
     int min_depth = 1;          ///< least edges of a path that is kept, >= 1
     int roulette_depth = 3;     ///< edges after which Russian roulette may end a path, >= 1
+    /// Of `path` and `direct`: lights sampled at each first vertex behind the eye and its mirrors.
+    int light_samples = 1;
     /// Of bidirectional path tracing: how strategies are weighed, and which one alone makes the image, by its vertices
     /// from the light and from the eye; not weighted, it is all there is.
     HeuristicType heuristic = HeuristicType::Balance;
@@ -32,6 +34,7 @@ struct IntegratorSettings {
     int cached_connections = 0;
 };
 
+inline constexpr int kMostLightSamples = 64;
 inline constexpr int kMostCachedConnections = 999;
 inline constexpr std::string_view kConnectionsForm = "pairwise or cache:N, N from 1 to 999";
 /// `IntegratorSettings::cached_connections` in that form; nothing if `text` is not.

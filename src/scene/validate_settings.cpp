@@ -137,6 +137,7 @@ void validate_settings(const SceneDesc& scene, ProblemList& problems) {
     check(integrator.max_depth, 1, kMaxInt, "max_depth", "/integrator/max_depth");
     check(integrator.min_depth, 1, kMaxInt, "min_depth", "/integrator/min_depth");
     check(integrator.roulette_depth, 1, kMaxInt, "roulette_depth", "/integrator/roulette_depth");
+    check(integrator.light_samples, 1, kMostLightSamples, "light_samples", "/integrator/light_samples");
     if (integrator.min_depth > integrator.max_depth) {
         // Where either was set last: the command line is read after render.json.
         const bool is_option = settings.options.contains("/integrator/min_depth");

@@ -51,10 +51,10 @@ TEST_F(CommandLine, HelpHasExamplesForEachCommand) {
     }
     const ProgramResult render_help = run({"render", "--help"});
     for (const char* option :
-         {"--integrator", "--spp",           "--size",    "--crop",      "--camera",      "--threads",
-          "--seed",       "--time",          "--quality", "--max-depth", "--environment", "--exposure",
-          "--view",       "--working-space", "--half",    "--float",     "--frames",      "--fps",
-          "--force",      "--quiet",         "--json",    "--min-depth"})
+         {"--integrator", "--spp",           "--size",    "--crop",      "--camera",       "--threads",
+          "--seed",       "--time",          "--quality", "--max-depth", "--environment",  "--exposure",
+          "--view",       "--working-space", "--half",    "--float",     "--frames",       "--fps",
+          "--force",      "--quiet",         "--json",    "--min-depth", "--light-samples"})
         EXPECT_NE(render_help.out.find(option), std::string::npos) << option;
     EXPECT_EQ(run({"--version"}).exit_code, 0);
     EXPECT_TRUE(list(work_).empty());

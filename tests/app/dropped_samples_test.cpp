@@ -66,7 +66,7 @@ TEST_F(DroppedSamples, OfSplatsAreTheLightPathsThatLeftThem) {
 
 TEST_F(DroppedSamples, AreRenderedAgainAsTheyWere) {
     const Arguments options{"--integrator",     "bdpt", "--heuristic",      "power", "--bdpt-connections", "cache:3",
-                            "--clamp-indirect", "7",    "--texture-memory", "8M"};
+                            "--clamp-indirect", "7",    "--texture-memory", "8M",    "--light-samples",    "3"};
     const Report report = render(options);
     ASSERT_FALSE(report.command.empty());
     for (std::size_t i = 0; i < options.size(); i += 2) {

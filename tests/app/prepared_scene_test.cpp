@@ -56,6 +56,7 @@ TEST(SettingsHash, ChangesWithEverythingThatChangesTheImage) {
     expect_new("time", [](SettingsOverrides& o) { o.time_seconds = 5.0; });
     expect_new("depth", [](SettingsOverrides& o) { o.max_depth = 3; });
     expect_new("least depth", [](SettingsOverrides& o) { o.min_depth = 2; });
+    expect_new("light samples", [](SettingsOverrides& o) { o.light_samples = 2; });
     expect_new("heuristic", [](SettingsOverrides& o) { o.heuristic = HeuristicType::Power; });
     expect_new("strategy", [](SettingsOverrides& o) { o.strategy = {2, 1}; });
     expect_new("unweighted", [](SettingsOverrides& o) {

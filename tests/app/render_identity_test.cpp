@@ -44,6 +44,7 @@ TEST(RenderIdentity, EverySettingThatSumsDependOnChangesItAndIsNamed) {
         {"setting integrator: ", [](SceneDesc& s) { s.settings.integrator.max_depth = 3; }},
         {"setting integrator: ", [](SceneDesc& s) { s.settings.integrator.min_depth = 2; }},
         {"setting integrator: ", [](SceneDesc& s) { s.settings.integrator.roulette_depth = 9; }},
+        {"setting integrator: ", [](SceneDesc& s) { s.settings.integrator.light_samples = 2; }},
         {"setting integrator: ",
          [](SceneDesc& s) {
              s.settings.integrator.type = "bdpt";

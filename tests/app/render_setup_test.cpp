@@ -64,6 +64,19 @@ TEST(IneffectiveSettings, OptionsOfStrategiesNeedStrategies) {
     EXPECT_TRUE(ineffective_settings(settings, false).empty());
 }
 
+TEST(IneffectiveSettings, MoreLightSamplesAreForPathTracing) {
+    RenderSettings settings;
+    settings.integrator = {.type = "bdpt", .light_samples = 4};
+    EXPECT_TRUE(ineffective_settings(settings, false).empty()) << "of a render.json, for when path is asked for";
+    settings.options = {{"/integrator/light_samples", "--light-samples"}};
+    EXPECT_EQ(ineffective_settings(settings, false),
+              std::vector<std::string>{"--light-samples has no effect with 'bdpt': it is for 'path' and 'direct'"});
+    for (const char* type : {"path", "direct"}) {
+        settings.integrator.type = type;
+        EXPECT_TRUE(ineffective_settings(settings, false).empty()) << type;
+    }
+}
+
 TEST(IneffectiveSettings, IndirectLightTakesThreeEdges) {
     RenderSettings settings;
     settings.integrator.max_depth = 2;

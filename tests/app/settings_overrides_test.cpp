@@ -112,7 +112,9 @@ TEST(SettingsOverrides, EachOptionReachesItsSetting) {
                                                "--light-units",
                                                "radiometric",
                                                "--min-depth",
-                                               "2"});
+                                               "2",
+                                               "--light-samples",
+                                               "4"});
     overrides.apply(scene);
     EXPECT_EQ(scene.settings.integrator.type, "naive");
     EXPECT_EQ(scene.settings.camera, "side");
@@ -121,6 +123,7 @@ TEST(SettingsOverrides, EachOptionReachesItsSetting) {
     EXPECT_EQ(scene.settings.light_units, LightUnits::Radiometric);
     EXPECT_EQ(scene.settings.integrator.max_depth, 3);
     EXPECT_EQ(scene.settings.integrator.min_depth, 2);
+    EXPECT_EQ(scene.settings.integrator.light_samples, 4);
     EXPECT_TRUE(scene.environment.enabled);
     EXPECT_EQ(scene.environment.image, folder / "sky.exr");
     EXPECT_EQ(scene.settings.color.exposure, -1.5f);
@@ -197,6 +200,8 @@ TEST(SettingsOverrides, NonsenseIsAUsageError) {
                                                        {"--exposure", "inf"},
                                                        {"--max-depth", "0"},
                                                        {"--min-depth", "0"},
+                                                       {"--light-samples", "0"},
+                                                       {"--light-samples", "65"},
                                                        {"--quality", "best"},
                                                        {"--integrator", "photons"},
                                                        {"--environment", "/no/such/file.exr"},

@@ -138,6 +138,7 @@ const Defect kDefects[] = {
      [](SceneDesc& s) {
          s.settings.film.crop = {{10, 0, 10, 10}};
      }},
+    {"LightSamplesMany", "light_samples", [](SceneDesc& s) { s.settings.integrator.light_samples = 65; }},
     {"DepthsSwapped", "min_depth", [](SceneDesc& s) { s.settings.integrator.min_depth = 99; }},
     {"StrategyHitsTheLens", "strategy 3,0",
      [](SceneDesc& s) {

@@ -43,11 +43,17 @@ struct BlockLanes : SurfaceLanes {
     /// Of a block of whose paths nothing is known yet.
     void start() {
         front.clear();
+        forget_light();
         for (std::size_t l = 0; l < kBlockLanes; l += Wide::kWidth) {
             is_glossy.store(l, Wide(0.0f));
             is_wide.store(l, Wide(0.0f));
-            light_probability.store(l, Wide(0.0f));
             goes_on.store(l, Wide(0.0f));
+        }
+    }
+    /// No path has a sample of a light.
+    void forget_light() {
+        for (std::size_t l = 0; l < kBlockLanes; l += Wide::kWidth) {
+            light_probability.store(l, Wide(0.0f));
             light_pdf.store(l, Wide(0.0f));
             light_by_chance.store(l, Wide(1.0f));
         }

@@ -48,8 +48,9 @@ void PathWave::trace(const World& world, const TileJob& job, const PathOptions& 
             find_first_hits(world, job, std::span(samples_).first(count), camera_rays, std::span(hits_).first(count),
                             tile);
         stamp(job.profile, Stage::HitSetup);
-        shade({world, job, options, depth});
-        shadow_rays_.resolve(world, job, samples_, light_, tile, counters);
+        const auto trace_shadow_rays = [&] { shadow_rays_.resolve(world, job, samples_, light_, tile, counters); };
+        shade({world, job, options, depth}, trace_shadow_rays);
+        trace_shadow_rays();
     }
     accumulate(job, std::span(samples_).first(count), light_, alpha_, tile, counters);
     stamp(job.profile, Stage::Film);
@@ -67,20 +68,66 @@ void PathWave::draw_numbers(const Context& context) {
             numbers.draw_none(count_);
     };
     if (has_bodies) draw(body_dimension(context.depth, kMedium), medium_, context.world.has_scattering_bodies());
-    if (context.options.sample_lights && context.world.has_sampled_lights()) {
-        draw(bounce_dimension(context.depth, kLightChoice), light_choice_, context.world.chooses_lights());
-        draw(bounce_dimension(context.depth, kLightTriangle), light_triangle_);
-        draw(bounce_dimension(context.depth, kLightDirection), light_direction_);
-    }
+    if (context.options.sample_lights && context.world.has_sampled_lights() && !ends) draw_light_numbers(context, 0);
     draw(bounce_dimension(context.depth, kBsdfDirection), bsdf_direction_);
     draw(bounce_dimension(context.depth, kChoices), choices_);
 }
 
-void PathWave::shade(const Context& context) {
+void PathWave::draw_light_numbers(const Context& context, std::uint32_t round) {
+    const std::span pixel_seeds(paths_.pixel_seed.data() + first_, count_);
+    std::span indices(paths_.index.data() + first_, count_);
+    std::array<std::uint32_t, kBlock> split;
+    if (context.options.light_samples > 1) {
+        for (std::size_t k = 0; k < count_; ++k) split[k] = light_sample_index(context, k, round);
+        indices = std::span(split).first(count_);
+    }
+    const auto draw = [&](BounceDimension which, NumberPairs& numbers) {
+        numbers.draw(context.job.sequence, pixel_seeds, indices, bounce_dimension(context.depth, which));
+    };
+    if (context.world.chooses_lights())
+        draw(kLightChoice, light_choice_);
+    else
+        light_choice_.draw_none(count_);
+    draw(kLightTriangle, light_triangle_);
+    draw(kLightDirection, light_direction_);
+}
+
+template <typename TraceShadowRays>
+void PathWave::shade(const Context& context, const TraceShadowRays& trace_shadow_rays) {
     std::size_t kept = 0;
-    for (std::size_t first = 0; first < active_; first += kBlock)
+    for (std::size_t first = 0; first < active_; first += kBlock) {
         shade_block(context, first, std::min(kBlock, active_ - first), kept);
+        if (shadow_rays_.is_full()) trace_shadow_rays();
+    }
     active_ = kept;
+}
+
+template <typename Stamp>
+void PathWave::sample_direct_light(const Context& context, const LaneList& paths, const Stamp& stamp) {
+    sample_lights(context, paths);
+    stamp(Stage::LightSampling);
+    evaluate_matte();
+    evaluate_glossy();
+    for (const std::size_t k : paths)
+        if (!block_[k].is_wide) evaluate_light(k);
+    stamp(Stage::Material);
+    queue_direct_light(context, paths);
+    stamp(Stage::Mis);
+}
+
+template <typename Stamp>
+void PathWave::split_direct_light(const Context& context, const Stamp& stamp) {
+    sample_direct_light(context, sampling_, stamp);
+    if (context.options.light_samples == 1) return;
+    LaneList split;
+    for (const std::size_t k : sampling_) split.add_if(paths_.is(path_history::kOnlyDelta, first_ + k), k);
+    if (split.empty()) return;
+    for (std::uint32_t round = 1; round < context.options.light_samples; ++round) {
+        draw_light_numbers(context, round);
+        lanes_.forget_light();
+        stamp(Stage::Numbers);
+        sample_direct_light(context, split, stamp);
+    }
 }
 
 void PathWave::shade_block(const Context& context, std::size_t first, std::size_t count, std::size_t& kept) {
@@ -107,16 +154,11 @@ void PathWave::shade_block(const Context& context, std::size_t first, std::size_
     look_up_textures(context);
     make_scattering(context);
     stamp(Stage::Textures);
-    sample_lights(context);
-    stamp(Stage::LightSampling);
-    evaluate_matte();
-    evaluate_glossy();
+    split_direct_light(context, stamp);
     lanes_.set_next_origins(count);
     for (const std::size_t k : on_surface_)
-        if (!block_[k].is_wide) evaluate(k);
+        if (!block_[k].is_wide) sample_bsdf(k);
     stamp(Stage::Material);
-    queue_direct_light(context);
-    stamp(Stage::Mis);
     scatter_by_lanes(context);
     for (const std::size_t k : on_surface_)
         if (!block_[k].is_wide) lanes_.goes_on.set(k, scatter_at_surface(context, k) ? 1.0f : 0.0f);

@@ -31,8 +31,7 @@ struct ShadedPath {
     const PlainSurface* plain = nullptr;        ///< see World::plain_surface
     const MetallicRoughness* glossy = nullptr;  ///< its lobe, where that is evaluated for many at once
     std::uint32_t light = kNone;                ///< that is sampled
-    bool samples_light = false;
-    bool is_wide = false;  ///< scattered by a lobe that is evaluated for many paths at once
+    bool is_wide = false;                       ///< scattered by a lobe that is evaluated for many paths at once
 };
 
 /// The rest, which paths have that are shaded one by one: some 700 bytes, apart from what stays in the first-level
@@ -74,7 +73,20 @@ class PathWave final : public IntegratorScratch {
 
     /// Random numbers of the block for this bounce, many at a time.
     void draw_numbers(const Context& context);
-    void shade(const Context& context);
+    /// Those of the `round`-th light sample of its paths.
+    void draw_light_numbers(const Context& context, std::uint32_t round);
+    /// Which point of its sequence the `round`-th light sample of path `k` is.
+    [[nodiscard]] std::uint32_t light_sample_index(const Context& context, std::size_t k, std::uint32_t round) const {
+        return paths_.index[first_ + k] * light_samples(context, first_ + k, path_history::kOnlyDelta) + round;
+    }
+    /// Light samples of path `i` of the wave: where it is, if nothing but deltas has scattered it yet (`kOnlyDelta`),
+    /// or where its ray comes from, if nothing had there (`kIsDirect`).
+    [[nodiscard]] std::uint32_t light_samples(const Context& context, std::size_t i, std::uint32_t first_vertex) const {
+        return paths_.is(first_vertex, i) ? context.options.light_samples : 1u;
+    }
+    /// `trace_shadow_rays` is called whenever there are enough for a batch.
+    template <typename TraceShadowRays>
+    void shade(const Context& context, const TraceShadowRays& trace_shadow_rays);
     /// Advances paths [first, first + count), count <= kBlock, stage by stage, and moves those that go on to where
     /// `kept` says.
     void shade_block(const Context& context, std::size_t first, std::size_t count, std::size_t& kept);
@@ -101,13 +113,21 @@ class PathWave final : public IntegratorScratch {
     void make_wide_scattering(std::size_t k);
     /// What light is chosen for at the surface of path `k`.
     [[nodiscard]] LightReceiver make_receiver(std::size_t k) const;
-    /// Samples a light for each path that asks for one.
-    void sample_lights(const Context& context);
+    /// Samples a light for each of `paths`.
+    void sample_lights(const Context& context, const LaneList& paths);
+    /// A light sample of each of `paths`, on to its shadow ray. Lanes make what they know of the BSDF's sample besides.
+    template <typename Stamp>
+    void sample_direct_light(const Context& context, const LaneList& paths, const Stamp& stamp);
+    /// All light samples of the block.
+    template <typename Stamp>
+    void split_direct_light(const Context& context, const Stamp& stamp);
     // The sample of path `k`, from the lanes or to them.
     void take_light_from_lanes(std::size_t k);
     void put_light_into_lanes(std::size_t k);
-    /// What the surface scatters towards the light, and where else to.
-    void evaluate(std::size_t k);
+    /// What the surface of path `k` scatters towards the light, and where else to.
+    void evaluate_light(std::size_t k);
+    void sample_bsdf(std::size_t k);
+    // Both, of all that are scattered by lanes.
     void evaluate_matte();
     void evaluate_glossy();
     /// Takes path `k` through the medium that its ray is in; true if it scatters there.
@@ -147,7 +167,7 @@ class PathWave final : public IntegratorScratch {
         return receivers_.empty() ? LightReceiver{} : receivers_[i];
     }
     /// Shadow rays to the lights that the block has sampled.
-    void queue_direct_light(const Context& context);
+    void queue_direct_light(const Context& context, const LaneList& paths);
     void queue_singly(const Context& context, std::size_t k);
     void queue_by_lanes(const Context& context, std::size_t k);
     /// The same for all that are_wide, at once, where no words are followed and there are no bodies.
@@ -158,6 +178,8 @@ class PathWave final : public IntegratorScratch {
     [[nodiscard]] LightNumbers light_numbers(std::size_t k) const {
         return {light_choice_[k], light_triangle_[k], light_direction_[k]};
     }
+    /// The same of the `round`-th sample of one path alone.
+    [[nodiscard]] LightNumbers light_numbers(const Context& context, std::size_t k, std::uint32_t round) const;
     /// `event` is what the vertex does towards `light`.
     void queue(const Context& context, std::size_t k, Ray ray, const Rgb& contribution, std::uint32_t light,
                const VertexEvent& event);
@@ -192,6 +214,7 @@ class PathWave final : public IntegratorScratch {
     LaneList escaped_;                                       ///< paths that have left the scene
     LaneList on_emitter_, on_hidden_;                        ///< on surfaces that emit, on hidden boundaries
     LaneList on_surface_;                                    ///< on surfaces that may scatter them
+    LaneList sampling_;                                      ///< of those: which sample lights
     LaneList on_texture_, on_gloss_;                         ///< of those: on textured plain ones, on GlossyLanes
     BlockLanes lanes_;
     GlossyLanes glossy_;

@@ -2,6 +2,7 @@
 #include "bsdf/gloss.h"
 #include "core/in_place.h"
 #include "integrator/connecting_ray.h"
+#include "integrator/path/path_dimensions.h"
 #include "integrator/path/path_wave.h"
 #include "integrator/walk.h"
 #include "sampling/mis.h"
@@ -52,21 +53,23 @@ LightReceiver PathWave::make_receiver(std::size_t k) const {
     return receiver;
 }
 
-void PathWave::sample_lights(const Context& context) {
+void PathWave::sample_lights(const Context& context, const LaneList& paths) {
+    if (paths.empty()) return;
     const World& world = context.world;
-    LaneList paths;
+    const std::size_t count = paths.size();
     std::array<Vec2f, kBlock> u;
-    for (const std::size_t k : on_surface_) {
-        if (!block_[k].samples_light) continue;
-        const std::size_t place = paths.size();
+    for (std::size_t place = 0; place < count; ++place) {
+        const std::size_t k = paths[place];
         if (!receivers_.empty()) to_light_[place] = receivers_[first_ + k] = make_receiver(k);
         u[place] = light_choice_[k];
-        paths.add(k);
     }
-    if (paths.empty()) return;
-    const std::size_t count = paths.size();
     std::array<LightTree::Choice, kBlock> choices;
     world.choose_lights(std::span(to_light_).first(count), std::span(u).first(count), std::span(choices).first(count));
+    // How many samples of the light are expected, not how probable one is (Veach 1997, section 9.2.1).
+    if (context.options.light_samples > 1)
+        for (std::size_t place = 0; place < count; ++place)
+            choices[place].probability *=
+                static_cast<float>(light_samples(context, first_ + paths[place], path_history::kOnlyDelta));
     // Places among the paths, by how their lights are sampled.
     LaneList by_mesh;
     LaneList by_environment;
@@ -165,7 +168,8 @@ void PathWave::add_environment(const Context& context) {
         if (context.options.sample_lights && !paths_.is(path_history::kAfterDelta, i))
             weight =
                 power_heuristic(paths_.pdf_solid_angle[i],
-                                world.light_probability(receiver(i), world.environment()) * met[m].pdf_solid_angle);
+                                world.light_probability(receiver(i), world.environment()) * met[m].pdf_solid_angle *
+                                    static_cast<float>(light_samples(context, i, path_history::kIsDirect)));
         add_light(i, met[m].radiance * weight, words_.environment_source());
     }
 }
@@ -181,23 +185,22 @@ void PathWave::add_emission(const Context& context, std::size_t k) {
     float weight = 1.0f;
     if (context.options.sample_lights && !paths_.is(path_history::kAfterDelta, i))
         weight = power_heuristic(paths_.pdf_solid_angle[i],
-                                 context.world.emitter_pdf_solid_angle(receiver(i), point, direction, hits_[i].t));
+                                 context.world.emitter_pdf_solid_angle(receiver(i), point, direction, hits_[i].t) *
+                                     static_cast<float>(light_samples(context, i, path_history::kIsDirect)));
     add_light(i, emitted * weight, words_.surface_source(point));
 }
 
-void PathWave::queue_direct_light(const Context& context) {
+void PathWave::queue_direct_light(const Context& context, const LaneList& paths) {
     lanes_.weigh_light(count_, paths_, first_);
-    if (context.job.profile != nullptr)
-        for (const std::size_t k : on_surface_)
-            if (block_[k].samples_light) ++context.job.profile->use().light_samples;
+    if (context.job.profile != nullptr) context.job.profile->use().light_samples += paths.size();
     if (words_.are_followed() || context.world.has_bodies()) {
-        for (const std::size_t k : on_surface_)
+        for (const std::size_t k : paths)
             if (block_[k].is_wide && lanes_.arrives[k] != 0.0f) queue_by_lanes(context, k);
     } else {
         queue_by_lanes(context);
     }
-    for (const std::size_t k : on_surface_)
-        if (!block_[k].is_wide && block_[k].samples_light) queue_singly(context, k);
+    for (const std::size_t k : paths)
+        if (!block_[k].is_wide) queue_singly(context, k);
 }
 
 void PathWave::queue_by_lanes(const Context& context) {
@@ -252,17 +255,32 @@ void PathWave::queue_by_lanes(const Context& context, std::size_t k) {
           words_.are_followed() ? wide_event(context, k, lanes_.light_wi[k]) : VertexEvent{});
 }
 
+LightNumbers PathWave::light_numbers(const Context& context, std::size_t k, std::uint32_t round) const {
+    const SampleKey key{paths_.pixel_seed[first_ + k], light_sample_index(context, k, round)};
+    const auto draw = [&](BounceDimension which) {
+        return sample_2d(context.job.sequence, key, bounce_dimension(context.depth, which));
+    };
+    return {draw(kLightChoice), draw(kLightTriangle), draw(kLightDirection)};
+}
+
 void PathWave::queue_direct_light_in_medium(const Context& context, std::size_t k, const Vec3f& position,
                                             const HomogeneousMedium& medium) {
-    if (context.job.profile != nullptr) ++context.job.profile->use().light_samples;
-    const ChosenLight chosen = context.world.sample_light(position, light_numbers(k));
-    const LightSample& light = chosen.sample;
-    if (is_black(light.radiance)) return;
-    const float phase = medium.phase.pdf_solid_angle(-paths_.direction[first_ + k], light.wi);
-    queue(context, k, shadow_ray(position, light),
-          paths_.throughput[first_ + k] * light.radiance * medium.transmittance(light.distance) *
-              (phase * light_sample_scale(chosen, phase)),
-          chosen.light, VertexEvent{});
+    const std::size_t i = first_ + k;
+    const std::uint32_t samples = light_samples(context, i, path_history::kOnlyDelta);
+    if (context.job.profile != nullptr) context.job.profile->use().light_samples += samples;
+    for (std::uint32_t round = 0; round < samples; ++round) {
+        const LightNumbers numbers = round == 0 ? light_numbers(k) : light_numbers(context, k, round);
+        LightTree::Choice choice = context.world.choose_light(position, numbers.light);
+        choice.probability *= static_cast<float>(samples);
+        const ChosenLight chosen = context.world.sample_light(choice, position, numbers);
+        const LightSample& light = chosen.sample;
+        if (is_black(light.radiance)) continue;
+        const float phase = medium.phase.pdf_solid_angle(-paths_.direction[i], light.wi);
+        queue(context, k, shadow_ray(position, light),
+              paths_.throughput[i] * light.radiance * medium.transmittance(light.distance) *
+                  (phase * light_sample_scale(chosen, phase)),
+              chosen.light, VertexEvent{});
+    }
 }
 
 void PathWave::add_light(std::size_t i, const Rgb& light, const AovSet::Source& source) {

@@ -109,9 +109,9 @@ void PathWave::look_up_textures(const Context& context) {
 void PathWave::make_scattering(const Context& context) {
     const bool samples_lights = context.options.sample_lights && context.world.has_sampled_lights();
     on_gloss_.clear();
+    sampling_.clear();
     for (const std::size_t k : on_surface_) {
         ShadedPath& path = block_[k];
-        path.samples_light = samples_lights && paths_.edges(first_ + k) + 1 >= context.options.lengths.min_depth;
         set_wide(k, path.plain != nullptr);
         if (path.is_wide) {
             const PlainSurface& plain = *path.plain;
@@ -123,6 +123,9 @@ void PathWave::make_scattering(const Context& context) {
         }
         lanes_.is_glossy.set(k, path.glossy != nullptr ? 1.0f : 0.0f);
         on_gloss_.add_if(path.glossy != nullptr, k);
+        sampling_.add_if(samples_lights && paths_.edges(first_ + k) + 1 >= context.options.lengths.min_depth &&
+                             (path.is_wide || singles_[k].scattering->has_non_delta()),
+                         k);
     }
 }
 
@@ -165,7 +168,6 @@ void PathWave::make_scattering_singly(const Context& context, std::size_t k) {
         if (!words_.are_followed()) return;
     }
     single.scattering.emplace(bsdf, point.shading, point.geometric_normal, wo);
-    path.samples_light = path.samples_light && single.scattering->has_non_delta();
 }
 
 void PathWave::evaluate_matte() {
@@ -181,11 +183,14 @@ void PathWave::evaluate_glossy() {
     glossy_.give(lanes_, count_);
 }
 
-void PathWave::evaluate(std::size_t k) {
+void PathWave::evaluate_light(std::size_t k) {
     SingleShading& path = singles_[k];
     const LightSample& light = lights_[k].sample;
-    if (block_[k].samples_light && !is_black(light.radiance))
-        path.towards_light = path.scattering->evaluate(light.wi, TransportMode::Radiance);
+    if (!is_black(light.radiance)) path.towards_light = path.scattering->evaluate(light.wi, TransportMode::Radiance);
+}
+
+void PathWave::sample_bsdf(std::size_t k) {
+    SingleShading& path = singles_[k];
     path.sample = path.scattering->sample(choices_[k].x, bsdf_direction_[k], TransportMode::Radiance);
 }
 

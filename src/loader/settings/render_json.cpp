@@ -54,6 +54,7 @@ void read_integrator(const Json& value, const SourceLocation& where, ProblemList
     object.integer("max_depth", 1, kMaxInt, out.max_depth);
     object.integer("min_depth", 1, kMaxInt, out.min_depth);
     object.integer("roulette_depth", 1, kMaxInt, out.roulette_depth);
+    object.integer("light_samples", 1, kMostLightSamples, out.light_samples);
     object.choice("heuristic", kHeuristics, out.heuristic);
     std::array<int, 2> strategy{};
     if (object.integers("strategy", 0, kMaxInt, strategy)) out.strategy = strategy;

@@ -25,14 +25,20 @@ AovSet expression_layers(const AgreementCase& agreement, const std::vector<std::
     return aovs;
 }
 
-RenderResult render_layers(const World& world, const std::string& integrator, const AgreementCase& agreement,
+RenderResult render_layers(const World& world, const Integrator& integrator, const AgreementCase& agreement,
                            std::shared_ptr<const AovSet> aovs, std::uint32_t seed) {
     const ThreadPool threads;
     const std::atomic<bool> stop{false};
     RenderOptions options = render_options(agreement);
     options.seed = seed;
     options.aovs = std::move(aovs);
-    return render(world, *make_integrator(integrator, {.lengths = agreement.lengths}), options, threads, stop, {});
+    return render(world, integrator, options, threads, stop, {});
+}
+
+RenderResult render_layers(const World& world, const std::string& integrator, const AgreementCase& agreement,
+                           std::shared_ptr<const AovSet> aovs, std::uint32_t seed) {
+    return render_layers(world, *make_integrator(integrator, {.lengths = agreement.lengths}), agreement,
+                         std::move(aovs), seed);
 }
 
 }  // namespace etendue::test

@@ -17,6 +17,9 @@ namespace etendue::test {
 [[nodiscard]] AovSet expression_layers(const AgreementCase& agreement, const std::vector<std::string>& expressions);
 
 /// One render of the room.
+[[nodiscard]] RenderResult render_layers(const World& world, const Integrator& integrator,
+                                         const AgreementCase& agreement, std::shared_ptr<const AovSet> aovs,
+                                         std::uint32_t seed);
 [[nodiscard]] RenderResult render_layers(const World& world, const std::string& integrator,
                                          const AgreementCase& agreement, std::shared_ptr<const AovSet> aovs,
                                          std::uint32_t seed);

@@ -1,0 +1,178 @@
+// Next-event splitting: more light samples where the eye looks change the noise of an image and nothing else.
+//
+// All comparisons of rooms together fail with probability 0.01 if everything is right (Sidak's correction); seeds are
+// fixed.
+#include "integrator/agreement_render.h"
+#include "integrator/aov/layered_render.h"
+#include "integrator/closed_form.h"
+#include "integrator/path/path_integrator.h"
+#include "integrator/render_tile.h"
+#include "support/chi2.h"
+#include "world/test_scene.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace etendue::test {
+
+namespace {
+
+PathIntegrator path_of(std::uint32_t light_samples, const PathLengths& lengths = {}) {
+    return PathIntegrator({.lengths = lengths, .light_samples = light_samples});
+}
+
+/// With all kinds of light, surface and vertex that are sampled in ways of their own.
+constexpr std::array kRooms{"LampDiffuse",        "LampPlastic",  "LampConductor", "LampLayers", "TwoSidedLamp",
+                            "VisibleEnvironment", "PointPlastic", "SheetAndLeaf",  "Mirror",     "LampWax",
+                            "LampInFogOneSurface"};
+
+/// One light sample against three, with half of the room's samples.
+BlockAgreement compare(const World& world, AgreementCase room) {
+    constexpr int kComparisons = static_cast<int>(kRooms.size()) + 1;  // with that of an image of the environment
+    room.spp /= 2;
+    const ThreadPool threads;
+    return test_agreement(estimate(world, path_of(1, room.lengths), room, {.first_seed = 100}, threads, room.window),
+                          estimate(world, path_of(3, room.lengths), room, {.first_seed = 200}, threads, room.window),
+                          {.block_size = kAgreementBlock, .significance = sidak_level(kFamilyLevel, kComparisons)});
+}
+
+class LightSamplesAgree : public testing::TestWithParam<const char*> {};
+
+TEST_P(LightSamplesAgree, MakeTheSameImage) {
+    const AgreementCase& room = agreement_case(GetParam());
+    const BlockAgreement result = compare(agreement_world(room), room);
+    EXPECT_TRUE(result.agree()) << result.str();
+}
+
+// One of a single colour is not sampled.
+TEST(LightSamples, OfAnEnvironmentMakeTheSameImage) {
+    const AgreementCase& room = agreement_case("Environment");
+    const CosineImage image(Vec3f(0.6f, 0.8f, 0.0f));
+    SceneDesc scene = agreement_scene(room);
+    scene.environment.image = image.path();
+    const World world = compile(std::move(scene));
+    ASSERT_TRUE(world.has_sampled_lights());
+    const BlockAgreement result = compare(world, room);
+    EXPECT_TRUE(result.agree()) << result.str();
+}
+
+// Paths whose words are followed have shadow rays of their own.
+TEST_P(LightSamplesAgree, MakeTheSameImageWithLayers) {
+    AgreementCase room = agreement_case(GetParam());
+    room.spp = 4;
+    const World world = agreement_world(room);
+    const PathIntegrator split = path_of(3, room.lengths);
+    const auto aovs = std::make_shared<AovSet>(expression_layers(room, {"C .* L"}));
+    const Film with = render_layers(world, split, room, aovs, 3).film;
+    const std::vector<float> image = with.resolve();
+    EXPECT_EQ(image, render_layers(world, split, room, nullptr, 3).film.resolve());
+    const std::vector<float> layer = with.resolve_light(0);
+    double sum = 0.0;
+    double layer_sum = 0.0;
+    for (std::size_t i = 0; i < layer.size(); ++i) {
+        sum += static_cast<double>(image[i / 3 * 4 + i % 3]);
+        layer_sum += static_cast<double>(layer[i]);
+    }
+    EXPECT_NEAR(layer_sum, sum, 1e-5 * sum);
+}
+
+INSTANTIATE_TEST_SUITE_P(Rooms, LightSamplesAgree, testing::ValuesIn(kRooms),
+                         [](const auto& each) { return std::string(each.param); });
+
+/// A wall under a large lamp, seen directly or in a mirror.
+SceneDesc wall_under_a_lamp(bool in_mirror) {
+    SceneDesc scene = empty_scene();
+    const auto wall = add_material(scene, diffuse(Rgb(0.7f)));
+    const float away = in_mirror ? 3.0f : -3.0f;
+    add_object(scene, quad({0, 0, away}, {4, 0, 0}, {0, in_mirror ? -4.0f : 4.0f, 0}), wall);
+    add_object(scene, quad({0, 5, away * 0.3f}, {2, 0, 0}, {0, 0, 2}), add_material(scene, emissive(Rgb(1.0f))));
+    if (in_mirror) {
+        MaterialDesc mirror;
+        mirror.override_model = ConductorDesc{.metal = "Ag", .roughness = 0.0f};
+        add_object(scene, quad({0, 0, -3}, {4, 0, 0}, {0, 4, 0}), add_material(scene, mirror));
+    }
+    return scene;
+}
+
+double squared_error(const World& world, std::uint32_t light_samples, const PathLengths& lengths) {
+    constexpr PixelRect kWindow{0, 0, 24, 24};
+    const auto pixels = [&](std::uint32_t samples, std::uint32_t spp) {
+        return render_pixels(world, path_of(samples, lengths), kWindow, 24, 24, spp);
+    };
+    const std::vector<Rgb> one = pixels(light_samples, 1);
+    const std::vector<Rgb> reference = pixels(1, 1024);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < one.size(); ++i) {
+        const auto difference = static_cast<double>(one[i].g - reference[i].g);
+        sum += difference * difference;
+    }
+    return sum;
+}
+
+// Well spread over the lamp, four samples have less than a quarter of the variance of one; the sums over 576 pixels are
+// good to a tenth.
+TEST(LightSamples, TakeNoiseOutOfSoftLight) {
+    for (const bool in_mirror : {false, true}) {
+        const World world = compile(wall_under_a_lamp(in_mirror));
+        const int edges = in_mirror ? 3 : 2;
+        const PathLengths lengths{.max_depth = edges, .min_depth = edges};
+        const double one = squared_error(world, 1, lengths);
+        EXPECT_GT(one, 0.0);
+        EXPECT_LT(squared_error(world, 4, lengths), 0.3 * one) << (in_mirror ? "in a mirror" : "directly");
+    }
+}
+
+// Of what the eye does not see directly each vertex samples one light.
+TEST(LightSamples, SplitFirstVerticesOnly) {
+    const AgreementCase& room = agreement_case("LampDiffuse");
+    const World world = agreement_world(room);
+    const auto shadow_rays = [&](std::uint32_t samples, int max_depth) {
+        return render_tile(world, path_of(samples, {.max_depth = max_depth}), 64).counters.rays[RayKind::Shadow];
+    };
+    const auto first = static_cast<double>(shadow_rays(1, 2));
+    const auto later = static_cast<double>(shadow_rays(1, 3)) - first;
+    ASSERT_GT(first, 0.0);
+    ASSERT_GT(later, 0.1 * first);
+    EXPECT_NEAR(static_cast<double>(shadow_rays(4, 2)), 4.0 * first, 0.05 * first);
+    EXPECT_NEAR(static_cast<double>(shadow_rays(4, 3)), 4.0 * first + later, 0.05 * first);
+}
+
+TEST(LightSamples, OfALampWithoutSizeAreAllTheSame) {
+    SceneDesc scene = empty_scene();
+    add_object(scene, quad({0, 0, -3}, {4, 0, 0}, {0, 4, 0}), add_material(scene, diffuse(Rgb(0.7f))));
+    LightDesc light;
+    light.intensity = 5.0f;
+    scene.lights.push_back(light);
+    const World world = compile(std::move(scene));
+    const Rgb one = render_tile(world, path_of(1), 16).mean;
+    const Rgb seven = render_tile(world, path_of(7), 16).mean;
+    EXPECT_GT(one.g, 0.0f);
+    EXPECT_NEAR(seven.g, one.g, 1e-5f * one.g);
+}
+
+// Shadow rays are traced before there are many more of them than a batch.
+TEST(LightSamples, NeedNoMoreMemoryTheMoreThereAre) {
+    const AgreementCase& room = agreement_case("LampDiffuse");
+    const World world = agreement_world(room);
+    const PathIntegrator split = path_of(64);
+    const auto scratch = split.make_scratch();
+    const PixelFilter filter(FilterShape::Box);
+    const TileJob job{{0, 0, 16, 16}, {0, 0, 16, 16}, 16, 16, 0, 32, 1, SampleSequence::Sobol, &filter};
+    TileBuffer tile;
+    tile.reset(job.rect);
+    RenderCounters counters;
+    split.render_tile(world, job, *scratch, tile, counters);
+    EXPECT_GT(counters.rays[RayKind::Shadow], 200'000u);
+    EXPECT_LT(scratch->bytes(), std::size_t{6} << 20);
+}
+
+}  // namespace
+
+}  // namespace etendue::test
