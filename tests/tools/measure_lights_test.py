@@ -2,6 +2,7 @@
 
 import contextlib
 import io
+import json
 import tempfile
 import unittest
 from pathlib import Path
@@ -22,7 +23,7 @@ class Arguments(unittest.TestCase):
     def test_a_program_that_is_missing(self):
         self.refused(["--bin", "/no/such/folder"], "/no/such/folder/etendue is missing")
 
-    def test_numbers_of_lamps(self):
+    def test_numbers_of_lights(self):
         for counts in ("0", "-3", "ten", "10,", "10,10", ""):
             self.refused([f"--counts={counts}"], "is not a list of different numbers from 1 on")
 
@@ -40,6 +41,23 @@ class Arguments(unittest.TestCase):
             self.assertEqual(tool.parsed_arguments(["--bin", folder, "--write"]).counts, list(tool.COUNTS))
 
 
+class Halls(unittest.TestCase):
+    def nodes_with(self, kind, key):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "hall.glb"
+            tool.write_hall(path, 7, kind)
+            data = path.read_bytes()
+        length = int.from_bytes(data[12:16], "little")
+        document = json.loads(data[20:20 + length])
+        light = {"lamps": lambda node: node.get("mesh") == 2, "points": lambda node: "extensions" in node}[kind]
+        return [node[key] for node in document["nodes"] if light(node)]
+
+    def test_both_kinds_of_light_are_at_the_same_places(self):
+        lamps = self.nodes_with("lamps", "translation")
+        self.assertEqual(len(lamps), 7)
+        self.assertEqual(lamps, self.nodes_with("points", "translation"))
+
+
 class Costs(unittest.TestCase):
     def test_what_every_render_costs_once_drops_out(self):
         self.assertAlmostEqual(tool.seconds_of_samples({4: 5.0 + 4 * 0.1, 16: 5.0 + 16 * 0.1}), 1.6)
@@ -50,10 +68,10 @@ class Costs(unittest.TestCase):
             self.assertIn(tool.few_samples(spp), range(1, spp))
 
     def test_costs_are_against_the_first(self):
-        rows = {("tree", "path"): [(10, 0.02, 1.0), (100, 0.04, 3.0), (1000, 0.04, None)]}
-        self.assertEqual(tool.table(rows).splitlines()[2:], ["| tree | `path` | 10 | 0.0200 | 1.00 | 1.00 |",
-                                                             "| tree | `path` | 100 | 0.0400 | 3.00 | 6.00 |",
-                                                             "| tree | `path` | 1,000 | 0.0400 | – | – |"])
+        rows = {("points", "tree", "path"): [(10, 0.02, 1.0), (100, 0.04, 3.0), (1000, 0.04, None)]}
+        self.assertEqual(tool.table(rows).splitlines()[2:], ["| tree | `path` | 10 points | 0.0200 | 1.00 | 1.00 |",
+                                                             "| tree | `path` | 100 points | 0.0400 | 3.00 | 6.00 |",
+                                                             "| tree | `path` | 1,000 points | 0.0400 | – | – |"])
 
 
 if __name__ == "__main__":
