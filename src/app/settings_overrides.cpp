@@ -178,8 +178,9 @@ void SettingsOverrides::add_options(CLI::App& command) {
         ->check(CLI::Range(1, kMostEdges));
     command
         .add_option("--light-samples", light_samples,
-                    "Lights that path and direct sample where the eye looks, directly or in mirrors (default: 1); more "
-                    "take noise out of soft shadows and of the light of many lamps, for more time")
+                    "Lights that path and direct sample where the eye looks, path in mirrors, too (default: 1); more "
+                    "take noise "
+                    "out of soft shadows and of the light of many lamps, for more time")
         ->check(CLI::Range(1, kMostLightSamples));
     command
         .add_option_function<std::string>(

@@ -1,4 +1,5 @@
-// Multiple importance sampling of two strategies with one sample each (Veach 1997, section 9.2).
+// Multiple importance sampling of two strategies (Veach 1997, section 9.2). Densities are those of one sample each, or
+// times the samples that a strategy takes of them.
 #pragma once
 
 namespace etendue {

@@ -193,7 +193,7 @@ def make_plan(directory, size, metals_source):
     document = json.loads(gltf.read_text())
     refuse_other_keys("render.json", settings, SET_BY_COMPARISON | CARRIED)
     integrator = settings.get("integrator", {})
-    refuse_other_keys("the integrator", integrator, ("type", "max_depth", "roulette_depth"))
+    refuse_other_keys("the integrator", integrator, ("type", "max_depth", "roulette_depth", "light_samples"))
     refuse_other_keys("the file", document.get("extensionsRequired", []),
                       EXTENSIONS | {"KHR_lights_punctual", "EXT_mesh_gpu_instancing"})
     if document.get("animations"):

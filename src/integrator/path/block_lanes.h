@@ -17,7 +17,7 @@ struct BlockLanes : SurfaceLanes {
 
     // The sample of a light.
     LightFrontColumns front;
-    Column light_probability;  ///< of the choice; 0 where `front` is not what is sampled
+    Column light_probability;  ///< of the choice times the samples taken; 0 where `front` is not what is sampled
     Vec3Columns light_wi, light_end;
     Column light_distance;
     Column light_pdf;        ///< the choice included; of a delta that alone; 0 if nothing arrives

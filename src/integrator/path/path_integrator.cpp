@@ -2,6 +2,8 @@
 
 #include "integrator/path/path_wave.h"
 
+#include <fmt/format.h>
+
 namespace etendue {
 
 std::vector<std::string> PathIntegrator::unreachable_light(const World& world) const {
@@ -17,6 +19,13 @@ std::vector<std::string> PathIntegrator::unreachable_light(const World& world) c
             "what point, spot and directional lights send through smooth glass or by way of mirrors (their "
             "caustics) cannot be found by eye paths and is missing; 'light' finds it");
     return notes;
+}
+
+std::vector<std::string> PathIntegrator::ineffective_options(const World& world) const {
+    if (options_.light_samples == 1 || (world.has_sampled_lights() && options_.lengths.max_depth > 1)) return {};
+    return {fmt::format("{} light samples have no effect: {}", options_.light_samples,
+                        world.has_sampled_lights() ? "paths have at most 1 edge (--max-depth)"
+                                                   : "no light is sampled here, as the BSDF's samples find all best")};
 }
 
 std::unique_ptr<IntegratorScratch> PathIntegrator::make_scratch() const {

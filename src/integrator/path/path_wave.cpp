@@ -73,13 +73,27 @@ void PathWave::draw_numbers(const Context& context) {
     draw(bounce_dimension(context.depth, kChoices), choices_);
 }
 
+SampleKey PathWave::light_sample_key(const Context& context, std::size_t k, std::uint32_t round) const {
+    const std::size_t i = first_ + k;
+    const SampleKey key = paths_.key(i);
+    const std::uint32_t samples = light_samples(context, i, path_history::kOnlyDelta);
+    // Those that are split have a sequence of their own, with one point after the other for all samples of the pixel.
+    return samples > 1 ? SampleKey{hash_u32(key.pixel_seed), key.index * samples + round} : key;
+}
+
 void PathWave::draw_light_numbers(const Context& context, std::uint32_t round) {
-    const std::span pixel_seeds(paths_.pixel_seed.data() + first_, count_);
+    std::span pixel_seeds(paths_.pixel_seed.data() + first_, count_);
     std::span indices(paths_.index.data() + first_, count_);
-    std::array<std::uint32_t, kBlock> split;
+    std::array<std::uint32_t, kBlock> split_seeds;
+    std::array<std::uint32_t, kBlock> split_indices;
     if (context.options.light_samples > 1) {
-        for (std::size_t k = 0; k < count_; ++k) split[k] = light_sample_index(context, k, round);
-        indices = std::span(split).first(count_);
+        for (std::size_t k = 0; k < count_; ++k) {
+            const SampleKey key = light_sample_key(context, k, round);
+            split_seeds[k] = key.pixel_seed;
+            split_indices[k] = key.index;
+        }
+        pixel_seeds = std::span(split_seeds).first(count_);
+        indices = std::span(split_indices).first(count_);
     }
     const auto draw = [&](BounceDimension which, NumberPairs& numbers) {
         numbers.draw(context.job.sequence, pixel_seeds, indices, bounce_dimension(context.depth, which));
@@ -103,21 +117,22 @@ void PathWave::shade(const Context& context, const TraceShadowRays& trace_shadow
 }
 
 template <typename Stamp>
-void PathWave::sample_direct_light(const Context& context, const LaneList& paths, const Stamp& stamp) {
-    sample_lights(context, paths);
+void PathWave::sample_direct_light(const Context& context, const LaneList& paths, std::uint32_t round,
+                                   const Stamp& stamp) {
+    sample_lights(context, paths, round);
     stamp(Stage::LightSampling);
     evaluate_matte();
     evaluate_glossy();
     for (const std::size_t k : paths)
         if (!block_[k].is_wide) evaluate_light(k);
     stamp(Stage::Material);
-    queue_direct_light(context, paths);
+    queue_direct_light(context, paths, round);
     stamp(Stage::Mis);
 }
 
 template <typename Stamp>
 void PathWave::split_direct_light(const Context& context, const Stamp& stamp) {
-    sample_direct_light(context, sampling_, stamp);
+    sample_direct_light(context, sampling_, 0, stamp);
     if (context.options.light_samples == 1) return;
     LaneList split;
     for (const std::size_t k : sampling_) split.add_if(paths_.is(path_history::kOnlyDelta, first_ + k), k);
@@ -126,7 +141,7 @@ void PathWave::split_direct_light(const Context& context, const Stamp& stamp) {
         draw_light_numbers(context, round);
         lanes_.forget_light();
         stamp(Stage::Numbers);
-        sample_direct_light(context, split, stamp);
+        sample_direct_light(context, split, round, stamp);
     }
 }
 

@@ -48,7 +48,8 @@ struct SingleShading {
 };
 
 /// The state of a wave: its paths as columns, and what lies between the stages of a block of them as shorter ones.
-/// About 250 bytes a path with its shadow ray, 50 more where lights are chosen by what they light.
+/// About 250 bytes a path with its shadow ray, 50 more where lights are chosen by what they light. Where lights are
+/// sampled more than once, shadow rays are traced before they are more than a batch and a block's.
 class PathWave final : public IntegratorScratch {
   public:
     static constexpr std::size_t kCapacity = PathColumns::kCapacity;
@@ -75,10 +76,8 @@ class PathWave final : public IntegratorScratch {
     void draw_numbers(const Context& context);
     /// Those of the `round`-th light sample of its paths.
     void draw_light_numbers(const Context& context, std::uint32_t round);
-    /// Which point of its sequence the `round`-th light sample of path `k` is.
-    [[nodiscard]] std::uint32_t light_sample_index(const Context& context, std::size_t k, std::uint32_t round) const {
-        return paths_.index[first_ + k] * light_samples(context, first_ + k, path_history::kOnlyDelta) + round;
-    }
+    /// What the numbers of the `round`-th light sample of path `k` come from.
+    [[nodiscard]] SampleKey light_sample_key(const Context& context, std::size_t k, std::uint32_t round) const;
     /// Light samples of path `i` of the wave: where it is, if nothing but deltas has scattered it yet (`kOnlyDelta`),
     /// or where its ray comes from, if nothing had there (`kIsDirect`).
     [[nodiscard]] std::uint32_t light_samples(const Context& context, std::size_t i, std::uint32_t first_vertex) const {
@@ -113,11 +112,12 @@ class PathWave final : public IntegratorScratch {
     void make_wide_scattering(std::size_t k);
     /// What light is chosen for at the surface of path `k`.
     [[nodiscard]] LightReceiver make_receiver(std::size_t k) const;
+    // What is done `round` after round, for another light sample of paths each time.
     /// Samples a light for each of `paths`.
-    void sample_lights(const Context& context, const LaneList& paths);
+    void sample_lights(const Context& context, const LaneList& paths, std::uint32_t round);
     /// A light sample of each of `paths`, on to its shadow ray. Lanes make what they know of the BSDF's sample besides.
     template <typename Stamp>
-    void sample_direct_light(const Context& context, const LaneList& paths, const Stamp& stamp);
+    void sample_direct_light(const Context& context, const LaneList& paths, std::uint32_t round, const Stamp& stamp);
     /// All light samples of the block.
     template <typename Stamp>
     void split_direct_light(const Context& context, const Stamp& stamp);
@@ -167,11 +167,11 @@ class PathWave final : public IntegratorScratch {
         return receivers_.empty() ? LightReceiver{} : receivers_[i];
     }
     /// Shadow rays to the lights that the block has sampled.
-    void queue_direct_light(const Context& context, const LaneList& paths);
-    void queue_singly(const Context& context, std::size_t k);
-    void queue_by_lanes(const Context& context, std::size_t k);
+    void queue_direct_light(const Context& context, const LaneList& paths, std::uint32_t round);
+    void queue_singly(const Context& context, std::size_t k, std::uint32_t round);
+    void queue_by_lanes(const Context& context, std::size_t k, std::uint32_t round);
     /// The same for all that are_wide, at once, where no words are followed and there are no bodies.
-    void queue_by_lanes(const Context& context);
+    void queue_by_lanes(const Context& context, std::uint32_t round);
     void queue_direct_light_in_medium(const Context& context, std::size_t k, const Vec3f& position,
                                       const HomogeneousMedium& medium);
     /// What the light that path `k` samples is made from.
@@ -181,14 +181,15 @@ class PathWave final : public IntegratorScratch {
     /// The same of the `round`-th sample of one path alone.
     [[nodiscard]] LightNumbers light_numbers(const Context& context, std::size_t k, std::uint32_t round) const;
     /// `event` is what the vertex does towards `light`.
-    void queue(const Context& context, std::size_t k, Ray ray, const Rgb& contribution, std::uint32_t light,
-               const VertexEvent& event);
+    void queue(const Context& context, std::size_t k, std::uint32_t round, Ray ray, const Rgb& contribution,
+               std::uint32_t light, const VertexEvent& event);
     /// Adds `light` that path `i` of the wave has met.
     void add_light(std::size_t i, const Rgb& light, const AovSet::Source& source);
     [[nodiscard]] std::uint32_t alpha_key(const Context& context, std::size_t k) const;
-    /// Another than that of the ray that goes on.
-    [[nodiscard]] std::uint32_t shadow_alpha_key(const Context& context, std::size_t k) const {
-        return ~alpha_key(context, k);
+    /// Of the `round`-th light sample: another than those of the others and of the ray that goes on.
+    [[nodiscard]] std::uint32_t shadow_alpha_key(const Context& context, std::size_t k, std::uint32_t round) const {
+        const std::uint32_t key = ~alpha_key(context, k);
+        return round == 0 ? key : hash_combine(key, round);
     }
 
     // By active path; paths that end are squeezed out after every bounce.

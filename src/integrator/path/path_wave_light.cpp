@@ -53,14 +53,17 @@ LightReceiver PathWave::make_receiver(std::size_t k) const {
     return receiver;
 }
 
-void PathWave::sample_lights(const Context& context, const LaneList& paths) {
+void PathWave::sample_lights(const Context& context, const LaneList& paths, std::uint32_t round) {
     if (paths.empty()) return;
     const World& world = context.world;
     const std::size_t count = paths.size();
     std::array<Vec2f, kBlock> u;
     for (std::size_t place = 0; place < count; ++place) {
         const std::size_t k = paths[place];
-        if (!receivers_.empty()) to_light_[place] = receivers_[first_ + k] = make_receiver(k);
+        if (!receivers_.empty()) {
+            if (round == 0) receivers_[first_ + k] = make_receiver(k);
+            to_light_[place] = receivers_[first_ + k];
+        }
         u[place] = light_choice_[k];
     }
     std::array<LightTree::Choice, kBlock> choices;
@@ -190,27 +193,27 @@ void PathWave::add_emission(const Context& context, std::size_t k) {
     add_light(i, emitted * weight, words_.surface_source(point));
 }
 
-void PathWave::queue_direct_light(const Context& context, const LaneList& paths) {
+void PathWave::queue_direct_light(const Context& context, const LaneList& paths, std::uint32_t round) {
     lanes_.weigh_light(count_, paths_, first_);
     if (context.job.profile != nullptr) context.job.profile->use().light_samples += paths.size();
     if (words_.are_followed() || context.world.has_bodies()) {
         for (const std::size_t k : paths)
-            if (block_[k].is_wide && lanes_.arrives[k] != 0.0f) queue_by_lanes(context, k);
+            if (block_[k].is_wide && lanes_.arrives[k] != 0.0f) queue_by_lanes(context, k, round);
     } else {
-        queue_by_lanes(context);
+        queue_by_lanes(context, round);
     }
     for (const std::size_t k : paths)
-        if (!block_[k].is_wide) queue_singly(context, k);
+        if (!block_[k].is_wide) queue_singly(context, k, round);
 }
 
-void PathWave::queue_by_lanes(const Context& context) {
+void PathWave::queue_by_lanes(const Context& context, std::uint32_t round) {
     const bool has_transparency = context.world.has_transparency();
     for (std::size_t l = 0; l < count_; l += Wide::kWidth) {
         const std::size_t i = first_ + l;
         std::array<std::uint32_t, Wide::kWidth> alpha_keys{};
         if (has_transparency)
             for (std::size_t k = l; k < std::min(l + Wide::kWidth, count_); ++k)
-                alpha_keys[k - l] = shadow_alpha_key(context, k);
+                alpha_keys[k - l] = shadow_alpha_key(context, k, round);
         shadow_rays_.to_sample({.origin = lanes_.shadow_origin.load(l),
                                 .direction = lanes_.shadow_direction.load(l),
                                 .t_max = lanes_.shadow_t_max.load(l),
@@ -223,7 +226,7 @@ void PathWave::queue_by_lanes(const Context& context) {
     }
 }
 
-void PathWave::queue_singly(const Context& context, std::size_t k) {
+void PathWave::queue_singly(const Context& context, std::size_t k, std::uint32_t round) {
     const SingleShading& path = singles_[k];
     const LightSample& light = lights_[k].sample;
     if (is_black(light.radiance) || is_black(path.towards_light.f_cos)) return;
@@ -235,7 +238,7 @@ void PathWave::queue_singly(const Context& context, std::size_t k) {
                         transmittance(context.world,
                                       path.crossing ? beyond(*path.crossing, point, light.wi) : interiors_[first_ + k],
                                       light.distance);
-    queue(context, k,
+    queue(context, k, round,
           shadow_ray(offset_origin(point.position, point.geometric_normal, point.clearance, light.wi), light),
           contribution, block_[k].light,
           words_.are_followed() ? surface_event(*path.scattering, light.wi, false, TransportMode::Radiance,
@@ -243,7 +246,7 @@ void PathWave::queue_singly(const Context& context, std::size_t k) {
                                 : VertexEvent{});
 }
 
-void PathWave::queue_by_lanes(const Context& context, std::size_t k) {
+void PathWave::queue_by_lanes(const Context& context, std::size_t k, std::uint32_t round) {
     Rgb contribution = lanes_.contribution[k];
     if (context.world.has_bodies())
         contribution *= transmittance(context.world, interiors_[first_ + k], lanes_.light_distance[k]);
@@ -251,12 +254,12 @@ void PathWave::queue_by_lanes(const Context& context, std::size_t k) {
     ray.origin = lanes_.shadow_origin[k];
     ray.direction = lanes_.shadow_direction[k];
     ray.t_max = lanes_.shadow_t_max[k];
-    queue(context, k, ray, contribution, block_[k].light,
+    queue(context, k, round, ray, contribution, block_[k].light,
           words_.are_followed() ? wide_event(context, k, lanes_.light_wi[k]) : VertexEvent{});
 }
 
 LightNumbers PathWave::light_numbers(const Context& context, std::size_t k, std::uint32_t round) const {
-    const SampleKey key{paths_.pixel_seed[first_ + k], light_sample_index(context, k, round)};
+    const SampleKey key = light_sample_key(context, k, round);
     const auto draw = [&](BounceDimension which) {
         return sample_2d(context.job.sequence, key, bounce_dimension(context.depth, which));
     };
@@ -276,7 +279,7 @@ void PathWave::queue_direct_light_in_medium(const Context& context, std::size_t 
         const LightSample& light = chosen.sample;
         if (is_black(light.radiance)) continue;
         const float phase = medium.phase.pdf_solid_angle(-paths_.direction[i], light.wi);
-        queue(context, k, shadow_ray(position, light),
+        queue(context, k, round, shadow_ray(position, light),
               paths_.throughput[i] * light.radiance * medium.transmittance(light.distance) *
                   (phase * light_sample_scale(chosen, phase)),
               chosen.light, VertexEvent{});
@@ -290,15 +293,15 @@ void PathWave::add_light(std::size_t i, const Rgb& light, const AovSet::Source& 
     light_.add(paths_.slot[i], paths_.throughput[i] * light, kind, shares_);
 }
 
-void PathWave::queue(const Context& context, std::size_t k, Ray ray, const Rgb& contribution, std::uint32_t light,
-                     const VertexEvent& event) {
+void PathWave::queue(const Context& context, std::size_t k, std::uint32_t round, Ray ray, const Rgb& contribution,
+                     std::uint32_t light, const VertexEvent& event) {
     if (is_black(contribution)) return;
     const std::size_t i = first_ + k;
     shares_.clear();
     if (words_.are_followed())
         words_.end_at_light(ranges_[i], event, words_.light_source(context.world, light), shares_);
     ray.time = paths_.time[i];
-    ray.alpha_key = shadow_alpha_key(context, k);
+    ray.alpha_key = shadow_alpha_key(context, k, round);
     shadow_rays_.to_sample(ray, paths_.slot[i], contribution,
                            paths_.is(path_history::kOnlyDelta, i) ? LightKind::Direct : LightKind::Indirect, shares_);
 }

@@ -28,10 +28,12 @@ PathIntegrator path_of(std::uint32_t light_samples, const PathLengths& lengths =
     return PathIntegrator({.lengths = lengths, .light_samples = light_samples});
 }
 
-/// With all kinds of light, surface and vertex that are sampled in ways of their own.
-constexpr std::array kRooms{"LampDiffuse",        "LampPlastic",  "LampConductor", "LampLayers", "TwoSidedLamp",
-                            "VisibleEnvironment", "PointPlastic", "SheetAndLeaf",  "Mirror",     "LampWax",
-                            "LampInFogOneSurface"};
+/// With the kinds of light, of surface, among them deltas beside lobes, and of vertex that are sampled in ways of their
+/// own.
+constexpr std::array kRooms{"LampDiffuse",  "LampPlastic", "LampConductor",        "LampLayers",
+                            "TwoSidedLamp", "SmoothCoat",  "PointPlastic",         "SpotConductor",
+                            "SheetAndLeaf", "LampPrism",   "VeilMirroredThinLens", "SecondBounceOnly",
+                            "Mirror",       "LampWax",     "LampInFogOneSurface"};
 
 /// One light sample against three, with half of the room's samples.
 BlockAgreement compare(const World& world, AgreementCase room) {
@@ -155,6 +157,70 @@ TEST(LightSamples, OfALampWithoutSizeAreAllTheSame) {
     const Rgb seven = render_tile(world, path_of(7), 16).mean;
     EXPECT_GT(one.g, 0.0f);
     EXPECT_NEAR(seven.g, one.g, 1e-5f * one.g);
+}
+
+// A sheet that lets half of the light through, between the wall and a lamp without size.
+TEST(LightSamples, MeetTransparencyEachForItself) {
+    SceneDesc scene = empty_scene();
+    add_object(scene, quad({0, 0, -3}, {4, 0, 0}, {0, 4, 0}), add_material(scene, diffuse(Rgb(0.7f))));
+    MaterialDesc half = diffuse(Rgb(0.0f));
+    half.alpha_mode = AlphaMode::Blend;
+    half.base_alpha = 0.5f;
+    add_object(scene, quad({0, 4, -1}, {9, 0, 0}, {0, 0, 9}), add_material(scene, half));
+    LightDesc light;
+    light.intensity = 50.0f;
+    light.to_world = translation({0, 8, 0});
+    scene.lights.push_back(light);
+    const World world = compile(std::move(scene));
+    const PathLengths lengths{.max_depth = 2, .min_depth = 2};
+    const double one = squared_error(world, 1, lengths);
+    EXPECT_GT(one, 0.0);
+    EXPECT_LT(squared_error(world, 4, lengths), 0.4 * one);
+}
+
+std::vector<Rgb> pixels_in_jobs(const World& world, const AovSet* aovs, std::uint32_t job_samples) {
+    constexpr std::uint32_t kSamples = 32;
+    const PathIntegrator split = path_of(16, {.max_depth = 3});
+    const PixelFilter filter(FilterShape::Box);
+    const auto scratch = split.make_scratch();
+    std::vector<Rgb> sums(256);
+    for (std::uint32_t first = 0; first < kSamples; first += job_samples) {
+        TileJob job{{0, 0, 16, 16}, {0, 0, 16, 16}, 16, 16, first, job_samples, 1, SampleSequence::Sobol, &filter};
+        job.aovs = aovs;
+        TileBuffer tile;
+        tile.reset(job.rect, aovs != nullptr ? aovs->layout : LayerLayout{});
+        RenderCounters counters;
+        split.render_tile(world, job, *scratch, tile, counters);
+        for (std::size_t i = 0; i < sums.size(); ++i)
+            sums[i] += Rgb(static_cast<float>(tile.pixel(i).r), static_cast<float>(tile.pixel(i).g),
+                           static_cast<float>(tile.pixel(i).b));
+    }
+    return sums;
+}
+
+// Those of large jobs are traced while others are still made, those of small ones all at once.
+TEST(LightSamples, CountOnceHoweverManyRaysAreTracedTogether) {
+    const AgreementCase& room = agreement_case("LampPlastic");
+    const World world = agreement_world(room);
+    const AovSet aovs = expression_layers(room, {"C .* L"});
+    for (const AovSet* followed : {static_cast<const AovSet*>(nullptr), &aovs}) {
+        const std::vector<Rgb> together = pixels_in_jobs(world, followed, 32);
+        const std::vector<Rgb> apart = pixels_in_jobs(world, followed, 1);
+        for (std::size_t i = 0; i < together.size(); ++i) EXPECT_NEAR(together[i].g, apart[i].g, 1e-4f * apart[i].g);
+    }
+}
+
+TEST(LightSamples, SayWhereTheyHaveNoEffect) {
+    const World world = agreement_world(agreement_case("LampDiffuse"));
+    EXPECT_TRUE(path_of(4).ineffective_options(world).empty());
+    const auto short_paths = path_of(4, {.max_depth = 1}).ineffective_options(world);
+    ASSERT_EQ(short_paths.size(), 1u);
+    EXPECT_NE(short_paths[0].find("--max-depth"), std::string::npos) << short_paths[0];
+    const World sky = agreement_world(agreement_case("Environment"));
+    const auto not_sampled = path_of(4).ineffective_options(sky);
+    ASSERT_EQ(not_sampled.size(), 1u);
+    EXPECT_NE(not_sampled[0].find("no light is sampled"), std::string::npos) << not_sampled[0];
+    EXPECT_TRUE(path_of(1).ineffective_options(sky).empty());
 }
 
 // Shadow rays are traced before there are many more of them than a batch.
