@@ -109,7 +109,7 @@ double squared_error(const World& world, std::uint32_t light_samples, const Path
         return render_pixels(world, path_of(samples, lengths), kWindow, 24, 24, spp);
     };
     const std::vector<Rgb> one = pixels(light_samples, 1);
-    const std::vector<Rgb> reference = pixels(1, 1024);
+    const std::vector<Rgb> reference = pixels(1, 256);
     double sum = 0.0;
     for (std::size_t i = 0; i < one.size(); ++i) {
         const auto difference = static_cast<double>(one[i].g - reference[i].g);
