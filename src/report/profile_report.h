@@ -92,11 +92,11 @@ struct ProfileRun {
     double shadow_unoccluded = std::numeric_limits<double>::quiet_NaN();  ///< share of shadow rays
     double light_sampling_used =
         std::numeric_limits<double>::quiet_NaN();  ///< share of light samples that made a shadow ray
-    double bsdf_met_light = std::numeric_limits<double>::quiet_NaN();  ///< share of scattered rays that met light
+    double bsdf_met_light = std::numeric_limits<double>::quiet_NaN();  ///< share of BSDF samples whose rays met light
     double bsdf_absorbed = std::numeric_limits<double>::quiet_NaN();   ///< share of BSDF samples of weight zero
     HardwareCounters hardware{};
-    std::string heat_map{};  ///< name of the EXR beside the report: rays per pixel and seconds per pixel
-    /// Seconds of a pixel that the last colour of its picture stands for; the first is 0.
+    std::string heat_map{};  ///< name of the EXR beside the report: rays per pixel and seconds per sample
+    /// Seconds of a sample that the last colour of its picture stands for; the first is 0.
     double heat_map_high = std::numeric_limits<double>::quiet_NaN();
 };
 

@@ -68,7 +68,7 @@ std::string shares(const ProfileRun& run) {
     Rows rows{{"time in which rays are traced", human_percent(tracing_share(run))},
               {"shadow rays unoccluded", human_percent(run.shadow_unoccluded)},
               {"light samples that made a shadow ray", human_percent(run.light_sampling_used)},
-              {"scattered rays that met light", human_percent(run.bsdf_met_light)},
+              {"BSDF samples that met light", human_percent(run.bsdf_met_light)},
               {"BSDF samples absorbed", human_percent(run.bsdf_absorbed)}};
     return aligned(rows, kIndent);
 }

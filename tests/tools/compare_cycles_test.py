@@ -20,6 +20,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
 from cycles import lobes  # noqa: E402
+from cycles.height_field import make_height_field  # noqa: E402
 from cycles.images import average, mean_colors, read_rgb, relative_difference  # noqa: E402
 from cycles.instancing import without_instancing  # noqa: E402
 from cycles.plan import NotComparable, make_plan  # noqa: E402
@@ -103,6 +104,20 @@ class CarriedOver(Scene):
         self.assertEqual([plan["lights"][name]["intensity"] for name in "ab"], [6, 0])
 
 
+    def test_the_height_field_is_a_scene_that_can_be_compared(self):
+        with tempfile.TemporaryDirectory() as folder:
+            folder = Path(folder) / "field"
+            make_height_field(folder, 100)
+            plan = make_plan(folder, [8, 8], METALS)
+            document = json.loads((folder / "scene.gltf").read_text())
+            triangles = document["accessors"][document["meshes"][0]["primitives"][0]["indices"]]["count"] // 3
+            self.assertEqual(triangles, 98, "two of each of 49 cells")
+            self.assertEqual((folder / "scene.bin").stat().st_size, document["buffers"][0]["byteLength"])
+            self.assertEqual(sorted(file.name for file in folder.iterdir()), ["render.json", "scene.bin", "scene.gltf"])
+        self.assertEqual((plan["materials"]["ground"]["kind"], plan["camera"]["name"], plan["max_bounces"]),
+                         ("diffuse", "camera", 14))
+
+
 class Refused(Scene):
     def test_settings(self):
         for settings, reason in (({"clamp_indirect": 1}, "clamp_indirect"), ({"lens_radius": 0.1}, "lens_radius"),
@@ -125,6 +140,7 @@ class Refused(Scene):
             with self.subTest(change=change):
                 self.refused({}, {"materials": [{**WHITE, **change}]}, reason)
         self.refused({}, {"animations": [{}]}, "animated")
+        self.refused({}, {"extensionsRequired": ["EXT_meshopt_compression"]}, "EXT_meshopt_compression")
         self.refused({}, {"cameras": []}, "camera")
 
     def test_the_light_that_etendue_adds(self):
@@ -256,7 +272,7 @@ class Comparisons(unittest.TestCase):
         self.assertIn("scene.gltf is missing", failed["missing"])
 
     def result(self, seconds=0.1):
-        return tool.Result(seconds, [[0.4, 0.2], [0.1, 0.05]], math.log(4))
+        return tool.Result(seconds, [[0.4, 0.2], [0.1, 0.05]], math.log(4), tool.StartUp(1.5, 0.25))
 
     def row(self, **seconds):
         comparison = types.SimpleNamespace(name="box", size=[8, 4], means=[[1.0] * 3, [1.01, 1.0, 1.0]], deviation=0.001,
@@ -278,8 +294,42 @@ class Comparisons(unittest.TestCase):
         self.assertAlmostEqual(document["renderers"]["path"]["relmse"]["exponent"], 1.0)
         self.assertAlmostEqual(document["difference_of_means"], 0.01)
         self.assertIsNone(document["objection"])
+        self.assertEqual(document["renderers"]["path"]["start_up_seconds"], {"load": 1.5, "rest": 0.25})
         self.assertIsNone(document["renderers"]["bdpt"]["samples_per_second"])
         self.assertIsNone(document["renderers"]["bdpt"]["relmse"]["time_to_equal_error"])
+
+    def test_images_are_compared_only_where_their_means_agree(self):
+        for mean, deviation, objection in ((1.0199, 0.001, ""), (1.03, 0.001, "not comparable"), (0.97, 0.001, "not comparable"),
+                                           (1.03, 0.02, "too noisy to say"), (1.05, 0.02, "not comparable")):
+            with self.subTest(mean=mean, deviation=deviation):
+                row = self.row(cycles=0.1, path=0.05)
+                row.comparison.means[1], row.comparison.deviation = [1.0, mean, 1.0], deviation
+                self.assertEqual(row.objection(), objection)
+                self.assertEqual(row.verdict("path", 0), objection or "0.50")
+
+    def test_scenes_that_are_not_comparable_make_it_fail_and_noise_does_not(self):
+        for mean, deviation, code in ((1.01, 0.001, 0), (1.03, 0.02, 0), (1.03, 0.001, 1)):
+            row = self.row(cycles=0.1, path=0.05)
+            row.comparison.means[1], row.comparison.deviation = [mean] * 3, deviation
+            with mock.patch.object(sys, "argv", ["compare-cycles", "--bin", str(self.folder), "box"]), \
+                    mock.patch.object(tool, "install_blender"), mock.patch.object(tool, "run", lambda _: "Blender"), \
+                    mock.patch.object(tool, "compare_all", lambda *_: ([row], {}, {})), \
+                    mock.patch.object(tool, "tables", lambda _: ""), redirect_stdout(io.StringIO()):
+                self.assertEqual(tool.main(), code, f"{mean} ± {deviation}")
+
+    def test_start_up_is_measured_once_for_each_pair_of_programs(self):
+        starts = []
+
+        def start(image):
+            starts.append(image)
+            return tool.StartUp(2.0, 1.0)
+        for program in ("one", "one", "two"):
+            self.program.write_text(program)
+            comparison = tool.Comparison(self.arguments, "box")
+            self.assertEqual(comparison.start_up(types.SimpleNamespace(name="cycles", start=start)).total(), 3.0)
+        self.assertEqual(len(starts), 2)
+        self.assertEqual(self.row(cycles=0.1, path=0.1).start_up_row(),
+                         ["box", "1.50", "0.25", "1.75", "1.50", "0.25", "1.75"])
 
     def test_an_aim_is_that_of_the_worst_scene(self):
         rows = [self.row(cycles=0.1, path=0.03), self.row(cycles=0.1, path=0.08), self.row(cycles=0.1, path=-1.0)]
