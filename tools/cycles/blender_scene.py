@@ -377,4 +377,5 @@ def main():
             print(json.dumps(render(scene, json.loads(line))), file=answers)
 
 
-main()
+if __name__ == "__main__":
+    main()
