@@ -63,14 +63,16 @@ def threads_table(data):
 
 
 def plot(data):
-    speeds, costs = [], []
+    speeds, costs, peaks = [], [], []
     for integrator in standard.INTEGRATORS:
         runs = [run for run in data["runs"] if run["integrator"] == integrator]
         speeds.append(Series(integrator, [(run["threads"], run["samples_per_second"] / 1e6) for run in runs]))
         costs.append(Series(integrator, [(run["threads"], statistics.median(run["cpu_seconds"]) / run["samples"] * 1e6)
                                          for run in runs]))
+        peaks.append(Series(integrator, [(run["threads"], run["peak"] / 1e6) for run in runs]))
     return curve_plot("Threads: cornell-box", [Panel("million samples a second", "threads", speeds, True, False),
-                                               Panel("CPU µs a sample", "threads", costs, True, False)])
+                                               Panel("CPU µs a sample", "threads", costs, True, False),
+                                               Panel("peak memory, MB", "threads", peaks, True, False)])
 
 
 def measure_start(setup):
