@@ -18,7 +18,7 @@ namespace etendue {
 
 namespace {
 
-// Of all BVHs; docs/performance.md has what the others were measured to cost.
+// Of all BVHs; docs/optimisation.md has what the others were measured to cost.
 constexpr RTCBuildQuality kBuildQuality = RTC_BUILD_QUALITY_MEDIUM;
 constexpr RTCSceneFlags kSceneFlags = RTC_SCENE_FLAG_ROBUST;
 

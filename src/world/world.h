@@ -1,5 +1,5 @@
 // The scene, compiled: geometry in Embree, materials, lights and a camera. Immutable, so that any number of threads may
-// query it; queries come in batches, because that is what makes them fast (docs/performance.md).
+// query it; queries come in batches, because that is what makes them fast (docs/optimisation.md).
 #pragma once
 
 #include "bsdf/bsdf.h"

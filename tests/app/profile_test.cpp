@@ -2,6 +2,7 @@
 #include "app/run_program.h"
 #include "app/small_files.h"
 #include "image/read_channels.h"
+#include "support/sanitizers.h"
 
 #include <filesystem>
 #include <fstream>
@@ -86,7 +87,14 @@ TEST_F(Profile, MeasuresEveryIntegratorOnEveryNumberOfThreads) {
     EXPECT_EQ(phases, (Names{"start of the process", "files", "materials", "textures", "geometry", "lights", "BVH",
                              "light tree", "first sample of every pixel"}));
     double owned = 0.0;
-    for (const json& owner : report["memory"]["owners"]) owned += owner["bytes"].get<double>();
+    Names owners;
+    for (const json& owner : report["memory"]["owners"]) {
+        owners.push_back(owner["name"]);
+        owned += owner["bytes"].get<double>();
+        EXPECT_EQ(owner["bytes"] > 0, owner["name"] != "textures" && owner["name"] != "instances") << owner;
+    }
+    EXPECT_EQ(owners, (Names{"geometry", "instances", "BVH", "materials", "textures", "lights", "film",
+                             "tiles and splats", "waves"}));
     EXPECT_GT(report["memory"]["peak_bytes"], owned);
     EXPECT_TRUE(report["runs"][0]["light_path_lengths"].empty());
     EXPECT_FALSE(report["runs"][2]["light_path_lengths"].empty());
@@ -97,6 +105,20 @@ TEST_F(Profile, MeasuresEveryIntegratorOnEveryNumberOfThreads) {
     EXPECT_EQ(heat.pixels.width, 16);
     EXPECT_EQ(heat.pixels.height, 12);
     for (const float value : heat.pixels.pixels) EXPECT_GT(value, 0.0f);
+}
+
+// What a stamp takes is measured in the same process, so a busy machine lengthens both sides.
+TEST_F(Profile, TimeStampsTakeLessThanAHundredth) {
+    if (kHasSanitizers) GTEST_SKIP() << "sanitizers make all else slower";
+    add_lamp(folder_ / "box");
+    const ProgramResult result = profile({"--spp", "16", "--repeat", "1", "--threads", "1", "--size", "256x192"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const json report = this->report();
+    for (const json& run : report["runs"]) {
+        EXPECT_GT(run["timing_share"], 0.0) << run["integrator"];
+        EXPECT_LT(run["timing_share"], 0.01) << run["integrator"];
+    }
+    for (const json& note : report["notes"]) EXPECT_EQ(note.get<std::string>().find("time stamps"), std::string::npos);
 }
 
 TEST_F(Profile, ComparesWithAnEarlierOne) {
