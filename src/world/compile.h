@@ -16,8 +16,8 @@ namespace etendue {
 /// rays pass partly transparent surfaces and, under uneven scales, for how normals run between vertices.
 struct CompileOptions {
     /// Triangles, beyond those of the meshes themselves, for copies of meshes that are placed more than once. Rays pass
-    /// one BVH over everything up to several times as fast as instances in one (docs/optimisation.md); a copied triangle
-    /// takes 100 to 210 bytes. What is more stays instanced.
+    /// one BVH over everything up to several times as fast as instances in one (docs/optimisation.md); a copied
+    /// triangle takes 100 to 210 bytes. What is more stays instanced.
     std::size_t most_copied_triangles = std::size_t{1} << 18;
 };
 
