@@ -122,9 +122,8 @@ void add_to_layers(const TileJob& job, const CameraSample& sample, std::size_t s
 
 void generate_camera_rays(const World& world, const TileJob& job, std::size_t first, std::span<CameraSample> samples,
                           std::span<Ray> rays) {
-    const std::size_t pixels = job.pixels.empty() ? job.rect.area() : job.pixels.size();
-    std::size_t which = first % pixels;
-    auto round = static_cast<std::uint32_t>(first / pixels);
+    std::size_t which = first / job.sample_count;
+    auto round = static_cast<std::uint32_t>(first % job.sample_count);
     std::array<Vec2i, CameraNumbers::kCapacity> positions;
     for (std::size_t begin = 0; begin < rays.size(); begin += CameraNumbers::kCapacity) {
         const auto few = samples.subspan(begin, std::min(CameraNumbers::kCapacity, rays.size() - begin));
@@ -136,9 +135,9 @@ void generate_camera_rays(const World& world, const TileJob& job, std::size_t fi
             few[i].key = {make_pixel_seed(job.seed, static_cast<std::uint32_t>(position.x),
                                           static_cast<std::uint32_t>(position.y)),
                           pixel.first_sample + round};
-            if (++which < pixels) continue;
-            which = 0;
-            ++round;
+            if (++round < job.sample_count) continue;
+            round = 0;
+            ++which;
         }
         generate_few(world, job, few, positions, rays.subspan(begin, few.size()));
     }

@@ -31,7 +31,8 @@ struct CameraSample {
     Vec2f lens{0.0f, 0.0f};   ///< chooses the point on the lens, in [0, 1)²
 };
 
-/// Samples are numbered sample by sample over all pixels of the job: neighbours in a wave are neighbours in the image.
+/// Samples are numbered pixel by pixel, all of one pixel after those of another: neighbours in a wave see the same
+/// surface, and so read the same triangles, texels and nodes of the BVH, and are shaded by the same code.
 [[nodiscard]] inline std::size_t camera_sample_count(const TileJob& job) {
     return (job.pixels.empty() ? job.rect.area() : job.pixels.size()) * job.sample_count;
 }
