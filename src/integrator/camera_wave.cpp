@@ -31,6 +31,18 @@ class CameraNumbers {
     std::array<float, kCapacity> y_;
 };
 
+/// The pixel of the job's tile that comes `k`-th: in bands of four rows, column by column, so that sixteen pixels, as
+/// many as a packet has rays, are a square.
+std::uint32_t pixel_in_order(const TileJob& job, std::uint32_t k) {
+    constexpr std::uint32_t kRows = 4;
+    const auto width = static_cast<std::uint32_t>(job.rect.width());
+    const auto height = static_cast<std::uint32_t>(job.rect.height());
+    const std::uint32_t top = k / (kRows * width) * kRows;
+    const std::uint32_t rows = std::min(kRows, height - top);
+    const std::uint32_t in_band = k - top * width;
+    return (top + in_band % rows) * width + in_band / rows;
+}
+
 /// At most CameraNumbers::kCapacity samples, whose keys are known, as are their pixels' `positions` in the full image.
 void generate_few(const World& world, const TileJob& job, std::span<CameraSample> samples,
                   std::span<const Vec2i> positions, std::span<Ray> rays) {
@@ -122,22 +134,33 @@ void add_to_layers(const TileJob& job, const CameraSample& sample, std::size_t s
 
 void generate_camera_rays(const World& world, const TileJob& job, std::size_t first, std::span<CameraSample> samples,
                           std::span<Ray> rays) {
+    if (rays.empty()) return;
     std::size_t which = first / job.sample_count;
     auto round = static_cast<std::uint32_t>(first % job.sample_count);
+    PixelJob pixel;
+    Vec2i position;
+    std::uint32_t seed = 0;
+    const auto enter_pixel = [&] {
+        pixel = job.pixels.empty() ? PixelJob{pixel_in_order(job, static_cast<std::uint32_t>(which)), job.first_sample}
+                                   : job.pixels[which];
+        position = pixel_position(job, pixel.pixel);
+        seed =
+            make_pixel_seed(job.seed, static_cast<std::uint32_t>(position.x), static_cast<std::uint32_t>(position.y));
+    };
+    enter_pixel();
     std::array<Vec2i, CameraNumbers::kCapacity> positions;
     for (std::size_t begin = 0; begin < rays.size(); begin += CameraNumbers::kCapacity) {
         const auto few = samples.subspan(begin, std::min(CameraNumbers::kCapacity, rays.size() - begin));
         for (std::size_t i = 0; i < few.size(); ++i) {
-            const PixelJob pixel =
-                job.pixels.empty() ? PixelJob{static_cast<std::uint32_t>(which), job.first_sample} : job.pixels[which];
-            const Vec2i position = positions[i] = pixel_position(job, pixel.pixel);
+            if (round == job.sample_count) {
+                round = 0;
+                ++which;
+                enter_pixel();
+            }
+            positions[i] = position;
             few[i].pixel = pixel.pixel;
-            few[i].key = {make_pixel_seed(job.seed, static_cast<std::uint32_t>(position.x),
-                                          static_cast<std::uint32_t>(position.y)),
-                          pixel.first_sample + round};
-            if (++round < job.sample_count) continue;
-            round = 0;
-            ++which;
+            few[i].key = {seed, pixel.first_sample + round};
+            ++round;
         }
         generate_few(world, job, few, positions, rays.subspan(begin, few.size()));
     }

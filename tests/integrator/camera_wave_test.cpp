@@ -37,8 +37,9 @@ TEST_F(CameraWave, EveryPixelGetsEachOfItsSamplesOnce) {
         EXPECT_GE(s.key.index, 3u);
         EXPECT_LT(s.key.index, 9u);
         EXPECT_TRUE(seen.emplace(s.pixel, s.key.index).second);
-        // All of one pixel after those of another.
-        EXPECT_EQ(s.pixel, (seen.size() - 1) / 6);
+        // All of one pixel after those of another, of four rows column by column.
+        const std::size_t which = (seen.size() - 1) / 6;
+        EXPECT_EQ(s.pixel, which % 4 * 5 + which / 4);
     }
     EXPECT_EQ(seen.size(), job_.rect.area() * 6);
 }
@@ -55,8 +56,8 @@ TEST_F(CameraWave, OnlyChosenPixelsGetSamplesEachItsOwn) {
         EXPECT_EQ(samples_[i].pixel, chosen[i / 2].pixel);
         EXPECT_EQ(samples_[i].key.index, chosen[i / 2].first_sample + i % 2);
     }
-    // The rays that all pixels together got with these indices, from 3 on.
-    EXPECT_EQ(rays_[0].direction, all[7 * 6 + 2].direction);
+    // The rays that all pixels together got with these indices, from 3 on; pixel 7 of five a row is their tenth.
+    EXPECT_EQ(rays_[0].direction, all[9 * 6 + 2].direction);
     EXPECT_EQ(rays_[3].direction, all[19 * 6 + 1].direction);
 }
 
@@ -83,11 +84,11 @@ TEST_F(CameraWave, SamplesDoNotDependOnWavesOrTiles) {
         EXPECT_EQ(rays_[i].direction, all[37 + i].direction);
         EXPECT_EQ(rays_[i].alpha_key, all[37 + i].alpha_key);
     }
-    // The same pixel in another tile: pixel (12, 21) is the eighth of the first and the first of the second.
+    // The same pixel in another tile: pixel (12, 21) is the tenth of the first and the first of the second.
     job_.rect = {12, 21, 14, 22};
     generate(0, 1);
-    EXPECT_EQ(rays_[0].direction, all[7 * 6].direction);
-    EXPECT_EQ(rays_[0].alpha_key, all[7 * 6].alpha_key);
+    EXPECT_EQ(rays_[0].direction, all[9 * 6].direction);
+    EXPECT_EQ(rays_[0].alpha_key, all[9 * 6].alpha_key);
 }
 
 TEST_F(CameraWave, AccumulateWeighsAndDrops) {
@@ -98,10 +99,10 @@ TEST_F(CameraWave, AccumulateWeighsAndDrops) {
     CameraSample sample = samples_[7];
     sample.weight = 2.0f;
     accumulate(job_, sample, {1.0f, 2.0f, 3.0f}, 0.5f, tile, counters);
-    EXPECT_EQ(sample.pixel, 1u);
-    EXPECT_EQ(tile.pixel(1).g, 4.0);
-    EXPECT_EQ(tile.pixel(1).alpha, 1.0);
-    EXPECT_EQ(tile.pixel(1).samples, 1u);
+    EXPECT_EQ(sample.pixel, 5u);
+    EXPECT_EQ(tile.pixel(5).g, 4.0);
+    EXPECT_EQ(tile.pixel(5).alpha, 1.0);
+    EXPECT_EQ(tile.pixel(5).samples, 1u);
     EXPECT_EQ(counters.dropped, 0u);
 
     const float nan = std::numeric_limits<float>::quiet_NaN();
@@ -111,11 +112,11 @@ TEST_F(CameraWave, AccumulateWeighsAndDrops) {
         accumulate(job_, sample, bad, 1.0f, tile, counters);
         EXPECT_EQ(counters.dropped, ++dropped);
     }
-    EXPECT_EQ(tile.pixel(1).g, 4.0);
-    EXPECT_EQ(tile.pixel(1).samples, 1u) << "they do not darken the pixel";
+    EXPECT_EQ(tile.pixel(5).g, 4.0);
+    EXPECT_EQ(tile.pixel(5).samples, 1u) << "they do not darken the pixel";
     EXPECT_EQ(counters.samples, 4u);
-    EXPECT_EQ(counters.first_dropped[0].x, 11);
-    EXPECT_EQ(counters.first_dropped[0].y, 20);
+    EXPECT_EQ(counters.first_dropped[0].x, 10);
+    EXPECT_EQ(counters.first_dropped[0].y, 21);
     EXPECT_EQ(counters.first_dropped[0].sample, sample.key.index);
 }
 
