@@ -133,10 +133,12 @@ void add_to_layers(const TileJob& job, const CameraSample& sample, std::size_t s
 }  // namespace
 
 void generate_camera_rays(const World& world, const TileJob& job, std::size_t first, std::span<CameraSample> samples,
-                          std::span<Ray> rays) {
+                          std::span<Ray> rays, SampleOrder order) {
     if (rays.empty()) return;
-    std::size_t which = first / job.sample_count;
-    auto round = static_cast<std::uint32_t>(first % job.sample_count);
+    const bool by_pixel = order == SampleOrder::PixelByPixel;
+    const std::size_t pixels = job.pixels.empty() ? job.rect.area() : job.pixels.size();
+    std::size_t which = by_pixel ? first / job.sample_count : first % pixels;
+    auto round = static_cast<std::uint32_t>(by_pixel ? first % job.sample_count : first / pixels);
     PixelJob pixel;
     Vec2i position;
     std::uint32_t seed = 0;
@@ -147,20 +149,26 @@ void generate_camera_rays(const World& world, const TileJob& job, std::size_t fi
         seed =
             make_pixel_seed(job.seed, static_cast<std::uint32_t>(position.x), static_cast<std::uint32_t>(position.y));
     };
+    const auto advance = [&] {
+        if (by_pixel) {
+            if (++round < job.sample_count) return;
+            round = 0;
+            ++which;
+        } else if (++which == pixels) {
+            which = 0;
+            ++round;
+        }
+        enter_pixel();
+    };
     enter_pixel();
     std::array<Vec2i, CameraNumbers::kCapacity> positions;
     for (std::size_t begin = 0; begin < rays.size(); begin += CameraNumbers::kCapacity) {
         const auto few = samples.subspan(begin, std::min(CameraNumbers::kCapacity, rays.size() - begin));
         for (std::size_t i = 0; i < few.size(); ++i) {
-            if (round == job.sample_count) {
-                round = 0;
-                ++which;
-                enter_pixel();
-            }
+            if (begin + i > 0) advance();
             positions[i] = position;
             few[i].pixel = pixel.pixel;
             few[i].key = {seed, pixel.first_sample + round};
-            ++round;
         }
         generate_few(world, job, few, positions, rays.subspan(begin, few.size()));
     }

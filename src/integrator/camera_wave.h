@@ -31,8 +31,17 @@ struct CameraSample {
     Vec2f lens{0.0f, 0.0f};   ///< chooses the point on the lens, in [0, 1)²
 };
 
-/// Samples are numbered pixel by pixel, all of one pixel after those of another: neighbours in a wave see the same
-/// surface, and so read the same triangles, texels and nodes of the BVH, and are shaded by the same code.
+/// How the samples of a job are numbered.
+enum class SampleOrder : std::uint8_t {
+    /// All of one pixel after those of another: neighbours in a wave see the same surface, and so read the same
+    /// triangles, texels and nodes of the BVH, and are shaded by the same code.
+    PixelByPixel,
+    /// One of every pixel, then the next of every pixel: where the samples of a wave share what they are made of, those
+    /// of a pixel, which are in different waves, stay independent.
+    SampleBySample
+};
+
+/// Of all the job's pixels together.
 [[nodiscard]] inline std::size_t camera_sample_count(const TileJob& job) {
     return (job.pixels.empty() ? job.rect.area() : job.pixels.size()) * job.sample_count;
 }
@@ -51,7 +60,7 @@ struct CameraSample {
 
 /// Makes the camera rays of samples [first, first + rays.size()) of the job.
 void generate_camera_rays(const World& world, const TileJob& job, std::size_t first, std::span<CameraSample> samples,
-                          std::span<Ray> rays);
+                          std::span<Ray> rays, SampleOrder order = SampleOrder::PixelByPixel);
 
 /// Adds `radiance` to the sample's pixel; drops, counts and locates what is not finite or negative: false if it was.
 bool accumulate(const TileJob& job, const CameraSample& sample, const Rgb& radiance, float alpha, TileBuffer& tile,

@@ -44,6 +44,26 @@ TEST_F(CameraWave, EveryPixelGetsEachOfItsSamplesOnce) {
     EXPECT_EQ(seen.size(), job_.rect.area() * 6);
 }
 
+TEST_F(CameraWave, SampleBySampleTheSameSamplesComeInAnotherOrder) {
+    generate(0, camera_sample_count(job_));
+    const std::vector<CameraSample> by_pixel = samples_;
+    const std::vector<Ray> all = rays_;
+    const std::size_t pixels = job_.rect.area();
+    generate_camera_rays(world_, job_, 0, samples_, rays_, SampleOrder::SampleBySample);
+    for (std::size_t i = 0; i < samples_.size(); ++i) {
+        const std::size_t same = i % pixels * 6 + i / pixels;
+        EXPECT_EQ(samples_[i].pixel, by_pixel[same].pixel);
+        EXPECT_EQ(samples_[i].key.index, by_pixel[same].key.index);
+        EXPECT_EQ(rays_[i].direction, all[same].direction);
+    }
+    // From the middle on.
+    const CameraSample later = samples_[pixels + 3];
+    generate_camera_rays(world_, job_, pixels + 3, std::span(samples_).first(1), std::span(rays_).first(1),
+                         SampleOrder::SampleBySample);
+    EXPECT_EQ(samples_[0].pixel, later.pixel);
+    EXPECT_EQ(samples_[0].key.index, later.key.index);
+}
+
 TEST_F(CameraWave, OnlyChosenPixelsGetSamplesEachItsOwn) {
     generate(0, camera_sample_count(job_));
     const std::vector<Ray> all = rays_;

@@ -60,7 +60,9 @@ void BdptWave::trace(const World& world, const TileJob& job, const BdptOptions& 
                      std::size_t count, TileBuffer& tile, RenderCounters& counters) {
     samples_.resize(count);
     camera_rays_.resize(count);
-    generate_camera_rays(world, job, first, samples_, camera_rays_);
+    // The samples of a wave share the cache.
+    generate_camera_rays(world, job, first, samples_, camera_rays_,
+                         options.cached_connections > 0 ? SampleOrder::SampleBySample : SampleOrder::PixelByPixel);
     found_.reset(count, job, counters.brightest.threshold());
     alpha_.assign(count, 1.0f);
     const Context context{{world, job, options.lengths, Raised{options.heuristic}, samples_, camera_rays_}, options};
