@@ -90,7 +90,8 @@ TEST_F(CameraWave, RaysPassThroughTheirPixels) {
         const float x = (screen.x + 1.0f) * 0.5f * 40.0f;
         const float y = (1.0f - screen.y) * 0.5f * 30.0f;
         const auto left = static_cast<float>(10 + samples_[i].pixel % 5);
-        const auto top = static_cast<float>(20 + static_cast<int>(samples_[i].pixel) / 5);
+        const int row = static_cast<int>(samples_[i].pixel) / 5;
+        const auto top = static_cast<float>(20 + row);
         EXPECT_TRUE(x >= left - 1e-3f && x <= left + 1.0f + 1e-3f) << x << " in pixel " << left;
         EXPECT_TRUE(y >= top - 1e-3f && y <= top + 1.0f + 1e-3f) << y << " in pixel " << top;
     }
