@@ -429,6 +429,17 @@ TEST_F(CommandLine, NotesSayWhichOptionsHaveNoEffect) {
     EXPECT_EQ(run(moving).err.find("cache:2"), std::string::npos);
 }
 
+TEST_F(CommandLine, LightSamplesReachTheIntegratorsThatSplitThem) {
+    const std::string box = scene("box");  // an even environment is all its light
+    for (const char* integrator : {"path", "direct"}) {
+        const ProgramResult result =
+            run({"render", box, "--integrator", integrator, "--spp", "1", "--light-samples", "3"});
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        EXPECT_NE(result.err.find("note: 3 light samples have no effect: no light is sampled here"), std::string::npos)
+            << integrator << ": " << result.err;
+    }
+}
+
 TEST_F(CommandLine, FinishedFramesAreNotRenderedAgain) {
     const std::string box = animated_scene(scene("box", R"("frames": [0, 1],)"));
     const auto results = [&](const std::vector<std::string>& more) {

@@ -37,6 +37,28 @@ TEST(CreateIntegrator, OnlyThoseWithStrategiesShowOne) {
     EXPECT_NE(create_integrator(settings), nullptr);
 }
 
+TEST(IntegratorOptions, AreThoseOfTheSettings) {
+    RenderSettings settings;
+    settings.integrator = {.type = "bdpt",
+                           .max_depth = 9,
+                           .min_depth = 2,
+                           .roulette_depth = 5,
+                           .light_samples = 4,
+                           .heuristic = HeuristicType::Power,
+                           .strategy = {{1, 2}},
+                           .weighted = false,
+                           .cached_connections = 3};
+    const IntegratorOptions options = integrator_options(settings);
+    EXPECT_EQ(options.lengths.max_depth, 9);
+    EXPECT_EQ(options.lengths.min_depth, 2);
+    EXPECT_EQ(options.lengths.roulette_depth, 5);
+    EXPECT_EQ(options.light_samples, 4u);
+    EXPECT_EQ(options.heuristic, Heuristic::Power);
+    EXPECT_EQ(options.strategy, (Strategy{1, 2}));
+    EXPECT_FALSE(options.weighted);
+    EXPECT_EQ(options.cached_connections, 3);
+}
+
 TEST(IneffectiveSettings, OptionsOfAdaptiveSamplingNeedAnError) {
     RenderSettings settings;
     EXPECT_TRUE(ineffective_settings(settings, false).empty());
