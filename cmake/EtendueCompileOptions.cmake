@@ -16,27 +16,17 @@ if(ETENDUE_SANITIZERS)
   target_link_options(etendue_options INTERFACE -fsanitize=${ETENDUE_SANITIZERS})
 endif()
 
-# etendue_build_quickly(<target>...)
-#
-# For code that runs once per image: compiling its many templates takes longer than optimisation ever saves.
-function(etendue_build_quickly)
-  if(ETENDUE_SANITIZERS)
-    set(optimisation -O0)
-  else()
-    set(optimisation -O1)
-  endif()
-  foreach(target ${ARGN})
-    target_compile_options(${target} PRIVATE ${optimisation})
-    set_target_properties(${target} PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)  # of other options
-  endforeach()
-endfunction()
+# For tests and for what runs once per image: compiling their many templates takes longer than optimisation ever saves.
+if(NOT CMAKE_BUILD_TYPE STREQUAL "Debug")
+  set(ETENDUE_QUICK_OPTIONS $<IF:$<BOOL:${ETENDUE_SANITIZERS}>,-O0,-O1>)
+endif()
 
 # etendue_compile_singly(<target>...)
 #
 # For code that runs once per ray: of sources that are compiled together the compiler inlines less, which costs 5 to 10%
-# (docs/testing.md). With sanitizers that does not matter.
+# (docs/testing.md). Builds for tests can do without.
 function(etendue_compile_singly)
-  if(NOT ETENDUE_SANITIZERS)
+  if(NOT ETENDUE_QUICK_BUILD)
     set_target_properties(${ARGN} PROPERTIES UNITY_BUILD OFF)
   endif()
 endfunction()
@@ -64,4 +54,12 @@ function(etendue_optimise_further)
       target_link_options(${target} INTERFACE -fprofile-generate)
     endif()
   endforeach()
+endfunction()
+
+# etendue_set_sanitizers(<program>): what sanitizers are to overlook goes into each program that they watch.
+function(etendue_set_sanitizers program)
+  get_target_property(type ${program} TYPE)
+  if(ETENDUE_SANITIZERS AND type STREQUAL "EXECUTABLE")
+    target_sources(${program} PRIVATE "${PROJECT_SOURCE_DIR}/cmake/sanitizer_defaults.cpp")
+  endif()
 endfunction()

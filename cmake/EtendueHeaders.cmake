@@ -9,23 +9,22 @@ set(standard_headers
   <map> <memory> <numbers> <numeric> <optional> <set> <span> <sstream> <stdexcept> <string> <string_view> <system_error>
   <tuple> <utility> <variant> <vector>)
 
-# etendue_make_headers(<target> HEADERS ... LINK target...)
+# etendue_make_headers(<target> HEADERS ... LINK target... [OPTIONS option...])
 function(etendue_make_headers target)
-  cmake_parse_arguments(ARG "" "" "HEADERS;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "HEADERS;LINK;OPTIONS" ${ARGN})
   file(CONFIGURE OUTPUT "${CMAKE_BINARY_DIR}/${target}.cpp" CONTENT "")
   add_library(${target} OBJECT "${CMAKE_BINARY_DIR}/${target}.cpp")
   target_link_libraries(${target} PRIVATE etendue_options ${ARG_LINK})
+  target_compile_options(${target} PRIVATE ${ARG_OPTIONS})
   target_precompile_headers(${target} PRIVATE ${ARG_HEADERS})
 endfunction()
 
 set(headers_of_all ${standard_headers} <Imath/ImathMatrix.h> <Imath/ImathVec.h> <fmt/format.h>)
 etendue_make_headers(etendue_headers HEADERS ${headers_of_all} LINK PkgConfig::Imath fmt::fmt)
+etendue_make_headers(etendue_quick_headers
+  HEADERS ${headers_of_all} LINK PkgConfig::Imath fmt::fmt OPTIONS ${ETENDUE_QUICK_OPTIONS})
 if(ETENDUE_BUILD_TESTS)
   etendue_make_headers(etendue_test_headers
-    HEADERS ${headers_of_all} <gtest/gtest.h> LINK PkgConfig::Imath fmt::fmt GTest::gtest)
-  if(ETENDUE_SANITIZERS)  # for the tests that are built quickly
-    etendue_make_headers(etendue_quick_test_headers
-      HEADERS ${headers_of_all} <gtest/gtest.h> LINK PkgConfig::Imath fmt::fmt GTest::gtest)
-    target_compile_options(etendue_quick_test_headers PRIVATE -O0)
-  endif()
+    HEADERS ${headers_of_all} <gtest/gtest.h> LINK PkgConfig::Imath fmt::fmt GTest::gtest
+    OPTIONS ${ETENDUE_QUICK_OPTIONS})
 endif()

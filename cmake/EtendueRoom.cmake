@@ -1,37 +1,71 @@
-# etendue_room(<name> SOURCES ... [DEPENDS room...] [PUBLIC target...] [PRIVATE target...])
+# etendue_room(<name> SOURCES ... [DEPENDS room...] [PUBLIC target...] [PRIVATE target...] [QUICKLY])
 #
 # One static library per folder of src/. DEPENDS lists other rooms and is the architecture table of src/README.md in
 # executable form: a room that is not listed cannot be linked, and tools/check_includes.py checks headers against the same
-# table. Third-party targets go to PRIVATE unless the room's headers include them.
+# table. Third-party targets go to PRIVATE unless the room's headers include them. QUICKLY: it is optimised little.
 function(etendue_room name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "QUICKLY" "" "SOURCES;DEPENDS;PUBLIC;PRIVATE" ${ARGN})
   add_library(etendue_${name} STATIC ${ARG_SOURCES})
   target_include_directories(etendue_${name} PUBLIC "${PROJECT_SOURCE_DIR}/src")
   list(TRANSFORM ARG_DEPENDS PREPEND etendue_)
   target_link_libraries(etendue_${name} PUBLIC ${ARG_DEPENDS} ${ARG_PUBLIC} PRIVATE etendue_options ${ARG_PRIVATE})
-  target_precompile_headers(etendue_${name} REUSE_FROM etendue_headers)
+  if(ARG_QUICKLY)
+    target_compile_options(etendue_${name} PRIVATE ${ETENDUE_QUICK_OPTIONS})
+    target_precompile_headers(etendue_${name} REUSE_FROM etendue_quick_headers)
+  else()
+    target_precompile_headers(etendue_${name} REUSE_FROM etendue_headers)
+  endif()
 endfunction()
 
-# etendue_test(<room> SOURCES ... [LINK target...] [QUICKLY])
+# etendue_of_tests(<target>...): optimises little, with the compiled headers of tests.
+function(etendue_of_tests)
+  foreach(target ${ARGN})
+    target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/tests")
+    target_link_libraries(${target} PRIVATE etendue_options GTest::gtest)
+    target_compile_options(${target} PRIVATE ${ETENDUE_QUICK_OPTIONS})
+    target_precompile_headers(${target} REUSE_FROM etendue_test_headers)
+    etendue_set_sanitizers(${target})
+  endforeach()
+endfunction()
+
+# etendue_test(<room> SOURCES ... [LINK target...] [SLOW pattern...] [SANITIZED])
 #
-# One test program per room, tests/<room>/, registered with CTest case by case. QUICKLY: with sanitizers it is not
-# optimised. For tests that do little themselves: what is inline in the headers of a room comes from them, too.
+# One test program per room, tests/<room>/, registered with CTest case by case under the label <room>. SLOW: patterns of
+# GoogleTest for those that take longer than a second, which have the label <room>-slow instead. SANITIZED: sanitizers
+# watch it in continuous integration, too, as it reads files, or keeps memory in ways of its own; all others are left to
+# the thorough tests.
 function(etendue_test room)
-  cmake_parse_arguments(ARG "QUICKLY" "" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "SANITIZED" "" "SOURCES;LINK;SLOW" ${ARGN})
   add_executable(test_${room} ${ARG_SOURCES})
-  target_include_directories(test_${room} PRIVATE "${PROJECT_SOURCE_DIR}/tests")
+  etendue_of_tests(test_${room})
   target_include_directories(test_${room} SYSTEM PRIVATE "${ETENDUE_BOOST_MATH}")
-  target_link_libraries(test_${room} PRIVATE etendue_options ${ARG_LINK} GTest::gtest_main)
+  target_link_libraries(test_${room} PRIVATE ${ARG_LINK} GTest::gtest_main)
   add_dependencies(unit_tests test_${room})
-  if(ARG_QUICKLY AND ETENDUE_SANITIZERS)
-    target_compile_options(test_${room} PRIVATE -O0)
-    target_precompile_headers(test_${room} REUSE_FROM etendue_quick_test_headers)
+  if(ARG_SANITIZED)
+    add_dependencies(sanitized_tests test_${room})
+    set(ARG_SANITIZED "sanitized")
   else()
-    target_precompile_headers(test_${room} REUSE_FROM etendue_test_headers)
+    set(ARG_SANITIZED "")
   endif()
   target_compile_definitions(test_${room} PRIVATE
     ETENDUE_SOURCE_DIR="${PROJECT_SOURCE_DIR}" ETENDUE_SHARED_ASSETS="${PROJECT_SOURCE_DIR}/../shared/assets")
-  gtest_discover_tests(test_${room} TEST_PREFIX "${room}." DISCOVERY_TIMEOUT 120 PROPERTIES LABELS ${room} TIMEOUT 600
-    ENVIRONMENT "LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/cmake/lsan-suppressions.txt"
+  if(ETENDUE_SANITIZERS)
+    # Each program as a whole: case by case, start-up alone would take minutes.
+    add_test(NAME ${room} COMMAND test_${room} --gtest_brief=1)
+    set_tests_properties(${room} PROPERTIES LABELS "${room};${ARG_SANITIZED}" TIMEOUT 5400
+      ENVIRONMENT "ETENDUE_TEST_OUTPUT=${PROJECT_BINARY_DIR}/test-output")
+  else()
+    list(JOIN ARG_SLOW ":" slow)
+    etendue_discover_tests(${room} ${room} "-${slow}")
+    if(slow)
+      etendue_discover_tests(${room} ${room}-slow "${slow}")
+    endif()
+  endif()
+endfunction()
+
+function(etendue_discover_tests room label filter)
+  gtest_discover_tests(test_${room} TEST_PREFIX "${room}." TEST_FILTER "${filter}" TEST_LIST ${label}_tests
+    DISCOVERY_TIMEOUT 120
+    PROPERTIES LABELS ${label} TIMEOUT 600
     ENVIRONMENT_MODIFICATION "ETENDUE_TEST_OUTPUT=set:${PROJECT_BINARY_DIR}/test-output")
 endfunction()

@@ -2,7 +2,7 @@
 // averaging the weights of visible-normal samples over an Owen-scrambled Sobol' sequence, and their averages over the
 // hemisphere. Run by the build.
 //
-// Usage: make_ggx_albedo OUTPUT.inc
+// Usage: make_ggx_albedo OUTPUT
 
 #include "bsdf/ggx_albedo_layout.h"
 #include "ggx_view.h"
@@ -11,8 +11,6 @@
 
 #include <array>
 #include <memory>
-#include <ostream>
-#include <string>
 
 namespace {
 
@@ -20,16 +18,6 @@ using namespace etendue;
 using namespace etendue::ggx_albedo_layout;
 
 constexpr std::uint32_t kSamples = 4096;
-
-struct Tables {
-    Slice single;
-    ShareSlice schlick_share;
-    std::array<Slice, kEtasOutside> outside;
-    std::array<Slice, kEtasInside> inside;
-    Averages single_average;
-    Averages schlick_average;
-    std::array<std::array<Averages, kAverageEtas>, 2> dielectric_average;
-};
 
 float schlick_share(const GgxView& view) {
     double single = 0.0;
@@ -134,17 +122,8 @@ void fill_averages(Tables& tables) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    return write_table_file(argc, argv, "make_ggx_albedo", [](std::ostream& out) {
-        const auto tables = std::make_unique<Tables>();
-        fill_directional(*tables);
-        fill_averages(*tables);
-        write_table(out, "Slice", "kSingle", tables->single);
-        write_table(out, "ShareSlice", "kSchlickShare", tables->schlick_share);
-        write_table(out, "std::array<Slice, kEtasOutside>", "kOutside", tables->outside);
-        write_table(out, "std::array<Slice, kEtasInside>", "kInside", tables->inside);
-        write_table(out, "Averages", "kSingleAverage", tables->single_average);
-        write_table(out, "Averages", "kSchlickAverage", tables->schlick_average);
-        write_table(out, "std::array<std::array<Averages, kAverageEtas>, 2>", "kDielectricAverage",
-                    tables->dielectric_average);
-    });
+    const auto tables = std::make_unique<Tables>();
+    fill_directional(*tables);
+    fill_averages(*tables);
+    return write_table_file(argc, argv, *tables);
 }

@@ -1,7 +1,7 @@
 // Computes the tables of src/bsdf/ggx_anisotropic_albedo.cpp, as make_ggx_albedo.cpp does the isotropic ones. Run by
 // the build.
 //
-// Usage: make_ggx_anisotropic_albedo OUTPUT.inc
+// Usage: make_ggx_anisotropic_albedo OUTPUT
 
 #include "bsdf/ggx_anisotropic_albedo_layout.h"
 #include "ggx_view.h"
@@ -13,7 +13,6 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
-#include <ostream>
 #include <thread>
 #include <vector>
 
@@ -23,16 +22,6 @@ using namespace etendue;
 using namespace etendue::ggx_anisotropic_layout;
 
 constexpr std::uint32_t kSamples = 4096;
-
-struct Tables {
-    Table<1> reflection;
-    Table<1> schlick_share;
-    Table<kEtasOutside> outside;
-    Table<kEtasInside> inside;
-    Averages reflection_average;
-    Averages schlick_average;
-    std::array<std::array<Averages, kAverageEtas>, 2> interface_average;
-};
 
 std::uint16_t encode(float value) {
     return static_cast<std::uint16_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * kLargestValue));
@@ -234,17 +223,8 @@ void fill_averages(Tables& tables) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    return write_table_file(argc, argv, "make_ggx_anisotropic_albedo", [](std::ostream& out) {
-        const auto tables = std::make_unique<Tables>();
-        fill_directional(*tables);
-        fill_averages(*tables);
-        write_table(out, "Table<1>", "kReflection", tables->reflection);
-        write_table(out, "Table<1>", "kSchlickShare", tables->schlick_share);
-        write_table(out, "Table<kEtasOutside>", "kOutside", tables->outside);
-        write_table(out, "Table<kEtasInside>", "kInside", tables->inside);
-        write_table(out, "Averages", "kReflectionAverage", tables->reflection_average);
-        write_table(out, "Averages", "kSchlickAverage", tables->schlick_average);
-        write_table(out, "std::array<std::array<Averages, kAverageEtas>, 2>", "kInterfaceAverage",
-                    tables->interface_average);
-    });
+    const auto tables = std::make_unique<Tables>();
+    fill_directional(*tables);
+    fill_averages(*tables);
+    return write_table_file(argc, argv, *tables);
 }

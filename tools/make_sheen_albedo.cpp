@@ -1,24 +1,18 @@
 // Computes the tables of src/bsdf/sheen.cpp: the directional albedo of the Charlie model, which passes one at grazing
 // angles, and that of the lobe which is held below one. Run by the build.
 //
-// Usage: make_sheen_albedo OUTPUT.inc
+// Usage: make_sheen_albedo OUTPUT
 
 #include "bsdf/charlie.h"
 #include "bsdf/sheen_albedo_layout.h"
 #include "table_writer.h"
 
 #include <memory>
-#include <ostream>
 
 namespace {
 
 using namespace etendue;
 using namespace etendue::sheen_albedo_layout;
-
-struct Tables {
-    Table unbounded;
-    Table bounded;
-};
 
 /// Integral over wi of `scale(wi.z)` f cos, by a product rule whose steps shrink towards the horizon and towards the
 /// plane of incidence, where the lobe of smooth cloth is.
@@ -66,10 +60,7 @@ void fill(Tables& tables) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    return write_table_file(argc, argv, "make_sheen_albedo", [](std::ostream& out) {
-        const auto tables = std::make_unique<Tables>();
-        fill(*tables);
-        write_table(out, "Table", "kUnbounded", tables->unbounded);
-        write_table(out, "Table", "kBounded", tables->bounded);
-    });
+    const auto tables = std::make_unique<Tables>();
+    fill(*tables);
+    return write_table_file(argc, argv, *tables);
 }

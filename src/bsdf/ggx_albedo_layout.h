@@ -161,4 +161,15 @@ template <typename T>
     return mix(gather(averages.data(), a.index), gather(averages.data() + 1, a.index), a.t);
 }
 
+/// Everything that the program computes, as it lies in its file and in memory.
+struct Tables {
+    Slice single;
+    ShareSlice schlick_share;
+    std::array<Slice, kEtasOutside> outside;
+    std::array<Slice, kEtasInside> inside;
+    Averages single_average;
+    Averages schlick_average;
+    std::array<std::array<Averages, kAverageEtas>, 2> dielectric_average;  ///< [side][eta], side 0 outside (eta >= 1)
+};
+
 }  // namespace etendue::ggx_albedo_layout

@@ -339,4 +339,17 @@ inline constexpr float kAverageScale = 0.0003f;
     return sum;
 }
 
+// ---- The tables
+
+/// Everything that the program computes, as it lies in its file and in memory.
+struct Tables {
+    Table<1> reflection;
+    Table<1> schlick_share;
+    Table<kEtasOutside> outside;
+    Table<kEtasInside> inside;
+    Averages reflection_average;
+    Averages schlick_average;
+    std::array<std::array<Averages, kAverageEtas>, 2> interface_average;  ///< [side][eta], side 0 outside (eta >= 1)
+};
+
 }  // namespace etendue::ggx_anisotropic_layout

@@ -38,4 +38,10 @@ using Table = std::array<std::array<float, kCosines>, kAlphas>;
     return place(std::cbrt(mu) * (kCosines - 1), kCosines);
 }
 
+/// Everything that the program computes, as it lies in its file and in memory.
+struct Tables {
+    Table unbounded;
+    Table bounded;
+};
+
 }  // namespace etendue::sheen_albedo_layout

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <vector>
 
 #include <tbb/global_control.h>
 #include <tbb/info.h>
@@ -9,12 +10,31 @@
 #include <tbb/task_arena.h>
 #include <tbb/version.h>
 #include <xmmintrin.h>
+#ifdef __SANITIZE_THREAD__
+#include <sanitizer/tsan_interface.h>
+#endif
 
 namespace etendue {
 
 namespace {
 constexpr unsigned int kFlushToZero = 0x8000;
 constexpr unsigned int kDenormalsAreZero = 0x0040;
+
+/// Tells ThreadSanitizer of an order that it cannot see, since TBB is not instrumented: what happened before `leave` in
+/// one thread happens before what follows `enter` in another.
+class Handover {
+  public:
+#ifdef __SANITIZE_THREAD__
+    void leave() { __tsan_release(this); }
+    void enter() { __tsan_acquire(this); }
+
+  private:
+    char address_ = 0;
+#else
+    void leave() {}
+    void enter() {}
+#endif
+};
 }  // namespace
 
 FlushDenormals::FlushDenormals() : saved_(_mm_getcsr()) {
@@ -50,23 +70,39 @@ int ThreadPool::thread_count() const {
 }
 
 void ThreadPool::parallel_for(std::size_t count, const std::function<void(std::size_t, int)>& body) const {
+    Handover begin;
+    Handover end;
+    std::vector<Handover> slots(static_cast<std::size_t>(thread_count()));
+    begin.leave();
     impl_->arena.execute([&] {
         tbb::parallel_for(
             tbb::blocked_range<std::size_t>(0, count, 1),
             [&](const tbb::blocked_range<std::size_t>& range) {
                 const FlushDenormals flush_denormals;
                 const int slot = tbb::this_task_arena::current_thread_index();
+                Handover& of_slot = slots[static_cast<std::size_t>(slot)];
+                begin.enter();
+                of_slot.enter();
                 for (std::size_t index = range.begin(); index != range.end(); ++index) body(index, slot);
+                of_slot.leave();
+                end.leave();
             },
             tbb::simple_partitioner());
     });
+    end.enter();
 }
 
 void ThreadPool::execute(const std::function<void()>& body) const {
+    Handover begin;
+    Handover end;
+    begin.leave();
     impl_->arena.execute([&] {
         const FlushDenormals flush_denormals;
+        begin.enter();
         body();
+        end.leave();
     });
+    end.enter();
 }
 
 NodeBinding::Stay ThreadPool::stay_on_node(int slot) const {

@@ -216,7 +216,7 @@ TEST(TextureCache, BrokenHeadersAreErrors) {
 
 TEST(TextureCache, BrokenPixelsAreCountedAndBlack) {
     const TemporaryFolder folder;
-    // No PNG: a cut one makes its library leak (cmake/lsan-suppressions.txt).
+    // No PNG: a cut one makes its library leak (cmake/sanitizer_defaults.cpp).
     const auto file = write_reference(folder / "a.exr", {256, 256, 3, OIIO::TypeDesc::HALF}, noise(256, 256, 3));
     std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
     TextureCache cache(kBudget);

@@ -5,13 +5,6 @@ ETENDUE_ROOT=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 ETENDUE_JOBS=${ETENDUE_JOBS:-$(nproc)}
 ETENDUE_PACKAGES_FILE=$ETENDUE_ROOT/third_party_config/apt-packages.txt
 
-# What the sanitizers are to overlook. OpenImageIO deletes its texture system by an empty base class, which is the
-# library's own fault. LeakSanitizer, where it follows __tls_get_addr, takes thread-local variables that happen to begin
-# 16 bytes into a page for those of an older glibc, reads a size where there is none, and crashes at the end of one run
-# in a hundred; it finds those of this glibc without.
-readonly ETENDUE_ASAN_OPTIONS=new_delete_type_mismatch=0:intercept_tls_get_addr=0
-readonly ETENDUE_LSAN_OPTIONS=suppressions=$ETENDUE_ROOT/cmake/lsan-suppressions.txt
-
 say() { printf '==> %s\n' "$*"; }
 
 # die MESSAGE...: one line per argument on stderr, then exit 1.

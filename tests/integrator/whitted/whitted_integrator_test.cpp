@@ -89,7 +89,7 @@ TEST_P(WhittedRooms, ShowWhatPathTracingShows) {
     EXPECT_NEAR(whitted.alpha, path.alpha, 0.01);
 }
 
-const Room kRooms[] = {
+const Room kWhittedRooms[] = {
     {"DirectLight",
      [](SceneDesc& scene) {
          add_ball(scene, diffuse({0.6f, 0.5f, 0.4f}));
@@ -144,7 +144,7 @@ const Room kRooms[] = {
      {}},
 };
 
-INSTANTIATE_TEST_SUITE_P(All, WhittedRooms, testing::ValuesIn(kRooms),
+INSTANTIATE_TEST_SUITE_P(All, WhittedRooms, testing::ValuesIn(kWhittedRooms),
                          [](const auto& param) { return std::string(param.param.name); });
 
 TEST(Whitted, FollowsBothRaysOfAnInterface) {

@@ -1,0 +1,19 @@
+// Albedo tables that programs of tools/ compute while the project is built; their files are bytes of the program.
+#pragma once
+
+#include "bsdf/ggx_albedo_layout.h"
+#include "bsdf/ggx_anisotropic_albedo_layout.h"
+#include "bsdf/sheen_albedo_layout.h"
+
+namespace etendue {
+
+extern "C" {
+/// By tools/make_ggx_albedo.cpp.
+extern const ggx_albedo_layout::Tables etendue_ggx_albedo;
+/// By tools/make_ggx_anisotropic_albedo.cpp.
+extern const ggx_anisotropic_layout::Tables etendue_ggx_anisotropic_albedo;
+/// By tools/make_sheen_albedo.cpp.
+extern const sheen_albedo_layout::Tables etendue_sheen_albedo;
+}
+
+}  // namespace etendue
