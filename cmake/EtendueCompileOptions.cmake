@@ -17,8 +17,10 @@ if(ETENDUE_SANITIZERS)
 endif()
 
 # For tests and for what runs once per image: compiling their many templates takes longer than optimisation ever saves.
-if(NOT CMAKE_BUILD_TYPE STREQUAL "Debug")
-  set(ETENDUE_QUICK_OPTIONS $<IF:$<BOOL:${ETENDUE_SANITIZERS}>,-O0,-O1>)
+if(ETENDUE_SANITIZERS)
+  set(ETENDUE_QUICK_OPTIONS -O0)
+elseif(NOT CMAKE_BUILD_TYPE STREQUAL "Debug")
+  set(ETENDUE_QUICK_OPTIONS -O1)
 endif()
 
 # etendue_compile_singly(<target>...)

@@ -9,7 +9,7 @@ namespace etendue::test {
 
 namespace {
 
-constexpr std::nullopt_t kUnknown = std::nullopt;
+constexpr std::nullopt_t kNotKnown = std::nullopt;
 
 TEST(TimeLeft, IsTheSumOfTheEstimates) {
     TimeLeft time;
@@ -36,15 +36,15 @@ TEST(TimeLeft, IsCorrectedByWhatHasFinished) {
 
 TEST(TimeLeft, WithoutEstimatesIsTheMeanOfWhatHasFinished) {
     TimeLeft time;
-    for (int i = 0; i < 3; ++i) time.add(kUnknown);
-    EXPECT_EQ(time.left(0.0, 0.0), kUnknown);
-    time.begin(kUnknown);
-    EXPECT_EQ(time.left(1.0, 0.01), kUnknown);
+    for (int i = 0; i < 3; ++i) time.add(kNotKnown);
+    EXPECT_EQ(time.left(0.0, 0.0), kNotKnown);
+    time.begin(kNotKnown);
+    EXPECT_EQ(time.left(1.0, 0.01), kNotKnown);
     EXPECT_EQ(time.left(1.0, 0.25), 3.0 + 2 * 4.0) << "by the image under way";
     time.end(6.0);
     EXPECT_EQ(time.left(0.0, 0.0), 12.0);
-    time.begin(kUnknown);
-    time.end(kUnknown);
+    time.begin(kNotKnown);
+    time.end(kNotKnown);
     EXPECT_EQ(time.left(0.0, 0.0), 6.0) << "one that failed at once says nothing";
 }
 

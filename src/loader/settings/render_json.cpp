@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::int64_t kMaxInt = std::numeric_limits<int>::max();
+constexpr std::int64_t kLargestInt = std::numeric_limits<int>::max();
 constexpr std::int64_t kMaxSide = 65536;
 constexpr std::int64_t kMaxSpp = 1 << 24;
 constexpr std::int64_t kMaxSeed = std::numeric_limits<std::uint32_t>::max();
@@ -51,13 +51,13 @@ constexpr auto kMetals = [] {
 void read_integrator(const Json& value, const SourceLocation& where, ProblemList& problems, IntegratorSettings& out) {
     JsonObject object(value, where, problems);
     object.text("type", out.type);
-    object.integer("max_depth", 1, kMaxInt, out.max_depth);
-    object.integer("min_depth", 1, kMaxInt, out.min_depth);
-    object.integer("roulette_depth", 1, kMaxInt, out.roulette_depth);
+    object.integer("max_depth", 1, kLargestInt, out.max_depth);
+    object.integer("min_depth", 1, kLargestInt, out.min_depth);
+    object.integer("roulette_depth", 1, kLargestInt, out.roulette_depth);
     object.integer("light_samples", 1, kMostLightSamples, out.light_samples);
     object.choice("heuristic", kHeuristics, out.heuristic);
     std::array<int, 2> strategy{};
-    if (object.integers("strategy", 0, kMaxInt, strategy)) out.strategy = strategy;
+    if (object.integers("strategy", 0, kLargestInt, strategy)) out.strategy = strategy;
     object.boolean("weighted", out.weighted);
     std::string connections;
     if (object.text("connections", connections)) {

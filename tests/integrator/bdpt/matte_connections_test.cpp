@@ -17,7 +17,7 @@ namespace etendue::test {
 namespace {
 
 constexpr std::size_t kCount = kBlockLanes - 3;
-constexpr Rgb kAlbedo(0.7f, 0.5f, 0.3f);
+constexpr Rgb kMatteAlbedo(0.7f, 0.5f, 0.3f);
 
 /// Of a number that may be large; grazing directions, where roundings decide, are left out by the caller.
 bool is_near(float value, float expected) {
@@ -51,7 +51,7 @@ class MatteConnectionsIn : public testing::TestWithParam<Heuristic> {
             if (l % 2 != 0) triangle.shading_normal = normalize(cross(triangle.edge1, triangle.edge2)) + vec() * 0.3f;
             lanes.set_hit(l, triangle, {0.5f * random_.next(), 0.5f * random_.next()});
             lanes.wo.set(l, normalize(vec()));
-            lanes.albedo.set(l, kAlbedo);
+            lanes.albedo.set(l, kMatteAlbedo);
             PathVertex& vertex = ends[l].vertex;
             vertex.throughput = {random_.next(), random_.next(), random_.next()};
             vertex.densities = {static_cast<double>(any_magnitude(6.0f)), static_cast<double>(any_magnitude(6.0f))};
@@ -88,7 +88,7 @@ class MatteConnectionsIn : public testing::TestWithParam<Heuristic> {
     }
 
     Random random_{47};
-    Bsdf matte_ = Diffuse{kAlbedo};
+    Bsdf matte_ = Diffuse{kMatteAlbedo};
     Raised raised_{GetParam()};
     WeightRule rule_{raised_, true};
 };
