@@ -1,4 +1,4 @@
-// The subcommands. To add another: a file of its own with one function like these, and one line in main().
+// The subcommands. To add another, see CONTRIBUTING.md (A subcommand).
 #pragma once
 
 #include "app/exit_code.h"

@@ -1,8 +1,6 @@
 // How a surface scatters light at a point: one lobe out of the list below.
 //
-// To add another: bsdf/x.{h,cpp} with a struct that has `evaluate`, `sample` and `has_non_delta` as the others do, and
-// `add_deltas` if some of its samples are deltas, its place in the variant, one overload in
-// world/compile_materials.cpp, and its row in the table of tests/bsdf.
+// To add another, see CONTRIBUTING.md (A lobe).
 #pragma once
 
 #include "bsdf/delta_list.h"

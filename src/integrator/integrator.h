@@ -1,6 +1,6 @@
 // What every light transport algorithm is: something that adds samples to one tile.
 //
-// To add another: a folder with a class that implements `Integrator`, and one line in registry.cpp.
+// To add another, see CONTRIBUTING.md (An integrator).
 #pragma once
 
 #include "film/dropped_sample.h"

@@ -1,8 +1,6 @@
 // All lights, and the choice between them.
 //
-// To add another: a struct with `sample(point, u)`, `sample_emission(u, scene)` with its `emission_pdf(direction, cos,
-// scene)` and `power(scene_radius)`, `bounds()` unless it is at infinity, its place in the variant, one case in
-// world/compile_lights.cpp, one in is_delta_light() if it is a delta, and its row in tests/light.
+// To add another, see CONTRIBUTING.md (A light).
 #pragma once
 
 #include "light/environment_light.h"

@@ -23,7 +23,7 @@ struct LoadOptions {
 
 /// Reads one scene file format.
 ///
-/// To add another: a folder under loader/, a class that implements this, and one line in `scene_loaders()`.
+/// To add another, see CONTRIBUTING.md (A scene format).
 class SceneLoader {
   public:
     virtual ~SceneLoader() = default;

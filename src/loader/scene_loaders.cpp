@@ -1,4 +1,4 @@
-// The formats. To add another, add its line.
+// The formats. To add another, see CONTRIBUTING.md (A scene format).
 
 #include "loader/gltf/gltf_loader.h"
 #include "loader/loader.h"

@@ -342,8 +342,7 @@ void read_overrides(JsonObject& object, RenderJson& out) {
     }
 }
 
-/// The whole document. To add a key, add its line here or in the function of its object, and to the schema and the
-/// docs.
+/// The whole document. To add a key, see CONTRIBUTING.md (A setting).
 void read_document(const Json& value, ProblemList& problems, RenderJson& out) {
     JsonObject object(value, out.location, problems);
     RenderSettings& settings = out.settings;
