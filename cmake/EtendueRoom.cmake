@@ -30,10 +30,9 @@ endfunction()
 
 # etendue_test(<room> SOURCES ... [LINK target...] [SLOW pattern...] [SANITIZED])
 #
-# One test program per room, tests/<room>/, registered with CTest case by case under the label <room>. SLOW: patterns of
-# GoogleTest for those that take longer than a second, which have the label <room>-slow instead. SANITIZED: sanitizers
-# watch it in continuous integration, too, as it reads files, or keeps memory in ways of its own; all others are left to
-# the thorough tests.
+# One test program per room, tests/<room>/. SLOW: regular expressions of suites with tests of more than a second, which
+# 'tools/test quick' leaves out. SANITIZED: sanitizers watch it in continuous integration, too, as it reads files, or keeps
+# memory in ways of its own; all others are left to the thorough tests.
 function(etendue_test room)
   cmake_parse_arguments(ARG "SANITIZED" "" "SOURCES;LINK;SLOW" ${ARGN})
   add_executable(test_${room} ${ARG_SOURCES})
@@ -55,17 +54,6 @@ function(etendue_test room)
     set_tests_properties(${room} PROPERTIES LABELS "${room};${ARG_SANITIZED}" TIMEOUT 5400
       ENVIRONMENT "ETENDUE_TEST_OUTPUT=${PROJECT_BINARY_DIR}/test-output")
   else()
-    list(JOIN ARG_SLOW ":" slow)
-    etendue_discover_tests(${room} ${room} "-${slow}")
-    if(slow)
-      etendue_discover_tests(${room} ${room}-slow "${slow}")
-    endif()
+    etendue_discover_suites(${room} SLOW ${ARG_SLOW})
   endif()
-endfunction()
-
-function(etendue_discover_tests room label filter)
-  gtest_discover_tests(test_${room} TEST_PREFIX "${room}." TEST_FILTER "${filter}" TEST_LIST ${label}_tests
-    DISCOVERY_TIMEOUT 120
-    PROPERTIES LABELS ${label} TIMEOUT 600
-    ENVIRONMENT_MODIFICATION "ETENDUE_TEST_OUTPUT=set:${PROJECT_BINARY_DIR}/test-output")
 endfunction()
