@@ -215,12 +215,15 @@ std::vector<float> Film::resolve_variance() const {
     for (std::size_t i = 0; i < pixels_.size(); ++i) {
         const PixelSum& p = pixels_[i];
         const double scale = scale_of(p);
-        const double others = p.samples > 1 ? 1.0 / static_cast<double>(p.samples - 1) : 0.0;
-        const std::span<const double> squares = layers_.sums(i).subspan(first, 3);
+        // Of samples that are as far from the mean of all as from their own, one is too many.
+        const auto count = static_cast<double>(p.samples);
+        const double unbiased = p.samples > 1 ? count / (count - 1.0) : 0.0;
+        const std::span<const double> moments = layers_.sums(i).subspan(first, LayerLayout::kMomentSums);
         const double sums[3] = {p.r, p.g, p.b};
         for (std::size_t c = 0; c < 3; ++c) {
             const double mean = sums[c] * scale;
-            variance.push_back(static_cast<float>(std::max(0.0, squares[c] * scale - mean * mean) * others));
+            const double squares = moments[c] - 2.0 * mean * moments[3 + c] + mean * mean * moments[6];
+            variance.push_back(static_cast<float>(std::max(0.0, squares) * scale * scale * unbiased));
         }
     }
     if (splats_) splats_->add_variance_to(variance, window_);

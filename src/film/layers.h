@@ -19,15 +19,18 @@ struct LayerLayout {
     std::size_t light = 0;        ///< radiance of some of the paths, three sums each; splats fall into these, too
     std::size_t values = 0;       ///< numbers that are averaged
     std::size_t nearest = 0;      ///< numbers of the nearest sample
-    bool has_moments = false;     ///< squares of radiance, for its variance: three sums
+    bool has_moments = false;     ///< what the variance of radiance is made of: see LayerBuffer::add_moments
     bool has_ray_counts = false;  ///< rays that the samples of the pixel took
     std::size_t mattes = 0;       ///< lists of ids, of Cryptomatte
     std::size_t matte_slots = 0;  ///< ids in each of them, at most
     bool is_deep = false;         ///< bins of depth
 
+    /// Three of squares, three of means and one of weights.
+    static constexpr std::size_t kMomentSums = 7;
+
     [[nodiscard]] std::size_t value_sums() const { return 3 * light; }
     [[nodiscard]] std::size_t moment_sums() const { return value_sums() + values; }
-    [[nodiscard]] std::size_t ray_sum() const { return moment_sums() + (has_moments ? 3 : 0); }
+    [[nodiscard]] std::size_t ray_sum() const { return moment_sums() + (has_moments ? kMomentSums : 0); }
     /// Sums of a pixel, 8 bytes each; the functions above say where the later kinds begin.
     [[nodiscard]] std::size_t sums() const { return ray_sum() + (has_ray_counts ? 1 : 0); }
     /// Bytes of a pixel in a LayerBuffer, at most; `with_splats` if it gets such.
@@ -88,6 +91,15 @@ class LayerBuffer {
         sum[0] += weight * static_cast<double>(value.r);
         sum[1] += weight * static_cast<double>(value.g);
         sum[2] += weight * static_cast<double>(value.b);
+    }
+    /// Adds a sample to what the variance of a pixel's mean, a ratio of sums, is made of: w² r², w² r and w², by which
+    /// the squares of w (r - mean) are known once the mean is. Filters with negative parts need all three.
+    void add_moments(std::size_t pixel, const Rgb& radiance, double weight) {
+        const std::size_t first = layout_.moment_sums();
+        const double squared = weight * weight;
+        add_rgb(pixel, first, radiance * radiance, squared);
+        add_rgb(pixel, first + 3, radiance, squared);
+        sums_[pixel * layout_.sums() + first + 6] += squared;
     }
     /// Keeps `values` if no earlier sample was as near; of equally near ones, the first.
     void add_nearest(std::size_t pixel, float distance, std::span<const float> values) {

@@ -126,7 +126,7 @@ void add_to_layers(const TileJob& job, const CameraSample& sample, std::size_t s
     for (std::size_t layer = 0; layer < parts.size(); ++layer)
         layers.add_rgb(sample.pixel, 3 * layer, parts[layer], weight);
     if (job.aovs != nullptr && job.aovs->buckets.count > 0) add_to_bucket(job.aovs->buckets, sample, radiance, layers);
-    if (layout.has_moments) layers.add_rgb(sample.pixel, layout.moment_sums(), radiance * radiance, weight);
+    if (layout.has_moments) layers.add_moments(sample.pixel, radiance, weight);
     if (layout.has_ray_counts) layers.sums(sample.pixel)[layout.ray_sum()] += static_cast<double>(light.rays(slot));
 }
 

@@ -3,6 +3,7 @@
 #include "app/forked.h"
 #include "app/small_files.h"
 #include "core/error.h"
+#include "support/file_calls.h"
 
 #include <filesystem>
 #include <sstream>
@@ -63,6 +64,15 @@ TEST_F(Ledger, HasALineForEachEventWithWhatIsKnown) {
     EXPECT_EQ(failed["seconds"], 1.5);
     EXPECT_FALSE(failed.contains("exit_code"));
     EXPECT_EQ(failed["time"].get<std::string>().size(), std::string("2026-11-22T14:03:07.123Z").size());
+}
+
+TEST_F(Ledger, EveryLineIsOnTheDiskWhenItIsAppended) {
+    const FileCalls calls;
+    for (std::size_t line = 1; line <= 2; ++line) {
+        append(LedgerEventKind::UnitFinished, "box");
+        ASSERT_EQ(calls.all().size(), line);
+        EXPECT_EQ(calls.all().back(), fmt::format("fsync ledger.jsonl {}", std::filesystem::file_size(path_)));
+    }
 }
 
 TEST_F(Ledger, ATornLineStaysAlone) {

@@ -4,6 +4,7 @@
 #include "app/run_program.h"
 #include "app/small_files.h"
 #include "core/error.h"
+#include "support/file_calls.h"
 
 #include <chrono>
 #include <filesystem>
@@ -95,6 +96,27 @@ TEST_F(BatchLockTest, OfAnotherMachineIsTakenOverWhenItWasNotTouchedForLong) {
     const LockAttempt got = locks_.take("box");
     ASSERT_TRUE(got.lock);
     EXPECT_TRUE(got.lock->dead_owner()->machine.starts_with("elsewhere"));
+}
+
+// Servers of network file systems have clocks of their own, which give files their times.
+TEST_F(BatchLockTest, IsAsOldAsTheClockOfItsFilesSays) {
+    for (const int ahead : {-1000, 1000}) {
+        const ServerClock server{std::chrono::seconds(ahead)};
+        const std::string image = fmt::format("box {}", ahead);
+        let_somebody_die(image);
+        move_elsewhere(100 - ahead);
+        EXPECT_FALSE(locks_.take(image).lock) << "it is 100 s old: the server is ahead by " << ahead;
+        move_elsewhere(200 - ahead);
+        EXPECT_TRUE(locks_.take(image).lock) << "it is 200 s old: the server is ahead by " << ahead;
+    }
+}
+
+TEST_F(BatchLockTest, IsOnTheDiskBeforeItIsHeld) {
+    const FileCalls calls;
+    const LockAttempt got = locks_.take("box");
+    ASSERT_EQ(calls.all().size(), 1u);
+    EXPECT_EQ(calls.all().front(),
+              fmt::format("fsync {} {}", lock_file().filename().string(), fs::file_size(lock_file())));
 }
 
 TEST_F(BatchLockTest, ThatSaysNothingIsNobodysOnceItIsOld) {

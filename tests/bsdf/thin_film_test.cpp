@@ -85,6 +85,28 @@ TEST(ThinFilm, IsCloseToTheExactSumOverWavelengths) {
                 }
 }
 
+struct KnownFilm {
+    float film_ior;
+    float thickness_nm;
+    float base_ior;
+    float cos_above;
+    Rgb color;
+};
+
+// The same fit in double precision, by a program of its own from the formulas of KHR_materials_iridescence.
+TEST(ThinFilm, IsTheFitOfTheExtension) {
+    for (const KnownFilm& known : {KnownFilm{1.3f, 100.0f, 1.5f, 1.0f, {0.00313f, 0.00443f, 0.00755f}},
+                                   KnownFilm{1.8f, 250.0f, 1.5f, 1.0f, {0.15755f, 0.10913f, 0.04390f}},
+                                   KnownFilm{1.8f, 800.0f, 2.0f, 0.5f, {0.11801f, 0.10733f, 0.10756f}},
+                                   KnownFilm{1.33f, 350.0f, 1.2f, 0.8f, {0.03253f, 0.03618f, 0.01466f}}}) {
+        const float root = (known.base_ior - 1.0f) / (known.base_ior + 1.0f);
+        const Rgb color = film(known.film_ior, known.thickness_nm).reflectance(Rgb(root * root), known.cos_above);
+        EXPECT_NEAR(color.r, known.color.r, 1e-4f) << known.thickness_nm << " nm";
+        EXPECT_NEAR(color.g, known.color.g, 1e-4f) << known.thickness_nm << " nm";
+        EXPECT_NEAR(color.b, known.color.b, 1e-4f) << known.thickness_nm << " nm";
+    }
+}
+
 TEST(ThinFilm, AThickOneHasNoColour) {
     const Rgb color = film(1.5f, 20'000.0f).reflectance(Rgb(0.1f), 0.9f);
     EXPECT_NEAR(color.r, color.g, 1e-3f);

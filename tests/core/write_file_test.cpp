@@ -1,6 +1,7 @@
 #include "core/write_file.h"
 
 #include "core/error.h"
+#include "support/file_calls.h"
 #include "support/temporary_folder.h"
 
 #include <cerrno>
@@ -54,6 +55,21 @@ TEST(WriteText, WritesAndReplaces) {
     write_text(path, "2nd");
     EXPECT_EQ(text_of(path), "2nd");
     EXPECT_EQ(folder.file_count(), 1u) << "no temporary file stays";
+}
+
+// After a loss of power the name stands for all bytes or for the old ones: docs/reliability.md.
+TEST(WriteFile, BytesAreOnTheDiskBeforeTheName) {
+    const TemporaryFolder folder;
+    const FileCalls calls;
+    write_file(folder / "a.json", [&](const ByteSink& sink) {
+        sink(std::as_bytes(std::span("first ", 6)));
+        sink(std::as_bytes(std::span("second", 6)));
+    });
+    ASSERT_EQ(calls.all().size(), 2u);
+    const std::string& synced = calls.all()[0];
+    const std::string& renamed = calls.all()[1];
+    ASSERT_TRUE(renamed.starts_with("rename .a.json.")) << renamed;
+    EXPECT_EQ(synced, "fsync " + renamed.substr(7) + " 12");
 }
 
 TEST(WriteText, FollowsLinks) {

@@ -50,6 +50,55 @@ TEST(Film, DividesByTheFilterWeights) {
     EXPECT_FLOAT_EQ(image[4], 0.0f);
 }
 
+// Of the mean of two samples 1 and 4 the variance is estimated by half the square of their distance, over two.
+TEST(Film, VarianceIsThatOfTheMeanOfTwoKnownSamples) {
+    const LayerLayout layout{.has_moments = true};
+    Film film(1, 1, {0, 0, 1, 1}, {0, 0, 1, 1}, layout);
+    TileBuffer tile;
+    tile.reset({0, 0, 1, 1}, layout);
+    for (const Rgb& sample : {Rgb(1.0f, 2.0f, 5.0f), Rgb(4.0f, 2.0f, 3.0f)}) {
+        tile.pixel(0).add(sample, 1.0f, 1.0f);
+        tile.layers().add_moments(0, sample, 1.0);
+    }
+    film.add(tile);
+    const std::vector<float> variance = film.resolve_variance();
+    ASSERT_EQ(variance.size(), 3u);
+    EXPECT_FLOAT_EQ(variance[0], 2.25f);
+    EXPECT_FLOAT_EQ(variance[1], 0.0f);
+    EXPECT_FLOAT_EQ(variance[2], 1.0f);
+}
+
+// Of a filter with negative parts the mean is a ratio. Here it is 1, and the squares of what is weighted are those of
+// 0, 1.2, 2.4 and -3.6: 20.16 over the square of the weight, 2.4, and three quarters.
+TEST(Film, VarianceIsThatOfARatioWhereWeightsAreNegative) {
+    const LayerLayout layout{.has_moments = true};
+    Film film(1, 1, {0, 0, 1, 1}, {0, 0, 1, 1}, layout);
+    TileBuffer tile;
+    tile.reset({0, 0, 1, 1}, layout);
+    for (const float value : {1.0f, 2.0f, 3.0f, 4.0f}) {
+        const float weight = value < 4.0f ? 1.2f : -1.2f;
+        tile.pixel(0).add(Rgb(value), 1.0f, weight);
+        tile.layers().add_moments(0, Rgb(value), static_cast<double>(weight));
+    }
+    film.add(tile);
+    EXPECT_FLOAT_EQ(film.resolve()[0], 1.0f);
+    EXPECT_NEAR(film.resolve_variance()[0], 20.16f / (2.4f * 2.4f) / 0.75f, 1e-5f);
+}
+
+// Two light paths, one of which leaves 3: the mean is 1.5, and the sum of squares less that of the mean is 4.5, over
+// the square of the number of paths.
+TEST(Film, VarianceOfSplatsIsThatOfTheSumOverKnownLightPaths) {
+    const LayerLayout layout{.has_moments = true};
+    Film film(1, 1, {0, 0, 1, 1}, {0, 0, 1, 1}, layout);
+    const std::vector<std::vector<Splat>> lists{{{.position = {0.5f, 0.5f}, .value = {3.0f, 0.0f, 6.0f}}}};
+    film.add_splats(lists, 2, PixelFilter(FilterShape::Box), ThreadPool(1));
+    const std::vector<float> variance = film.resolve_variance();
+    ASSERT_EQ(variance.size(), 3u);
+    EXPECT_FLOAT_EQ(variance[0], 4.5f / 4.0f);
+    EXPECT_FLOAT_EQ(variance[1], 0.0f);
+    EXPECT_FLOAT_EQ(variance[2], 18.0f / 4.0f);
+}
+
 TEST(Film, WindowsPlaceTilesByTheFullImagesCoordinates) {
     const PixelRect window{10, 20, 14, 23};
     Film film(100, 50, window);

@@ -1,6 +1,7 @@
 #include "film/mattes.h"
 
 #include "film/film.h"
+#include "film/wave_hits.h"
 #include "support/random.h"
 
 #include <bit>
@@ -102,6 +103,23 @@ TEST(Film, MattesAreSharesOfThePixelsOwnWeight) {
     }
     EXPECT_EQ(film.resolve_matte(0, 2), (std::vector<float>{1.0f, 0.75f, 0.0f, 0.0f, 2.0f, 0.5f, 3.0f, 0.0625f}));
     EXPECT_EQ(film.resolve_matte(0, 1), (std::vector<float>{1.0f, 0.75f, 2.0f, 0.5f}));
+}
+
+// A sample of a filter with negative parts counts for its coverage as much as for its alpha.
+TEST(WaveHits, MattesAndNumbersHaveTheFiltersWeight) {
+    const LayerLayout layout{.values = 1, .mattes = 1, .matte_slots = 4};
+    WaveHits hits;
+    hits.reset(layout, 1, 2);
+    for (const std::size_t sample : {0, 1}) {
+        hits.set_distance(sample, 1.0f);
+        hits.values(sample)[0] = 3.0f;
+        hits.ids(sample)[0] = 7;
+    }
+    LayerBuffer layers(layout, 1);
+    hits.add_to(layers, 0, 0, 1.5);
+    hits.add_to(layers, 0, 1, -0.25);
+    EXPECT_EQ(pairs(layers.mattes().ranked(0, 0)), (Pairs{{7, 1.25}}));
+    EXPECT_EQ(layers.sums(0)[layout.value_sums()], 3.75);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -108,6 +109,38 @@ TEST(PixelFilter, MitchellsSamplesCountNegativelyWhereTheFilterIs) {
     bool negative = false;
     for (int i = 0; i < 2000 && !negative; ++i) negative = filter.sample(random.next_2d()).weight < 0.0f;
     EXPECT_TRUE(negative);
+}
+
+// Harris, "On the Use of Windows for Harmonic Analysis with the Discrete Fourier Transform" (1978), table 1: the four
+// terms of the window of -92 dB. Over its mean, the first term, and the width of 3 pixels.
+TEST(PixelFilter, BlackmanHarrisIsThePublishedWindow) {
+    const PixelFilter filter(FilterShape::BlackmanHarris);
+    constexpr double kTerms[] = {0.35875, 0.48829, 0.14128, 0.01168};
+    for (const double t : {0.0, 0.25, 0.5, 0.75, 0.95}) {
+        double window = 0.0;
+        for (int k = 0; k < 4; ++k) window += kTerms[k] * std::cos(k * std::numbers::pi * t);
+        EXPECT_NEAR(static_cast<double>(filter.evaluate(static_cast<float>(1.5 * t))), window / kTerms[0] / 3.0, 3e-6)
+            << t;
+    }
+}
+
+// Mitchell and Netravali's cubic of B = C = 1/3: 8/9 in the middle, 1/18 at one pixel and -5/144 at one
+// and a half.
+TEST(PixelFilter, MitchellIsThePublishedCubic) {
+    const PixelFilter filter(FilterShape::Mitchell);
+    EXPECT_NEAR(filter.evaluate(0.0f), 8.0f / 9.0f, 1e-5f);
+    EXPECT_NEAR(filter.evaluate(1.0f), 1.0f / 18.0f, 1e-5f);
+    EXPECT_NEAR(filter.evaluate(1.5f), -5.0f / 144.0f, 1e-5f);
+}
+
+// exp(-4.5 t²) less its value at the edge.
+TEST(PixelFilter, GaussianFallsByItsStandardDeviationAThirdOfTheRadius) {
+    const PixelFilter filter(FilterShape::Gaussian);
+    const double edge = std::exp(-4.5);
+    for (const double t : {0.25, 0.5, 0.75})
+        EXPECT_NEAR(static_cast<double>(filter.evaluate(static_cast<float>(1.5 * t)) / filter.evaluate(0.0f)),
+                    (std::exp(-4.5 * t * t) - edge) / (1.0 - edge), 1e-5)
+            << t;
 }
 
 TEST(PixelFilter, TheBoxIsFlat) {

@@ -26,24 +26,7 @@ MaterialDesc tinted_air(int priority = 0, float left = 0.25f) {
 
 /// A box 4 metres wide whose faces at z = `front` and `back` the camera looks through.
 PrimitiveDesc slab(float front, float back) {
-    const float middle = 0.5f * (front + back);
-    const Vec3f x(4.0f, 0.0f, 0.0f);
-    const Vec3f y(0.0f, 4.0f, 0.0f);
-    const Vec3f z(0.0f, 0.0f, front - back);
-    PrimitiveDesc box;
-    const auto add_face = [&](const Vec3f& center, const Vec3f& u, const Vec3f& v) {
-        const PrimitiveDesc face = parallelogram(center, u, v);
-        const auto first = static_cast<std::uint32_t>(box.positions.size());
-        box.positions.insert(box.positions.end(), face.positions.begin(), face.positions.end());
-        for (const auto& t : face.triangles) box.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-    };
-    add_face({0.0f, 0.0f, front}, x, y);
-    add_face({0.0f, 0.0f, back}, y, x);
-    add_face({2.0f, 0.0f, middle}, y, z);
-    add_face({-2.0f, 0.0f, middle}, z, y);
-    add_face({0.0f, 2.0f, middle}, z, x);
-    add_face({0.0f, -2.0f, middle}, x, z);
-    return box;
+    return box({-2.0f, -2.0f, back}, {2.0f, 2.0f, front});
 }
 
 SceneDesc empty_in_environment() {
@@ -101,6 +84,43 @@ std::vector<ClosedFormCase> absorption_cases() {
                        16};
     cases.push_back(lit);
     return cases;
+}
+
+/// A body that light passes only by diffuse transmission, of which a quarter is left after one metre.
+MaterialDesc frosted_air() {
+    MaterialDesc m = tinted_air();
+    m.transmission = 0.0f;
+    m.specular = 0.0f;
+    m.roughness = 1.0f;
+    m.diffuse_transmission.factor = 1.0f;
+    return m;
+}
+
+/// Light that is sampled for a boundary comes from the side that the path does not, through what fills that one.
+std::vector<ClosedFormCase> matte_boundary_cases() {
+    std::vector<ClosedFormCase> cases;
+    const auto with_lamp = [&](const std::string& name, const PrimitiveDesc& body, float lamp, double radiance) {
+        SceneDesc scene = empty_in_environment();
+        scene.environment.enabled = false;
+        add(scene, body, frosted_air());
+        add_light(scene, LightType::Point, 2.0f, {0.0f, 0.0f, lamp});
+        cases.push_back({name, scene, radiance, 1e-4, {.max_depth = 2}, kFindDeltaLights, 16});
+    };
+    with_lamp("lamp_behind_a_matte_boundary", slab(-1.0f, -3.0f), -2.0f, 2.0 / kPiD * 0.25);
+    with_lamp("lamp_before_a_matte_boundary", slab(0.5f, -1.0f), -3.0f, 2.0 / kPiD / 4.0 * 0.25);
+    return cases;
+}
+
+// From a floor in two bodies at once, of which the one with priority goes on beyond the boundary of the other: no light
+// sample passes that, so what a path meets behind it counts in full. All around is as bright.
+ClosedFormCase hidden_boundary_case() {
+    SceneDesc scene = empty_in_environment();
+    scene.environment.enabled = false;
+    add(scene, sphere({0.0f, 0.0f, 0.0f}, 5.0f, 2, Facing::Inwards), emitter(1.0f));
+    add(scene, sphere({0.0f, 0.0f, 0.0f}, 9.0f, 2, Facing::Outwards), tinted_air(1, 1.0f));
+    add(scene, slab(0.5f, -2.0f), tinted_air(0, 1.0f));
+    add(scene, parallelogram({0.0f, 0.0f, -1.0f}, {1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}), diffuse(kAlbedo));
+    return {"lamp_behind_a_hidden_boundary", scene, kRho, 1e-5, {.max_depth = 2}, kFindAllBounces, 16};
 }
 
 ClosedFormCase lossless(const std::string& name, SceneDesc scene, double tolerance,
@@ -180,6 +200,8 @@ std::vector<ClosedFormCase> lossless_cases() {
 std::vector<ClosedFormCase> body_cases() {
     std::vector<ClosedFormCase> cases = absorption_cases();
     for (ClosedFormCase& c : lossless_cases()) cases.push_back(std::move(c));
+    for (ClosedFormCase& c : matte_boundary_cases()) cases.push_back(std::move(c));
+    cases.push_back(hidden_boundary_case());
     return cases;
 }
 

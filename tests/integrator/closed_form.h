@@ -69,6 +69,9 @@ struct ClosedFormCase {
 /// Partly transparent cards, lights and films.
 [[nodiscard]] std::vector<ClosedFormCase> transparency_cases();
 
+/// Lamps together with an environment.
+[[nodiscard]] std::vector<ClosedFormCase> mixed_light_cases();
+
 /// A latitude-longitude image of max(0, direction · axis) in a file that lives as long as this.
 class CosineImage {
   public:

@@ -106,6 +106,28 @@ PrimitiveDesc quad_facing_down(const Vec3f& center, float size) {
     return parallelogram(center, {size, 0.0f, 0.0f}, {0.0f, 0.0f, size});
 }
 
+PrimitiveDesc box(const Vec3f& low, const Vec3f& high) {
+    const Vec3f middle = (low + high) * 0.5f;
+    const Vec3f size = high - low;
+    const Vec3f x(size.x, 0.0f, 0.0f);
+    const Vec3f y(0.0f, size.y, 0.0f);
+    const Vec3f z(0.0f, 0.0f, size.z);
+    PrimitiveDesc all;
+    const auto add_face = [&](const Vec3f& center, const Vec3f& u, const Vec3f& v) {
+        const PrimitiveDesc face = parallelogram(center, u, v);
+        const auto first = static_cast<std::uint32_t>(all.positions.size());
+        all.positions.insert(all.positions.end(), face.positions.begin(), face.positions.end());
+        for (const auto& t : face.triangles) all.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    };
+    add_face({middle.x, middle.y, high.z}, x, y);
+    add_face({middle.x, middle.y, low.z}, y, x);
+    add_face({high.x, middle.y, middle.z}, y, z);
+    add_face({low.x, middle.y, middle.z}, z, y);
+    add_face({middle.x, high.y, middle.z}, z, x);
+    add_face({middle.x, low.y, middle.z}, x, z);
+    return all;
+}
+
 PrimitiveDesc disk_facing_down(const Vec3f& center, float radius, int segments) {
     PrimitiveDesc p;
     p.positions.push_back(center);

@@ -25,6 +25,8 @@ inline constexpr double kPiD = std::numbers::pi;
 /// A square of side `size` in a plane of constant y.
 [[nodiscard]] PrimitiveDesc quad_facing_up(const Vec3f& center, float size);
 [[nodiscard]] PrimitiveDesc quad_facing_down(const Vec3f& center, float size);
+/// A closed box between two corners, its fronts outside.
+[[nodiscard]] PrimitiveDesc box(const Vec3f& low, const Vec3f& high);
 /// A regular polygon of `segments` corners on a circle, facing -Y.
 [[nodiscard]] PrimitiveDesc disk_facing_down(const Vec3f& center, float radius, int segments);
 enum class Facing { Outwards, Inwards };

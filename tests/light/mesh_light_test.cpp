@@ -278,6 +278,14 @@ TEST(MeshLight, PowerIsRadianceTimesPiTimesAreaPerSide) {
     EXPECT_NEAR(make_light(triangles, true).power(1.0f), 2.0f * kPi * 2.0f * 4.0f, 1e-3f);
 }
 
+// Where a texture darkens the light, its mean counts and not the factor.
+TEST(MeshLight, PowerIsOfTheMeanRadiance) {
+    const std::vector<LightTriangle> triangles = quad_triangles(Vec3f(0.0f), {1, 0, 0}, {0, 0.5f, 0});
+    const MeshLight light(triangles, Rgb(8.0f), {0.5f, 1.0f, 3.0f}, false, false, true, Vec3f(0.0f));
+    EXPECT_NEAR(light.power(1.0f), kPi * 2.0f * 1.5f, 1e-4f);
+    EXPECT_NEAR(light.bounds().power, static_cast<double>(light.power(1.0f)), 1e-6);
+}
+
 }  // namespace
 
 }  // namespace etendue::test

@@ -48,6 +48,15 @@ TEST(ErrorMetrics, TrimsOneInAThousand) {
     EXPECT_NEAR(m.rel_mse, (1997.0 * small + 4.0 + 999.0 * 999.0 + 499.0 * 499.0) / 1.01 / 2000.0, 1e-6);
 }
 
+TEST(ErrorMetrics, TheOneTermThatIsTrimmedIsTheLargest) {
+    std::vector<float> image(1500, 1.0f);
+    const std::vector<float> reference(1500, 1.0f);
+    image[0] = 2.0f;
+    image[700] = 1000.0f;
+    const ErrorMetrics m = compute_error_metrics(row(image), row(reference));
+    EXPECT_NEAR(m.rel_mse_trimmed, 1.0 / 1.01 / 1499.0, 1e-12);
+}
+
 TEST(ErrorMetrics, AreMeansOverChannelsToo) {
     ImageF image(1, 1, 3);
     image.pixels = {1.0f, 0.0f, 0.0f};

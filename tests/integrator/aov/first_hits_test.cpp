@@ -1,6 +1,7 @@
 // Layers of the surfaces that camera rays meet, and of what their samples cost and how far they vary.
 #include "integrator/agreement_render.h"
 #include "integrator/aov/layered_render.h"
+#include "integrator/closed_form_scene.h"
 #include "world/test_scene.h"
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -125,6 +127,33 @@ TEST(FirstHits, NothingScattersMoreLightThanItGets) {
     }
 }
 
+// What enters glass is scaled by its index, which is no loss: smooth glass gives back all that it gets, sample by
+// sample. Rough glass does in the mean: of 3072 pixels with 16 samples of at most some two each, five deviations are
+// below 0.02.
+TEST(FirstHits, LosslessGlassHasAnAlbedoOfOne) {
+    for (const float roughness : {0.0f, 0.3f}) {
+        SceneDesc scene = empty_scene();
+        scene.settings.film.width = kAgreementWidth;
+        scene.settings.film.height = kAgreementHeight;
+        MaterialDesc glass;
+        glass.override_model = DielectricDesc{1.5f, roughness};
+        add(scene, sphere({0, 0, -2}, 1.9f, 3, Facing::Outwards), glass);
+        const World world = compile(std::move(scene));
+        AgreementCase room{"Glass", {}};
+        room.spp = 4;
+        const std::vector<float> albedo =
+            render_layers(world, "path", room, layers_of({FirstHitValue::Albedo}, {}), 1).film.resolve_values(0, 3);
+        double mean = 0.0;
+        for (const float share : albedo) {
+            if (roughness == 0.0f) {
+                EXPECT_NEAR(share, 1.0f, 1e-4f);
+            }
+            mean += static_cast<double>(share) / static_cast<double>(albedo.size());
+        }
+        EXPECT_NEAR(mean, 1.0, 0.02) << "roughness " << roughness;
+    }
+}
+
 /// The motion of a wall that faces the camera 2 m before it, in the middle pixels; `camera_way` is the camera's own.
 Vec2f motion_of_wall(const Vec3f& way, const Vec3f& camera_way) {
     SceneDesc scene = empty_scene();
@@ -179,10 +208,18 @@ TEST(RayCounts, AddUpToAllRays) {
     }
 }
 
-class VarianceLayer : public testing::TestWithParam<const char*> {};
+struct VarianceRun {
+    std::string integrator;
+    FilterShape filter;
+};
+void PrintTo(const VarianceRun& run, std::ostream* out) {
+    *out << run.integrator;
+}
+
+class VarianceLayer : public testing::TestWithParam<VarianceRun> {};
 
 // With independent samples the estimates have the variance over seeds as their mean. The tolerance is five times the
-// deviation that was seen over sets of seeds.
+// deviation that was seen over sets of seeds. Weights of Mitchell's filter are of both signs.
 TEST_P(VarianceLayer, IsTheVarianceOverSeeds) {
     constexpr std::uint32_t kSeeds = 64;
     const AgreementCase room = small_room("LampDiffuse", 16);
@@ -191,6 +228,7 @@ TEST_P(VarianceLayer, IsTheVarianceOverSeeds) {
     const std::atomic<bool> stop{false};
     RenderOptions options = render_options(room);
     options.sequence = SampleSequence::Random;
+    options.filter = PixelFilter(GetParam().filter);
     auto aovs = std::make_shared<AovSet>();
     aovs->layout.has_moments = true;
     options.aovs = aovs;
@@ -198,7 +236,7 @@ TEST_P(VarianceLayer, IsTheVarianceOverSeeds) {
     std::vector<double> squares(sums.size(), 0.0);
     double estimated = 0.0;
     for (options.seed = 0; options.seed < kSeeds; ++options.seed) {
-        const auto integrator = make_integrator(GetParam(), {.lengths = room.lengths});
+        const auto integrator = make_integrator(GetParam().integrator, {.lengths = room.lengths});
         const Film film = render(world, *integrator, options, threads, stop, {}).film;
         const std::vector<float> image = film.resolve();
         for (std::size_t i = 0; i < sums.size(); ++i) {
@@ -213,8 +251,10 @@ TEST_P(VarianceLayer, IsTheVarianceOverSeeds) {
     EXPECT_NEAR(estimated / seen, 1.0, 0.1);
 }
 
-INSTANTIATE_TEST_SUITE_P(Integrators, VarianceLayer, testing::Values("path", "light", "bdpt"),
-                         [](const auto& each) { return std::string(each.param); });
+INSTANTIATE_TEST_SUITE_P(Integrators, VarianceLayer,
+                         testing::Values(VarianceRun{"path", FilterShape::Mitchell},
+                                         VarianceRun{"light", FilterShape::Box}, VarianceRun{"bdpt", FilterShape::Box}),
+                         [](const auto& each) { return each.param.integrator; });
 
 }  // namespace
 

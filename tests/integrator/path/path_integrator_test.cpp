@@ -2,6 +2,7 @@
 // standard errors where there is noise.
 #include "integrator/path/path_integrator.h"
 
+#include "integrator/closed_form_scene.h"
 #include "integrator/render_tile.h"
 #include "integrator/walk.h"
 #include "world/test_scene.h"
@@ -16,6 +17,9 @@ namespace etendue::test {
 
 namespace {
 
+/// Of means of samples without noise, relative to at most 2.
+constexpr double kRounding = 1e-5;
+
 PathIntegrator path_of(int max_depth, int min_depth = 1, bool sample_lights = true, int roulette_depth = 3) {
     return PathIntegrator({.lengths = {max_depth, min_depth, roulette_depth}, .sample_lights = sample_lights});
 }
@@ -27,15 +31,12 @@ SceneDesc with_environment(float radiance) {
     return scene;
 }
 
-/// The camera sits inside a sphere that emits `radiance` and reflects `albedo`: every further bounce adds the same.
+/// The camera sits inside a polyhedron that emits `radiance` and reflects `albedo`: every further bounce adds the same.
 SceneDesc glowing_sphere(float radiance, float albedo) {
     SceneDesc scene = empty_scene();
-    MaterialDesc wall = diffuse(Rgb(albedo));
+    MaterialDesc wall = diffuse(albedo);
     wall.emissive = Rgb(radiance);
-    PrimitiveDesc inside = sphere(Vec3f(0.0f), 2.0f, 12);
-    for (auto& triangle : inside.triangles) std::swap(triangle[1], triangle[2]);
-    for (Vec3f& n : inside.normals) n = -n;
-    add_object(scene, std::move(inside), add_material(scene, wall));
+    add(scene, sphere(Vec3f(0.0f), 2.0f, 2, Facing::Inwards), wall);
     return scene;
 }
 
@@ -47,9 +48,9 @@ TEST(PathIntegrator, DepthCountsEdges) {
         expected += 0.5 * std::pow(0.5, depth - 1);
         for (const bool sample_lights : {true, false}) {
             const TileResult all = render_tile(world, path_of(depth, 1, sample_lights), 256);
-            EXPECT_NEAR(all.mean.g, expected, 5.0 * all.error + 2e-3) << depth << " edges";
+            EXPECT_NEAR(all.mean.g, expected, 5.0 * all.error + kRounding) << depth << " edges";
             const TileResult last = render_tile(world, path_of(depth, depth, sample_lights), 256);
-            EXPECT_NEAR(last.mean.g, 0.5 * std::pow(0.5, depth - 1), 5.0 * last.error + 2e-3) << "only " << depth;
+            EXPECT_NEAR(last.mean.g, 0.5 * std::pow(0.5, depth - 1), 5.0 * last.error + kRounding) << "only " << depth;
         }
     }
 }
@@ -58,7 +59,7 @@ TEST(PathIntegrator, RouletteDoesNotChangeTheMean) {
     const World world = compile(glowing_sphere(0.5f, 0.5f));
     for (const int roulette_depth : {1, 3}) {
         const TileResult result = render_tile(world, path_of(64, 1, true, roulette_depth), 512);
-        EXPECT_NEAR(result.mean.g, 1.0, 5.0 * result.error + 3e-3);
+        EXPECT_NEAR(result.mean.g, 1.0, 5.0 * result.error + kRounding);
     }
 }
 
@@ -75,25 +76,27 @@ TEST(PathIntegrator, RouletteKeepsLightInGlass) {
     SceneDesc scene = with_environment(1.0f);
     MaterialDesc glass;
     glass.override_model = DielectricDesc{1.8f, 0.0f};
-    add_object(scene, sphere({0, 0, -3}, 1.2f, 24), add_material(scene, glass));
+    add(scene, sphere({0, 0, -3}, 1.2f, 3, Facing::Outwards), glass);
     const World world = compile(std::move(scene));
     for (const int roulette_depth : {1, 64}) {
         const TileResult result = render_tile(world, path_of(256, 1, true, roulette_depth), 1024);
-        EXPECT_NEAR(result.mean.g, 1.0, 5.0 * result.error + 3e-3) << "roulette after " << roulette_depth;
+        EXPECT_NEAR(result.mean.g, 1.0, 5.0 * result.error + kRounding) << "roulette after " << roulette_depth;
+        EXPECT_LT(result.error, 1e-3) << "it has next to nothing to end";
         EXPECT_EQ(result.counters.dropped, 0u);
     }
 }
 
 TEST(PathIntegrator, AConvexBodyInAConstantEnvironmentShowsItsAlbedo) {
     SceneDesc scene = with_environment(2.0f);
-    add_object(scene, sphere({0, 0, -2}, 1.9f, 24), add_material(scene, diffuse({0.2f, 0.5f, 0.8f})));
+    add(scene, sphere({0, 0, -2}, 1.9f, 2, Facing::Outwards), diffuse(Rgb(0.2f, 0.5f, 0.8f)));
     const World world = compile(std::move(scene));
     for (const bool sample_lights : {true, false})
         for (const SampleSequence sequence : {SampleSequence::Sobol, SampleSequence::Random}) {
             const TileResult result = render_tile(world, path_of(32, 1, sample_lights), 256, sequence);
-            EXPECT_NEAR(result.mean.r, 0.4, 5.0 * result.error + 4e-3);
-            EXPECT_NEAR(result.mean.g, 1.0, 5.0 * result.error + 1e-2);
-            EXPECT_NEAR(result.mean.b, 1.6, 10.0 * result.error + 1.6e-2);
+            // The noise of a channel is in proportion to it; the error is of green.
+            EXPECT_NEAR(result.mean.r, 0.4, 2.0 * result.error + kRounding);
+            EXPECT_NEAR(result.mean.g, 1.0, 5.0 * result.error + kRounding);
+            EXPECT_NEAR(result.mean.b, 1.6, 8.0 * result.error + kRounding);
         }
 }
 
@@ -271,7 +274,7 @@ TEST(PathIntegrator, AnInvisibleEnvironmentStillLights) {
         EXPECT_EQ(empty.alpha, visible ? 1.0 : 0.0);
         add_object(scene, quad({0, 0, -2}, {5, 0, 0}, {0, 5, 0}), add_material(scene, diffuse(Rgb(0.5f))));
         const TileResult wall = render_tile(compile(scene), path_of(8), 256);
-        EXPECT_NEAR(wall.mean.g, 1.0, 5.0 * wall.error + 5e-3);
+        EXPECT_NEAR(wall.mean.g, 1.0, 5.0 * wall.error + kRounding);
         EXPECT_EQ(wall.alpha, 1.0);
     }
 }
@@ -306,9 +309,9 @@ TEST(PathIntegrator, LightSamplingOfSeveralLightsAddsThemUp) {
     const auto scene_with = [](bool lamp, bool sun, bool sky) {
         SceneDesc scene = empty_scene();
         add_object(scene, quad({0, 0, -3}, {4, 0, 0}, {0, 4, 0}), add_material(scene, diffuse(Rgb(0.8f))));
-        if (lamp)
-            add_object(scene, quad({0, 1.5f, -2}, {0.4f, 0, 0}, {0, 0, 0.4f}),
-                       add_material(scene, emissive(Rgb(9.0f))));
+        // It hides a little of the sky, on or off.
+        add_object(scene, quad({0, 1.5f, -2}, {0.4f, 0, 0}, {0, 0, 0.4f}),
+                   add_material(scene, emissive(Rgb(lamp ? 9.0f : 0.0f))));
         if (sun) {
             LightDesc light;
             light.type = LightType::Directional;
@@ -328,8 +331,7 @@ TEST(PathIntegrator, LightSamplingOfSeveralLightsAddsThemUp) {
         variance += one.error * one.error;
     }
     const TileResult all = render_tile(scene_with(true, true, true), path_of(2, 2), 4096);
-    // The lamp hides a little of the sky.
-    EXPECT_NEAR(all.mean.g, sum, 5.0 * std::sqrt(variance + all.error * all.error) + 0.02 * sum);
+    EXPECT_NEAR(all.mean.g, sum, 5.0 * std::sqrt(variance + all.error * all.error));
 }
 
 }  // namespace

@@ -252,9 +252,37 @@ TEST(Quantization, IntegersAreTakenAsTheyAreOrAsFractions) {
     EXPECT_EQ(p.positions[1], Vec3f(1000, 0, 0));
     EXPECT_EQ(p.positions[2], Vec3f(0, -1000, 0));
     EXPECT_EQ(p.normals[0], Vec3f(0, 0, 1));
-    EXPECT_EQ(p.normals[2], Vec3f(0, 0, -1)) << "-128 counts as -127";
+    EXPECT_EQ(p.normals[2], Vec3f(0, 0, -1));
     EXPECT_EQ(p.uv0[1], Vec2f(4096, 0));
     EXPECT_EQ(p.uv0[2], Vec2f(0, 65535));
+}
+
+/// A triangle whose positions are fractions in signed bytes, which nothing normalises afterwards.
+GltfBuilder triangle_of_fractions() {
+    GltfBuilder builder;
+    const std::vector<std::int8_t> positions{0, 0, 0, 0, 127, 0, 0, 0, 0, -127, -128, 0};
+    builder.add_mesh({{"POSITION", builder.accessor_of_view(builder.view(positions, 4), "VEC3", 5120, 3, true)}});
+    builder.json["extensionsUsed"] = {"KHR_mesh_quantization"};
+    return builder;
+}
+
+TEST(Quantization, TheLeastFractionIsMinusOne) {
+    const LoadedScene loaded = triangle_of_fractions().load();
+    ASSERT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
+    EXPECT_EQ(first_primitive(loaded).positions[1], Vec3f(1, 0, 0));
+    EXPECT_EQ(first_primitive(loaded).positions[2], Vec3f(0, -1, -1)) << "-128 counts as -127";
+}
+
+TEST(Quantization, SparseFractionsAreFractionsToo) {
+    GltfBuilder builder = triangle_of_fractions();
+    builder.json["accessors"][0]["sparse"] = {
+        {"count", 1},
+        {"indices", {{"bufferView", builder.view(std::vector<std::uint8_t>{1})}, {"componentType", 5121}}},
+        {"values", {{"bufferView", builder.view(std::vector<std::int8_t>{-127, 127, -128, 0})}}}};
+    const LoadedScene loaded = builder.load();
+    ASSERT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
+    EXPECT_EQ(first_primitive(loaded).positions[1], Vec3f(-1, 1, -1));
+    EXPECT_EQ(first_primitive(loaded).positions[2], Vec3f(0, -1, -1));
 }
 
 TEST(Quantization, NeedsTheExtension) {

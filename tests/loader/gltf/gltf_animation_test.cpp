@@ -53,12 +53,14 @@ TEST(Animation, RotationsGoTheShorterWayAtAnEvenPace) {
     }
 }
 
-// Tangents of 1 m/s along y at the first key and of nothing at the second: x = 0 to 4 smoothly.
+// Tangents of 1 m/s along y at the first key and of 2 m/s along z at the second: x = 0 to 4 smoothly.
 TEST(Animation, CubicSplinesUseTheirTangentsPerSecond) {
     const GltfBuilder builder =
-        animated("translation", {9, 9, 9, 0, 0, 0, 0, 1, 0, 0, 0, 0, 4, 0, 0, 9, 9, 9}, 3, "CUBICSPLINE");
-    // At the middle Hermite's basis is 1/2, 1/8, 1/2, -1/8; the first tangent counts for the two seconds between.
-    EXPECT_LT(length(moved(builder, 2.0, Vec3f(0.0f)) - Vec3f(2.0f, 0.25f, 0.0f)), 1e-6f);
+        animated("translation", {9, 9, 9, 0, 0, 0, 0, 1, 0, 0, 0, 2, 4, 0, 0, 9, 9, 9}, 3, "CUBICSPLINE");
+    // At the middle Hermite's basis is 1/2, 1/8, 1/2, -1/8; the tangents count for the two seconds between.
+    EXPECT_LT(length(moved(builder, 2.0, Vec3f(0.0f)) - Vec3f(2.0f, 0.25f, -0.5f)), 1e-6f);
+    // After a quarter of the time 27/32, 9/64, 5/32 and -3/64.
+    EXPECT_LT(length(moved(builder, 1.5, Vec3f(0.0f)) - Vec3f(0.625f, 0.28125f, -0.1875f)), 1e-6f);
     EXPECT_EQ(moved(builder, 1.0, Vec3f(0.0f)), Vec3f(0.0f));
 }
 
