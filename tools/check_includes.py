@@ -38,8 +38,9 @@ ROOMS = {
     "metrics": "image core",
     "report": "metrics image core",
     "denoise": "image core",
+    "picture": "core lightpath image color scene world film integrator render output",
     "app": "core lightpath sampling image color scene loader bsdf medium texture light camera world film integrator render "
-    "output metrics report denoise",
+    "output metrics report denoise picture",
 }
 
 # Pattern of a third-party header, the rooms that may include it, and whether their headers may show it to other rooms.
@@ -56,7 +57,7 @@ THIRD_PARTY = [
     (r"OpenImageIO/", "oiio", WRAPPED),
     (r"OpenColorIO/", "color", WRAPPED),
     (r"(tiny_gltf\.h|draco/|meshoptimizer\.h)", "loader", WRAPPED),
-    (r"nlohmann/", "loader output report app", WRAPPED),
+    (r"nlohmann/", "loader output report picture app", WRAPPED),
     (r"(openvdb|nanovdb)/", "medium", WRAPPED),
     (r"embree[34]/", "world", WRAPPED),
     (r"CLI/", "app", WRAPPED),

@@ -11,10 +11,10 @@
 #include "app/interrupt.h"
 #include "app/library_versions.h"
 #include "app/output_directory.h"
-#include "app/render_setup.h"
 #include "core/log.h"
 #include "core/write_file.h"
 #include "output/software_name.h"
+#include "picture/render_setup.h"
 
 #include <algorithm>
 #include <array>
