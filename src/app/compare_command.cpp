@@ -221,6 +221,8 @@ ExitCode run_compare(const CompareArguments& arguments) {
         variant.command_note = command_note(variants[v]);
     }
 
+    // What was measured must not be lost with pictures that cannot be made.
+    write_text(files[0], to_json(report));
     const DisplayView view{report.working_space, report.display, report.view, report.look,
                            static_cast<float>(report.exposure)};
     ReportImages pictures;
