@@ -34,3 +34,29 @@ endif()
 add_custom_target(uninstall
   COMMAND "${CMAKE_COMMAND}" -D "build=${PROJECT_BINARY_DIR}" -P "${PROJECT_SOURCE_DIR}/cmake/uninstall.cmake"
   COMMENT "Removing what was installed" VERBATIM)
+
+# tools/package makes Debian packages of it.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME etendue)
+set(CPACK_PACKAGE_CONTACT "The Etendue authors <etendue@localhost>")
+set(CPACK_PACKAGE_VENDOR "Etendue")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_COMPONENTS_ALL runtime development)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME etendue)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION graphics)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME etendue-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_COMPONENT_RUNTIME_DESCRIPTION
+  "offline renderer for glTF 2.0 scenes\nEtendue renders glTF 2.0 scenes by path tracing and bidirectional path tracing to colour-managed EXR images.")
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
+  "offline renderer for glTF 2.0 scenes, development files\nHeaders and CMake files for programs that render with Etendue.")
+set(CPACK_PRE_BUILD_SCRIPTS "${PROJECT_SOURCE_DIR}/cmake/debian_layout.cmake")
+set(CPACK_PROJECT_CONFIG_FILE "${PROJECT_SOURCE_DIR}/cmake/debian_dependencies.cmake")
+set(CPACK_ETENDUE_OIIO_MODULE "${PROJECT_BINARY_DIR}/src/oiio/etendue_oiio.so")
+set(CPACK_ETENDUE_COPYRIGHT "${PROJECT_SOURCE_DIR}/third_party_config/debian/copyright")
+include(CPack)
