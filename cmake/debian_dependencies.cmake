@@ -1,5 +1,5 @@
 # CPack reads this before it packs. What it cannot see of dependencies: those of the module that is bytes of the program.
-set(folder "${CPACK_TOPLEVEL_DIRECTORY}/module-dependencies")
+set(folder "${CPACK_PACKAGE_DIRECTORY}/module-dependencies")
 file(WRITE "${folder}/debian/control" "Source: etendue\n\nPackage: etendue\nArchitecture: any\n")
 execute_process(
   COMMAND dpkg-shlibdeps -O "${CPACK_ETENDUE_OIIO_MODULE}"

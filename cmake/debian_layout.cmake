@@ -7,7 +7,7 @@ foreach(component runtime development)
   string(TOUPPER "${component}" upper)
   set(doc "${usr}/share/doc/${CPACK_DEBIAN_${upper}_PACKAGE_NAME}")
   file(MAKE_DIRECTORY "${doc}")
-  configure_file("${CPACK_ETENDUE_COPYRIGHT}" "${doc}/copyright" COPYONLY)
+  file(COPY_FILE "${CPACK_ETENDUE_COPYRIGHT}" "${doc}/copyright")
 endforeach()
 
 set(usr "${CPACK_TEMPORARY_DIRECTORY}/runtime/usr")
