@@ -12,18 +12,33 @@ namespace etendue {
 
 namespace {
 
-/// `text` as troff prints it letter by letter: no escapes, no requests, and hyphens that can be copied into a shell.
+/// What troff prints as the character itself, so that it can be copied into a shell.
+std::string escaped(char c) {
+    switch (c) {
+        case '\\':
+            return "\\e";
+        case '-':
+            return "\\-";
+        case '\'':
+            return "\\(aq";
+        case '`':
+            return "\\(ga";
+        case '^':
+            return "\\(ha";
+        case '~':
+            return "\\(ti";
+        default:
+            return {c};
+    }
+}
+
+/// `text` as troff prints it letter by letter, without requests.
 std::string escaped(std::string_view text) {
     std::string result;
     bool starts_line = true;
     for (const char c : text) {
-        if (starts_line && (c == '.' || c == '\'')) result += "\\&";
-        if (c == '\\')
-            result += "\\e";
-        else if (c == '-')
-            result += "\\-";
-        else
-            result += c;
+        if (starts_line && c == '.') result += "\\&";
+        result += escaped(c);
         starts_line = c == '\n';
     }
     return result;

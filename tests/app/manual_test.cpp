@@ -124,7 +124,7 @@ TEST(ManPage, TextIsNoTroff) {
               ".TH P\\-C 1 \"\" \"P 1.0\" \"Etendue\"\n"
               ".SH NAME\np\\-c \\- Do it\n"
               ".SH SYNOPSIS\n\\fBp c\\fR [\\fIOPTION\\fR...]\n"
-              ".SH NOTES\n\\&.so is no request\n\\&'nor this: C:\\enew\n"
+              ".SH NOTES\n\\&.so is no request\n\\(aqnor this: C:\\enew\n"
               ".SH EXAMPLES\n.nf\np c \\-\\-x\n.fi\n"
               ".PP\nLast.\n"
               ".SH SEE ALSO\n\\fBp\\fR(1)\n");
