@@ -109,9 +109,9 @@ TEST_F(ImageModule, SaysWhichLimitIsTooLow) {
 
 TEST_F(ImageModule, AFileAboveTheLimitIsAnErrorAndNoSignal) {
     const fs::path messages = folder_ / "messages";
-    const std::string command = fmt::format(
-        "bash -c \"ulimit -S -f 64 && exec '{}' render '{}' --size 400x300 --spp 1 --quiet -o '{}' 2> '{}'\"",
-        ETENDUE_PROGRAM, box_.string(), image_.string(), messages.string());
+    const std::string command =
+        fmt::format("bash -c \"ulimit -S -f 1 && exec '{}' render '{}' --quiet -o '{}' 2> '{}'\"", ETENDUE_PROGRAM,
+                    box_.string(), image_.string(), messages.string());
     const int status = std::system(command.c_str());
     EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1) << "no signal: " << status;
     EXPECT_NE(read_file(messages).find("File too large"), std::string::npos) << read_file(messages);
