@@ -16,6 +16,12 @@ if(ETENDUE_SANITIZERS)
   target_link_options(etendue_options INTERFACE -fsanitize=${ETENDUE_SANITIZERS})
 endif()
 
+# Every object goes into the program and into the library of src/api, so that nothing is compiled twice. Hidden symbols
+# make that free: calls and data are reached as in code of a program.
+if(ETENDUE_BUILD_LIBRARY)
+  target_compile_options(etendue_options INTERFACE -fPIC -fvisibility=hidden -fvisibility-inlines-hidden)
+endif()
+
 # For tests and for what runs once per image: compiling their many templates takes longer than optimisation ever saves.
 if(ETENDUE_SANITIZERS)
   set(ETENDUE_QUICK_OPTIONS -O0)

@@ -38,14 +38,17 @@ ROOMS = {
     "metrics": "image core",
     "report": "metrics image core",
     "denoise": "image core",
+    "picture": "core lightpath image color scene world film integrator render output",
+    "api": "core color loader scene world integrator render output picture",
     "app": "core lightpath sampling image color scene loader bsdf medium texture light camera world film integrator render "
-    "output metrics report denoise",
+    "output metrics report denoise picture",
 }
 
 # Pattern of a third-party header, the rooms that may include it, and whether their headers may show it to other rooms.
 ANY_ROOM = " ".join(ROOMS)
 SHOWN, WRAPPED = True, False
 THIRD_PARTY = [
+    (r"etendue/", "api", SHOWN),  # the library's own
     (r"Imath/", "core", SHOWN),
     (r"fmt/", ANY_ROOM, SHOWN),
     (r"spdlog/", "core", WRAPPED),
@@ -56,7 +59,7 @@ THIRD_PARTY = [
     (r"OpenImageIO/", "oiio", WRAPPED),
     (r"OpenColorIO/", "color", WRAPPED),
     (r"(tiny_gltf\.h|draco/|meshoptimizer\.h)", "loader", WRAPPED),
-    (r"nlohmann/", "loader output report app", WRAPPED),
+    (r"nlohmann/", "loader output report picture api app", WRAPPED),
     (r"(openvdb|nanovdb)/", "medium", WRAPPED),
     (r"embree[34]/", "world", WRAPPED),
     (r"CLI/", "app", WRAPPED),

@@ -1,11 +1,11 @@
 #include "app/batch_page.h"
 
-#include "app/output_paths.h"
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/write_file.h"
 #include "image/jpeg.h"
 #include "image/scale_down.h"
+#include "picture/output_paths.h"
 
 #include <algorithm>
 #include <array>

@@ -1,10 +1,10 @@
 #include "app/checkpoint_files.h"
 
-#include "app/output_paths.h"
 #include "core/error.h"
 #include "core/log.h"
 #include "core/pixel_rect_text.h"
 #include "core/write_file.h"
+#include "picture/output_paths.h"
 
 #include <string>
 #include <system_error>

@@ -25,5 +25,6 @@ void add_compare_command(CLI::App& app, Action& action);
 void add_profile_command(CLI::App& app, Action& action);
 void add_merge_command(CLI::App& app, Action& action);
 void add_submit_command(CLI::App& app, Action& action);
+void add_help_command(CLI::App& app, Action& action);
 
 }  // namespace etendue

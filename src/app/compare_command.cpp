@@ -11,10 +11,10 @@
 #include "app/interrupt.h"
 #include "app/library_versions.h"
 #include "app/output_directory.h"
-#include "app/render_setup.h"
 #include "core/log.h"
 #include "core/write_file.h"
 #include "output/software_name.h"
+#include "picture/render_setup.h"
 
 #include <algorithm>
 #include <array>
@@ -221,6 +221,8 @@ ExitCode run_compare(const CompareArguments& arguments) {
         variant.command_note = command_note(variants[v]);
     }
 
+    // What was measured must not be lost with pictures that cannot be made.
+    write_text(files[0], to_json(report));
     const DisplayView view{report.working_space, report.display, report.view, report.look,
                            static_cast<float>(report.exposure)};
     ReportImages pictures;

@@ -2,10 +2,10 @@
 
 #include "app/interrupt.h"
 #include "app/progress_display.h"
-#include "app/render_setup.h"
 #include "image/write.h"
 #include "metrics/color_map.h"
 #include "metrics/pixel_selection.h"
+#include "picture/render_setup.h"
 #include "render/strategy_pyramid.h"
 
 #include <algorithm>

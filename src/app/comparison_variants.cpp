@@ -1,9 +1,9 @@
 #include "app/comparison_variants.h"
 
-#include "app/render_setup.h"
 #include "app/shell_word.h"
 #include "core/log.h"
 #include "loader/loader.h"
+#include "picture/render_setup.h"
 #include "world/compile.h"
 
 #include <algorithm>

@@ -1,7 +1,6 @@
 // etendue denoise: an image with less noise, from what the renderer knows of its noise.
 #include "app/commands.h"
 #include "app/interrupt.h"
-#include "app/output_paths.h"
 #include "app/usage_error.h"
 #include "core/error.h"
 #include "core/log.h"
@@ -12,6 +11,7 @@
 #include "denoise/unusable_pixels.h"
 #include "image/read_channels.h"
 #include "output/software_name.h"
+#include "picture/output_paths.h"
 
 #include <algorithm>
 #include <array>

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -307,7 +308,13 @@ ExitCode run_diff(const DiffArguments& arguments) {
     result.measures = pair.measure(names, colors, threads);
     for (const Limit& limit : arguments.limits)
         result.limits.push_back({resolve_measure(limit.measure, pair.pair().is_encoded), limit.value});
-    if (!arguments.map.empty()) result.map = write_map(pair, result.measures.front(), arguments);
+    // What was measured must not be lost with a map that cannot be written.
+    std::exception_ptr map_failure;
+    try {
+        if (!arguments.map.empty()) result.map = write_map(pair, result.measures.front(), arguments);
+    } catch (const std::exception&) {
+        map_failure = std::current_exception();
+    }
 
     log_faults(pair.pair().image_file, pair.not_finite_in_image());
     log_faults(pair.pair().reference_file, pair.not_finite_in_reference());
@@ -322,6 +329,10 @@ ExitCode run_diff(const DiffArguments& arguments) {
         print_json(pair, arguments, result, passed);
     else if (!arguments.quiet)
         print_report(pair, arguments, result);
+    if (map_failure) {
+        std::fflush(stdout);
+        std::rethrow_exception(map_failure);
+    }
     return passed ? ExitCode::Success : ExitCode::DiffFailed;
 }
 

@@ -1,7 +1,7 @@
 #include "app/farm_commands.h"
 
-#include "app/output_paths.h"
 #include "app/shell_word.h"
+#include "picture/output_paths.h"
 
 #include <filesystem>
 #include <utility>

@@ -1,9 +1,9 @@
 #include "app/farm_leftovers.h"
 
 #include "app/checkpoint_files.h"
-#include "app/image_description.h"
-#include "app/render_setup.h"
 #include "core/error.h"
+#include "picture/image_description.h"
+#include "picture/render_setup.h"
 
 #include <algorithm>
 #include <optional>

@@ -1,10 +1,10 @@
 #include "app/farm_needs.h"
 
-#include "app/aov_setup.h"
-#include "app/render_setup.h"
 #include "app/run_command.h"
 #include "core/error.h"
 #include "core/pixel_rect.h"
+#include "picture/aov_setup.h"
+#include "picture/render_setup.h"
 
 #include <algorithm>
 #include <cmath>

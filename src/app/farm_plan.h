@@ -7,7 +7,7 @@
 
 #include "app/given_options.h"
 #include "app/image_job.h"
-#include "app/sample_ranges.h"
+#include "picture/sample_ranges.h"
 
 #include <compare>
 #include <cstddef>

@@ -1,7 +1,7 @@
 #include "app/farm_status.h"
 
-#include "app/output_paths.h"
 #include "app/up_to_date.h"
+#include "picture/output_paths.h"
 
 #include <algorithm>
 #include <array>

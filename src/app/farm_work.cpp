@@ -1,19 +1,19 @@
 #include "app/farm_work.h"
 
-#include "app/aov_setup.h"
 #include "app/farm_leftovers.h"
 #include "app/farm_needs.h"
 #include "app/input_files.h"
 #include "app/interrupt.h"
-#include "app/output_paths.h"
 #include "app/prepared_scene.h"
 #include "app/render_identity.h"
-#include "app/render_setup.h"
 #include "app/up_to_date.h"
 #include "color/color_config.h"
 #include "core/byte_size.h"
 #include "core/error.h"
 #include "core/log.h"
+#include "picture/aov_setup.h"
+#include "picture/output_paths.h"
+#include "picture/render_setup.h"
 
 #include <algorithm>
 #include <set>

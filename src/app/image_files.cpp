@@ -5,37 +5,14 @@
 #include "app/up_to_date.h"
 #include "core/log.h"
 #include "core/write_file.h"
-#include "output/aces_driver.h"
-#include "output/exr_driver.h"
-#include "output/output_space.h"
 #include "output/preview_driver.h"
+#include "picture/exr_files.h"
 
 #include <algorithm>
 #include <filesystem>
 #include <system_error>
 
 namespace etendue {
-
-namespace {
-
-/// The image, and its layers where they are to be; all in the space that they are written in.
-void write_exr(const OutputPaths& paths, const OutputFrame& frame, AovLayout layout, const ColorConfig& colors,
-               PixelDepth depth) {
-    ExrDriver driver(paths.exr, colors, depth);
-    if (!frame.deep.counts.empty()) ExrDriver(layer_path(paths.exr, "deep"), colors, depth).write_deep(frame);
-    if (!frame.aces_container && (frame.layers.empty() || layout == AovLayout::Layers)) return driver.write(frame);
-    if (layout == AovLayout::Parts) return driver.write_layers_as_parts(frame);
-    for (const OutputLayer& layer : frame.layers)
-        ExrDriver(layer_path(paths.exr, layer.name), colors, depth).write_layer(frame, layer);
-    OutputFrame alone = frame;
-    alone.layers.clear();
-    if (frame.aces_container)
-        AcesDriver(paths.exr, colors).write(alone);
-    else
-        driver.write(alone);
-}
-
-}  // namespace
 
 std::vector<std::string> write_image_files(const OutputPaths& paths, ImageDescription& image, const ColorConfig& colors,
                                            PixelDepth depth, const std::function<void()>& beside) {
@@ -44,24 +21,10 @@ std::vector<std::string> write_image_files(const OutputPaths& paths, ImageDescri
     std::error_code ignored;
     if (std::filesystem::is_regular_file(std::filesystem::symlink_status(paths.json, ignored)))
         std::filesystem::remove(paths.json, ignored);
-    if (image.frame.aces_container && image.frame.layers.empty() && image.frame.deep.counts.empty()) {
-        AcesDriver(paths.exr, colors).write(image.frame);
-    } else if (is_to_be_converted(image.frame)) {
-        // The preview is made of what is in the working space.
-        OutputFrame frame = image.frame;
-        to_output_space(frame, colors);
-        write_exr(paths, frame, image.aov_layout, colors, depth);
-    } else {
-        write_exr(paths, image.frame, image.aov_layout, colors, depth);
-    }
+    write_exr_files(paths.exr, image, colors, depth);
     PreviewDriver(paths.png, colors).write(image.frame);
     if (beside) beside();
-    image.statistics.layer_files.clear();
-    if (!image.frame.deep.counts.empty())
-        image.statistics.layer_files.push_back(layer_path(paths.exr, "deep").filename().string());
-    if (image.aov_layout == AovLayout::Files)
-        for (const OutputLayer& layer : image.frame.layers)
-            image.statistics.layer_files.push_back(layer_path(paths.exr, layer.name).filename().string());
+    image.statistics.layer_files = layer_file_names(paths.exr, image);
     image.statistics.write = timer.elapsed();
     image.statistics.peak_memory_bytes = peak_memory_bytes();
     write_text(paths.json, to_json(image.statistics));

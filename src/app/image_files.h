@@ -1,10 +1,10 @@
 // An image on disk: EXR, PNG and statistics.
 #pragma once
 
-#include "app/image_description.h"
-#include "app/output_paths.h"
 #include "color/color_config.h"
 #include "image/write.h"
+#include "picture/image_description.h"
+#include "picture/output_paths.h"
 
 #include <functional>
 #include <string>

@@ -1,8 +1,8 @@
 #include "app/image_job.h"
 
 #include "app/checkpoint_files.h"
-#include "app/output_paths.h"
 #include "app/up_to_date.h"
+#include "picture/output_paths.h"
 
 #include <algorithm>
 #include <cstdlib>

@@ -1,9 +1,9 @@
 // etendue inspect: what is in a scene, and what is wrong with it.
 #include "app/commands.h"
-#include "app/render_setup.h"
 #include "app/scene_render.h"
 #include "color/color_config.h"
 #include "loader/loader.h"
+#include "picture/render_setup.h"
 #include "world/compile.h"
 
 #include <algorithm>

@@ -30,6 +30,8 @@ void install_interrupt_handlers() {
     std::signal(SIGINT, on_signal);
     std::signal(SIGTERM, on_signal);
     std::signal(SIGUSR1, on_preview_signal);
+    // A file that would pass the limit of file sizes (ulimit -f) is an error of writing, which says so.
+    std::signal(SIGXFSZ, SIG_IGN);
 }
 
 void take_all_interrupts_for_one() {

@@ -1,16 +1,16 @@
 // etendue merge: one image from parts that were rendered apart.
 #include "app/commands.h"
-#include "app/image_description.h"
 #include "app/image_files.h"
 #include "app/library_versions.h"
 #include "app/merge_parts.h"
-#include "app/output_paths.h"
 #include "app/phase_timer.h"
 #include "app/usage_error.h"
 #include "color/color_config.h"
 #include "core/error.h"
 #include "core/log.h"
 #include "core/pixel_rect_text.h"
+#include "picture/image_description.h"
+#include "picture/output_paths.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -80,7 +80,8 @@ ExitCode run_merge(const MergeArguments& arguments) {
         write_checkpoint(output, merged.sum.identity, merged.sum.description, state);
     } else {
         if (!arguments.quiet) note_missing(merged, spp_requested);
-        if (!arguments.quiet) note_few_buckets(image.statistics, output);
+        if (const auto note = few_buckets(image.statistics); note && !arguments.quiet)
+            log_warning("note: {}: {}", output.string(), *note);
         require_writable(paths.png);
         require_writable(paths.json);
         if (image.frame.aces_container && arguments.depth == PixelDepth::Float)

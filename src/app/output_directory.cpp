@@ -1,7 +1,7 @@
 #include "app/output_directory.h"
 
-#include "app/output_paths.h"
 #include "core/error.h"
+#include "picture/output_paths.h"
 
 #include <system_error>
 

@@ -5,6 +5,7 @@
 #include "color/color_config.h"
 #include "loader/loader.h"
 #include "output/software_name.h"
+#include "picture/scene_completion.h"
 
 #include <utility>
 
@@ -20,10 +21,7 @@ PreparedScene prepare_scene(const std::filesystem::path& path, const SettingsOve
     overrides.apply(prepared.scene);
     const std::filesystem::path colors = ColorConfig::environment_path();
     if (!colors.empty()) prepared.scene.inputs.push_back(colors);
-    add_missing_camera_and_light(prepared.scene, prepared.problems);
-    const ProblemList remaining = validate(prepared.scene);
-    if (remaining.has_errors()) throw SceneError(remaining);
-    apply_variant(prepared.scene);
+    complete_scene(prepared.scene, prepared.problems);
     prepared.inputs = stamp_inputs(prepared.scene, started);
     prepared.load = timer.elapsed();
     return prepared;

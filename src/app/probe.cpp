@@ -1,11 +1,11 @@
 #include "app/probe.h"
 
-#include "app/aov_setup.h"
 #include "app/interrupt.h"
 #include "app/peak_memory.h"
 #include "app/phase_timer.h"
 #include "app/prepared_scene.h"
-#include "app/render_setup.h"
+#include "picture/aov_setup.h"
+#include "picture/render_setup.h"
 #include "render/progressive_render.h"
 #include "render/tiles.h"
 #include "world/compile.h"

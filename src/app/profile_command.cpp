@@ -8,7 +8,6 @@
 #include "app/prepared_scene.h"
 #include "app/profile_runs.h"
 #include "app/render_identity.h"
-#include "app/render_setup.h"
 #include "core/log.h"
 #include "core/memory_nodes.h"
 #include "core/process_time.h"
@@ -16,6 +15,7 @@
 #include "image/write.h"
 #include "metrics/color_map.h"
 #include "output/software_name.h"
+#include "picture/render_setup.h"
 #include "render/progressive_render.h"
 #include "report/profile_comparison.h"
 #include "report/profile_report.h"
@@ -25,6 +25,7 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -303,20 +304,30 @@ ExitCode run_profile(const ProfileArguments& arguments) {
     report.runs = std::move(measured.runs);
     note_costly_stamps(report);
     describe_memory(report, *loaded.world, measured);
-    ProfileImages images;
-    remove_heat_maps(directory);
-    for (const CostMap& costs : measured.costs)
-        write_costs(directory, make_render_options(loaded.settings).window, costs, report, images);
     if (baseline) report.against = compare_profiles(*baseline, report, {.tolerance = arguments.tolerance});
-
-    write_text(files[0], to_json(report));
-    write_text(files[1], to_chrome_trace(report));
-    write_text(files[2], make_profile_page(report, images));
+    ProfileImages images;
+    const auto write_report = [&] {
+        write_text(files[0], to_json(report));
+        write_text(files[1], to_chrome_trace(report));
+        write_text(files[2], make_profile_page(report, images));
+    };
+    remove_heat_maps(directory);
+    write_report();
+    // What was measured must not be lost with pictures that cannot be written.
+    std::exception_ptr failure;
+    try {
+        for (const CostMap& costs : measured.costs)
+            write_costs(directory, make_render_options(loaded.settings).window, costs, report, images);
+        write_report();
+    } catch (const std::exception&) {
+        failure = std::current_exception();
+    }
     if (arguments.json)
         std::fputs(to_json(report).c_str(), stdout);
     else if (!arguments.quiet)
         std::fputs(to_table(report).c_str(), stdout);
     std::fflush(stdout);
+    if (failure) std::rethrow_exception(failure);
     if (!arguments.quiet) log_info("{}", files[2].string());
     if (!report.against || !report.against->has_regression()) return ExitCode::Success;
     log_error("error: {}: slower than that: {}", arguments.against, fmt::join(report.against->slower_runs(), ", "));

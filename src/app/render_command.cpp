@@ -1,15 +1,15 @@
 // etendue render: one scene.
-#include "app/aov_setup.h"
 #include "app/commands.h"
 #include "app/image_job.h"
 #include "app/interrupt.h"
-#include "app/output_paths.h"
 #include "app/probe.h"
 #include "app/progress_display.h"
 #include "app/scene_render.h"
 #include "app/usage_error.h"
 #include "core/log.h"
 #include "loader/files.h"
+#include "picture/aov_setup.h"
+#include "picture/output_paths.h"
 
 #include <algorithm>
 #include <charconv>

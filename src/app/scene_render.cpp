@@ -1,24 +1,24 @@
 #include "app/scene_render.h"
 
-#include "app/aov_setup.h"
 #include "app/brightest_list.h"
 #include "app/checkpoint_files.h"
 #include "app/dropped_samples.h"
-#include "app/image_description.h"
 #include "app/image_files.h"
 #include "app/input_files.h"
 #include "app/interrupt.h"
 #include "app/library_versions.h"
-#include "app/output_paths.h"
 #include "app/phase_timer.h"
 #include "app/progress_display.h"
 #include "app/progress_pipe.h"
 #include "app/render_identity.h"
-#include "app/render_setup.h"
 #include "color/color_config.h"
 #include "core/log.h"
 #include "image/image_module.h"
 #include "output/preview_driver.h"
+#include "picture/aov_setup.h"
+#include "picture/image_description.h"
+#include "picture/output_paths.h"
+#include "picture/render_setup.h"
 #include "render/brightest_paths.h"
 #include "render/checkpoint.h"
 #include "render/render.h"
@@ -75,15 +75,9 @@ class SceneRender {
         aovs_ = make_aov_plan(scene_, problems_);
         report_problems();
         options_.aovs = aovs_.set;
-        if (scene_.settings.color.aces_container && has_layers() && scene_.settings.aov_layout != AovLayout::Files)
-            throw SceneError(scene_.settings.at("/aov_layout"),
-                             "an ACES container (SMPTE ST 2065-4) holds one image: write layers in files of their own "
-                             "(--aov-layout files)");
         check_outputs();
-        description_.statistics.load = prepared.load;
-        description_.statistics.inputs = std::move(prepared.inputs);
-        hash_inputs(scene_, description_.statistics.inputs);
-        describe_scene();
+        hash_inputs(scene_, prepared.inputs);
+        describe_scene(prepared);
     }
 
     SceneRenderResult run() {
@@ -114,10 +108,6 @@ class SceneRender {
     }
 
   private:
-    [[nodiscard]] bool has_layers() const {
-        return std::ranges::any_of(aovs_.outputs, [](const AovOutput& aov) { return aov.kind != AovKind::Deep; });
-    }
-
     [[nodiscard]] bool is_deep() const { return aovs_.set && aovs_.set->layout.is_deep; }
 
     [[nodiscard]] bool is_lost() const { return request_.is_lost != nullptr && *request_.is_lost; }
@@ -169,49 +159,26 @@ class SceneRender {
                                          layer.name, path.string(), other.string()));
     }
 
-    void describe_scene() {
-        RenderStatistics& s = description_.statistics;
-        s.scene = scene_.name;
-        s.frame = scene_.settings.frame;
-        s.time_code = scene_.settings.shown_time();
+    void describe_scene(PreparedScene& prepared) {
         // Before names are resolved: batch compares it with that of a scene that was only prepared.
-        s.settings_hash = settings_hash(scene_, request_.overrides.depth);
-        s.light_units = light_units_name(scene_.settings.light_units);
-        s.spp_requested = scene_.settings.spp;
+        const std::string hash = settings_hash(scene_, request_.overrides.depth);
+        const std::string working_space = resolve_colors(scene_.settings, colors_);
+        description_ = describe_settings(scene_, aovs_);
+        RenderStatistics& s = description_.statistics;
+        s.load = prepared.load;
+        s.inputs = std::move(prepared.inputs);
+        s.settings_hash = hash;
         s.threads = threads_.thread_count();
         s.libraries = library_versions();
-
-        const std::string working_space = resolve_colors(scene_.settings, colors_);
         identity_ = render_identity(scene_, s.inputs, working_space);
         settings_ = scene_.settings;
-        OutputFrame& frame = description_.frame;
-        description_.aovs = aovs_.outputs;
-        description_.aov_layout = settings_.aov_layout;
-        description_.clamp_indirect = settings_.clamp_indirect;
-        if (aovs_.set) {
-            description_.buckets = aovs_.set->buckets;
-            description_.removed_light = aovs_.set->removed_light;
-        }
-        frame.working_space = working_space;
-        frame.display = settings_.color.display;
-        frame.view = settings_.color.view;
-        frame.look = settings_.color.look;
-        frame.output_space = settings_.color.output_space;
-        frame.aces_container = settings_.color.aces_container;
-        frame.exposure = settings_.color.exposure;
-        frame.scene = scene_.name;
-        frame.integrator = settings_.integrator.type;
-        frame.sampler = settings_.sampler == SamplerType::Random ? "random" : "sobol";
-        frame.seed = settings_.seed;
     }
 
     [[nodiscard]] std::uint32_t first_sample() const { return request_.samples ? request_.samples->begin : 0; }
 
-    [[nodiscard]] bool keeps_every_other_pass() const { return options_.relative_error > 0.0 || aovs_.has_halves; }
-
     [[nodiscard]] RenderState new_state() const {
-        RenderState state{.film = make_film(options_), .first_sample = first_sample()};
-        if (keeps_every_other_pass()) state.every_other_pass = make_second_film(options_);
+        RenderState state = make_render_state(options_, aovs_.has_halves);
+        state.first_sample = first_sample();
         return state;
     }
 
@@ -219,9 +186,10 @@ class SceneRender {
     [[nodiscard]] std::optional<Checkpoint> read_kept() const {
         if (!request_.resume) return std::nullopt;
         progress_pipe_.enter("resume");
+        const bool has_second_film = keeps_every_other_pass(options_, aovs_.has_halves);
         const CheckpointFiles::Expected expected =
-            is_partial(output_) ? expected_part(identity_, options_, first_sample(), keeps_every_other_pass())
-                                : expected_image(identity_, options_, keeps_every_other_pass());
+            is_partial(output_) ? expected_part(identity_, options_, first_sample(), has_second_film)
+                                : expected_image(identity_, options_, has_second_film);
         std::optional<Checkpoint> kept;
         if (is_partial(output_) && !request_.force) kept = read_part(output_, expected, request_.quiet);
         if (!kept) kept = checkpoints_.read(expected, request_.quiet);
@@ -257,12 +225,9 @@ class SceneRender {
         s.triangles = from.triangles;
         s.instances = from.instances;
         s.lights = from.lights;
-        description_.frame.world_to_camera = world_to_camera(world.camera());
-        description_.frame.world_to_screen = world_to_screen(world.camera());
+        describe_camera(description_, world);
         if (!request_.quiet)
-            for (const auto& notes : {integrator_->unreachable_light(world), integrator_->ineffective_options(world),
-                                      ineffective_settings(settings_, world.has_bodies())})
-                for (const std::string& note : notes) log_warning("note: {}", note);
+            for (const std::string& note : notes_on(world, *integrator_, settings_)) log_warning("note: {}", note);
         return world;
     }
 
@@ -322,7 +287,8 @@ class SceneRender {
             if (complete) etendue::write_checkpoint(output_, identity_, to_text(description_), rendered);
             return;
         }
-        if (!request_.quiet) note_few_buckets(description_.statistics, output_);
+        if (const auto note = few_buckets(description_.statistics); note && !request_.quiet)
+            log_warning("note: {}: {}", output_.string(), *note);
         resolve_layers(description_, rendered);
         const PixelDepth depth = request_.overrides.depth;
         const std::vector<std::string> earlier = write_image_files(paths_, description_, colors_, depth, [&] {

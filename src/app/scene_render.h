@@ -2,11 +2,11 @@
 #pragma once
 
 #include "app/prepared_scene.h"
-#include "app/sample_ranges.h"
 #include "app/settings_overrides.h"
 #include "app/strategies_image.h"
 #include "core/parallel.h"
 #include "output/statistics.h"
+#include "picture/sample_ranges.h"
 
 #include <atomic>
 #include <exception>

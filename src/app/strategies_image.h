@@ -1,12 +1,12 @@
 // The pyramid of all strategies of a scene, in files.
 #pragma once
 
-#include "app/output_paths.h"
 #include "color/color_config.h"
 #include "core/parallel.h"
 #include "image/write.h"
 #include "integrator/integrator.h"
 #include "output/output_frame.h"
+#include "picture/output_paths.h"
 #include "render/render.h"
 #include "render/strategy_pyramid.h"
 #include "scene/render_settings.h"

@@ -1,7 +1,7 @@
 // Whether an image must be rendered again, and why.
 #pragma once
 
-#include "app/output_paths.h"
+#include "picture/output_paths.h"
 #include "scene/scene_desc.h"
 
 #include <filesystem>

@@ -1,7 +1,6 @@
 // etendue view: an EXR as a display shows it.
 #include "app/commands.h"
 #include "app/file_color_space.h"
-#include "app/output_paths.h"
 #include "app/settings_overrides.h"
 #include "app/usage_error.h"
 #include "app/view_listing.h"
@@ -13,6 +12,7 @@
 #include "output/display_image.h"
 #include "output/output_space.h"
 #include "output/software_name.h"
+#include "picture/output_paths.h"
 
 #include <algorithm>
 #include <cctype>

@@ -12,14 +12,20 @@
 
 namespace etendue {
 
-/// Which moment of a scene is loaded. What is left open is as render.json says.
+/// Which moment of a scene is loaded, and with which settings. What is left open is as render.json says.
 struct LoadOptions {
     std::optional<double> time_code{};  ///< seconds of the animation; none for the scene at rest
     std::string animation{};            ///< name; empty for the first
     std::optional<int> frame{};         ///< of a sequence: shown at time_code (0 if none) + frame / fps
     std::optional<double> fps{};        ///< frames per second, > 0
     std::optional<Shutter> shutter{};
+    /// The text of another render.json, merged into the scene's as RFC 7386 says: members replace members, objects are
+    /// merged, null removes. Problems of it are located in kGivenSettings where the scene has no render.json.
+    std::string settings{};
 };
+
+/// What messages call settings that no file holds.
+inline constexpr const char* kGivenSettings = "(settings)";
 
 /// Reads one scene file format.
 ///

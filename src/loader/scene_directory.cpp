@@ -83,16 +83,21 @@ bool is_for_another_file(const RenderJson& json, const fs::path& directory, cons
     return !fs::equivalent(directory / json.scene, file, code);
 }
 
-std::optional<RenderJson> read_settings(const fs::path& directory, ProblemList& problems) {
+std::optional<RenderJson> read_given_settings(const std::string& given, ProblemList& problems) {
+    if (given.empty()) return std::nullopt;
+    return read_render_json({}, given, problems);
+}
+
+std::optional<RenderJson> read_settings(const fs::path& directory, const std::string& given, ProblemList& problems) {
     const fs::path file = directory / kSettingsName;
     std::error_code code;
-    if (!fs::exists(file, code)) return std::nullopt;
+    if (!fs::exists(file, code)) return read_given_settings(given, problems);
     try {
         static_cast<void>(resolve_name(directory, kSettingsName));
     } catch (const IoError& error) {
         throw SceneError({file.string(), {}}, error.what());
     }
-    return read_render_json(file, problems);
+    return read_render_json(file, given, problems);
 }
 
 /// The directory of the scene at `path`.
@@ -118,13 +123,13 @@ void load_into(const fs::path& path, const LoadOptions& options, SceneDesc& scen
 
     scene.directory = directory_of(path, is_directory);
     scene.name = scene_name(path);
-    std::optional<RenderJson> settings = read_settings(scene.directory, problems);
+    std::optional<RenderJson> settings = read_settings(scene.directory, options.settings, problems);
     scene.file = is_directory ? choose_scene_file(path, settings ? settings->scene : "",
                                                   settings ? settings->location : SourceLocation{})
                               : path;
     if (settings && !is_directory && is_for_another_file(*settings, scene.directory, scene.file)) {
         problems.note(settings->location, fmt::format("ignored: it is for '{}'", settings->scene));
-        settings.reset();
+        settings = read_given_settings(options.settings, problems);
     }
 
     const SceneLoader* loader = find_loader(scene.file);
@@ -134,7 +139,7 @@ void load_into(const fs::path& path, const LoadOptions& options, SceneDesc& scen
     scene.settings = apply_options(settings ? settings->settings : RenderSettings{}, options);
     loader->load(scene.file, scene.settings, scene, problems);
     if (!settings) return;
-    scene.inputs.push_back(settings->location.file);
+    if (!settings->file.empty()) scene.inputs.push_back(settings->file);
     apply_render_json(*settings, scene, problems);
 }
 
@@ -176,7 +181,7 @@ std::optional<FrameRange> find_frames(const fs::path& path) {
     const fs::path directory = directory_of(path, is_directory);
     ProblemList problems;
     try {
-        const std::optional<RenderJson> settings = read_settings(directory, problems);
+        const std::optional<RenderJson> settings = read_settings(directory, {}, problems);
         if (!settings || (!is_directory && is_for_another_file(*settings, directory, path))) return std::nullopt;
         return settings->settings.frames;
     } catch (const SceneError&) {

@@ -322,6 +322,15 @@ TEST_F(Diff, CropWindowsAreComparedWhereTheyOverlap) {
     EXPECT_TRUE(contains(apart.err, "no pixel in common")) << apart.err;
 }
 
+TEST_F(Diff, MeasuresAreNotLostWithAMapThatCannotBeWritten) {
+    const std::string a = exr("a", ramp(20, 10, 0.1f));
+    fs::create_symlink("/dev/full", work_ / "map.png");
+    const ProgramResult result = diff({a, a, "--metric", "mse", "--map", "map.png"});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_NE(result.out.find("mse "), std::string::npos) << result.out;
+    EXPECT_NE(result.err.find("map.png"), std::string::npos) << result.err;
+}
+
 }  // namespace
 
 }  // namespace etendue::test

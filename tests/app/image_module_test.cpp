@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 
 namespace etendue::test {
 
@@ -84,6 +85,57 @@ TEST_F(ImageModule, SaysWhyItCannotBeLoaded) {
         EXPECT_TRUE(result.err.starts_with(expected + broken.file().string())) << result.err;
     }
     EXPECT_EQ(list(work_), std::vector<std::string>());
+}
+
+// Files in memory count against the limit of file sizes, too.
+TEST_F(ImageModule, IsLoadedWhateverTheSoftLimitOfFileSizes) {
+    const std::string command = fmt::format("bash -c \"ulimit -S -f 64 && exec '{}' render '{}' --quiet -o '{}'\"",
+                                            ETENDUE_PROGRAM, box_.string(), image_.string());
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    EXPECT_EQ(read_image_info(image_).width, 16);
+}
+
+TEST_F(ImageModule, SaysWhichLimitIsTooLow) {
+    const fs::path messages = folder_ / "messages";
+    const std::string command = fmt::format("bash -c \"ulimit -f 64 && exec '{}' render '{}' --quiet -o '{}' 2> '{}'\"",
+                                            ETENDUE_PROGRAM, box_.string(), image_.string(), messages.string());
+    const int status = std::system(command.c_str());
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1) << "no signal: " << status;
+    EXPECT_NE(read_file(messages).find("no file may have more than 64 KiB here: raise that limit (ulimit -f)"),
+              std::string::npos)
+        << read_file(messages);
+    EXPECT_FALSE(fs::exists(image_));
+}
+
+TEST_F(ImageModule, AFileAboveTheLimitIsAnErrorAndNoSignal) {
+    const fs::path messages = folder_ / "messages";
+    const std::string command =
+        fmt::format("bash -c \"ulimit -S -f 1 && exec '{}' render '{}' --quiet -o '{}' 2> '{}'\"", ETENDUE_PROGRAM,
+                    box_.string(), image_.string(), messages.string());
+    const int status = std::system(command.c_str());
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1) << "no signal: " << status;
+    EXPECT_NE(read_file(messages).find("File too large"), std::string::npos) << read_file(messages);
+}
+
+TEST_F(ImageModule, AProfileIsNotLostWithItsPictures) {
+    const BrokenLibrary broken(folder_.path());
+    const ProgramResult result = run({"profile", box_.string(), "-o", "profile", "--integrators", "path", "--spp", "1",
+                                      "--repeat", "1", "--threads", "1"});
+    EXPECT_EQ(result.exit_code, 1) << result.err;
+    EXPECT_NE(result.err.find("OpenImageIO cannot be loaded"), std::string::npos) << result.err;
+    EXPECT_NE(result.out.find("path"), std::string::npos) << "the table";
+    const std::string profile = read_file(work_ / "profile/profile.json");
+    EXPECT_NE(profile.find("\"path\""), std::string::npos) << profile;
+    EXPECT_TRUE(fs::exists(work_ / "profile/index.html"));
+}
+
+TEST_F(ImageModule, AComparisonIsNotLostWithItsPictures) {
+    const BrokenLibrary broken(folder_.path());
+    const ProgramResult result = run({"compare", box_.string(), "-o", "report", "--integrators", "path,naive", "--spp",
+                                      "2", "--seeds", "2", "--quiet"});
+    EXPECT_EQ(result.exit_code, 1) << result.err;
+    EXPECT_NE(result.err.find("OpenImageIO cannot be loaded"), std::string::npos) << result.err;
+    EXPECT_NE(read_file(work_ / "report/report.json").find("\"naive\""), std::string::npos);
 }
 
 }  // namespace

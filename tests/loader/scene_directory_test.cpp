@@ -119,6 +119,33 @@ TEST(LoadScene, FilesBehindLinksOutsideAreNotFoundInADirectory) {
     EXPECT_NE(failure(dir.path() / "scene.glb").find("link leads out"), std::string::npos);
 }
 
+TEST(LoadScene, GivenSettingsAreMergedIntoThoseOfTheFile) {
+    const TempDir dir;
+    dir.write("a.glb", lone_triangle());
+    const auto settings = [&](const char* given) { return load_scene(dir.path(), {.settings = given}).scene.settings; };
+    EXPECT_EQ(settings(R"({"spp": 7})").spp, 7) << "without a file";
+    dir.write("render.json", R"({"spp": 3, "seed": 5, "integrator": {"type": "bdpt", "max_depth": 4}})");
+    EXPECT_EQ(settings("").spp, 3);
+    const RenderSettings merged = settings(R"({"spp": 7, "seed": null, "integrator": {"max_depth": 9}})");
+    EXPECT_EQ(merged.spp, 7);
+    EXPECT_EQ(merged.seed, RenderSettings{}.seed) << "null restores the default";
+    EXPECT_EQ(merged.integrator.type, "bdpt") << "objects are merged";
+    EXPECT_EQ(merged.integrator.max_depth, 9);
+    EXPECT_EQ(load_scene(dir.path(), {.settings = R"({"spp": 7})"}).scene.inputs, load_scene(dir.path()).scene.inputs);
+}
+
+TEST(LoadScene, GivenSettingsAreCheckedAsThoseOfTheFile) {
+    const TempDir dir;
+    dir.write("a.glb", lone_triangle());
+    for (const char* given : {"{", "[1]", R"({"spp": 1, "spp": 2})", R"({"spp": 0})", R"({"ssp": 1})"})
+        EXPECT_THROW((void)load_scene(dir.path(), {.settings = given}), SceneError) << given;
+    // A render.json that is for another file is left out, what is given is not.
+    dir.write("b.glb", lone_triangle());
+    dir.write("render.json", R"({"scene": "b.glb", "spp": 3})");
+    EXPECT_EQ(load_scene(dir.path() / "a.glb", {.settings = R"({"seed": 8})"}).scene.settings.seed, 8u);
+    EXPECT_NE(load_scene(dir.path() / "a.glb", {.settings = R"({"seed": 8})"}).scene.settings.spp, 3);
+}
+
 TEST(FindSceneDirectories, FindsThemSortedAtEveryDepth) {
     const TempDir dir;
     dir.write("b/scene.glb", lone_triangle());

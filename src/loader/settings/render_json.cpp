@@ -3,6 +3,7 @@
 #include "core/byte_size.h"
 #include "loader/files.h"
 #include "loader/json_text.h"
+#include "loader/loader.h"
 #include "loader/settings/json_object.h"
 
 #include <fmt/format.h>
@@ -391,14 +392,25 @@ void read_document(const Json& value, ProblemList& problems, RenderJson& out) {
 
 }  // namespace
 
-RenderJson read_render_json(const std::filesystem::path& file, ProblemList& problems) {
+RenderJson read_render_json(const std::filesystem::path& file, std::string_view given, ProblemList& problems) {
     RenderJson result;
-    result.location = {file.string(), {}};
+    result.file = file;
+    result.location = {file.empty() ? kGivenSettings : file.string(), {}};
     result.settings.location = result.location;
     try {
-        const std::vector<unsigned char> bytes = read_bytes(file, kMaxSettingsBytes);
-        const std::string_view text{reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-        read_document(parse_json(text, result.location), problems, result);
+        Json document = Json::object();
+        if (!file.empty()) {
+            const std::vector<unsigned char> bytes = read_bytes(file, kMaxSettingsBytes);
+            const std::string_view text{reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+            document = parse_json(text, result.location);
+        }
+        if (!given.empty()) {
+            const SourceLocation where{kGivenSettings, {}};
+            const Json changes = parse_json(given, where);
+            if (!changes.is_object()) throw SceneError(where, "the settings are no JSON object");
+            document.merge_patch(changes);
+        }
+        read_document(document, problems, result);
     } catch (const IoError& error) {
         problems.error(result.location, error.what());
     } catch (const SceneError& error) {

@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace etendue {
 
@@ -41,10 +42,13 @@ struct RenderJson {
     std::map<std::string, MaterialOverride> materials;
     std::map<std::string, LightOverride> lights;
     SourceLocation location;
+    std::filesystem::path file;  ///< that it was read from; empty if no file was
 };
 
-/// Parses `file`. All errors go to `problems`, each with its JSON pointer; members with errors keep their defaults.
-[[nodiscard]] RenderJson read_render_json(const std::filesystem::path& file, ProblemList& problems);
+/// Parses `file`, merged with the text of another document, `given` (RFC 7386); either may be empty. All errors go to
+/// `problems`, each with its JSON pointer; members with errors keep their defaults.
+[[nodiscard]] RenderJson read_render_json(const std::filesystem::path& file, std::string_view given,
+                                          ProblemList& problems);
 
 /// Applies what the document says of the scene to one that has been loaded: overrides by name, camera, environment
 /// (whose header is read). Names that the scene does not have are errors that suggest the nearest one.

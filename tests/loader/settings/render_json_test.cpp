@@ -16,7 +16,7 @@ Parsed parse(const std::string& text) {
     const TempDir dir;
     dir.write("render.json", text);
     Parsed result;
-    result.json = read_render_json(dir.path() / "render.json", result.problems);
+    result.json = read_render_json(dir.path() / "render.json", {}, result.problems);
     return result;
 }
 

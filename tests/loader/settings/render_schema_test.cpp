@@ -37,7 +37,7 @@ ProblemList problems_of(const std::string& text) {
     const TempDir dir;
     dir.write("render.json", text);
     ProblemList problems;
-    static_cast<void>(read_render_json(dir.path() / "render.json", problems));
+    static_cast<void>(read_render_json(dir.path() / "render.json", {}, problems));
     return problems;
 }
 

@@ -1,10 +1,10 @@
-#include "app/aov_setup.h"
+#include "picture/aov_setup.h"
 
-#include "app/matte_names.h"
 #include "core/pointed_text.h"
 #include "integrator/integrator.h"
 #include "lightpath/usual_expressions.h"
 #include "output/cryptomatte.h"
+#include "picture/matte_names.h"
 
 #include <algorithm>
 #include <array>
@@ -403,7 +403,15 @@ class Planner {
 }  // namespace
 
 AovPlan make_aov_plan(const SceneDesc& scene, ProblemList& problems) {
-    return Planner(scene, problems).plan();
+    AovPlan plan = Planner(scene, problems).plan();
+    const RenderSettings& settings = scene.settings;
+    const bool has_layers =
+        std::ranges::any_of(plan.outputs, [](const AovOutput& aov) { return aov.kind != AovKind::Deep; });
+    if (settings.color.aces_container && has_layers && settings.aov_layout != AovLayout::Files)
+        throw SceneError(settings.at("/aov_layout"),
+                         "an ACES container (SMPTE ST 2065-4) holds one image: write layers in files of their own "
+                         "(--aov-layout files)");
+    return plan;
 }
 
 std::string list_aov_sources() {

@@ -21,7 +21,7 @@ struct AovPlan {
 
 /// What `scene.settings.aovs` asks for, groups in place of their names. Names that nothing in the scene has are noted
 /// in `problems`. Throws SceneError for sources that do not exist, expressions that are wrong, names that are there
-/// twice, and what the integrator cannot tell apart.
+/// twice, what the integrator cannot tell apart, and layers in an ACES container.
 [[nodiscard]] AovPlan make_aov_plan(const SceneDesc& scene, ProblemList& problems);
 
 /// All sources with what they are, a line each, for --help.

@@ -1,4 +1,4 @@
-#include "app/render_setup.h"
+#include "picture/render_setup.h"
 
 #include "core/error.h"
 #include "integrator/integrator.h"
@@ -56,6 +56,16 @@ RenderOptions make_part_options(const RenderSettings& settings, const std::optio
     options.adaptive = false;
     if (samples) options.spp = samples->end - samples->begin;
     return options;
+}
+
+bool keeps_every_other_pass(const RenderOptions& options, bool has_halves) {
+    return options.relative_error > 0.0 || has_halves;
+}
+
+RenderState make_render_state(const RenderOptions& options, bool has_halves) {
+    RenderState state{.film = make_film(options)};
+    if (keeps_every_other_pass(options, has_halves)) state.every_other_pass = make_second_film(options);
+    return state;
 }
 
 IntegratorOptions integrator_options(const RenderSettings& settings) {
@@ -148,6 +158,14 @@ std::vector<std::string> ineffective_settings(const RenderSettings& settings, bo
             settings.integrator.max_depth == 1 ? "1 edge" : fmt::format("{} edges", settings.integrator.max_depth),
             kShortestIndirect));
     return sentences;
+}
+
+std::vector<std::string> notes_on(const World& world, const Integrator& integrator, const RenderSettings& settings) {
+    std::vector<std::string> notes;
+    for (std::vector<std::string> some : {integrator.unreachable_light(world), integrator.ineffective_options(world),
+                                          ineffective_settings(settings, world.has_bodies())})
+        notes.insert(notes.end(), some.begin(), some.end());
+    return notes;
 }
 
 namespace {

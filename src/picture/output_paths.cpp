@@ -1,4 +1,4 @@
-#include "app/output_paths.h"
+#include "picture/output_paths.h"
 
 #include "core/error.h"
 

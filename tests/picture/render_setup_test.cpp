@@ -1,4 +1,4 @@
-#include "app/render_setup.h"
+#include "picture/render_setup.h"
 
 #include "app/small_files.h"
 

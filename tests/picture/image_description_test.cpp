@@ -1,5 +1,5 @@
 // What parts say of themselves: anybody can write one.
-#include "app/image_description.h"
+#include "picture/image_description.h"
 
 #include "core/error.h"
 

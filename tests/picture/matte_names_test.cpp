@@ -1,4 +1,4 @@
-#include "app/matte_names.h"
+#include "picture/matte_names.h"
 
 #include <chrono>
 #include <cstddef>

@@ -1,7 +1,6 @@
-#include "app/image_description.h"
+#include "picture/image_description.h"
 
 #include "core/error.h"
-#include "core/log.h"
 #include "film/median_of_means.h"
 #include "output/input_file_json.h"
 #include "render/render.h"
@@ -210,6 +209,41 @@ void require_fitting(const ImageDescription& description, const LayerLayout& lay
 
 }  // namespace
 
+ImageDescription describe_settings(const SceneDesc& scene, const AovPlan& plan) {
+    const RenderSettings& settings = scene.settings;
+    ImageDescription description{.frame = {}, .aovs = plan.outputs, .statistics = {}};
+    OutputFrame& frame = description.frame;
+    frame.working_space = settings.color.working_space;
+    frame.display = settings.color.display;
+    frame.view = settings.color.view;
+    frame.look = settings.color.look;
+    frame.output_space = settings.color.output_space;
+    frame.aces_container = settings.color.aces_container;
+    frame.exposure = settings.color.exposure;
+    frame.scene = scene.name;
+    frame.integrator = settings.integrator.type;
+    frame.sampler = settings.sampler == SamplerType::Random ? "random" : "sobol";
+    frame.seed = settings.seed;
+    description.aov_layout = settings.aov_layout;
+    description.clamp_indirect = settings.clamp_indirect;
+    if (plan.set) {
+        description.buckets = plan.set->buckets;
+        description.removed_light = plan.set->removed_light;
+    }
+    RenderStatistics& s = description.statistics;
+    s.scene = scene.name;
+    s.frame = settings.frame;
+    s.time_code = settings.shown_time();
+    s.light_units = light_units_name(settings.light_units);
+    s.spp_requested = settings.spp;
+    return description;
+}
+
+void describe_camera(ImageDescription& description, const World& world) {
+    description.frame.world_to_camera = world_to_camera(world.camera());
+    description.frame.world_to_screen = world_to_screen(world.camera());
+}
+
 std::string to_text(const ImageDescription& description) {
     Json aovs = Json::array();
     for (const AovOutput& aov : description.aovs) aovs.push_back(to_object(aov));
@@ -306,10 +340,10 @@ void describe_state(ImageDescription& description, const RenderState& state, boo
     }
 }
 
-void note_few_buckets(const RenderStatistics& statistics, const std::filesystem::path& output) {
-    if (statistics.robust_filled < statistics.robust_buckets)
-        log_warning("note: {}: mon:{} has only {} means to take the median of where pixels have as few samples",
-                    output.string(), statistics.robust_buckets, statistics.robust_filled);
+std::optional<std::string> few_buckets(const RenderStatistics& statistics) {
+    if (statistics.robust_filled >= statistics.robust_buckets) return std::nullopt;
+    return fmt::format("mon:{} has only {} means to take the median of where pixels have as few samples",
+                       statistics.robust_buckets, statistics.robust_filled);
 }
 
 void resolve_layers(ImageDescription& description, const RenderState& state) {

@@ -5,9 +5,12 @@
 #include "output/aov_output.h"
 #include "output/output_frame.h"
 #include "output/statistics.h"
+#include "picture/aov_setup.h"
 #include "render/checkpoint.h"
 #include "render/progressive_render.h"
 #include "scene/aov_desc.h"
+#include "scene/scene_desc.h"
+#include "world/world.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -27,6 +30,12 @@ struct ImageDescription {
     RenderStatistics statistics;  ///< of what is rendered; when it is read back, without what rendering it cost
 };
 
+/// The description of an image of `scene`, whose names of colour spaces are resolved, with the layers of `plan`.
+[[nodiscard]] ImageDescription describe_settings(const SceneDesc& scene, const AovPlan& plan);
+
+/// Puts in how the camera sees the world.
+void describe_camera(ImageDescription& description, const World& world);
+
 /// As text that `parse_description` understands.
 [[nodiscard]] std::string to_text(const ImageDescription& description);
 
@@ -43,8 +52,8 @@ struct ImageDescription {
 void describe_state(ImageDescription& description, const RenderState& state, bool complete,
                     const std::string& halt_reason);
 
-/// Says in the log if the median of means of `output` is one of few means, or none: the fewer, the nearer to the mean.
-void note_few_buckets(const RenderStatistics& statistics, const std::filesystem::path& output);
+/// A sentence if the median of means is one of few means, or none: the fewer, the nearer to the mean.
+[[nodiscard]] std::optional<std::string> few_buckets(const RenderStatistics& statistics);
 
 /// Puts in the layers of the film, and if the state has every other pass by itself, those of that.
 void resolve_layers(ImageDescription& description, const RenderState& state);

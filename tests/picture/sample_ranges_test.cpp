@@ -1,4 +1,4 @@
-#include "app/sample_ranges.h"
+#include "picture/sample_ranges.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,12 @@
 // From settings to what renders them: options of the film, the sampler and the integrator, and the colour space.
 #pragma once
 
-#include "app/sample_ranges.h"
 #include "color/color_config.h"
 #include "integrator/integrator.h"
+#include "picture/sample_ranges.h"
 #include "render/render.h"
 #include "scene/render_settings.h"
+#include "world/world.h"
 
 #include <memory>
 #include <optional>
@@ -21,6 +22,12 @@ namespace etendue {
 /// the number of samples ends it.
 [[nodiscard]] RenderOptions make_part_options(const RenderSettings& settings,
                                               const std::optional<SampleRange>& samples);
+
+/// True if a render of these keeps every other pass by itself: for its own error, or for `has_halves`.
+[[nodiscard]] bool keeps_every_other_pass(const RenderOptions& options, bool has_halves);
+
+/// The state of a render that has not begun, with the films that it needs.
+[[nodiscard]] RenderState make_render_state(const RenderOptions& options, bool has_halves);
 
 /// What the settings ask of the integrator.
 [[nodiscard]] IntegratorOptions integrator_options(const RenderSettings& settings);
@@ -39,6 +46,11 @@ void require_strategies(const RenderSettings& settings, const SourceLocation& as
 /// light where all paths are too short to be any.
 /// `has_bodies`: the scene's paths may scatter in media, which adds no edges to them.
 [[nodiscard]] std::vector<std::string> ineffective_settings(const RenderSettings& settings, bool has_bodies);
+
+/// A sentence for each thing that the render will not show although the scene or its settings ask for it: light that
+/// the integrator cannot find, options and settings without effect.
+[[nodiscard]] std::vector<std::string> notes_on(const World& world, const Integrator& integrator,
+                                                const RenderSettings& settings);
 
 /// Puts the config's defaults where `settings` name no space, display or view, and checks that everything exists.
 /// Returns the working space; the settings name that of the EXR, too. Throws SceneError with the setting's location.

@@ -1,0 +1,25 @@
+// What a Picture holds.
+#pragma once
+
+#include "color/color_config.h"
+#include "picture/image_description.h"
+
+#include <filesystem>
+#include <vector>
+
+#include <etendue/picture.h>
+
+namespace etendue {
+
+struct Picture::State {
+    ImageDescription image;
+    ColorConfig colors;
+    std::vector<std::filesystem::path> inputs;  ///< that the scene was read from
+    std::vector<Message> messages;
+    std::vector<Layer> layers;  ///< of `image`
+
+    /// Has `layers` show those of `image`.
+    void list_layers();
+};
+
+}  // namespace etendue
