@@ -60,7 +60,7 @@ THIRD_PARTY = [
     (r"(openvdb|nanovdb)/", "medium", WRAPPED),
     (r"embree[34]/", "world", WRAPPED),
     (r"CLI/", "app", WRAPPED),
-    (r"experimental/simd$", "core", SHOWN),
+    (r"hwy/", "core", SHOWN),
     # The processor and the operating system.
     (r"[a-z]+mmintrin\.h|immintrin\.h", ANY_ROOM, SHOWN),
     (r"(unistd|dlfcn|elf|fcntl|link|poll|pthread|pwd|sched|spawn)\.h|linux/|sys/", ANY_ROOM, WRAPPED),
