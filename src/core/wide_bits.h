@@ -3,6 +3,7 @@
 
 #include "core/wide.h"
 
+#include <array>
 #include <cstdint>
 
 namespace etendue {
@@ -59,16 +60,28 @@ class WideBits {
         return Wide(lanes::ConvertTo(Wide::Tag(), upper)) * 0x1p-24f;
     }
 
-#if defined(__GFNI__) && defined(__AVX512BW__)
-    /// As `reverse_bits` does it with masks, in two steps in place of some fourteen: the bytes, then the bits of each,
-    /// by a matrix.
+    /// As that of one number does it with masks, in some fourteen steps: the bytes of each number, then the bits of
+    /// each byte, by a matrix, or half by half, by a table.
     [[nodiscard]] friend WideBits reverse_bits(WideBits a) {
-        const __m512i bytes =
-            _mm512_shuffle_epi8(a.lanes_.raw, _mm512_set4_epi32(0x0c0d0e0f, 0x08090a0b, 0x04050607, 0x00010203));
+        using Bytes = lanes::Repartition<std::uint8_t, Tag>;
+        alignas(16) static constexpr std::array<std::uint8_t, 16> kReversed{3,  2,  1, 0, 7,  6,  5,  4,
+                                                                            11, 10, 9, 8, 15, 14, 13, 12};
+        const auto bytes =
+            lanes::TableLookupBytes(lanes::BitCast(Bytes(), a.lanes_), lanes::LoadDup128(Bytes(), kReversed.data()));
+#if defined(__GFNI__) && defined(__AVX512BW__)  // of processors that are compiled for alone; no level of x86-64 has it
         const __m512i matrix = _mm512_set1_epi64(static_cast<std::int64_t>(0x8040201008040201u));
-        return WideBits(Simd{_mm512_gf2p8affine_epi64_epi8(bytes, matrix, 0)});
-    }
+        return WideBits(Simd{_mm512_gf2p8affine_epi64_epi8(bytes.raw, matrix, 0)});
+#else
+        alignas(16) static constexpr std::array<std::uint8_t, 16> kHalves{0, 8, 4, 12, 2, 10, 6, 14,
+                                                                          1, 9, 5, 13, 3, 11, 7, 15};
+        const auto halves = lanes::LoadDup128(Bytes(), kHalves.data());
+        const auto low = lanes::And(bytes, lanes::Set(Bytes(), 0x0f));
+        const auto high = lanes::And(lanes::BitCast(Bytes(), lanes::ShiftRight<4>(lanes::BitCast(Tag(), bytes))),
+                                     lanes::Set(Bytes(), 0x0f));
+        const auto to_high = lanes::ShiftLeft<4>(lanes::BitCast(Tag(), lanes::TableLookupBytes(halves, low)));
+        return WideBits(lanes::Or(to_high, lanes::BitCast(Tag(), lanes::TableLookupBytes(halves, high))));
 #endif
+    }
 
   private:
     Simd lanes_;
