@@ -33,31 +33,6 @@ function(etendue_compile_singly)
   endif()
 endfunction()
 
-# etendue_optimise_further(<target>...): as ETENDUE_LINK_TIME_OPTIMISATION and ETENDUE_PROFILE ask for.
-function(etendue_optimise_further)
-  if(ETENDUE_LINK_TIME_OPTIMISATION)
-    set_target_properties(${ARGN} PROPERTIES INTERPROCEDURAL_OPTIMIZATION ON)
-  endif()
-  # Counts lie beside the objects, so one build folder serves both. -fprofile-correction is for what is not consistent
-  # where threads counted at once. What the training did not run is optimised as ever.
-  if(ETENDUE_PROFILE STREQUAL "generate")
-    set(profile_options -fprofile-generate -fprofile-update=prefer-atomic)
-  elseif(ETENDUE_PROFILE STREQUAL "use")
-    set(profile_options -fprofile-use -fprofile-partial-training -fprofile-correction -Wno-missing-profile)
-  elseif(ETENDUE_PROFILE)
-    message(FATAL_ERROR "ETENDUE_PROFILE is '${ETENDUE_PROFILE}'; it can be empty, 'generate' or 'use'.")
-  endif()
-  foreach(target ${ARGN})
-    target_compile_options(${target} PRIVATE ${profile_options})
-    if(ETENDUE_PROFILE OR ETENDUE_LINK_TIME_OPTIMISATION)
-      set_target_properties(${target} PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)  # of other options
-    endif()
-    if(ETENDUE_PROFILE STREQUAL "generate")
-      target_link_options(${target} INTERFACE -fprofile-generate)
-    endif()
-  endforeach()
-endfunction()
-
 # etendue_set_sanitizers(<program>): what sanitizers are to overlook goes into each program that they watch.
 function(etendue_set_sanitizers program)
   get_target_property(type ${program} TYPE)
