@@ -1,4 +1,9 @@
 # Compile options of our own code, carried by one interface target that every room links.
+if(ETENDUE_MARCH)
+  set(march "${ETENDUE_MARCH}")
+else()
+  set(march x86-64-v2)
+endif()
 add_library(etendue_options INTERFACE)
 target_compile_options(etendue_options INTERFACE
   -Wall -Wextra -Wconversion
@@ -7,7 +12,8 @@ target_compile_options(etendue_options INTERFACE
   # errno and trapping are not used; without them sqrt and comparisons inline and vectorise. Results stay IEEE.
   -fno-math-errno -fno-trapping-math
   $<$<BOOL:${ETENDUE_WARNINGS_AS_ERRORS}>:-Werror>
-  $<$<BOOL:${ETENDUE_MARCH}>:-march=${ETENDUE_MARCH}>)
+  # What is compiled once more for an instruction set has it as the property ETENDUE_MARCH.
+  -march=$<IF:$<BOOL:$<TARGET_PROPERTY:ETENDUE_MARCH>>,$<TARGET_PROPERTY:ETENDUE_MARCH>,${march}>)
 if(ETENDUE_SANITIZERS)
   # Not in the code of targets with the property ETENDUE_UNINSTRUMENTED.
   set(sanitizer_options -fsanitize=${ETENDUE_SANITIZERS} -fno-sanitize-recover=all -fno-omit-frame-pointer)

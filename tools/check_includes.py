@@ -33,13 +33,14 @@ ROOMS = {
     "world": "scene bsdf medium light camera texture image color sampling core",
     "film": "sampling core",
     "integrator": "world lightpath film bsdf medium light camera sampling core",
-    "render": "integrator world film image core",
+    "processor": "integrator world core",
+    "render": "processor integrator world film image core",
     "output": "film color image core",
     "metrics": "image core",
     "report": "metrics image core",
     "denoise": "image core",
-    "app": "core lightpath sampling image color scene loader bsdf medium texture light camera world film integrator render "
-    "output metrics report denoise",
+    "app": "core lightpath sampling image color scene loader bsdf medium texture light camera world film integrator "
+    "processor render output metrics report denoise",
 }
 
 # Pattern of a third-party header, the rooms that may include it, and whether their headers may show it to other rooms.

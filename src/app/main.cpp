@@ -6,15 +6,18 @@
 #include "core/log.h"
 #include "film/film.h"
 #include "output/software_name.h"
+#include "processor/ray_code.h"
 
 #include <algorithm>
 #include <exception>
 #include <new>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 namespace {
 
@@ -45,7 +48,14 @@ ExitCode run(const Action& action) {
 int main(int argc, char** argv) {
     CLI::App app("Etendue renders glTF 2.0 scenes to colour-managed EXR images.");
     app.name("etendue");
-    app.set_version_flag("--version", std::string(software_name()));
+    std::string_view instruction_set;
+    try {
+        instruction_set = instruction_set_name(ray_code().instruction_set);
+    } catch (const std::invalid_argument& error) {
+        log_error("error: {}", error.what());
+        return static_cast<int>(ExitCode::UsageError);
+    }
+    app.set_version_flag("--version", fmt::format("{} ({})", software_name(), instruction_set));
     app.require_subcommand(1);
     app.footer(
         "Exit codes: 0 success, 1 rendering failed for at least one scene or images differ too much, 2 usage error,\n"

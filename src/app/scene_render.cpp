@@ -19,10 +19,10 @@
 #include "core/log.h"
 #include "image/image_module.h"
 #include "output/preview_driver.h"
+#include "processor/ray_code.h"
 #include "render/brightest_paths.h"
 #include "render/checkpoint.h"
 #include "render/render.h"
-#include "world/compile.h"
 
 #include <algorithm>
 #include <chrono>
@@ -180,6 +180,7 @@ class SceneRender {
         s.spp_requested = scene_.settings.spp;
         s.threads = threads_.thread_count();
         s.libraries = library_versions();
+        s.instruction_set = instruction_set_name(ray_code().instruction_set);
 
         const std::string working_space = resolve_colors(scene_.settings, colors_);
         identity_ = render_identity(scene_, s.inputs, working_space);
@@ -246,7 +247,8 @@ class SceneRender {
     [[nodiscard]] World compile() {
         progress_pipe_.enter("build");
         const PhaseTimer timer;
-        World world = compile_world(std::move(scene_), colors_, settings_.color.working_space, threads_, problems_);
+        World world = ray_code().compile_world(std::move(scene_), colors_, settings_.color.working_space, threads_,
+                                               problems_, {});
         report_problems();
         const WorldStatistics from = world.statistics();
         RenderStatistics& s = description_.statistics;
