@@ -68,6 +68,8 @@ class Wide {
     /// not depend on the width.
     static constexpr std::size_t kAlignment = 64;
     static_assert(sizeof(Simd) <= kAlignment);
+    /// The most lanes that any processor has: so many numbers behind an array can be loaded with its last ones.
+    static constexpr std::size_t kMostLanes = kAlignment / sizeof(float);
 
     Wide() = default;
     /// The same number in every lane.
