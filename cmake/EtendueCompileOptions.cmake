@@ -1,4 +1,9 @@
 # Compile options of our own code, carried by one interface target that every room links.
+if(ETENDUE_MARCH)
+  set(march "${ETENDUE_MARCH}")
+else()
+  set(march x86-64-v2)
+endif()
 add_library(etendue_options INTERFACE)
 target_compile_options(etendue_options INTERFACE
   -Wall -Wextra -Wconversion
@@ -7,7 +12,8 @@ target_compile_options(etendue_options INTERFACE
   # errno and trapping are not used; without them sqrt and comparisons inline and vectorise. Results stay IEEE.
   -fno-math-errno -fno-trapping-math
   $<$<BOOL:${ETENDUE_WARNINGS_AS_ERRORS}>:-Werror>
-  $<$<BOOL:${ETENDUE_MARCH}>:-march=${ETENDUE_MARCH}>)
+  # What is compiled once more for an instruction set has it as the property ETENDUE_MARCH.
+  -march=$<IF:$<BOOL:$<TARGET_PROPERTY:ETENDUE_MARCH>>,$<TARGET_PROPERTY:ETENDUE_MARCH>,${march}>)
 if(ETENDUE_SANITIZERS)
   # Not in the code of targets with the property ETENDUE_UNINSTRUMENTED.
   set(sanitizer_options -fsanitize=${ETENDUE_SANITIZERS} -fno-sanitize-recover=all -fno-omit-frame-pointer)
@@ -37,31 +43,6 @@ function(etendue_compile_singly)
   if(NOT ETENDUE_QUICK_BUILD)
     set_target_properties(${ARGN} PROPERTIES UNITY_BUILD OFF)
   endif()
-endfunction()
-
-# etendue_optimise_further(<target>...): as ETENDUE_LINK_TIME_OPTIMISATION and ETENDUE_PROFILE ask for.
-function(etendue_optimise_further)
-  if(ETENDUE_LINK_TIME_OPTIMISATION)
-    set_target_properties(${ARGN} PROPERTIES INTERPROCEDURAL_OPTIMIZATION ON)
-  endif()
-  # Counts lie beside the objects, so one build folder serves both. -fprofile-correction is for what is not consistent
-  # where threads counted at once. What the training did not run is optimised as ever.
-  if(ETENDUE_PROFILE STREQUAL "generate")
-    set(profile_options -fprofile-generate -fprofile-update=prefer-atomic)
-  elseif(ETENDUE_PROFILE STREQUAL "use")
-    set(profile_options -fprofile-use -fprofile-partial-training -fprofile-correction -Wno-missing-profile)
-  elseif(ETENDUE_PROFILE)
-    message(FATAL_ERROR "ETENDUE_PROFILE is '${ETENDUE_PROFILE}'; it can be empty, 'generate' or 'use'.")
-  endif()
-  foreach(target ${ARGN})
-    target_compile_options(${target} PRIVATE ${profile_options})
-    if(ETENDUE_PROFILE OR ETENDUE_LINK_TIME_OPTIMISATION)
-      set_target_properties(${target} PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)  # of other options
-    endif()
-    if(ETENDUE_PROFILE STREQUAL "generate")
-      target_link_options(${target} INTERFACE -fprofile-generate)
-    endif()
-  endforeach()
 endfunction()
 
 # etendue_set_sanitizers(<program>): what sanitizers are to overlook goes into each program that they watch.

@@ -34,6 +34,7 @@ etendue_find_pkgconfig(OpenImageIO OpenImageIO>=2.4 libopenimageio-dev)
 etendue_find_pkgconfig(OpenColorIO OpenColorIO>=2.1 libopencolorio-dev)
 etendue_find_pkgconfig(xxHash libxxhash libxxhash-dev)
 etendue_find_pkgconfig(Imath Imath>=3.1 libimath-dev)
+etendue_find_pkgconfig(Highway libhwy>=1.0.3 libhwy-dev)
 etendue_find(TinyGLTF libtinygltf-dev)
 # Debian's Draco carries a tinygltf of its own, of another version, whose functions would take the place of the real one's.
 # So what is linked is a copy of the archive without its glTF reader.

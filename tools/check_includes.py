@@ -33,15 +33,16 @@ ROOMS = {
     "world": "scene bsdf medium light camera texture image color sampling core",
     "film": "sampling core",
     "integrator": "world lightpath film bsdf medium light camera sampling core",
-    "render": "integrator world film image core",
+    "processor": "integrator world core",
+    "render": "processor integrator world film image core",
     "output": "film color image core",
     "metrics": "image core",
     "report": "metrics image core",
     "denoise": "image core",
-    "picture": "core lightpath image color scene world film integrator render output",
-    "api": "core color loader scene world integrator render output picture",
-    "app": "core lightpath sampling image color scene loader bsdf medium texture light camera world film integrator render "
-    "output metrics report denoise picture",
+    "picture": "core lightpath image color scene world film integrator processor render output",
+    "api": "core color loader scene world integrator processor render output picture",
+    "app": "core lightpath sampling image color scene loader bsdf medium texture light camera world film integrator "
+    "processor render output metrics report denoise picture",
 }
 
 # Pattern of a third-party header, the rooms that may include it, and whether their headers may show it to other rooms.
@@ -63,7 +64,7 @@ THIRD_PARTY = [
     (r"(openvdb|nanovdb)/", "medium", WRAPPED),
     (r"embree[34]/", "world", WRAPPED),
     (r"CLI/", "app", WRAPPED),
-    (r"experimental/simd$", "core", SHOWN),
+    (r"hwy/", "core", SHOWN),
     # The processor and the operating system.
     (r"[a-z]+mmintrin\.h|immintrin\.h", ANY_ROOM, SHOWN),
     (r"(unistd|dlfcn|elf|fcntl|link|poll|pthread|pwd|sched|spawn)\.h|linux/|sys/", ANY_ROOM, WRAPPED),

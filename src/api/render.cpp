@@ -5,7 +5,7 @@
 #include "output/software_name.h"
 #include "picture/aov_setup.h"
 #include "picture/render_setup.h"
-#include "world/compile.h"
+#include "processor/ray_code.h"
 
 #include <atomic>
 #include <memory>
@@ -64,7 +64,8 @@ Picture render(Scene scene, const RenderControl& control) {
         const std::string space = resolve_colors(description.settings, state->colors);
         state->image = describe_settings(description, aovs);
         const RenderSettings settings = description.settings;
-        const World world = compile_world(std::move(description), state->colors, space, threads, problems);
+        const World world =
+            ray_code().compile_world(std::move(description), state->colors, space, threads, problems, {});
         describe_camera(state->image, world);
         for (const Problem& problem : problems.all()) state->messages.push_back(to_message(problem, given));
         for (std::string& note : notes_on(world, *integrator, settings))

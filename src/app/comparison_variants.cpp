@@ -4,7 +4,7 @@
 #include "core/log.h"
 #include "loader/loader.h"
 #include "picture/render_setup.h"
-#include "world/compile.h"
+#include "processor/ray_code.h"
 
 #include <algorithm>
 #include <array>
@@ -128,8 +128,8 @@ std::vector<Variant> make_variants(const std::filesystem::path& scene, std::span
         });
         variant.world = same_world != variants.end()
                             ? same_world->world
-                            : std::make_shared<const World>(compile_world(std::move(prepared.scene), colors,
-                                                                          working_space, threads, prepared.problems));
+                            : std::make_shared<const World>(ray_code().compile_world(
+                                  std::move(prepared.scene), colors, working_space, threads, prepared.problems, {}));
         if (variants.empty() && !quiet)
             for (const Problem& problem : prepared.problems.all()) log_warning("{}", problem.str());
         complete(variant);

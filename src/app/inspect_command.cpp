@@ -4,7 +4,7 @@
 #include "color/color_config.h"
 #include "loader/loader.h"
 #include "picture/render_setup.h"
-#include "world/compile.h"
+#include "processor/ray_code.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -84,7 +84,8 @@ Inspection inspect(const std::string& path) {
         const ThreadPool threads;
         const ColorConfig colors = ColorConfig::from_environment();
         const std::string working_space = resolve_colors(scene.settings, colors);
-        const World world = compile_world(std::move(scene), colors, working_space, threads, result.problems);
+        const World world =
+            ray_code().compile_world(std::move(scene), colors, working_space, threads, result.problems, {});
         result.world = world.statistics();
     } catch (const SceneError& error) {
         for (const Problem& problem : error.problems().all()) result.problems.add(problem);

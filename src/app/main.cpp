@@ -5,12 +5,15 @@
 #include "core/error.h"
 #include "core/log.h"
 #include "film/film.h"
+#include "processor/ray_code.h"
 
 #include <exception>
 #include <memory>
 #include <new>
+#include <stdexcept>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 namespace {
 
@@ -39,6 +42,12 @@ ExitCode run(const Action& action) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    try {
+        (void)ray_code();
+    } catch (const std::invalid_argument& error) {
+        log_error("error: {}", error.what());
+        return static_cast<int>(ExitCode::UsageError);
+    }
     Action action;
     const std::unique_ptr<CLI::App> app = make_command_line(action);
     try {

@@ -6,9 +6,9 @@
 #include "app/prepared_scene.h"
 #include "picture/aov_setup.h"
 #include "picture/render_setup.h"
+#include "processor/ray_code.h"
 #include "render/progressive_render.h"
 #include "render/tiles.h"
-#include "world/compile.h"
 
 #include <algorithm>
 #include <atomic>
@@ -57,7 +57,8 @@ std::string probe(const ImageJob& job, const SettingsOverrides& overrides, const
     RenderOptions options = make_render_options(settings);
     options.aovs = make_aov_plan(prepared.scene, prepared.problems).set;
     const auto integrator = create_integrator(settings);
-    const World world = compile_world(std::move(prepared.scene), colors, working_space, threads, prepared.problems);
+    const World world =
+        ray_code().compile_world(std::move(prepared.scene), colors, working_space, threads, prepared.problems, {});
     const PhaseTime build = build_timer.elapsed();
     const ShortRender rendered = render_shortly(world, *integrator, options, threads);
 

@@ -16,10 +16,10 @@
 #include "metrics/color_map.h"
 #include "output/software_name.h"
 #include "picture/render_setup.h"
+#include "processor/ray_code.h"
 #include "render/progressive_render.h"
 #include "report/profile_comparison.h"
 #include "report/profile_report.h"
-#include "world/compile.h"
 
 #include <algorithm>
 #include <array>
@@ -133,7 +133,7 @@ class LoadedScene {
         report.scene = prepared.scene.name;
         const PhaseTimer timer;
         world = std::make_unique<const World>(
-            compile_world(std::move(prepared.scene), colors, working_space, threads, prepared.problems));
+            ray_code().compile_world(std::move(prepared.scene), colors, working_space, threads, prepared.problems, {}));
         double rest = timer.elapsed().wall;
         for (const CompilePhase& phase : world->statistics().compile_phases) {
             report.load.push_back({std::string(phase.name), phase.seconds});

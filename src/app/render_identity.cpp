@@ -2,6 +2,7 @@
 
 #include "core/content_hash.h"
 #include "output/software_name.h"
+#include "processor/ray_code.h"
 #include "scene/settings_text.h"
 #include "world/compile.h"
 
@@ -49,6 +50,7 @@ RenderIdentity render_identity(const SceneDesc& scene, std::span<const InputFile
                                const std::string& working_space) {
     RenderIdentity identity = settings_identity(scene.settings);
     identity["program"] = fmt::format("{}, build {}", software_name(), software_build());
+    identity["instruction set"] = instruction_set_name(ray_code().instruction_set);
     identity["working space"] = working_space;
     identity["textures"] = holds_textures_in_memory(scene) ? "in memory" : "in a cache (--texture-memory)";
     for (const InputFile& input : inputs) {

@@ -19,10 +19,10 @@
 #include "picture/image_description.h"
 #include "picture/output_paths.h"
 #include "picture/render_setup.h"
+#include "processor/ray_code.h"
 #include "render/brightest_paths.h"
 #include "render/checkpoint.h"
 #include "render/render.h"
-#include "world/compile.h"
 
 #include <algorithm>
 #include <chrono>
@@ -170,6 +170,7 @@ class SceneRender {
         s.settings_hash = hash;
         s.threads = threads_.thread_count();
         s.libraries = library_versions();
+        s.instruction_set = instruction_set_name(ray_code().instruction_set);
         identity_ = render_identity(scene_, s.inputs, working_space);
         settings_ = scene_.settings;
     }
@@ -214,7 +215,8 @@ class SceneRender {
     [[nodiscard]] World compile() {
         progress_pipe_.enter("build");
         const PhaseTimer timer;
-        World world = compile_world(std::move(scene_), colors_, settings_.color.working_space, threads_, problems_);
+        World world = ray_code().compile_world(std::move(scene_), colors_, settings_.color.working_space, threads_,
+                                               problems_, {});
         report_problems();
         const WorldStatistics from = world.statistics();
         RenderStatistics& s = description_.statistics;

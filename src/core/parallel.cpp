@@ -10,8 +10,11 @@
 #include <tbb/task_arena.h>
 #include <tbb/version.h>
 #include <xmmintrin.h>
+
 #ifdef __SANITIZE_THREAD__
-#include <sanitizer/tsan_interface.h>
+// ThreadSanitizer's interface.
+extern "C" void __tsan_acquire(void* address);
+extern "C" void __tsan_release(void* address);
 #endif
 
 namespace etendue {

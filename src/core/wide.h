@@ -9,48 +9,51 @@
 #include "core/lane.h"
 
 #include <array>
-#include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 
+// For the instructions that this source is compiled for; of those the ones that x86-64-v2 lacks are not asked for.
+#define HWY_COMPILE_ONLY_STATIC
+#define HWY_DISABLE_PCLMUL_AES
 // GCC 12 takes what its own intrinsics leave undefined on purpose for a mistake (its bug 105593).
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wuninitialized"
 #ifndef __clang__  // which has no such warning
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #endif
-#include <experimental/simd>
+#include <hwy/highway.h>
 #pragma GCC diagnostic pop
-#ifdef __AVX512F__
-#include <immintrin.h>
-#endif
 
 namespace etendue {
+
+/// Highway's functions for the instructions that a source is compiled for.
+namespace lanes = hwy::HWY_NAMESPACE;
 
 /// What comparisons of `Wide` give, a bool for each lane. `&&` and `||` evaluate both sides.
 class WideMask {
   public:
-    using Simd = std::experimental::native_simd_mask<float>;
+    using Tag = lanes::ScalableTag<float>;
+    using Simd = lanes::Mask<Tag>;
 
     WideMask() = default;
     explicit WideMask(Simd mask) : mask_(mask) {}
 
     [[nodiscard]] Simd simd() const { return mask_; }
-    [[nodiscard]] bool operator[](std::size_t lane) const { return mask_[lane]; }
-
-    [[nodiscard]] friend WideMask operator&&(WideMask a, WideMask b) { return WideMask(a.mask_ && b.mask_); }
-    [[nodiscard]] friend WideMask operator||(WideMask a, WideMask b) { return WideMask(a.mask_ || b.mask_); }
-    [[nodiscard]] friend WideMask operator!(WideMask a) { return WideMask(!a.mask_); }
-
-    /// True in the first `lanes` of them.
-    [[nodiscard]] static WideMask first(std::size_t lanes) {
-        using Floats = std::experimental::native_simd<float>;
-        return WideMask(Floats([](auto lane) { return static_cast<float>(lane); }) < static_cast<float>(lanes));
+    [[nodiscard]] bool operator[](std::size_t lane) const {
+        std::array<std::uint8_t, 8> bits;  // as many as are written at least
+        lanes::StoreMaskBits(Tag(), mask_, bits.data());
+        return ((bits[lane / 8] >> (lane % 8)) & 1u) != 0;
     }
+
+    [[nodiscard]] friend WideMask operator&&(WideMask a, WideMask b) { return WideMask(lanes::And(a.mask_, b.mask_)); }
+    [[nodiscard]] friend WideMask operator||(WideMask a, WideMask b) { return WideMask(lanes::Or(a.mask_, b.mask_)); }
+    [[nodiscard]] friend WideMask operator!(WideMask a) { return WideMask(lanes::Not(a.mask_)); }
+
+    /// True in the first `count` of them.
+    [[nodiscard]] static WideMask first(std::size_t count) { return WideMask(lanes::FirstN(Tag(), count)); }
     /// In how many lanes it is true.
-    [[nodiscard]] friend std::size_t count(WideMask a) {
-        return static_cast<std::size_t>(std::experimental::popcount(a.mask_));
-    }
+    [[nodiscard]] friend std::size_t count(WideMask a) { return lanes::CountTrue(Tag(), a.mask_); }
 
   private:
     Simd mask_;
@@ -58,66 +61,67 @@ class WideMask {
 
 class Wide {
   public:
-    using Simd = std::experimental::native_simd<float>;
-    static constexpr std::size_t kWidth = Simd::size();
-    /// Of memory that is loaded from and stored to, bytes.
-    static constexpr std::size_t kAlignment = std::experimental::memory_alignment_v<Simd>;
+    using Tag = WideMask::Tag;
+    using Simd = lanes::Vec<Tag>;
+    static constexpr std::size_t kWidth = lanes::MaxLanes(Tag());
+    /// Of memory that is loaded from and stored to, bytes. One number for every width, so that what lies in memory does
+    /// not depend on the width.
+    static constexpr std::size_t kAlignment = 64;
+    static_assert(sizeof(Simd) <= kAlignment);
+    /// The most lanes that any processor has: so many numbers behind an array can be loaded with its last ones.
+    static constexpr std::size_t kMostLanes = kAlignment / sizeof(float);
 
     Wide() = default;
     /// The same number in every lane.
-    Wide(float value) : lanes_(value) {}  // NOLINT(google-explicit-constructor): numbers mix with it as with float
+    Wide(float value) : lanes_(lanes::Set(Tag(), value)) {}  // NOLINT(google-explicit-constructor): mixes as float does
     explicit Wide(Simd lanes) : lanes_(lanes) {}
 
     /// `kWidth` floats from an aligned address.
-    [[nodiscard]] static Wide load(const float* from) { return Wide(Simd(from, std::experimental::vector_aligned)); }
+    [[nodiscard]] static Wide load(const float* from) { return Wide(lanes::Load(Tag(), from)); }
     /// From any address.
-    [[nodiscard]] static Wide load_unaligned(const float* from) {
-        return Wide(Simd(from, std::experimental::element_aligned));
-    }
-    void store(float* to) const { lanes_.copy_to(to, std::experimental::vector_aligned); }
+    [[nodiscard]] static Wide load_unaligned(const float* from) { return Wide(lanes::LoadU(Tag(), from)); }
+    void store(float* to) const { lanes::Store(lanes_, Tag(), to); }
     /// To any address.
-    void store_unaligned(float* to) const { lanes_.copy_to(to, std::experimental::element_aligned); }
-    [[nodiscard]] float operator[](std::size_t lane) const { return lanes_[lane]; }
-    void set(std::size_t lane, float value) { lanes_[lane] = value; }
+    void store_unaligned(float* to) const { lanes::StoreU(lanes_, Tag(), to); }
+    [[nodiscard]] float operator[](std::size_t lane) const { return lanes::ExtractLane(lanes_, lane); }
+    void set(std::size_t lane, float value) { lanes_ = lanes::InsertLane(lanes_, lane, value); }
     [[nodiscard]] Simd simd() const { return lanes_; }
 
     Wide& operator+=(Wide o) { return *this = *this + o; }
     Wide& operator-=(Wide o) { return *this = *this - o; }
     Wide& operator*=(Wide o) { return *this = *this * o; }
 
-    [[nodiscard]] friend Wide operator+(Wide a, Wide b) { return Wide(a.lanes_ + b.lanes_); }
-    [[nodiscard]] friend Wide operator-(Wide a, Wide b) { return Wide(a.lanes_ - b.lanes_); }
-    [[nodiscard]] friend Wide operator*(Wide a, Wide b) { return Wide(a.lanes_ * b.lanes_); }
-    [[nodiscard]] friend Wide operator/(Wide a, Wide b) { return Wide(a.lanes_ / b.lanes_); }
-    [[nodiscard]] friend Wide operator-(Wide a) { return Wide(-a.lanes_); }
+    [[nodiscard]] friend Wide operator+(Wide a, Wide b) { return Wide(lanes::Add(a.lanes_, b.lanes_)); }
+    [[nodiscard]] friend Wide operator-(Wide a, Wide b) { return Wide(lanes::Sub(a.lanes_, b.lanes_)); }
+    [[nodiscard]] friend Wide operator*(Wide a, Wide b) { return Wide(lanes::Mul(a.lanes_, b.lanes_)); }
+    [[nodiscard]] friend Wide operator/(Wide a, Wide b) { return Wide(lanes::Div(a.lanes_, b.lanes_)); }
+    // The compiler's own negation and not lanes::Neg, which it would not contract with a product.
+    [[nodiscard]] friend Wide operator-(Wide a) { return Wide(Simd{-a.lanes_.raw}); }
 
-    [[nodiscard]] friend WideMask operator<(Wide a, Wide b) { return WideMask(a.lanes_ < b.lanes_); }
-    [[nodiscard]] friend WideMask operator>(Wide a, Wide b) { return WideMask(a.lanes_ > b.lanes_); }
-    [[nodiscard]] friend WideMask operator<=(Wide a, Wide b) { return WideMask(a.lanes_ <= b.lanes_); }
-    [[nodiscard]] friend WideMask operator>=(Wide a, Wide b) { return WideMask(a.lanes_ >= b.lanes_); }
-    [[nodiscard]] friend WideMask operator==(Wide a, Wide b) { return WideMask(a.lanes_ == b.lanes_); }
-    [[nodiscard]] friend WideMask operator!=(Wide a, Wide b) { return WideMask(a.lanes_ != b.lanes_); }
+    [[nodiscard]] friend WideMask operator<(Wide a, Wide b) { return WideMask(lanes::Lt(a.lanes_, b.lanes_)); }
+    [[nodiscard]] friend WideMask operator>(Wide a, Wide b) { return WideMask(lanes::Gt(a.lanes_, b.lanes_)); }
+    [[nodiscard]] friend WideMask operator<=(Wide a, Wide b) { return WideMask(lanes::Le(a.lanes_, b.lanes_)); }
+    [[nodiscard]] friend WideMask operator>=(Wide a, Wide b) { return WideMask(lanes::Ge(a.lanes_, b.lanes_)); }
+    [[nodiscard]] friend WideMask operator==(Wide a, Wide b) { return WideMask(lanes::Eq(a.lanes_, b.lanes_)); }
+    // lanes::Ne is false of what is no number.
+    [[nodiscard]] friend WideMask operator!=(Wide a, Wide b) { return !(a == b); }
 
     // Two instructions, which the compiler takes for too many where there are many of it; a call saves every register.
     [[nodiscard, gnu::always_inline]] friend Wide select(WideMask condition, Wide if_true, Wide if_false) {
-        std::experimental::where(condition.simd(), if_false.lanes_) = if_true.lanes_;
-        return if_false;
+        return Wide(lanes::IfThenElse(condition.simd(), if_true.lanes_, if_false.lanes_));
     }
     /// `table[index]`, lane by lane; the indices are whole numbers.
     [[nodiscard]] friend Wide gather(const float* table, Wide index) {
-        const auto whole = std::experimental::static_simd_cast<int>(index.lanes_);
-        return Wide(Simd([&](auto lane) { return table[whole[lane]]; }));
+        return Wide(lanes::GatherIndex(Tag(), table, lanes::ConvertTo(lanes::RebindToSigned<Tag>(), index.lanes_)));
     }
-    // As those of the standard library are for what is no number.
-    [[nodiscard]] friend Wide min(Wide a, Wide b) { return select(b < a, b, a); }
-    [[nodiscard]] friend Wide max(Wide a, Wide b) { return select(a < b, b, a); }
+    // As those of the standard library are for what is no number, since x86 takes the second operand then.
+    [[nodiscard]] friend Wide min(Wide a, Wide b) { return Wide(lanes::Min(b.lanes_, a.lanes_)); }
+    [[nodiscard]] friend Wide max(Wide a, Wide b) { return Wide(lanes::Max(b.lanes_, a.lanes_)); }
     [[nodiscard]] friend Wide clamp(Wide a, Wide low, Wide high) { return min(max(a, low), high); }
-    [[nodiscard]] friend Wide abs(Wide a) { return Wide(std::experimental::abs(a.lanes_)); }
-    [[nodiscard]] friend Wide floor(Wide a) { return Wide(std::experimental::floor(a.lanes_)); }
-    [[nodiscard]] friend Wide sqrt(Wide a) { return Wide(std::experimental::sqrt(a.lanes_)); }
-    [[nodiscard]] friend Wide copysign(Wide a, Wide sign) {
-        return Wide(std::experimental::copysign(a.lanes_, sign.lanes_));
-    }
+    [[nodiscard]] friend Wide abs(Wide a) { return Wide(lanes::Abs(a.lanes_)); }
+    [[nodiscard]] friend Wide floor(Wide a) { return Wide(lanes::Floor(a.lanes_)); }
+    [[nodiscard]] friend Wide sqrt(Wide a) { return Wide(lanes::Sqrt(a.lanes_)); }
+    [[nodiscard]] friend Wide copysign(Wide a, Wide sign) { return Wide(lanes::CopySign(a.lanes_, sign.lanes_)); }
 
   private:
     Simd lanes_;
@@ -125,27 +129,13 @@ class Wide {
 
 /// The lanes of `a` that are `kept`, one after the other; those behind them are of no meaning.
 [[nodiscard]] inline Wide compress(Wide a, WideMask kept) {
-#ifdef __AVX512F__
-    static_assert(sizeof(Wide::Simd) == sizeof(__m512));
-    return Wide(std::bit_cast<Wide::Simd>(
-        _mm512_maskz_compress_ps(std::bit_cast<__mmask16>(kept.simd()), std::bit_cast<__m512>(a.simd()))));
-#else
-    std::array<float, Wide::kWidth> lanes{};
-    std::size_t next = 0;
-    for (std::size_t lane = 0; lane < Wide::kWidth; ++lane) {
-        lanes[next] = a[lane];
-        next += kept[lane] ? 1 : 0;
-    }
-    return Wide::load_unaligned(lanes.data());
-#endif
+    return Wide(lanes::Compress(a.simd(), kept.simd()));
 }
 
 /// The way back: the first lanes of `a` where lanes are `kept`, `otherwise` in the others.
 [[nodiscard]] inline Wide expand(Wide a, WideMask kept, Wide otherwise) {
-#ifdef __AVX512F__
-    return Wide(std::bit_cast<Wide::Simd>(_mm512_mask_expand_ps(std::bit_cast<__m512>(otherwise.simd()),
-                                                                std::bit_cast<__mmask16>(kept.simd()),
-                                                                std::bit_cast<__m512>(a.simd()))));
+#if HWY_TARGET <= HWY_AVX3  // Highway has no such function before version 1.0.4
+    return Wide(Wide::Simd{_mm512_mask_expand_ps(otherwise.simd().raw, kept.simd().raw, a.simd().raw)});
 #else
     std::size_t next = 0;
     for (std::size_t lane = 0; lane < Wide::kWidth; ++lane)
@@ -154,24 +144,27 @@ class Wide {
 #endif
 }
 
-// The library takes logarithms and exponentials of one lane after the other; these are to some roundings.
+// Highway's own (hwy/contrib/math) are off by up to 4 units in the last place, these by 3; and its logarithms of
+// infinity are numbers.
 
 /// Numbers as 2^exponent mantissa, the mantissas between the roots of 1/2 and 2; normal positive ones.
 class WideBinary {
   public:
     explicit WideBinary(Wide a) : number_(a) {
         constexpr unsigned kRootOfHalf = 0x3f3504f3;  // its bits
-        const Bits bits = std::bit_cast<Bits>(a.simd());
-        const Int exponent = std::bit_cast<Int>(bits - kRootOfHalf) >> kMantissaBits;
-        exponent_ = Wide(std::experimental::static_simd_cast<Wide::Simd>(exponent));
-        mantissa_ = Wide(std::bit_cast<Wide::Simd>(bits - (std::bit_cast<Bits>(exponent) << kMantissaBits)));
+        const auto bits = lanes::BitCast(Bits(), a.simd());
+        const auto exponent =
+            lanes::ShiftRight<kMantissaBits>(lanes::BitCast(Int(), lanes::Sub(bits, lanes::Set(Bits(), kRootOfHalf))));
+        exponent_ = Wide(lanes::ConvertTo(Wide::Tag(), exponent));
+        mantissa_ = Wide(lanes::BitCast(
+            Wide::Tag(), lanes::Sub(bits, lanes::ShiftLeft<kMantissaBits>(lanes::BitCast(Bits(), exponent)))));
     }
 
     /// 2^`exponent`, which are whole numbers within [-126, 127].
     [[nodiscard]] static Wide power_of_two(Wide exponent) {
         constexpr int kBias = 127;
-        return Wide(std::bit_cast<Wide::Simd>((std::experimental::static_simd_cast<Int>(exponent.simd()) + kBias)
-                                              << kMantissaBits));
+        const auto biased = lanes::Add(lanes::ConvertTo(Int(), exponent.simd()), lanes::Set(Int(), kBias));
+        return Wide(lanes::BitCast(Wide::Tag(), lanes::ShiftLeft<kMantissaBits>(biased)));
     }
 
     /// `of_exponent` times the exponent plus `of_mantissa` times the natural logarithm of the mantissa. Denormal
@@ -190,8 +183,8 @@ class WideBinary {
     }
 
   private:
-    using Int = std::experimental::rebind_simd_t<int, Wide::Simd>;
-    using Bits = std::experimental::rebind_simd_t<unsigned, Wide::Simd>;
+    using Int = lanes::RebindToSigned<Wide::Tag>;
+    using Bits = lanes::RebindToUnsigned<Wide::Tag>;
     static constexpr int kMantissaBits = 23;
 
     Wide number_, exponent_, mantissa_;

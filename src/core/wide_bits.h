@@ -3,51 +3,50 @@
 
 #include "core/wide.h"
 
-#include <bit>
+#include <array>
 #include <cstdint>
-
-#if defined(__GFNI__) && defined(__AVX512BW__)
-#include <immintrin.h>
-#endif
 
 namespace etendue {
 
 class WideBits {
   public:
-    using Simd = std::experimental::rebind_simd_t<std::uint32_t, Wide::Simd>;
+    using Tag = lanes::RebindToUnsigned<Wide::Tag>;
+    using Simd = lanes::Vec<Tag>;
 
     /// The same bits in every lane.
-    WideBits(std::uint32_t bits) : lanes_(bits) {}  // NOLINT(google-explicit-constructor): as of Wide
+    WideBits(std::uint32_t bits)
+        : lanes_(lanes::Set(Tag(), bits)) {}  // NOLINT(google-explicit-constructor): as of Wide
     explicit WideBits(Simd lanes) : lanes_(lanes) {}
 
     /// `Wide::kWidth` numbers from any address.
-    [[nodiscard]] static WideBits load(const std::uint32_t* from) {
-        return WideBits(Simd(from, std::experimental::element_aligned));
-    }
+    [[nodiscard]] static WideBits load(const std::uint32_t* from) { return WideBits(lanes::LoadU(Tag(), from)); }
 
     /// To any address.
-    void store_unaligned(std::uint32_t* to) const { lanes_.copy_to(to, std::experimental::element_aligned); }
+    void store_unaligned(std::uint32_t* to) const { lanes::StoreU(lanes_, Tag(), to); }
 
     /// Only to be moved: what they stand for as floats is of no meaning.
-    [[nodiscard]] Wide as_floats() const { return Wide(std::bit_cast<Wide::Simd>(lanes_)); }
+    [[nodiscard]] Wide as_floats() const { return Wide(lanes::BitCast(Wide::Tag(), lanes_)); }
     /// The way back.
-    [[nodiscard]] static WideBits of(Wide floats) { return WideBits(std::bit_cast<Simd>(floats.simd())); }
+    [[nodiscard]] static WideBits of(Wide floats) { return WideBits(lanes::BitCast(Tag(), floats.simd())); }
 
     WideBits& operator^=(WideBits o) { return *this = *this ^ o; }
     WideBits& operator+=(WideBits o) { return *this = *this + o; }
     WideBits& operator*=(WideBits o) { return *this = *this * o; }
 
-    [[nodiscard]] friend WideBits operator^(WideBits a, WideBits b) { return WideBits(a.lanes_ ^ b.lanes_); }
-    [[nodiscard]] friend WideBits operator|(WideBits a, WideBits b) { return WideBits(a.lanes_ | b.lanes_); }
-    [[nodiscard]] friend WideBits operator&(WideBits a, WideBits b) { return WideBits(a.lanes_ & b.lanes_); }
-    [[nodiscard]] friend WideBits operator+(WideBits a, WideBits b) { return WideBits(a.lanes_ + b.lanes_); }
-    [[nodiscard]] friend WideBits operator*(WideBits a, WideBits b) { return WideBits(a.lanes_ * b.lanes_); }
-    [[nodiscard]] friend WideBits operator<<(WideBits a, int bits) { return WideBits(a.lanes_ << bits); }
-    [[nodiscard]] friend WideBits operator>>(WideBits a, int bits) { return WideBits(a.lanes_ >> bits); }
+    [[nodiscard]] friend WideBits operator^(WideBits a, WideBits b) { return WideBits(lanes::Xor(a.lanes_, b.lanes_)); }
+    [[nodiscard]] friend WideBits operator|(WideBits a, WideBits b) { return WideBits(lanes::Or(a.lanes_, b.lanes_)); }
+    [[nodiscard]] friend WideBits operator&(WideBits a, WideBits b) { return WideBits(lanes::And(a.lanes_, b.lanes_)); }
+    [[nodiscard]] friend WideBits operator+(WideBits a, WideBits b) { return WideBits(lanes::Add(a.lanes_, b.lanes_)); }
+    [[nodiscard]] friend WideBits operator*(WideBits a, WideBits b) { return WideBits(lanes::Mul(a.lanes_, b.lanes_)); }
+    [[nodiscard]] friend WideBits operator<<(WideBits a, int bits) {
+        return WideBits(lanes::ShiftLeftSame(a.lanes_, bits));
+    }
+    [[nodiscard]] friend WideBits operator>>(WideBits a, int bits) {
+        return WideBits(lanes::ShiftRightSame(a.lanes_, bits));
+    }
 
     [[nodiscard]] friend WideMask operator!=(WideBits a, WideBits b) {
-        // Masks of bits are another type than those of floats; whatever is not zero is not zero as a float.
-        return WideMask(std::experimental::static_simd_cast<Wide::Simd>(a.lanes_ ^ b.lanes_) != 0.0f);
+        return WideMask(lanes::RebindMask(Wide::Tag(), lanes::Ne(a.lanes_, b.lanes_)));
     }
     [[nodiscard]] friend WideBits select(WideMask condition, WideBits if_true, WideBits if_false) {
         return of(select(condition, if_true.as_floats(), if_false.as_floats()));
@@ -57,21 +56,32 @@ class WideBits {
 
     /// The upper 24 bits as floats in [0, 1).
     [[nodiscard]] friend Wide to_unit_float(WideBits a) {
-        using Int = std::experimental::rebind_simd_t<int, Wide::Simd>;
-        return Wide(std::experimental::static_simd_cast<Wide::Simd>(std::bit_cast<Int>(a.lanes_ >> 8)) * 0x1p-24f);
+        const auto upper = lanes::BitCast(lanes::RebindToSigned<Tag>(), lanes::ShiftRight<8>(a.lanes_));
+        return Wide(lanes::ConvertTo(Wide::Tag(), upper)) * 0x1p-24f;
     }
 
-#if defined(__GFNI__) && defined(__AVX512BW__)
-    /// As `reverse_bits` does it with masks, in two steps in place of some fourteen: the bytes, then the bits of each,
-    /// by a matrix.
+    /// As that of one number does it with masks, in some fourteen steps: the bytes of each number, then the bits of
+    /// each byte, by a matrix, or half by half, by a table.
     [[nodiscard]] friend WideBits reverse_bits(WideBits a) {
-        static_assert(sizeof(Simd) == sizeof(__m512i));
-        const __m512i bytes = _mm512_shuffle_epi8(std::bit_cast<__m512i>(a.lanes_),
-                                                  _mm512_set4_epi32(0x0c0d0e0f, 0x08090a0b, 0x04050607, 0x00010203));
+        using Bytes = lanes::Repartition<std::uint8_t, Tag>;
+        alignas(16) static constexpr std::array<std::uint8_t, 16> kReversed{3,  2,  1, 0, 7,  6,  5,  4,
+                                                                            11, 10, 9, 8, 15, 14, 13, 12};
+        const auto bytes =
+            lanes::TableLookupBytes(lanes::BitCast(Bytes(), a.lanes_), lanes::LoadDup128(Bytes(), kReversed.data()));
+#if defined(__GFNI__) && defined(__AVX512BW__)  // of processors that are compiled for alone; no level of x86-64 has it
         const __m512i matrix = _mm512_set1_epi64(static_cast<std::int64_t>(0x8040201008040201u));
-        return WideBits(std::bit_cast<Simd>(_mm512_gf2p8affine_epi64_epi8(bytes, matrix, 0)));
-    }
+        return WideBits(Simd{_mm512_gf2p8affine_epi64_epi8(bytes.raw, matrix, 0)});
+#else
+        alignas(16) static constexpr std::array<std::uint8_t, 16> kHalves{0, 8, 4, 12, 2, 10, 6, 14,
+                                                                          1, 9, 5, 13, 3, 11, 7, 15};
+        const auto halves = lanes::LoadDup128(Bytes(), kHalves.data());
+        const auto low = lanes::And(bytes, lanes::Set(Bytes(), 0x0f));
+        const auto high = lanes::And(lanes::BitCast(Bytes(), lanes::ShiftRight<4>(lanes::BitCast(Tag(), bytes))),
+                                     lanes::Set(Bytes(), 0x0f));
+        const auto to_high = lanes::ShiftLeft<4>(lanes::BitCast(Tag(), lanes::TableLookupBytes(halves, low)));
+        return WideBits(lanes::Or(to_high, lanes::BitCast(Tag(), lanes::TableLookupBytes(halves, high))));
 #endif
+    }
 
   private:
     Simd lanes_;

@@ -5,7 +5,6 @@
 #include "core/wide.h"
 
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <utility>
 
@@ -30,14 +29,12 @@ class WideSquare {
 
   private:
     static constexpr std::size_t kHalf = Wide::kWidth / 2;
-    using Vector [[gnu::vector_size(sizeof(Wide::Simd))]] = float;
 
     /// Of the lanes of `a` and `b` from `kFirst` on, one after the other.
     template <std::size_t kFirst, std::size_t... kLane>
     [[nodiscard]] static Wide interleaved(Wide a, Wide b, std::index_sequence<kLane...>) {
-        return Wide(std::bit_cast<Wide::Simd>(
-            __builtin_shufflevector(std::bit_cast<Vector>(a.simd()), std::bit_cast<Vector>(b.simd()),
-                                    static_cast<int>(kFirst + kLane / 2 + (kLane % 2) * Wide::kWidth)...)));
+        return Wide(Wide::Simd{__builtin_shufflevector(
+            a.simd().raw, b.simd().raw, static_cast<int>(kFirst + kLane / 2 + (kLane % 2) * Wide::kWidth)...)});
     }
     template <std::size_t... kRow>
     void interleave(std::index_sequence<kRow...>) {

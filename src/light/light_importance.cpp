@@ -113,32 +113,39 @@ Wide received(const Sight& sight, const LightReceiverLanes& receivers) {
     return select(has_normal, by_surface, sight.by_distance);
 }
 
-static_assert(sizeof(LightNode) == 15 * sizeof(float));
-
-/// Calls `take` with every number of `nodes` and the same one of `node`.
-template <typename Take>
-void take_each(BasicLightNode<Wide>& nodes, const LightNode& node, const Take& take) {
-    for (int axis = 0; axis < 3; ++axis) {
-        take(nodes.low[axis], node.low[axis]);
-        take(nodes.high[axis], node.high[axis]);
-        take(nodes.axis[axis], node.axis[axis]);
-    }
-    take(nodes.squared_spacing, node.squared_spacing);
-    take(nodes.intensity, node.intensity);
-    take(nodes.cos_o, node.cos_o);
-    take(nodes.sin_o, node.sin_o);
-    take(nodes.cos_e, node.cos_e);
-    take(nodes.two_sided, node.two_sided);
+/// Calls `take` with every number of `node`, which may be lanes.
+template <typename Node, typename Take>
+void take_each(Node& node, const Take& take) {
+    for (auto* const vector : {&node.low, &node.high, &node.axis})
+        for (int axis = 0; axis < 3; ++axis) take((*vector)[axis]);
+    take(node.squared_spacing);
+    take(node.intensity);
+    take(node.cos_o);
+    take(node.sin_o);
+    take(node.cos_e);
+    take(node.two_sided);
 }
 
 }  // namespace
 
 LightNodeLanes::LightNodeLanes(const LightNode& node) {
-    take_each(*this, node, [](Wide& lanes, float number) { lanes = number; });
+    std::array<float, sizeof(LightNode) / sizeof(float)> numbers;
+    auto* to = numbers.begin();
+    take_each(node, [&to](float number) { *to++ = number; });
+    const auto* from = numbers.begin();
+    take_each(*this, [&from](Wide& lanes) { lanes = *from++; });
 }
 
-void LightNodeLanes::set(std::size_t lane, const LightNode& node) {
-    take_each(*this, node, [lane](Wide& lanes, float number) { lanes.set(lane, number); });
+void LightNodeColumns::set(std::size_t index, const LightNode& node) {
+    auto* to = numbers_.begin();
+    take_each(node, [&to, index](float number) { (to++)->set(index, number); });
+}
+
+LightNodeLanes LightNodeColumns::load(std::size_t first) const {
+    LightNodeLanes nodes;
+    const auto* from = numbers_.begin();
+    take_each(nodes, [&from, first](Wide& lanes) { lanes = (from++)->load(first); });
+    return nodes;
 }
 
 LightReceiverLanes::LightReceiverLanes(const LightReceiver& receiver)

@@ -2,10 +2,12 @@
 // one receiver, or one node for many.
 #pragma once
 
+#include "core/columns.h"
 #include "core/vec.h"
 #include "core/wide.h"
 #include "light/light_receiver.h"
 
+#include <array>
 #include <cstddef>
 #include <span>
 
@@ -29,8 +31,19 @@ struct LightNodeLanes : BasicLightNode<Wide> {
     LightNodeLanes() = default;
     /// One in all lanes.
     explicit LightNodeLanes(const LightNode& node);
+};
 
-    void set(std::size_t lane, const LightNode& node);
+/// Nodes side by side in memory, a column for each of their numbers, however many lanes look at them at once.
+class LightNodeColumns {
+  public:
+    static constexpr std::size_t kSize = 16;
+
+    void set(std::size_t index, const LightNode& node);
+    /// `Wide::kWidth` of them from `first` on, a multiple of that.
+    [[nodiscard]] LightNodeLanes load(std::size_t first) const;
+
+  private:
+    std::array<BasicColumn<kSize>, sizeof(LightNode) / sizeof(float)> numbers_;
 };
 
 struct LightReceiverLanes {

@@ -68,8 +68,8 @@ struct LightTree::RootImportances {
 
 LightTree::NodeImportances LightTree::weigh(const Node& node, const LightReceiverLanes& receiver) {
     NodeImportances importances;
-    for (std::size_t part = 0; part < node.children.size(); ++part)
-        light_importance(node.children[part], receiver).store(&importances.each[part * Wide::kWidth]);
+    for (std::size_t first = 0; first < kChildren; first += Wide::kWidth)
+        light_importance(node.children.load(first), receiver).store(&importances.each[first]);
     const auto add = [&importances] {
         double sum = 0.0;
         for (std::size_t child = 0; child < kChildren; ++child)

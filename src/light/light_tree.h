@@ -94,10 +94,10 @@ class LightTree {
     static_assert(kChildren == 1u << kBitsOfALevel);
     struct alignas(64) Node {
         /// Its children, of which the strongest has an intensity of one.
-        std::array<LightNodeLanes, kChildren / Wide::kWidth> children{};
+        LightNodeColumns children{};
         std::array<std::uint32_t, kChildren> next{};  ///< a node, a light with `kLeaf`, or kNone
     };
-    static_assert(kChildren % Wide::kWidth == 0);
+    static_assert(kChildren == LightNodeColumns::kSize && sizeof(Node) == 1024);
     /// Where a light is found.
     struct Place {
         std::uint64_t trail = 0;      ///< from the lowest bits on: which child the way from the root takes

@@ -190,7 +190,7 @@ double LightTree::build(std::uint32_t node, std::span<Leaf> leaves, std::uint64_
     for (std::size_t child = 0; child < parts.size(); ++child) {
         const std::span<Leaf> part = parts[child];
         const LightNode as_node = light_node(bounds[child], strongest);
-        nodes_[node].children[child / Wide::kWidth].set(child % Wide::kWidth, as_node);
+        nodes_[node].children.set(child, as_node);
         if (level == 0) at_root_.push_back(as_node);
         const std::uint64_t way = trail | std::uint64_t{child} << (kBitsOfALevel * level);
         if (part.size() == 1) {

@@ -47,6 +47,7 @@ Json to_object(const std::vector<BrightContribution>& brightest) {
 std::string to_json(const RenderStatistics& s) {
     Json json;
     json["software"] = software_name();
+    json["instruction_set"] = s.instruction_set;
     json["scene"] = s.scene;
     json["integrator"] = s.integrator;
     json["frame"] = s.frame ? Json(*s.frame) : Json();

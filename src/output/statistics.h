@@ -113,6 +113,7 @@ struct RenderStatistics {
 
     int threads = 0;
     std::string isa;                               ///< instruction set of the ray kernels
+    std::string instruction_set;                   ///< of what else works per ray, as ETENDUE_ISA names it
     std::map<std::string, std::string> libraries;  ///< versions by name
 };
 

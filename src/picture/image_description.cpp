@@ -102,7 +102,8 @@ Json to_object(const RenderStatistics& s) {
             {"triangles", s.triangles},
             {"instances", s.instances},
             {"lights", s.lights},
-            {"isa", s.isa}};
+            {"isa", s.isa},
+            {"instruction_set", s.instruction_set}};
 }
 
 RenderStatistics to_statistics(const Json& json) {
@@ -118,6 +119,7 @@ RenderStatistics to_statistics(const Json& json) {
     json.at("instances").get_to(s.instances);
     json.at("lights").get_to(s.lights);
     json.at("isa").get_to(s.isa);
+    json.at("instruction_set").get_to(s.instruction_set);
     return s;
 }
 

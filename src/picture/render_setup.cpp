@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "integrator/integrator.h"
+#include "processor/ray_code.h"
 
 #include <string_view>
 #include <vector>
@@ -124,7 +125,7 @@ std::unique_ptr<const Integrator> create_integrator(const RenderSettings& settin
                              fmt::format("min_depth is {}, but the paths of '{}' have at most {} edges", s.min_depth,
                                          s.type, entry.longest_path));
     }
-    auto integrator = make_integrator(s.type, integrator_options(settings));
+    auto integrator = ray_code().make_integrator(s.type, integrator_options(settings));
     if (!integrator)
         throw SceneError(settings.at("/integrator/type"),
                          fmt::format("no integrator is named '{}'; {}", s.type, name_hint(s.type, names)));

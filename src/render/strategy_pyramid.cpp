@@ -1,5 +1,7 @@
 #include "render/strategy_pyramid.h"
 
+#include "processor/ray_code.h"
+
 #include <utility>
 
 #include <fmt/format.h>
@@ -32,7 +34,7 @@ std::vector<StrategyImage> render_strategies(const World& world, const Integrato
                 .rays = before.rays + p.rays};
             if (progress) progress(now);
         };
-        RenderResult result = render(world, *make_integrator("bdpt", one), options, threads, stop, report);
+        RenderResult result = render(world, *ray_code().make_integrator("bdpt", one), options, threads, stop, report);
         if (result.halt_reason == HaltReason::Interrupted) break;
         images.push_back({strategy, rgba_image(result.film)});
         before = now;

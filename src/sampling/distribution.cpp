@@ -24,7 +24,7 @@ std::size_t cell(float x, std::size_t count) {
 }  // namespace
 
 Distribution1D::Distribution1D(std::span<const float> weights)
-    : cdf_(weights.size() + 1 + Wide::kWidth, 1.0f), size_(weights.size()) {
+    : cdf_(weights.size() + 1 + Wide::kMostLanes, 1.0f), size_(weights.size()) {
     double sum = 0.0;
     for (const float weight : weights) sum += static_cast<double>(weight);
     const auto count = static_cast<double>(weights.size());

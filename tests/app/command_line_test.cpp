@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <cstddef>
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <thread>
@@ -58,6 +60,23 @@ TEST_F(CommandLine, HelpHasExamplesForEachCommand) {
         EXPECT_NE(render_help.out.find(option), std::string::npos) << option;
     EXPECT_EQ(run({"--version"}).exit_code, 0);
     EXPECT_TRUE(list(work_).empty());
+}
+
+TEST_F(CommandLine, SaysWhichInstructionSetRunsAndTakesNoOther) {
+    const std::string said = run({"--version"}).out;
+    const std::size_t begin = said.find('(');
+    ASSERT_NE(begin, std::string::npos) << said;
+    const std::string set = said.substr(begin + 1, said.find(')') - begin - 1);
+    ::setenv("ETENDUE_ISA", set.c_str(), 1);
+    ProgramResult result = run({"render", scene("box"), "--spp", "1", "--size", "8x8", "-o", "a.exr"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(json::parse(read_file(work_ / "a.json")).at("instruction_set"), set);
+    ::setenv("ETENDUE_ISA", "avx3", 1);
+    result = run({"--version"});
+    ::unsetenv("ETENDUE_ISA");
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_NE(result.err.find("ETENDUE_ISA is 'avx3'; it can be 'sse4', 'avx2' or 'avx512'"), std::string::npos)
+        << result.err;
 }
 
 TEST_F(CommandLine, UsageErrorsEndWithTwo) {

@@ -4,6 +4,7 @@
 #include "app/prepared_scene.h"
 #include "app/small_files.h"
 #include "image/write.h"
+#include "processor/ray_code.h"
 
 #include <array>
 #include <cstddef>
@@ -71,6 +72,7 @@ TEST(RenderIdentity, EverySettingThatSumsDependOnChangesItAndIsNamed) {
         EXPECT_NE(text.find(name), std::string::npos) << name << " is not in '" << text << "'";
     }
     EXPECT_EQ(difference(identity, identity_of(scene, "lin_rec709")).substr(0, 14), "working space:");
+    EXPECT_EQ(identity.at("instruction set"), instruction_set_name(ray_code().instruction_set));
     // Those of bdpt alone differ from each other.
     const auto bdpt = [&](const Change& change) {
         SceneDesc other = scene;

@@ -125,6 +125,20 @@ TEST(Wide, LogarithmsOfWhatHasNoneAreThoseOfFloat) {
     EXPECT_EQ(expm1(Wide(-kInfinity))[0], -1.0f);
 }
 
+TEST(Wide, ReversesBits) {
+    std::array<std::uint32_t, Wide::kWidth> bits;
+    for (std::uint32_t bit = 0; bit < 32; ++bit) {
+        for (std::uint32_t lane = 0; lane < Wide::kWidth; ++lane) bits[lane] = (1u << bit) | (bit * lane);
+        std::array<std::uint32_t, Wide::kWidth> reversed;
+        reverse_bits(WideBits::load(bits.data())).store_unaligned(reversed.data());
+        for (std::size_t lane = 0; lane < Wide::kWidth; ++lane) {
+            std::uint32_t expected = 0;
+            for (std::uint32_t b = 0; b < 32; ++b) expected |= ((bits[lane] >> b) & 1u) << (31 - b);
+            EXPECT_EQ(reversed[lane], expected) << bit << ", " << lane;
+        }
+    }
+}
+
 TEST(Wide, GathersFromTables) {
     constexpr std::array kTable{2.0f, 3.0f, 5.0f, 7.0f};
     EXPECT_EQ((largest_lane_difference<1>(
@@ -205,6 +219,11 @@ TEST(Wide, WhatIsNoNumberIsAsInTheStandardLibrary) {
     EXPECT_EQ(max(Wide(1.0f), Wide(nan))[0], std::max(1.0f, nan));
     EXPECT_EQ(min(Wide(1.0f), Wide(nan))[0], std::min(1.0f, nan));
     EXPECT_TRUE(std::isnan(max(Wide(nan), Wide(1.0f))[0]));
+    EXPECT_TRUE(std::isnan(min(Wide(nan), Wide(1.0f))[0]));
+    EXPECT_TRUE(std::signbit(min(Wide(-0.0f), Wide(0.0f))[0]));
+    EXPECT_FALSE(std::signbit(min(Wide(0.0f), Wide(-0.0f))[0]));
+    EXPECT_TRUE((Wide(nan) != Wide(nan))[0]);
+    EXPECT_FALSE((Wide(nan) == Wide(nan))[0]);
     EXPECT_EQ(select(Wide(nan) > Wide(0.0f), Wide(1.0f), Wide(2.0f))[0], 2.0f);
     EXPECT_EQ(copysign(Wide(1.0f), Wide(-0.0f))[0], -1.0f);
 }

@@ -241,8 +241,9 @@ TEST(Distribution2D, KeepsStratification) {
 
 TEST(Distribution2D, CountsItsBytes) {
     // 4 bytes a value of a distribution function, which has one more than there are intervals, and the same for the
-    // guide's, which begins with one for four intervals. As many values as are compared at once stand behind them.
-    constexpr std::size_t kBehind = Wide::kWidth;
+    // guide's, which begins with one for four intervals. As many values as any processor compares at once stand behind
+    // them.
+    constexpr std::size_t kBehind = Wide::kMostLanes;
     const Distribution2D distribution(std::vector<float>(12, 1.0f), 4, 3);
     EXPECT_EQ(distribution.bytes(), 3u * (5u + 2u + kBehind) * 4u + (4u + 2u + kBehind) * 4u);
     const Distribution2D wide(std::vector<float>(2048, 1.0f), 1024, 2);
