@@ -1,5 +1,5 @@
-// Writes tables as they lie in memory: for the programs that compute them while the project is built, which then takes the
-// files in as bytes (src/bsdf/albedo_tables.cpp). As initialisers of 40 MB they took the compiler half a minute.
+// Writes tables as they lie in memory: for the programs that compute them while the project is built, which then takes
+// the files in as bytes (src/bsdf/albedo_tables.cpp). As initialisers of 40 MB they took the compiler half a minute.
 #pragma once
 
 #include <fstream>

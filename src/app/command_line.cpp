@@ -17,7 +17,8 @@ namespace etendue {
 std::unique_ptr<CLI::App> make_command_line(Action& action) {
     auto app = std::make_unique<CLI::App>("Etendue renders glTF 2.0 scenes to colour-managed EXR images.");
     app->name("etendue");
-    app->set_version_flag("--version", fmt::format("{} ({})", software_name(), instruction_set_name(ray_code().instruction_set)));
+    app->set_version_flag("--version",
+                          fmt::format("{} ({})", software_name(), instruction_set_name(ray_code().instruction_set)));
     app->require_subcommand(1);
     app->footer(
         "Exit codes: 0 success, 1 rendering failed for at least one scene or images differ too much, 2 usage error,\n"

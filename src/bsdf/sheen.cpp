@@ -35,7 +35,8 @@ Vec3f Sheen::sample(Vec2f u) {
 
 float Sheen::passed(float cos_theta) const {
     if (!exists()) return 1.0f;
-    const float albedo = interpolate(kTables.bounded, alpha_place(bounded_alpha(alpha)), cosine_place(std::abs(cos_theta)));
+    const float albedo =
+        interpolate(kTables.bounded, alpha_place(bounded_alpha(alpha)), cosine_place(std::abs(cos_theta)));
     return std::max(0.0f, 1.0f - max_component(color) * albedo);
 }
 

@@ -28,8 +28,12 @@ constexpr unsigned int kDenormalsAreZero = 0x0040;
 class Handover {
   public:
 #ifdef __SANITIZE_THREAD__
-    void leave() { __tsan_release(this); }
-    void enter() { __tsan_acquire(this); }
+    void leave() {
+        __tsan_release(this);
+    }
+    void enter() {
+        __tsan_acquire(this);
+    }
 
   private:
     char address_ = 0;

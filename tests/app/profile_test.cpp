@@ -108,8 +108,8 @@ TEST_F(Profile, MeasuresEveryIntegratorOnEveryNumberOfThreads) {
     for (const float value : heat.pixels.pixels) EXPECT_GT(value, 0.0f);
 }
 
-// What a stamp takes is measured in the same process, so a busy machine lengthens both sides; where it does not lengthen
-// them alike, another try tells.
+// What a stamp takes is measured in the same process, so a busy machine lengthens both sides; where it does not
+// lengthen them alike, another try tells.
 TEST_F(Profile, TimeStampsTakeLessThanAHundredth) {
     if (kHasSanitizers) GTEST_SKIP() << "sanitizers make all else slower";
     add_lamp(folder_ / "box");
@@ -124,7 +124,8 @@ TEST_F(Profile, TimeStampsTakeLessThanAHundredth) {
         }
     }
     EXPECT_LT(largest, 0.01);
-    for (const json& note : report()["notes"]) EXPECT_EQ(note.get<std::string>().find("time stamps"), std::string::npos);
+    for (const json& note : report()["notes"])
+        EXPECT_EQ(note.get<std::string>().find("time stamps"), std::string::npos);
 }
 
 TEST_F(Profile, ComparesWithAnEarlierOne) {

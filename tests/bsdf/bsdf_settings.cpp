@@ -13,8 +13,8 @@ FresnelMetal gold() {
 }
 
 constexpr XyzToWorking kXyzToWorkingSpace{{{3.2404542f, -1.5371385f, -0.4985314f},
-                                     {-0.9692660f, 1.8760108f, 0.0415560f},
-                                     {0.0556434f, -0.2040259f, 1.0572252f}}};
+                                           {-0.9692660f, 1.8760108f, 0.0415560f},
+                                           {0.0556434f, -0.2040259f, 1.0572252f}}};
 
 ThinFilm film(float thickness_nm) {
     return {.strength = 0.8f, .ior = 1.4f, .thickness_nm = thickness_nm, .xyz_to_working = &kXyzToWorkingSpace};
