@@ -60,7 +60,8 @@ World two_places(float left) {
     SceneDesc scene;
     scene.settings.film.width = kAgreementWidth;
     scene.settings.film.height = kAgreementHeight;
-    add(scene, parallelogram({0, 0, 0}, {0, 0, 1}, {1, 0, 0}), diffuse(0.6f));
+    // So small that light paths do not meet it: of theirs only the first vertices are in the cache.
+    add(scene, parallelogram({0, 0, 0}, {0, 0, 0.01f}, {0.01f, 0, 0}), diffuse(0.6f));
     add(scene, parallelogram({1, 1, 0}, {1, -1, 0}, {0, 0, 1}), diffuse(0.6f));
     MaterialDesc air;
     air.metallic = 0.0f;
@@ -84,8 +85,8 @@ double mean_of_connections(const World& world, int cached) {
     return mean_of(render_bdpt(world, options, 1, 1));
 }
 
-// However many of the cache are drawn. Deviations of one connection are below 1%, of the mean of 3072 below 0.02%: the
-// tolerance is more than ten of them.
+// However many of the cache are drawn. Deviations of one connection are some 2%, of the mean of 3072 below 0.04%: the
+// tolerance is five of them.
 TEST(ConnectionsOfEqualPaths, BringTheSameFromTheCache) {
     const World world = two_places(1.0f);
     const double pairwise = mean_of_connections(world, 0);
