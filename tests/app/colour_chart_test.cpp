@@ -13,7 +13,9 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -181,8 +183,12 @@ class ColourChart : public testing::Test {
         return read_image_float(out);
     }
 
-    [[nodiscard]] ImageF shown_by_ocio(const std::string& display, const std::string& view) const {
-        return converted({"--view", "acescg.exr", "ACEScg", "shown.exr", display, view});
+    /// Made once for all tests of a process: the chart and the config are always the same.
+    [[nodiscard]] const ImageF& shown_by_ocio(const std::string& display, const std::string& view) const {
+        static std::map<std::pair<std::string, std::string>, ImageF> known;
+        const auto [shown, is_new] = known.try_emplace({display, view});
+        if (is_new) shown->second = converted({"--view", "acescg.exr", "ACEScg", "shown.exr", display, view});
+        return shown->second;
     }
 
     void run(std::vector<std::string> arguments) const {
@@ -250,8 +256,9 @@ std::vector<std::string> view_options(const Shown& shown) {
     return options;
 }
 
+// A display, a view that has none of its own, and a look: `view`, which takes the same ways, shows all that there are.
 TEST_F(ColourChart, PreviewsAreWhatOcioconvertShows) {
-    for (const Shown& shown : kShown) {
+    for (const Shown& shown : {kShown[0], kShown[5], kShown[8]}) {
         std::vector<std::string> arguments{"render", "chart", "-o", "chart.exr", "--quiet"};
         const auto options = view_options(shown);
         arguments.insert(arguments.end(), options.begin(), options.end());

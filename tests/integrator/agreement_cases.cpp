@@ -120,8 +120,8 @@ std::vector<AgreementCase> all_cases() {
     const std::vector<std::string> bdpt{"path", "bdpt"};
     const PixelRect all{0, 0, kAgreementWidth, kAgreementHeight};
     cases.push_back({"Mirror", under_lamp(conductor(0.0f)), {.max_depth = 6}, all, 64, bdpt});
-    cases.push_back({"SmoothGlass", under_lamp(glass(0.0f)), {.max_depth = 6}, all, 256, bdpt});
-    cases.push_back({"NearlySmoothGlass", under_lamp(glass(0.2f)), {.max_depth = 6}, all, 256, bdpt});
+    cases.push_back({"SmoothGlass", under_lamp(glass(0.0f)), {.max_depth = 6}, all, 128, bdpt});
+    cases.push_back({"NearlySmoothGlass", under_lamp(glass(0.2f)), {.max_depth = 6}, all, 128, bdpt});
     MaterialDesc varnished = gltf_plastic();
     varnished.clearcoat.factor = 1.0f;
     cases.push_back({"SmoothCoat", under_lamp(varnished), {.max_depth = 6}, all, 64, bdpt});
@@ -155,10 +155,10 @@ std::vector<AgreementCase> all_cases() {
     };
     // Not by light tracing: what scatters right before a pinhole has infinite variance there. Of so many light paths
     // the nearest vertex is some 5 cm away, and what lies nearer, 2% of the light, is nearly always missing.
-    cases.push_back({"LampInFog", in_fog, {.max_depth = 4}, all, 64, bdpt});
+    cases.push_back({"LampInFog", in_fog, {.max_depth = 4}, all, 32, bdpt});
     // Scattering in media adds no edges: with the fewest of them there is still light from all over the fog.
-    cases.push_back({"LampInFogWithoutSurfaces", in_fog, {.max_depth = 1}, all, 64, bdpt});
-    cases.push_back({"LampInFogOneSurface", in_fog, {.max_depth = 2}, all, 64, bdpt});
+    cases.push_back({"LampInFogWithoutSurfaces", in_fog, {.max_depth = 1}, all, 16, bdpt});
+    cases.push_back({"LampInFogOneSurface", in_fog, {.max_depth = 2}, all, 16, bdpt});
     return cases;
 }
 
