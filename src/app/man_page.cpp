@@ -59,7 +59,8 @@ std::string heading(const std::string& text) {
 }
 
 std::string title(const std::string& page, const std::string& software) {
-    return fmt::format(".TH {} 1 \"\" \"{}\" \"Etendue\"\n", escaped(upper(page)), escaped(software));
+    // Ragged right: lists of words without spaces cannot be adjusted.
+    return fmt::format(".TH {} 1 \"\" \"{}\" \"Etendue\"\n.ad l\n", escaped(upper(page)), escaped(software));
 }
 
 std::string named(const std::string& page, const std::string& summary) {

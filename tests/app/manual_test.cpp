@@ -121,7 +121,7 @@ TEST(ManPage, TextIsNoTroff) {
                               .options = {},
                               .commands = {}};
     EXPECT_EQ(command_page(program, command, "P 1.0"),
-              ".TH P\\-C 1 \"\" \"P 1.0\" \"Etendue\"\n"
+              ".TH P\\-C 1 \"\" \"P 1.0\" \"Etendue\"\n.ad l\n"
               ".SH NAME\np\\-c \\- Do it\n"
               ".SH SYNOPSIS\n\\fBp c\\fR [\\fIOPTION\\fR...]\n"
               ".SH NOTES\n\\&.so is no request\n\\(aqnor this: C:\\enew\n"
