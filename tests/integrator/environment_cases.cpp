@@ -40,16 +40,15 @@ std::vector<ClosedFormCase> environment_cases() {
 }
 
 std::vector<ClosedFormCase> mixed_light_cases() {
-    // A lamp that is as bright as the sky which it hides: what is found does not depend on which of them is chosen, but
-    // the weights of the two ways to find it do.
+    // A point above the floor that brings as much as the sky, so that each is chosen about as often. It hides nothing.
     SceneDesc scene;
     set_environment(scene);
-    MaterialDesc both_sides = emitter(1.0f);
-    both_sides.double_sided = true;
     add(scene, quad_facing_up({0.0f, 0.0f, 0.0f}, 10.0f), diffuse(kAlbedo));
-    add(scene, quad_facing_down({0.3f, 1.0f, 0.2f}, 2.0f), both_sides);
+    add_light(scene, LightType::Point, 2.0f, {0.1f, 1.0f, 0.2f});
     look(scene, {0.1f, 0.5f, 0.2f}, {0.0f, -1.0f, 0.0f});
-    return {{"lamp_as_bright_as_the_environment", scene, kRho}};
+    ClosedFormCase both{"lamp_and_environment", scene, kRho * (2.0 / 3.0 + 2.0 / kPiD), 5e-4, {}, kFindDeltaLights};
+    both.environment_axis = Vec3f(0.0f, 1.0f, 0.0f);
+    return {both};
 }
 
 }  // namespace etendue::test
