@@ -148,8 +148,9 @@ TEST(FarmNeeds, OfLayersAreThoseOfTheirSumsAndChannels) {
     write_scene(folder / "box", R"("aovs": ["passes", "depth", "variance", "denoising"], )");
     const FilmSize path = film_size_of(prepare_scene(folder / "box", {}).scene);
     EXPECT_TRUE(path.has_second_film);
-    // Ten layers of light, three sums of squares, two averaged features of three channels; the distance and a number.
-    EXPECT_EQ(path.layers.bytes(), 8u * (3 * 10 + 3 + 3 + 3) + 4u * 2);
+    // Ten layers of light, seven sums for the variance, two averaged features of three channels; the distance and a
+    // number.
+    EXPECT_EQ(path.layers.bytes(), 8u * (3 * 10 + 7 + 3 + 3) + 4u * 2);
     EXPECT_EQ(path.bytes(), 16u * 12u * (48 + path.layers.bytes()));
     EXPECT_EQ(path.channels, 2u * (4 + 30 + 1 + 3 + 3 + 3));
     SettingsOverrides bdpt;

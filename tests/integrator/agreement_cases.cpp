@@ -158,7 +158,7 @@ std::vector<AgreementCase> all_cases() {
     cases.push_back({"LampInFog", in_fog, {.max_depth = 4}, all, 32, bdpt});
     // Scattering in media adds no edges: with the fewest of them there is still light from all over the fog.
     cases.push_back({"LampInFogWithoutSurfaces", in_fog, {.max_depth = 1}, all, 16, bdpt});
-    cases.push_back({"LampInFogOneSurface", in_fog, {.max_depth = 2}, all, 16, bdpt});
+    cases.push_back({"LampInFogOneSurface", in_fog, {.max_depth = 2}, all, 32, bdpt});
     return cases;
 }
 

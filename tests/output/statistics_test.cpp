@@ -66,6 +66,7 @@ RenderStatistics make_statistics() {
         {.x = 3, .y = 4, .sample_x = 3, .sample_y = 4, .sample = 5, .value = {1.0f, 1.0f, 0.5f}, .path = ""}};
     s.threads = 2;
     s.isa = "avx2";
+    s.instruction_set = "avx2";
     s.libraries = {{"embree", "3.13.5"}, {"oiio", "2.4.7"}};
     return s;
 }
@@ -93,7 +94,7 @@ TEST(StatisticsJson, HasEveryField) {
                        "strategy": [3, 1], "edges": 3, "path": "C D S O"},
                       {"pixel": [3, 4], "sample": 5, "value": [1.0, 1.0, 0.5], "strategy": null, "edges": null,
                        "path": null}],
-        "threads": 2, "isa": "avx2", "libraries": {"embree": "3.13.5", "oiio": "2.4.7"}})");
+        "threads": 2, "isa": "avx2", "instruction_set": "avx2", "libraries": {"embree": "3.13.5", "oiio": "2.4.7"}})");
     for (const auto& [key, value] : expected.items()) {
         ASSERT_TRUE(json.contains(key)) << key;
         EXPECT_EQ(json.at(key), value) << key;
