@@ -96,7 +96,7 @@ class InstallTest(unittest.TestCase):
         self.assertRegex(output, r"16 x 12 pixels, brightness 0\.\d*[1-9]")
         program = self.prefix / "bin/etendue"
         run(program, "render", scene, "--spp", "16", "--aov", "depth", "-o", self.folder / "program.exr")
-        run(program, "diff", self.folder / "library.exr", self.folder / "program.exr", "--metric", "mse", "--max", "0")
+        run(program, "diff", self.folder / "library.exr", self.folder / "program.exr", "--metric", "mse", "--fail-above", "mse=0")
         failed = subprocess.run([build / "render_scene", self.folder / "nowhere", "a.exr"], capture_output=True,
                                 text=True, check=False)
         self.assertEqual(failed.returncode, 3)
