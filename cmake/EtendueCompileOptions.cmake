@@ -30,7 +30,7 @@ endif()
 
 # For tests and for what runs once per image: compiling their many templates takes longer than optimisation ever saves.
 if(ETENDUE_SANITIZERS)
-  set(ETENDUE_QUICK_OPTIONS -O0)
+  set(ETENDUE_QUICK_OPTIONS -Og)  # nearly as quick as -O0, after which g++ 12 forgets what it was told of headers
 elseif(NOT CMAKE_BUILD_TYPE STREQUAL "Debug")
   set(ETENDUE_QUICK_OPTIONS -O1)
 endif()
@@ -38,9 +38,10 @@ endif()
 # etendue_compile_singly(<target>...)
 #
 # For code that runs once per ray: of sources that are compiled together the compiler inlines less, which costs 5 to 10%
-# (docs/testing.md). Builds for tests can do without.
+# (docs/testing.md). Builds for tests can do without, and so can the baseline of the portable program, which only old
+# processors run.
 function(etendue_compile_singly)
-  if(NOT ETENDUE_QUICK_BUILD)
+  if(ETENDUE_MARCH AND NOT ETENDUE_QUICK_BUILD)
     set_target_properties(${ARGN} PROPERTIES UNITY_BUILD OFF)
   endif()
 endfunction()
