@@ -152,7 +152,7 @@ TEST(Layers, DamagedFilesAreRefusedOrRead) {
     const auto path = write_channels(folder / "a.exr", {"R", "G", "B", "N.X", "N.Y", "N.Z", "id"});
     const std::vector<std::byte> whole = read_all(path);
     std::mt19937 random(5);
-    for (int round = 0; round < 300; ++round) {
+    for (int round = 0; round < 60; ++round) {
         std::vector<std::byte> bytes = whole;
         for (int i = 0; i < 4; ++i) bytes[random() % bytes.size()] = static_cast<std::byte>(random() & 0xffu);
         if (round % 3 == 0) bytes.resize(random() % bytes.size() + 1);
