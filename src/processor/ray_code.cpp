@@ -13,8 +13,9 @@ const RayCode& ray_code() {
         std::vector<InstructionSet> available;
         for (const RayCode* const code : ray_codes()) available.push_back(code->instruction_set);
         const char* const asked = std::getenv("ETENDUE_ISA");
+        const bool is_set = asked != nullptr && *asked != '\0';  // empty is how shells take a variable back
         const InstructionSet set =
-            choose_instruction_set(asked != nullptr ? std::optional<std::string_view>(asked) : std::nullopt, available);
+            choose_instruction_set(is_set ? std::optional<std::string_view>(asked) : std::nullopt, available);
         return *std::ranges::find(ray_codes(), set, &RayCode::instruction_set);
     }();
     return *chosen;
