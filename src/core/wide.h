@@ -64,8 +64,8 @@ class Wide {
     using Tag = WideMask::Tag;
     using Simd = lanes::Vec<Tag>;
     static constexpr std::size_t kWidth = lanes::MaxLanes(Tag());
-    /// Of memory that is loaded from and stored to, bytes. One number for every width, so that what lies in memory does
-    /// not depend on the width.
+    /// Bytes to which memory that is loaded and stored must be aligned. It is one number for every width, so that the
+    /// layout of memory does not depend on the width.
     static constexpr std::size_t kAlignment = 64;
     static_assert(sizeof(Simd) <= kAlignment);
     /// The most lanes that any processor has: so many numbers behind an array can be loaded with its last ones.

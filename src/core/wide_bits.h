@@ -60,8 +60,8 @@ class WideBits {
         return Wide(lanes::ConvertTo(Wide::Tag(), upper)) * 0x1p-24f;
     }
 
-    /// As that of one number does it with masks, in some fourteen steps: the bytes of each number, then the bits of
-    /// each byte, by a matrix, or half by half, by a table.
+    /// Reverses the bits of each number: its bytes, then the bits of each byte by a matrix, or half by half by a table,
+    /// where a single number takes some fourteen steps with masks.
     [[nodiscard]] friend WideBits reverse_bits(WideBits a) {
         using Bytes = lanes::Repartition<std::uint8_t, Tag>;
         alignas(16) static constexpr std::array<std::uint8_t, 16> kReversed{3,  2,  1, 0, 7,  6,  5,  4,

@@ -24,7 +24,7 @@ struct LoadOptions {
     std::string settings{};
 };
 
-/// What messages call settings that no file holds.
+/// Names settings that no file holds in messages.
 inline constexpr const char* kGivenSettings = "(settings)";
 
 /// Reads one scene file format.
