@@ -24,7 +24,7 @@ struct LoadOptions {
     std::string settings{};
 };
 
-/// Names settings that no file holds in messages.
+/// Stands in messages for settings that no file holds.
 inline constexpr const char* kGivenSettings = "(settings)";
 
 /// Reads one scene file format.
