@@ -46,7 +46,7 @@ class ImageModule : public testing::Test {
         write_scene(box_);
     }
     [[nodiscard]] ProgramResult run(const std::vector<std::string>& arguments) const {
-        return run_etendue(arguments, work_);
+        return run_etendue(arguments, work_, {}, Start::Executed);
     }
 
     TestFolder folder_;

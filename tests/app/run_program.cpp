@@ -1,5 +1,6 @@
 #include "app/run_program.h"
 
+#include "app/program_server.h"
 #include "app/small_files.h"
 
 #include <chrono>
@@ -33,14 +34,22 @@ namespace {
 
 }  // namespace
 
-RunningProgram::RunningProgram(const std::vector<std::string>& arguments, const std::filesystem::path& directory) {
+RunningProgram::RunningProgram(const std::vector<std::string>& arguments, const std::filesystem::path& directory,
+                               Start start)
+    : start_(start) {
     // Beside the directory, not in it: tests look at what the program leaves there.
     // Several may run there at once.
     const std::string name = fmt::format("{}.{}", directory.string(), static_cast<const void*>(this));
     out_ = name + ".out";
     err_ = name + ".err";
-    std::vector<char*> argv{const_cast<char*>("etendue")};
-    for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+    std::vector<std::string> words{"etendue"};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    if (start_ == Start::Copied) {
+        pid_ = program_server().start(words, directory, out_, err_);
+        return;
+    }
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
     pid_ = fork();
     if (pid_ == 0) become_etendue(argv.data(), directory, out_, err_);
@@ -57,6 +66,7 @@ void RunningProgram::send(int signal) const {
 }
 
 bool RunningProgram::has_ended() const {
+    if (start_ == Start::Copied) return program_server().has_ended(pid_);
     siginfo_t ended{};
     return waitid(P_PID, static_cast<id_t>(pid_), &ended, WEXITED | WNOHANG | WNOWAIT) != 0 || ended.si_pid == pid_;
 }
@@ -76,7 +86,12 @@ ProgramResult RunningProgram::wait() {
         send(SIGKILL);
     }
     int status = 0;
-    waitpid(std::exchange(pid_, -1), &status, 0);
+    const int pid = std::exchange(pid_, -1);
+    if (start_ == Start::Copied) {
+        status = program_server().wait(pid);
+    } else {
+        waitpid(pid, &status, 0);
+    }
     ProgramResult result;
     result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
     result.out = read_file(out_);
@@ -125,8 +140,8 @@ bool wait_until(const std::function<bool()>& is_true, std::chrono::microseconds 
 }
 
 ProgramResult run_etendue(const std::vector<std::string>& arguments, const std::filesystem::path& directory,
-                          const std::function<void(int pid)>& while_running) {
-    RunningProgram program(arguments, directory);
+                          const std::function<void(int pid)>& while_running, Start start) {
+    RunningProgram program(arguments, directory, start);
     if (while_running) {
         const bool is_ready =
             wait_until([&program] { return program.has_ended() || handles_interrupt(program.pid()); });

@@ -15,10 +15,16 @@ struct ProgramResult {
     std::string err;
 };
 
+enum class Start {
+    Copied,   ///< as a copy of a process that has loaded OpenImageIO, within milliseconds
+    Executed  ///< as the program's file: for tests of how it starts
+};
+
 /// `etendue arguments...` while it runs in `directory`.
 class RunningProgram {
   public:
-    RunningProgram(const std::vector<std::string>& arguments, const std::filesystem::path& directory);
+    RunningProgram(const std::vector<std::string>& arguments, const std::filesystem::path& directory,
+                   Start start = Start::Copied);
     /// Kills it if it still runs.
     ~RunningProgram();
     RunningProgram(const RunningProgram&) = delete;
@@ -37,6 +43,7 @@ class RunningProgram {
   private:
     std::filesystem::path out_;
     std::filesystem::path err_;
+    Start start_;
     int pid_ = -1;
 };
 
@@ -57,6 +64,7 @@ class RunningProgram {
 /// SIGINT, if it gets that far.
 [[nodiscard]] ProgramResult run_etendue(const std::vector<std::string>& arguments,
                                         const std::filesystem::path& directory,
-                                        const std::function<void(int pid)>& while_running = {});
+                                        const std::function<void(int pid)>& while_running = {},
+                                        Start start = Start::Copied);
 
 }  // namespace etendue::test
