@@ -31,8 +31,8 @@ endfunction()
 # etendue_test(<room> SOURCES ... [LINK target...] [SLOW pattern...] [SANITIZED])
 #
 # One test program per room, tests/<room>/. SLOW: regular expressions of suites with tests of more than a second, which
-# 'tools/test quick' leaves out. SANITIZED: sanitizers watch it in continuous integration, too, as it reads files, or keeps
-# memory in ways of its own; all others are left to the thorough tests.
+# 'tools/test quick' leaves out. SANITIZED: sanitizers watch it in continuous integration, too, as it reads files;
+# all others are left to the thorough tests.
 function(etendue_test room)
   cmake_parse_arguments(ARG "SANITIZED" "" "SOURCES;LINK;SLOW" ${ARGN})
   add_executable(test_${room} ${ARG_SOURCES})

@@ -9,7 +9,10 @@ import select
 import subprocess
 import time
 
-SETTLE = 0.3  # seconds in which the page decodes an image or lays itself out again
+# Ends when the page has decoded the images that it loads, for which it gets 0.3 s, and has drawn itself anew.
+SETTLED = """Promise.race([new Promise((done) => setTimeout(done, 300)),
+    Promise.all([...document.images].map((image) => image.decode().catch(() => null)))])
+    .then(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done(null)))))"""
 TIMEOUT = 60  # seconds for an answer of the browser
 
 
@@ -90,7 +93,10 @@ class Browser:
             if time.monotonic() > deadline:
                 raise RuntimeError("the page does not finish loading")
             self.wait(0.1)
-        self.wait(2 * SETTLE)
+        self.settle()
+
+    def settle(self):
+        self.value(SETTLED)
 
     def value(self, expression):
         result = self.call("Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True)
@@ -111,19 +117,19 @@ class Browser:
         """`more`: the text that the key types, or the windowsVirtualKeyCode without which Tab and Enter do nothing."""
         self.call("Input.dispatchKeyEvent", type="keyDown", key=key, code=code, **more)
         self.call("Input.dispatchKeyEvent", type="keyUp", key=key, code=code, **more)
-        self.wait(SETTLE)
+        self.settle()
 
     def choose(self, identifier, option):
         """The option at the index `option` of a select, from the end if it is negative; returns its text."""
         text = self.value(f"""(() => {{ const select = document.getElementById("{identifier}");
             select.selectedIndex = ({option} + select.length) % select.length;
             select.dispatchEvent(new Event("change")); return select.selectedOptions[0].textContent; }})()""")
-        self.wait(SETTLE)
+        self.settle()
         return text
 
     def screenshot(self, path, width, scheme):
         self.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
-        self.wait(SETTLE)
+        self.settle()
         size = self.call("Page.getLayoutMetrics")["cssContentSize"]
         clip = {"x": 0, "y": 0, "width": width, "height": size["height"], "scale": 1}
         data = self.call("Page.captureScreenshot", captureBeyondViewport=True, clip=clip)["data"]

@@ -9,7 +9,7 @@ namespace etendue {
 namespace {
 
 /// A triangle with texture coordinates and one material, three textures of one image, and `material`.
-LoadedScene load_with(const char* material) {
+LoadedScene load_with_material(const char* material) {
     GltfBuilder builder;
     nlohmann::json& primitive = builder.add_triangle();
     const int uv = builder.floats({0, 0, 1, 0, 0, 1}, 2);
@@ -36,7 +36,7 @@ std::string texture_name(const LoadedScene& loaded, const TextureRef& ref) {
 }
 
 TEST(Material, DefaultsAreTheSpecifications) {
-    const LoadedScene loaded = load_with("{}");
+    const LoadedScene loaded = load_with_material("{}");
     const MaterialDesc& m = material_of(loaded);
     EXPECT_EQ(m.base_color, Rgb(1.0f));
     EXPECT_EQ(m.base_alpha, 1.0f);
@@ -55,7 +55,7 @@ TEST(Material, DefaultsAreTheSpecifications) {
 }
 
 TEST(Material, LayersAreRead) {
-    const LoadedScene loaded = load_with(R"({"extensions": {
+    const LoadedScene loaded = load_with_material(R"({"extensions": {
         "KHR_materials_clearcoat": {"clearcoatFactor": 0.5, "clearcoatTexture": {"index": 0},
             "clearcoatRoughnessFactor": 0.25, "clearcoatRoughnessTexture": {"index": 1},
             "clearcoatNormalTexture": {"index": 2, "scale": 0.5}},
@@ -96,7 +96,7 @@ TEST(Material, LayersAreRead) {
 }
 
 TEST(Material, VolumesAreRead) {
-    const LoadedScene loaded = load_with(R"({"extensions": {
+    const LoadedScene loaded = load_with_material(R"({"extensions": {
         "KHR_materials_volume": {"thicknessFactor": 0.1, "attenuationDistance": 0.5, "attenuationColor": [1, 0.5, 0.25]},
         "KHR_materials_dispersion": {"dispersion": 2.5},
         "KHR_materials_volume_scatter": {"multiscatterColor": [0.5, 0.25, 0], "scatterAnisotropy": -0.5}}})");
@@ -112,17 +112,17 @@ TEST(Material, VolumesAreRead) {
 TEST(Material, VolumesWithoutThicknessAreThinWalls) {
     for (const char* volume : {R"({})", R"({"thicknessFactor": 0, "attenuationDistance": 2})"}) {
         const LoadedScene loaded =
-            load_with((R"({"extensions": {"KHR_materials_volume": )" + std::string(volume) + "}}").c_str());
+            load_with_material((R"({"extensions": {"KHR_materials_volume": )" + std::string(volume) + "}}").c_str());
         EXPECT_FALSE(material_of(loaded).volume.closed);
     }
     const LoadedScene loaded =
-        load_with(R"({"extensions": {"KHR_materials_volume": {"thicknessFactor": 1, "attenuationDistance": 0}}})");
+        load_with_material(R"({"extensions": {"KHR_materials_volume": {"thicknessFactor": 1, "attenuationDistance": 0}}})");
     EXPECT_TRUE(has_problem(loaded.problems, Severity::Warning, "attenuationDistance"));
     EXPECT_TRUE(std::isinf(material_of(loaded).volume.attenuation_distance));
 }
 
 TEST(Material, EverythingIsRead) {
-    const LoadedScene loaded = load_with(R"({
+    const LoadedScene loaded = load_with_material(R"({
         "name": "all",
         "pbrMetallicRoughness": {
             "baseColorFactor": [0.1, 0.2, 0.3, 0.4], "baseColorTexture": {"index": 0},
@@ -165,7 +165,7 @@ TEST(Material, EverythingIsRead) {
 }
 
 TEST(Material, TextureTransformsAndTheirTexcoord) {
-    const LoadedScene loaded = load_with(R"({
+    const LoadedScene loaded = load_with_material(R"({
         "pbrMetallicRoughness": {"baseColorTexture": {"index": 0, "extensions": {"KHR_texture_transform":
             {"offset": [0.1, 0.2], "rotation": 0.3, "scale": [2, 3], "texCoord": 1}}}},
         "emissiveTexture": {"index": 0, "texCoord": 1, "extensions": {"KHR_texture_transform": {}}},
@@ -183,7 +183,7 @@ TEST(Material, TextureTransformsAndTheirTexcoord) {
 }
 
 TEST(Material, FactorsOutsideTheirRangeAreMovedIntoIt) {
-    const LoadedScene loaded = load_with(R"({
+    const LoadedScene loaded = load_with_material(R"({
         "pbrMetallicRoughness": {"baseColorFactor": [2, -1, 0.5, 1], "roughnessFactor": 7},
         "extensions": {"KHR_materials_ior": {"ior": 0.5}}})");
     const MaterialDesc& m = material_of(loaded);
@@ -195,18 +195,18 @@ TEST(Material, FactorsOutsideTheirRangeAreMovedIntoIt) {
 }
 
 TEST(Material, IorZeroIsKept) {
-    EXPECT_EQ(material_of(load_with(R"({"extensions": {"KHR_materials_ior": {"ior": 0}}})")).ior, 0.0f);
+    EXPECT_EQ(material_of(load_with_material(R"({"extensions": {"KHR_materials_ior": {"ior": 0}}})")).ior, 0.0f);
 }
 
 TEST(Material, BrightEmissionBecomesStrength) {
-    const LoadedScene loaded = load_with(R"({"emissiveFactor": [10, 5, 0]})");
+    const LoadedScene loaded = load_with_material(R"({"emissiveFactor": [10, 5, 0]})");
     EXPECT_EQ(material_of(loaded).emissive, Rgb(1, 0.5f, 0));
     EXPECT_EQ(material_of(loaded).emissive_strength, 10.0f);
     EXPECT_TRUE(has_problem(loaded.problems, Severity::Warning, "emissive strength"));
 }
 
 TEST(Material, NegativeEmissionIsReportedAsItStands) {
-    const LoadedScene loaded = load_with(R"({"emissiveFactor": [4, -3, 1]})");
+    const LoadedScene loaded = load_with_material(R"({"emissiveFactor": [4, -3, 1]})");
     const MaterialDesc& material = material_of(loaded);
     EXPECT_EQ(material.emissive, Rgb(1.0f, 0.0f, 0.25f));
     EXPECT_EQ(material.emissive_strength, 4.0f);
@@ -215,7 +215,7 @@ TEST(Material, NegativeEmissionIsReportedAsItStands) {
 
 TEST(Material, TexcoordsBeyondOneAreIgnoredWithAWarning) {
     const LoadedScene loaded =
-        load_with(R"({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0, "texCoord": 2}}})");
+        load_with_material(R"({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0, "texCoord": 2}}})");
     EXPECT_FALSE(material_of(loaded).base_color_texture.valid());
     EXPECT_TRUE(has_problem(loaded.problems, Severity::Warning, "texture coordinates 2", "/baseColorTexture"));
 }
