@@ -2,7 +2,8 @@
 #
 # Registers the program test_<room> with CTest suite by suite, long suites in parts of some twenty cases: case by case, to
 # start a process 3,000 times took minutes. Suites have the label <room>, or <room>-slow where one of the patterns, regular
-# expressions, matches the whole of their name. What is skipped stands in the files of <build folder>/test-cases.
+# expressions, matches the whole of their name; these start first, so that none is left to run alone. What is skipped
+# stands in the files of <build folder>/test-cases.
 if(CMAKE_SCRIPT_MODE_FILE)
   # Run after the program is built: PROGRAM, ROOM, SLOW, OUTPUT, TEST_OUTPUT, CASES.
   execute_process(COMMAND "${PROGRAM}" --gtest_list_tests OUTPUT_VARIABLE listing COMMAND_ERROR_IS_FATAL ANY)
@@ -18,8 +19,10 @@ if(CMAKE_SCRIPT_MODE_FILE)
     endif()
     math(EXPR parts "(${cases} + ${cases_of_part} - 1) / ${cases_of_part}")
     set(label "${ROOM}")
+    set(cost 0)
     if(NOT SLOW STREQUAL "" AND suite MATCHES "^(${SLOW})$")
       set(label "${ROOM}-slow")
+      set(cost 1)
     endif()
     math(EXPR last "${parts} - 1")
     foreach(part RANGE ${last})
@@ -31,7 +34,7 @@ if(CMAKE_SCRIPT_MODE_FILE)
       string(REPLACE "/" "-" file "${name}")
       string(APPEND script
         "add_test([==[${name}]==] [==[${PROGRAM}]==] [==[--gtest_filter=${suite}.*]==] --gtest_brief=1)\n"
-        "set_tests_properties([==[${name}]==] PROPERTIES LABELS ${label} TIMEOUT 900 ENVIRONMENT "
+        "set_tests_properties([==[${name}]==] PROPERTIES LABELS ${label} COST ${cost} TIMEOUT 900 ENVIRONMENT "
         "[==[ETENDUE_TEST_OUTPUT=${TEST_OUTPUT};GTEST_OUTPUT=xml:${CASES}/${file}.xml;"
         "GTEST_TOTAL_SHARDS=${parts};GTEST_SHARD_INDEX=${part}]==])\n")
     endforeach()
