@@ -6,7 +6,9 @@ The tables below are the architecture of src/README.md; whoever changes one chan
     a file that does not exist counts as generated if the CMakeLists.txt of the room that includes it names it;
   - that a header which includes a wrapped third-party header, directly or not, stays inside its room;
   - that every header has #pragma once;
-  - that DEPENDS in each src/ROOM/CMakeLists.txt lists only rooms of the table, and all that are included.
+  - that DEPENDS in each src/ROOM/CMakeLists.txt lists only rooms of the table, and all that are included;
+  - in src/ and tests/, that no functions in unnamed namespaces of two files of a room have one name and may have as many
+    arguments: in unity builds these are overloads, and a call may silently change to the other one.
 """
 
 import argparse
@@ -81,6 +83,45 @@ def third_party_rule(name):
     return next((row for row in THIRD_PARTY if re.match(row[0], name)), None)
 
 
+UNNAMED = re.compile(r"^namespace \{\n(.*?)^\}  // namespace$", re.MULTILINE | re.DOTALL)
+# At the beginning of a line, with a type before its name.
+FUNCTION = re.compile(r"^(?!using|namespace|template|static_assert|class|struct|enum|return|[#/])\w[^\n;={}]*?"
+                      r"\b([a-z]\w*)\(", re.MULTILINE)
+OVERLOADED = ("to_json",)  # found by the type that is written
+
+
+def unnamed_functions(text):
+    """Name, line, fewest and most arguments of each function in unnamed namespaces."""
+    for namespace in UNNAMED.finditer(text):
+        for function in FUNCTION.finditer(text, namespace.start(1), namespace.end(1)):
+            if function.group(1) not in OVERLOADED:
+                line = text.count("\n", 0, function.start()) + 1
+                yield function.group(1), line, *argument_counts(text, function.end() - 1)
+
+
+def argument_counts(text, start):
+    """How many arguments a function takes at least and at most, whose parenthesis opens at `start`."""
+    brackets = angles = commas = defaults = 0
+    is_empty = True
+    for before, character in zip(text[start - 1:], text[start:]):
+        if character in "([{":
+            brackets += 1
+        elif character in ")]}":
+            brackets -= 1
+            if brackets == 0:
+                break
+        elif character == "<":
+            angles += 1
+        elif character == ">" and before != "-":
+            angles -= 1
+        elif brackets == 1:
+            commas += character == "," and angles == 0
+            defaults += character == "="
+            is_empty = is_empty and character.isspace()
+    most = 0 if is_empty else commas + 1
+    return most - defaults, most
+
+
 class Checker:
     """Collects the problems of one source tree as lines `FILE:LINE: what is wrong`."""
 
@@ -102,7 +143,21 @@ class Checker:
         self.check_wrapped_headers()
         for path in sorted(self.src.glob("*/CMakeLists.txt")):
             self.check_depends(path)
+        self.check_overloads()
         return self.problems
+
+    def check_overloads(self):
+        for room in sorted(path for path in self.src.iterdir() if path.is_dir()):
+            found = {}  # name: [(file, line, fewest arguments, most arguments)]
+            for path in sorted(room.rglob("*.cpp")):
+                file = path.relative_to(self.src).as_posix()
+                for name, line, fewest, most in unnamed_functions(path.read_text(encoding="utf-8")):
+                    for other, other_line, others_fewest, others_most in found.get(name, []):
+                        if other != file and fewest <= others_most and others_fewest <= most:
+                            self.report(file, line, f"{name} overloads that of {other}:{other_line} in unity builds: "
+                                                    "give one of them another name")
+                            break
+                    found.setdefault(name, []).append((file, line, fewest, most))
 
     def read(self, path):
         file = path.relative_to(self.src).as_posix()
@@ -236,6 +291,12 @@ SELF_TESTS = [
     ("DEPENDS against the table", {"sampling/CMakeLists.txt": "etendue_room(sampling DEPENDS core film)\n"},
      "DEPENDS lists film"),
     ("DEPENDS too short", {"sampling/CMakeLists.txt": "etendue_room(sampling SOURCES a.cpp)\n"}, "DEPENDS lacks core"),
+    ("two functions of one name in a room", {
+        "film/a.cpp": "namespace {\n\nint f(int a, std::pair<int, int> b = {1, 2}) {\n}\n\n}  // namespace\n",
+        "film/b.cpp": "namespace {\n\nint f(long a) {\n}\n\n}  // namespace\n"}, "f overloads that of film/a.cpp:3"),
+    ("two functions that cannot be confused", {
+        "film/a.cpp": "namespace {\n\nint f(int a, int b) {\n}\n\n}  // namespace\n",
+        "film/b.cpp": "namespace {\n\nint f(long a) {\n}\n\n}  // namespace\n"}, None),
     ("a room under another name", {"sampling/CMakeLists.txt": "etendue_room(warps SOURCES a.cpp DEPENDS core)\n"},
      "stands in the folder sampling"),
 ]
@@ -280,7 +341,13 @@ def main():
                         help="the tree to check; default: src/ of this checkout")
     parser.add_argument("--self-test", action="store_true", help="check this program with small made-up trees")
     arguments = parser.parse_args()
-    problems = self_test() if arguments.self_test else check_table() + Checker(arguments.src).run()
+    if arguments.self_test:
+        problems = self_test()
+    else:
+        problems = check_table() + Checker(arguments.src).run()
+        tests = Checker(Path(arguments.src).parent / "tests")
+        tests.check_overloads()
+        problems += tests.problems
     for problem in problems:
         print(problem)
     if problems:

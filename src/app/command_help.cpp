@@ -10,7 +10,7 @@ namespace etendue {
 
 namespace {
 
-std::string trimmed(const std::string& text) {
+std::string without_spaces(const std::string& text) {
     const std::size_t begin = text.find_first_not_of(' ');
     return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(' ') + 1 - begin);
 }
@@ -41,7 +41,7 @@ OptionHelp describe_option(const CLI::Option& option) {
     for (const std::string& name : option.get_snames()) help.names.push_back("-" + name);
     for (const std::string& name : option.get_lnames()) help.names.push_back("--" + name);
     const CLI::Formatter formatter;
-    help.terms = trimmed(formatter.make_option_opts(&option));
+    help.terms = without_spaces(formatter.make_option_opts(&option));
     help.description = option.get_description();
     help.choices = choices_of(option.get_type_name());
     help.value = value_of(option, help.choices);

@@ -336,7 +336,7 @@ ExitCode run_diff(const DiffArguments& arguments) {
     return passed ? ExitCode::Success : ExitCode::DiffFailed;
 }
 
-void add_options(CLI::App& command, DiffArguments& arguments) {
+void add_diff_options(CLI::App& command, DiffArguments& arguments) {
     command.add_option("image", arguments.image, "The image to judge: EXR, HDR, PNG, JPEG, TIFF or WebP")->required();
     command.add_option("reference", arguments.reference, "What it should look like")->required();
     command
@@ -383,7 +383,7 @@ void add_options(CLI::App& command, DiffArguments& arguments) {
 void add_diff_command(CLI::App& app, Action& action) {
     auto arguments = std::make_shared<DiffArguments>();
     CLI::App* command = app.add_subcommand("diff", "Measure how far an image is from a reference");
-    add_options(*command, *arguments);
+    add_diff_options(*command, *arguments);
     command->footer(fmt::format(
         "Measures, v being the image's value and r the reference's, means over pixels and channels R, G, B:\n"
         "  relmse          {}\n"

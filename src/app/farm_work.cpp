@@ -32,7 +32,7 @@ PreparedScene prepare_job(const ImageJob& job, const SettingsOverrides& override
 }
 
 /// A first look at the files saves most images from being loaded.
-bool is_done(const ImageJob& job, const SettingsOverrides& overrides) {
+bool is_done_already(const ImageJob& job, const SettingsOverrides& overrides) {
     const OutputPaths paths = OutputPaths::beside(job.output);
     if (why_unfinished(paths) || why_outdated(paths, job.scene)) return false;
     const PreparedScene prepared = prepare_job(job, overrides);
@@ -105,7 +105,7 @@ class WorkFinder {
         for (const fs::path& path : {job.scene, job.output})
             if (!can_be_recorded(path.string()))
                 throw SceneError({path.string(), ""}, "its name is not UTF-8; rename it to submit it");
-        if (!request_.force && is_done(job, request_.overrides)) {
+        if (!request_.force && is_done_already(job, request_.overrides)) {
             work_.up_to_date.push_back(job);
             return;
         }

@@ -23,7 +23,7 @@ namespace {
     throw IoError(fmt::format("cannot run {}: {}", program, std::generic_category().message(error)));
 }
 
-Pipe pipe_for(const std::string& program) {
+Pipe pipe_to(const std::string& program) {
     Pipe pipe = make_pipe();
     if (!pipe.reader.is_open()) throw_error(program, errno);
     return pipe;
@@ -67,8 +67,8 @@ void read_all(const Pipe& out, const Pipe& err, CommandResult& result) {
 }  // namespace
 
 CommandResult run_command(const std::vector<std::string>& words) {
-    Pipe out = pipe_for(words.front());
-    Pipe err = pipe_for(words.front());
+    Pipe out = pipe_to(words.front());
+    Pipe err = pipe_to(words.front());
     const pid_t pid = start(words, out, err);
     out.writer.close();
     err.writer.close();

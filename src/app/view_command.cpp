@@ -259,7 +259,7 @@ void check(const ViewArguments& arguments) {
         throw UsageError(fmt::format("--output '{}' must end in .png", arguments.output.string()));
 }
 
-void add_options(CLI::App& command, ViewArguments& arguments) {
+void add_view_options(CLI::App& command, ViewArguments& arguments) {
     command.add_option("file", arguments.file, "EXR or HDR file");
     command.add_option("-o,--output", arguments.output, "PNG file to write");
     command.add_option("--layer", arguments.layer,
@@ -290,7 +290,7 @@ void add_options(CLI::App& command, ViewArguments& arguments) {
 void add_view_command(CLI::App& app, Action& action) {
     auto arguments = std::make_shared<ViewArguments>();
     CLI::App* command = app.add_subcommand("view", "Show an EXR, or a layer of one, as a PNG for a display");
-    add_options(*command, *arguments);
+    add_view_options(*command, *arguments);
     command->footer(
         "Colours go from the file's space, times 2 to the exposure, through look and view to the display; what is\n"
         "transparent lies over black. Other layers are shown without a view: one channel as grey from its smallest to\n"

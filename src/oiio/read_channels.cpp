@@ -64,7 +64,7 @@ void require_same_window(const OpenImage& open, const ImageInfo& first) {
 }
 
 /// Adds the channels of a part, without pixels, and what its header says.
-void add_part(const OIIO::ImageSpec& part, ChannelImage& image) {
+void add_channels(const OIIO::ImageSpec& part, ChannelImage& image) {
     for (int channel = 0; channel < part.nchannels; ++channel) {
         image.channel_names.push_back(part.channel_name(channel));
         const bool is_half = part.channelformat(channel) == OIIO::TypeDesc::HALF;
@@ -101,7 +101,7 @@ ChannelImage read_channels(const EncodedImage& encoded) {
         do {
             require_same_window(open, info);
             require_floats(open.spec);
-            add_part(open.spec, image);
+            add_channels(open.spec, image);
             channels_of_part.push_back(open.spec.nchannels);
             if (image.channel_names.size() > kMostChannels)
                 throw IoError(fmt::format("it has more than {} channels", kMostChannels));

@@ -18,7 +18,7 @@ Json positive(int number) {
     return number > 0 ? Json(number) : Json();
 }
 
-Json to_object(const UnitSeconds& seconds) {
+Json batch_object(const UnitSeconds& seconds) {
     return {{"load", seconds.load},
             {"build", seconds.build},
             {"render", seconds.render},
@@ -26,7 +26,7 @@ Json to_object(const UnitSeconds& seconds) {
             {"total", seconds.total()}};
 }
 
-Json to_object(const BatchTotals& sum) {
+Json batch_object(const BatchTotals& sum) {
     return {{"units", sum.units},
             {"rendered", sum.rendered},
             {"up_to_date", sum.up_to_date},
@@ -34,12 +34,12 @@ Json to_object(const BatchTotals& sum) {
             {"interrupted", sum.interrupted},
             {"running_elsewhere", sum.running_elsewhere},
             {"not_started", sum.not_started},
-            {"seconds", to_object(sum.seconds)},
+            {"seconds", batch_object(sum.seconds)},
             {"rays", sum.rays},
             {"peak_memory_bytes", sum.peak_memory_bytes}};
 }
 
-Json to_object(const BatchUnit& unit) {
+Json batch_object(const BatchUnit& unit) {
     return {{"name", unit.name},
             {"scene", unit.scene},
             {"frame", known(unit.frame)},
@@ -57,7 +57,7 @@ Json to_object(const BatchUnit& unit) {
             {"spp", positive(unit.spp)},
             {"integrator", known(unit.integrator)},
             {"halt_reason", known(unit.halt_reason)},
-            {"seconds", unit.seconds ? to_object(*unit.seconds) : Json()},
+            {"seconds", unit.seconds ? batch_object(*unit.seconds) : Json()},
             {"estimated_seconds", known(unit.estimated_seconds)},
             {"rays", known(unit.rays)},
             {"rays_per_second", known(unit.rays_per_second)},
@@ -68,7 +68,7 @@ Json to_object(const BatchUnit& unit) {
 
 std::string to_json(const BatchReport& report) {
     Json units = Json::array();
-    for (const BatchUnit& unit : report.units) units.push_back(to_object(unit));
+    for (const BatchUnit& unit : report.units) units.push_back(batch_object(unit));
     const Json json{{"format", kBatchFormat},
                     {"title", report.title},
                     {"output_directory", report.output_directory},
@@ -80,7 +80,7 @@ std::string to_json(const BatchReport& report) {
                     {"host", report.host},
                     {"threads", positive(report.threads)},
                     {"interrupted", report.interrupted},
-                    {"totals", to_object(totals(report))},
+                    {"totals", batch_object(totals(report))},
                     {"units", std::move(units)}};
     return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

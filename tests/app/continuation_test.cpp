@@ -149,7 +149,9 @@ TEST_F(Continuation, CheckpointsOutliveAKill) {
     int killed = 0;
     const fs::path checkpoint = work_ / "a.checkpoint";
     for (int attempt = 0; attempt < 5; ++attempt) {
-        const auto time = [&] { return fs::exists(checkpoint) ? fs::last_write_time(checkpoint) : fs::file_time_type{}; };
+        const auto time = [&] {
+            return fs::exists(checkpoint) ? fs::last_write_time(checkpoint) : fs::file_time_type{};
+        };
         const ProgramResult result = run(render(kSpp, "a.exr", every), [&, before = time()](int pid) {
             // Once it has gone on, however slow the machine is.
             for (int i = 0; i < 6000 && time() == before && !fs::exists(work_ / "a.json"); ++i) sleep_ms(1);

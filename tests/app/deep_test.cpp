@@ -152,20 +152,20 @@ TEST_F(DeepFiles, OfAnImageThatWasReplacedAreNoted) {
 }
 
 /// True if `command` succeeds; what it prints goes to `output`.
-bool succeeds(const std::string& command, const fs::path& output) {
+bool deep_succeeds(const std::string& command, const fs::path& output) {
     return std::system(fmt::format("{} > '{}' 2>&1", command, output.string()).c_str()) == 0;
 }
 
 TEST_F(DeepFiles, AreReadByOpenExrsOwnTools) {
     const fs::path text = work_ / "said.txt";
-    if (!succeeds("command -v exrheader exrinfo", text)) GTEST_SKIP() << "no exrheader and exrinfo here";
+    if (!deep_succeeds("command -v exrheader exrinfo", text)) GTEST_SKIP() << "no exrheader and exrinfo here";
     ASSERT_EQ(render("h.exr", {}).exit_code, 0);
     const fs::path file = work_ / "h.deep.exr";
-    ASSERT_TRUE(succeeds(fmt::format("exrheader '{}'", file.string()), text));
+    ASSERT_TRUE(deep_succeeds(fmt::format("exrheader '{}'", file.string()), text));
     const std::string header = read_file(text);
     EXPECT_NE(header.find("deepscanline"), std::string::npos) << header;
     EXPECT_NE(header.find("ZBack, 32-bit floating-point"), std::string::npos) << header;
-    EXPECT_TRUE(succeeds(fmt::format("exrinfo -s '{}'", file.string()), text)) << read_file(text);
+    EXPECT_TRUE(deep_succeeds(fmt::format("exrinfo -s '{}'", file.string()), text)) << read_file(text);
 }
 
 }  // namespace

@@ -20,8 +20,8 @@ enum class Request : int {
     Wait       ///< answered with the status of a copy when it has ended, as waitpid gives it
 };
 
-/// The beginning of each request. A Start goes on with strings, each ended by a zero: the directory to run in, the files for
-/// stdout and stderr, the words of the command, the variables of the environment.
+/// The beginning of each request. A Start goes on with strings, each ended by a zero: the directory to run in, the
+/// files for stdout and stderr, the words of the command, the variables of the environment.
 struct RequestHead {
     Request request = Request::Start;
     pid_t pid = 0;      ///< of the copy, unless it is to be started

@@ -73,8 +73,12 @@ int serve() {
                 answer = ::fork();
                 if (answer == 0) run_command(head, message.data() + sizeof head);
                 break;
-            case Request::HasEnded: answer = has_ended(head.pid) ? 1 : 0; break;
-            case Request::Wait: ::waitpid(head.pid, &answer, 0); break;
+            case Request::HasEnded:
+                answer = has_ended(head.pid) ? 1 : 0;
+                break;
+            case Request::Wait:
+                ::waitpid(head.pid, &answer, 0);
+                break;
         }
         if (::send(kRequests, &answer, sizeof answer, MSG_NOSIGNAL) < 0) return EXIT_FAILURE;
     }

@@ -1,9 +1,11 @@
 #include "bsdf/layered_surface.h"
 
+#include "bsdf/charlie.h"
 #include "bsdf_settings.h"
 #include "support/random.h"
 
 #include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -59,6 +61,20 @@ TEST(Sheen, IsFiniteWhereRoundingTakesTheCosineAboveOne) {
     const float above_one = 1.0f + 3e-7f;
     const BsdfValue value = Sheen{Rgb(1.0f), 0.3f}.evaluate({0.0f, 0.0f, above_one}, {0.1f, 0.0f, 0.99f});
     EXPECT_TRUE(is_finite(value.f_cos));
+}
+
+// As for every distribution of normals: seen from above, they cover the surface once.
+TEST(Sheen, FibresCoverTheSurfaceOnce) {
+    for (const float alpha : {0.05f, 0.3f, 1.0f}) {
+        const Charlie charlie{alpha};
+        constexpr int kSteps = 100'000;
+        double covered = 0.0;
+        for (int i = 0; i < kSteps; ++i) {
+            const double cos_half = (i + 0.5) / kSteps;
+            covered += 2.0 * std::numbers::pi * static_cast<double>(charlie.d(static_cast<float>(cos_half))) * cos_half;
+        }
+        EXPECT_NEAR(covered / kSteps, 1.0, 1e-4) << alpha;
+    }
 }
 
 TEST(LayeredSurface, ACoatReflectsAboutItsOwnNormal) {

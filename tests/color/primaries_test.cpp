@@ -6,7 +6,7 @@ namespace etendue {
 
 namespace {
 
-void expect_near(const Matrix3d& a, const Matrix3d& b, double tolerance) {
+void expect_elements_near(const Matrix3d& a, const Matrix3d& b, double tolerance) {
     for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], tolerance) << "element " << i;
 }
 
@@ -20,28 +20,28 @@ Chromaticities find(std::string_view name) {
 
 TEST(Primaries, InverseUndoes) {
     const Matrix3d m{2, -1, 0.5, 0.25, 3, 1, -0.75, 0.125, 1.5};
-    expect_near(m * inverse(m), {1, 0, 0, 0, 1, 0, 0, 0, 1}, 1e-14);
+    expect_elements_near(m * inverse(m), {1, 0, 0, 0, 1, 0, 0, 0, 1}, 1e-14);
 }
 
 // IEC 61966-2-1:1999, equation 7 (four digits).
 TEST(Primaries, Rec709ToXyzIsThePublishedMatrix) {
-    expect_near(rgb_to_xyz(find("Rec.709")), {0.4124, 0.3576, 0.1805, 0.2126, 0.7152, 0.0722, 0.0193, 0.1192, 0.9505},
-                6e-5);
+    expect_elements_near(rgb_to_xyz(find("Rec.709")),
+                         {0.4124, 0.3576, 0.1805, 0.2126, 0.7152, 0.0722, 0.0193, 0.1192, 0.9505}, 6e-5);
 }
 
 // AMPAS S-2014-004, appendix A: ACEScg to CIE XYZ.
 TEST(Primaries, AcescgToXyzIsThePublishedMatrix) {
-    expect_near(rgb_to_xyz(find("AP1")),
-                {0.6624541811, 0.1340042065, 0.1561876870, 0.2722287168, 0.6740817658, 0.0536895174, -0.0055746495,
-                 0.0040607335, 1.0103391003},
-                1e-9);
+    expect_elements_near(rgb_to_xyz(find("AP1")),
+                         {0.6624541811, 0.1340042065, 0.1561876870, 0.2722287168, 0.6740817658, 0.0536895174,
+                          -0.0055746495, 0.0040607335, 1.0103391003},
+                         1e-9);
 }
 
 // Bruce Lindbloom's published Bradford matrix from D65 to D50, for (0.31271, 0.32902) and (0.34567, 0.35850).
 TEST(Primaries, BradfordFromD65ToD50IsThePublishedMatrix) {
-    expect_near(bradford_adaptation({0.31271f, 0.32902f}, {0.34567f, 0.35850f}),
-                {1.0478112, 0.0228866, -0.0501270, 0.0295424, 0.9904844, -0.0170491, -0.0092345, 0.0150436, 0.7521316},
-                2e-4);
+    expect_elements_near(
+        bradford_adaptation({0.31271f, 0.32902f}, {0.34567f, 0.35850f}),
+        {1.0478112, 0.0228866, -0.0501270, 0.0295424, 0.9904844, -0.0170491, -0.0092345, 0.0150436, 0.7521316}, 2e-4);
 }
 
 TEST(Primaries, WhiteStaysWhite) {

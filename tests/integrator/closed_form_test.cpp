@@ -32,7 +32,7 @@ void PrintTo(const ClosedFormRun& comparison, std::ostream* out) {
     *out << comparison.scene->name;
 }
 
-std::vector<ClosedFormCase> all_cases() {
+std::vector<ClosedFormCase> all_closed_forms() {
     std::vector<ClosedFormCase> cases;
     for (const auto& list : {direct_light_cases, environment_cases, furnace_cases, far_from_origin_cases, motion_cases,
                              transparency_cases, body_cases, mixed_light_cases})
@@ -41,7 +41,7 @@ std::vector<ClosedFormCase> all_cases() {
 }
 
 std::vector<ClosedFormRun> all_comparisons() {
-    static const std::vector<ClosedFormCase> cases = all_cases();
+    static const std::vector<ClosedFormCase> cases = all_closed_forms();
     std::vector<ClosedFormRun> comparisons;
     std::uint32_t seed = 999;
     for (std::size_t number = 0; number < cases.size(); ++number) {

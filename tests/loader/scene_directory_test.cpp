@@ -14,7 +14,7 @@ const std::string& lone_triangle() {
     return bytes;
 }
 
-std::string failure(const std::filesystem::path& path) {
+std::string failure_to_load(const std::filesystem::path& path) {
     try {
         static_cast<void>(load_scene(path));
         return "";
@@ -39,15 +39,15 @@ TEST(LoadScene, SeveralFilesNeedAChoice) {
     const TempDir dir;
     dir.write("a.glb", lone_triangle());
     dir.write("b.gltf", "{}");
-    EXPECT_NE(failure(dir.path()).find("a.glb, b.gltf"), std::string::npos) << failure(dir.path());
-    EXPECT_EQ(failure(dir.path() / "a.glb"), "");
+    EXPECT_NE(failure_to_load(dir.path()).find("a.glb, b.gltf"), std::string::npos) << failure_to_load(dir.path());
+    EXPECT_EQ(failure_to_load(dir.path() / "a.glb"), "");
 
     dir.write("render.json", R"({"scene": "a.glb"})");
     EXPECT_EQ(load_scene(dir.path()).scene.file.filename(), "a.glb");
     dir.write("render.json", R"({"scene": "c.glb"})");
-    EXPECT_NE(failure(dir.path()).find("#/scene: 'c.glb': the file does not exist"), std::string::npos);
+    EXPECT_NE(failure_to_load(dir.path()).find("#/scene: 'c.glb': the file does not exist"), std::string::npos);
     dir.write("render.json", R"({"scene": "../a.glb"})");
-    EXPECT_NE(failure(dir.path()).find("'..'"), std::string::npos);
+    EXPECT_NE(failure_to_load(dir.path()).find("'..'"), std::string::npos);
 }
 
 TEST(LoadScene, PrefersTheNameScene) {
@@ -56,7 +56,7 @@ TEST(LoadScene, PrefersTheNameScene) {
     dir.write("scene.glb", lone_triangle());
     EXPECT_EQ(load_scene(dir.path()).scene.file.filename(), "scene.glb");
     dir.write("scene.gltf", "{}");
-    EXPECT_NE(failure(dir.path()).find("several"), std::string::npos);
+    EXPECT_NE(failure_to_load(dir.path()).find("several"), std::string::npos);
 }
 
 TEST(LoadScene, SettingsForAnotherFileAreNotApplied) {
@@ -72,24 +72,24 @@ TEST(LoadScene, SettingsForAnotherFileAreNotApplied) {
 
 TEST(LoadScene, SaysWhatIsNotThere) {
     const TempDir dir;
-    EXPECT_NE(failure(dir.path() / "nothing").find("no such file or directory"), std::string::npos);
-    EXPECT_NE(failure(dir.path()).find("no glTF file"), std::string::npos);
+    EXPECT_NE(failure_to_load(dir.path() / "nothing").find("no such file or directory"), std::string::npos);
+    EXPECT_NE(failure_to_load(dir.path()).find("no glTF file"), std::string::npos);
     dir.write("a.obj", "v 0 0 0");
-    EXPECT_NE(failure(dir.path() / "a.obj").find("format is not known"), std::string::npos);
+    EXPECT_NE(failure_to_load(dir.path() / "a.obj").find("format is not known"), std::string::npos);
     dir.write("render.json", "{}");
-    EXPECT_NE(failure(dir.path()).find("no glTF file"), std::string::npos);
+    EXPECT_NE(failure_to_load(dir.path()).find("no glTF file"), std::string::npos);
 }
 
 TEST(LoadScene, RecognisesTheFormatByContentToo) {
     const TempDir dir;
     dir.write("model.bin", lone_triangle());
-    EXPECT_EQ(failure(dir.path() / "model.bin"), "");
+    EXPECT_EQ(failure_to_load(dir.path() / "model.bin"), "");
     dir.write("model.gltf", lone_triangle());
-    EXPECT_EQ(failure(dir.path() / "model.gltf"), "");
+    EXPECT_EQ(failure_to_load(dir.path() / "model.gltf"), "");
     dir.write("model.glb", "{}");
-    EXPECT_NE(failure(dir.path() / "model.glb").find("does not start with 'glTF'"), std::string::npos);
+    EXPECT_NE(failure_to_load(dir.path() / "model.glb").find("does not start with 'glTF'"), std::string::npos);
     dir.write("MODEL.GLB", lone_triangle());
-    EXPECT_EQ(failure(dir.path() / "MODEL.GLB"), "");
+    EXPECT_EQ(failure_to_load(dir.path() / "MODEL.GLB"), "");
 }
 
 TEST(LoadScene, CollectsTheProblemsOfSettingsAndScene) {
@@ -98,7 +98,7 @@ TEST(LoadScene, CollectsTheProblemsOfSettingsAndScene) {
     dir.write("render.json", R"({"spp": 0, "sead": 1})");
     const LoadedScene loaded = inspect_scene(dir.path());
     EXPECT_EQ(loaded.problems.error_count(), 3u) << listing(loaded.problems);
-    EXPECT_NE(failure(dir.path()).find("did you mean 'seed'"), std::string::npos);
+    EXPECT_NE(failure_to_load(dir.path()).find("did you mean 'seed'"), std::string::npos);
 }
 
 TEST(LoadScene, EachProblemIsReportedOnce) {
@@ -113,10 +113,10 @@ TEST(LoadScene, FilesBehindLinksOutsideAreNotFoundInADirectory) {
     outside.write("render.json", "{}");
     const TempDir dir;
     std::filesystem::create_symlink(outside.path() / "scene.glb", dir.path() / "scene.glb");
-    EXPECT_NE(failure(dir.path()).find("link leads out"), std::string::npos);
-    EXPECT_EQ(failure(dir.path() / "scene.glb"), "");  // the user named it
+    EXPECT_NE(failure_to_load(dir.path()).find("link leads out"), std::string::npos);
+    EXPECT_EQ(failure_to_load(dir.path() / "scene.glb"), "");  // the user named it
     std::filesystem::create_symlink(outside.path() / "render.json", dir.path() / "render.json");
-    EXPECT_NE(failure(dir.path() / "scene.glb").find("link leads out"), std::string::npos);
+    EXPECT_NE(failure_to_load(dir.path() / "scene.glb").find("link leads out"), std::string::npos);
 }
 
 TEST(LoadScene, GivenSettingsAreMergedIntoThoseOfTheFile) {

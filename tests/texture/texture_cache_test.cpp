@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::uint64_t kBudget = std::uint64_t{16} << 20;
 
-std::vector<std::uint8_t> noise(int width, int height, int channels) {
+std::vector<std::uint8_t> byte_noise(int width, int height, int channels) {
     Random random(11);
     std::vector<std::uint8_t> values(static_cast<std::size_t>(width * height * channels));
     for (std::uint8_t& value : values) value = static_cast<std::uint8_t>(random.next() * 255.99f);
@@ -68,8 +68,8 @@ Difference compare(const std::filesystem::path& file, TextureOptions options) {
 TEST(TextureCache, ReadsAsResidentTexturesDo) {
     const TemporaryFolder folder;
     for (const int channels : {1, 3, 4}) {
-        const auto file =
-            write_reference(folder / "a.png", {128, 128, channels, OIIO::TypeDesc::UINT8}, noise(128, 128, channels));
+        const auto file = write_reference(folder / "a.png", {128, 128, channels, OIIO::TypeDesc::UINT8},
+                                          byte_noise(128, 128, channels));
         for (const Encoding encoding : {Encoding::Linear, Encoding::Srgb})
             for (const Wrap wrap : {Wrap::Repeat, Wrap::Mirror, Wrap::Clamp}) {
                 const Difference difference = compare(file, {.wrap_u = wrap, .wrap_v = wrap, .encoding = encoding});
@@ -82,7 +82,7 @@ TEST(TextureCache, ReadsAsResidentTexturesDo) {
 
 TEST(TextureCache, ReadsEveryFilterAsResidentTexturesDo) {
     const TemporaryFolder folder;
-    const auto file = write_reference(folder / "a.png", {256, 64, 3, OIIO::TypeDesc::UINT8}, noise(256, 64, 3));
+    const auto file = write_reference(folder / "a.png", {256, 64, 3, OIIO::TypeDesc::UINT8}, byte_noise(256, 64, 3));
     for (const MipFilter mip : {MipFilter::None, MipFilter::Nearest, MipFilter::Linear}) {
         // Where a point lies between two texels, rounding decides which is nearest.
         const Difference nearest = compare(file, {.nearest = true, .nearest_minified = true, .mip_filter = mip});
@@ -158,7 +158,7 @@ TEST(TextureCache, BothWaysReadTheFilesOwnLevels) {
 
 TEST(TextureCache, ReadsEmbeddedImages) {
     const TemporaryFolder folder;
-    const auto file = write_reference(folder / "a.png", {32, 32, 3, OIIO::TypeDesc::UINT8}, noise(32, 32, 3));
+    const auto file = write_reference(folder / "a.png", {32, 32, 3, OIIO::TypeDesc::UINT8}, byte_noise(32, 32, 3));
     TextureCache cache(kBudget);
     const CachedImage from_file = cache.add(file, Encoding::Srgb);
     const CachedImage from_memory =
@@ -169,7 +169,8 @@ TEST(TextureCache, ReadsEmbeddedImages) {
 
 TEST(TextureCache, HoldsNoMoreThanItsBudget) {
     const TemporaryFolder folder;
-    const auto file = write_reference(folder / "a.png", {2048, 2048, 4, OIIO::TypeDesc::UINT8}, noise(2048, 2048, 4));
+    const auto file =
+        write_reference(folder / "a.png", {2048, 2048, 4, OIIO::TypeDesc::UINT8}, byte_noise(2048, 2048, 4));
     TextureCache cache(std::uint64_t{10} << 20);
     // 32 MiB as 16-bit floats.
     const CachedImage image = cache.add(file, Encoding::Srgb);
@@ -186,7 +187,7 @@ TEST(TextureCache, HoldsNoMoreThanItsBudget) {
 
 TEST(TextureCache, LookUpsDoNotDependOnWhoMakesThem) {
     const TemporaryFolder folder;
-    const auto file = write_reference(folder / "a.png", {512, 512, 3, OIIO::TypeDesc::UINT8}, noise(512, 512, 3));
+    const auto file = write_reference(folder / "a.png", {512, 512, 3, OIIO::TypeDesc::UINT8}, byte_noise(512, 512, 3));
     const auto read = [&](int thread_count) {
         TextureCache cache(kBudget);
         const Texture texture(cache.add(file, Encoding::Srgb), {.encoding = Encoding::Srgb});
@@ -217,7 +218,7 @@ TEST(TextureCache, BrokenHeadersAreErrors) {
 TEST(TextureCache, BrokenPixelsAreCountedAndBlack) {
     const TemporaryFolder folder;
     // No PNG: a cut one makes its library leak (cmake/sanitizer_defaults.cpp).
-    const auto file = write_reference(folder / "a.exr", {256, 256, 3, OIIO::TypeDesc::HALF}, noise(256, 256, 3));
+    const auto file = write_reference(folder / "a.exr", {256, 256, 3, OIIO::TypeDesc::HALF}, byte_noise(256, 256, 3));
     std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
     TextureCache cache(kBudget);
     const CachedImage image = cache.add(file, Encoding::Srgb);

@@ -40,7 +40,7 @@ void append_subpath(SubpathWave& wave, const PathVertex* last, std::vector<const
 }
 
 /// Of light that a subpath from the eye meets.
-LightKind kind_of_met_light(const SubpathState& state) {
+LightKind kind_of_light_met_by(const SubpathState& state) {
     if (state.index == kDirectlySeen) return LightKind::Seen;
     return state.lights_directly ? LightKind::Direct : LightKind::Indirect;
 }
@@ -152,7 +152,7 @@ void BdptWave::add(const SubpathState& state, const Rgb& light, const StrategySu
     shares_.clear();
     if (eye_.words().are_followed()) eye_.words().end_at_light(state.words, source, shares_);
     found_.add(state.slot, state.throughput * light * context.wavelength_weight(state.slot, state.is_dispersed) * share,
-               kind_of_met_light(state), shares_);
+               kind_of_light_met_by(state), shares_);
     if (context.checks(state.slot) && state.index > kDirectlySeen) {
         const PathVertex& last = eye_.whole(state.last_vertex);
         check(context, context.options, 0, share, end, nullptr, &last, camera_of(context, last));

@@ -24,7 +24,7 @@ namespace etendue::test {
 
 namespace {
 
-PathIntegrator path_of(std::uint32_t light_samples, const PathLengths& lengths = {}) {
+PathIntegrator path_with(std::uint32_t light_samples, const PathLengths& lengths = {}) {
     return PathIntegrator({.lengths = lengths, .light_samples = light_samples});
 }
 
@@ -40,8 +40,8 @@ BlockAgreement compare(const World& world, AgreementCase room) {
     constexpr int kComparisons = static_cast<int>(kRooms.size()) + 1;  // with that of an image of the environment
     room.spp /= 2;
     const ThreadPool threads;
-    return test_agreement(estimate(world, path_of(1, room.lengths), room, {.first_seed = 100}, threads, room.window),
-                          estimate(world, path_of(3, room.lengths), room, {.first_seed = 200}, threads, room.window),
+    return test_agreement(estimate(world, path_with(1, room.lengths), room, {.first_seed = 100}, threads, room.window),
+                          estimate(world, path_with(3, room.lengths), room, {.first_seed = 200}, threads, room.window),
                           {.block_size = kAgreementBlock, .significance = sidak_level(kFamilyLevel, kComparisons)});
 }
 
@@ -70,7 +70,7 @@ TEST_P(LightSamplesAgree, MakeTheSameImageWithLayers) {
     AgreementCase room = agreement_case(GetParam());
     room.spp = 4;
     const World world = agreement_world(room);
-    const PathIntegrator split = path_of(3, room.lengths);
+    const PathIntegrator split = path_with(3, room.lengths);
     const auto aovs = std::make_shared<AovSet>(expression_layers(room, {"C .* L"}));
     const Film with = render_layers(world, split, room, aovs, 3).film;
     const std::vector<float> image = with.resolve();
@@ -106,7 +106,7 @@ SceneDesc wall_under_a_lamp(bool in_mirror) {
 double squared_error(const World& world, std::uint32_t light_samples, const PathLengths& lengths) {
     constexpr PixelRect kWindow{0, 0, 24, 24};
     const auto pixels = [&](std::uint32_t samples, std::uint32_t spp) {
-        return render_pixels(world, path_of(samples, lengths), kWindow, 24, 24, spp);
+        return render_pixels(world, path_with(samples, lengths), kWindow, 24, 24, spp);
     };
     const std::vector<Rgb> one = pixels(light_samples, 1);
     const std::vector<Rgb> reference = pixels(1, 256);
@@ -136,7 +136,7 @@ TEST(LightSamples, SplitFirstVerticesOnly) {
     const AgreementCase& room = agreement_case("LampDiffuse");
     const World world = agreement_world(room);
     const auto shadow_rays = [&](std::uint32_t samples, int max_depth) {
-        return render_tile(world, path_of(samples, {.max_depth = max_depth}), 64).counters.rays[RayKind::Shadow];
+        return render_tile(world, path_with(samples, {.max_depth = max_depth}), 64).counters.rays[RayKind::Shadow];
     };
     const auto first = static_cast<double>(shadow_rays(1, 2));
     const auto later = static_cast<double>(shadow_rays(1, 3)) - first;
@@ -153,8 +153,8 @@ TEST(LightSamples, OfALampWithoutSizeAreAllTheSame) {
     light.intensity = 5.0f;
     scene.lights.push_back(light);
     const World world = compile(std::move(scene));
-    const Rgb one = render_tile(world, path_of(1), 16).mean;
-    const Rgb seven = render_tile(world, path_of(7), 16).mean;
+    const Rgb one = render_tile(world, path_with(1), 16).mean;
+    const Rgb seven = render_tile(world, path_with(7), 16).mean;
     EXPECT_GT(one.g, 0.0f);
     EXPECT_NEAR(seven.g, one.g, 1e-5f * one.g);
 }
@@ -180,7 +180,7 @@ TEST(LightSamples, MeetTransparencyEachForItself) {
 
 std::vector<Rgb> pixels_in_jobs(const World& world, const AovSet* aovs, std::uint32_t job_samples) {
     constexpr std::uint32_t kSamples = 32;
-    const PathIntegrator split = path_of(16, {.max_depth = 3});
+    const PathIntegrator split = path_with(16, {.max_depth = 3});
     const PixelFilter filter(FilterShape::Box);
     const auto scratch = split.make_scratch();
     std::vector<Rgb> sums(256);
@@ -212,22 +212,22 @@ TEST(LightSamples, CountOnceHoweverManyRaysAreTracedTogether) {
 
 TEST(LightSamples, SayWhereTheyHaveNoEffect) {
     const World world = agreement_world(agreement_case("LampDiffuse"));
-    EXPECT_TRUE(path_of(4).ineffective_options(world).empty());
-    const auto short_paths = path_of(4, {.max_depth = 1}).ineffective_options(world);
+    EXPECT_TRUE(path_with(4).ineffective_options(world).empty());
+    const auto short_paths = path_with(4, {.max_depth = 1}).ineffective_options(world);
     ASSERT_EQ(short_paths.size(), 1u);
     EXPECT_NE(short_paths[0].find("--max-depth"), std::string::npos) << short_paths[0];
     const World sky = agreement_world(agreement_case("Environment"));
-    const auto not_sampled = path_of(4).ineffective_options(sky);
+    const auto not_sampled = path_with(4).ineffective_options(sky);
     ASSERT_EQ(not_sampled.size(), 1u);
     EXPECT_NE(not_sampled[0].find("no light is sampled"), std::string::npos) << not_sampled[0];
-    EXPECT_TRUE(path_of(1).ineffective_options(sky).empty());
+    EXPECT_TRUE(path_with(1).ineffective_options(sky).empty());
 }
 
 // Shadow rays are traced before there are many more of them than a batch.
 TEST(LightSamples, NeedNoMoreMemoryTheMoreThereAre) {
     const AgreementCase& room = agreement_case("LampDiffuse");
     const World world = agreement_world(room);
-    const PathIntegrator split = path_of(64);
+    const PathIntegrator split = path_with(64);
     const auto scratch = split.make_scratch();
     const PixelFilter filter(FilterShape::Box);
     const TileJob job{{0, 0, 16, 16}, {0, 0, 16, 16}, 16, 16, 0, 32, 1, SampleSequence::Sobol, &filter};

@@ -115,8 +115,8 @@ TEST(Material, VolumesWithoutThicknessAreThinWalls) {
             load_with_material((R"({"extensions": {"KHR_materials_volume": )" + std::string(volume) + "}}").c_str());
         EXPECT_FALSE(material_of(loaded).volume.closed);
     }
-    const LoadedScene loaded =
-        load_with_material(R"({"extensions": {"KHR_materials_volume": {"thicknessFactor": 1, "attenuationDistance": 0}}})");
+    const LoadedScene loaded = load_with_material(
+        R"({"extensions": {"KHR_materials_volume": {"thicknessFactor": 1, "attenuationDistance": 0}}})");
     EXPECT_TRUE(has_problem(loaded.problems, Severity::Warning, "attenuationDistance"));
     EXPECT_TRUE(std::isinf(material_of(loaded).volume.attenuation_distance));
 }
