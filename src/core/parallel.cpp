@@ -1,7 +1,11 @@
 #include "core/parallel.h"
 
 #include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
 #include <optional>
+#include <thread>
 #include <vector>
 
 #include <tbb/global_control.h>
@@ -11,37 +15,53 @@
 #include <tbb/version.h>
 #include <xmmintrin.h>
 
-#ifdef __SANITIZE_THREAD__
-// ThreadSanitizer's interface.
-extern "C" void __tsan_acquire(void* address);
-extern "C" void __tsan_release(void* address);
-#endif
-
 namespace etendue {
 
 namespace {
 constexpr unsigned int kFlushToZero = 0x8000;
 constexpr unsigned int kDenormalsAreZero = 0x0040;
 
-/// Tells ThreadSanitizer of an order that it cannot see, since TBB is not instrumented: what happened before `leave` in
-/// one thread happens before what follows `enter` in another.
-class Handover {
-  public:
-#ifdef __SANITIZE_THREAD__
-    void leave() {
-        __tsan_release(this);
-    }
-    void enter() {
-        __tsan_acquire(this);
-    }
+using Body = std::function<void(std::size_t index, int slot)>;
 
-  private:
-    char address_ = 0;
+#ifdef __SANITIZE_THREAD__
+/// In place of TBB, which is not instrumented: ThreadSanitizer cannot see what order it keeps between threads, and
+/// takes all that it hands over for races.
+void run_tasks(tbb::task_arena& arena, std::size_t count, const Body& body) {
+    std::atomic<std::size_t> next{0};
+    std::mutex mutex;
+    std::exception_ptr failure;
+    const auto work = [&](int slot) {
+        const FlushDenormals flush_denormals;
+        try {
+            for (std::size_t index = next++; index < count; index = next++) body(index, slot);
+        } catch (...) {
+            next = count;
+            const std::lock_guard lock(mutex);
+            if (!failure) failure = std::current_exception();
+        }
+    };
+    {
+        std::vector<std::jthread> others;
+        for (int slot = 1; slot < arena.max_concurrency(); ++slot) others.emplace_back(work, slot);
+        work(0);
+    }
+    if (failure) std::rethrow_exception(failure);
+}
 #else
-    void leave() {}
-    void enter() {}
+void run_tasks(tbb::task_arena& arena, std::size_t count, const Body& body) {
+    arena.execute([&] {
+        tbb::parallel_for(
+            tbb::blocked_range<std::size_t>(0, count, 1),
+            [&](const tbb::blocked_range<std::size_t>& range) {
+                const FlushDenormals flush_denormals;
+                const int slot = tbb::this_task_arena::current_thread_index();
+                for (std::size_t index = range.begin(); index != range.end(); ++index) body(index, slot);
+            },
+            tbb::simple_partitioner());
+    });
+}
 #endif
-};
+
 }  // namespace
 
 FlushDenormals::FlushDenormals() : saved_(_mm_getcsr()) {
@@ -77,39 +97,14 @@ int ThreadPool::thread_count() const {
 }
 
 void ThreadPool::parallel_for(std::size_t count, const std::function<void(std::size_t, int)>& body) const {
-    Handover begin;
-    Handover end;
-    std::vector<Handover> slots(static_cast<std::size_t>(thread_count()));
-    begin.leave();
-    impl_->arena.execute([&] {
-        tbb::parallel_for(
-            tbb::blocked_range<std::size_t>(0, count, 1),
-            [&](const tbb::blocked_range<std::size_t>& range) {
-                const FlushDenormals flush_denormals;
-                const int slot = tbb::this_task_arena::current_thread_index();
-                Handover& of_slot = slots[static_cast<std::size_t>(slot)];
-                begin.enter();
-                of_slot.enter();
-                for (std::size_t index = range.begin(); index != range.end(); ++index) body(index, slot);
-                of_slot.leave();
-                end.leave();
-            },
-            tbb::simple_partitioner());
-    });
-    end.enter();
+    run_tasks(impl_->arena, count, body);
 }
 
 void ThreadPool::execute(const std::function<void()>& body) const {
-    Handover begin;
-    Handover end;
-    begin.leave();
     impl_->arena.execute([&] {
         const FlushDenormals flush_denormals;
-        begin.enter();
         body();
-        end.leave();
     });
-    end.enter();
 }
 
 NodeBinding::Stay ThreadPool::stay_on_node(int slot) const {

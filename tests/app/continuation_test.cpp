@@ -337,7 +337,7 @@ TEST_F(Continuation, RefusesTheCheckpointOfAnotherBuildAndSaysSo) {
     std::string id;
     for (std::size_t i = 0; i < digits.size(); i += 2)
         id += static_cast<char>(std::stoi(digits.substr(i, 2), nullptr, 16));
-    std::string code = read_file(ETENDUE_SERVED_PROGRAM);
+    std::string code = read_file(program_file());
     const std::size_t place = code.find(id);
     ASSERT_NE(place, std::string::npos);
     code[place] = static_cast<char>(code[place] ^ 1);

@@ -2,6 +2,7 @@
 
 #include "app/program_server.h"
 #include "app/small_files.h"
+#include "support/sanitizers.h"
 
 #include <chrono>
 #include <csignal>
@@ -36,7 +37,7 @@ namespace {
 
 RunningProgram::RunningProgram(const std::vector<std::string>& arguments, const std::filesystem::path& directory,
                                Start start)
-    : start_(start) {
+    : start_(kHasSanitizers ? Start::Executed : start) {
     // Beside the directory, not in it: tests look at what the program leaves there.
     // Several may run there at once.
     const std::string name = fmt::format("{}.{}", directory.string(), static_cast<const void*>(this));
@@ -99,6 +100,10 @@ ProgramResult RunningProgram::wait() {
     std::filesystem::remove(out_);
     std::filesystem::remove(err_);
     return result;
+}
+
+std::filesystem::path program_file() {
+    return kHasSanitizers ? ETENDUE_PROGRAM : ETENDUE_SERVED_PROGRAM;
 }
 
 bool handles_interrupt(int pid) {

@@ -16,7 +16,9 @@ struct ProgramResult {
 };
 
 enum class Start {
-    Copied,   ///< as a copy of a process that has loaded OpenImageIO, within milliseconds
+    /// As a copy of a process that has loaded OpenImageIO, within milliseconds; executed where sanitizers watch, which
+    /// look for leaks at a program's end and know no threads of copies.
+    Copied,
     Executed  ///< as the program's file: for tests of how it starts
 };
 
@@ -46,6 +48,9 @@ class RunningProgram {
     Start start_;
     int pid_ = -1;
 };
+
+/// The file whose code runs in commands that are copied.
+[[nodiscard]] std::filesystem::path program_file();
 
 /// True while the process catches SIGINT: from the time it is ready to, until the first has arrived.
 [[nodiscard]] bool handles_interrupt(int pid);

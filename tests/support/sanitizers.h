@@ -3,7 +3,7 @@
 
 namespace etendue::test {
 
-#ifdef __SANITIZE_ADDRESS__
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 inline constexpr bool kHasSanitizers = true;
 #else
 inline constexpr bool kHasSanitizers = false;
