@@ -3,24 +3,12 @@
 #include "picture/exr_files.h"
 #include "picture/output_paths.h"
 
-#include <algorithm>
 #include <utility>
 
 #include <etendue/picture.h>
 #include <fmt/format.h>
 
 namespace etendue {
-
-namespace {
-
-/// Throws IoError if writing `file` would replace one of `inputs`.
-void require_no_input(const std::filesystem::path& file, const std::vector<std::filesystem::path>& inputs) {
-    const std::filesystem::path written = written_file(file);
-    if (std::ranges::any_of(inputs, [&](const auto& input) { return written_file(input) == written; }))
-        throw IoError(fmt::format("cannot write {}: the scene was read from it", file.string()));
-}
-
-}  // namespace
 
 void Picture::State::list_layers() {
     layers.clear();
@@ -83,10 +71,9 @@ void Picture::write_exr(const std::filesystem::path& file, Depth depth) const {
         if (image.frame.aces_container && depth == Depth::Float)
             throw IoError(
                 fmt::format("cannot write {}: an ACES container (SMPTE ST 2065-4) holds 16-bit floats", file.string()));
-        require_writable(file);
-        require_no_input(file, state_->inputs);
+        require_writable(file, state_->inputs);
         for (const std::string& name : layer_file_names(file, image))
-            require_no_input(file.parent_path() / name, state_->inputs);
+            require_writable(file.parent_path() / name, state_->inputs);
         write_exr_files(file, image, state_->colors, depth == Depth::Float ? PixelDepth::Float : PixelDepth::Half);
     });
 }

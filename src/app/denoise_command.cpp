@@ -22,6 +22,7 @@
 #include <memory>
 #include <new>
 #include <optional>
+#include <span>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -240,7 +241,8 @@ ExitCode run_denoise(const DenoiseArguments& arguments) {
         if (arguments.method == "oidn" && std::ranges::find(kOidnFeatures, feature) == kOidnFeatures.end())
             throw UsageError(fmt::format("--features {}: the network of '--method oidn' knows {} only", feature,
                                          fmt::join(kOidnFeatures, " and ")));
-    require_writable(arguments.output);
+    const std::filesystem::path image = arguments.image;
+    require_writable(arguments.output, std::span(&image, 1));
     try {
         const auto start = std::chrono::steady_clock::now();
         DenoiseInput input = read_input(arguments);

@@ -9,8 +9,10 @@
 #include "metrics/color_map.h"
 #include "metrics/error_metrics.h"
 #include "output/software_name.h"
+#include "picture/output_paths.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -310,7 +312,9 @@ ExitCode run_diff(const DiffArguments& arguments) {
         result.limits.push_back({resolve_measure(limit.measure, pair.pair().is_encoded), limit.value});
     // What was measured must not be lost with a map that cannot be written.
     std::exception_ptr map_failure;
+    const std::array<std::filesystem::path, 2> read{arguments.image, arguments.reference};
     try {
+        if (!arguments.map.empty()) require_writable(arguments.map, read);
         if (!arguments.map.empty()) result.map = write_map(pair, result.measures.front(), arguments);
     } catch (const std::exception&) {
         map_failure = std::current_exception();

@@ -60,9 +60,9 @@ ExitCode run_merge(const MergeArguments& arguments) {
         throw UsageError(
             fmt::format("--output '{}' must end in .exr, or in .partial for a larger part", output.string()));
     const OutputPaths paths = OutputPaths::beside(output);
-    require_writable(output);
-    const PhaseTimer timer;
     const std::vector<std::filesystem::path> parts(arguments.parts.begin(), arguments.parts.end());
+    require_writable(output, parts);
+    const PhaseTimer timer;
     const MergedParts merged = merge_parts(parts, [&](const std::string& note) {
         // A part says where its samples begin and how many there are, and no more.
         if (is_partial(output)) throw SceneError({output.string(), {}}, note + "; such parts can become an image only");

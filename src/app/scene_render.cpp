@@ -28,6 +28,7 @@
 #include <chrono>
 #include <future>
 #include <memory>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -36,8 +37,8 @@ namespace etendue {
 
 namespace {
 
-void require_all_writable(const OutputPaths& paths) {
-    for (const std::filesystem::path& path : {paths.exr, paths.png, paths.json}) require_writable(path);
+void require_all_writable(const OutputPaths& paths, std::span<const std::filesystem::path> inputs) {
+    for (const std::filesystem::path& path : {paths.exr, paths.png, paths.json}) require_writable(path, inputs);
 }
 
 /// After rendering, when the cache has held what it will. Look-ups that failed are an error to tell, not one to lose
@@ -135,14 +136,14 @@ class SceneRender {
                 throw SceneError({"--deep", {}},
                                  "a part that is a crop has no depths of the light that falls into others: render "
                                  "parts that are ranges of samples (--samples), or with 'path'");
-            require_writable(output_);
+            require_writable(output_, scene_.inputs);
             return;
         }
-        require_all_writable(paths_);
+        require_all_writable(paths_, scene_.inputs);
         for (const AovOutput& layer : aovs_.outputs)
             if (scene_.settings.aov_layout == AovLayout::Files || layer.kind == AovKind::Deep) require_free(layer);
         if (request_.strategies.output.empty()) return;
-        require_all_writable(OutputPaths::beside(request_.strategies.output));
+        require_all_writable(OutputPaths::beside(request_.strategies.output), scene_.inputs);
         require_strategies(scene_.settings, {"--strategies-image", {}});
         check_strategies_request(request_.strategies, paths_, scene_.settings, options_, request_.overrides.depth);
     }
@@ -150,7 +151,7 @@ class SceneRender {
     /// Another image may have the name of a layer.
     void require_free(const AovOutput& layer) const {
         const std::filesystem::path path = layer_path(output_, layer.name);
-        require_writable(path);
+        require_writable(path, scene_.inputs);
         const std::filesystem::path other = OutputPaths::beside(path).json;
         if (std::filesystem::exists(other))
             throw SceneError(scene_.settings.at("/aov_layout"),

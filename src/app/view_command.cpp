@@ -21,6 +21,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -231,8 +232,8 @@ ExitCode run_list(const ViewArguments& arguments, const ColorConfig& colors) {
 ExitCode run_view(const ViewArguments& arguments) {
     const ColorConfig colors = ColorConfig::from_environment();
     if (arguments.list) return run_list(arguments, colors);
-    require_writable(arguments.output);
     const std::filesystem::path path = arguments.file;
+    require_writable(arguments.output, std::span(&path, 1));
     const LayeredImage file = of_file(arguments.file, [&] { return read_layers(path); });
     const ImageLayer layer = chosen_layer(file, arguments);
     const bool is_matte = is_cryptomatte(layer, file);

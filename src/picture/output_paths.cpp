@@ -2,6 +2,9 @@
 
 #include "core/error.h"
 
+#include <algorithm>
+#include <system_error>
+
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -23,7 +26,7 @@ bool is_partial(const std::filesystem::path& output) {
     return output.extension() == ".partial";
 }
 
-void require_writable(const std::filesystem::path& file) {
+void require_writable(const std::filesystem::path& file, std::span<const std::filesystem::path> inputs) {
     const std::filesystem::path parent = file.parent_path();
     const std::filesystem::path directory = parent.empty() ? "." : parent;
     if (!std::filesystem::is_directory(directory))
@@ -32,6 +35,13 @@ void require_writable(const std::filesystem::path& file) {
         throw IoError(fmt::format("cannot write {}: it is a directory", file.string()));
     if (access(directory.c_str(), W_OK | X_OK) != 0)
         throw IoError(fmt::format("cannot write {}: {} is not writable", file.string(), directory.string()));
+    const auto is_file = [&file](const std::filesystem::path& input) {
+        std::error_code error;
+        return std::filesystem::equivalent(file, input, error);
+    };
+    if (std::ranges::any_of(inputs, is_file))
+        throw IoError(fmt::format("cannot write {}: it is an input, which would be lost; give the output another name",
+                                  file.string()));
 }
 
 std::filesystem::path written_file(const std::filesystem::path& file) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 
 namespace etendue {
@@ -20,8 +21,9 @@ struct OutputPaths {
 /// True for the name of a part: it ends in .partial.
 [[nodiscard]] bool is_partial(const std::filesystem::path& output);
 
-/// Throws IoError if `file` cannot be written later: better found before hours of rendering than after.
-void require_writable(const std::filesystem::path& file);
+/// Throws IoError if `file` cannot be written later, or is one of `inputs`, which it would replace: better found before
+/// hours of rendering than after.
+void require_writable(const std::filesystem::path& file, std::span<const std::filesystem::path> inputs = {});
 
 /// Where `file` will lie once it is written, and with it all that links lead to by then: equal for two names of one
 /// file, whether it exists or not.

@@ -12,6 +12,8 @@
 #include <thread>
 #include <vector>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -77,6 +79,32 @@ TEST_F(CommandLine, SaysWhichInstructionSetRunsAndTakesNoOther) {
     EXPECT_EQ(result.exit_code, 2);
     EXPECT_NE(result.err.find("ETENDUE_ISA is 'avx3'; it can be 'sse4', 'avx2' or 'avx512'"), std::string::npos)
         << result.err;
+}
+
+TEST_F(CommandLine, OutputsReplaceNoInput) {
+    const std::string box = scene("box");
+    ASSERT_EQ(run({"render", box, "--quiet", "-o", "sky.exr"}).exit_code, 0);
+    fs::create_symlink("sky.exr", work_ / "link.exr");
+    const std::string parts = "part.partial";
+    ASSERT_EQ(run({"render", box, "--samples", "0:1", "--quiet", "-o", parts}).exit_code, 0);
+    const std::string settings = (fs::path(box) / "render.json").string();
+    struct Case {
+        std::vector<std::string> arguments;
+        std::string input;
+    };
+    for (const Case& c : {Case{{"render", box, "--environment", "sky.exr", "-o", "sky.exr"}, "sky.exr"},
+                          {{"render", box, "--environment", "sky.exr", "-o", "link.exr"}, "sky.exr"},
+                          {{"render", box, "-o", (fs::path(box) / "render.exr").string()}, settings},
+                          {{"view", "sky.png", "-o", "./sky.png"}, "sky.png"},
+                          {{"denoise", "sky.exr", "-o", "sky.exr"}, "sky.exr"},
+                          {{"diff", "sky.exr", "sky.exr", "--map", "sky.exr"}, "sky.exr"},
+                          {{"merge", parts, "-o", parts}, parts}}) {
+        const std::string before = read_file(work_ / c.input);
+        const ProgramResult result = run(c.arguments);
+        EXPECT_EQ(result.exit_code, 1) << fmt::format("{}: {}", fmt::join(c.arguments, " "), result.err);
+        EXPECT_NE(result.err.find("it is an input, which would be lost"), std::string::npos) << result.err;
+        EXPECT_TRUE(read_file(work_ / c.input) == before) << c.input;
+    }
 }
 
 TEST_F(CommandLine, UsageErrorsEndWithTwo) {
