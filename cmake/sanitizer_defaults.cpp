@@ -28,4 +28,8 @@ extern "C" [[gnu::visibility("default")]] const char* __tsan_default_options() {
     // Debian's libraries are not instrumented: what they do to their own memory under their own locks looks like races.
     return "ignore_noninstrumented_modules=1:second_deadlock_stack=1";
 }
+extern "C" [[gnu::visibility("default")]] const char* __tsan_default_suppressions() {
+    // Embree calls it on threads of TBB while it builds, and waits for them in a way that is not seen.
+    return "race:count_memory\n";
+}
 #endif
