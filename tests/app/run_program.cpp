@@ -50,6 +50,7 @@ RunningProgram::RunningProgram(const std::vector<std::string>& arguments, const 
         return;
     }
     std::vector<char*> argv;
+    argv.reserve(words.size() + 1);
     for (std::string& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
     pid_ = fork();
