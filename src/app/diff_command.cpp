@@ -314,8 +314,10 @@ ExitCode run_diff(const DiffArguments& arguments) {
     std::exception_ptr map_failure;
     const std::array<std::filesystem::path, 2> read{arguments.image, arguments.reference};
     try {
-        if (!arguments.map.empty()) require_writable(arguments.map, read);
-        if (!arguments.map.empty()) result.map = write_map(pair, result.measures.front(), arguments);
+        if (!arguments.map.empty()) {
+            require_writable(arguments.map, read);
+            result.map = write_map(pair, result.measures.front(), arguments);
+        }
     } catch (const std::exception&) {
         map_failure = std::current_exception();
     }

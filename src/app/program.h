@@ -3,8 +3,8 @@
 
 namespace etendue {
 
-/// Runs the command that `argv` names and returns the exit code of the process. Once in a process: it installs handlers
-/// of signals.
+/// Runs the command that `argv` names and returns the exit code of the process. It may be called once in a process,
+/// since it installs handlers of signals.
 [[nodiscard]] int run_program(int argc, char** argv);
 
 }  // namespace etendue

@@ -24,8 +24,8 @@ constexpr unsigned int kDenormalsAreZero = 0x0040;
 using Body = std::function<void(std::size_t index, int slot)>;
 
 #ifdef __SANITIZE_THREAD__
-/// In place of TBB, which is not instrumented: ThreadSanitizer cannot see what order it keeps between threads, and
-/// takes all that it hands over for races.
+/// Runs `body` on plain threads. TBB is not instrumented: ThreadSanitizer does not see the order that it keeps between
+/// threads, and would report a race for all that it hands over.
 void run_tasks(tbb::task_arena& arena, std::size_t count, const Body& body) {
     std::atomic<std::size_t> next{0};
     std::mutex mutex;

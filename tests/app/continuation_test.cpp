@@ -57,12 +57,12 @@ class Continuation : public testing::Test {
     }
     /// Interrupts a render of `arguments` after `milliseconds`, or so much later that it has left a checkpoint: on a
     /// busy machine there may be no sample before.
-    [[nodiscard]] ProgramResult interrupt(const Arguments& arguments, int milliseconds, int signal = SIGINT) const {
+    [[nodiscard]] ProgramResult interrupt(const Arguments& arguments, int milliseconds) const {
         constexpr int kLongest = 60'000;
         for (;; milliseconds *= 2) {
             ProgramResult result = run(arguments, [&](int pid) {
                 sleep_ms(milliseconds);
-                kill(pid, signal);
+                kill(pid, SIGINT);
             });
             const bool has_checkpoint = std::ranges::any_of(
                 fs::directory_iterator(work_),

@@ -1,4 +1,5 @@
-// What tests ask of the program that serves them, and what it answers: one message for each, over a pair of sockets.
+// Tests ask a program to start commands and to tell how they end. Each request and each answer is one message over a
+// pair of sockets.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +21,7 @@ enum class Request : int {
     Wait       ///< answered with the status of a copy when it has ended, as waitpid gives it
 };
 
-/// The beginning of each request. A Start goes on with strings, each ended by a zero: the directory to run in, the
+/// Each request begins with it. A Start goes on with strings, each ended by a zero: the directory to run in, the
 /// files for stdout and stderr, the words of the command, the variables of the environment.
 struct RequestHead {
     Request request = Request::Start;

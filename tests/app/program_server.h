@@ -1,4 +1,4 @@
-// Starts etendue within milliseconds, as copies of one process that has loaded what the program loads.
+// Starts commands of etendue within milliseconds: each runs in a copy of one process that has loaded OpenImageIO.
 #pragma once
 
 #include <filesystem>
@@ -32,7 +32,7 @@ class ProgramServer {
     pid_t pid_ = -1;
 };
 
-/// The one of this process, which the first call starts.
+/// Returns the server of this process, which the first call starts.
 [[nodiscard]] const ProgramServer& program_server();
 
 }  // namespace etendue::test

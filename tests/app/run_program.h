@@ -16,10 +16,10 @@ struct ProgramResult {
 };
 
 enum class Start {
-    /// As a copy of a process that has loaded OpenImageIO, within milliseconds; executed where sanitizers watch, which
-    /// look for leaks at a program's end and know no threads of copies.
+    /// The command runs in a copy of a process that has loaded OpenImageIO, and so starts within milliseconds. Under
+    /// sanitizers it is executed: they look for leaks at a program's end and know no threads of copies.
     Copied,
-    Executed  ///< as the program's file: for tests of how it starts
+    Executed  ///< the program's file is executed: for tests of how it starts
 };
 
 /// `etendue arguments...` while it runs in `directory`.

@@ -49,7 +49,7 @@ std::vector<char*> take_strings(char*& text, int count) {
     ::environ = variables.data();
     const int code = run_program(head.words, words.data());
     std::fflush(nullptr);
-    // Without destructors of static objects: libraries have some that wait for threads, which no copy has.
+    // Destructors of static objects are left out: some of libraries wait for threads, which no copy has.
     ::_exit(code);
 }
 

@@ -63,7 +63,7 @@ TEST(Sheen, IsFiniteWhereRoundingTakesTheCosineAboveOne) {
     EXPECT_TRUE(is_finite(value.f_cos));
 }
 
-// As for every distribution of normals: seen from above, they cover the surface once.
+// Every distribution of normals does: seen from above, the facets cover the surface once.
 TEST(Sheen, FibresCoverTheSurfaceOnce) {
     for (const float alpha : {0.05f, 0.3f, 1.0f}) {
         const Charlie charlie{alpha};
