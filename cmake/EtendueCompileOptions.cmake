@@ -7,8 +7,9 @@ endif()
 add_library(etendue_options INTERFACE)
 target_compile_options(etendue_options INTERFACE
   -Wall -Wextra -Wconversion
-  # Where files are compiled together, a local name may be that of a constant in another file.
-  $<IF:$<AND:$<BOOL:${CMAKE_UNITY_BUILD}>,$<CXX_COMPILER_ID:GNU>>,-Wshadow=local,-Wshadow>
+  # Where files are compiled together, a local name may be that of a constant in another file. Clang cannot tell that from
+  # the name of another local variable.
+  $<IF:$<BOOL:${CMAKE_UNITY_BUILD}>,$<$<CXX_COMPILER_ID:GNU>:-Wshadow=local>,-Wshadow>
   # errno and trapping are not used; without them sqrt and comparisons inline and vectorise. Results stay IEEE.
   -fno-math-errno -fno-trapping-math
   $<$<BOOL:${ETENDUE_WARNINGS_AS_ERRORS}>:-Werror>

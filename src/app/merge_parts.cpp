@@ -195,7 +195,7 @@ MergedParts merge_parts(std::span<const std::filesystem::path> files,
     for (const std::filesystem::path& file : files) {
         Checkpoint part = parts.read(file);
         if (!merged)
-            merged.emplace(std::move(part.identity), std::move(part.description), nothing_like(part.state, bounds));
+            merged = {std::move(part.identity), std::move(part.description), nothing_like(part.state, bounds)};
         add(merged->state, part.state, part.state.film.window() == counted);
     }
     const std::uint32_t span = end - merged->state.first_sample;

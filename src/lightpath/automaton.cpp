@@ -61,7 +61,7 @@ std::vector<std::string> labels_of(std::span<const PathExpression> expressions, 
             for (const EventPattern& pattern : node.event.patterns)
                 if (!pattern.label.empty() && (pattern.kinds & kinds) != 0) labels.push_back(pattern.label);
     std::ranges::sort(labels);
-    labels.erase(std::ranges::unique(labels).begin(), labels.end());
+    labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
     return labels;
 }
 

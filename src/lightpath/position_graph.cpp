@@ -41,7 +41,7 @@ class Builder {
         for (std::size_t p = beginning; p < graph_.positions.size(); ++p) {
             auto& following = graph_.positions[p].following;
             std::ranges::sort(following);
-            following.erase(std::ranges::unique(following).begin(), following.end());
+            following.erase(std::unique(following.begin(), following.end()), following.end());
         }
     }
 

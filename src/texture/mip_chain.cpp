@@ -128,10 +128,12 @@ std::vector<T> MipChain::take_levels(std::vector<NativeImage>& images) {
     for (NativeImage& native : images) {
         auto& level = std::get<Image<T>>(native);
         levels_.push_back({level.width, level.height, values.size()});
-        if (values.empty())
+        if (values.empty()) {
             values = std::move(level.pixels);
-        else
-            values.insert(values.end(), level.pixels.begin(), level.pixels.end());
+        } else {
+            values.resize(values.size() + level.pixels.size());
+            std::ranges::copy_backward(level.pixels, values.end());
+        }
     }
     // One texel that is no number would spoil all that it is averaged with.
     if constexpr (!std::is_integral_v<T>)
