@@ -69,15 +69,11 @@ World compile_world(SceneDesc scene, const ColorConfig& colors, const std::strin
     compile_geometry(scene, threads, options.most_copied_triangles, data);
     compile_bodies(data);
     end_phase("geometry");
-    compile_lights(scene, threads, data, problems);
-    end_phase("lights");
-
-    std::vector<bool> has_alpha;
-    has_alpha.reserve(data.geometries.size());
-    for (const Geometry& geometry : data.geometries)
-        has_alpha.push_back(data.materials[geometry.material].alpha_test != AlphaTest::Opaque);
-    data.bvh = std::make_unique<EmbreeScene>(data.geometries, data.instances, data.motions, has_alpha, threads);
+    build_bvh(threads, data);
     end_phase("BVH");
+    compile_lights(scene, threads, data, problems);
+    find_planes_of_lamps(data);
+    end_phase("lights");
     return World(std::move(data));
 }
 

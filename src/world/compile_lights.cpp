@@ -1,5 +1,6 @@
 #include "core/position_error.h"
 #include "world/compile_parts.h"
+#include "world/contacts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -90,13 +91,17 @@ void compile_mesh_lights(std::size_t most_triangles, WorldData& data, ProblemLis
                 continue;
             }
             triangle_count += geometry.triangles.size();
-            const bool uniform =
-                !material.emission_texture.valid() && material.alpha_test == AlphaTest::Opaque && !material.has_coat;
+            const std::uint32_t slot = instance.first_light_slot + g;
+            const bool shares_place = !data.shares_place_of_slot.empty() && data.shares_place_of_slot[slot] != 0;
+            const bool uniform = !material.emission_texture.valid() && material.alpha_test == AlphaTest::Opaque &&
+                                 !material.has_coat && !shares_place;
+            // Rays from it and to it pass what touches it.
+            const float reach = data.contacts ? 1.5f * data.contacts->reach(slot) : 0.0f;
             MeshLight light(world_triangles(geometry, instance), material.emission, mean_emission(data, material),
                             material.emits_both_sides, instance.mirrors, uniform,
-                            mesh_position_error(geometry, instance));
+                            max_components(mesh_position_error(geometry, instance), Vec3f(reach)));
             if (!(light.area() > 0.0f)) continue;
-            data.light_of_slot[instance.first_light_slot + g] = static_cast<std::uint32_t>(data.lights.size());
+            data.light_of_slot[slot] = static_cast<std::uint32_t>(data.lights.size());
             data.lights.emplace_back(std::move(light));
             data.emitter_of_light.push_back({.instance = static_cast<std::uint32_t>(i), .geometry = index});
         }

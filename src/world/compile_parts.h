@@ -60,6 +60,10 @@ void compile_geometry(SceneDesc& scene, const ThreadPool& threads, std::size_t m
 /// Numbers the bodies by precedence. Needs materials and geometry in `data`.
 void compile_bodies(WorldData& data);
 
+/// The BVH, and where surfaces touch: thin sheets are moved apart, the others are for `Contacts`. Needs materials,
+/// geometry and bodies in `data`.
+void build_bvh(const ThreadPool& threads, WorldData& data);
+
 /// The environment, which must be enabled. Throws SceneError if an image cannot be decoded.
 [[nodiscard]] Light compile_environment(const SceneDesc& scene, const ColorMatrix& from_rec709,
                                         const ThreadPool& threads);
@@ -68,10 +72,13 @@ void compile_bodies(WorldData& data);
 /// beyond is found by chance only, which is slower but not wrong.
 inline constexpr std::size_t kMaxLightTriangles = std::size_t{1} << 24;
 
-/// Punctual lights, emissive meshes of at most `most_triangles` and the environment. Needs materials, textures and
-/// geometry in `data`.
+/// Punctual lights, emissive meshes of at most `most_triangles` and the environment. Needs materials, textures,
+/// geometry and its contacts in `data`.
 void compile_lights(const SceneDesc& scene, const ThreadPool& threads, WorldData& data, ProblemList& problems,
                     std::size_t most_triangles = kMaxLightTriangles);
+
+/// Finds the surfaces that lamps at a point lie in. Needs lights and the BVH in `data`.
+void find_planes_of_lamps(WorldData& data);
 
 /// Throws SceneError if the camera that the settings name does not exist.
 [[nodiscard]] Camera compile_camera(const SceneDesc& scene);

@@ -4,6 +4,7 @@
 #include "core/ray.h"
 #include "core/ray_columns.h"
 #include "world/embree.h"
+#include "world/world.h"
 
 #include <algorithm>
 #include <array>
@@ -17,6 +18,12 @@ namespace etendue {
 
 class EmbreeScene;
 
+/// Where a query leaves all that its ray meets.
+struct CollectedHits {
+    std::span<Hit> hits;
+    std::size_t count = 0;
+};
+
 /// What a filter function needs beside the hit: the scene, and the alpha keys of the batch, in its rays or their
 /// column.
 struct QueryContext {
@@ -24,6 +31,7 @@ struct QueryContext {
     const EmbreeScene* scene;
     const Ray* rays;  ///< or null
     const std::uint32_t* alpha_keys;
+    CollectedHits* collected = nullptr;  ///< only for `EmbreeScene::collect`
 
     QueryContext(const EmbreeScene& owner, std::span<const Ray> batch, bool coherent)
         : scene(&owner), rays(batch.data()), alpha_keys(nullptr) {

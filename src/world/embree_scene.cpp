@@ -22,24 +22,60 @@ namespace {
 constexpr RTCBuildQuality kBuildQuality = RTC_BUILD_QUALITY_MEDIUM;
 constexpr RTCSceneFlags kSceneFlags = RTC_SCENE_FLAG_ROBUST;
 
-/// Lets rays pass partly transparent surfaces with the probability of their transparency. The decision is a hash of the
-/// ray's key and the triangle, so that a ray decides the same way however often Embree asks.
+const QueryContext& context_of(const RTCFilterFunctionNArguments& args) {
+    return *reinterpret_cast<const QueryContext*>(args.context);
+}
+
+/// What ray `i` of a packet may hit.
+Hit hit_of(const RTCFilterFunctionNArguments& args, unsigned int i) {
+    return context_of(args).scene->make_hit(RTCRayN_tfar(args.ray, args.N, i), RTCHitN_u(args.hit, args.N, i),
+                                            RTCHitN_v(args.hit, args.N, i), RTCHitN_primID(args.hit, args.N, i),
+                                            RTCHitN_geomID(args.hit, args.N, i), RTCHitN_instID(args.hit, args.N, i, 0),
+                                            RTCRayN_time(args.ray, args.N, i));
+}
+
+/// Whether a partly transparent surface stops ray `i` of a packet, with the probability of its opacity. The decision is
+/// a hash of the ray's key and the triangle, so that a ray decides the same way however often Embree asks.
+bool stops(const RTCFilterFunctionNArguments& args, unsigned int i, const Hit& hit) {
+    const QueryContext& context = context_of(args);
+    const float opacity = context.scene->opacity(hit.geometry, hit.triangle, {hit.u, hit.v});
+    const std::uint32_t key = context.alpha_key(RTCRayN_id(args.ray, args.N, i));
+    const std::uint32_t bits = hash_combine(hash_combine(hash_combine(key, hit.instance), hit.geometry), hit.triangle);
+    return to_unit_float(bits) < opacity;
+}
+
 void filter_by_opacity(const RTCFilterFunctionNArguments* args) {
-    const auto* context = reinterpret_cast<const QueryContext*>(args->context);
+    for (unsigned int i = 0; i < args->N; ++i)
+        if (args->valid[i] == -1 && !stops(*args, i, hit_of(*args, i))) args->valid[i] = 0;
+}
+
+/// Notes what the ray meets and lets it pass.
+void collect_all(const RTCFilterFunctionNArguments* args) {
+    CollectedHits& collected = *context_of(*args).collected;
     for (unsigned int i = 0; i < args->N; ++i) {
         if (args->valid[i] != -1) continue;
-        const unsigned int inner = RTCHitN_geomID(args->hit, args->N, i);
-        const unsigned int instance = RTCHitN_instID(args->hit, args->N, i, 0);
-        const bool is_instance = instance != RTC_INVALID_GEOMETRY_ID;
-        const auto entry = context->scene->resolve(is_instance ? instance : inner, inner, is_instance);
-        const unsigned int triangle = RTCHitN_primID(args->hit, args->N, i);
-        const Vec2f barycentric{RTCHitN_u(args->hit, args->N, i), RTCHitN_v(args->hit, args->N, i)};
-        const float opacity = context->scene->opacity(entry.geometry, triangle, barycentric);
-        const std::uint32_t key = context->alpha_key(RTCRayN_id(args->ray, args->N, i));
-        const std::uint32_t bits =
-            hash_combine(hash_combine(hash_combine(key, entry.instance), entry.geometry), triangle);
-        if (to_unit_float(bits) >= opacity) args->valid[i] = 0;
+        args->valid[i] = 0;
+        if (collected.count < collected.hits.size()) collected.hits[collected.count++] = hit_of(*args, i);
     }
+}
+void collect_opaque(const RTCFilterFunctionNArguments* args) {
+    filter_by_opacity(args);
+    collect_all(args);
+}
+
+using NearVisitor = std::function<void(std::uint32_t, std::uint32_t, std::uint32_t)>;
+struct NearQuery {
+    const EmbreeScene* scene;
+    const NearVisitor* visit;
+};
+
+bool visit_near(RTCPointQueryFunctionArguments* args) {
+    const NearQuery& query = *static_cast<const NearQuery*>(args->userPtr);
+    const bool is_instance = args->context->instStackSize > 0;
+    const auto entry =
+        query.scene->resolve(is_instance ? args->context->instID[0] : args->geomID, args->geomID, is_instance);
+    (*query.visit)(entry.instance, entry.geometry, args->primID);
+    return false;  // the radius stays
 }
 
 std::atomic<std::size_t>& memory_counter(void* pointer) {
@@ -55,7 +91,8 @@ bool count_memory(void* counter, ssize_t bytes, bool /*post*/) {
 
 EmbreeScene::EmbreeScene(std::span<const Geometry> geometries, std::span<const Instance> instances,
                          std::span<const TransformMotion> motions, const std::vector<bool>& has_alpha,
-                         const ThreadPool& threads) {
+                         const ThreadPool& threads, std::span<const std::uint8_t> collected_slots)
+    : collects_(!collected_slots.empty()) {
     has_motion_ =
         !motions.empty() || std::ranges::any_of(geometries, [](const Geometry& g) { return !g.motion.empty(); });
     std::atomic<std::size_t> memory{0};
@@ -73,15 +110,22 @@ EmbreeScene::EmbreeScene(std::span<const Geometry> geometries, std::span<const I
         for (std::size_t i = 0; i < instances.size(); ++i) {
             const Instance& instance = instances[i];
             const auto index = static_cast<std::uint32_t>(i);
+            const auto is_taken = [&](std::uint32_t g) {
+                return !collects_ || collected_slots[instance.first_light_slot + g] != 0;
+            };
             // A mesh without geometry shares its first index with the next one, so it must not claim a scene under it.
             if (instance.baked || instance.geometry_count == 0) {
                 for (std::uint32_t g = 0; g < instance.geometry_count; ++g) {
+                    if (!is_taken(g)) continue;
                     const std::uint32_t geometry = instance.first_geometry + g;
                     add_triangles(top_, geometries[geometry], has_alpha[geometry]);
                     top_level_.push_back({index, geometry});
                 }
                 continue;
             }
+            bool is_any_taken = false;
+            for (std::uint32_t g = 0; g < instance.geometry_count; ++g) is_any_taken = is_any_taken || is_taken(g);
+            if (!is_any_taken) continue;
             RTCScene& shared = scene_of_mesh[instance.first_geometry];
             if (!shared) shared = build_shared_scene(instance, geometries, has_alpha);
             add_instance(shared, instance, motions);
@@ -135,7 +179,9 @@ void EmbreeScene::add_triangles(RTCScene scene, const Geometry& geometry, bool h
     }
     rtcSetSharedGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, geometry.triangles.data(), 0,
                                sizeof(std::array<std::uint32_t, 3>), geometry.triangles.size());
-    if (has_alpha) {
+    if (collects_) {
+        rtcSetGeometryIntersectFilterFunction(mesh, has_alpha ? collect_opaque : collect_all);
+    } else if (has_alpha) {
         rtcSetGeometryIntersectFilterFunction(mesh, filter_by_opacity);
         rtcSetGeometryOccludedFilterFunction(mesh, filter_by_opacity);
     }
@@ -209,6 +255,25 @@ void EmbreeScene::occluded(std::span<const Ray> rays, std::span<std::uint8_t> oc
 
 void EmbreeScene::occluded(const RayColumns& rays, std::span<std::uint8_t> occluded, QueryForm form) const {
     occluded_batch(rays, occluded, form);
+}
+
+std::size_t EmbreeScene::collect(const Ray& ray, float t_min, std::span<Hit> hits) const {
+    QueryContext context(*this, std::span(&ray, 1), false);
+    CollectedHits collected{hits};
+    context.collected = &collected;
+    RTCRayHit query = make_ray_hit(ray, 0);
+    query.ray.tnear = t_min;
+    embree::intersect1(top_, context.base, query);
+    return collected.count;
+}
+
+void EmbreeScene::for_each_near(const Vec3f& point, float radius, const NearVisitor& visit) const {
+    constexpr float kMiddle = 0.5f;
+    RTCPointQuery query{point.x, point.y, point.z, kMiddle, radius};
+    RTCPointQueryContext context;
+    rtcInitPointQueryContext(&context);
+    NearQuery near{this, &visit};
+    rtcPointQuery(top_, &query, &context, visit_near, &near);
 }
 
 bool EmbreeScene::takes_as_coherent(Coherence coherence) const {

@@ -27,10 +27,11 @@ using OpacityFunction = float (*)(const void* world, std::uint32_t geometry, std
 class EmbreeScene {
   public:
     /// Builds all BVHs with the threads of `threads`. The geometries' vectors must stay where they are: Embree reads
-    /// them. `has_alpha[g]` says which geometries need their opacity evaluated.
+    /// them. `has_alpha[g]` says which geometries need their opacity evaluated. If there are `collected_slots`, one for
+    /// each (instance, geometry), the scene holds only those that are not 0, and is for `collect` alone.
     EmbreeScene(std::span<const Geometry> geometries, std::span<const Instance> instances,
-                std::span<const TransformMotion> motions, const std::vector<bool>& has_alpha,
-                const ThreadPool& threads);
+                std::span<const TransformMotion> motions, const std::vector<bool>& has_alpha, const ThreadPool& threads,
+                std::span<const std::uint8_t> collected_slots = {});
     ~EmbreeScene();
     EmbreeScene(const EmbreeScene&) = delete;
     EmbreeScene& operator=(const EmbreeScene&) = delete;
@@ -42,6 +43,14 @@ class EmbreeScene {
     void intersect(const RayColumns& rays, std::span<Hit> hits, Coherence coherence, QueryForm form) const;
     void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, QueryForm form) const;
     void occluded(const RayColumns& rays, std::span<std::uint8_t> occluded, QueryForm form) const;
+
+    /// Puts all surfaces that `ray` meets from `t_min` metres on into `hits`, in any order and as far as there is room;
+    /// how many these are. The scene has to be one of `collected_slots`.
+    std::size_t collect(const Ray& ray, float t_min, std::span<Hit> hits) const;
+    /// Calls `visit(instance, geometry, triangle)` for all triangles whose bounds come within `radius` metres of
+    /// `point` in the middle of the shutter, and perhaps for some others.
+    void for_each_near(const Vec3f& point, float radius,
+                       const std::function<void(std::uint32_t, std::uint32_t, std::uint32_t)>& visit) const;
 
     /// See World::replay.
     [[nodiscard]] double replay(std::span<const Ray> rays, bool occlusion, Coherence coherence, QueryForm form) const;
@@ -65,6 +74,9 @@ class EmbreeScene {
         const TopLevelEntry entry = top_level_[top];
         return is_instance ? TopLevelEntry{entry.instance, entry.geometry + inner} : entry;
     }
+    /// How a hit of Embree's reads in our numbers.
+    [[nodiscard]] Hit make_hit(float t, float u, float v, unsigned int triangle, unsigned int inner,
+                               unsigned int instance, float time) const;
     [[nodiscard]] float opacity(std::uint32_t geometry, std::uint32_t triangle, Vec2f barycentric) const {
         return opacity_(world_, geometry, triangle, barycentric);
     }
@@ -91,8 +103,6 @@ class EmbreeScene {
     /// a single ray against 1.8 on the Cornell box) and costs where packets meet instances (0.8 against 1.4 on ten
     /// thousand of them).
     [[nodiscard]] bool takes_as_coherent(Coherence coherence) const;
-    [[nodiscard]] Hit make_hit(float t, float u, float v, unsigned int triangle, unsigned int inner,
-                               unsigned int instance, float time) const;
 
     void add_triangles(RTCScene scene, const Geometry& geometry, bool has_alpha) const;
     void add_instance(RTCScene shared, const Instance& instance, std::span<const TransformMotion> motions) const;
@@ -108,6 +118,7 @@ class EmbreeScene {
     std::size_t bytes_ = 0;
     double build_seconds_ = 0.0;
     bool has_motion_ = false;
+    bool collects_ = false;
 };
 
 }  // namespace etendue

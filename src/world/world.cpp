@@ -4,6 +4,7 @@
 #include "core/position_error.h"
 #include "core/vector_bytes.h"
 #include "world/cone_section.h"
+#include "world/contacts.h"
 #include "world/embree_scene.h"
 #include "world/gltf_surface.h"
 #include "world/interpolation.h"
@@ -140,10 +141,24 @@ World& World::operator=(World&&) noexcept = default;
 
 void World::intersect(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence, QueryForm form) const {
     data_->bvh->intersect(rays, hits, coherence, form);
+    if (data_->contacts) settle_contacts(rays, hits);
 }
 
 void World::intersect(const RayColumns& rays, std::span<Hit> hits, Coherence coherence, QueryForm form) const {
     data_->bvh->intersect(rays, hits, coherence, form);
+    if (data_->contacts) settle_contacts(rays, hits);
+}
+
+template <typename Batch>
+void World::settle_contacts(const Batch& rays, std::span<Hit> hits) const {
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        if (!hits[i].valid() || data_->contacts->reach(slot_of(*data_, hits[i])) == 0.0f) continue;
+        const Ray ray = rays[i];
+        const Contact contact = data_->contacts->at(*data_, ray, hits[i]);
+        if (contact.count < 2) continue;
+        hits[i] = foremost(*data_, contact, ray.direction).hit;
+        hits[i].in_contact = true;
+    }
 }
 
 void World::occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, QueryForm form) const {
@@ -164,8 +179,31 @@ SurfacePoint World::surface_point(const Hit& hit) const {
 }
 
 SurfacePoint World::surface_point(const Hit& hit, const Ray& ray, const RayCone& cone) const {
+    if (hit.in_contact) {
+        const Contact contact = data_->contacts->at(*data_, ray, hit);
+        return contact_point(contact, contact.faces[0], ray, cone);
+    }
     return make_surface_point(*data_, hit.instance, hit.geometry, hit.triangle, {hit.u, hit.v}, hit.time,
                               ConeSection{ray.direction, std::abs(cone.width_at(hit.t))});
+}
+
+SurfacePoint World::contact_point(const Contact& contact, const ContactFace& face, const Ray& ray,
+                                  const RayCone& cone) const {
+    const Hit& hit = face.hit;
+    SurfacePoint point = make_surface_point(*data_, hit.instance, hit.geometry, hit.triangle, {hit.u, hit.v}, hit.time,
+                                            ConeSection{ray.direction, std::abs(cone.width_at(hit.t))});
+    // In the middle of all of them, so that both sides are clear.
+    float first = face.depth - face.clearance;
+    float last = face.depth + face.clearance;
+    for (const ContactFace& other : contact.all()) {
+        first = std::min(first, other.depth - other.clearance);
+        last = std::max(last, other.depth + other.clearance);
+    }
+    const Vec3f along =
+        dot(ray.direction, point.geometric_normal) > 0.0f ? point.geometric_normal : -point.geometric_normal;
+    point.position += along * (0.5f * (first + last) - face.depth);
+    point.clearance = 0.5f * (last - first);
+    return point;
 }
 
 HitCoordinates World::hit_coordinates(const Hit& hit, const PlainSurface& surface) const {
@@ -247,15 +285,38 @@ float Crossing::relative_ior(float nm) const {
     return dispersed_ior(inside_ior, inside_dispersion, nm) / dispersed_ior(outside_ior, outside_dispersion, nm);
 }
 
-Crossing World::crossing(const SurfacePoint& point, const Interior& current) const {
-    const Instance& instance = data_->instances[point.instance];
-    const std::uint32_t body =
-        data_->body_of_slot[instance.first_light_slot + point.geometry - instance.first_geometry];
+Crossing World::crossing(SurfacePoint& point, const Interior& current, const Hit& hit, const Ray& ray,
+                         const RayCone& cone) const {
+    if (hit.in_contact) return contact_crossing(point, current, hit, ray, cone);
+    const std::uint32_t body = body_of(*data_, hit);
     Crossing crossing{.outside = current, .inside = current};
     crossing.outside.leave(body);
     crossing.inside = crossing.outside;
     crossing.inside.enter(body);
     crossing.is_hidden = crossing.inside.filling() != body;
+    set_indices(body, crossing);
+    return crossing;
+}
+
+Crossing World::contact_crossing(SurfacePoint& point, const Interior& current, const Hit& hit, const Ray& ray,
+                                 const RayCone& cone) const {
+    const Contact contact = data_->contacts->at(*data_, ray, hit);
+    const ContactInteriors around = interiors(*data_, contact, current, ray.direction);
+    const std::uint32_t before = around.before.filling();
+    const std::uint32_t behind = around.behind.filling();
+    // The one of precedence bounds what fills the space.
+    const std::uint32_t body = std::min(before, behind);
+    const ContactFace* const face = before == behind ? nullptr : face_of_body(*data_, contact, body);
+    if (face != nullptr) point = contact_point(contact, *face, ray, cone);
+    const bool from_front = dot(ray.direction, point.geometric_normal) < 0.0f;
+    Crossing crossing{.outside = from_front ? around.before : around.behind,
+                      .inside = from_front ? around.behind : around.before,
+                      .is_hidden = face == nullptr};
+    if (!crossing.is_hidden) set_indices(body, crossing);
+    return crossing;
+}
+
+void World::set_indices(std::uint32_t body, Crossing& crossing) const {
     const Filling& inside = data_->fillings[data_->filling_of_body[body]];
     crossing.inside_ior = inside.ior;
     crossing.inside_dispersion = inside.dispersion;
@@ -264,7 +325,6 @@ Crossing World::crossing(const SurfacePoint& point, const Interior& current) con
         crossing.outside_ior = outside.ior;
         crossing.outside_dispersion = outside.dispersion;
     }
-    return crossing;
 }
 
 const HomogeneousMedium* World::medium_within(const Interior& interior) const {
@@ -283,14 +343,17 @@ Interior World::interior_at(const Vec3f& point) const {
     ray.time = kMiddle;
     for (int i = 0; i < kMostBoundaries; ++i) {
         Hit hit;
-        data_->bvh->intersect({&ray, 1}, {&hit, 1}, Coherence::Incoherent, QueryForm::Single);
+        intersect({&ray, 1}, {&hit, 1}, Coherence::Incoherent, QueryForm::Single);
         if (!hit.valid()) break;
-        const SurfacePoint surface = surface_point(hit);
-        if (is_boundary(surface)) {
-            const Instance& instance = data_->instances[surface.instance];
-            const std::uint32_t body =
-                data_->body_of_slot[instance.first_light_slot + surface.geometry - instance.first_geometry];
-            left[body] += dot(ray.direction, surface.geometric_normal) > 0.0f ? 1 : -1;
+        const SurfacePoint surface = surface_point(hit, ray, RayCone{});
+        if (hit.in_contact) {
+            const Contact contact = data_->contacts->at(*data_, ray, hit);
+            for (const std::uint32_t body : bodies_of(*data_, contact)) {
+                const auto [is_entered, is_left] = passes(*data_, contact, body, ray.direction);
+                left[body] += (is_left ? 1 : 0) - (is_entered ? 1 : 0);
+            }
+        } else if (is_boundary(surface)) {
+            left[body_of(*data_, hit)] += dot(ray.direction, surface.geometric_normal) > 0.0f ? 1 : -1;
         }
         ray.origin = offset_origin(surface.position, surface.geometric_normal, surface.clearance, ray.direction);
     }
@@ -306,6 +369,7 @@ ChosenLight World::sample_light(const LightTree::Choice& choice, const Vec3f& po
                        choice.light};
     LightSample& sample = chosen.sample;
     sample.pdf_solid_angle *= choice.probability;
+    for (const Vec3f& plane : planes_of(choice.light)) sample.end += dot(plane, sample.wi) <= 0.0f ? plane : -plane;
     if (!is_black(sample.radiance) && has_uneven_emission(choice.light))
         sample.radiance = mesh_emission(choice.light, sample.triangle, sample.barycentric, -sample.wi);
     return chosen;
@@ -332,7 +396,21 @@ Rgb World::mesh_emission(std::uint32_t light, std::uint32_t triangle, Vec2f bary
     const Emitter& emitter = data_->emitter_of_light[light];
     const SurfacePoint point =
         make_surface_point(*data_, emitter.instance, emitter.geometry, triangle, barycentric, kAnyTime, ConeSection{});
+    if (!is_foremost_emitter(point, barycentric, direction)) return {};
     return emission(point, direction) * evaluate_opacity(*data_, emitter.geometry, triangle, barycentric);
+}
+
+bool World::is_foremost_emitter(const SurfacePoint& point, Vec2f barycentric, const Vec3f& direction) const {
+    const std::size_t slot = slot_of(*data_, point.instance, point.geometry);
+    if (data_->shares_place_of_slot.empty() || data_->shares_place_of_slot[slot] == 0) return true;
+    const float height = 4.0f * data_->contacts->reach(slot);
+    const Vec3f side = dot(direction, point.geometric_normal) > 0.0f ? point.geometric_normal : -point.geometric_normal;
+    Ray ray;
+    ray.origin = point.position + side * height;
+    ray.direction = -side;
+    const Hit hit{height, barycentric.x, barycentric.y, point.triangle, point.geometry, point.instance};
+    const Hit& seen = foremost(*data_, data_->contacts->at(*data_, ray, hit), ray.direction).hit;
+    return seen.instance == hit.instance && seen.geometry == hit.geometry && seen.triangle == hit.triangle;
 }
 
 Emission World::sample_emission(Vec2f u_light, const EmissionNumbers& u, float time) const {
@@ -347,6 +425,8 @@ Emission World::sample_emission(Vec2f u_light, const EmissionNumbers& u, float t
         sample.radiance = mesh_emission(choice.index, sample.triangle, sample.barycentric, sample.direction);
     emission.weight = sample.weight() / choice.probability;
     emission.ray.origin = sample.origin(sample.direction);
+    for (const Vec3f& plane : planes_of(choice.index))
+        emission.ray.origin += dot(plane, sample.direction) >= 0.0f ? plane : -plane;
     emission.ray.direction = sample.direction;
     emission.ray.time = time;
     return emission;
@@ -362,8 +442,7 @@ Rgb World::surface_emission(const Emission& emission, const Vec3f& direction) co
 }
 
 std::uint32_t World::light_at(const SurfacePoint& point) const {
-    const Instance& instance = data_->instances[point.instance];
-    return data_->light_of_slot[instance.first_light_slot + point.geometry - instance.first_geometry];
+    return data_->light_of_slot[slot_of(*data_, point.instance, point.geometry)];
 }
 
 float World::emitter_pdf_solid_angle(const LightReceiver& from, const SurfacePoint& point, const Vec3f& direction,
@@ -468,7 +547,7 @@ WorldStatistics World::statistics() const {
         selector_.bytes() + tree_.bytes() + vector_bytes(data_->lights, data_->emitter_of_light, data_->light_of_slot);
     for (const Light& light : data_->lights) s.light_bytes += light_bytes(light);
     s.isa = data_->bvh->instruction_set();
-    s.bvh_bytes = data_->bvh->bytes();
+    s.bvh_bytes = data_->bvh->bytes() + (data_->contacts ? data_->contacts->bytes() : 0);
     s.bvh_build_seconds = data_->bvh->build_seconds();
     s.bvh_quality = EmbreeScene::quality();
     s.compile_phases = data_->compile_phases;

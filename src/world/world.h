@@ -29,10 +29,13 @@
 
 namespace etendue {
 
+class Contacts;
 class EmbreeScene;
 class PlainLookups;
+struct Contact;
+struct ContactFace;
 
-/// The nearest surface along a ray. 28 bytes.
+/// The nearest surface along a ray. 32 bytes.
 struct Hit {
     float t = 0.0f;            ///< metres along the ray
     float u = 0.0f, v = 0.0f;  ///< barycentric coordinates of the second and third vertex
@@ -40,6 +43,7 @@ struct Hit {
     std::uint32_t geometry = 0;
     std::uint32_t instance = kNone;  ///< kNone if nothing was hit
     float time = 0.0f;               ///< of the ray: things that move are hit where they were then
+    bool in_contact = false;         ///< there are other surfaces in this place (world/contacts.h)
 
     [[nodiscard]] bool valid() const { return instance != kNone; }
 };
@@ -113,6 +117,11 @@ struct WorldData {
     std::vector<std::uint32_t> body_of_slot;     ///< body of (instance, geometry), or kNone; empty without bodies
     Bounds bounds;
     std::unique_ptr<EmbreeScene> bvh;
+    std::unique_ptr<Contacts> contacts;  ///< null if no surfaces touch for which that matters
+    std::vector<std::uint8_t>
+        shares_place_of_slot;  ///< 1 for emitters that touch other emitters; empty without contacts
+    std::vector<std::vector<Vec3f>>
+        planes_of_light;  ///< of each lamp, what takes a ray clear of surfaces that it lies in
     std::vector<CompilePhase> compile_phases;
 
     WorldData();
@@ -174,14 +183,16 @@ class World {
     /// hit: the ceiling for any renderer. `occlusion`: whether they only ask if something is in the way.
     [[nodiscard]] double replay(std::span<const Ray> rays, bool occlusion, Coherence coherence, QueryForm form) const;
 
-    /// The surface at `hit` (valid), whose textures are read at a point.
+    /// The surface at `hit` (valid), whose textures are read at a point. Rays that go on from it may meet others that
+    /// touch it.
     [[nodiscard]] SurfacePoint surface_point(const Hit& hit) const;
-    /// The surface at `hit`, whose textures are filtered for `ray`, which hit it, with `cone` around it.
+    /// The surface at `hit`, whose textures are filtered for `ray`, which hit it, with `cone` around it. Rays that go
+    /// on from it start beyond all surfaces that touch it.
     [[nodiscard]] SurfacePoint surface_point(const Hit& hit, const Ray& ray, const RayCone& cone) const;
-    /// What a plain surface is made of, null where it is no such surface. What it is at a point, the functions of
-    /// world/triangle_point.h say.
+    /// What a plain surface is made of, null where it is no such surface, or others touch it. What it is at a point,
+    /// the functions of world/triangle_point.h say.
     [[nodiscard]] const PlainSurface* plain_surface(const Hit& hit) const {
-        return plain_surfaces_.of_geometry[hit.geometry];
+        return hit.in_contact ? nullptr : plain_surfaces_.of_geometry[hit.geometry];
     }
     /// The lobe of a plain surface that is the same matte one everywhere, in a scene without textures; else null.
     [[nodiscard]] const Bsdf* plain_bsdf(const Hit& hit) const {
@@ -232,8 +243,10 @@ class World {
     [[nodiscard]] bool has_lights_in_media() const { return has_lights_in_media_; }
     /// True if the surface is that of a body.
     [[nodiscard]] bool is_boundary(const SurfacePoint& point) const { return point.material->filling != kNone; }
-    /// A ray from within `current` at a boundary.
-    [[nodiscard]] Crossing crossing(const SurfacePoint& point, const Interior& current) const;
+    /// What `ray`, which comes from within `current` with `cone` around it, finds at the boundary that it has hit at
+    /// `point`. Where others touch it, `point` becomes the one that bounds what fills the space.
+    [[nodiscard]] Crossing crossing(SurfacePoint& point, const Interior& current, const Hit& hit, const Ray& ray,
+                                    const RayCone& cone) const;
     /// What fills the space, null in vacuum.
     [[nodiscard]] const HomogeneousMedium* medium(const Interior& interior) const {
         return interior.is_empty() ? nullptr : medium_within(interior);
@@ -328,8 +341,10 @@ class World {
     [[nodiscard]] std::uint32_t light_at(const SurfacePoint& point) const;
     /// Index of the environment, kNone if there is none.
     [[nodiscard]] std::uint32_t environment() const { return data_->environment; }
-    /// The bodies that the light of this index shines in.
-    [[nodiscard]] const Interior& light_interior(std::uint32_t light) const { return light_interiors_[light]; }
+    /// The bodies that a ray starts in that leaves a light.
+    [[nodiscard]] Interior light_interior(const Emission& emission) const {
+        return planes_of(emission.light).empty() ? light_interiors_[emission.light] : interior_at(emission.ray.origin);
+    }
     /// Density, choice included, with which `sample_light` for `from` would have picked the direction that hit the
     /// emitter `point` at `distance`. 0 if it is no sampled light. `from` means nothing unless the World
     /// `chooses_lights_by_receiver`.
@@ -375,6 +390,20 @@ class World {
     [[nodiscard]] WorldStatistics statistics() const;
 
   private:
+    /// Puts the surfaces that rays meet in place of those that they hit, where several touch.
+    template <typename Batch>
+    void settle_contacts(const Batch& rays, std::span<Hit> hits) const;
+    [[nodiscard]] SurfacePoint contact_point(const Contact& contact, const ContactFace& face, const Ray& ray,
+                                             const RayCone& cone) const;
+    [[nodiscard]] Crossing contact_crossing(SurfacePoint& point, const Interior& current, const Hit& hit,
+                                            const Ray& ray, const RayCone& cone) const;
+    void set_indices(std::uint32_t body, Crossing& crossing) const;
+    /// See WorldData::planes_of_light.
+    [[nodiscard]] std::span<const Vec3f> planes_of(std::uint32_t light) const {
+        return data_->planes_of_light.empty() ? std::span<const Vec3f>() : data_->planes_of_light[light];
+    }
+    /// False if another emitter in the same place hides this one towards `direction`.
+    [[nodiscard]] bool is_foremost_emitter(const SurfacePoint& point, Vec2f barycentric, const Vec3f& direction) const;
     /// True if light `index` is a mesh whose radiance depends on the place.
     [[nodiscard]] bool has_uneven_emission(std::uint32_t light) const;
     /// Radiance of a point of a mesh light towards `direction`.

@@ -22,11 +22,12 @@ void add_ball(SceneDesc& scene, const Vec3f& center, float radius, const Materia
 
 /// The boundary that a ray along -Z through the origin's axis meets from `z` on, seen from within `interior`.
 Crossing crossing_from(const World& world, float z, const Interior& interior) {
-    const Hit hit = intersect(world, Ray{.origin = {0.01f, 0.02f, z}, .direction = {0, 0, -1}});
+    const Ray ray{.origin = {0.01f, 0.02f, z}, .direction = {0, 0, -1}};
+    const Hit hit = intersect(world, ray);
     EXPECT_TRUE(hit.valid());
-    const SurfacePoint point = world.surface_point(hit);
+    SurfacePoint point = world.surface_point(hit);
     EXPECT_TRUE(world.is_boundary(point));
-    return world.crossing(point, interior);
+    return world.crossing(point, interior, hit, ray, RayCone{});
 }
 
 TEST(Bodies, APointKnowsWhatItIsIn) {

@@ -30,9 +30,8 @@ class FirstHit {
           sample_(sample),
           hit_(hit),
           wo_(-ray.direction),
-          time_(ray.time),
-          point_(world.has_textures() ? world.surface_point(hit, ray, camera_cone(world, job, ray))
-                                      : world.surface_point(hit)) {}
+          ray_(ray),
+          point_(world.surface_point(hit, ray, world.has_textures() ? camera_cone(world, job, ray) : RayCone{})) {}
 
     void append(FirstHitValue value, std::vector<float>& to) {
         const auto put = [&](std::initializer_list<float> numbers) { to.insert(to.end(), numbers); };
@@ -43,7 +42,7 @@ class FirstHit {
         };
         switch (value) {
             case FirstHitValue::Depth:
-                return put({world_.depth(point_.position, time_)});
+                return put({world_.depth(point_.position, ray_.time)});
             case FirstHitValue::Position:
                 return put({point_.position.x, point_.position.y, point_.position.z});
             case FirstHitValue::Normal:
@@ -92,7 +91,7 @@ class FirstHit {
         if (point_.material->unlit) return *albedo_;
         float ior = 0.0f;
         if (world_.has_bodies() && world_.is_boundary(point_))
-            ior = world_.crossing(point_, world_.camera_interior()).relative_ior(0.0f);
+            ior = world_.crossing(point_, world_.camera_interior(), hit_, ray_, RayCone{}).relative_ior(0.0f);
         Bsdf storage;
         const Bsdf& bsdf = world_.bsdf(point_, wo_, ior, storage);
         const Scattering scattering(bsdf, point_.shading, point_.geometric_normal, wo_);
@@ -118,7 +117,7 @@ class FirstHit {
     const CameraSample& sample_;
     const Hit& hit_;
     Vec3f wo_;
-    float time_;
+    const Ray& ray_;
     SurfacePoint point_;
     std::optional<Albedo> albedo_;
 };

@@ -60,7 +60,7 @@ void LightWave::connect_lights(const SubpathJob& job) {
         if (!view) continue;
         const Rgb radiance = world.surface_emission(emission, view->direction);
         if (is_black(radiance)) continue;
-        const Interior interior = world.has_bodies() ? world.light_interior(emission.light) : Interior();
+        const Interior interior = world.has_bodies() ? world.light_interior(emission) : Interior();
         Ray ray = connecting_ray(emission.sample.origin(view->direction), view->camera.lens);
         ray.time = time;
         ray.alpha_key = job.connection_key(SubpathEnd::AtLight, 0, slot);

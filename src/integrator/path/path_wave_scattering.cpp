@@ -39,16 +39,15 @@ bool PathWave::set_up_any(const Context& context, std::size_t k) {
     const World& world = context.world;
     const std::size_t i = first_ + k;
     set_up_singly(context, k);
-    const SurfacePoint& point = singles_[k].point;
+    SurfacePoint& point = singles_[k].point;
+    if (world.has_bodies() && world.is_boundary(point))
+        singles_[k].crossing.emplace(
+            InPlace{[&] { return world.crossing(point, interiors_[i], hits_[i], paths_.ray(i), paths_.cone(i)); }});
     on_emitter_.add_if(point.material->emits, k);
-    if (world.has_bodies() && world.is_boundary(point)) {
-        const Crossing& crossing =
-            singles_[k].crossing.emplace(InPlace{[&] { return world.crossing(point, interiors_[i]); }});
-        if (crossing.is_hidden) {
-            on_hidden_.add(k);
-            lanes_.goes_on.set(k, 1.0f);
-            return false;
-        }
+    if (singles_[k].crossing && singles_[k].crossing->is_hidden) {
+        on_hidden_.add(k);
+        lanes_.goes_on.set(k, 1.0f);
+        return false;
     }
     if (!point.material->unlit) return true;
     // Only what the eye sees directly or in mirrors shows an unlit surface; it lights nothing.

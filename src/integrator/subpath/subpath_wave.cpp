@@ -141,7 +141,7 @@ void SubpathWave::begin_at_lights(const SubpathJob& job) {
         states_[kept] = state;
         rays_[kept] = emission.ray;
         rays_[kept].alpha_key = sample_bits(keys_[i], kFirstLightDimension);
-        if (world.has_bodies()) interiors_.push_back(world.light_interior(emission.light));
+        if (world.has_bodies()) interiors_.push_back(world.light_interior(emission));
         ++kept;
     }
     states_.resize(kept);
@@ -219,10 +219,11 @@ bool SubpathWave::set_up(const SubpathJob& job, std::size_t i, ShadedSubpath& pa
         lanes_.throughput.set(path.lane, states_[i].throughput);
         return true;
     }
-    make_in_place(path.point, [&] { return world.surface_point(hits_[i]); });
+    make_in_place(path.point, [&] { return world.surface_point(hits_[i], rays_[i], RayCone{}); });
     path.crossing.reset();
     if (world.has_bodies() && world.is_boundary(path.point))
-        path.crossing.emplace(InPlace{[&] { return world.crossing(path.point, interiors_[i]); }});
+        path.crossing.emplace(
+            InPlace{[&] { return world.crossing(path.point, interiors_[i], hits_[i], rays_[i], RayCone{}); }});
     return true;
 }
 

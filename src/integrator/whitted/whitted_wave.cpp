@@ -111,23 +111,21 @@ void WhittedWave::shade(const Context& context, std::size_t i) {
         branch.throughput *= transmittance(world, branch.interior, hit.t);
         if (is_black(branch.throughput)) return;
     }
-    const SurfacePoint point = world.surface_point(hit, branch.ray, branch.cone);
+    SurfacePoint point = world.surface_point(hit, branch.ray, branch.cone);
+    std::optional<Crossing> crossing;
+    if (world.has_bodies() && world.is_boundary(point))
+        crossing = world.crossing(point, branch.interior, hit, branch.ray, branch.cone);
     const bool is_wanted = branch.edges >= context.lengths.min_depth;
     if (point.material->emits && is_wanted)
         found_.add(branch.slot, branch.throughput * world.emission(point, -branch.ray.direction), kind_of(branch));
-    std::optional<Crossing> crossing;
-    if (world.has_bodies() && world.is_boundary(point)) {
-        crossing = world.crossing(point, branch.interior);
-        if (crossing->is_hidden) {
-            WhittedBranch next = grow(context, i, 0);
-            next.ray.direction = branch.ray.direction;
-            next.ray.origin =
-                offset_origin(point.position, point.geometric_normal, point.clearance, next.ray.direction);
-            next.cone = branch.cone.at(hit.t);
-            next.interior = beyond(*crossing, point, next.ray.direction);
-            push(next);
-            return;
-        }
+    if (crossing && crossing->is_hidden) {
+        WhittedBranch next = grow(context, i, 0);
+        next.ray.direction = branch.ray.direction;
+        next.ray.origin = offset_origin(point.position, point.geometric_normal, point.clearance, next.ray.direction);
+        next.cone = branch.cone.at(hit.t);
+        next.interior = beyond(*crossing, point, next.ray.direction);
+        push(next);
+        return;
     }
     if (point.material->unlit) {
         if (is_wanted) found_.add(branch.slot, branch.throughput * world.unlit_color(point), kind_of(branch));

@@ -1,0 +1,127 @@
+// Surfaces that lie within rounding of each other: glass that stands on a table, a drink in its glass, a lamp that is
+// flush with the ceiling.
+//
+// A ray that leaves a surface starts off it by what rounding may have moved it, and so would pass what lies within that
+// distance, or meet it or not as rounding has it. Such surfaces are therefore met as one. compile_contacts() finds out
+// where there are any; rays that hit there ask for all surfaces in that place, one of which is the surface that they
+// meet:
+//
+//   1. an emitter, on a side that emits,
+//   2. what stops light,
+//   3. the boundary of bodies: all that are left are left, and all that are entered are entered, which makes one
+//      boundary between what fills the space before and behind, as if every body were larger than modelled by nothing,
+//   4. thin sheets, where compile_contacts() could not move them apart;
+//
+// of several of one kind the first in the scene. Rays go on from beyond all of them, on either side. This asks neither
+// for the order in which rounding puts them nor for the direction that a path comes from.
+#pragma once
+
+#include "core/ray.h"
+#include "core/vec.h"
+#include "world/embree_scene.h"
+#include "world/interior.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace etendue {
+
+struct Material;
+struct WorldData;
+
+/// A surface among those that a ray meets in one place.
+struct ContactFace {
+    Hit hit;
+    Vec3f position{0.0f};    ///< metres
+    Vec3f normal{0.0f};      ///< unit, geometric, on the front
+    float clearance = 0.0f;  ///< metres, as in SurfacePoint
+    float depth = 0.0f;      ///< metres that it lies beyond the first face, along that one's normal
+};
+
+/// All surfaces that a ray meets in one place; the first is the one that it was said to hit.
+struct Contact {
+    static constexpr std::size_t kCapacity = 16;
+
+    std::array<ContactFace, kCapacity> faces;
+    std::size_t count = 0;
+
+    [[nodiscard]] std::span<const ContactFace> all() const { return {faces.data(), count}; }
+};
+
+/// What lies before a contact, and what behind.
+struct ContactInteriors {
+    Interior before;
+    Interior behind;
+};
+
+/// Metres within which two surfaces count as one, of what clears each of them.
+template <typename T>
+[[nodiscard]] constexpr T contact_distance(T clearance, T other) {
+    return T(2) * (clearance + other);
+}
+
+/// Distance from its plane, metres, that clears a triangle of an instance, and its normal.
+struct TrianglePlane {
+    Vec3f normal{0.0f};  ///< unit, on the front; zero if the triangle has no area
+    float clearance = 0.0f;
+};
+[[nodiscard]] TrianglePlane triangle_plane(const WorldData& data, std::uint32_t instance, std::uint32_t geometry,
+                                           std::uint32_t triangle);
+
+/// True if no light passes such a surface, but for what its opacity lets through.
+[[nodiscard]] bool stops_light(const Material& material);
+/// True if it is a thin sheet that light passes.
+[[nodiscard]] bool is_sheet(const Material& material);
+
+class Contacts {
+  public:
+    /// `reach` says, for each (instance, geometry), within how many metres of it others lie; 0 if none do.
+    Contacts(const WorldData& data, std::vector<float> reach, const std::vector<bool>& has_alpha,
+             const ThreadPool& threads);
+
+    [[nodiscard]] std::size_t bytes() const;
+    [[nodiscard]] float reach(std::size_t slot) const { return reach_[slot]; }
+    /// What `ray` meets where it hits `hit` (valid).
+    [[nodiscard]] Contact at(const WorldData& data, const Ray& ray, const Hit& hit) const;
+
+  private:
+    std::vector<float> reach_;
+    std::unique_ptr<EmbreeScene> bvh_;  ///< of surfaces with a reach
+};
+
+/// The surface of a contact that a ray along `direction` meets.
+[[nodiscard]] const ContactFace& foremost(const WorldData& data, const Contact& contact, const Vec3f& direction);
+
+/// What lies on both sides of a contact for a ray along `direction` that comes from within `current`.
+[[nodiscard]] ContactInteriors interiors(const WorldData& data, const Contact& contact, const Interior& current,
+                                         const Vec3f& direction);
+
+/// The face of the body with this number that a ray crosses for good: it is not entered and left again. Null if there
+/// is none.
+[[nodiscard]] const ContactFace* face_of_body(const WorldData& data, const Contact& contact, std::uint32_t body);
+
+/// The bodies whose boundaries are among the faces, each once.
+[[nodiscard]] std::vector<std::uint32_t> bodies_of(const WorldData& data, const Contact& contact);
+
+/// What a ray along `direction` does with the boundary of a body in a contact.
+struct BodyPassage {
+    bool is_entered = false;
+    bool is_left = false;
+};
+[[nodiscard]] BodyPassage passes(const WorldData& data, const Contact& contact, std::uint32_t body,
+                                 const Vec3f& direction);
+
+/// Index of (instance, geometry) in the tables of the World.
+[[nodiscard]] std::size_t slot_of(const WorldData& data, std::uint32_t instance, std::uint32_t geometry);
+[[nodiscard]] inline std::size_t slot_of(const WorldData& data, const Hit& hit) {
+    return slot_of(data, hit.instance, hit.geometry);
+}
+
+/// Body of the surface, or kNone.
+[[nodiscard]] std::uint32_t body_of(const WorldData& data, const Hit& hit);
+
+}  // namespace etendue
