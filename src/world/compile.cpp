@@ -67,7 +67,7 @@ World compile_world(SceneDesc scene, const ColorConfig& colors, const std::strin
     textures.finish(texture_budget(scene), threads, data);
     end_phase("textures");
     compile_geometry(scene, threads, options.most_copied_triangles, data);
-    compile_bodies(data);
+    compile_bodies(scene, data, problems);
     end_phase("geometry");
     build_bvh(threads, data);
     end_phase("BVH");

@@ -1,10 +1,15 @@
 #include "world/compile_parts.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
+#include <span>
+#include <string>
 #include <tuple>
+#include <utility>
 
 namespace etendue {
 
@@ -59,6 +64,102 @@ struct Candidate {
     [[nodiscard]] float size() const { return bounds.empty() ? 0.0f : length(bounds.size()); }
 };
 
+/// What tells a closed surface from one with holes, and its inside from its outside; both are sums over triangles.
+class SurfaceSums {
+  public:
+    /// `bounds` of the mesh, not empty: what is less than a ten thousandth of its size apart counts as one vertex, as
+    /// the two ends of a seam do that an exporter has rounded differently.
+    explicit SurfaceSums(const Bounds& bounds)
+        : origin_(in_double(bounds.min)), cell_(1e-4 * static_cast<double>(length(bounds.size()))) {}
+
+    void add(const Geometry& geometry) {
+        for (const auto& triangle : geometry.triangles) {
+            const Vec3d p[3] = {corner(geometry, triangle[0]), corner(geometry, triangle[1]),
+                                corner(geometry, triangle[2])};
+            volume_ += p[0].dot(p[1].cross(p[2])) / 6.0;
+            for (std::size_t grid = 0; grid < kGrids; ++grid)
+                for (std::size_t i = 0; i < 3; ++i) add_edge(key(p[i], grid), key(p[(i + 1) % 3], grid), edges_[grid]);
+        }
+    }
+    /// True if every edge is passed as often in one direction as in the other, but for a chance of 2⁻⁶⁴.
+    [[nodiscard]] bool is_closed() const { return std::ranges::count(edges_, 0u) > 0; }
+    /// Of a closed surface, in its own space; negative if its fronts are inside.
+    [[nodiscard]] double volume() const { return volume_; }
+
+  private:
+    using Vec3d = Imath::Vec3<double>;
+    /// Two ends of a seam that lie in different cells of one do not in another.
+    static constexpr std::size_t kGrids = 4;
+
+    static Vec3d in_double(const Vec3f& v) {
+        return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+    }
+    [[nodiscard]] Vec3d corner(const Geometry& geometry, std::uint32_t vertex) const {
+        return in_double(geometry.positions[vertex]) - origin_;
+    }
+    [[nodiscard]] std::uint64_t key(const Vec3d& p, std::size_t grid) const {
+        const double shift = (static_cast<double>(grid) + 0.37) / static_cast<double>(kGrids);
+        std::uint64_t bits = 0;
+        for (int i = 0; i < 3; ++i)
+            bits =
+                mixed(bits ^ static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(p[i] / cell_ + shift))));
+        return bits;
+    }
+    /// The finalizer of SplitMix64 (Steele, Lea and Flood 2014).
+    static std::uint64_t mixed(std::uint64_t x) {
+        x += 0x9e3779b97f4a7c15u;
+        x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+        x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+        return x ^ (x >> 31);
+    }
+    static void add_edge(std::uint64_t from, std::uint64_t to, std::uint64_t& sum) {
+        if (from < to)
+            sum += mixed(mixed(from) ^ to);
+        else if (to < from)
+            sum -= mixed(mixed(to) ^ from);
+    }
+
+    Vec3d origin_;
+    double cell_;
+    double volume_ = 0.0;
+    std::array<std::uint64_t, kGrids> edges_{};
+};
+
+/// Warns of bodies whose inside is not known, once for each mesh.
+void check_surfaces(const SceneDesc& scene, const WorldData& data, std::span<const Bounds> local_bounds,
+                    ProblemList& problems) {
+    std::set<std::pair<std::int32_t, std::uint32_t>> checked;  // mesh of the scene, and filling
+    for (std::size_t i = 0; i < data.instances.size(); ++i) {
+        const Instance& instance = data.instances[i];
+        Bounds bounds;
+        for (std::uint32_t g = 0; g < instance.geometry_count; ++g)
+            bounds.extend(local_bounds[instance.first_geometry + g]);
+        if (bounds.empty() || !(length(bounds.size()) > 0.0f)) continue;
+        std::map<std::uint32_t, SurfaceSums> sums;  // by filling
+        for (std::uint32_t g = 0; g < instance.geometry_count; ++g) {
+            const Geometry& geometry = data.geometries[instance.first_geometry + g];
+            const std::uint32_t filling = data.materials[geometry.material].filling;
+            if (filling != kNone && !geometry.triangles.empty())
+                sums.try_emplace(filling, bounds).first->second.add(geometry);
+        }
+        const InstanceDesc& desc = scene.instances[i];
+        for (const auto& [filling, surface] : sums) {
+            if (!checked.insert({desc.mesh.index, filling}).second) continue;
+            const std::string what = desc.name.empty() ? std::string("a body") : "the body '" + desc.name + "'";
+            if (!surface.is_closed())
+                problems.warning(desc.location,
+                                 what +
+                                     " is not closed: its mesh has edges of one triangle only, or triangles whose "
+                                     "fronts face each other, so that what is inside is not known. Close it, or "
+                                     "leave its material's thickness out to make it a thin sheet");
+            else if (surface.volume() < 0.0)
+                problems.warning(desc.location, what +
+                                                    " is inside out: the fronts of its triangles, counter-clockwise, "
+                                                    "are inside. Turn them around");
+        }
+    }
+}
+
 }  // namespace
 
 std::optional<Filling> compile_filling(const MaterialDesc& desc, const ColorMatrix& from_rec709) {
@@ -74,7 +175,7 @@ std::optional<Filling> compile_filling(const MaterialDesc& desc, const ColorMatr
     return compile_volume(desc.volume, desc.ior, from_rec709);
 }
 
-void compile_bodies(WorldData& data) {
+void compile_bodies(const SceneDesc& scene, WorldData& data, ProblemList& problems) {
     const auto filling_of = [&](std::size_t geometry) {
         return data.materials[data.geometries[geometry].material].filling;
     };
@@ -101,6 +202,7 @@ void compile_bodies(WorldData& data) {
         }
     }
     if (candidates.empty()) return;
+    check_surfaces(scene, data, local_bounds, problems);
     // What is wholly inside another is smaller than it, and is what one means to see there.
     std::vector<std::uint32_t> order(candidates.size());
     std::iota(order.begin(), order.end(), 0u);

@@ -57,11 +57,12 @@ void compile_materials(const SceneDesc& scene, TextureCompiler& textures, WorldD
 /// materials in `data`, which say what needs tangents.
 void compile_geometry(SceneDesc& scene, const ThreadPool& threads, std::size_t most_copied, WorldData& data);
 
-/// Numbers the bodies by precedence. Needs materials and geometry in `data`.
-void compile_bodies(WorldData& data);
+/// Numbers the bodies by precedence, and warns of those that have holes or are inside out. Needs materials and geometry
+/// in `data`.
+void compile_bodies(const SceneDesc& scene, WorldData& data, ProblemList& problems);
 
-/// The BVH, and where surfaces touch: thin sheets are moved apart, the others are for `Contacts`. Needs materials,
-/// geometry and bodies in `data`.
+/// The BVHs of all surfaces and of panes, and where surfaces touch: thin sheets are moved apart, the others are for
+/// `Contacts`. Needs materials, geometry and bodies in `data`.
 void build_bvh(const ThreadPool& threads, WorldData& data);
 
 /// The environment, which must be enabled. Throws SceneError if an image cannot be decoded.

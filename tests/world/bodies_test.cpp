@@ -3,6 +3,9 @@
 #include "world/world.h"
 
 #include <cmath>
+#include <cstdint>
+#include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -141,6 +144,47 @@ TEST(Bodies, ShortWavesAreRefractedMore) {
     EXPECT_NEAR(crossing.relative_ior(587.6f), 1.6f, 1e-4f);
     // The definition of the Abbe number: V = (n_d - 1) / (n_F - n_C).
     EXPECT_NEAR(0.6f / (crossing.relative_ior(486.1f) - crossing.relative_ior(656.3f)), 20.0f, 0.02f);
+}
+
+/// What is said of a ball of glass whose mesh `change` has changed.
+template <typename Change>
+std::string said_of_a_ball(const Change& change) {
+    SceneDesc scene = empty_scene();
+    PrimitiveDesc ball = sphere({3.0f, 0.0f, 0.0f}, 1.0f, 12);
+    change(ball);
+    add_object(scene, ball, add_material(scene, body(1.5f)));
+    ProblemList problems;
+    EXPECT_TRUE(compile(std::move(scene), kGltfColorSpace, problems).has_bodies());
+    std::string said;
+    for (const Problem& problem : problems.all()) said += problem.message;
+    return said;
+}
+
+TEST(Bodies, HolesAndTurnedSurfacesAreWarnedOf) {
+    EXPECT_EQ(said_of_a_ball([](PrimitiveDesc&) {}), "");
+    EXPECT_NE(said_of_a_ball([](PrimitiveDesc& ball) { ball.triangles.pop_back(); }).find("not closed"),
+              std::string::npos);
+    EXPECT_NE(said_of_a_ball([](PrimitiveDesc& ball) {
+                  std::swap(ball.triangles[7][0], ball.triangles[7][1]);
+              }).find("not closed"),
+              std::string::npos);
+    EXPECT_NE(said_of_a_ball([](PrimitiveDesc& ball) {
+                  for (auto& triangle : ball.triangles) std::swap(triangle[0], triangle[1]);
+              }).find("inside out"),
+              std::string::npos);
+    // An exporter rounds the two ends of a seam differently.
+    EXPECT_EQ(said_of_a_ball([](PrimitiveDesc& ball) {
+                  ball.uv0.clear();
+                  for (auto& triangle : ball.triangles)
+                      for (std::uint32_t& vertex : triangle) {
+                          Vec3f p = ball.positions[vertex];
+                          p.y += 1e-6f * static_cast<float>(ball.positions.size() % 3);
+                          if (!ball.normals.empty()) ball.normals.push_back(ball.normals[vertex]);
+                          vertex = static_cast<std::uint32_t>(ball.positions.size());
+                          ball.positions.push_back(p);
+                      }
+              }),
+              "");
 }
 
 }  // namespace
