@@ -107,15 +107,17 @@ void Connections::resolve(const World& world, const TileJob& job, std::span<cons
     flush();
     if (count_ == 0) return;
     occluded_.resize(count_);
-    occluded_batch(world, job, kind_, rays(), occluded_, counters);
+    const RayColumns rays_traced = rays();
+    occluded_batch(world, job, kind_, rays_traced, occluded_, counters);
     const std::span<const ExpressionShare> all_shares(shares_);
     for (std::size_t i = 0, first = 0; i < count_; ++i) {
         const auto shares = all_shares.subspan(first, bits_[kEndOfShares][i] - first);
         first = bits_[kEndOfShares][i];
         const std::uint32_t slot = bits_[kSlot][i];
         light.count_ray(slot);
-        if (occluded_[i] != 0) continue;
-        const Rgb value{floats_[kRed][i], floats_[kGreen][i], floats_[kBlue][i]};
+        if (occluded_[i] == kOccluded) continue;
+        Rgb value{floats_[kRed][i], floats_[kGreen][i], floats_[kBlue][i]};
+        if (occluded_[i] == kPassesPanes) value *= world.pane_transmittance(rays_traced[i]);
         const auto kind = static_cast<LightKind>(bits_[kLightKind][i]);
         if (places_.empty())
             light.add(slot, value, kind, shares);

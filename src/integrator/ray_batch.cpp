@@ -40,7 +40,7 @@ void occluded_batch(const World& world, const TileJob& job, RayKind kind, const 
     counters.rays[kind] += rays.size();
     if (profile == nullptr) return;
     profile->stamp(Stage::Occluded, kind);
-    profile->count_hits(kind, static_cast<std::uint64_t>(std::ranges::count(occluded, 1)));
+    profile->count_hits(kind, static_cast<std::uint64_t>(std::ranges::count(occluded, kOccluded)));
 }
 
 }  // namespace etendue

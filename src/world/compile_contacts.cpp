@@ -1,4 +1,4 @@
-// Builds the BVH, finds surfaces that lie within rounding of each other, and moves thin sheets apart.
+// Builds the BVHs, finds surfaces that lie within rounding of each other, and moves thin sheets apart.
 #include "core/position_error.h"
 #include "world/compile_parts.h"
 #include "world/contacts.h"
@@ -315,18 +315,27 @@ bool move_sheets_apart(const Touches& touches, WorldData& data) {
 }  // namespace
 
 void build_bvh(const ThreadPool& threads, WorldData& data) {
-    std::vector<bool> has_alpha;
-    has_alpha.reserve(data.geometries.size());
-    for (const Geometry& geometry : data.geometries)
-        has_alpha.push_back(data.materials[geometry.material].alpha_test != AlphaTest::Opaque);
-    data.bvh = std::make_unique<EmbreeScene>(data.geometries, data.instances, data.motions, has_alpha, threads);
+    std::vector<HitFilter> filters;
+    filters.reserve(data.geometries.size());
+    for (const Geometry& geometry : data.geometries) {
+        const Material& material = data.materials[geometry.material];
+        filters.push_back({material.alpha_test != AlphaTest::Opaque, material.is_pane});
+    }
+    data.bvh = std::make_unique<EmbreeScene>(data.geometries, data.instances, data.motions, filters, threads);
     Touches touches = ContactFinder(data).find(threads);
     if (move_sheets_apart(touches, data)) {
-        data.bvh = std::make_unique<EmbreeScene>(data.geometries, data.instances, data.motions, has_alpha, threads);
+        data.bvh = std::make_unique<EmbreeScene>(data.geometries, data.instances, data.motions, filters, threads);
         touches = ContactFinder(data).find(threads);
     }
-    if (touches.empty()) return;
     const std::vector<Slot> slots = all_slots(data);
+    std::vector<std::uint8_t> panes(slots.size());
+    std::ranges::transform(slots, panes.begin(), [&](const Slot& slot) -> std::uint8_t {
+        return data.materials[data.geometries[slot.geometry].material].is_pane ? 1 : 0;
+    });
+    if (std::ranges::count(panes, 1) > 0)
+        data.panes =
+            std::make_unique<EmbreeScene>(data.geometries, data.instances, data.motions, filters, threads, panes);
+    if (touches.empty()) return;
     const auto emits = [&](std::uint32_t slot) {
         return data.materials[data.geometries[slots[slot].geometry].material].emits;
     };
@@ -337,7 +346,7 @@ void build_bvh(const ThreadPool& threads, WorldData& data) {
             reach[slot] = std::max(reach[slot], static_cast<float>(touch.distance));
             if (emits(pair.first) && emits(pair.second)) data.shares_place_of_slot[slot] = 1;
         }
-    data.contacts = std::make_unique<Contacts>(data, std::move(reach), has_alpha, threads);
+    data.contacts = std::make_unique<Contacts>(data, std::move(reach), filters, threads);
 }
 
 void find_planes_of_lamps(WorldData& data) {

@@ -129,6 +129,9 @@ Material compile_material(const MaterialDesc& desc, const ColorMatrix& from_rec7
     material.unlit = desc.unlit && std::holds_alternative<std::monostate>(desc.override_model);
     // Rays that a filter lets through would not know that they are in a body; what passes its surface is transmission.
     if (!compile_filling(desc, from_rec709)) compile_alpha(desc, textures, material);
+    if (const auto* model = std::get_if<GltfModel>(&material.model))
+        material.is_pane = !material.unlit && !model->refracts && model->transmission > 0.0f &&
+                           model->metallic < 1.0f && model->roughness * model->roughness < kSmoothAlpha;
     material.normal_texture = textures.slot(desc.normal_texture, TextureUse::Data);
     material.normal_scale = desc.normal_scale;
 

@@ -87,12 +87,12 @@ std::uint32_t body_of(const WorldData& data, const Hit& hit) {
     return data.body_of_slot.empty() ? kNone : data.body_of_slot[slot_of(data, hit)];
 }
 
-Contacts::Contacts(const WorldData& data, std::vector<float> reach, const std::vector<bool>& has_alpha,
+Contacts::Contacts(const WorldData& data, std::vector<float> reach, std::span<const HitFilter> filters,
                    const ThreadPool& threads)
     : reach_(std::move(reach)) {
     std::vector<std::uint8_t> slots(reach_.size());
     std::ranges::transform(reach_, slots.begin(), [](float r) -> std::uint8_t { return r > 0.0f ? 1 : 0; });
-    bvh_ = std::make_unique<EmbreeScene>(data.geometries, data.instances, data.motions, has_alpha, threads, slots);
+    bvh_ = std::make_unique<EmbreeScene>(data.geometries, data.instances, data.motions, filters, threads, slots);
 }
 
 std::size_t Contacts::bytes() const {

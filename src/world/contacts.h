@@ -80,9 +80,11 @@ struct TrianglePlane {
 class Contacts {
   public:
     /// `reach` says, for each (instance, geometry), within how many metres of it others lie; 0 if none do.
-    Contacts(const WorldData& data, std::vector<float> reach, const std::vector<bool>& has_alpha,
+    Contacts(const WorldData& data, std::vector<float> reach, std::span<const HitFilter> filters,
              const ThreadPool& threads);
 
+    /// Called once the World has its final address.
+    void set_opacity(OpacityFunction function, const void* world) { bvh_->set_opacity(function, world); }
     [[nodiscard]] std::size_t bytes() const;
     [[nodiscard]] float reach(std::size_t slot) const { return reach_[slot]; }
     /// What `ray` meets where it hits `hit` (valid).

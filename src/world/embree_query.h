@@ -32,6 +32,7 @@ struct QueryContext {
     const Ray* rays;  ///< or null
     const std::uint32_t* alpha_keys;
     CollectedHits* collected = nullptr;  ///< only for `EmbreeScene::collect`
+    std::uint8_t* passed = nullptr;      ///< by ray, set to kPassesPanes where one does; only where there are panes
 
     QueryContext(const EmbreeScene& owner, std::span<const Ray> batch, bool coherent)
         : scene(&owner), rays(batch.data()), alpha_keys(nullptr) {

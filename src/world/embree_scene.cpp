@@ -49,6 +49,19 @@ void filter_by_opacity(const RTCFilterFunctionNArguments* args) {
         if (args->valid[i] == -1 && !stops(*args, i, hit_of(*args, i))) args->valid[i] = 0;
 }
 
+/// Lets shadow rays pass panes.
+void pass_panes(const RTCFilterFunctionNArguments* args) {
+    for (unsigned int i = 0; i < args->N; ++i) {
+        if (args->valid[i] != -1) continue;
+        args->valid[i] = 0;
+        context_of(*args).passed[RTCRayN_id(args->ray, args->N, i)] = kPassesPanes;
+    }
+}
+void pass_opaque_panes(const RTCFilterFunctionNArguments* args) {
+    filter_by_opacity(args);
+    pass_panes(args);
+}
+
 /// Notes what the ray meets and lets it pass.
 void collect_all(const RTCFilterFunctionNArguments* args) {
     CollectedHits& collected = *context_of(*args).collected;
@@ -90,9 +103,10 @@ bool count_memory(void* counter, ssize_t bytes, bool /*post*/) {
 }  // namespace
 
 EmbreeScene::EmbreeScene(std::span<const Geometry> geometries, std::span<const Instance> instances,
-                         std::span<const TransformMotion> motions, const std::vector<bool>& has_alpha,
+                         std::span<const TransformMotion> motions, std::span<const HitFilter> filters,
                          const ThreadPool& threads, std::span<const std::uint8_t> collected_slots)
-    : collects_(!collected_slots.empty()) {
+    : collects_(!collected_slots.empty()),
+      has_panes_(!collects_ && std::ranges::any_of(filters, &HitFilter::passes_shadows)) {
     has_motion_ =
         !motions.empty() || std::ranges::any_of(geometries, [](const Geometry& g) { return !g.motion.empty(); });
     std::atomic<std::size_t> memory{0};
@@ -118,7 +132,7 @@ EmbreeScene::EmbreeScene(std::span<const Geometry> geometries, std::span<const I
                 for (std::uint32_t g = 0; g < instance.geometry_count; ++g) {
                     if (!is_taken(g)) continue;
                     const std::uint32_t geometry = instance.first_geometry + g;
-                    add_triangles(top_, geometries[geometry], has_alpha[geometry]);
+                    add_triangles(top_, geometries[geometry], filters[geometry]);
                     top_level_.push_back({index, geometry});
                 }
                 continue;
@@ -127,7 +141,7 @@ EmbreeScene::EmbreeScene(std::span<const Geometry> geometries, std::span<const I
             for (std::uint32_t g = 0; g < instance.geometry_count; ++g) is_any_taken = is_any_taken || is_taken(g);
             if (!is_any_taken) continue;
             RTCScene& shared = scene_of_mesh[instance.first_geometry];
-            if (!shared) shared = build_shared_scene(instance, geometries, has_alpha);
+            if (!shared) shared = build_shared_scene(instance, geometries, filters);
             add_instance(shared, instance, motions);
             top_level_.push_back({index, instance.first_geometry});
         }
@@ -164,7 +178,7 @@ void EmbreeScene::add_instance(RTCScene shared, const Instance& instance,
     rtcReleaseGeometry(placed);
 }
 
-void EmbreeScene::add_triangles(RTCScene scene, const Geometry& geometry, bool has_alpha) const {
+void EmbreeScene::add_triangles(RTCScene scene, const Geometry& geometry, const HitFilter& filter) const {
     RTCGeometry mesh = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     const auto set_vertices = [&](unsigned int slot, const std::vector<Vec3f>& positions) {
         rtcSetSharedGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, slot, RTC_FORMAT_FLOAT3, positions.data(), 0,
@@ -180,10 +194,13 @@ void EmbreeScene::add_triangles(RTCScene scene, const Geometry& geometry, bool h
     rtcSetSharedGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, geometry.triangles.data(), 0,
                                sizeof(std::array<std::uint32_t, 3>), geometry.triangles.size());
     if (collects_) {
-        rtcSetGeometryIntersectFilterFunction(mesh, has_alpha ? collect_opaque : collect_all);
-    } else if (has_alpha) {
-        rtcSetGeometryIntersectFilterFunction(mesh, filter_by_opacity);
-        rtcSetGeometryOccludedFilterFunction(mesh, filter_by_opacity);
+        rtcSetGeometryIntersectFilterFunction(mesh, filter.by_opacity ? collect_opaque : collect_all);
+    } else {
+        if (filter.by_opacity) rtcSetGeometryIntersectFilterFunction(mesh, filter_by_opacity);
+        if (filter.passes_shadows)
+            rtcSetGeometryOccludedFilterFunction(mesh, filter.by_opacity ? pass_opaque_panes : pass_panes);
+        else if (filter.by_opacity)
+            rtcSetGeometryOccludedFilterFunction(mesh, filter_by_opacity);
     }
     rtcCommitGeometry(mesh);
     rtcAttachGeometry(scene, mesh);
@@ -191,14 +208,14 @@ void EmbreeScene::add_triangles(RTCScene scene, const Geometry& geometry, bool h
 }
 
 RTCScene EmbreeScene::build_shared_scene(const Instance& instance, std::span<const Geometry> geometries,
-                                         const std::vector<bool>& has_alpha) {
+                                         std::span<const HitFilter> filters) {
     RTCScene scene = rtcNewScene(device_);
     rtcSetSceneBuildQuality(scene, kBuildQuality);
     rtcSetSceneFlags(scene, kSceneFlags);
     shared_.push_back(scene);
     for (std::uint32_t g = 0; g < instance.geometry_count; ++g) {
         const std::uint32_t geometry = instance.first_geometry + g;
-        add_triangles(scene, geometries[geometry], has_alpha[geometry]);
+        add_triangles(scene, geometries[geometry], filters[geometry]);
     }
     rtcCommitScene(scene);
     return scene;
@@ -313,25 +330,35 @@ void EmbreeScene::intersect_packets(const Batch& rays, std::span<Hit> hits, bool
         });
 }
 
-// Embree marks occluded rays with tfar = -inf.
+// Embree marks occluded rays with tfar = -inf; filter functions mark those that pass panes.
 
 template <typename Batch>
 void EmbreeScene::occluded_single(const Batch& rays, std::span<std::uint8_t> occluded) const {
     QueryContext context(*this, rays, false);
+    context.passed = occluded.data();
+    if (has_panes_) std::ranges::fill(occluded, kFree);
     for (std::size_t i = 0; i < rays.size(); ++i) {
         RTCRay query = make_ray(rays[i], static_cast<unsigned int>(i));
         embree::occluded1(top_, context.base, query);
-        occluded[i] = query.tfar < 0.0f ? 1 : 0;
+        occluded[i] = query.tfar < 0.0f ? kOccluded : has_panes_ ? occluded[i] : kFree;
     }
 }
 
 template <std::size_t Width, typename Batch>
 void EmbreeScene::occluded_packets(const Batch& rays, std::span<std::uint8_t> occluded) const {
     QueryContext context(*this, rays, false);
+    context.passed = occluded.data();
+    if (has_panes_) std::ranges::fill(occluded, kFree);
     for_each_packet<Width, typename Packet<Width>::Rays>(
         rays, [&](const PacketMask<Width>& mask, auto& packet, std::size_t first, std::size_t count) {
             embree::occluded(mask.valid, top_, context.base, packet);
-            for (std::size_t lane = 0; lane < count; ++lane) occluded[first + lane] = packet.tfar[lane] < 0.0f ? 1 : 0;
+            if (has_panes_) {
+                for (std::size_t lane = 0; lane < count; ++lane)
+                    if (packet.tfar[lane] < 0.0f) occluded[first + lane] = kOccluded;
+            } else {
+                for (std::size_t lane = 0; lane < count; ++lane)
+                    occluded[first + lane] = packet.tfar[lane] < 0.0f ? kOccluded : kFree;
+            }
         });
 }
 

@@ -19,6 +19,12 @@ namespace etendue {
 
 struct QueryContext;
 
+/// Which hits of a geometry Embree has to ask about.
+struct HitFilter {
+    bool by_opacity = false;      ///< those of its partly transparent places
+    bool passes_shadows = false;  ///< shadow rays pass it, and say that they did
+};
+
 /// Opacity of a triangle at a point, [0, 1].
 using OpacityFunction = float (*)(const void* world, std::uint32_t geometry, std::uint32_t triangle, Vec2f barycentric);
 
@@ -27,10 +33,10 @@ using OpacityFunction = float (*)(const void* world, std::uint32_t geometry, std
 class EmbreeScene {
   public:
     /// Builds all BVHs with the threads of `threads`. The geometries' vectors must stay where they are: Embree reads
-    /// them. `has_alpha[g]` says which geometries need their opacity evaluated. If there are `collected_slots`, one for
+    /// them. `filters` are those of the geometries. If there are `collected_slots`, one for
     /// each (instance, geometry), the scene holds only those that are not 0, and is for `collect` alone.
     EmbreeScene(std::span<const Geometry> geometries, std::span<const Instance> instances,
-                std::span<const TransformMotion> motions, const std::vector<bool>& has_alpha, const ThreadPool& threads,
+                std::span<const TransformMotion> motions, std::span<const HitFilter> filters, const ThreadPool& threads,
                 std::span<const std::uint8_t> collected_slots = {});
     ~EmbreeScene();
     EmbreeScene(const EmbreeScene&) = delete;
@@ -41,6 +47,7 @@ class EmbreeScene {
 
     void intersect(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence, QueryForm form) const;
     void intersect(const RayColumns& rays, std::span<Hit> hits, Coherence coherence, QueryForm form) const;
+    /// See World::occluded.
     void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, QueryForm form) const;
     void occluded(const RayColumns& rays, std::span<std::uint8_t> occluded, QueryForm form) const;
 
@@ -104,10 +111,10 @@ class EmbreeScene {
     /// thousand of them).
     [[nodiscard]] bool takes_as_coherent(Coherence coherence) const;
 
-    void add_triangles(RTCScene scene, const Geometry& geometry, bool has_alpha) const;
+    void add_triangles(RTCScene scene, const Geometry& geometry, const HitFilter& filter) const;
     void add_instance(RTCScene shared, const Instance& instance, std::span<const TransformMotion> motions) const;
     RTCScene build_shared_scene(const Instance& instance, std::span<const Geometry> geometries,
-                                const std::vector<bool>& has_alpha);
+                                std::span<const HitFilter> filters);
 
     RTCDevice device_ = nullptr;
     RTCScene top_ = nullptr;
@@ -119,6 +126,7 @@ class EmbreeScene {
     double build_seconds_ = 0.0;
     bool has_motion_ = false;
     bool collects_ = false;
+    bool has_panes_ = false;
 };
 
 }  // namespace etendue

@@ -99,6 +99,10 @@ struct Material {
     float alpha_factor = 1.0f;
     TextureSlot alpha_texture;
 
+    /// A thin sheet without roughness: some of the light goes straight through it, which rays that connect points
+    /// follow.
+    bool is_pane = false;
+
     bool unlit = false;  ///< shows its base colour to the eye and scatters nothing
     TextureSlot normal_texture;
     float normal_scale = 1.0f;

@@ -12,11 +12,14 @@
 #include "world/material_evaluation.h"
 #include "world/motion.h"
 #include "world/plain_lookups.h"
+#include "world/scattering.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -99,6 +102,8 @@ World::World(WorldData data)
       selector_(data_->lights, radius_of(data_->bounds)),
       tree_(data_->lights, radius_of(data_->bounds)) {
     data_->bvh->set_opacity(opacity_callback, data_.get());
+    if (data_->panes) data_->panes->set_opacity(opacity_callback, data_.get());
+    if (data_->contacts) data_->contacts->set_opacity(opacity_callback, data_.get());
     chooses_lights_by_receiver_ =
         tree_.depends_on_receiver() || std::ranges::any_of(data_->lights, [](const Light& light) {
             const MeshLight* mesh = std::get_if<MeshLight>(&light);
@@ -167,6 +172,34 @@ void World::occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded
 
 void World::occluded(const RayColumns& rays, std::span<std::uint8_t> occluded, QueryForm form) const {
     data_->bvh->occluded(rays, occluded, form);
+}
+
+Rgb World::pane_transmittance(const Ray& ray) const {
+    std::array<Hit, 16> few;
+    std::vector<Hit> many;
+    std::span<Hit> hits = few;
+    std::size_t count = data_->panes->collect(ray, 0.0f, hits);
+    while (count == hits.size()) {
+        many.resize(2 * hits.size());
+        hits = many;
+        count = data_->panes->collect(ray, 0.0f, hits);
+    }
+    hits = hits.first(count);
+    // In one order, whatever Embree's is, so that rounding is always the same.
+    std::ranges::sort(hits, {},
+                      [](const Hit& hit) { return std::tuple(hit.t, hit.instance, hit.geometry, hit.triangle); });
+    Rgb transmittance(1.0f);
+    for (const Hit& hit : hits) {
+        const SurfacePoint point = surface_point(hit);
+        Bsdf storage;
+        const Vec3f wo = -ray.direction;
+        Rgb passed;
+        for (const BsdfSample& delta :
+             Scattering(bsdf(point, wo, 0.0f, storage), point.shading, point.geometric_normal, wo).deltas())
+            if (delta.is_transmission) passed += delta.weight;
+        transmittance *= passed;
+    }
+    return transmittance;
 }
 
 double World::replay(std::span<const Ray> rays, bool occlusion, Coherence coherence, QueryForm form) const {
@@ -547,7 +580,8 @@ WorldStatistics World::statistics() const {
         selector_.bytes() + tree_.bytes() + vector_bytes(data_->lights, data_->emitter_of_light, data_->light_of_slot);
     for (const Light& light : data_->lights) s.light_bytes += light_bytes(light);
     s.isa = data_->bvh->instruction_set();
-    s.bvh_bytes = data_->bvh->bytes() + (data_->contacts ? data_->contacts->bytes() : 0);
+    s.bvh_bytes = data_->bvh->bytes() + (data_->panes ? data_->panes->bytes() : 0) +
+                  (data_->contacts ? data_->contacts->bytes() : 0);
     s.bvh_build_seconds = data_->bvh->build_seconds();
     s.bvh_quality = EmbreeScene::quality();
     s.compile_phases = data_->compile_phases;

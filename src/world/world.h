@@ -54,6 +54,9 @@ enum class Coherence {
     Incoherent,  ///< anything else
 };
 
+/// What becomes of a ray that asks whether something is in the way.
+inline constexpr std::uint8_t kFree = 0, kOccluded = 1, kPassesPanes = 2;
+
 /// How a batch goes through Embree. The default is what measured best for its coherence; benchmarks compare.
 enum class QueryForm { Best, Single, Packet8, Packet16 };
 
@@ -117,6 +120,7 @@ struct WorldData {
     std::vector<std::uint32_t> body_of_slot;     ///< body of (instance, geometry), or kNone; empty without bodies
     Bounds bounds;
     std::unique_ptr<EmbreeScene> bvh;
+    std::unique_ptr<EmbreeScene> panes;  ///< for `collect`; null if there are none
     std::unique_ptr<Contacts> contacts;  ///< null if no surfaces touch for which that matters
     std::vector<std::uint8_t>
         shares_place_of_slot;  ///< 1 for emitters that touch other emitters; empty without contacts
@@ -176,9 +180,15 @@ class World {
                    QueryForm form = QueryForm::Best) const;
     void intersect(const RayColumns& rays, std::span<Hit> hits, Coherence coherence,
                    QueryForm form = QueryForm::Best) const;
-    /// 1 where something lies within (0, t_max], else 0; `occluded` is as long as `rays`.
+    /// kOccluded where something but panes lies within (0, t_max], else kPassesPanes or kFree; `occluded` is as long as
+    /// `rays`.
     void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, QueryForm form = QueryForm::Best) const;
     void occluded(const RayColumns& rays, std::span<std::uint8_t> occluded, QueryForm form = QueryForm::Best) const;
+    /// Share of light that passes the panes between the ends of `ray`, which may be anything along which nothing else
+    /// lies.
+    [[nodiscard]] Rgb pane_transmittance(const Ray& ray) const;
+    /// True if some surface is a pane.
+    [[nodiscard]] bool has_panes() const { return data_->panes != nullptr; }
     /// Seconds that bare Embree takes to trace `rays`, without what it takes to hand them over or to look at what they
     /// hit: the ceiling for any renderer. `occlusion`: whether they only ask if something is in the way.
     [[nodiscard]] double replay(std::span<const Ray> rays, bool occlusion, Coherence coherence, QueryForm form) const;

@@ -65,10 +65,10 @@ TEST(MatteBuffer, PartsAddUp) {
             const auto id = static_cast<std::uint32_t>(1.0f + u.y * 8.0f);
             for (MatteBuffer* buffer : {&whole, &part}) buffer->add(pixel, i % 2 == 0 ? 0 : 1, id, 0.25);
         }
-        for (const std::size_t pixel : {0, 1}) sum.add(pixel, part, pixel);
+        for (const std::size_t pixel : {std::size_t{0}, std::size_t{1}}) sum.add(pixel, part, pixel);
     }
-    for (const std::size_t pixel : {0, 1})
-        for (const std::size_t matte : {0, 1})
+    for (const std::size_t pixel : {std::size_t{0}, std::size_t{1}})
+        for (const std::size_t matte : {std::size_t{0}, std::size_t{1}})
             EXPECT_EQ(pairs(sum.ranked(pixel, matte)), pairs(whole.ranked(pixel, matte)));
 }
 
@@ -110,7 +110,7 @@ TEST(WaveHits, MattesAndNumbersHaveTheFiltersWeight) {
     const LayerLayout layout{.values = 1, .mattes = 1, .matte_slots = 4};
     WaveHits hits;
     hits.reset(layout, 1, 2);
-    for (const std::size_t sample : {0, 1}) {
+    for (const std::size_t sample : {std::size_t{0}, std::size_t{1}}) {
         hits.set_distance(sample, 1.0f);
         hits.values(sample)[0] = 3.0f;
         hits.ids(sample)[0] = 7;

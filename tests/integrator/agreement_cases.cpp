@@ -129,6 +129,28 @@ std::vector<AgreementCase> all_cases() {
     pane.transmission = 0.8f;
     pane.roughness = 0.0f;
     cases.push_back({"SmoothPane", under_lamp(pane), {.max_depth = 6}, all, 128, bdpt});
+    // Light passes panes on the way to what is sampled, to what is met, and between subpaths.
+    const auto behind_panes = [=](SceneDesc& scene) {
+        MaterialDesc tinted = pane;
+        tinted.base_color = {0.9f, 0.6f, 0.4f};
+        tinted.alpha_mode = AlphaMode::Blend;
+        tinted.base_alpha = 0.7f;
+        add_ball(scene, gltf_plastic());
+        add_lamp(scene);
+        add_object(scene, quad({0.2f, 0.5f, -2.9f}, {0.6f, 0.1f, 0}, {0.1f, 0, 0.6f}), add_material(scene, tinted));
+        add_object(scene, quad({-0.2f, -0.1f, -2.2f}, {0.3f, 0, 0.1f}, {0, 0.5f, 0}), add_material(scene, pane));
+    };
+    cases.push_back({"BehindPanes", behind_panes, {.max_depth = 6}, all, 128, bdpt});
+    // Of a point, path finds no light that panes reflect.
+    cases.push_back({"BehindPanesOneBounce",
+                     [=](SceneDesc& scene) {
+                         behind_panes(scene);
+                         scene.lights.push_back(point_light());
+                     },
+                     {.max_depth = 2},
+                     all,
+                     64,
+                     bdpt});
     cases.push_back({"LongPathsAndRoulette", under_lamp(glass(0.4f)), {.max_depth = 24, .roulette_depth = 2}, all, 64});
     cases.push_back({"SecondBounceOnly", under_lamp(gltf_plastic()), {.max_depth = 3, .min_depth = 3}, all, 64});
     cases.push_back({"VisibleEnvironment",

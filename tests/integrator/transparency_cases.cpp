@@ -1,6 +1,9 @@
 #include "integrator/closed_form.h"
 #include "integrator/closed_form_scene.h"
 
+#include <string>
+#include <vector>
+
 namespace etendue::test {
 
 namespace {
@@ -118,12 +121,59 @@ std::vector<ClosedFormCase> film_cases() {
     return cases;
 }
 
+/// Thin sheets that light samples pass.
+std::vector<ClosedFormCase> pane_cases() {
+    std::vector<ClosedFormCase> cases;
+    MaterialDesc pane;
+    pane.metallic = 0.0f;
+    pane.roughness = 0.0f;
+    pane.transmission = 1.0f;
+    MaterialDesc tinted = pane;
+    tinted.base_color = Rgb(0.5f);
+    MaterialDesc patchy = pane;
+    patchy.alpha_mode = AlphaMode::Blend;
+    patchy.base_alpha = 0.25f;
+    constexpr double kPassed = 0.96;  // at normal incidence
+
+    // Without what the floor reflects into the panes and these send back.
+    const PathLengths one_bounce{.max_depth = 2};
+    const auto under_the_sun = [&](const std::string& name, const std::vector<MaterialDesc>& panes, double passed) {
+        SceneDesc scene;
+        add(scene, quad_facing_up({0.0f, 0.0f, 0.0f}, 10.0f), diffuse(0.6f));
+        float height = 1.0f;
+        for (const MaterialDesc& one : panes) add(scene, card(height += 0.1f), one);
+        add_light(scene, LightType::Directional, kPi, {0.0f, 5.0f, 0.0f}, {0.0f, -1.0f, 0.0f});
+        look(scene, {0.11f, 0.2f, 0.07f}, {0.0f, -1.0f, 0.0f});
+        cases.push_back({name, scene, kRho * passed, 1e-5, one_bounce, kFindDeltaLights});
+    };
+    under_the_sun("sun_behind_a_pane", {pane}, kPassed);
+    under_the_sun("sun_behind_a_tinted_pane", {tinted}, 0.5 * kPassed);
+    under_the_sun("sun_behind_three_panes", {pane, tinted, pane}, 0.5 * kPassed * kPassed * kPassed);
+    under_the_sun("sun_behind_a_patchy_pane", {patchy}, 0.75 + 0.25 * kPassed);
+    MaterialDesc wall = pane;
+    wall.transmission = 0.0f;
+    under_the_sun("sun_behind_a_wall", {wall}, 0.0);
+
+    // A lamp that light samples and paths find, behind a dome of panes.
+    SceneDesc dome = floor_and_ceiling();
+    add(dome, sphere({0.0f, 0.0f, 0.0f}, 6.0f, 4, Facing::Inwards), pane);
+    look(dome, {0.01f, 0.2f, 0.02f}, {0.0f, -1.0f, 0.0f});
+    cases.push_back({"lamp_behind_panes", dome, kRho * 2.0 * kPassed, 2e-3, one_bounce});
+
+    // A pane is no vertex: the lamp is one edge away.
+    SceneDesc window = glowing_floor();
+    add(window, card(0.5f), tinted);
+    cases.push_back({"lamp_seen_through_a_pane", window, 2.0 * 0.5 * kPassed, 1e-5, {.max_depth = 1}});
+    return cases;
+}
+
 }  // namespace
 
 std::vector<ClosedFormCase> transparency_cases() {
     std::vector<ClosedFormCase> cases = card_cases();
     for (ClosedFormCase& c : transparent_light_cases()) cases.push_back(std::move(c));
     for (ClosedFormCase& c : film_cases()) cases.push_back(std::move(c));
+    for (ClosedFormCase& c : pane_cases()) cases.push_back(std::move(c));
     return cases;
 }
 

@@ -53,6 +53,7 @@ struct SamplerOptions {
     std::uint32_t seed = 1;
     int cells_log2 = 6;       ///< 2^n cells
     double tolerance = 2e-6;  ///< of the integral over one of some thousand pieces
+    int least_levels = 0;     ///< how often pieces are quartered in any case: more where the density jumps
 };
 
 struct SamplerCheck {

@@ -119,9 +119,13 @@ std::optional<int> unresolved_axis(const PointDensity& density, const Rect& rect
 
 /// The integral over `rect`, cut at medians of the pilot points in it while they are many, then halved until the
 /// quadrature resolves the density at the points.
-double integrate_guided(const PointDensity& density, const Rect& rect, std::span<Point> points, double tolerance,
-                        int level = 0) {
-    if (points.empty() || level >= kMaxLevels) return integrate(density, rect, tolerance);
+double integrate_guided(const PointDensity& density, const Rect& rect, std::span<Point> points,
+                        const SamplerOptions& options, int level = 0) {
+    const auto whole = [&] {
+        constexpr int kMostLevels = 10;
+        return integrate(density, rect, options.tolerance, kMostLevels, options.least_levels);
+    };
+    if (points.empty() || level >= kMaxLevels) return whole();
     int axis = level % 2;
     std::optional<double> median;
     if (points.size() >= kFewPoints) {
@@ -131,7 +135,7 @@ double integrate_guided(const PointDensity& density, const Rect& rect, std::span
         median = along(axis, *middle);
     } else {
         const std::optional<int> unresolved = unresolved_axis(density, rect, points);
-        if (!unresolved) return integrate(density, rect, tolerance);
+        if (!unresolved) return whole();
         axis = *unresolved;
     }
     Rect left = rect;
@@ -142,8 +146,8 @@ double integrate_guided(const PointDensity& density, const Rect& rect, std::span
     begin = end = position;
     const auto border =
         std::partition(points.begin(), points.end(), [=](const Point& p) { return along(axis, p) < position; });
-    return integrate_guided(density, left, {points.begin(), border}, tolerance, level + 1) +
-           integrate_guided(density, right, {border, points.end()}, tolerance, level + 1);
+    return integrate_guided(density, left, {points.begin(), border}, options, level + 1) +
+           integrate_guided(density, right, {border, points.end()}, options, level + 1);
 }
 
 /// Points sorted by the cell in which they lie.
@@ -168,7 +172,7 @@ SamplerCheck check(const Rect& domain, std::optional<double> first_split_y, cons
     SamplerCheck result;
     for (std::size_t i = 0; i < cells; ++i) {
         const Rect& cell = partition.cells()[i];
-        const double mass = integrate_guided(density, cell, guides[i], options.tolerance);
+        const double mass = integrate_guided(density, cell, guides[i], options);
         result.pdf_integral += mass;
         expected[i] = mass * count;
         labels[i] = fmt::format("[{:.4f}, {:.4f}] x [{:.4f}, {:.4f}]", cell.x0, cell.x1, cell.y0, cell.y1);
@@ -225,8 +229,8 @@ double integrate_sphere(const DirectionSampler& guide, const DirectionDensity& f
     const std::span<Point> above(border, points.end());
     const Rect lower{kSphere.x0, kSphere.x1, kSphere.y0, 0.0};
     const Rect upper{kSphere.x0, kSphere.x1, 0.0, kSphere.y1};
-    return integrate_guided(on_sphere(f), lower, below, options.tolerance) +
-           integrate_guided(on_sphere(f), upper, above, options.tolerance);
+    return integrate_guided(on_sphere(f), lower, below, options) +
+           integrate_guided(on_sphere(f), upper, above, options);
 }
 
 }  // namespace etendue::test

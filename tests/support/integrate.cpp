@@ -1,5 +1,6 @@
 #include "support/integrate.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -26,7 +27,12 @@ double gauss(const Function& f, const Rect& r) {
 /// Zeros at all nodes do not end the first levels: a function that is zero but for a sliver looks converged.
 constexpr int kBlindLevels = 3;
 
-double refine(const Function& f, const Rect& r, double whole, double tolerance, int level, int max_level) {
+struct Levels {
+    int least;
+    int most;
+};
+
+double refine(const Function& f, const Rect& r, double whole, double tolerance, int level, const Levels& levels) {
     const double x = 0.5 * (r.x0 + r.x1);
     const double y = 0.5 * (r.y0 + r.y1);
     const std::array<Rect, 4> quarters = {Rect{r.x0, x, r.y0, y}, Rect{x, r.x1, r.y0, y}, Rect{r.x0, x, y, r.y1},
@@ -34,18 +40,19 @@ double refine(const Function& f, const Rect& r, double whole, double tolerance, 
     std::array<double, 4> parts{};
     double sum = 0.0;
     for (std::size_t i = 0; i < parts.size(); ++i) sum += parts[i] = gauss(f, quarters[i]);
-    if (level >= max_level || ((level >= kBlindLevels || sum != 0.0) && std::abs(sum - whole) <= tolerance)) return sum;
+    const int least = sum != 0.0 ? levels.least : std::max(levels.least, kBlindLevels);
+    if (level >= levels.most || (level >= least && std::abs(sum - whole) <= tolerance)) return sum;
     // Along a jump the rectangles double with every level while their area falls to a quarter, so halving converges.
     double refined = 0.0;
     for (std::size_t i = 0; i < parts.size(); ++i)
-        refined += refine(f, quarters[i], parts[i], 0.5 * tolerance, level + 1, max_level);
+        refined += refine(f, quarters[i], parts[i], 0.5 * tolerance, level + 1, levels);
     return refined;
 }
 
 }  // namespace
 
-double integrate(const Function& f, const Rect& rect, double tolerance, int max_depth) {
-    return refine(f, rect, gauss(f, rect), tolerance, 0, max_depth);
+double integrate(const Function& f, const Rect& rect, double tolerance, int max_depth, int min_depth) {
+    return refine(f, rect, gauss(f, rect), tolerance, 0, {min_depth, max_depth});
 }
 
 }  // namespace etendue::test

@@ -76,7 +76,8 @@ std::vector<Ray> rays_at(float time, std::uint32_t seed) {
     Random random(seed);
     std::vector<Ray> rays(4000);
     for (Ray& ray : rays) {
-        ray.origin = random_direction(random) * (3.0f * random.next());
+        const Vec3f direction = random_direction(random);
+        ray.origin = direction * (3.0f * random.next());
         ray.direction = random_direction(random);
         ray.time = time;
     }

@@ -15,9 +15,9 @@ PathWave::PathWave()
     : hits_(kCapacity), singles_(kBlock), samples_(kCapacity), camera_rays_(kCapacity), alpha_(kCapacity) {}
 
 std::size_t PathWave::bytes() const {
-    std::size_t bytes =
-        sizeof *this + light_.bytes() + shadow_rays_.bytes() + lookups_.bytes() +
-        vector_bytes(hits_, interiors_, receivers_, ranges_, shares_, singles_, samples_, camera_rays_, alpha_);
+    std::size_t bytes = sizeof *this + light_.bytes() + shadow_rays_.bytes() + lookups_.bytes() +
+                        vector_bytes(hits_, interiors_, receivers_, passed_, ranges_, shares_, singles_, samples_,
+                                     camera_rays_, alpha_);
     for (const NumberPairs* numbers :
          {&light_choice_, &light_triangle_, &light_direction_, &bsdf_direction_, &choices_, &medium_})
         bytes += numbers->bytes();
@@ -30,6 +30,7 @@ void PathWave::trace(const World& world, const TileJob& job, const PathOptions& 
     generate_camera_rays(world, job, first, std::span(samples_).first(count), camera_rays);
     if (world.has_bodies()) interiors_.assign(kCapacity, world.camera_interior());
     if (world.chooses_lights_by_receiver()) receivers_.resize(kCapacity);
+    if (world.has_panes()) passed_.assign(kCapacity, 0.0f);
     words_.reset(job.aovs);
     if (words_.are_followed()) ranges_.assign(kCapacity, words_.begin_at_eye());
     light_.reset(count, job, counters.brightest.threshold());
@@ -60,7 +61,7 @@ void PathWave::draw_numbers(const Context& context) {
     const std::span pixel_seeds(paths_.pixel_seed.data() + first_, count_);
     const std::span indices(paths_.index.data() + first_, count_);
     const bool has_bodies = context.world.has_bodies();
-    const bool ends = context.depth >= context.options.lengths.max_depth && !has_bodies;
+    const bool ends = context.depth >= context.options.lengths.max_depth && !has_bodies && !context.world.has_panes();
     const auto draw = [&](std::uint32_t dimension, NumberPairs& numbers, bool is_needed = true) {
         if (is_needed && !ends)
             numbers.draw(context.job.sequence, pixel_seeds, indices, dimension);
@@ -174,6 +175,8 @@ void PathWave::shade_block(const Context& context, std::size_t first, std::size_
     for (const std::size_t k : on_surface_)
         if (!block_[k].is_wide) sample_bsdf(k);
     stamp(Stage::Material);
+    if (!passed_.empty())
+        for (const std::size_t k : on_surface_) passed_[first_ + k] = 0.0f;
     scatter_by_lanes(context);
     for (const std::size_t k : on_surface_)
         if (!block_[k].is_wide) lanes_.goes_on.set(k, scatter_at_surface(context, k) ? 1.0f : 0.0f);
@@ -221,6 +224,7 @@ void PathWave::keep_survivors(const Context& context, std::size_t& kept) {
     }
     if (!receivers_.empty())
         survivors.for_each([&](std::size_t from, std::size_t to) { receivers_[to] = receivers_[from]; });
+    if (!passed_.empty()) survivors.for_each([&](std::size_t from, std::size_t to) { passed_[to] = passed_[from]; });
     if (words_.are_followed())
         survivors.for_each([&](std::size_t from, std::size_t to) { ranges_[to] = ranges_[from]; });
     kept = survivors.kept();

@@ -41,6 +41,9 @@ struct SingleShading {
     std::optional<Crossing> crossing;
     Wavelength wavelength{};  ///< that it goes on with, and its weight
     bool chooses_wavelength = false;
+    // Of a pane, what becomes of a path that goes straight through it: it comes from where it came from.
+    LightReceiver from;
+    float passed = 0.0f;
     Bsdf storage;
     std::optional<Scattering> scattering;  ///< unless it is_wide; of glossy ones where words are followed
     BsdfValue towards_light;
@@ -134,6 +137,8 @@ class PathWave final : public IntegratorScratch {
     bool scatter_in_medium(const Context& context, std::size_t k);
     /// Takes path `k` through a boundary that another body hides.
     void pass_hidden(const Context& context, std::size_t k);
+    /// Takes path `k` straight through a pane, which is no vertex: light samples pass panes, too.
+    void pass_pane(const Context& context, std::size_t k);
     /// Takes path `k` where the sample of its BSDF says; false if it ends.
     bool scatter_at_surface(const Context& context, std::size_t k);
     /// The same for all paths that are_wide, at once.
@@ -166,6 +171,8 @@ class PathWave final : public IntegratorScratch {
     [[nodiscard]] LightReceiver receiver(std::size_t i) const {
         return receivers_.empty() ? LightReceiver{} : receivers_[i];
     }
+    /// Metres from the vertex that path `i` comes from to where its ray starts, behind panes.
+    [[nodiscard]] float passed(std::size_t i) const { return passed_.empty() ? 0.0f : passed_[i]; }
     /// Shadow rays to the lights that the block has sampled.
     void queue_direct_light(const Context& context, const LaneList& paths, std::uint32_t round);
     void queue_singly(const Context& context, std::size_t k, std::uint32_t round);
@@ -198,6 +205,7 @@ class PathWave final : public IntegratorScratch {
     std::vector<Hit> hits_;
     std::vector<Interior> interiors_;       ///< only if the World has bodies
     std::vector<LightReceiver> receivers_;  ///< where rays start; only if the World chooses lights by that
+    std::vector<float> passed_;             ///< see `passed`; only if the World has panes
     std::vector<WordRange> ranges_;         ///< what they have been so far; only if that is followed
     PathWords words_;
     std::vector<ExpressionShare> shares_;  ///< of the contribution at hand

@@ -187,9 +187,10 @@ void PathWave::add_emission(const Context& context, std::size_t k) {
     if (context.job.profile != nullptr && context.depth > 1) ++context.job.profile->use().bsdf_met_light;
     float weight = 1.0f;
     if (context.options.sample_lights && !paths_.is(path_history::kAfterDelta, i))
-        weight = power_heuristic(paths_.pdf_solid_angle[i],
-                                 context.world.emitter_pdf_solid_angle(receiver(i), point, direction, hits_[i].t) *
-                                     static_cast<float>(light_samples(context, i, path_history::kIsDirect)));
+        weight = power_heuristic(
+            paths_.pdf_solid_angle[i],
+            context.world.emitter_pdf_solid_angle(receiver(i), point, direction, passed(i) + hits_[i].t) *
+                static_cast<float>(light_samples(context, i, path_history::kIsDirect)));
     add_light(i, emitted * weight, words_.surface_source(point));
 }
 

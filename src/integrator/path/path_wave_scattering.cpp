@@ -28,7 +28,8 @@ void PathWave::set_up(const Context& context) {
         }
         const PlainSurface* const plain = block_[k].plain = world.plain_surface(hits_[i]);
         if (plain == nullptr && !set_up_any(context, k)) continue;
-        if (paths_.edges(i) < context.options.lengths.max_depth)
+        if (paths_.edges(i) < context.options.lengths.max_depth ||
+            (plain == nullptr && singles_[k].point.material->is_pane))
             on_surface_.add(k);
         else
             end_path(context, k, PathEnding::TooLong);
@@ -43,6 +44,10 @@ bool PathWave::set_up_any(const Context& context, std::size_t k) {
     if (world.has_bodies() && world.is_boundary(point))
         singles_[k].crossing.emplace(
             InPlace{[&] { return world.crossing(point, interiors_[i], hits_[i], paths_.ray(i), paths_.cone(i)); }});
+    if (point.material->is_pane) {
+        singles_[k].from = receiver(i);
+        singles_[k].passed = passed(i) + hits_[i].t;
+    }
     on_emitter_.add_if(point.material->emits, k);
     if (singles_[k].crossing && singles_[k].crossing->is_hidden) {
         on_hidden_.add(k);
@@ -122,7 +127,9 @@ void PathWave::make_scattering(const Context& context) {
         }
         lanes_.is_glossy.set(k, path.glossy != nullptr ? 1.0f : 0.0f);
         on_gloss_.add_if(path.glossy != nullptr, k);
-        sampling_.add_if(samples_lights && paths_.edges(first_ + k) + 1 >= context.options.lengths.min_depth &&
+        const int edges = paths_.edges(first_ + k) + 1;
+        sampling_.add_if(samples_lights && edges >= context.options.lengths.min_depth &&
+                             edges <= context.options.lengths.max_depth &&
                              (path.is_wide || singles_[k].scattering->has_non_delta()),
                          k);
     }
@@ -259,6 +266,14 @@ bool PathWave::scatter_at_surface(const Context& context, std::size_t k) {
     const BsdfSample& sample = path.sample;
     count_sample(context, k, sample);
     if (is_black(sample.weight)) return false;
+    if (point.material->is_pane && sample.is_delta && sample.is_transmission) {
+        pass_pane(context, k);
+        return true;
+    }
+    if (paths_.edges(i) >= context.options.lengths.max_depth) {
+        end_path(context, k, PathEnding::TooLong);
+        return false;
+    }
     Rgb throughput = paths_.throughput[i] * sample.weight;
     paths_.pdf_solid_angle.set(i, sample.pdf_solid_angle);
     paths_.history.set(i, sample.is_delta ? path_history::after_delta(paths_.history[i])
@@ -312,11 +327,24 @@ bool PathWave::scatter_in_medium(const Context& context, std::size_t k) {
     paths_.alpha_key.set(i, alpha_key(context, k));
     paths_.pdf_solid_angle.set(i, pdf_solid_angle);
     if (!receivers_.empty()) receivers_[i] = position;
+    if (!passed_.empty()) passed_[i] = 0.0f;
     const std::uint32_t history = path_history::after_lobe(paths_.history[i], 0);
     paths_.history.set(i, samples_lights ? history : history | path_history::kAfterDelta);
     if (words_.are_followed()) follow(k, VertexEvent{});
     paths_.set_cone(i, scatter_cone(paths_.cone(i).at(sample.distance), lobe_spread(pdf_solid_angle)));
     return true;
+}
+
+void PathWave::pass_pane(const Context& context, std::size_t k) {
+    const std::size_t i = first_ + k;
+    const SingleShading& path = singles_[k];
+    const SurfacePoint& point = path.point;
+    paths_.throughput.set(i, paths_.throughput[i] * path.sample.weight);
+    paths_.set_cone(i, paths_.cone(i).at(hits_[i].t));
+    paths_.origin.set(i, offset_origin(point.position, point.geometric_normal, point.clearance, paths_.direction[i]));
+    paths_.alpha_key.set(i, alpha_key(context, k));
+    if (!receivers_.empty()) receivers_[i] = path.from;
+    passed_[i] = path.passed;
 }
 
 void PathWave::pass_hidden(const Context& context, std::size_t k) {

@@ -325,6 +325,14 @@ bool SubpathWave::scatter_at_plain(const SubpathJob& job, std::size_t i, const S
 bool SubpathWave::scatter_at_surface(const SubpathJob& job, std::size_t i, const ShadedSubpath& path) {
     const SurfacePoint& point = path.point;
     const BsdfSample& sample = path.sample;
+    if (point.material->is_pane && sample.is_delta && sample.is_transmission && !is_black(sample.weight)) {
+        pass_pane(i, path);
+        return true;
+    }
+    if (path.ends_here) {
+        end_path(job, i, PathEnding::TooLong);
+        return false;
+    }
     if (!scatter(job, i, point.position, sample.weight, sample.is_delta)) return false;
     SubpathState& state = states_[i];
     Ray& ray = rays_[i];
@@ -343,6 +351,16 @@ bool SubpathWave::scatter_at_surface(const SubpathJob& job, std::size_t i, const
     ray.direction = sample.wi;
     if (path.crossing) interiors_[i] = beyond(*path.crossing, point, sample.wi);
     return true;
+}
+
+void SubpathWave::pass_pane(std::size_t i, const ShadedSubpath& path) {
+    SubpathState& state = states_[i];
+    const PathVertex& vertex = vertices_[path.vertex];
+    const SurfacePoint& point = path.point;
+    state.throughput *= path.sample.weight;
+    state.last_vertex = vertex.previous;
+    state.is_direct = vertex.is_reached_directly;
+    rays_[i].origin = offset_origin(point.position, point.geometric_normal, point.clearance, rays_[i].direction);
 }
 
 bool SubpathWave::scatter_in_medium(const SubpathJob& job, std::size_t i) {

@@ -22,7 +22,8 @@ bool SubpathWave::make_vertex(const SubpathJob& job, std::size_t i, ShadedSubpat
         end_path(job, i, PathEnding::Unlit);
         return false;
     }
-    if (state.edges >= job.lengths.max_depth) {
+    path.ends_here = state.edges >= job.lengths.max_depth;
+    if (path.ends_here && !point.material->is_pane) {
         end_path(job, i, PathEnding::TooLong);
         return false;
     }
@@ -44,7 +45,7 @@ bool SubpathWave::make_vertex(const SubpathJob& job, std::size_t i, ShadedSubpat
         vertex.outside = world.medium(crossing ? crossing->outside : interiors_[i]);
         vertex.inside = crossing ? world.medium(crossing->inside) : vertex.outside;
     }
-    if (vertex.is_connectible) list_connectible(state, state.edges + 1);
+    if (vertex.is_connectible && !path.ends_here) list_connectible(state, state.edges + 1);
     if (path.plain != nullptr) {
         if (make_matte_end(job, path, vertex))
             vertex.matte = path.plain;
@@ -52,6 +53,8 @@ bool SubpathWave::make_vertex(const SubpathJob& job, std::size_t i, ShadedSubpat
             vertex.surface.emplace(*path.plain, lanes_.surface(path.lane));
     }
     if (end_ == SubpathEnd::AtEye || state.edges + edges_to_connect(world) <= job.lengths.max_depth) return true;
+    path.ends_here = true;
+    if (point.material->is_pane) return true;
     end_path(job, i, PathEnding::TooLong);
     return false;
 }

@@ -131,7 +131,7 @@ void WhittedWave::shade(const Context& context, std::size_t i) {
         if (is_wanted) found_.add(branch.slot, branch.throughput * world.unlit_color(point), kind_of(branch));
         return;
     }
-    if (branch.edges < context.lengths.max_depth) scatter(context, i, point, crossing);
+    if (branch.edges < context.lengths.max_depth || point.material->is_pane) scatter(context, i, point, crossing);
 }
 
 void WhittedWave::scatter(const Context& context, std::size_t i, const SurfacePoint& point,
@@ -147,11 +147,15 @@ void WhittedWave::scatter(const Context& context, std::size_t i, const SurfacePo
     Bsdf storage;
     const Bsdf& bsdf = world.bsdf(point, wo, crossing ? crossing->relative_ior(wavelength.nm) : 0.0f, storage);
     const Scattering scattering(bsdf, point.shading, point.geometric_normal, wo);
-    if (scattering.has_non_delta() && world.has_lights() && branch.edges + 1 >= context.lengths.min_depth)
+    const bool ends_here = branch.edges >= context.lengths.max_depth;
+    if (!ends_here && scattering.has_non_delta() && world.has_lights() && branch.edges + 1 >= context.lengths.min_depth)
         queue_direct_light(context, i, point, scattering, crossing, wavelength.weight);
 
     std::uint32_t child = 0;
     for (const BsdfSample& delta : scattering.deltas()) {
+        // What goes straight through a pane has no vertex there.
+        const bool passes = point.material->is_pane && delta.is_transmission;
+        if (ends_here && !passes) continue;
         WhittedBranch next = grow(context, i, child++);
         const auto* mirror =
             chooses_wavelength && !delta.is_transmission ? std::get_if<SmoothDielectric>(&bsdf) : nullptr;
@@ -171,7 +175,7 @@ void WhittedWave::scatter(const Context& context, std::size_t i, const SurfacePo
         if (world.has_textures())
             next.cone = scattered_cone(world, hits_[i], point.geometric_normal, branch.ray.direction,
                                        branch.cone.at(hits_[i].t), delta);
-        next.edges = branch.edges + 1;
+        next.edges = branch.edges + (passes ? 0 : 1);
         next.ray.origin = offset_origin(point.position, point.geometric_normal, point.clearance, delta.wi);
         next.ray.direction = delta.wi;
         if (crossing) next.interior = beyond(*crossing, point, delta.wi);

@@ -33,7 +33,7 @@ nlohmann::json& node(GltfBuilder& b) {
 }
 
 void add_camera(GltfBuilder& b, const nlohmann::json& camera) {
-    b.json["cameras"] = {camera};
+    b.json["cameras"] = nlohmann::json::array({camera});
     node(b)["camera"] = 0;
 }
 
