@@ -28,7 +28,8 @@ struct InspectArguments {
 struct Inspection {
     std::string description;
     nlohmann::json summary;
-    Bounds bounds;
+    Bounds bounds;  ///< from `origin`
+    Vec3d origin{0.0};
     std::size_t triangles = 0;
     std::size_t vertices = 0;
     ProblemList problems;
@@ -70,6 +71,7 @@ Inspection inspect(const std::string& path) {
     if (!scene.file.empty()) result.description = dump(scene);
     result.summary = summarize(scene);
     result.bounds = compute_bounds(scene);
+    result.origin = scene.origin;
     for (const MeshDesc& mesh : scene.meshes)
         for (const PrimitiveDesc& primitive : mesh.primitives) {
             result.triangles += primitive.triangles.size();
@@ -93,13 +95,19 @@ Inspection inspect(const std::string& path) {
     return result;
 }
 
+/// A point in the world, in single precision where that is all there is.
+std::string place_text(const Vec3f& point, const Vec3d& origin) {
+    if (origin == Vec3d(0.0)) return fmt::format("({:g} {:g} {:g})", point.x, point.y, point.z);
+    const Vec3d place = Vec3d(point) + origin;
+    return fmt::format("({:.12g} {:.12g} {:.12g})", place.x, place.y, place.z);
+}
+
 void print_text(const Inspection& i) {
     fmt::print("{}", i.description);
     if (i.bounds.empty())
         fmt::print("bounds: none (nothing is placed)\n");
     else
-        fmt::print("bounds: ({:g} {:g} {:g}) to ({:g} {:g} {:g}) metres\n", i.bounds.min.x, i.bounds.min.y,
-                   i.bounds.min.z, i.bounds.max.x, i.bounds.max.y, i.bounds.max.z);
+        fmt::print("bounds: {} to {} metres\n", place_text(i.bounds.min, i.origin), place_text(i.bounds.max, i.origin));
     fmt::print("triangles: {}, vertices: {}\n", i.triangles, i.vertices);
     if (i.world)
         fmt::print(
@@ -116,8 +124,10 @@ void print_text(const Inspection& i) {
     if (i.problems.dropped() > 0) fmt::print("(and {} more problems)\n", i.problems.dropped());
 }
 
-nlohmann::json vector_json(const Vec3f& v) {
-    return {v.x, v.y, v.z};
+nlohmann::json place_json(const Vec3f& point, const Vec3d& origin) {
+    if (origin == Vec3d(0.0)) return {point.x, point.y, point.z};
+    const Vec3d place = Vec3d(point) + origin;
+    return {place.x, place.y, place.z};
 }
 
 void print_json(const Inspection& i) {
@@ -127,7 +137,8 @@ void print_json(const Inspection& i) {
     json["bounds"] = nullptr;
     json["compiled"] = nullptr;
     json["problems"] = nlohmann::json::array();
-    if (!i.bounds.empty()) json["bounds"] = {{"min", vector_json(i.bounds.min)}, {"max", vector_json(i.bounds.max)}};
+    if (!i.bounds.empty())
+        json["bounds"] = {{"min", place_json(i.bounds.min, i.origin)}, {"max", place_json(i.bounds.max, i.origin)}};
     if (i.world)
         json["compiled"] = {{"triangles_as_seen", i.world->instanced_triangles},
                             {"lights", i.world->lights},

@@ -194,8 +194,7 @@ MergedParts merge_parts(std::span<const std::filesystem::path> files,
     std::optional<Checkpoint> merged;
     for (const std::filesystem::path& file : files) {
         Checkpoint part = parts.read(file);
-        if (!merged)
-            merged = {std::move(part.identity), std::move(part.description), nothing_like(part.state, bounds)};
+        if (!merged) merged = {std::move(part.identity), std::move(part.description), nothing_like(part.state, bounds)};
         add(merged->state, part.state, part.state.film.window() == counted);
     }
     const std::uint32_t span = end - merged->state.first_sample;

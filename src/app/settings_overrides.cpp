@@ -165,9 +165,10 @@ void SettingsOverrides::add_options(CLI::App& command) {
         ->check(real_range(1e-3, 1e9));
     command
         .add_option("--error", relative_error,
-                    "Start no new pass once the image's estimated relative error, the root of its relMSE, is at most "
-                    "this: 0.05 is a clean preview, 0.01 a clean image. Pixels get as many samples as they need, --spp "
-                    "at most (docs/adaptive.md). Doubles the memory of the film")
+                    "Start no new pass once the image's estimated relative error is at most this: 0.05 is a clean "
+                    "preview, 0.01 a clean image. It is the root mean square; values below half of the image's own "
+                    "scale count against that (docs/adaptive.md). Pixels get as many samples as they need, --spp at "
+                    "most. Doubles the memory of the film")
         ->check(real_range(1e-6, 1e3));
     add_firefly_options(command);
     add_adaptive_options(command);

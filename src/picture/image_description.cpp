@@ -209,6 +209,17 @@ void require_fitting(const ImageDescription& description, const LayerLayout& lay
         throw std::invalid_argument("it does not have the layer of what a limit took away");
 }
 
+/// Moves by `way`, then transforms by `m`.
+Mat4f after_move(const Vec3d& way, Mat4f m) {
+    if (way == Vec3d(0.0)) return m;
+    for (int column = 0; column < 4; ++column) {
+        double moved = static_cast<double>(m[3][column]);
+        for (int axis = 0; axis < 3; ++axis) moved += way[axis] * static_cast<double>(m[axis][column]);
+        m[3][column] = static_cast<float>(moved);
+    }
+    return m;
+}
+
 }  // namespace
 
 ImageDescription describe_settings(const SceneDesc& scene, const AovPlan& plan) {
@@ -242,8 +253,8 @@ ImageDescription describe_settings(const SceneDesc& scene, const AovPlan& plan) 
 }
 
 void describe_camera(ImageDescription& description, const World& world) {
-    description.frame.world_to_camera = world_to_camera(world.camera());
-    description.frame.world_to_screen = world_to_screen(world.camera());
+    description.frame.world_to_camera = after_move(-world.origin(), world_to_camera(world.camera()));
+    description.frame.world_to_screen = after_move(-world.origin(), world_to_screen(world.camera()));
 }
 
 std::string to_text(const ImageDescription& description) {

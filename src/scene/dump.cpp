@@ -28,6 +28,15 @@ std::string text(const Mat4f& m) {
                        text(Vec3f(m[3][0], m[3][1], m[3][2])));
 }
 
+/// In the world.
+std::string text(const Mat4f& m, const Vec3d& origin) {
+    if (origin == Vec3d(0.0)) return text(m);
+    const auto part = [&](int axis) { return static_cast<double>(m[3][axis]) + origin[axis]; };
+    return fmt::format("x {} y {} z {} origin ({:.12g} {:.12g} {:.12g})", text(Vec3f(m[0][0], m[0][1], m[0][2])),
+                       text(Vec3f(m[1][0], m[1][1], m[1][2])), text(Vec3f(m[2][0], m[2][1], m[2][2])), part(0), part(1),
+                       part(2));
+}
+
 std::string text(const TextureRef& ref) {
     if (!ref.valid()) return "none";
     std::string result = fmt::format("texture {} uv{}", ref.texture.index, ref.texcoord);
@@ -216,7 +225,7 @@ void dump_geometry(const SceneDesc& scene, Out out) {
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
         const InstanceDesc& instance = scene.instances[i];
         fmt::format_to(out, "instance {} \"{}\": mesh {}, {}{}\n", i, instance.name, instance.mesh.index,
-                       text(instance.to_world), text_of_motion(instance.motion.size()));
+                       text(instance.to_world, scene.origin), text_of_motion(instance.motion.size()));
     }
 }
 
@@ -226,7 +235,7 @@ void dump_cameras_and_lights(const SceneDesc& scene, Out out) {
         const bool perspective = c.type == CameraType::Perspective;
         fmt::format_to(out, "camera {} \"{}\": {} {:g}, aspect {:g}, lens radius {:g}, focus {:g}, {}{}\n", i, c.name,
                        perspective ? "perspective yfov" : "orthographic ymag", perspective ? c.yfov : c.ymag,
-                       c.aspect_ratio, c.lens_radius, c.focus_distance, text(c.to_world),
+                       c.aspect_ratio, c.lens_radius, c.focus_distance, text(c.to_world, scene.origin),
                        text_of_motion(c.motion.size()));
     }
     for (std::size_t i = 0; i < scene.ies_profiles.size(); ++i) {
@@ -242,7 +251,7 @@ void dump_cameras_and_lights(const SceneDesc& scene, Out out) {
             fmt::format_to(out, " cone {:g} to {:g}", light.inner_cone_angle, light.outer_cone_angle);
         }
         if (light.profile) fmt::format_to(out, " times IES profile {}", light.profile.index);
-        fmt::format_to(out, ", {}\n", text(light.to_world));
+        fmt::format_to(out, ", {}\n", text(light.to_world, scene.origin));
     }
     const EnvironmentDesc& e = scene.environment;
     if (!e.enabled) return;

@@ -3,6 +3,7 @@
 
 #include "core/bounds.h"
 #include "core/error.h"
+#include "core/vec.h"
 #include "scene/camera_desc.h"
 #include "scene/light_desc.h"
 #include "scene/material_desc.h"
@@ -21,6 +22,10 @@ struct SceneDesc {
     std::string name;                 ///< of the scene directory or file, without extension
     std::filesystem::path directory;  ///< nothing outside of it is read, but for files the command line names
     std::filesystem::path file;       ///< the scene file
+
+    /// Where in the world this description has its origin, metres: all transforms and skinned vertices in it are
+    /// relative to it, so that single precision is enough for a scene that lies far from the world's origin.
+    Vec3d origin{0.0};
 
     std::vector<ImageDesc> images;
     std::vector<TextureDesc> textures;
@@ -53,8 +58,13 @@ void apply_variant(SceneDesc& scene);
 /// Human-readable text with everything but the bulk arrays, for `inspect` and for tests to compare.
 [[nodiscard]] std::string dump(const SceneDesc& scene);
 
-/// World-space bounds of all instances.
+/// Bounds of all instances, from the scene's origin.
 [[nodiscard]] Bounds compute_bounds(const SceneDesc& scene);
+
+/// Where the description of a scene with these bounds in the world should have its origin: in the world's, unless the
+/// bounds are more than 64 times their size away from it. Then it is near their centre, at a multiple of a power of two
+/// that is no less than twice their size: a scene that is moved by round numbers stays the same to the bit.
+[[nodiscard]] Vec3d choose_origin(const Bounds& bounds);
 
 /// Adds a camera that frames the bounding box if there is none, and a neutral constant environment if nothing emits
 /// light. Each addition is reported to `problems` as a note.

@@ -87,7 +87,6 @@ class SurfaceSums {
     [[nodiscard]] double volume() const { return volume_; }
 
   private:
-    using Vec3d = Imath::Vec3<double>;
     /// Two ends of a seam that lie in different cells of one do not in another.
     static constexpr std::size_t kGrids = 4;
 

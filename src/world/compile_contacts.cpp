@@ -19,8 +19,6 @@ namespace etendue {
 
 namespace {
 
-using Vec3d = Imath::Vec3<double>;
-
 /// A triangle of an instance in world space, in the middle of the shutter.
 struct PlacedTriangle {
     std::array<Vec3d, 3> p;

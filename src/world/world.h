@@ -119,6 +119,7 @@ struct WorldData {
     std::vector<std::uint32_t> filling_of_body;  ///< bodies by precedence, the first first
     std::vector<std::uint32_t> body_of_slot;     ///< body of (instance, geometry), or kNone; empty without bodies
     Bounds bounds;
+    Vec3d origin{0.0};  ///< in the world that the scene's file describes; all else is relative to it
     std::unique_ptr<EmbreeScene> bvh;
     std::unique_ptr<EmbreeScene> panes;  ///< for `collect`; null if there are none
     std::unique_ptr<Contacts> contacts;  ///< null if no surfaces touch for which that matters
@@ -382,6 +383,8 @@ class World {
     [[nodiscard]] LightSample sample_environment(const Vec3f& point, Vec2f u) const;
     [[nodiscard]] bool environment_visible_to_camera() const { return data_->environment_visible; }
 
+    /// SceneDesc::origin.
+    [[nodiscard]] const Vec3d& origin() const { return data_->origin; }
     /// In the middle of the shutter.
     [[nodiscard]] const Camera& camera() const { return data_->camera; }
     /// False if numbers for a point on the lens mean nothing.

@@ -1,10 +1,12 @@
 // When a render ends for the error that its image has, and whether that error is what is said.
+#include "film/error_estimate.h"
 #include "render/render.h"
 #include "render/render_test_scene.h"
 
 #include <atomic>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -65,13 +67,15 @@ TEST(RelativeError, NoRenderEndsBeforeItIsKnownHoweverLargeTheLimit) {
     }
 }
 
-/// The square root of relMSE, as `etendue diff` has it.
-double measured_error(const std::vector<float>& image, const std::vector<float>& reference) {
+/// The root of the mean squared relative error; what is darker than half of the reference's scale, by that.
+double measured_error(const std::vector<float>& image, const Film& truth_film) {
+    const std::vector<float> reference = truth_film.resolve();
+    const double dark = std::pow(0.5 * image_scale(truth_film), 2.0);
     double sum = 0.0;
     for (std::size_t i = 0; i < image.size(); ++i) {
         if (i % 4 == 3) continue;  // alpha
         const auto truth = static_cast<double>(reference[i]);
-        sum += std::pow(static_cast<double>(image[i]) - truth, 2.0) / (truth * truth + 0.01);
+        sum += std::pow(static_cast<double>(image[i]) - truth, 2.0) / (truth * truth + dark);
     }
     return std::sqrt(sum / (0.75 * static_cast<double>(image.size())));
 }
@@ -85,7 +89,7 @@ TEST(RelativeError, IsThatOfALongReferenceForLightSubpaths) {
     RenderOptions options = options_for(40, 25, 4096);
     options.sequence = SampleSequence::Random;
     options.seed = 99;
-    const std::vector<float> reference = render_now(world, "light", options, 2).film.resolve();
+    const Film reference = render_now(world, "light", options, 2).film;
     options.spp = 256;
     double estimate = 0.0;
     double error = 0.0;
@@ -96,6 +100,71 @@ TEST(RelativeError, IsThatOfALongReferenceForLightSubpaths) {
         error += measured_error(result.film.resolve(), reference) / kSeeds;
     }
     EXPECT_NEAR(estimate, error, 0.1 * error);
+}
+
+/// Multiplies all light by `factor`.
+SceneDesc dimmed(SceneDesc scene, float factor) {
+    for (MaterialDesc& material : scene.materials) material.emissive_strength *= factor;
+    for (LightDesc& light : scene.lights) light.intensity *= factor;
+    scene.environment.color = scene.environment.color * factor;
+    return scene;
+}
+
+// Light is linear. A power of two changes no bit of any number but its exponent.
+TEST(RelativeError, TakesAsManySamplesWhateverTheUnitOfLight) {
+    for (const char* integrator : {"path", "bdpt"}) {
+        const auto samples = [&](float factor) {
+            const World world = compile(dimmed(busy_scene(kEstimateWidth, kEstimateHeight), factor));
+            RenderOptions options = options_for(kEstimateWidth, kEstimateHeight, 4096);
+            options.relative_error = 0.07;
+            options.adaptive = true;
+            const RenderResult result = render_with_estimate(world, integrator, options);
+            EXPECT_EQ(result.halt_reason, HaltReason::ErrorReached);
+            EXPECT_GT(result.counters.samples, 52u * options.window.area()) << "something was decided";
+            return result.adaptive.samples;
+        };
+        const std::vector<std::uint32_t> bright = samples(1.0f);
+        EXPECT_EQ(samples(0x1p-10f), bright) << integrator;
+        const auto sum = [](const std::vector<std::uint32_t>& all) {
+            return std::accumulate(all.begin(), all.end(), 0.0);
+        };
+        EXPECT_NEAR(sum(samples(1e-3f)), sum(bright), 0.05 * sum(bright)) << integrator;
+    }
+}
+
+// A lamp that paths meet by chance only, once in 800 samples: after 48 samples 19 of 20 pixels are black.
+TEST(RelativeError, WaitsForLightThatComesSeldom) {
+    SceneDesc scene = empty_scene();
+    add_object(scene, quad({0, 0, -1}, {2, 0, 0}, {0, 2, 0}), add_material(scene, diffuse(Rgb(0.5f))));
+    add_object(scene, quad({0, 0, 0.01f}, {0.03f, 0, 0}, {0, -0.03f, 0}), add_material(scene, emissive(Rgb(8.0f))));
+    const World world = compile(scene);
+    const auto mean = [](const Film& film) {
+        double sum = 0.0;
+        for (const PixelSum& p : film.sums()) sum += p.r / p.weight / static_cast<double>(film.sums().size());
+        return sum;
+    };
+    const double expected = mean(render_now(world, "path", options_for(16, 16, 64), 2).film);
+    RenderOptions options = options_for(16, 16, 1u << 20);
+    for (const bool adaptive : {false, true}) {
+        options.relative_error = 0.3;
+        options.adaptive = adaptive;
+        const RenderResult result = render_with_estimate(world, "naive", options);
+        EXPECT_EQ(result.halt_reason, HaltReason::ErrorReached);
+        // 1 / 0.3² hits in each of 256 pixels: four deviations of their sum are 8%.
+        EXPECT_NEAR(mean(result.film), expected, 0.08 * expected) << adaptive;
+    }
+}
+
+TEST(RelativeError, ABlackImageEndsAfterAWhile) {
+    const World world = compile(empty_scene());
+    RenderOptions options = options_for(16, 16, 1u << 20);
+    options.relative_error = 0.1;
+    for (const char* integrator : {"path", "bdpt", "light"}) {
+        const RenderResult result = render_with_estimate(world, integrator, options);
+        EXPECT_EQ(result.halt_reason, HaltReason::ErrorReached) << integrator;
+        EXPECT_GE(result.spp_done, 100u) << integrator << ": 1 / 0.1²";
+        EXPECT_LE(result.spp_done, 116u) << integrator << ": no more than a pass beyond";
+    }
 }
 
 }  // namespace

@@ -32,6 +32,16 @@ TEST(Dump, DiffersWhenTheSceneDoes) {
     EXPECT_NE(dump(scene), before);
 }
 
+TEST(Dump, SaysWhereThingsAreInTheWorld) {
+    SceneDesc scene = small_scene();
+    scene.origin = {5e6, 0.0, -250000.0};
+    scene.instances[0].to_world[3][0] = 0.125f;
+    scene.cameras[0].to_world[3][2] = 3.0f;
+    const std::string text = dump(scene);
+    EXPECT_NE(text.find("origin (5000000.125 0 -250000)"), std::string::npos) << text;
+    EXPECT_NE(text.find("-249997)"), std::string::npos) << text;
+}
+
 TEST(Dump, NamesWhatDecidesHowTexturesAreRead) {
     SceneDesc scene = small_scene();
     EXPECT_EQ(dump(scene).find("texture memory"), std::string::npos);

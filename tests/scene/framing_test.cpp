@@ -2,6 +2,7 @@
 #include "scene/small_scene.h"
 
 #include <array>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -25,6 +26,22 @@ TEST(ComputeBounds, CoversAllInstances) {
     const Bounds bounds = compute_bounds(scene);
     EXPECT_EQ(bounds.min, Vec3f(0, -2, 0));
     EXPECT_EQ(bounds.max, Vec3f(11, 1, 0));
+}
+
+TEST(ChooseOrigin, IsTheWorldsForWhatIsNear) {
+    EXPECT_EQ(choose_origin({}), Vec3d(0.0));
+    EXPECT_EQ(choose_origin({Vec3f(-1.0f), Vec3f(1.0f)}), Vec3d(0.0));
+    EXPECT_EQ(choose_origin({Vec3f(125.0f), Vec3f(127.0f)}), Vec3d(0.0)) << "63 times its size away";
+    const float infinite = std::numeric_limits<float>::infinity();
+    EXPECT_EQ(choose_origin({Vec3f(-infinite), Vec3f(infinite)}), Vec3d(0.0));
+}
+
+TEST(ChooseOrigin, IsARoundPlaceNearWhatIsFar) {
+    EXPECT_EQ(choose_origin({Vec3f(129.0f, 0.0f, -1.0f), Vec3f(131.0f, 0.5f, 1.0f)}), Vec3d(132, 0, 0));
+    EXPECT_EQ(choose_origin({Vec3f(4999999, -4, 99), Vec3f(5000002, -1, 102)}), Vec3d(5e6, 0, 104));
+    // A triangle that single precision has made a point.
+    const Vec3f far(0x1p40f, 0.0f, 0.0f);
+    EXPECT_EQ(choose_origin({far, far}), Vec3d(far));
 }
 
 TEST(ComputeBounds, IgnoresWhatDoesNotExist) {

@@ -54,6 +54,7 @@ TEST(Validate, AcceptsLightsWithAProfile) {
 }
 
 const Defect kDefects[] = {
+    {"OriginNan", "origin is not finite", [](SceneDesc& s) { s.origin.y = static_cast<double>(kNan); }},
     {"NodeMissing", "node 3 does not exist", [](SceneDesc& s) { s.instances[0].node = 3; }},
     {"NodeBeforeItsParent", "node 0 stands before its parent",
      [](SceneDesc& s) {

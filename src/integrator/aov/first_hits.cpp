@@ -43,8 +43,11 @@ class FirstHit {
         switch (value) {
             case FirstHitValue::Depth:
                 return put({world_.depth(point_.position, ray_.time)});
-            case FirstHitValue::Position:
-                return put({point_.position.x, point_.position.y, point_.position.z});
+            case FirstHitValue::Position: {
+                Vec3f position = point_.position;
+                if (world_.origin() != Vec3d(0.0)) position = Vec3f(Vec3d(position) + world_.origin());
+                return put({position.x, position.y, position.z});
+            }
             case FirstHitValue::Normal:
                 return put_normal(point_.shading.normal);
             case FirstHitValue::GeometricNormal:

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <set>
@@ -249,6 +250,39 @@ class Placer {
     std::map<std::string, int> last_number_;  ///< by name, so that finding a free one does not start over
 };
 
+/// How much of everything that nodes place a scene has.
+class PlacedCounts {
+  public:
+    explicit PlacedCounts(const SceneDesc& scene)
+        : meshes_(scene.meshes.size()),
+          nodes_(scene.nodes.size()),
+          instances_(scene.instances.size()),
+          cameras_(scene.cameras.size()),
+          ies_profiles_(scene.ies_profiles.size()),
+          lights_(scene.lights.size()) {}
+
+    /// Removes what has been placed since.
+    void restore(SceneDesc& scene) const {
+        const auto keep = [](auto& things, std::size_t count) {
+            things.erase(things.begin() + static_cast<std::ptrdiff_t>(count), things.end());
+        };
+        keep(scene.meshes, meshes_);
+        keep(scene.nodes, nodes_);
+        keep(scene.instances, instances_);
+        keep(scene.cameras, cameras_);
+        keep(scene.ies_profiles, ies_profiles_);
+        keep(scene.lights, lights_);
+    }
+
+  private:
+    std::size_t meshes_;
+    std::size_t nodes_;
+    std::size_t instances_;
+    std::size_t cameras_;
+    std::size_t ies_profiles_;
+    std::size_t lights_;
+};
+
 }  // namespace
 
 void read_nodes(const GltfDocument& document, AccessorReader& accessors, std::span<const MeshDeformation> deformations,
@@ -265,12 +299,25 @@ void read_nodes(const GltfDocument& document, AccessorReader& accessors, std::sp
     for (const Problem& problem : structure.all()) problems.add(problem);
     if (structure.has_errors()) return;
 
-    const PosedNodes nodes(document, roots, parents, animation, settings, accessors, problems);
-    MeshDeformer deformer(document, accessors, deformations, nodes, scene, problems);
-    Placer placer(document, accessors, deformer, nodes, scene, problems);
-    placer.add_nodes(parents);
-    for (const PlacedNode& placed : nodes.placed()) placer.place(placed);
-    placer.report_moving_lights();
+    PosedNodes nodes(document, roots, parents, animation, settings, accessors, problems);
+    const auto place_all = [&] {
+        MeshDeformer deformer(document, accessors, deformations, nodes, scene, problems);
+        Placer placer(document, accessors, deformer, nodes, scene, problems);
+        placer.add_nodes(parents);
+        for (const PlacedNode& placed : nodes.placed()) placer.place(placed);
+        placer.report_moving_lights();
+    };
+    const PlacedCounts counts(scene);
+    const ProblemList before = problems;
+    place_all();
+    // Only what is placed shows whether it is far away. If so, nothing of it is precise, and all is placed anew.
+    if (const Vec3d origin = choose_origin(compute_bounds(scene)); origin != Vec3d(0.0) && !problems.has_errors()) {
+        counts.restore(scene);
+        problems = before;
+        scene.origin = origin;
+        nodes.move_origin(origin);
+        place_all();
+    }
     if (scene.instances.empty()) problems.warning(document.at(""), "the scene shows no triangles");
 }
 

@@ -137,6 +137,16 @@ PosedNodes::PosedNodes(const GltfDocument& document, std::span<const int> roots,
         pose_steps(animated_roots(parents), *animation, seconds + shutter.open, seconds + shutter.close, accessors);
 }
 
+void PosedNodes::move_origin(const Vec3d& origin) {
+    const auto move = [&](Mat4d& m) {
+        for (int axis = 0; axis < 3; ++axis) m[3][axis] -= origin[axis];
+    };
+    for (PlacedNode& placed : placed_) move(placed.to_world);
+    for (std::optional<Mat4d>& to_world : to_world_)
+        if (to_world) move(*to_world);
+    for (std::vector<Mat4d>& steps : motion_) std::ranges::for_each(steps, move);
+}
+
 const NodePose& PosedNodes::pose_of(const NodePoses& poses, int node) {
     static const NodePose kAtRest;
     const auto found = poses.find(node);

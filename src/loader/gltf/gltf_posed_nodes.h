@@ -36,6 +36,9 @@ class PosedNodes {
                const AnimationSampler* animation, const RenderSettings& settings, AccessorReader& accessors,
                ProblemList& problems);
 
+    /// Takes all places from `origin` instead of the world's.
+    void move_origin(const Vec3d& origin);
+
     /// Depth first.
     [[nodiscard]] std::span<const PlacedNode> placed() const { return placed_; }
     /// Nothing for nodes that the scene does not show.

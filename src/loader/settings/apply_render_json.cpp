@@ -146,6 +146,8 @@ void apply_camera(const RenderJson& json, SceneDesc& scene, ProblemList& problem
                            fmt::format("the scene already has a camera '{}'", shown(json.camera->name)));
         }
         scene.cameras.push_back(*json.camera);
+        if (scene.origin != Vec3d(0.0) && !problems.has_errors())
+            aim(json.camera_aim, scene.origin, scene.cameras.back());
     }
     // Whichever camera is chosen in the end, by name, by default or on the command line.
     for (CameraDesc& camera : scene.cameras) {

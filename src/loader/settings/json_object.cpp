@@ -155,6 +155,16 @@ bool JsonObject::vector(std::string_view key, Vec3f& out) {
     return true;
 }
 
+bool JsonObject::vector(std::string_view key, Vec3d& out) {
+    const Json* value = member(key);
+    if (value == nullptr || !check_array(*value, at(key), 3, "numbers")) return false;
+    Vec3d components;
+    for (std::size_t i = 0; i < 3; ++i)
+        if (!read_number(&(*value)[i], element_at(key, i), kAnyNumber, components[static_cast<int>(i)])) return false;
+    out = components;
+    return true;
+}
+
 void JsonObject::report_unknown_name(const SourceLocation& where, std::string_view name,
                                      std::span<const std::string_view> known) {
     problems_.error(where, fmt::format("unknown name '{}'; {}", shown(name), name_hint(name, known)));

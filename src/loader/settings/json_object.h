@@ -47,6 +47,7 @@ class JsonObject {
     bool number(std::string_view key, const NumberRange& range, double& out);
     bool color(std::string_view key, const NumberRange& range, Rgb& out);
     bool vector(std::string_view key, Vec3f& out);
+    bool vector(std::string_view key, Vec3d& out);
 
     template <typename Integer>
     bool integer(std::string_view key, std::int64_t min, std::int64_t max, Integer& out) {

@@ -104,50 +104,39 @@ EnvironmentDesc read_environment(const Json& value, const SourceLocation& where,
     return result;
 }
 
-/// Sets the camera's transform so that it looks from `position` to `look_at`.
-void aim(CameraDesc& camera, const Vec3f& position, const Vec3f& look_at, const Vec3f& up, JsonObject& object) {
-    const Vec3f back = position - look_at;
-    const Vec3f right = cross(up, back);
+/// False, and an error, if there is no such view.
+bool check_aim(const CameraAim& aim, JsonObject& object) {
+    const Vec3f back(aim.position - aim.look_at);
+    const Vec3f right = cross(aim.up, back);
     if (!(length_squared(back) > 0.0f) || !is_finite(back)) {
         object.problems().error(object.at("look_at"), "must differ from position");
-        return;
+        return false;
     }
-    if (!(length_squared(right) > 1e-12f * length_squared(up) * length_squared(back))) {
+    if (!(length_squared(right) > 1e-12f * length_squared(aim.up) * length_squared(back))) {
         object.problems().error(object.at("up"), "must not be zero or parallel to the viewing direction");
-        return;
+        return false;
     }
-    const Vec3f z = normalize(back);
-    const Vec3f x = normalize(right);
-    const Vec3f y = cross(z, x);
-    camera.to_world =
-        Mat4f(x.x, x.y, x.z, 0.0f, y.x, y.y, y.z, 0.0f, z.x, z.y, z.z, 0.0f, position.x, position.y, position.z, 1.0f);
+    return true;
 }
 
-CameraDesc read_camera(const Json& value, const SourceLocation& where, ProblemList& problems) {
+CameraDesc read_camera(const Json& value, const SourceLocation& where, CameraAim& view, ProblemList& problems) {
     CameraDesc camera;
     camera.name = "render.json";
     camera.location = where;
     JsonObject object(value, where, problems);
     object.text("name", camera.name);
     object.choice("type", kNamedCameraTypes, camera.type);
-    Vec3f position(0.0f);
-    Vec3f look_at(0.0f);
-    Vec3f up(0.0f, 1.0f, 0.0f);
     for (const std::string_view key : {"position", "look_at"}) {
         if (!object.has(key)) problems.error(where, fmt::format("'{}' is missing", key));
     }
-    const bool has_position = object.vector("position", position);
-    const bool has_look_at = object.vector("look_at", look_at);
-    object.vector("up", up);
+    const bool has_position = object.vector("position", view.position);
+    const bool has_look_at = object.vector("look_at", view.look_at);
+    object.vector("up", view.up);
     object.number("yfov", kFieldOfView, camera.yfov);
     object.number("ymag", kPositive, camera.ymag);
     object.number("lens_radius", kNotNegative, camera.lens_radius);
-    if (has_position && has_look_at) {
-        aim(camera, position, look_at, up, object);
-        const float distance = length(look_at - position);
-        if (distance > 0.0f) camera.focus_distance = distance;
-    }
-    object.number("focus_distance", kPositive, camera.focus_distance);
+    view.focuses = !object.number("focus_distance", kPositive, camera.focus_distance);
+    if (has_position && has_look_at && check_aim(view, object)) aim(view, Vec3d(0.0), camera);
     object.finish();
     return camera;
 }
@@ -253,7 +242,7 @@ void read_camera_member(JsonObject& object, RenderJson& out) {
     const Json* member = object.member("camera");
     if (member == nullptr) return;
     if (member->is_object()) {
-        out.camera = read_camera(*member, object.at("camera"), object.problems());
+        out.camera = read_camera(*member, object.at("camera"), out.camera_aim, object.problems());
         out.settings.camera = out.camera->name;
     } else if (member->is_string()) {
         object.text("camera", out.settings.camera);
@@ -391,6 +380,19 @@ void read_document(const Json& value, ProblemList& problems, RenderJson& out) {
 }
 
 }  // namespace
+
+void aim(const CameraAim& aim, const Vec3d& origin, CameraDesc& camera) {
+    const Vec3f position(aim.position - origin);
+    Vec3f back = position - Vec3f(aim.look_at - origin);
+    // So near each other that rounding has made them one.
+    if (!(length_squared(back) > 0.0f)) back = Vec3f(aim.position - aim.look_at);
+    if (aim.focuses) camera.focus_distance = length(back);
+    const Vec3f z = normalize(back);
+    const Vec3f x = normalize(cross(aim.up, back));
+    const Vec3f y = cross(z, x);
+    camera.to_world =
+        Mat4f(x.x, x.y, x.z, 0.0f, y.x, y.y, y.z, 0.0f, z.x, z.y, z.z, 0.0f, position.x, position.y, position.z, 1.0f);
+}
 
 RenderJson read_render_json(const std::filesystem::path& file, std::string_view given, ProblemList& problems) {
     RenderJson result;

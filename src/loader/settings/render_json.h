@@ -32,10 +32,23 @@ struct LightOverride {
     SourceLocation location;
 };
 
+/// Where a camera stands and looks, in the world.
+struct CameraAim {
+    Vec3d position{0.0};
+    Vec3d look_at{0.0};
+    Vec3f up{0.0f, 1.0f, 0.0f};
+    bool focuses = true;  ///< on `look_at`: the document gives no other distance
+};
+
+/// Sets the transform of `camera`, and its focus if that is at `look_at`, which must differ from `position`, for a
+/// scene with this origin.
+void aim(const CameraAim& aim, const Vec3d& origin, CameraDesc& camera);
+
 struct RenderJson {
     std::string scene;                           ///< file name; empty for the only one
     RenderSettings settings;                     ///< `camera` is the name chosen
     std::optional<CameraDesc> camera;            ///< described here; chosen too
+    CameraAim camera_aim;                        ///< of that
     std::optional<float> lens_radius;            ///< of whichever camera is chosen
     std::optional<float> focus_distance;         ///< the same
     std::optional<EnvironmentDesc> environment;  ///< its image not yet resolved

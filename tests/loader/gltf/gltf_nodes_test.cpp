@@ -71,6 +71,53 @@ TEST(Nodes, AreKeptWithTheirParents) {
     EXPECT_NE(dump(loaded.scene).find("node 2 \"leaf\" below node 1 \"middle\""), std::string::npos);
 }
 
+TEST(Nodes, ThatAreFarAwayAreRelativeToAnOriginNearThem) {
+    GltfBuilder builder = with_nodes({{{"children", {1, 2}}, {"translation", {5000000, 0, -400000.3}}},
+                                      {{"mesh", 0}, {"translation", {0.125, 0.25, 0}}},
+                                      {{"camera", 0}, {"translation", {0, 0, 4.1}}}});
+    auto& json = builder.json;
+    json["nodes"][2]["extensions"] = {{"KHR_lights_punctual", {{"light", 0}}}};
+    json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.8}, {"znear", 0.1}}}}};
+    json["extensionsUsed"] = {"KHR_lights_punctual"};
+    json["extensions"] = {{"KHR_lights_punctual", {{"lights", {{{"type", "point"}}}}}}};
+    const LoadedScene loaded = builder.load();
+    const SceneDesc& scene = loaded.scene;
+    EXPECT_TRUE(loaded.problems.all().empty()) << listing(loaded.problems);
+    EXPECT_EQ(scene.origin, Vec3d(5e6, 0, -4e5));
+    ASSERT_EQ(scene.instances.size(), 1u) << "what was placed first is gone";
+    ASSERT_EQ(scene.cameras.size(), 1u);
+    ASSERT_EQ(scene.lights.size(), 1u);
+    EXPECT_EQ(scene.nodes.size(), 3u);
+    EXPECT_LT(length(origin(scene.instances[0].to_world) - Vec3f(0.125f, 0.25f, -0.3f)), 1e-7f);
+    EXPECT_LT(length(origin(scene.cameras[0].to_world) - Vec3f(0, 0, 3.8f)), 1e-6f);
+    EXPECT_LT(length(origin(scene.lights[0].to_world) - Vec3f(0, 0, 3.8f)), 1e-6f);
+    EXPECT_EQ(scene.cameras[0].name, "camera") << "and free again";
+}
+
+TEST(Nodes, ThatCancelEachOtherAreNotFarAway) {
+    const LoadedScene loaded = with_nodes({{{"children", {1}}, {"translation", {1e8, 0, 0}}},
+                                           {{"mesh", 0}, {"translation", {-99999999.75, 0, 0}}}})
+                                   .load();
+    EXPECT_EQ(loaded.scene.origin, Vec3d(0.0));
+    EXPECT_EQ(origin(loaded.scene.instances.at(0).to_world), Vec3f(0.25f, 0, 0));
+}
+
+TEST(Nodes, OfASkinMayBeFarAway) {
+    GltfBuilder builder = with_nodes({{{"mesh", 0}, {"skin", 0}}, {{"translation", {5000000, 0.25, 0}}}}, {0, 1});
+    auto& json = builder.json;
+    auto& attributes = json["meshes"][0]["primitives"][0]["attributes"];
+    attributes["JOINTS_0"] = builder.accessor(std::vector<std::uint8_t>(12, 0), "VEC4", 5121, 3);
+    attributes["WEIGHTS_0"] = builder.floats({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, 4);
+    json["skins"] = {{{"joints", {1}}}};
+    const LoadedScene loaded = builder.load();
+    EXPECT_EQ(loaded.scene.origin, Vec3d(5e6, 0, 0));
+    const SceneDesc& scene = loaded.scene;
+    ASSERT_EQ(scene.instances.size(), 1u) << listing(loaded.problems);
+    ASSERT_EQ(scene.meshes.size(), 2u) << "deformed once in the end";
+    EXPECT_EQ(scene.instances[0].to_world, Mat4f());
+    EXPECT_EQ(scene.meshes[1].primitives.at(0).positions.at(1), Vec3f(1, 0.25f, 0));
+}
+
 TEST(Nodes, RotationsAreNormalised) {
     const LoadedScene loaded = with_nodes({{{"mesh", 0}, {"rotation", {0, 0, 0, 5}}}}).load();
     EXPECT_EQ(loaded.scene.instances.at(0).to_world, Mat4f());

@@ -21,13 +21,14 @@ Parsed parse(const std::string& text) {
 }
 
 /// A triangle of material "paper" lit by a light "lamp" and seen by a camera "main", with this render.json.
-LoadedScene load_with(const std::string& text) {
+LoadedScene load_with(const std::string& text, const nlohmann::json& translation = {0, 0, 0}) {
     GltfBuilder builder;
     builder.add_triangle()["material"] = 0;
     builder.json["materials"] = {{{"name", "paper"}, {"emissiveFactor", {1, 1, 1}}}};
     builder.json["cameras"] = {
         {{"type", "perspective"}, {"name", "main"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.1}}}}};
     builder.json["nodes"][0]["camera"] = 0;
+    builder.json["nodes"][0]["translation"] = translation;
     builder.json["nodes"][0]["extensions"] = {{"KHR_lights_punctual", {{"light", 0}}}};
     builder.json["extensions"]["KHR_lights_punctual"]["lights"] = {
         {{"type", "point"}, {"name", "lamp"}, {"intensity", 10}}};
@@ -140,6 +141,17 @@ TEST(RenderJson, CameraObjectIsAddedAndChosen) {
     EXPECT_NEAR(camera.to_world[1][1], 1.0f, 1e-6f);
     EXPECT_NEAR(camera.to_world.determinant(), 1.0f, 1e-6f);
     EXPECT_EQ(camera.to_world[3][0], 3.0f);
+}
+
+TEST(RenderJson, CameraObjectMayBeFarAway) {
+    const LoadedScene loaded =
+        load_with(R"({"camera": {"position": [5000000.3, 0, 0], "look_at": [5000000.1, 0, 0]}})", {5000000, 0, 0});
+    ASSERT_EQ(loaded.scene.cameras.size(), 2u) << listing(loaded.problems);
+    EXPECT_EQ(loaded.scene.origin, Vec3d(5e6, 0, 0));
+    const CameraDesc& camera = loaded.scene.cameras[1];
+    EXPECT_NEAR(camera.to_world[3][0], 0.3f, 1e-7f);
+    EXPECT_NEAR(camera.to_world[2][0], 1.0f, 1e-6f);
+    EXPECT_NEAR(camera.focus_distance, 0.2f, 1e-7f);
 }
 
 TEST(RenderJson, CameraThatCannotBeAimedIsAnError) {
