@@ -1,7 +1,6 @@
 #include "world/compile_parts.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -10,6 +9,7 @@
 #include <string>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 namespace etendue {
 
@@ -72,19 +72,21 @@ class SurfaceSums {
     explicit SurfaceSums(const Bounds& bounds)
         : origin_(in_double(bounds.min)), cell_(1e-4 * static_cast<double>(length(bounds.size()))) {}
 
-    void add(const Geometry& geometry) {
-        for (const auto& triangle : geometry.triangles) {
-            const Vec3d p[3] = {corner(geometry, triangle[0]), corner(geometry, triangle[1]),
-                                corner(geometry, triangle[2])};
-            volume_ += p[0].dot(p[1].cross(p[2])) / 6.0;
-            for (std::size_t grid = 0; grid < kGrids; ++grid)
-                for (std::size_t i = 0; i < 3; ++i) add_edge(key(p[i], grid), key(p[(i + 1) % 3], grid), edges_[grid]);
-        }
-    }
+    void add(const Geometry& geometry) { parts_.push_back(&geometry); }
     /// True if every edge is passed as often in one direction as in the other, but for a chance of 2⁻⁶⁴.
-    [[nodiscard]] bool is_closed() const { return std::ranges::count(edges_, 0u) > 0; }
+    [[nodiscard]] bool is_closed() const {
+        for (std::size_t grid = 0; grid < kGrids; ++grid)
+            if (edge_sum(grid) == 0) return true;
+        return false;
+    }
     /// Of a closed surface, in its own space; negative if its fronts are inside.
-    [[nodiscard]] double volume() const { return volume_; }
+    [[nodiscard]] double volume() const {
+        double volume = 0.0;
+        for (const Geometry* part : parts_)
+            for (const auto& [a, b, c] : part->triangles)
+                volume += corner(*part, a).dot(corner(*part, b).cross(corner(*part, c))) / 6.0;
+        return volume;
+    }
 
   private:
     /// Two ends of a seam that lie in different cells of one do not in another.
@@ -111,6 +113,17 @@ class SurfaceSums {
         x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
         return x ^ (x >> 31);
     }
+    [[nodiscard]] std::uint64_t edge_sum(std::size_t grid) const {
+        std::uint64_t sum = 0;
+        std::vector<std::uint64_t> keys;
+        for (const Geometry* part : parts_) {
+            keys.clear();
+            for (std::uint32_t v = 0; v < part->positions.size(); ++v) keys.push_back(key(corner(*part, v), grid));
+            for (const auto& triangle : part->triangles)
+                for (std::size_t i = 0; i < 3; ++i) add_edge(keys[triangle[i]], keys[triangle[(i + 1) % 3]], sum);
+        }
+        return sum;
+    }
     static void add_edge(std::uint64_t from, std::uint64_t to, std::uint64_t& sum) {
         if (from < to)
             sum += mixed(mixed(from) ^ to);
@@ -120,8 +133,7 @@ class SurfaceSums {
 
     Vec3d origin_;
     double cell_;
-    double volume_ = 0.0;
-    std::array<std::uint64_t, kGrids> edges_{};
+    std::vector<const Geometry*> parts_;
 };
 
 /// Warns of bodies whose inside is not known, once for each mesh.

@@ -1,6 +1,7 @@
 #include "world/contacts.h"
 
 #include "core/position_error.h"
+#include "core/vector_bytes.h"
 #include "world/surface_point.h"
 #include "world/triangle_point.h"
 #include "world/world.h"
@@ -87,16 +88,43 @@ std::uint32_t body_of(const WorldData& data, const Hit& hit) {
     return data.body_of_slot.empty() ? kNone : data.body_of_slot[slot_of(data, hit)];
 }
 
-Contacts::Contacts(const WorldData& data, std::vector<float> reach, std::span<const HitFilter> filters,
+void ContactSlot::add(const Bounds& place) {
+    const auto near = std::ranges::find_if(regions, [&](const Bounds& region) { return overlap(region, place); });
+    if (near != regions.end()) return near->extend(place);
+    regions.push_back(place);
+    if (regions.size() <= kMostRegions) return;
+    Bounds all;
+    for (const Bounds& region : regions) all.extend(region);
+    regions = {all};
+}
+
+Contacts::Contacts(const WorldData& data, std::vector<ContactSlot> slots, std::span<const HitFilter> filters,
                    const ThreadPool& threads)
-    : reach_(std::move(reach)) {
-    std::vector<std::uint8_t> slots(reach_.size());
-    std::ranges::transform(reach_, slots.begin(), [](float r) -> std::uint8_t { return r > 0.0f ? 1 : 0; });
-    bvh_ = std::make_unique<EmbreeScene>(data.geometries, data.instances, data.motions, filters, threads, slots);
+    : slots_(std::move(slots)) {
+    std::vector<EmbreeScene::CollectedSlot> collected(slots_.size());
+    for (const Instance& instance : data.instances)
+        for (std::uint32_t g = 0; g < instance.geometry_count; ++g) {
+            const ContactSlot& slot = slots_[instance.first_light_slot + g];
+            const Geometry& geometry = data.geometries[instance.first_geometry + g];
+            EmbreeScene::CollectedSlot& those = collected[instance.first_light_slot + g];
+            if (slot.reach == 0.0f) continue;
+            those.is_whole = slot.moves || !instance.baked;
+            if (those.is_whole) continue;
+            for (std::uint32_t t = 0; t < geometry.triangles.size(); ++t) {
+                Bounds bounds;
+                for (const std::uint32_t vertex : geometry.triangles[t]) bounds.extend(geometry.positions[vertex]);
+                const auto meets = [&](const Bounds& region) { return overlap(bounds, region); };
+                if (std::ranges::any_of(slot.regions, meets)) those.triangles.push_back(t);
+            }
+        }
+    bvh_ = std::make_unique<EmbreeScene>(data.geometries, data.instances, data.motions, filters, threads,
+                                         std::move(collected));
 }
 
 std::size_t Contacts::bytes() const {
-    return reach_.size() * sizeof(float) + (bvh_ ? bvh_->bytes() : 0);
+    std::size_t bytes = vector_bytes(slots_) + bvh_->bytes();
+    for (const ContactSlot& slot : slots_) bytes += vector_bytes(slot.regions);
+    return bytes;
 }
 
 Contact Contacts::at(const WorldData& data, const Ray& ray, const Hit& hit) const {
@@ -105,7 +133,7 @@ Contact Contacts::at(const WorldData& data, const Ray& ray, const Hit& hit) cons
     constexpr float kParallel = 0.9f;
     Contact contact;
     const ContactFace& first = contact.faces[contact.count++] = face_at(data, hit);
-    const float reach = reach_[slot_of(data, hit)];
+    const float reach = slots_[slot_of(data, hit)].reach;
     const bool is_entered = dot(ray.direction, first.normal) < 0.0f;
     const Vec3f along = is_entered ? -first.normal : first.normal;
     // Distances along the ray are less exact than places on a surface.

@@ -16,11 +16,14 @@
 // for the order in which rounding puts them nor for the direction that a path comes from.
 #pragma once
 
+#include "core/bounds.h"
+#include "core/position_error.h"
 #include "core/ray.h"
 #include "core/vec.h"
 #include "world/embree_scene.h"
 #include "world/interior.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -77,21 +80,47 @@ struct TrianglePlane {
 /// True if it is a thin sheet that light passes.
 [[nodiscard]] bool is_sheet(const Material& material);
 
+/// Where a surface touches others.
+struct ContactSlot {
+    static constexpr std::size_t kMostRegions = 16;
+
+    float reach = 0.0f;           ///< metres within which others lie; 0 if none do
+    std::vector<Bounds> regions;  ///< what they touch lies in these
+    bool moves = false;           ///< then they are anywhere
+
+    /// Adds a place; boxes that are more than there may be become one.
+    void add(const Bounds& place);
+};
+
 class Contacts {
   public:
-    /// `reach` says, for each (instance, geometry), within how many metres of it others lie; 0 if none do.
-    Contacts(const WorldData& data, std::vector<float> reach, std::span<const HitFilter> filters,
+    /// `slots` are those of every (instance, geometry).
+    Contacts(const WorldData& data, std::vector<ContactSlot> slots, std::span<const HitFilter> filters,
              const ThreadPool& threads);
 
     /// Called once the World has its final address.
     void set_opacity(OpacityFunction function, const void* world) { bvh_->set_opacity(function, world); }
     [[nodiscard]] std::size_t bytes() const;
-    [[nodiscard]] float reach(std::size_t slot) const { return reach_[slot]; }
+    [[nodiscard]] float reach(std::size_t slot) const { return slots_[slot].reach; }
+    /// False if nothing touches the surface where `ray` hits it.
+    [[nodiscard]] bool may_touch(std::size_t slot, const Ray& ray, float t) const {
+        const Vec3f point = ray.origin + ray.direction * t;
+        const Vec3f terms = abs_components(ray.origin);
+        const float rounding = kPositionError * (t + terms.x + terms.y + terms.z);
+        const auto is_within = [=](float value, float low, float high) {
+            return value >= low - rounding && value <= high + rounding;
+        };
+        return slots_[slot].moves || std::ranges::any_of(slots_[slot].regions, [&](const Bounds& region) {
+                   return is_within(point.x, region.min.x, region.max.x) &&
+                          is_within(point.y, region.min.y, region.max.y) &&
+                          is_within(point.z, region.min.z, region.max.z);
+               });
+    }
     /// What `ray` meets where it hits `hit` (valid).
     [[nodiscard]] Contact at(const WorldData& data, const Ray& ray, const Hit& hit) const;
 
   private:
-    std::vector<float> reach_;
+    std::vector<ContactSlot> slots_;
     std::unique_ptr<EmbreeScene> bvh_;  ///< of surfaces with a reach
 };
 

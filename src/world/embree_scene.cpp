@@ -28,10 +28,11 @@ const QueryContext& context_of(const RTCFilterFunctionNArguments& args) {
 
 /// What ray `i` of a packet may hit.
 Hit hit_of(const RTCFilterFunctionNArguments& args, unsigned int i) {
-    return context_of(args).scene->make_hit(RTCRayN_tfar(args.ray, args.N, i), RTCHitN_u(args.hit, args.N, i),
-                                            RTCHitN_v(args.hit, args.N, i), RTCHitN_primID(args.hit, args.N, i),
-                                            RTCHitN_geomID(args.hit, args.N, i), RTCHitN_instID(args.hit, args.N, i, 0),
-                                            RTCRayN_time(args.ray, args.N, i));
+    const EmbreeScene& scene = *context_of(args).scene;
+    return scene.make_hit(RTCRayN_tfar(args.ray, args.N, i), RTCHitN_u(args.hit, args.N, i),
+                          RTCHitN_v(args.hit, args.N, i), RTCHitN_primID(args.hit, args.N, i),
+                          RTCHitN_geomID(args.hit, args.N, i), RTCHitN_instID(args.hit, args.N, i, 0),
+                          RTCRayN_time(args.ray, args.N, i));
 }
 
 /// Whether a partly transparent surface stops ray `i` of a packet, with the probability of its opacity. The decision is
@@ -63,17 +64,20 @@ void pass_opaque_panes(const RTCFilterFunctionNArguments* args) {
 }
 
 /// Notes what the ray meets and lets it pass.
-void collect_all(const RTCFilterFunctionNArguments* args) {
+template <bool ByOpacity>
+void collect_hits(const RTCFilterFunctionNArguments* args) {
     CollectedHits& collected = *context_of(*args).collected;
     for (unsigned int i = 0; i < args->N; ++i) {
         if (args->valid[i] != -1) continue;
         args->valid[i] = 0;
-        if (collected.count < collected.hits.size()) collected.hits[collected.count++] = hit_of(*args, i);
+        Hit hit = hit_of(*args, i);
+        const unsigned int instance = RTCHitN_instID(args->hit, args->N, i, 0);
+        const bool is_instance = instance != RTC_INVALID_GEOMETRY_ID;
+        hit.triangle = context_of(*args).scene->collected_triangle(
+            is_instance ? instance : RTCHitN_geomID(args->hit, args->N, i), hit.triangle);
+        if (ByOpacity && !stops(*args, i, hit)) continue;
+        if (collected.count < collected.hits.size()) collected.hits[collected.count++] = hit;
     }
-}
-void collect_opaque(const RTCFilterFunctionNArguments* args) {
-    filter_by_opacity(args);
-    collect_all(args);
 }
 
 using NearVisitor = std::function<void(std::uint32_t, std::uint32_t, std::uint32_t)>;
@@ -104,8 +108,9 @@ bool count_memory(void* counter, ssize_t bytes, bool /*post*/) {
 
 EmbreeScene::EmbreeScene(std::span<const Geometry> geometries, std::span<const Instance> instances,
                          std::span<const TransformMotion> motions, std::span<const HitFilter> filters,
-                         const ThreadPool& threads, std::span<const std::uint8_t> collected_slots)
-    : collects_(!collected_slots.empty()),
+                         const ThreadPool& threads, std::vector<CollectedSlot> collected)
+    : collects_(!collected.empty()),
+      collected_(std::move(collected)),
       has_panes_(!collects_ && std::ranges::any_of(filters, &HitFilter::passes_shadows)) {
     has_motion_ =
         !motions.empty() || std::ranges::any_of(geometries, [](const Geometry& g) { return !g.motion.empty(); });
@@ -125,15 +130,19 @@ EmbreeScene::EmbreeScene(std::span<const Geometry> geometries, std::span<const I
             const Instance& instance = instances[i];
             const auto index = static_cast<std::uint32_t>(i);
             const auto is_taken = [&](std::uint32_t g) {
-                return !collects_ || collected_slots[instance.first_light_slot + g] != 0;
+                if (!collects_) return true;
+                const CollectedSlot& slot = collected_[instance.first_light_slot + g];
+                return slot.is_whole || !slot.triangles.empty();
             };
             // A mesh without geometry shares its first index with the next one, so it must not claim a scene under it.
             if (instance.baked || instance.geometry_count == 0) {
                 for (std::uint32_t g = 0; g < instance.geometry_count; ++g) {
                     if (!is_taken(g)) continue;
                     const std::uint32_t geometry = instance.first_geometry + g;
-                    add_triangles(top_, geometries[geometry], filters[geometry]);
+                    const CollectedSlot* slot = collects_ ? &collected_[instance.first_light_slot + g] : nullptr;
+                    add_triangles(top_, geometries[geometry], filters[geometry], slot);
                     top_level_.push_back({index, geometry});
+                    slot_of_entry_.push_back(slot);
                 }
                 continue;
             }
@@ -144,6 +153,7 @@ EmbreeScene::EmbreeScene(std::span<const Geometry> geometries, std::span<const I
             if (!shared) shared = build_shared_scene(instance, geometries, filters);
             add_instance(shared, instance, motions);
             top_level_.push_back({index, instance.first_geometry});
+            slot_of_entry_.push_back(nullptr);
         }
         rtcCommitScene(top_);
     });
@@ -178,7 +188,8 @@ void EmbreeScene::add_instance(RTCScene shared, const Instance& instance,
     rtcReleaseGeometry(placed);
 }
 
-void EmbreeScene::add_triangles(RTCScene scene, const Geometry& geometry, const HitFilter& filter) const {
+void EmbreeScene::add_triangles(RTCScene scene, const Geometry& geometry, const HitFilter& filter,
+                                const CollectedSlot* collected) {
     RTCGeometry mesh = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     const auto set_vertices = [&](unsigned int slot, const std::vector<Vec3f>& positions) {
         rtcSetSharedGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, slot, RTC_FORMAT_FLOAT3, positions.data(), 0,
@@ -191,10 +202,16 @@ void EmbreeScene::add_triangles(RTCScene scene, const Geometry& geometry, const 
         for (std::size_t i = 0; i < geometry.motion.size(); ++i)
             set_vertices(static_cast<unsigned int>(i), geometry.motion[i].positions);
     }
-    rtcSetSharedGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, geometry.triangles.data(), 0,
-                               sizeof(std::array<std::uint32_t, 3>), geometry.triangles.size());
+    const std::vector<std::array<std::uint32_t, 3>>* triangles = &geometry.triangles;
+    if (collected != nullptr && !collected->is_whole) {
+        auto& indices = collected_indices_.emplace_back();
+        for (const std::uint32_t triangle : collected->triangles) indices.push_back(geometry.triangles[triangle]);
+        triangles = &indices;
+    }
+    rtcSetSharedGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, triangles->data(), 0,
+                               sizeof(std::array<std::uint32_t, 3>), triangles->size());
     if (collects_) {
-        rtcSetGeometryIntersectFilterFunction(mesh, filter.by_opacity ? collect_opaque : collect_all);
+        rtcSetGeometryIntersectFilterFunction(mesh, filter.by_opacity ? collect_hits<true> : collect_hits<false>);
     } else {
         if (filter.by_opacity) rtcSetGeometryIntersectFilterFunction(mesh, filter_by_opacity);
         if (filter.passes_shadows)
@@ -215,7 +232,7 @@ RTCScene EmbreeScene::build_shared_scene(const Instance& instance, std::span<con
     shared_.push_back(scene);
     for (std::uint32_t g = 0; g < instance.geometry_count; ++g) {
         const std::uint32_t geometry = instance.first_geometry + g;
-        add_triangles(scene, geometries[geometry], filters[geometry]);
+        add_triangles(scene, geometries[geometry], filters[geometry], nullptr);
     }
     rtcCommitScene(scene);
     return scene;
@@ -302,7 +319,7 @@ Hit EmbreeScene::make_hit(float t, float u, float v, unsigned int triangle, unsi
     if (inner == RTC_INVALID_GEOMETRY_ID) return {};
     const bool is_instance = instance != RTC_INVALID_GEOMETRY_ID;
     const TopLevelEntry entry = resolve(is_instance ? instance : inner, inner, is_instance);
-    return {t, u, v, triangle, entry.geometry, entry.instance, time};
+    return {t, u, v, triangle, entry.geometry & 0x7fffffffu, 0, entry.instance, time};
 }
 
 template <typename Batch>

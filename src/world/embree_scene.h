@@ -9,8 +9,10 @@
 #include "world/geometry.h"
 #include "world/world.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <span>
 #include <vector>
@@ -32,12 +34,18 @@ using OpacityFunction = float (*)(const void* world, std::uint32_t geometry, std
 /// built once, and instances in the top-level one.
 class EmbreeScene {
   public:
+    /// Which triangles of a slot, one of (instance, geometry), a scene for `collect` holds.
+    struct CollectedSlot {
+        bool is_whole = false;
+        std::vector<std::uint32_t> triangles{};  ///< if it is not whole; none if there are none
+    };
+
     /// Builds all BVHs with the threads of `threads`. The geometries' vectors must stay where they are: Embree reads
-    /// them. `filters` are those of the geometries. If there are `collected_slots`, one for
-    /// each (instance, geometry), the scene holds only those that are not 0, and is for `collect` alone.
+    /// them. `filters` are those of the geometries. If there are `collected` slots, the scene holds no more than these,
+    /// and is for `collect` alone; of meshes that several instances share it holds all.
     EmbreeScene(std::span<const Geometry> geometries, std::span<const Instance> instances,
                 std::span<const TransformMotion> motions, std::span<const HitFilter> filters, const ThreadPool& threads,
-                std::span<const std::uint8_t> collected_slots = {});
+                std::vector<CollectedSlot> collected = {});
     ~EmbreeScene();
     EmbreeScene(const EmbreeScene&) = delete;
     EmbreeScene& operator=(const EmbreeScene&) = delete;
@@ -84,6 +92,11 @@ class EmbreeScene {
     /// How a hit of Embree's reads in our numbers.
     [[nodiscard]] Hit make_hit(float t, float u, float v, unsigned int triangle, unsigned int inner,
                                unsigned int instance, float time) const;
+    /// What triangle `triangle` of top-level entry `top` of a scene for `collect` is of its mesh.
+    [[nodiscard]] std::uint32_t collected_triangle(std::uint32_t top, std::uint32_t triangle) const {
+        const CollectedSlot* slot = slot_of_entry_[top];
+        return slot == nullptr || slot->is_whole ? triangle : slot->triangles[triangle];
+    }
     [[nodiscard]] float opacity(std::uint32_t geometry, std::uint32_t triangle, Vec2f barycentric) const {
         return opacity_(world_, geometry, triangle, barycentric);
     }
@@ -111,7 +124,8 @@ class EmbreeScene {
     /// thousand of them).
     [[nodiscard]] bool takes_as_coherent(Coherence coherence) const;
 
-    void add_triangles(RTCScene scene, const Geometry& geometry, const HitFilter& filter) const;
+    void add_triangles(RTCScene scene, const Geometry& geometry, const HitFilter& filter,
+                       const CollectedSlot* collected);
     void add_instance(RTCScene shared, const Instance& instance, std::span<const TransformMotion> motions) const;
     RTCScene build_shared_scene(const Instance& instance, std::span<const Geometry> geometries,
                                 std::span<const HitFilter> filters);
@@ -126,6 +140,9 @@ class EmbreeScene {
     double build_seconds_ = 0.0;
     bool has_motion_ = false;
     bool collects_ = false;
+    std::vector<CollectedSlot> collected_;
+    std::vector<const CollectedSlot*> slot_of_entry_;  ///< null for instances
+    std::deque<std::vector<std::array<std::uint32_t, 3>>> collected_indices_;
     bool has_panes_ = false;
 };
 

@@ -157,12 +157,15 @@ void World::intersect(const RayColumns& rays, std::span<Hit> hits, Coherence coh
 template <typename Batch>
 void World::settle_contacts(const Batch& rays, std::span<Hit> hits) const {
     for (std::size_t i = 0; i < rays.size(); ++i) {
-        if (!hits[i].valid() || data_->contacts->reach(slot_of(*data_, hits[i])) == 0.0f) continue;
+        if (!hits[i].valid()) continue;
+        const std::size_t slot = slot_of(*data_, hits[i]);
+        if (data_->contacts->reach(slot) == 0.0f) continue;
         const Ray ray = rays[i];
+        if (!data_->contacts->may_touch(slot, ray, hits[i].t)) continue;
         const Contact contact = data_->contacts->at(*data_, ray, hits[i]);
         if (contact.count < 2) continue;
         hits[i] = foremost(*data_, contact, ray.direction).hit;
-        hits[i].in_contact = true;
+        hits[i].in_contact = 1;
     }
 }
 
@@ -318,10 +321,8 @@ float Crossing::relative_ior(float nm) const {
     return dispersed_ior(inside_ior, inside_dispersion, nm) / dispersed_ior(outside_ior, outside_dispersion, nm);
 }
 
-Crossing World::crossing(SurfacePoint& point, const Interior& current, const Hit& hit, const Ray& ray,
-                         const RayCone& cone) const {
-    if (hit.in_contact) return contact_crossing(point, current, hit, ray, cone);
-    const std::uint32_t body = body_of(*data_, hit);
+Crossing World::crossing(const SurfacePoint& point, const Interior& current) const {
+    const std::uint32_t body = data_->body_of_slot[slot_of(*data_, point.instance, point.geometry)];
     Crossing crossing{.outside = current, .inside = current};
     crossing.outside.leave(body);
     crossing.inside = crossing.outside;
@@ -441,7 +442,8 @@ bool World::is_foremost_emitter(const SurfacePoint& point, Vec2f barycentric, co
     Ray ray;
     ray.origin = point.position + side * height;
     ray.direction = -side;
-    const Hit hit{height, barycentric.x, barycentric.y, point.triangle, point.geometry, point.instance};
+    const Hit hit{height, barycentric.x, barycentric.y, point.triangle, point.geometry & 0x7fffffffu,
+                  0,      point.instance};
     const Hit& seen = foremost(*data_, data_->contacts->at(*data_, ray, hit), ray.direction).hit;
     return seen.instance == hit.instance && seen.geometry == hit.geometry && seen.triangle == hit.triangle;
 }

@@ -35,15 +35,15 @@ class PlainLookups;
 struct Contact;
 struct ContactFace;
 
-/// The nearest surface along a ray. 32 bytes.
+/// The nearest surface along a ray. 28 bytes.
 struct Hit {
     float t = 0.0f;            ///< metres along the ray
     float u = 0.0f, v = 0.0f;  ///< barycentric coordinates of the second and third vertex
     std::uint32_t triangle = 0;
-    std::uint32_t geometry = 0;
-    std::uint32_t instance = kNone;  ///< kNone if nothing was hit
-    float time = 0.0f;               ///< of the ray: things that move are hit where they were then
-    bool in_contact = false;         ///< there are other surfaces in this place (world/contacts.h)
+    std::uint32_t geometry : 31 = 0;
+    std::uint32_t in_contact : 1 = 0;  ///< there are other surfaces in this place (world/contacts.h)
+    std::uint32_t instance = kNone;    ///< kNone if nothing was hit
+    float time = 0.0f;                 ///< of the ray: things that move are hit where they were then
 
     [[nodiscard]] bool valid() const { return instance != kNone; }
 };
@@ -254,10 +254,12 @@ class World {
     [[nodiscard]] bool has_lights_in_media() const { return has_lights_in_media_; }
     /// True if the surface is that of a body.
     [[nodiscard]] bool is_boundary(const SurfacePoint& point) const { return point.material->filling != kNone; }
-    /// What `ray`, which comes from within `current` with `cone` around it, finds at the boundary that it has hit at
-    /// `point`. Where others touch it, `point` becomes the one that bounds what fills the space.
-    [[nodiscard]] Crossing crossing(SurfacePoint& point, const Interior& current, const Hit& hit, const Ray& ray,
-                                    const RayCone& cone) const;
+    /// A ray from within `current` at a boundary that nothing touches.
+    [[nodiscard]] Crossing crossing(const SurfacePoint& point, const Interior& current) const;
+    /// What `ray`, which comes from within `current` with `cone` around it, finds at the boundary of a body at `hit`,
+    /// which others touch. `point` becomes the one that bounds what fills the space.
+    [[nodiscard]] Crossing contact_crossing(SurfacePoint& point, const Interior& current, const Hit& hit,
+                                            const Ray& ray, const RayCone& cone) const;
     /// What fills the space, null in vacuum.
     [[nodiscard]] const HomogeneousMedium* medium(const Interior& interior) const {
         return interior.is_empty() ? nullptr : medium_within(interior);
@@ -408,8 +410,6 @@ class World {
     void settle_contacts(const Batch& rays, std::span<Hit> hits) const;
     [[nodiscard]] SurfacePoint contact_point(const Contact& contact, const ContactFace& face, const Ray& ray,
                                              const RayCone& cone) const;
-    [[nodiscard]] Crossing contact_crossing(SurfacePoint& point, const Interior& current, const Hit& hit,
-                                            const Ray& ray, const RayCone& cone) const;
     void set_indices(std::uint32_t body, Crossing& crossing) const;
     /// See WorldData::planes_of_light.
     [[nodiscard]] std::span<const Vec3f> planes_of(std::uint32_t light) const {

@@ -18,8 +18,8 @@ struct Rect {
 
 /// The integral of `f(x, y)` over `rect`. Rectangles are quartered until the tensor Gauss rule of three points and its
 /// quartered version agree within their share of `tolerance` (absolute), at most `max_depth` times. A peak much
-/// narrower than a third of `rect` can be missed: split the domain around it first. So can a jump at its edge; rectangles
-/// are quartered `min_depth` times in any case.
+/// narrower than a third of `rect` can be missed: split the domain around it first. So can a jump at its edge;
+/// rectangles are quartered `min_depth` times in any case.
 [[nodiscard]] double integrate(const std::function<double(double, double)>& f, const Rect& rect, double tolerance,
                                int max_depth = 10, int min_depth = 0);
 

@@ -28,9 +28,9 @@ Crossing crossing_from(const World& world, float z, const Interior& interior) {
     const Ray ray{.origin = {0.01f, 0.02f, z}, .direction = {0, 0, -1}};
     const Hit hit = intersect(world, ray);
     EXPECT_TRUE(hit.valid());
-    SurfacePoint point = world.surface_point(hit);
+    const SurfacePoint point = world.surface_point(hit);
     EXPECT_TRUE(world.is_boundary(point));
-    return world.crossing(point, interior, hit, ray, RayCone{});
+    return world.crossing(point, interior);
 }
 
 TEST(Bodies, APointKnowsWhatItIsIn) {

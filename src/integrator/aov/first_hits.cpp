@@ -94,7 +94,9 @@ class FirstHit {
         if (point_.material->unlit) return *albedo_;
         float ior = 0.0f;
         if (world_.has_bodies() && world_.is_boundary(point_))
-            ior = world_.crossing(point_, world_.camera_interior(), hit_, ray_, RayCone{}).relative_ior(0.0f);
+            ior = (hit_.in_contact ? world_.contact_crossing(point_, world_.camera_interior(), hit_, ray_, RayCone{})
+                                   : world_.crossing(point_, world_.camera_interior()))
+                      .relative_ior(0.0f);
         Bsdf storage;
         const Bsdf& bsdf = world_.bsdf(point_, wo_, ior, storage);
         const Scattering scattering(bsdf, point_.shading, point_.geometric_normal, wo_);

@@ -16,7 +16,7 @@ PathWave::PathWave()
 
 std::size_t PathWave::bytes() const {
     std::size_t bytes = sizeof *this + light_.bytes() + shadow_rays_.bytes() + lookups_.bytes() +
-                        vector_bytes(hits_, interiors_, receivers_, passed_, ranges_, shares_, singles_, samples_,
+                        vector_bytes(hits_, interiors_, receivers_, passed_, panes_, ranges_, shares_, singles_, samples_,
                                      camera_rays_, alpha_);
     for (const NumberPairs* numbers :
          {&light_choice_, &light_triangle_, &light_direction_, &bsdf_direction_, &choices_, &medium_})
@@ -30,7 +30,10 @@ void PathWave::trace(const World& world, const TileJob& job, const PathOptions& 
     generate_camera_rays(world, job, first, std::span(samples_).first(count), camera_rays);
     if (world.has_bodies()) interiors_.assign(kCapacity, world.camera_interior());
     if (world.chooses_lights_by_receiver()) receivers_.resize(kCapacity);
-    if (world.has_panes()) passed_.assign(kCapacity, 0.0f);
+    if (world.has_panes()) {
+        passed_.assign(kCapacity, 0.0f);
+        panes_.resize(kBlock);
+    }
     words_.reset(job.aovs);
     if (words_.are_followed()) ranges_.assign(kCapacity, words_.begin_at_eye());
     light_.reset(count, job, counters.brightest.threshold());

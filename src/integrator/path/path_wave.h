@@ -41,13 +41,16 @@ struct SingleShading {
     std::optional<Crossing> crossing;
     Wavelength wavelength{};  ///< that it goes on with, and its weight
     bool chooses_wavelength = false;
-    // Of a pane, what becomes of a path that goes straight through it: it comes from where it came from.
-    LightReceiver from;
-    float passed = 0.0f;
     Bsdf storage;
     std::optional<Scattering> scattering;  ///< unless it is_wide; of glossy ones where words are followed
     BsdfValue towards_light;
     BsdfSample sample;
+};
+
+/// What becomes of a path that goes straight through a pane: it comes from where it came from.
+struct PanePassage {
+    LightReceiver from;
+    float passed = 0.0f;  ///< metres, behind the pane
 };
 
 /// The state of a wave: its paths as columns, and what lies between the stages of a block of them as shorter ones.
@@ -218,6 +221,7 @@ class PathWave final : public IntegratorScratch {
     NumberPairs medium_;   ///< x: how far, y: by which channel
     std::array<ShadedPath, kBlock> block_{};
     std::vector<SingleShading> singles_;
+    std::vector<PanePassage> panes_;                         ///< only if the World has panes
     std::array<ChosenLight, kBlock> lights_{};               ///< samples of those that are not sampled for many at once
     std::array<LightSample, kBlock> environment_samples_{};  ///< of those among them that are the environment's
     LaneList escaped_;                                       ///< paths that have left the scene

@@ -42,12 +42,12 @@ bool PathWave::set_up_any(const Context& context, std::size_t k) {
     set_up_singly(context, k);
     SurfacePoint& point = singles_[k].point;
     if (world.has_bodies() && world.is_boundary(point))
-        singles_[k].crossing.emplace(
-            InPlace{[&] { return world.crossing(point, interiors_[i], hits_[i], paths_.ray(i), paths_.cone(i)); }});
-    if (point.material->is_pane) {
-        singles_[k].from = receiver(i);
-        singles_[k].passed = passed(i) + hits_[i].t;
-    }
+        singles_[k].crossing.emplace(InPlace{[&] {
+            return hits_[i].in_contact
+                       ? world.contact_crossing(point, interiors_[i], hits_[i], paths_.ray(i), paths_.cone(i))
+                       : world.crossing(point, interiors_[i]);
+        }});
+    if (point.material->is_pane) panes_[k] = {receiver(i), passed(i) + hits_[i].t};
     on_emitter_.add_if(point.material->emits, k);
     if (singles_[k].crossing && singles_[k].crossing->is_hidden) {
         on_hidden_.add(k);
@@ -343,8 +343,8 @@ void PathWave::pass_pane(const Context& context, std::size_t k) {
     paths_.set_cone(i, paths_.cone(i).at(hits_[i].t));
     paths_.origin.set(i, offset_origin(point.position, point.geometric_normal, point.clearance, paths_.direction[i]));
     paths_.alpha_key.set(i, alpha_key(context, k));
-    if (!receivers_.empty()) receivers_[i] = path.from;
-    passed_[i] = path.passed;
+    if (!receivers_.empty()) receivers_[i] = panes_[k].from;
+    passed_[i] = panes_[k].passed;
 }
 
 void PathWave::pass_hidden(const Context& context, std::size_t k) {

@@ -222,8 +222,11 @@ bool SubpathWave::set_up(const SubpathJob& job, std::size_t i, ShadedSubpath& pa
     make_in_place(path.point, [&] { return world.surface_point(hits_[i], rays_[i], RayCone{}); });
     path.crossing.reset();
     if (world.has_bodies() && world.is_boundary(path.point))
-        path.crossing.emplace(
-            InPlace{[&] { return world.crossing(path.point, interiors_[i], hits_[i], rays_[i], RayCone{}); }});
+        path.crossing.emplace(InPlace{[&] {
+            return hits_[i].in_contact
+                       ? world.contact_crossing(path.point, interiors_[i], hits_[i], rays_[i], RayCone{})
+                       : world.crossing(path.point, interiors_[i]);
+        }});
     return true;
 }
 

@@ -114,7 +114,8 @@ void WhittedWave::shade(const Context& context, std::size_t i) {
     SurfacePoint point = world.surface_point(hit, branch.ray, branch.cone);
     std::optional<Crossing> crossing;
     if (world.has_bodies() && world.is_boundary(point))
-        crossing = world.crossing(point, branch.interior, hit, branch.ray, branch.cone);
+        crossing = hit.in_contact ? world.contact_crossing(point, branch.interior, hit, branch.ray, branch.cone)
+                                  : world.crossing(point, branch.interior);
     const bool is_wanted = branch.edges >= context.lengths.min_depth;
     if (point.material->emits && is_wanted)
         found_.add(branch.slot, branch.throughput * world.emission(point, -branch.ray.direction), kind_of(branch));

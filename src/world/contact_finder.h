@@ -1,0 +1,49 @@
+// Finds surfaces that lie within rounding of each other.
+#pragma once
+
+#include "core/bounds.h"
+#include "core/parallel.h"
+#include "core/vec.h"
+#include "world/world.h"
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace etendue {
+
+/// A triangle of an instance in world space, in the middle of the shutter.
+struct PlacedTriangle {
+    std::array<Vec3d, 3> p;
+    Vec3d normal;  ///< unit, on the front
+    double area = 0.0;
+    double clearance = 0.0;
+
+    [[nodiscard]] bool is_degenerate() const { return !(area > 0.0); }
+};
+
+struct Slot {
+    std::uint32_t index = 0;
+    std::uint32_t instance = 0;
+    std::uint32_t geometry = 0;
+};
+
+/// How surfaces of two slots touch.
+struct Touch {
+    double distance = 0.0;       ///< metres within which they count as one, the largest of their triangles
+    int alike = 0;               ///< pairs of triangles whose fronts are on one side, less those that face each other
+    std::vector<Bounds> places;  ///< where they do, each of a pair of triangles
+};
+/// By the slots, of which the first is the lower, or the same.
+using Touches = std::map<std::pair<std::uint32_t, std::uint32_t>, Touch>;
+
+[[nodiscard]] PlacedTriangle place(const WorldData& data, std::uint32_t instance, std::uint32_t geometry,
+                                   std::uint32_t triangle);
+
+/// All that touch of which one is an emitter, the boundary of a body or a thin sheet: for others it does not matter.
+/// Needs materials, geometry and the BVH in `data`.
+[[nodiscard]] Touches find_touches(const WorldData& data, const ThreadPool& threads);
+
+}  // namespace etendue
