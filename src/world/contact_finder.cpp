@@ -98,6 +98,10 @@ class TouchFinder {
     }
 
   private:
+    struct BoundedTriangle {
+        std::uint32_t triangle = 0;
+        Bounds bounds;
+    };
     /// A triangle all around which is looked.
     struct Query {
         Slot slot;
@@ -166,13 +170,30 @@ class TouchFinder {
             for (const PlacedSurface& b : surfaces_) {
                 const bool is_listed = b.matters && b.slot.index < a.slot.index;
                 if (a.slot.index == b.slot.index || is_listed || !overlap(a.bounds, b.bounds)) continue;
-                std::vector<Query> of_a;
-                std::vector<Query> of_b;
-                const bool a_is_less = list_within(a, b.bounds, of_a) <= list_within(b, a.bounds, of_b);
-                const std::vector<Query>& less = a_is_less ? of_a : of_b;
-                queries_.insert(queries_.end(), less.begin(), less.end());
+                hold_against_each_other(a, b);
             }
         }
+    }
+
+    /// Triangles of two surfaces whose bounds overlap: each against each if they are few, or else those around which
+    /// there is less to look at.
+    void hold_against_each_other(const PlacedSurface& a, const PlacedSurface& b) {
+        constexpr std::size_t kMostPairs = std::size_t{1} << 23;
+        std::vector<BoundedTriangle> of_a;
+        std::vector<BoundedTriangle> of_b;
+        const double around_a = list_within(a, b.bounds, of_a);
+        const double around_b = list_within(b, a.bounds, of_b);
+        if (of_a.size() * of_b.size() > kMostPairs) {
+            const bool a_is_less = around_a <= around_b;
+            for (const BoundedTriangle& t : a_is_less ? of_a : of_b)
+                queries_.push_back({a_is_less ? a.slot : b.slot, t.triangle});
+            return;
+        }
+        for (const BoundedTriangle& one : of_a)
+            for (const BoundedTriangle& other : of_b)
+                if (overlap(one.bounds, other.bounds))
+                    hold_against(a.slot, place(data_, a.slot.instance, a.slot.geometry, one.triangle), b.slot,
+                                 other.triangle);
     }
 
     /// True if triangles of other surfaces are within the bounds of this one.
@@ -197,14 +218,15 @@ class TouchFinder {
     }
 
     /// Triangles of a surface within `bounds`; about how many others are visited to look around all of them.
-    double list_within(const PlacedSurface& surface, const Bounds& bounds, std::vector<Query>& queries) const {
+    double list_within(const PlacedSurface& surface, const Bounds& bounds, std::vector<BoundedTriangle>& found) const {
         constexpr double kOfAnyQuery = 64.0;  // what it takes however small the triangle is
         const double scene = static_cast<double>(length_squared(data_.bounds.size()));
         double visits = 0.0;
         for (std::uint32_t t = 0; t < surface.triangles; ++t) {
-            const Bounds triangle = bounds_of(data_.instances[surface.slot.instance], surface.slot.geometry, t);
+            Bounds triangle = bounds_of(data_.instances[surface.slot.instance], surface.slot.geometry, t);
+            grow(triangle);
             if (!overlap(triangle, bounds)) continue;
-            queries.push_back({surface.slot, t});
+            found.push_back({t, triangle});
             visits += kOfAnyQuery + static_cast<double>(all_triangles_) *
                                         std::min(1.0, static_cast<double>(length_squared(triangle.size())) / scene);
         }

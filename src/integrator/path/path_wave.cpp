@@ -16,8 +16,8 @@ PathWave::PathWave()
 
 std::size_t PathWave::bytes() const {
     std::size_t bytes = sizeof *this + light_.bytes() + shadow_rays_.bytes() + lookups_.bytes() +
-                        vector_bytes(hits_, interiors_, receivers_, passed_, panes_, ranges_, shares_, singles_, samples_,
-                                     camera_rays_, alpha_);
+                        vector_bytes(hits_, interiors_, receivers_, passed_, panes_, ranges_, shares_, singles_,
+                                     samples_, camera_rays_, alpha_);
     for (const NumberPairs* numbers :
          {&light_choice_, &light_triangle_, &light_direction_, &bsdf_direction_, &choices_, &medium_})
         bytes += numbers->bytes();
