@@ -70,7 +70,7 @@ World compile_world(SceneDesc scene, const ColorConfig& colors, const std::strin
     compile_geometry(scene, threads, options.most_copied_triangles, data);
     compile_bodies(scene, data, problems);
     end_phase("geometry");
-    build_bvh(threads, data);
+    build_bvh(threads, data, problems);
     end_phase("BVH");
     compile_lights(scene, threads, data, problems);
     find_planes_of_lamps(data);

@@ -118,7 +118,7 @@ bool move_sheets_apart(const Touches& touches, WorldData& data) {
     };
     std::map<std::uint32_t, std::vector<std::pair<std::uint32_t, Touch>>> partners;  // of sheets
     double distance = 0.0;
-    for (const auto& [pair, touch] : touches)
+    for (const auto& [pair, touch] : touches.pairs)
         for (const auto& [sheet, other] : {pair, std::pair(pair.second, pair.first)}) {
             if (!is_sheet(material(sheet))) continue;
             partners[sheet].emplace_back(other, touch);
@@ -154,7 +154,7 @@ bool move_sheets_apart(const Touches& touches, WorldData& data) {
 
 }  // namespace
 
-void build_bvh(const ThreadPool& threads, WorldData& data) {
+void build_bvh(const ThreadPool& threads, WorldData& data, ProblemList& problems) {
     std::vector<HitFilter> filters;
     filters.reserve(data.geometries.size());
     for (const Geometry& geometry : data.geometries) {
@@ -174,21 +174,33 @@ void build_bvh(const ThreadPool& threads, WorldData& data) {
     if (std::ranges::any_of(panes, &EmbreeScene::CollectedSlot::is_whole))
         data.panes = std::make_unique<EmbreeScene>(data.geometries, data.instances, data.motions, filters, threads,
                                                    std::move(panes));
-    if (touches.empty()) return;
+    if (touches.pairs.empty() && touches.is_complete) return;
     const auto emits = [&](std::uint32_t slot) {
         return data.materials[data.geometries[slots[slot].geometry].material].emits;
     };
     std::vector<ContactSlot> contacts(slots.size());
     data.shares_place_of_slot.assign(slots.size(), 0);
-    for (const auto& [pair, touch] : touches)
+    for (const auto& [pair, touch] : touches.pairs)
         for (const std::uint32_t slot : {pair.first, pair.second}) {
             contacts[slot].reach = std::max(contacts[slot].reach, static_cast<float>(touch.distance));
             if (moves(data, slots[slot]))
-                contacts[slot].moves = true;
+                contacts[slot].is_anywhere = true;
             else
                 for (const Bounds& place : touch.places) contacts[slot].add(place);
             if (emits(pair.first) && emits(pair.second)) data.shares_place_of_slot[slot] = 1;
         }
+    if (!touches.is_complete) {
+        problems.note({},
+                      "so many surfaces overlap that not all could be looked at: rays ask everywhere for surfaces that "
+                      "touch, which takes longer");
+        for (const Slot& slot : slots) {
+            contacts[slot.index].is_anywhere = true;
+            for (std::uint32_t t = 0; t < data.geometries[slot.geometry].triangles.size(); ++t) {
+                const float clear = triangle_plane(data, slot.instance, slot.geometry, t).clearance;
+                contacts[slot.index].reach = std::max(contacts[slot.index].reach, contact_distance(clear, clear));
+            }
+        }
+    }
     data.contacts = std::make_unique<Contacts>(data, std::move(contacts), filters, threads);
 }
 

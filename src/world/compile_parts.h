@@ -63,7 +63,7 @@ void compile_bodies(const SceneDesc& scene, WorldData& data, ProblemList& proble
 
 /// The BVHs of all surfaces and of panes, and where surfaces touch: thin sheets are moved apart, the others are for
 /// `Contacts`. Needs materials, geometry and bodies in `data`.
-void build_bvh(const ThreadPool& threads, WorldData& data);
+void build_bvh(const ThreadPool& threads, WorldData& data, ProblemList& problems);
 
 /// The environment, which must be enabled. Throws SceneError if an image cannot be decoded.
 [[nodiscard]] Light compile_environment(const SceneDesc& scene, const ColorMatrix& from_rec709,

@@ -5,11 +5,13 @@
 #include "world/embree_scene.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <mutex>
 #include <optional>
 #include <tuple>
+#include <utility>
 
 namespace etendue {
 
@@ -94,10 +96,14 @@ class TouchFinder {
             for (std::size_t i = chunk * chunk_size; i < std::min(queries.size(), (chunk + 1) * chunk_size); ++i)
                 look_around(queries[i]);
         });
+        found_.is_complete = work_ < kMostWork;
         return std::move(found_);
     }
 
   private:
+    /// Triangles that are looked at in all, some seconds of it.
+    static constexpr std::size_t kMostWork = std::size_t{1} << 27;
+
     struct BoundedTriangle {
         std::uint32_t triangle = 0;
         Bounds bounds;
@@ -179,16 +185,19 @@ class TouchFinder {
     /// there is less to look at.
     void hold_against_each_other(const PlacedSurface& a, const PlacedSurface& b) {
         constexpr std::size_t kMostPairs = std::size_t{1} << 23;
+        if (work_ >= kMostWork) return;
         std::vector<BoundedTriangle> of_a;
         std::vector<BoundedTriangle> of_b;
         const double around_a = list_within(a, b.bounds, of_a);
         const double around_b = list_within(b, a.bounds, of_b);
+        work_ += a.triangles + b.triangles;
         if (of_a.size() * of_b.size() > kMostPairs) {
             const bool a_is_less = around_a <= around_b;
             for (const BoundedTriangle& t : a_is_less ? of_a : of_b)
                 queries_.push_back({a_is_less ? a.slot : b.slot, t.triangle});
             return;
         }
+        work_ += of_a.size() * of_b.size() / 8;
         for (const BoundedTriangle& one : of_a)
             for (const BoundedTriangle& other : of_b)
                 if (overlap(one.bounds, other.bounds))
@@ -238,7 +247,7 @@ class TouchFinder {
         const Geometry& geometry = data_.geometries[slot.geometry];
         Bounds bounds;
         for (const Vec3f& p : geometry.positions) bounds.extend(p);
-        const Vec3d center(bounds.center());
+        const Vec3d center = (Vec3d(bounds.min) + Vec3d(bounds.max)) * 0.5;
         const double size = std::max(static_cast<double>(length(bounds.size())), 1e-30);
         // Triangles with the same vertices have the same plane to the bit; others are as good as never in different
         // cells.
@@ -295,8 +304,10 @@ class TouchFinder {
 
     void look_around(const Query& query) {
         const Slot& slot = query.slot;
+        if (work_ >= kMostWork) return;
         const PlacedTriangle here = place(data_, slot.instance, slot.geometry, query.triangle);
         if (here.is_degenerate()) return;
+        std::size_t visits = 0;
         Bounds bounds;
         for (const Vec3d& p : here.p) bounds.extend(Vec3f(p));
         grow(bounds);
@@ -304,6 +315,7 @@ class TouchFinder {
         data_.bvh->for_each_near(
             bounds.center(), 0.5f * length(bounds.size()),
             [&](std::uint32_t instance_index, std::uint32_t geometry_index, std::uint32_t triangle) {
+                ++visits;
                 const Instance& instance = data_.instances[instance_index];
                 const Slot other{instance.first_light_slot + geometry_index - instance.first_geometry, instance_index,
                                  geometry_index};
@@ -313,6 +325,7 @@ class TouchFinder {
                 if (overlap(bounds, bounds_of(instance, geometry_index, triangle)))
                     hold_against(slot, here, other, triangle);
             });
+        work_ += visits;
     }
 
     void hold_against(const Slot& slot, const PlacedTriangle& here, const Slot& other, std::uint32_t triangle) {
@@ -322,15 +335,20 @@ class TouchFinder {
         const std::optional<Bounds> where = touch(here, there, distance);
         if (!where) return;
         const std::lock_guard lock(mutex_);
-        Touch& found = found_[std::minmax(slot.index, other.index)];
+        Touch& found = found_.pairs[std::minmax(slot.index, other.index)];
         found.distance = std::max(found.distance, distance);
         found.alike += here.normal.dot(there.normal) > 0.0 ? 1 : -1;
-        found.places.push_back(*where);
+        // Beyond the most, all that comes is in the last one.
+        if (found.places.size() <= Touch::kMostPlaces)
+            found.places.push_back(*where);
+        else
+            found.places.back().extend(*where);
     }
 
     const WorldData& data_;
     std::vector<PlacedSurface> surfaces_;
     std::size_t all_triangles_ = 0;
+    std::atomic<std::size_t> work_ = 0;
     std::mutex mutex_;
     std::vector<Query> queries_;
     Touches found_;
@@ -359,10 +377,16 @@ PlacedTriangle place(const WorldData& data, std::uint32_t instance_index, std::u
 Touches find_touches(const WorldData& data, const ThreadPool& threads) {
     Touches touches = TouchFinder(data).find(threads);
     // In an order that threads have no part in.
-    for (auto& [slots, touch] : touches)
+    for (auto& [slots, touch] : touches.pairs) {
+        if (touch.places.size() > Touch::kMostPlaces) {
+            Bounds all;
+            for (const Bounds& place : touch.places) all.extend(place);
+            touch.places = {all};
+        }
         std::ranges::sort(touch.places, {}, [](const Bounds& b) {
             return std::tuple(b.min.x, b.min.y, b.min.z, b.max.x, b.max.y, b.max.z);
         });
+    }
     return touches;
 }
 

@@ -32,12 +32,19 @@ struct Slot {
 
 /// How surfaces of two slots touch.
 struct Touch {
+    static constexpr std::size_t kMostPlaces = 4096;
+
     double distance = 0.0;       ///< metres within which they count as one, the largest of their triangles
     int alike = 0;               ///< pairs of triangles whose fronts are on one side, less those that face each other
-    std::vector<Bounds> places;  ///< where they do, each of a pair of triangles
+    std::vector<Bounds> places;  ///< where they do, each of a pair of triangles; all in one box if they are more
 };
-/// By the slots, of which the first is the lower, or the same.
-using Touches = std::map<std::pair<std::uint32_t, std::uint32_t>, Touch>;
+
+struct Touches {
+    /// By the slots, of which the first is the lower, or the same.
+    std::map<std::pair<std::uint32_t, std::uint32_t>, Touch> pairs;
+    /// False if there was more to look at than is sensible: what is not listed may touch, too.
+    bool is_complete = true;
+};
 
 [[nodiscard]] PlacedTriangle place(const WorldData& data, std::uint32_t instance, std::uint32_t geometry,
                                    std::uint32_t triangle);

@@ -108,7 +108,7 @@ Contacts::Contacts(const WorldData& data, std::vector<ContactSlot> slots, std::s
             const Geometry& geometry = data.geometries[instance.first_geometry + g];
             EmbreeScene::CollectedSlot& those = collected[instance.first_light_slot + g];
             if (slot.reach == 0.0f) continue;
-            those.is_whole = slot.moves || !instance.baked;
+            those.is_whole = slot.is_anywhere || !instance.baked;
             if (those.is_whole) continue;
             for (std::uint32_t t = 0; t < geometry.triangles.size(); ++t) {
                 Bounds bounds;

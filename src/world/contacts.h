@@ -86,7 +86,7 @@ struct ContactSlot {
 
     float reach = 0.0f;           ///< metres within which others lie; 0 if none do
     std::vector<Bounds> regions;  ///< what they touch lies in these
-    bool moves = false;           ///< then they are anywhere
+    bool is_anywhere = false;     ///< as where things move: what it touches may lie in any place
 
     /// Adds a place; boxes that are more than there may be become one.
     void add(const Bounds& place);
@@ -110,7 +110,7 @@ class Contacts {
         const auto is_within = [=](float value, float low, float high) {
             return value >= low - rounding && value <= high + rounding;
         };
-        return slots_[slot].moves || std::ranges::any_of(slots_[slot].regions, [&](const Bounds& region) {
+        return slots_[slot].is_anywhere || std::ranges::any_of(slots_[slot].regions, [&](const Bounds& region) {
                    return is_within(point.x, region.min.x, region.max.x) &&
                           is_within(point.y, region.min.y, region.max.y) &&
                           is_within(point.z, region.min.z, region.max.z);
