@@ -216,10 +216,10 @@ void find_planes_of_lamps(WorldData& data) {
         std::vector<Vec3f> planes;
         data.bvh->for_each_near(*lamp, radius, [&](std::uint32_t instance, std::uint32_t geometry, std::uint32_t t) {
             const PlacedTriangle triangle = place(data, instance, geometry, t);
-            if (triangle.is_degenerate()) return;
+            if (triangle.is_degenerate()) return true;
             const Vec3f normal(triangle.normal);
             const double distance = contact_distance(triangle.clearance, static_cast<double>(clearance(normal, error)));
-            if (!is_near(triangle, Vec3d(*lamp), distance)) return;
+            if (!is_near(triangle, Vec3d(*lamp), distance)) return true;
             const Vec3f plane(triangle.normal * distance);
             const auto same = std::ranges::find_if(planes, [&](const Vec3f& other) {
                 return std::abs(triangle.normal.dot(Vec3d(other))) > kAlike * Vec3d(other).length();
@@ -228,6 +228,7 @@ void find_planes_of_lamps(WorldData& data) {
                 planes.push_back(plane);
             else if (length(*same) < length(plane))
                 *same = plane;
+            return true;
         });
         if (planes.empty()) continue;
         data.planes_of_light.resize(data.lights.size());

@@ -102,7 +102,7 @@ class TouchFinder {
 
   private:
     /// Triangles that are looked at in all, some seconds of it.
-    static constexpr std::size_t kMostWork = std::size_t{1} << 27;
+    static constexpr std::size_t kMostWork = std::size_t{1} << 24;
 
     struct BoundedTriangle {
         std::uint32_t triangle = 0;
@@ -206,14 +206,21 @@ class TouchFinder {
     }
 
     /// True if triangles of other surfaces are within the bounds of this one.
-    [[nodiscard]] bool is_met(const PlacedSurface& surface) const {
-        bool any = false;
+    [[nodiscard]] bool is_met(const PlacedSurface& surface) {
+        bool any = work_ >= kMostWork;
+        if (any) return true;
+        std::size_t visits = 0;
         data_.bvh->for_each_near(
             surface.bounds.center(), 0.5f * length(surface.bounds.size()),
             [&](std::uint32_t instance_index, std::uint32_t geometry_index, std::uint32_t triangle) {
-                if (any || (instance_index == surface.slot.instance && geometry_index == surface.slot.geometry)) return;
-                any = overlap(surface.bounds, bounds_of(data_.instances[instance_index], geometry_index, triangle));
+                ++visits;
+                const bool is_itself =
+                    instance_index == surface.slot.instance && geometry_index == surface.slot.geometry;
+                any = !is_itself &&
+                      overlap(surface.bounds, bounds_of(data_.instances[instance_index], geometry_index, triangle));
+                return !any;
             });
+        work_ += visits / 8;
         return any;
     }
 
@@ -320,10 +327,12 @@ class TouchFinder {
                 const Slot other{instance.first_light_slot + geometry_index - instance.first_geometry, instance_index,
                                  geometry_index};
                 const bool is_same = other.index == slot.index;
-                if (is_same && (triangle == query.triangle || are_neighbours(slot, triangle, query.triangle))) return;
-                if (!here_matters && !matters(other)) return;
+                if (is_same && (triangle == query.triangle || are_neighbours(slot, triangle, query.triangle)))
+                    return true;
+                if (!here_matters && !matters(other)) return true;
                 if (overlap(bounds, bounds_of(instance, geometry_index, triangle)))
                     hold_against(slot, here, other, triangle);
+                return work_ + visits < kMostWork;
             });
         work_ += visits;
     }

@@ -80,19 +80,22 @@ void collect_hits(const RTCFilterFunctionNArguments* args) {
     }
 }
 
-using NearVisitor = std::function<void(std::uint32_t, std::uint32_t, std::uint32_t)>;
+using NearVisitor = std::function<bool(std::uint32_t, std::uint32_t, std::uint32_t)>;
 struct NearQuery {
     const EmbreeScene* scene;
     const NearVisitor* visit;
+    bool is_over = false;
 };
 
 bool visit_near(RTCPointQueryFunctionArguments* args) {
-    const NearQuery& query = *static_cast<const NearQuery*>(args->userPtr);
+    NearQuery& query = *static_cast<NearQuery*>(args->userPtr);
+    if (query.is_over) return false;
     const bool is_instance = args->context->instStackSize > 0;
     const auto entry =
         query.scene->resolve(is_instance ? args->context->instID[0] : args->geomID, args->geomID, is_instance);
-    (*query.visit)(entry.instance, entry.geometry, args->primID);
-    return false;  // the radius stays
+    query.is_over = !(*query.visit)(entry.instance, entry.geometry, args->primID);
+    if (query.is_over) args->query->radius = 0.0f;
+    return query.is_over;  // whether the radius has changed
 }
 
 std::atomic<std::size_t>& memory_counter(void* pointer) {

@@ -63,9 +63,9 @@ class EmbreeScene {
     /// how many these are. The scene has to be one of `collected_slots`.
     std::size_t collect(const Ray& ray, float t_min, std::span<Hit> hits) const;
     /// Calls `visit(instance, geometry, triangle)` for all triangles whose bounds come within `radius` metres of
-    /// `point` in the middle of the shutter, and perhaps for some others.
+    /// `point` in the middle of the shutter, and perhaps for some others, until it returns false.
     void for_each_near(const Vec3f& point, float radius,
-                       const std::function<void(std::uint32_t, std::uint32_t, std::uint32_t)>& visit) const;
+                       const std::function<bool(std::uint32_t, std::uint32_t, std::uint32_t)>& visit) const;
 
     /// See World::replay.
     [[nodiscard]] double replay(std::span<const Ray> rays, bool occlusion, Coherence coherence, QueryForm form) const;
