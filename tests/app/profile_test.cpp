@@ -85,7 +85,7 @@ TEST_F(Profile, MeasuresEveryIntegratorOnEveryNumberOfThreads) {
         phases.push_back(phase["name"]);
         EXPECT_GE(phase["seconds"], 0.0) << phase["name"];
     }
-    EXPECT_EQ(phases, (Names{"start of the process", "files", "materials", "textures", "geometry", "lights", "BVH",
+    EXPECT_EQ(phases, (Names{"start of the process", "files", "materials", "textures", "geometry", "BVH", "lights",
                              "light tree", "first sample of every pixel"}));
     double owned = 0.0;
     Names owners;

@@ -68,7 +68,9 @@ class InstallTest(unittest.TestCase):
         headers = sorted((include / "etendue").glob("*.h"))
         self.assertEqual(len(headers), 6)
         for header in headers:
-            run(CXX, "-std=c++20", "-Wall", "-Wextra", "-Werror", "-I", include, "-fsyntax-only", "-x", "c++", header)
+            alone = self.folder / "alone.cpp"
+            alone.write_text(f"#include <etendue/{header.name}>\n")
+            run(CXX, "-std=c++20", "-Wall", "-Wextra", "-Werror", "-I", include, "-fsyntax-only", alone)
             # What the standard library's headers include is theirs.
             for included in re.findall(r"^\s*#\s*include\s*(\S+)", header.read_text(), re.MULTILINE):
                 self.assertRegex(included, r'^("etendue/\w+\.h"|<etendue/\w+\.h>|<[a-z_]+>)$', header)
