@@ -2,18 +2,21 @@
 // flush with the ceiling.
 //
 // A ray that leaves a surface starts off it by what rounding may have moved it, and so would pass what lies within that
-// distance, or meet it or not as rounding has it. Such surfaces are therefore met as one. compile_contacts() finds out
-// where there are any; rays that hit there ask for all surfaces in that place, one of which is the surface that they
+// distance, or meet it or not as rounding has it. Such surfaces are therefore met as one. build_bvh() finds out where
+// there are any; rays that hit there ask for all surfaces in that place, one of which is the surface that they
 // meet:
 //
 //   1. an emitter, on a side that emits,
 //   2. what stops light,
 //   3. the boundary of bodies: all that are left are left, and all that are entered are entered, which makes one
 //      boundary between what fills the space before and behind, as if every body were larger than modelled by nothing,
-//   4. thin sheets, where compile_contacts() could not move them apart;
+//   4. thin sheets, where build_bvh() could not move them apart.
 //
-// of several of one kind the first in the scene. Rays go on from beyond all of them, on either side. This asks neither
-// for the order in which rounding puts them nor for the direction that a path comes from.
+// Of several of one kind the first in the scene counts. Rays go on from beyond all of them, on either side. This asks
+// neither for the order in which rounding puts them nor for the direction that a path comes from.
+//
+// Where surfaces touch is found when compiling, since asking everywhere would take a third of a render's time. What a
+// ray does there is found when it arrives, since that depends on the bodies it is in.
 #pragma once
 
 #include "core/bounds.h"
