@@ -128,12 +128,14 @@ std::vector<bool> PathAutomaton::symbols_of(const EventSet& set) const {
     const auto put = [&](std::size_t symbol) { symbols[symbol] = !set.is_negated; };
     for (const EventPattern& pattern : set.patterns) {
         if ((pattern.kinds & kCameraKind) != 0) put(0);
+        const auto materials = static_cast<std::uint16_t>(materials_.count());
+        const auto lights = static_cast<std::uint16_t>(lights_.count());
         for (std::size_t kind = 0; kind < kScatterEvents; ++kind)
-            for (std::uint16_t label = 0; label < materials_.count(); ++label)
+            for (std::uint16_t label = 0; label < materials; ++label)
                 if ((pattern.kinds >> kind & 1) != 0 && materials_.matches(label, pattern.label))
                     put(scatter_symbol(static_cast<ScatterEvent>(kind), label));
         for (std::size_t kind = 0; kind < kSourceEvents; ++kind)
-            for (std::uint16_t label = 0; label < lights_.count(); ++label)
+            for (std::uint16_t label = 0; label < lights; ++label)
                 if ((pattern.kinds >> (kScatterEvents + kind) & 1) != 0 && lights_.matches(label, pattern.label))
                     put(source_symbol(static_cast<SourceEvent>(kind), label));
     }

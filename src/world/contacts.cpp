@@ -2,6 +2,7 @@
 
 #include "core/position_error.h"
 #include "core/vector_bytes.h"
+#include "world/cone_section.h"
 #include "world/surface_point.h"
 #include "world/triangle_point.h"
 #include "world/world.h"

@@ -160,7 +160,7 @@ void World::settle_contacts(const Batch& rays, std::span<Hit> hits) const {
         if (!hits[i].valid()) continue;
         const std::size_t slot = slot_of(*data_, hits[i]);
         if (data_->contacts->reach(slot) == 0.0f) continue;
-        const Ray ray = rays[i];
+        const Ray& ray = rays[i];
         if (!data_->contacts->may_touch(slot, ray, hits[i].t)) continue;
         const Contact contact = data_->contacts->at(*data_, ray, hits[i]);
         if (contact.count < 2) continue;

@@ -79,6 +79,7 @@ void add_light(float brightness, std::mt19937& random, std::initializer_list<Fil
     const ThreadPool pool(1);
     std::uniform_real_distribution<float> uniform(0.0f, static_cast<float>(kSide));
     std::vector<Splat> splats;
+    splats.reserve(kSide * kSide);
     for (int i = 0; i < kSide * kSide; ++i)
         splats.push_back({{uniform(random), uniform(random)}, Rgb(brightness, 0.0f, 0.0f)});
     const std::vector<std::vector<Splat>> lists{splats};

@@ -16,6 +16,7 @@ namespace {
 
 std::vector<std::pair<std::uint32_t, double>> pairs(const std::vector<MatteShare>& shares) {
     std::vector<std::pair<std::uint32_t, double>> result;
+    result.reserve(shares.size());
     for (const MatteShare& share : shares) result.emplace_back(share.id, share.weight);
     return result;
 }

@@ -141,7 +141,7 @@ TEST(Motion, SurfacesDoNotShadowThemselves) {
     const auto material = add_material(scene, diffuse(Rgb(0.5f)));
     PrimitiveDesc ball = sphere(Vec3f(0.0f), 1.0f, 24);
     add_object(scene, ball, material, translation({10.0f, 20.0f, 30.0f}));
-    for (Mat4f m : flight(6)) scene.instances.back().motion.push_back(m * translation({10.0f, 20.0f, 30.0f}));
+    for (const Mat4f& m : flight(6)) scene.instances.back().motion.push_back(m * translation({10.0f, 20.0f, 30.0f}));
     for (const Mat4f& m : flight(6)) {
         VertexStep step{ball.positions, ball.normals};
         for (Vec3f& p : step.positions) p = transform_point(m, p);
