@@ -15,7 +15,7 @@ constexpr int kBlock = 8;  // pixels
 
 using Means = std::array<double, 3>;
 
-/// What samples of one kind say of one pixel: all, those of the part, and the others.
+/// Means of one pixel over samples of one kind: all, those of the part, and the others.
 struct Halves {
     Means whole;
     Means part;

@@ -42,8 +42,8 @@ struct ErrorEstimate {
     [[nodiscard]] double relative_error() const;
 };
 
-/// Of `whole`, whose samples and light paths `part` holds some of, of every pixel; both films have the same window. A
-/// pixel of which it holds none or all counts as free of error.
+/// Errors of the pixels of `whole`, of whose samples and light paths `part` holds some; both films have one window. A
+/// pixel of which `part` holds none or all counts as free of error.
 [[nodiscard]] ErrorEstimate estimate_errors(const Film& whole, const Film& part);
 
 }  // namespace etendue

@@ -45,8 +45,8 @@ enum class HaltReason {
 };
 [[nodiscard]] const char* halt_reason_name(HaltReason reason);
 
-/// Of the image, from the passes that it is made of: the root of the mean squared relative error that is to be expected
-/// of it, as estimate_errors says. Nothing as long as there are too few samples, or if every other pass is not kept.
+/// Root of the mean squared relative error to be expected of the image, from the passes that it is made of; see
+/// estimate_errors. There is none as long as there are too few samples, or if every other pass is not kept.
 [[nodiscard]] std::optional<double> relative_error(const RenderState& state);
 
 struct RenderResult : RenderState {

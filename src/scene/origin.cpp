@@ -9,7 +9,7 @@ namespace etendue {
 
 namespace {
 
-/// What rounding to single precision may move is less than 1 / 200,000 of the size of a scene that is as near.
+/// Sizes away within which rounding to single precision moves nothing by 1 / 200,000 of a size.
 constexpr double kNear = 64.0;
 /// No more is known of a size, which may be none.
 constexpr double kLeastSize = 0x1p-24;

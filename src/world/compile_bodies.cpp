@@ -64,7 +64,7 @@ struct Candidate {
     [[nodiscard]] float size() const { return bounds.empty() ? 0.0f : length(bounds.size()); }
 };
 
-/// What tells a closed surface from one with holes, and its inside from its outside; both are sums over triangles.
+/// Sums over triangles that tell a closed surface from one with holes, and its inside from its outside.
 class SurfaceSums {
   public:
     /// `bounds` of the mesh, not empty: what is less than a ten thousandth of its size apart counts as one vertex, as
@@ -79,7 +79,7 @@ class SurfaceSums {
             if (edge_sum(grid) == 0) return true;
         return false;
     }
-    /// Of a closed surface, in its own space; negative if its fronts are inside.
+    /// Volume of a closed surface in its own space; it is negative if the fronts are inside.
     [[nodiscard]] double volume() const {
         double volume = 0.0;
         for (const Geometry* part : parts_)

@@ -58,7 +58,7 @@ struct Contact {
     [[nodiscard]] std::span<const ContactFace> all() const { return {faces.data(), count}; }
 };
 
-/// What lies before a contact, and what behind.
+/// The bodies that a ray is in before a contact, and those behind it.
 struct ContactInteriors {
     Interior before;
     Interior behind;
@@ -119,7 +119,7 @@ class Contacts {
                           is_within(point.z, region.min.z, region.max.z);
                });
     }
-    /// What `ray` meets where it hits `hit` (valid).
+    /// All surfaces that `ray` meets where it hits `hit` (valid).
     [[nodiscard]] Contact at(const WorldData& data, const Ray& ray, const Hit& hit) const;
 
   private:
@@ -130,7 +130,7 @@ class Contacts {
 /// The surface of a contact that a ray along `direction` meets.
 [[nodiscard]] const ContactFace& foremost(const WorldData& data, const Contact& contact, const Vec3f& direction);
 
-/// What lies on both sides of a contact for a ray along `direction` that comes from within `current`.
+/// Finds the bodies on both sides of a contact for a ray along `direction` that comes from within `current`.
 [[nodiscard]] ContactInteriors interiors(const WorldData& data, const Contact& contact, const Interior& current,
                                          const Vec3f& direction);
 
@@ -141,7 +141,7 @@ class Contacts {
 /// The bodies whose boundaries are among the faces, each once.
 [[nodiscard]] std::vector<std::uint32_t> bodies_of(const WorldData& data, const Contact& contact);
 
-/// What a ray along `direction` does with the boundary of a body in a contact.
+/// Whether a ray crosses the boundary of a body in a contact inwards, outwards, or both.
 struct BodyPassage {
     bool is_entered = false;
     bool is_left = false;

@@ -26,7 +26,7 @@ const QueryContext& context_of(const RTCFilterFunctionNArguments& args) {
     return *reinterpret_cast<const QueryContext*>(args.context);
 }
 
-/// What ray `i` of a packet may hit.
+/// The surface that ray `i` of a packet may hit.
 Hit hit_of(const RTCFilterFunctionNArguments& args, unsigned int i) {
     const EmbreeScene& scene = *context_of(args).scene;
     return scene.make_hit(RTCRayN_tfar(args.ray, args.N, i), RTCHitN_u(args.hit, args.N, i),

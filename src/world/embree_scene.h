@@ -92,7 +92,7 @@ class EmbreeScene {
     /// How a hit of Embree's reads in our numbers.
     [[nodiscard]] Hit make_hit(float t, float u, float v, unsigned int triangle, unsigned int inner,
                                unsigned int instance, float time) const;
-    /// What triangle `triangle` of top-level entry `top` of a scene for `collect` is of its mesh.
+    /// Number in its mesh of triangle `triangle` of entry `top`, in a scene for `collect`.
     [[nodiscard]] std::uint32_t collected_triangle(std::uint32_t top, std::uint32_t triangle) const {
         const CollectedSlot* slot = slot_of_entry_[top];
         return slot == nullptr || slot->is_whole ? triangle : slot->triangles[triangle];

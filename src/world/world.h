@@ -54,7 +54,7 @@ enum class Coherence {
     Incoherent,  ///< anything else
 };
 
-/// What becomes of a ray that asks whether something is in the way.
+/// Answers to a ray that asks whether something is in the way.
 inline constexpr std::uint8_t kFree = 0, kOccluded = 1, kPassesPanes = 2;
 
 /// How a batch goes through Embree. The default is what measured best for its coherence; benchmarks compare.
@@ -200,8 +200,8 @@ class World {
     /// The surface at `hit`, whose textures are filtered for `ray`, which hit it, with `cone` around it. Rays that go
     /// on from it start beyond all surfaces that touch it.
     [[nodiscard]] SurfacePoint surface_point(const Hit& hit, const Ray& ray, const RayCone& cone) const;
-    /// What a plain surface is made of, null where it is no such surface, or others touch it. What it is at a point,
-    /// the functions of world/triangle_point.h say.
+    /// Material of a plain surface; null where the surface is not plain, or others touch it. The functions of
+    /// world/triangle_point.h say what it is at a point.
     [[nodiscard]] const PlainSurface* plain_surface(const Hit& hit) const {
         return hit.in_contact ? nullptr : plain_surfaces_.of_geometry[hit.geometry];
     }
@@ -256,8 +256,8 @@ class World {
     [[nodiscard]] bool is_boundary(const SurfacePoint& point) const { return point.material->filling != kNone; }
     /// A ray from within `current` at a boundary that nothing touches.
     [[nodiscard]] Crossing crossing(const SurfacePoint& point, const Interior& current) const;
-    /// What `ray`, which comes from within `current` with `cone` around it, finds at the boundary of a body at `hit`,
-    /// which others touch. `point` becomes the one that bounds what fills the space.
+    /// A boundary that others touch, where `ray`, which comes from within `current` with `cone` around it, has hit it.
+    /// `point` becomes the surface that bounds what fills the space.
     [[nodiscard]] Crossing contact_crossing(SurfacePoint& point, const Interior& current, const Hit& hit,
                                             const Ray& ray, const RayCone& cone) const;
     /// What fills the space, null in vacuum.

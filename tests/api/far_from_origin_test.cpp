@@ -106,7 +106,7 @@ class FarFromOrigin : public testing::TestWithParam<std::string> {
     mutable int rooms_ = 0;
 };
 
-/// Of all channels but alpha.
+/// Mean over all channels but alpha.
 double mean(const Picture& picture) {
     double sum = 0.0;
     for (std::size_t i = 0; i < picture.pixels().size(); ++i)

@@ -240,18 +240,27 @@ void expect_floor_radiance(const SceneDesc& scene, double expected, const std::v
     }
 }
 
+void add_lamp_facing_down(SceneDesc& scene, const Placing& placing, float radiance) {
+    add(scene, quad_facing_down({0.0f, 1.0f, 0.0f}, 1.0f), emitter(radiance), placing.to_world);
+}
+
+/// Radiance of the floor under a lamp of radiance 1 alone.
+double radiance_under_a_lamp(const Placing& placing) {
+    SceneDesc alone = under_a_ceiling(placing);
+    add_lamp_facing_down(alone, placing, 1.0f);
+    return static_cast<double>(placed_mean(alone, "path", kDirectLight, 256).g);
+}
+
 TEST(Contact, APanelFlushWithTheCeilingShines) {
     for (const Placing& placing : placings()) {
-        SceneDesc alone = under_a_ceiling(placing);
-        add(alone, quad_facing_down({0.0f, 1.0f, 0.0f}, 1.0f), emitter(1.0f), placing.to_world);
-        const double expected = static_cast<double>(placed_mean(alone, "path", kDirectLight, 256).g);
+        const double expected = radiance_under_a_lamp(placing);
         for (const bool ceiling_first : {true, false}) {
             SceneDesc scene = under_a_ceiling(placing);
             const auto add_ceiling = [&] {
                 add(scene, quad_facing_down({0.1f, 1.0f, 0.1f}, 3.0f), diffuse(0.5f), placing.to_world);
             };
             if (ceiling_first) add_ceiling();
-            add(scene, quad_facing_down({0.0f, 1.0f, 0.0f}, 1.0f), emitter(1.0f), placing.to_world);
+            add_lamp_facing_down(scene, placing, 1.0f);
             if (!ceiling_first) add_ceiling();
             expect_floor_radiance(scene, expected, kFindDirectLight, placing.name);
         }
@@ -260,24 +269,20 @@ TEST(Contact, APanelFlushWithTheCeilingShines) {
 
 TEST(Contact, OfTwoLampsInOnePlaceTheFirstShines) {
     for (const Placing& placing : placings()) {
-        SceneDesc alone = under_a_ceiling(placing);
-        add(alone, quad_facing_down({0.0f, 1.0f, 0.0f}, 1.0f), emitter(1.0f), placing.to_world);
-        const double expected = static_cast<double>(placed_mean(alone, "path", kDirectLight, 256).g);
+        const double expected = radiance_under_a_lamp(placing);
         SceneDesc scene = under_a_ceiling(placing);
-        add(scene, quad_facing_down({0.0f, 1.0f, 0.0f}, 1.0f), emitter(1.0f), placing.to_world);
-        add(scene, quad_facing_down({0.0f, 1.0f, 0.0f}, 1.0f), emitter(7.0f), placing.to_world);
+        add_lamp_facing_down(scene, placing, 1.0f);
+        add_lamp_facing_down(scene, placing, 7.0f);
         expect_floor_radiance(scene, expected, kFindDirectLight, placing.name);
     }
 }
 
 TEST(Contact, LampsBackToBackShineEachToItsSide) {
     for (const Placing& placing : placings()) {
-        SceneDesc alone = under_a_ceiling(placing);
-        add(alone, quad_facing_down({0.0f, 1.0f, 0.0f}, 1.0f), emitter(1.0f), placing.to_world);
-        const double expected = static_cast<double>(placed_mean(alone, "path", kDirectLight, 256).g);
+        const double expected = radiance_under_a_lamp(placing);
         SceneDesc scene = under_a_ceiling(placing);
         add(scene, quad_facing_up({0.0f, 1.0f, 0.0f}, 1.0f), emitter(7.0f), placing.to_world);
-        add(scene, quad_facing_down({0.0f, 1.0f, 0.0f}, 1.0f), emitter(1.0f), placing.to_world);
+        add_lamp_facing_down(scene, placing, 1.0f);
         expect_floor_radiance(scene, expected, kFindDirectLight, placing.name);
     }
 }

@@ -146,7 +146,7 @@ TEST(Bodies, ShortWavesAreRefractedMore) {
     EXPECT_NEAR(0.6f / (crossing.relative_ior(486.1f) - crossing.relative_ior(656.3f)), 20.0f, 0.02f);
 }
 
-/// What is said of a ball of glass whose mesh `change` has changed.
+/// Messages about a ball of glass whose mesh `change` has changed.
 template <typename Change>
 std::string said_of_a_ball(const Change& change) {
     SceneDesc scene = empty_scene();

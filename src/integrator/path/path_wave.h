@@ -47,7 +47,7 @@ struct SingleShading {
     BsdfSample sample;
 };
 
-/// What becomes of a path that goes straight through a pane: it comes from where it came from.
+/// State that a path keeps when it goes straight through a pane: its last vertex stays the one before.
 struct PanePassage {
     LightReceiver from;
     float passed = 0.0f;  ///< metres, behind the pane
