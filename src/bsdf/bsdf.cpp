@@ -25,20 +25,14 @@ float reverse_pdf_of_lobe(const Bsdf& bsdf, const Vec3f& wo, const Vec3f& wi) {
     return pdf_of_lobe(bsdf, from, to);
 }
 
-Rgb diffuse_share(const Bsdf& bsdf, const Vec3f& wo, const Vec3f& wi, TransportMode mode) {
-    BsdfParts parts;
-    if (std::holds_alternative<Diffuse>(bsdf) || std::holds_alternative<RoughDiffuse>(bsdf)) return Rgb(1.0f);
-    if (const auto* base = std::get_if<MetallicRoughness>(&bsdf))
-        parts = base->evaluate_parts(wo, wi);
-    else if (const auto* body = std::get_if<DielectricBody>(&bsdf))
-        parts = body->evaluate_parts(wo, wi, mode);
-    else if (const auto* layered = std::get_if<LayeredSurface>(&bsdf))
-        parts = layered->evaluate_parts(wo, wi, mode);
-    const auto share = [](float diffuse, float specular) {
-        return diffuse > 0.0f ? diffuse / (diffuse + specular) : 0.0f;
-    };
-    return {share(parts.diffuse.r, parts.specular.r), share(parts.diffuse.g, parts.specular.g),
-            share(parts.diffuse.b, parts.specular.b)};
+BsdfParts evaluate_bsdf_parts(const Bsdf& bsdf, const Vec3f& wo, const Vec3f& wi, TransportMode mode) {
+    if (const auto* base = std::get_if<MetallicRoughness>(&bsdf)) return base->evaluate_parts(wo, wi);
+    if (const auto* body = std::get_if<DielectricBody>(&bsdf)) return body->evaluate_parts(wo, wi, mode);
+    if (const auto* layered = std::get_if<LayeredSurface>(&bsdf)) return layered->evaluate_parts(wo, wi, mode);
+    const BsdfValue value = evaluate_bsdf(bsdf, wo, wi, mode);
+    if (std::holds_alternative<Diffuse>(bsdf) || std::holds_alternative<RoughDiffuse>(bsdf))
+        return {value.f_cos, {}, value.pdf_solid_angle};
+    return {{}, value.f_cos, value.pdf_solid_angle};
 }
 
 Rgb estimate_albedo(const Bsdf& bsdf, const Vec3f& wo, int count, std::uint32_t seed) {

@@ -36,9 +36,8 @@ using Bsdf = std::variant<Diffuse, DielectricBody, LayeredSurface, MetallicRough
     return std::visit([&](const auto& lobe) { return lobe.sample(wo, u_lobe, u, mode); }, bsdf);
 }
 
-/// Share, [0, 1], of what `evaluate_bsdf` says that is scattered as by a diffuse surface; the rest is around a
-/// direction.
-[[nodiscard]] Rgb diffuse_share(const Bsdf& bsdf, const Vec3f& wo, const Vec3f& wi, TransportMode mode);
+/// What `evaluate_bsdf` says, in two parts.
+[[nodiscard]] BsdfParts evaluate_bsdf_parts(const Bsdf& bsdf, const Vec3f& wo, const Vec3f& wi, TransportMode mode);
 
 /// All deltas of the lobe, as radiance: what `sample_bsdf` chooses one of.
 [[nodiscard]] inline DeltaList deltas_of(const Bsdf& bsdf, const Vec3f& wo) {

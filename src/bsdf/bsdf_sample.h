@@ -45,8 +45,9 @@ struct BasicBsdfSample {
     bool is_delta = false;    ///< as all lanes are
     bool is_transmission = false;
     T eta{1.0f};  ///< index on wi's side over the index on wo's side, for Russian roulette
-    /// Of a delta: probability of choosing it on the way back, from wi, over that of having chosen it from wo.
-    T reverse_choice_ratio{1.0f};
+    /// Of a delta: density of the way back, from wi, over that of this way. Lobes count the probabilities of choosing
+    /// it, `Scattering` what happens to solid angles, too.
+    T reverse_ratio{1.0f};
 };
 using BsdfSample = BasicBsdfSample<float>;
 

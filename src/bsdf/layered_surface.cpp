@@ -70,7 +70,7 @@ class InnerSide {
         const float passed = Layers::passed(surface_, leaving.wi);
         if (u < passed) {
             BsdfSample sample = leaving;
-            sample.reverse_choice_ratio *= Layers(surface_, leaving.wi).p_base() / passed;
+            sample.reverse_ratio *= Layers(surface_, leaving.wi).p_base() / passed;
             return sample;
         }
         const InterfaceFresnel::Split split = smooth_split(wo);
@@ -80,7 +80,7 @@ class InnerSide {
         return {.wi = mirror_direction(wo),
                 .weight = Rgb(weight),
                 .is_delta = true,
-                .reverse_choice_ratio = (1.0f - Layers::passed(surface_, mirrored)) / (1.0f - passed)};
+                .reverse_ratio = (1.0f - Layers::passed(surface_, mirrored)) / (1.0f - passed)};
     }
 
     /// Share of all light from `wo` that a smooth interface lets through along `leaving` and the layers send back.
@@ -151,10 +151,8 @@ BsdfSample sample_smooth_coat(const LayeredSurface& surface, const Layers& layer
     float weight = surface.coat.smooth_reflectance(wo) / layers.p_coat;
     // Both cosines to the coat's normal are equal; those to the surface's are in its adjoint factor.
     if (mode == TransportMode::Importance) weight *= wi.z / wo.z;
-    return {.wi = wi,
-            .weight = Rgb(weight),
-            .is_delta = true,
-            .reverse_choice_ratio = Layers(surface, wi).p_coat / layers.p_coat};
+    return {
+        .wi = wi, .weight = Rgb(weight), .is_delta = true, .reverse_ratio = Layers(surface, wi).p_coat / layers.p_coat};
 }
 
 /// Probability with which a delta of the base is left to the base on its way back.
@@ -229,7 +227,7 @@ BsdfSample LayeredSurface::sample(const Vec3f& wo, float u_lobe, Vec2f u, Transp
             if (sample.is_transmission && inner.is_seen_from(wo)) return inner.leave_or_return(wo, sample, u.x);
             const float passed_i = Layers::passed(*this, sample.wi);
             sample.weight *= std::min(layers.passed_o, passed_i) / (1.0f - end_layers);
-            sample.reverse_choice_ratio *= base_choice_back(*this, layers, wo, sample) / layers.p_base();
+            sample.reverse_ratio *= base_choice_back(*this, layers, wo, sample) / layers.p_base();
             return sample;
         }
     }

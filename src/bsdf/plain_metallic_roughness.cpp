@@ -9,34 +9,36 @@ namespace etendue {
 namespace {
 
 template <typename T>
-BasicBsdfValue<T> evaluate_lanes(const MetallicRoughnessLayers<T>& layers, const Imath::Vec3<T>& wo,
-                                 const Imath::Vec3<T>& wi) {
-    const auto scatters = wo.z > T(0.0f) && wi.z > T(0.0f);
-    const BasicBsdfValue<T> value = layers.evaluate_above(wo, wi).sum();
-    return {select(scatters, value.f_cos, BasicRgb<T>()), select(scatters, value.pdf_solid_angle, T(0.0f))};
+BasicBsdfValue<T> evaluate_lanes(const MetallicRoughnessLayers<T>& layers, const LeaningNormal<T>& leaning,
+                                 const Imath::Vec3<T>& wo, const Imath::Vec3<T>& wi) {
+    const BasicBsdfValue<T> value =
+        leaning.evaluate_for_eye(wi, [&](const Imath::Vec3<T>& w) { return layers.evaluate_above(wo, w); }).sum();
+    const auto scatters = wo.z > T(0.0f) && leaning.side(wi) > T(0.0f);
+    return {select<T>(scatters, value.f_cos, BasicRgb<T>()), select(scatters, value.pdf_solid_angle, T(0.0f))};
 }
 
 template <typename T>
-BasicBsdfSample<T> sample_lanes(const MetallicRoughnessLayers<T>& layers, const Imath::Vec3<T>& wo, T u_lobe,
-                                const Imath::Vec2<T>& u) {
-    const Imath::Vec3<T> wi = choose(
+BasicBsdfSample<T> sample_lanes(const MetallicRoughnessLayers<T>& layers, const LeaningNormal<T>& leaning,
+                                const Imath::Vec3<T>& wo, T u_lobe, const Imath::Vec2<T>& u) {
+    const Imath::Vec3<T> chosen = choose(
         u_lobe < layers.p_diffuse, [&] { return square_to_cosine_hemisphere(u); },
         [&] { return layers.sample_around(wo, u_lobe, layers.p_diffuse, layers.p_specular, u); });
-    const BasicBsdfValue<T> value = evaluate_lanes(layers, wo, wi);
-    const auto scatters = value.pdf_solid_angle > T(0.0f);
+    const Imath::Vec3<T> wi = leaning.kept_on_side(chosen);
+    const BasicBsdfValue<T> value = evaluate_lanes(layers, leaning, wo, wi);
+    const auto scatters = chosen.z > T(0.0f) && value.pdf_solid_angle > T(0.0f);
     return {.wi = wi,
-            .weight = select(scatters, value.f_cos / value.pdf_solid_angle, BasicRgb<T>()),
+            .weight = select<T>(scatters, value.f_cos / value.pdf_solid_angle, BasicRgb<T>()),
             .pdf_solid_angle = value.pdf_solid_angle};
 }
 
 }  // namespace
 
 template <typename T>
-auto PlainMetallicRoughness<T>::evaluate_and_sample(const Vec& wo, const Vec& wi, T u_lobe,
-                                                    const Imath::Vec2<T>& u) const -> ValueAndSample {
+auto PlainMetallicRoughness<T>::evaluate_and_sample(const LeaningNormal<T>& leaning, const Vec& wo, const Vec& wi,
+                                                    T u_lobe, const Imath::Vec2<T>& u) const -> ValueAndSample {
     const MetallicRoughnessLayers<T> layers(BasicGgx<T>::isotropic(alpha), false, {f0, f90, {}}, {base, T(1.0f), {}},
                                             metallic, {base * (1.0f - metallic), {}, {}}, wo);
-    return {evaluate_lanes(layers, wo, wi), sample_lanes(layers, wo, u_lobe, u)};
+    return {evaluate_lanes(layers, leaning, wo, wi), sample_lanes(layers, leaning, wo, u_lobe, u)};
 }
 
 template struct PlainMetallicRoughness<float>;

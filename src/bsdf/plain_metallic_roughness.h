@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bsdf/bsdf_sample.h"
+#include "bsdf/leaning_normal.h"
 
 namespace etendue {
 
@@ -21,10 +22,10 @@ struct PlainMetallicRoughness {
         BasicBsdfValue<T> value;
         BasicBsdfSample<T> sample;
     };
-    /// The value towards `wi` and a sample by `u_lobe` and `u`, which share what depends on wo alone. Zero where wo or
-    /// the direction is not above the surface. Of float and Wide.
-    [[nodiscard]] ValueAndSample evaluate_and_sample(const Vec& wo, const Vec& wi, T u_lobe,
-                                                     const Imath::Vec2<T>& u) const;
+    /// Evaluates towards `wi` and samples by `u_lobe` and `u` for a walk from the eye, which share what depends on wo
+    /// alone. Zero where wo or the direction is not above the surface. Of float and Wide.
+    [[nodiscard]] ValueAndSample evaluate_and_sample(const LeaningNormal<T>& leaning, const Vec& wo, const Vec& wi,
+                                                     T u_lobe, const Imath::Vec2<T>& u) const;
 };
 
 }  // namespace etendue

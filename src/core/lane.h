@@ -37,6 +37,11 @@ template <typename IfTrue, typename IfFalse>
     return condition ? if_true() : if_false();
 }
 
+/// True if `condition` holds in any lane.
+[[nodiscard]] constexpr bool any(bool condition) {
+    return condition;
+}
+
 /// `table[index]`; `index` is a whole number.
 [[nodiscard]] inline float gather(const float* table, float index) {
     return table[static_cast<std::size_t>(index)];

@@ -52,6 +52,8 @@ class WideMask {
 
     /// True in the first `count` of them.
     [[nodiscard]] static WideMask first(std::size_t count) { return WideMask(lanes::FirstN(Tag(), count)); }
+    /// True if it is in any lane.
+    [[nodiscard]] friend bool any(WideMask a) { return !lanes::AllFalse(Tag(), a.mask_); }
     /// In how many lanes it is true.
     [[nodiscard]] friend std::size_t count(WideMask a) { return lanes::CountTrue(Tag(), a.mask_); }
 

@@ -1,4 +1,4 @@
-// What `Scattering` does with lobes, for lanes of any width.
+// What `Scattering` does with lobes that only reflect, for lanes of any width; surfaces are turned to `wo`.
 #pragma once
 
 #include "bsdf/diffuse.h"
@@ -6,38 +6,46 @@
 
 namespace etendue {
 
-/// What a lobe says of `wi`, which is `wi_local` in the surface's frame, as radiance; zero where the leak rule says so.
+/// Density, 1/sr, with which a walk from the eye leaves a matte surface along `w`, which is local.
 template <typename T>
-[[nodiscard]] inline BasicBsdfValue<T> placed(const OrientedSurface<T>& surface, const BasicBsdfValue<T>& value,
-                                              const Imath::Vec3<T>& wi, const Imath::Vec3<T>& wi_local) {
-    const T scatters = select(surface.wo_agrees && surface.agrees(wi, wi_local), T(1.0f), T(0.0f));
-    return {value.f_cos * scatters, value.pdf_solid_angle * scatters};
+[[nodiscard]] inline T matte_pdf_for_eye(const LeaningNormal<T>& leaning, const Imath::Vec3<T>& w) {
+    const T both = cosine_hemisphere_pdf_solid_angle(w) + cosine_hemisphere_pdf_solid_angle(leaning.mirrored(w));
+    return select(leaning.side(w) > T(0.0f), both, T(0.0f));
 }
 
-/// A lobe's sample in world space; the weight is zero where nothing is scattered.
+/// Density, 1/sr, with which a walk from a light leaves a matte surface along `w`, which is local.
 template <typename T>
-[[nodiscard]] inline BasicBsdfSample<T> placed(const OrientedSurface<T>& surface, BasicBsdfSample<T> sample,
-                                               TransportMode mode) {
-    const Imath::Vec3<T> wi_local = sample.wi;
-    sample.wi = surface.frame.to_world(wi_local);
-    const T factor = mode == TransportMode::Importance ? surface.adjoint_factor(sample.wi, wi_local) : T(1.0f);
-    sample.weight *= select(surface.wo_agrees && surface.agrees(sample.wi, wi_local), factor, T(0.0f));
-    return sample;
+[[nodiscard]] inline T matte_pdf_for_light(const LeaningNormal<T>& leaning, const Imath::Vec3<T>& w) {
+    return max(T(0.0f), leaning.side(w)) * kInvPi;
 }
 
-/// f cos theta_i, as radiance, and the density of `sample_matte`.
+/// f |cos| and the density of `sample_matte` towards `w`, which is local.
 template <typename T>
 [[nodiscard]] inline BasicBsdfValue<T> evaluate_matte(const OrientedSurface<T>& surface, const BasicDiffuse<T>& lobe,
-                                                      const Imath::Vec3<T>& wi) {
-    const Imath::Vec3<T> wi_local = surface.frame.to_local(wi);
-    return placed(surface, lobe.evaluate(surface.wo_local, wi_local, TransportMode::Radiance), wi, wi_local);
+                                                      const Imath::Vec3<T>& w, TransportMode mode) {
+    const LeaningNormal<T>& leaning = surface.leaning;
+    const BasicRgb<T> albedo = lobe.albedo * leaning.matte_gain();
+    if (mode == TransportMode::Importance) {
+        const T pdf = matte_pdf_for_light(leaning, w);
+        return {albedo * (surface.received() * pdf), pdf};
+    }
+    const T above = select(leaning.side(w) > T(0.0f), cosine_hemisphere_pdf_solid_angle(w), T(0.0f));
+    return {albedo * above, matte_pdf_for_eye(leaning, w)};
 }
 
-/// `u` in [0, 1)².
+/// A direction in which a matte surface sends a walk on, in world space. `u` in [0, 1)².
 template <typename T>
 [[nodiscard]] inline BasicBsdfSample<T> sample_matte(const OrientedSurface<T>& surface, const BasicDiffuse<T>& lobe,
                                                      const Imath::Vec2<T>& u, TransportMode mode) {
-    return placed(surface, lobe.sample(surface.wo_local, 0.0f, u, mode), mode);
+    const Imath::Vec3<T> around = square_to_cosine_hemisphere(u);
+    const Imath::Vec3<T> local = mode == TransportMode::Importance
+                                     ? BasicFrame<T>::from_normal(surface.leaning.geometric).to_world(around)
+                                     : surface.leaning.kept_on_side(around);
+    const BasicBsdfValue<T> value = evaluate_matte(surface, lobe, local, mode);
+    const auto scatters = value.pdf_solid_angle > T(0.0f);
+    return {.wi = surface.frame.to_world(local),
+            .weight = select<T>(scatters, value.f_cos / value.pdf_solid_angle, BasicRgb<T>()),
+            .pdf_solid_angle = value.pdf_solid_angle};
 }
 
 }  // namespace etendue

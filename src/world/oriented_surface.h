@@ -1,6 +1,7 @@
 // The sides of a surface with a shading normal, and what directions mean on it: the geometry of `Scattering`.
 #pragma once
 
+#include "bsdf/leaning_normal.h"
 #include "core/frame.h"
 #include "core/lane.h"
 
@@ -15,38 +16,11 @@ struct OrientedSurface {
     Vec geometric_normal;
     Vec wo;
     Vec wo_local;
-    MaskOf<T> wo_agrees;  ///< false where nothing is scattered, by the leak rule
+    LeaningNormal<T> leaning;  ///< how the geometric normal lies in the frame
 
     /// Both normals on the front side. `turns`: what faces away from `wo` is turned to it.
     OrientedSurface(const BasicFrame<T>& front, const Vec& front_normal, const Vec& towards, bool turns)
-        : frame(front), geometric_normal(front_normal), wo(towards), wo_agrees(turn(turns)) {}
-
-    /// Of what another one has computed, lane by lane.
-    OrientedSurface(const BasicFrame<T>& turned, const Vec& turned_normal, const Vec& towards, const Vec& towards_local,
-                    MaskOf<T> agreeing)
-        : frame(turned), geometric_normal(turned_normal), wo(towards), wo_local(towards_local), wo_agrees(agreeing) {}
-
-    /// True if `w`, which is `local` in the frame, lies on the same side of both normals.
-    [[nodiscard]] MaskOf<T> agrees(const Vec& w, const Vec& local) const {
-        return dot(w, geometric_normal) * local.z > T(0.0f);
-    }
-
-    /// What importance that goes on along `w`, which is `local` in the frame, is multiplied by: |wo·n_s| |w·n_g| /
-    /// (|wo·n_g| |w·n_s|) (Veach 1997, equation 5.19).
-    [[nodiscard]] T adjoint_factor(const Vec& w, const Vec& local) const {
-        const T above = abs(wo_local.z) * abs(dot(w, geometric_normal));
-        const T below = abs(dot(wo, geometric_normal)) * abs(local.z);
-        return select(below > T(0.0f), above / below, T(0.0f));
-    }
-
-    /// What of that does not depend on `w`: |wo·n_s| / |wo·n_g|.
-    [[nodiscard]] T adjoint_factor_of_wo() const {
-        const T below = abs(dot(wo, geometric_normal));
-        return select(below > T(0.0f), abs(wo_local.z) / below, T(0.0f));
-    }
-
-  private:
-    MaskOf<T> turn(bool turns) {
+        : frame(front), geometric_normal(front_normal), wo(towards) {
         if (turns) {
             const T side = select(dot(wo, geometric_normal) < T(0.0f), T(-1.0f), T(1.0f));
             geometric_normal *= side;
@@ -54,7 +28,17 @@ struct OrientedSurface {
             frame.tangent *= side;  // keeps the frame right-handed
         }
         wo_local = frame.to_local(wo);
-        return agrees(wo, wo_local);
+        leaning.geometric = frame.to_local(geometric_normal);
+    }
+
+    /// Where the eye sees the lobe from, in the frame.
+    [[nodiscard]] Vec seen_from() const { return leaning.seen_from(wo_local); }
+
+    /// |wo·n_s| / |wo·n_g|: what the adjoint factor of importance has of the side that light comes from (Veach 1997,
+    /// equation 5.19); 0 where a lobe that only reflects receives none.
+    [[nodiscard]] T received() const {
+        const T side = leaning.side(wo_local);
+        return select(side > T(0.0f) && wo_local.z > T(0.0f), wo_local.z / side, T(0.0f));
     }
 };
 

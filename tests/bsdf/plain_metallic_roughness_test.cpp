@@ -53,7 +53,7 @@ TEST(PlainMetallicRoughness, IsMetallicRoughness) {
         general.f0 = c.lobe.f0;
         general.f90 = c.lobe.f90;
         ASSERT_TRUE(general.is_plain());
-        const auto both = c.lobe.evaluate_and_sample(c.wo, c.wi, c.u_lobe, c.u);
+        const auto both = c.lobe.evaluate_and_sample({}, c.wo, c.wi, c.u_lobe, c.u);
         const BsdfValue value = general.evaluate(c.wo, c.wi, TransportMode::Radiance);
         const BsdfSample sample = general.sample(c.wo, c.u_lobe, c.u, TransportMode::Radiance);
         const auto expect_same = [](float a, float b) { EXPECT_NEAR(a, b, 1e-5f * std::max(1.0f, std::abs(b))); };
@@ -80,7 +80,7 @@ TEST(PlainMetallicRoughness, OfManyLanesIsThatOfFloat) {
             [](const auto& in) {
                 using T = std::decay_t<decltype(in[0])>;
                 const Case<T> c = make_case<T>(in);
-                const auto both = c.lobe.evaluate_and_sample(c.wo, c.wi, c.u_lobe, c.u);
+                const auto both = c.lobe.evaluate_and_sample({}, c.wo, c.wi, c.u_lobe, c.u);
                 const auto is_rough = c.lobe.alpha > T(0.05f);
                 const auto is_above = c.wo.z > T(0.02f);
                 const auto value = [&](T x) { return select(is_rough && (is_above || c.wo.z <= T(0.0f)), x, T(0.0f)); };

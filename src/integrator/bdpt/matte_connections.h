@@ -44,10 +44,10 @@ template <typename T>
     const T squared = length_squared(to_light);
     const Imath::Vec3<T> w = to_light * (1.0f / sqrt(squared));
     const T inverse = 1.0f / squared;
-    const T weight = rule.weight(eye.pdf(w) * light.cosine(-w) * inverse, light.fewer,
-                                 light.pdf(-w) * eye.cosine(w) * inverse, eye.fewer);
+    const T weight = rule.weight(eye.radiance_pdf(w) * light.cosine(-w) * inverse, light.fewer,
+                                 light.importance_pdf(-w) * eye.cosine(w) * inverse, eye.fewer);
     const BasicRgb<T> contribution = eye.radiance(w) * light.importance(-w) * (scale * weight * inverse);
-    return {select(eye.scatters(w) && light.scatters(-w), contribution, BasicRgb<T>()), weight,
+    return {select(eye.cosine(w) > T(0.0f) && light.cosine(-w) > T(0.0f), contribution, BasicRgb<T>()), weight,
             Connection<T>(eye.origin, light.origin)};
 }
 
@@ -60,10 +60,10 @@ template <typename T>
     const T pdf = light.pdf_solid_angle * probability;
     const T from_light =
         front.emission_pdf_solid_angle(light.cos_light) * eye.cosine(light.wi) / (light.distance * light.distance);
-    const T weight = rule.weight(eye.pdf(light.wi) / pdf, T(1.0f), choice_ratio * from_light, eye.fewer);
+    const T weight = rule.weight(eye.radiance_pdf(light.wi) / pdf, T(1.0f), choice_ratio * from_light, eye.fewer);
     const BasicRgb<T> contribution = eye.radiance(light.wi) * radiance * (weight / pdf);
-    return {select(light.pdf_solid_angle > T(0.0f) && eye.scatters(light.wi), contribution, BasicRgb<T>()), weight,
-            Connection<T>(eye.origin, light.end)};
+    return {select(light.pdf_solid_angle > T(0.0f) && eye.cosine(light.wi) > T(0.0f), contribution, BasicRgb<T>()),
+            weight, Connection<T>(eye.origin, light.end)};
 }
 
 /// To the point `lens`, which lies along `w` and sees the end of a light subpath with `importance` per area, 1/m²;
@@ -74,7 +74,7 @@ template <typename T>
                                                 float samples_per_path) {
     const T from_eye = samples_per_path * importance * light.cosine(w);
     const T weight = rule.weight(from_eye, light.fewer, T(0.0f), T(0.0f));
-    return {select(light.scatters(w), light.importance(w) * (importance * weight), BasicRgb<T>()), weight,
+    return {select(light.cosine(w) > T(0.0f), light.importance(w) * (importance * weight), BasicRgb<T>()), weight,
             Connection<T>(light.origin, lens)};
 }
 

@@ -12,10 +12,10 @@ double cosine(const PathVertex& vertex, const Vec3f& w) {
     return static_cast<double>(vertex.cosine(w));
 }
 
-/// Density per solid angle of going on along `to` when a walk arrives from `from`.
-double scattering_density(const PathVertex& vertex, const Vec3f& from, const Vec3f& to) {
+/// Density per solid angle of going on along `to` when a walk of this `mode` arrives from `from`.
+double scattering_density(const PathVertex& vertex, const Vec3f& from, const Vec3f& to, TransportMode mode) {
     if (!vertex.is_on_surface()) return static_cast<double>(vertex.outside->phase.pdf_solid_angle(from, to));
-    return static_cast<double>(vertex.surface->seen_from(from).evaluate(to, TransportMode::Radiance).pdf_solid_angle);
+    return static_cast<double>(vertex.surface->seen_from(from).evaluate(to, mode).pdf_solid_angle);
 }
 
 /// A path and what the strategies' densities are made of. Vertex 0 lies on the light, `inner[i - 1]` is vertex i, the
@@ -61,8 +61,9 @@ class Path {
             return pdf * cosine(vertex, end_.direction) / (at_infinity_ ? 1.0 : squared_distance(0));
         }
         const PathVertex& before = *inner_[i - 2];
-        const double pdf =
-            is_delta(i - 1) ? delta_from_light(i - 1) : scattering_density(before, -direction(i - 2), direction(i - 1));
+        const double pdf = is_delta(i - 1) ? delta_from_light(i - 1)
+                                           : scattering_density(before, -direction(i - 2), direction(i - 1),
+                                                                TransportMode::Importance);
         return pdf * cosine(vertex, direction(i - 1)) / squared_distance(i - 1);
     }
 
@@ -74,8 +75,9 @@ class Path {
         }
         if (i == 0 && (end_.light == kNone ? false : !job_.world.can_be_hit(end_.light))) return 0.0;
         const PathVertex& before = *inner_[i];
-        const double pdf =
-            is_delta(i + 1) ? delta_from_eye(i + 1) : scattering_density(before, direction(i + 1), -direction(i));
+        const double pdf = is_delta(i + 1)
+                               ? delta_from_eye(i + 1)
+                               : scattering_density(before, direction(i + 1), -direction(i), TransportMode::Radiance);
         if (i > 0) return pdf * cosine(*inner_[i - 1], direction(i)) / squared_distance(i);
         return at_infinity_ ? pdf : pdf * std::abs(static_cast<double>(end_.cos_light)) / squared_distance(0);
     }

@@ -27,7 +27,8 @@ void BlockLanes::evaluate_matte(std::size_t count) {
         const OrientedSurface<Wide> surface({tangent.load(l), bitangent.load(l), normal.load(l)},
                                             geometric_normal.load(l), wo.load(l), true);
         const BasicDiffuse<Wide> lobe{albedo.load(l)};
-        const BasicBsdfValue<Wide> value = etendue::evaluate_matte(surface, lobe, light_wi.load(l));
+        const BasicBsdfValue<Wide> value =
+            etendue::evaluate_matte(surface, lobe, surface.frame.to_local(light_wi.load(l)), TransportMode::Radiance);
         f_cos.store(l, value.f_cos);
         pdf.store(l, value.pdf_solid_angle);
         const BasicBsdfSample<Wide> sample = sample_matte(surface, lobe, u.load(l), TransportMode::Radiance);

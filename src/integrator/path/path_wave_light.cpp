@@ -43,7 +43,7 @@ LightReceiver PathWave::make_receiver(std::size_t k) const {
         const Vec3f wo = lanes_.wo[k];
         const Vec3f normal = lanes_.normal[k];
         face(dot(lanes_.geometric_normal[k], wo) < 0.0f ? -normal : normal, wo);
-        if (path.glossy != nullptr) gloss = gloss_of(*path.glossy, dot(receiver.normal, wo));
+        if (path.glossy != nullptr) gloss = gloss_of(*path.glossy, abs_dot(receiver.normal, wo));
     } else if (const Scattering& scattering = *singles_[k].scattering; only_reflects(scattering.bsdf())) {
         face(scattering.normal(), scattering.wo());
         gloss = gloss_of(scattering.bsdf(), scattering.wo_local().z);

@@ -24,25 +24,28 @@ struct BasicMatteEnd {
     Vec origin;            ///< of rays to where light is scattered to: as `position`, clear of the surface
     Vec normal;            ///< of shading, unit, on the side of the vertex before
     Vec geometric_normal;  ///< unit, on the same side
-    /// What `importance` or `radiance` is times: the throughput that arrives, the albedo and, of importance, what the
-    /// adjoint factor (OrientedSurface) has of the vertex before. Black where the leak rule lets nothing scatter.
+    /// What `importance` or `radiance` is times: the throughput that arrives, the albedo with what it gains where the
+    /// normal leans (bsdf/leaning_normal.h) and, of importance, what the adjoint factor has of the vertex before. Black
+    /// where nothing scatters.
     BasicRgb<T> weight;
     /// SubpathDensities::fewer. A matte surface turns back to the vertex before with the same density wherever light
     /// comes from, so that nothing of it is left open.
     T fewer;
 
-    [[nodiscard]] MaskOf<T> scatters(const Vec& w) const {
-        return dot(w, geometric_normal) > T(0.0f) && dot(w, normal) > T(0.0f);
-    }
-    /// Density, 1/sr, with which the subpath goes on along `w`, if it `scatters` that way at all.
-    [[nodiscard]] T pdf(const Vec& w) const { return dot(w, normal) * kInvPi; }
-    /// Cosine between such a direction and the geometric normal.
+    /// Cosine between a direction and the geometric normal: nothing scatters where it is negative.
     [[nodiscard]] T cosine(const Vec& w) const { return dot(w, geometric_normal); }
-    /// Throughput times f |cos| towards such a direction, of a subpath from the eye.
-    [[nodiscard]] BasicRgb<T> radiance(const Vec& w) const { return weight * pdf(w); }
-    /// The same of one from a light: in the adjoint factor the cosine to the normal of shading gives way to that of the
-    /// geometric normal.
-    [[nodiscard]] BasicRgb<T> importance(const Vec& w) const { return weight * (cosine(w) * kInvPi); }
+    /// Throughput times f |cos| towards `w`, of a subpath from the eye.
+    [[nodiscard]] BasicRgb<T> radiance(const Vec& w) const { return weight * (max(T(0.0f), dot(w, normal)) * kInvPi); }
+    /// Density, 1/sr, with which a subpath from the eye goes on along `w` (matte_pdf_for_eye).
+    [[nodiscard]] T radiance_pdf(const Vec& w) const {
+        const T direct = dot(w, normal);
+        const T mirrored = direct - T(2.0f) * cosine(w) * dot(normal, geometric_normal);
+        return (max(T(0.0f), direct) + max(T(0.0f), mirrored)) * kInvPi;
+    }
+    /// Throughput times f |cos| towards `w`, of a subpath from a light.
+    [[nodiscard]] BasicRgb<T> importance(const Vec& w) const { return weight * importance_pdf(w); }
+    /// Density, 1/sr, with which a subpath from a light goes on along `w` (matte_pdf_for_light).
+    [[nodiscard]] T importance_pdf(const Vec& w) const { return cosine(w) * kInvPi; }
 };
 
 /// Of one vertex.

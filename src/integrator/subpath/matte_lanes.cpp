@@ -16,21 +16,20 @@ void MatteLanes::orient(std::size_t count, TransportMode mode) {
         tangent.store(l, faced.frame.tangent);
         normal.store(l, faced.frame.normal);
         facing_normal.store(l, faced.geometric_normal);
-        wo_local.store(l, faced.wo_local);
-        const Wide agrees = select(faced.wo_agrees, Wide(1.0f), Wide(0.0f));
-        wo_agrees.store(l, agrees);
-        reverse_pdf.store(l, cosine_hemisphere_pdf_solid_angle(faced.wo_local));
+        const bool is_eye = mode == TransportMode::Radiance;
+        reverse_pdf.store(l, is_eye ? matte_pdf_for_light(faced.leaning, faced.wo_local)
+                                    : matte_pdf_for_eye(faced.leaning, faced.wo_local));
         end_origin.store(
             l, offset_origin(position.load(l), faced.geometric_normal, clearance.load(l), faced.geometric_normal));
-        const Wide factor = mode == TransportMode::Importance ? faced.adjoint_factor_of_wo() : Wide(1.0f);
-        end_weight.store(l, throughput.load(l) * albedo.load(l) * (factor * agrees));
+        const Wide received = is_eye ? Wide(1.0f) : faced.received();
+        end_weight.store(l, throughput.load(l) * albedo.load(l) * (received * faced.leaning.matte_gain()));
     }
 }
 
 void MatteLanes::sample(std::size_t count, TransportMode mode) {
     for (std::size_t l = 0; l < count; l += Wide::kWidth) {
         const OrientedSurface<Wide> faced({tangent.load(l), bitangent.load(l), normal.load(l)}, facing_normal.load(l),
-                                          wo.load(l), wo_local.load(l), wo_agrees.load(l) > Wide(0.0f));
+                                          wo.load(l), false);
         const BasicBsdfSample<Wide> sampled = sample_matte(faced, BasicDiffuse<Wide>{albedo.load(l)}, u.load(l), mode);
         next_direction.store(l, sampled.wi);
         next_weight.store(l, sampled.weight);

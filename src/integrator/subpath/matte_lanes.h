@@ -18,8 +18,7 @@ struct MatteLanes : SurfaceLanes {
     RgbColumns throughput;  ///< that arrives
 
     // The surface as it faces wo: `tangent` and `normal` are turned to it, too.
-    Vec3Columns facing_normal, wo_local;
-    Column wo_agrees;    ///< 1 or 0
+    Vec3Columns facing_normal;
     Column reverse_pdf;  ///< of turning back, per solid angle, wherever the walk comes from
 
     // What MatteEnd has besides.
@@ -34,11 +33,7 @@ struct MatteLanes : SurfaceLanes {
     Column next_cosine;  ///< to the geometric normal, absolute
 
     [[nodiscard]] OrientedSurface<float> surface(std::size_t lane) const {
-        return {{tangent[lane], bitangent[lane], normal[lane]},
-                facing_normal[lane],
-                wo[lane],
-                wo_local[lane],
-                wo_agrees[lane] > 0.0f};
+        return {{tangent[lane], bitangent[lane], normal[lane]}, facing_normal[lane], wo[lane], false};
     }
 
     // Each computes lanes [0, count), rounded up, from the columns that the one before and the caller have set.

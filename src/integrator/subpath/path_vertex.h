@@ -41,7 +41,7 @@ struct PathVertex {
     bool is_reached_directly = true;     ///< false if boundaries that other bodies hide lie before it
     bool is_seen_directly = true;        ///< of the eye: nothing but deltas lie before it
     bool is_left_by_delta = false;       ///< the subpath went on by one
-    float delta_reverse_ratio = 1.0f;    ///< of that one, Scattering::reverse_density_ratio
+    float delta_reverse_ratio = 1.0f;    ///< of that one, BsdfSample::reverse_ratio
 
     /// False in a medium.
     [[nodiscard]] bool is_on_surface() const {

@@ -342,14 +342,14 @@ bool SubpathWave::scatter_at_surface(const SubpathJob& job, std::size_t i, const
     PathVertex& vertex = vertices_[path.vertex];
     const Scattering& scattering = *vertex.surface;
     vertex.is_left_by_delta = sample.is_delta;
-    if (sample.is_delta) vertex.delta_reverse_ratio = scattering.reverse_density_ratio(sample);
+    if (sample.is_delta) vertex.delta_reverse_ratio = sample.reverse_ratio;
     if (words_.are_followed())
         follow_words(state, surface_event(scattering, sample.wi, sample.is_delta, mode(), vertex.label));
     if (end_ == SubpathEnd::AtEye && sample.is_transmission) state.roulette_scale *= sample.eta * sample.eta;
     const float cosine = abs_dot(sample.wi, point.geometric_normal);
     state.departing = sample.is_delta ? scatter_by_delta(job.raised, path.arrived, vertex.delta_reverse_ratio, cosine)
                                       : etendue::scatter(job.raised, path.arrived, sample.pdf_solid_angle,
-                                                         scattering.reverse_pdf_solid_angle(sample.wi), cosine);
+                                                         scattering.reverse_pdf_solid_angle(sample.wi, mode()), cosine);
     ray.origin = offset_origin(point.position, point.geometric_normal, point.clearance, sample.wi);
     ray.direction = sample.wi;
     if (path.crossing) interiors_[i] = beyond(*path.crossing, point, sample.wi);

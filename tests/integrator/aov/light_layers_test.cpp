@@ -141,8 +141,8 @@ TEST_P(LightLayersAgree, WhoeverFindsTheirPaths) {
     room.spp /= 2;
     const World world = agreement_world(room);
     const auto aovs = std::make_shared<AovSet>(expression_layers(room, {GetParam().expression}));
-    const std::vector<ImageF> first = renders(world, "path", room, aovs, 100);
-    std::uint32_t seed = 200;
+    const std::vector<ImageF> first = renders(world, "path", room, aovs, 300);
+    std::uint32_t seed = 400;
     for (const char* name : kOthers) {
         const std::vector<ImageF> other = renders(world, name, room, aovs, seed);
         const auto block = testable_block_size(first, kSmallestBlock);

@@ -61,7 +61,7 @@ TEST_P(MatteLanesIn, ScatterAsThatOneSurfaceDoes) {
             ++scattered;
             ASSERT_LT(length(lanes.next_direction[l] - sample.wi), 1e-4f);
             ASSERT_NEAR(lanes.next_pdf[l], sample.pdf_solid_angle, 1e-5f);
-            ASSERT_NEAR(lanes.reverse_pdf[l], expected.reverse_pdf_solid_angle(sample.wi), 1e-5f);
+            ASSERT_NEAR(lanes.reverse_pdf[l], expected.reverse_pdf_solid_angle(sample.wi, mode), 1e-5f);
             ASSERT_NEAR(lanes.next_cosine[l], abs_dot(sample.wi, point.normal), 1e-4f);
             const Vec3f origin = offset_origin(lanes.position[l], point.normal, lanes.clearance[l], sample.wi);
             ASSERT_LT(length(lanes.next_origin[l] - origin), 0.5f * lanes.clearance[l]);

@@ -1,0 +1,275 @@
+#include "world/scattering.h"
+
+#include "sampling/hash.h"
+#include "world/lane_scattering.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+namespace etendue {
+
+namespace {
+
+using Leaning = LeaningNormal<float>;
+
+/// True of a delta that goes straight on: no normal bends it.
+bool is_straight(const BsdfSample& sample) {
+    return sample.is_delta && sample.is_transmission && sample.eta == 1.0f;
+}
+
+/// Light that arrives at a surface from `direct`, on its side `side`, is what the eye finds there and what it finds
+/// mirrored. A walk from the light takes one of the two by their cosines.
+struct Arrivals {
+    Vec3f direct, mirrored;
+    float direct_cosine, mirrored_cosine;  ///< to the normal of shading; 0 where the lobe is not met
+
+    Arrivals(const Leaning& leaning, const Vec3f& from, float side)
+        : direct(from),
+          mirrored(leaning.mirrored(from)),
+          direct_cosine(from.z * side > 0.0f ? std::abs(from.z) : 0.0f),
+          mirrored_cosine(mirrored.z * side > 0.0f ? std::abs(mirrored.z) : 0.0f) {}
+
+    [[nodiscard]] float sum() const { return direct_cosine + mirrored_cosine; }
+    /// Probability of taking the one with `cosine`.
+    [[nodiscard]] float chance(float cosine) const { return cosine / sum(); }
+};
+
+/// Where the eye may be that sees a lobe from `direct`: there, or at the mirror image in the shading horizon. A walk
+/// from a light goes to one of the two by their cosines.
+struct Viewpoints {
+    Vec3f direct, mirrored;
+    float direct_side, mirrored_side;  ///< cosines to the geometric normal; 0 where the eye would not see the lobe so
+
+    Viewpoints(const Leaning& leaning, const Vec3f& seen)
+        : direct(seen),
+          mirrored(seen.x, seen.y, -seen.z),
+          direct_side(leaning.side(direct)),
+          mirrored_side(leaning.side(mirrored)) {
+        if (!(direct_side * seen.z > 0.0f)) direct_side = 0.0f;
+        if (!(mirrored_side * seen.z > 0.0f)) mirrored_side = 0.0f;
+    }
+
+    [[nodiscard]] float sum() const { return std::abs(direct_side) + std::abs(mirrored_side); }
+    /// Probability of going to the one with the cosine `side`.
+    [[nodiscard]] float chance(float side) const { return std::abs(side) / sum(); }
+};
+
+/// A number in [0, 1) that nothing else is made of, from those that chose a direction.
+float number_besides(float u_lobe, Vec2f u) {
+    const auto bits = [](float v) { return std::bit_cast<std::uint32_t>(v); };
+    return to_unit_float(hash_combine(hash_combine(bits(u.x), bits(u.y)), bits(u_lobe)));
+}
+
+/// How refraction from `wo` to `wi`, both local, compresses solid angles on the way back, over this way.
+float compression_ratio(const BsdfSample& sample, float cos_o, float cos_i) {
+    if (!sample.is_transmission) return 1.0f;
+    return std::abs(cos_o) / (sample.eta * sample.eta * std::max(std::abs(cos_i), 1e-6f));
+}
+
+/// The parts of a lobe whose diffuse one is a cosine lobe: that of rough matte surfaces is not, and goes with the
+/// other.
+BsdfParts lobe_parts(const Bsdf& bsdf, const Vec3f& wo, const Vec3f& wi, TransportMode mode) {
+    BsdfParts parts = evaluate_bsdf_parts(bsdf, wo, wi, mode);
+    if (std::holds_alternative<RoughDiffuse>(bsdf)) std::swap(parts.diffuse, parts.specular);
+    return parts;
+}
+
+bool is_matte(const Bsdf& bsdf) {
+    return std::holds_alternative<Diffuse>(bsdf) || std::holds_alternative<RoughDiffuse>(bsdf);
+}
+
+float share(float diffuse, float specular) {
+    return diffuse > 0.0f ? diffuse / (diffuse + specular) : 0.0f;
+}
+
+}  // namespace
+
+BsdfValue Scattering::evaluate(const Vec3f& wi, TransportMode mode) const {
+    const Placed placed_wi = placed(wi);
+    // The commonest by far, and many at once elsewhere.
+    if (const auto* matte = std::get_if<Diffuse>(bsdf_)) return evaluate_matte(surface_, *matte, placed_wi.w, mode);
+    if (leans_) return evaluate_parts(placed_wi, mode).sum();
+    if (!placed_wo().agrees() || !placed_wi.agrees()) return {};
+    return evaluate_bsdf(*bsdf_, surface_.wo_local, placed_wi.w, mode);
+}
+
+BsdfParts Scattering::evaluate_parts(const Placed& wi, TransportMode mode) const {
+    const Placed wo = placed_wo();
+    if (!leans_) return wo.agrees() && wi.agrees() ? evaluate_bsdf_parts(*bsdf_, wo.w, wi.w, mode) : BsdfParts();
+    if (mode == TransportMode::Importance) return evaluate_for_light(wo, wi);
+    const Vec3f seen_from = surface_.seen_from();
+    return surface_.leaning.evaluate_for_eye(wi.w,
+                                             [&](const Vec3f& w) { return lobe_parts(*bsdf_, seen_from, w, mode); });
+}
+
+BsdfParts Scattering::evaluate_for_light(const Placed& wo, const Placed& wi) const {
+    const Leaning& leaning = surface_.leaning;
+    const Vec3f eye = leaning.seen_from(wi.w);
+    const Arrivals arrivals(leaning, wo.w, wo.side);
+    BsdfParts value;
+    const auto add = [&](const Vec3f& from, float cosine, float diffuse_gain) {
+        if (cosine == 0.0f) return;
+        const BsdfParts parts = lobe_parts(*bsdf_, from, eye, TransportMode::Importance);
+        value.diffuse += parts.diffuse * (cosine * diffuse_gain);
+        value.specular += parts.specular * cosine;
+        value.pdf_solid_angle += parts.pdf_solid_angle * arrivals.chance(cosine);
+    };
+    add(arrivals.direct, arrivals.direct_cosine, leaning.diffuse_gain());
+    add(arrivals.mirrored, arrivals.mirrored_cosine, 0.0f);
+    const float below = std::abs(eye.z * wo.side);
+    if (!(below > 0.0f)) return {};
+    const float factor = std::abs(wi.side) / below;
+    value.diffuse *= factor;
+    value.specular *= factor;
+    value.pdf_solid_angle *= Viewpoints(leaning, eye).chance(wi.side);
+    return value;
+}
+
+Rgb Scattering::diffuse_share(const Vec3f& wi, TransportMode mode) const {
+    if (is_matte(*bsdf_)) return Rgb(1.0f);
+    const BsdfParts parts = evaluate_parts(placed(wi), mode);
+    return {share(parts.diffuse.r, parts.specular.r), share(parts.diffuse.g, parts.specular.g),
+            share(parts.diffuse.b, parts.specular.b)};
+}
+
+float Scattering::pdf_for_eye(const Placed& from, const Placed& to) const {
+    const Vec3f seen_from = surface_.leaning.seen_from(from.w);
+    const Arrivals arrivals(surface_.leaning, to.w, to.side);
+    float pdf = 0.0f;
+    if (arrivals.direct_cosine > 0.0f) pdf += etendue::reverse_pdf_solid_angle(*bsdf_, arrivals.direct, seen_from);
+    if (arrivals.mirrored_cosine > 0.0f) pdf += etendue::reverse_pdf_solid_angle(*bsdf_, arrivals.mirrored, seen_from);
+    return pdf;
+}
+
+float Scattering::pdf_for_light(const Placed& from, const Placed& to) const {
+    const Vec3f eye = surface_.leaning.seen_from(to.w);
+    const Arrivals arrivals(surface_.leaning, from.w, from.side);
+    float pdf = 0.0f;
+    const auto add = [&](const Vec3f& w, float cosine) {
+        if (cosine > 0.0f) pdf += arrivals.chance(cosine) * etendue::reverse_pdf_solid_angle(*bsdf_, eye, w);
+    };
+    add(arrivals.direct, arrivals.direct_cosine);
+    add(arrivals.mirrored, arrivals.mirrored_cosine);
+    return pdf > 0.0f ? pdf * Viewpoints(surface_.leaning, eye).chance(to.side) : 0.0f;
+}
+
+float Scattering::reverse_pdf_solid_angle(const Vec3f& wi, TransportMode mode) const {
+    const Placed from = placed(wi);
+    const Placed to = placed_wo();
+    const bool is_eye = mode == TransportMode::Radiance;
+    if (std::holds_alternative<Diffuse>(*bsdf_)) {
+        if (!(from.side > 0.0f)) return 0.0f;
+        return is_eye ? matte_pdf_for_light(surface_.leaning, to.w) : matte_pdf_for_eye(surface_.leaning, to.w);
+    }
+    if (leans_) return is_eye ? pdf_for_light(from, to) : pdf_for_eye(from, to);
+    return to.agrees() && from.agrees() ? etendue::reverse_pdf_solid_angle(*bsdf_, to.w, from.w) : 0.0f;
+}
+
+Scattering::TwoWayValue Scattering::evaluate_both_ways(const Vec3f& wi, TransportMode mode) const {
+    const BsdfValue value = evaluate(wi, mode);
+    if (is_black(value.f_cos)) return {};
+    return {value.f_cos, value.pdf_solid_angle, reverse_pdf_solid_angle(wi, mode)};
+}
+
+BsdfSample Scattering::sample(float u_lobe, Vec2f u, TransportMode mode) const {
+    if (const auto* matte = std::get_if<Diffuse>(bsdf_)) return sample_matte(surface_, *matte, u, mode);
+    if (leans_) return mode == TransportMode::Importance ? sample_for_light(u_lobe, u) : sample_for_eye(u_lobe, u);
+    if (!placed_wo().agrees()) return {};
+    BsdfSample sample = sample_bsdf(*bsdf_, surface_.wo_local, u_lobe, u, mode);
+    if (is_black(sample.weight)) return {};
+    const Vec3f local = sample.wi;
+    sample.wi = surface_.frame.to_world(local);
+    if (!(local.z * dot(sample.wi, surface_.geometric_normal) > 0.0f)) return {};
+    if (sample.is_delta) sample.reverse_ratio *= compression_ratio(sample, surface_.wo_local.z, local.z);
+    return sample;
+}
+
+BsdfSample Scattering::sample_for_eye(float u_lobe, Vec2f u) const {
+    const Leaning& leaning = surface_.leaning;
+    const Vec3f seen_from = surface_.seen_from();
+    BsdfSample sample = sample_bsdf(*bsdf_, seen_from, u_lobe, u, TransportMode::Radiance);
+    if (is_black(sample.weight)) return {};
+    if (is_straight(sample)) {
+        sample.wi = -surface_.wo;
+        return sample;
+    }
+    const Vec3f local = sample.wi;
+    const Vec3f kept = leaning.kept_on_side(local);
+    const float side = leaning.side(kept);
+    sample.wi = surface_.frame.to_world(kept);
+    if (!(side * dot(sample.wi, surface_.geometric_normal) > 0.0f)) return {};
+    if (sample.is_delta) {
+        sample.reverse_ratio *= compression_ratio(sample, seen_from.z, local.z) *
+                                Arrivals(leaning, kept, side).chance(std::abs(local.z)) *
+                                Viewpoints(leaning, seen_from).chance(placed_wo().side);
+        return sample;
+    }
+    const BsdfValue value = evaluate_parts({kept, side}, TransportMode::Radiance).sum();
+    if (!(value.pdf_solid_angle > 0.0f)) return {};
+    sample.weight = value.f_cos / value.pdf_solid_angle;
+    sample.pdf_solid_angle = value.pdf_solid_angle;
+    return sample;
+}
+
+BsdfSample Scattering::sample_for_light(float u_lobe, Vec2f u) const {
+    const Leaning& leaning = surface_.leaning;
+    const Placed wo = placed_wo();
+    const Arrivals arrivals(leaning, wo.w, wo.side);
+    const float sum = arrivals.sum();
+    const bool takes_direct = !(u_lobe * sum > arrivals.direct_cosine) || arrivals.mirrored_cosine == 0.0f;
+    Vec3f from = takes_direct ? arrivals.direct : arrivals.mirrored;
+    float chance = 1.0f;
+    if (sum == 0.0f) {
+        // Only what goes straight on passes.
+        from = surface_.seen_from();
+    } else if (arrivals.mirrored_cosine > 0.0f) {
+        const float first = takes_direct ? 0.0f : arrivals.direct_cosine;
+        const float cosine = takes_direct ? arrivals.direct_cosine : arrivals.mirrored_cosine;
+        chance = arrivals.chance(cosine);
+        u_lobe = std::clamp((u_lobe * sum - first) / cosine, 0.0f, kOneMinusEpsilon);
+    }
+    BsdfSample sample = sample_bsdf(*bsdf_, from, u_lobe, u, TransportMode::Importance);
+    if (is_black(sample.weight)) return {};
+    if (is_straight(sample)) {
+        if (!takes_direct) return {};
+        sample.wi = -surface_.wo;
+        sample.weight *= 1.0f / chance;
+        return sample;
+    }
+    if (sum == 0.0f) return {};
+    const Vec3f seen = sample.wi;
+    const Viewpoints views(leaning, seen);
+    if (!(views.sum() > 0.0f)) return {};
+    const bool goes_direct = number_besides(u_lobe, u) * views.sum() < std::abs(views.direct_side);
+    const Placed eye =
+        goes_direct ? Placed{views.direct, views.direct_side} : Placed{views.mirrored, views.mirrored_side};
+    sample.wi = surface_.frame.to_world(eye.w);
+    if (!(eye.side * dot(sample.wi, surface_.geometric_normal) > 0.0f)) return {};
+    if (sample.is_delta) {
+        sample.weight *= sum * views.sum() / std::max(std::abs(seen.z * wo.side), 1e-12f);
+        sample.reverse_ratio *= compression_ratio(sample, from.z, seen.z) / (chance * views.chance(eye.side));
+        return sample;
+    }
+    const BsdfValue value = evaluate_for_light(wo, eye).sum();
+    if (!(value.pdf_solid_angle > 0.0f)) return {};
+    sample.weight = value.f_cos / value.pdf_solid_angle;
+    sample.pdf_solid_angle = value.pdf_solid_angle;
+    return sample;
+}
+
+DeltaList Scattering::deltas() const {
+    DeltaList placed_deltas;
+    const Vec3f seen_from = leans_ ? surface_.seen_from() : surface_.wo_local;
+    if (!leans_ && !placed_wo().agrees()) return placed_deltas;
+    for (BsdfSample delta : deltas_of(*bsdf_, seen_from)) {
+        const Vec3f kept = leans_ ? surface_.leaning.kept_on_side(delta.wi) : delta.wi;
+        delta.wi = is_straight(delta) ? -surface_.wo : surface_.frame.to_world(kept);
+        if (is_straight(delta) || kept.z * dot(delta.wi, surface_.geometric_normal) > 0.0f) placed_deltas.add(delta);
+    }
+    return placed_deltas;
+}
+
+}  // namespace etendue
