@@ -95,6 +95,10 @@ std::vector<AgreementCase> all_cases() {
              add_object(scene, sphere({0.1f, -0.2f, -2.8f}, 0.5f, 4), add_material(scene, diffuse(Rgb(0.8f))));
              add_lamp(scene);
          }});
+    cases.push_back({"CoarseSmoothPlastic", [](SceneDesc& scene) {
+                         add_object(scene, sphere({0.1f, -0.2f, -2.8f}, 0.5f, 4), add_material(scene, gltf_plastic()));
+                         add_lamp(scene);
+                     }});
     cases.push_back({"Orthographic", [](SceneDesc& scene) {
                          add_ball(scene, gltf_plastic());
                          add_lamp(scene);

@@ -60,6 +60,8 @@ struct ClosedFormCase {
 [[nodiscard]] std::vector<ClosedFormCase> environment_cases();
 /// Closed spheres, empty or with lossless bodies in them.
 [[nodiscard]] std::vector<ClosedFormCase> furnace_cases();
+/// White surfaces whose normals lean away from those of their triangles, under a white sky.
+[[nodiscard]] std::vector<ClosedFormCase> leaning_normal_cases();
 /// Bodies that absorb, nest, overlap, disperse and scatter.
 [[nodiscard]] std::vector<ClosedFormCase> body_cases();
 /// Direct light where rounding is large.

@@ -186,7 +186,43 @@ std::vector<ClosedFormCase> integrating_sphere_cases() {
     return cases;
 }
 
+/// A white square under a white sky, its normals leaning by `lean` degrees towards +X, seen from `view` degrees.
+ClosedFormCase leaning_case(const std::string& name, const MaterialDesc& material, float lean, float view,
+                            std::vector<std::string> integrators) {
+    const auto at = [](float degrees) {
+        const float angle = degrees * kPi / 180.0f;
+        return Vec3f(std::sin(angle), std::cos(angle), 0.0f);
+    };
+    SceneDesc scene;
+    set_environment(scene);
+    PrimitiveDesc square = quad_facing_up({0.0f, 0.0f, 0.0f}, 2.0f);
+    square.normals.assign(square.positions.size(), at(lean));
+    MaterialDesc two_sided = material;
+    two_sided.double_sided = true;
+    add(scene, square, two_sided);
+    look(scene, at(view) * 2.0f, -at(view), 0.1f);
+    // What the tables of rough lobes and the share of diffuse light that the surface hides are good to.
+    return {name, scene, 1.0, 5e-3, {.max_depth = 8}, std::move(integrators), 64};
+}
+
 }  // namespace
+
+std::vector<ClosedFormCase> leaning_normal_cases() {
+    MaterialDesc matte;
+    matte.override_model = DiffuseDesc{Rgb(1.0f)};
+    MaterialDesc mirror;
+    mirror.override_model = ConductorDesc{"", 0.0f};
+    MaterialDesc metal;
+    metal.roughness = 0.5f;
+    const std::vector<std::string> all = light_too(kFindAllBounces);
+    return {leaning_case("leaning_matte", matte, 40.0f, 10.0f, all),
+            leaning_case("leaning_matte_seen_from_behind", matte, 60.0f, -70.0f, all),
+            leaning_case("leaning_metal", metal, 40.0f, 10.0f, all),
+            leaning_case("leaning_metal_towards_the_eye", metal, 50.0f, 75.0f, all),
+            leaning_case("leaning_metal_seen_from_behind", metal, 60.0f, -70.0f, all),
+            leaning_case("leaning_mirror", mirror, 60.0f, 30.0f, kFindAllMirrors),
+            leaning_case("leaning_mirror_seen_from_behind", mirror, 60.0f, -70.0f, kFindAllMirrors)};
+}
 
 std::vector<ClosedFormCase> furnace_cases() {
     std::vector<ClosedFormCase> cases = empty_furnace_cases();
