@@ -74,6 +74,7 @@ World compile_world(SceneDesc scene, const ColorConfig& colors, const std::strin
     end_phase("BVH");
     compile_lights(scene, threads, data, problems);
     find_planes_of_lamps(data);
+    move_camera_off_surfaces(data);
     end_phase("lights");
     return World(std::move(data));
 }

@@ -152,6 +152,44 @@ bool move_sheets_apart(const Touches& touches, WorldData& data) {
     return any;
 }
 
+/// For each plane of surfaces that lie within rounding of `point` its normal, as long as it takes to be clear of it.
+std::vector<Vec3f> planes_through(const WorldData& data, const Vec3f& point) {
+    constexpr double kAlike = 0.99;
+    const Vec3f error = position_error(abs_components(point));
+    const Vec3f extent = max_components(abs_components(data.bounds.min), abs_components(data.bounds.max));
+    const float radius =
+        8.0f * clearance({1.0f, 1.0f, 1.0f}, position_error(max_components(extent, abs_components(point))));
+    std::vector<Vec3f> planes;
+    data.bvh->for_each_near(point, radius, [&](std::uint32_t instance, std::uint32_t geometry, std::uint32_t t) {
+        const PlacedTriangle triangle = place(data, instance, geometry, t);
+        if (triangle.is_degenerate()) return true;
+        const Vec3f normal(triangle.normal);
+        const double distance = contact_distance(triangle.clearance, static_cast<double>(clearance(normal, error)));
+        if (!is_near(triangle, Vec3d(point), distance)) return true;
+        const Vec3f plane(triangle.normal * distance);
+        const auto same = std::ranges::find_if(planes, [&](const Vec3f& other) {
+            return std::abs(triangle.normal.dot(Vec3d(other))) > kAlike * Vec3d(other).length();
+        });
+        if (same == planes.end())
+            planes.push_back(plane);
+        else if (length(*same) < length(plane))
+            *same = plane;
+        return true;
+    });
+    return planes;
+}
+
+CameraPose& movable_pose(Camera& camera) {
+    return std::visit(
+        [](auto& kind) -> CameraPose& {
+            if constexpr (requires { kind.pinhole; })
+                return kind.pinhole.pose;
+            else
+                return kind.pose;
+        },
+        camera);
+}
+
 }  // namespace
 
 void build_bvh(const ThreadPool& threads, WorldData& data, ProblemList& problems) {
@@ -205,35 +243,21 @@ void build_bvh(const ThreadPool& threads, WorldData& data, ProblemList& problems
 }
 
 void find_planes_of_lamps(WorldData& data) {
-    constexpr double kAlike = 0.99;
     for (std::size_t light = 0; light < data.lights.size(); ++light) {
         const std::optional<Vec3f> lamp = point_of(data.lights[light]);
         if (!lamp) continue;
-        const Vec3f error = position_error(abs_components(*lamp));
-        const Vec3f extent = max_components(abs_components(data.bounds.min), abs_components(data.bounds.max));
-        const float radius =
-            8.0f * clearance({1.0f, 1.0f, 1.0f}, position_error(max_components(extent, abs_components(*lamp))));
-        std::vector<Vec3f> planes;
-        data.bvh->for_each_near(*lamp, radius, [&](std::uint32_t instance, std::uint32_t geometry, std::uint32_t t) {
-            const PlacedTriangle triangle = place(data, instance, geometry, t);
-            if (triangle.is_degenerate()) return true;
-            const Vec3f normal(triangle.normal);
-            const double distance = contact_distance(triangle.clearance, static_cast<double>(clearance(normal, error)));
-            if (!is_near(triangle, Vec3d(*lamp), distance)) return true;
-            const Vec3f plane(triangle.normal * distance);
-            const auto same = std::ranges::find_if(planes, [&](const Vec3f& other) {
-                return std::abs(triangle.normal.dot(Vec3d(other))) > kAlike * Vec3d(other).length();
-            });
-            if (same == planes.end())
-                planes.push_back(plane);
-            else if (length(*same) < length(plane))
-                *same = plane;
-            return true;
-        });
+        std::vector<Vec3f> planes = planes_through(data, *lamp);
         if (planes.empty()) continue;
         data.planes_of_light.resize(data.lights.size());
         data.planes_of_light[light] = std::move(planes);
     }
+}
+
+void move_camera_off_surfaces(WorldData& data) {
+    if (!data.camera_motion.empty()) return;
+    CameraPose& pose = movable_pose(data.camera);
+    for (const Vec3f& plane : planes_through(data, pose.position))
+        pose.position += dot(plane, pose.forward) >= 0.0f ? plane : -plane;
 }
 
 }  // namespace etendue

@@ -81,6 +81,9 @@ void compile_lights(const SceneDesc& scene, const ThreadPool& threads, WorldData
 /// Finds the surfaces that lamps at a point lie in. Needs lights and the BVH in `data`.
 void find_planes_of_lamps(WorldData& data);
 
+/// Puts a camera that stands in surfaces, and still, before them: on the side to which it looks.
+void move_camera_off_surfaces(WorldData& data);
+
 /// Throws SceneError if the camera that the settings name does not exist.
 [[nodiscard]] Camera compile_camera(const SceneDesc& scene);
 /// How that camera moves; empty if it stands still.

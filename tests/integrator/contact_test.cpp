@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -201,6 +202,25 @@ TEST(Contact, NoLightPassesAFloorThatGlassStandsOn) {
         }
 }
 
+/// A square at y = 0 of `cells` × `cells` pairs of triangles.
+PrimitiveDesc grid_facing_up(float size, int cells) {
+    PrimitiveDesc grid;
+    const auto columns = static_cast<std::uint32_t>(cells + 1);
+    for (int z = 0; z <= cells; ++z)
+        for (int x = 0; x <= cells; ++x) {
+            const float step = size / static_cast<float>(cells);
+            grid.positions.emplace_back(static_cast<float>(x) * step - size / 2, 0.0f,
+                                        static_cast<float>(z) * step - size / 2);
+        }
+    for (std::uint32_t z = 0; z + 1 < columns; ++z)
+        for (std::uint32_t x = 0; x + 1 < columns; ++x) {
+            const std::uint32_t first = z * columns + x;
+            grid.triangles.push_back({first, first + columns, first + 1});
+            grid.triangles.push_back({first + 1, first + columns, first + columns + 1});
+        }
+    return grid;
+}
+
 TEST(Contact, ThinSheetsInOnePlaceAreAsManyAsThereAre) {
     MaterialDesc sheet;
     sheet.base_color = Rgb(0.5f);
@@ -220,6 +240,29 @@ TEST(Contact, ThinSheetsInOnePlaceAreAsManyAsThereAre) {
             EXPECT_NEAR(seen_through(0.0f, sheets), seen_through(0.1f, sheets), 2e-3f)
                 << placing.name << ", " << sheets;
     }
+}
+
+// Instances of one mesh, small enough to be copied and large enough to be shared.
+TEST(Contact, InstancesOfOneSheetInOnePlaceAreAsManyAsThereAre) {
+    MaterialDesc sheet;
+    sheet.base_color = Rgb(0.5f);
+    sheet.metallic = 0.0f;
+    sheet.roughness = 0.0f;
+    sheet.transmission = 1.0f;
+    for (const int cells : {1, 40})
+        for (const Placing& placing : placings()) {
+            const auto seen_through = [&](float gap) {
+                SceneDesc scene;
+                set_environment(scene);
+                add(scene, grid_facing_up(3.0f, cells), sheet, placing.to_world);
+                InstanceDesc second = scene.instances.back();
+                second.to_world = translation({0.0f, gap, 0.0f}) * placing.to_world;
+                scene.instances.push_back(second);
+                look_placed(scene, placing, {0.01f, 2.0f, 0.02f}, {0.0f, -1.0f, 0.0f}, 0.3f);
+                return placed_mean(scene, "whitted", kAllBounces, 1).g;
+            };
+            EXPECT_NEAR(seen_through(0.0f), seen_through(0.1f), 2e-3f) << placing.name << ", " << cells;
+        }
 }
 
 /// A grey floor below a ceiling with a lamp in it, seen past the ceiling.
@@ -324,6 +367,49 @@ TEST(Contact, LightPathsLeaveALampInACeiling) {
         EXPECT_NEAR(lit_floor("light"), expected, 0.02f * expected) << placing.name;
         EXPECT_NEAR(lit_floor("bdpt"), expected, 0.02f * expected) << placing.name;
     }
+}
+
+// Of panels, which light paths start from: as bright as the lamp alone, for who sees more than a point of the floor.
+TEST(Contact, LightPathsLeavePanelsInOnePlace) {
+    for (const Placing& placing : placings()) {
+        const auto lit_floor = [&](const std::string& integrator, const std::function<void(SceneDesc&)>& add_more) {
+            SceneDesc scene = under_a_ceiling(placing);
+            scene.cameras.clear();
+            look_placed(scene, placing, {0.0f, 0.9f, 0.0f}, {0.0f, -1.0f, 0.0f}, 0.5f);
+            add_lamp_facing_down(scene, placing, 1.0f);
+            add_more(scene);
+            return placed_mean(scene, integrator, kDirectLight, 1024).g;
+        };
+        const float expected = lit_floor("path", [](SceneDesc&) {});
+        const auto ceiling = [&](SceneDesc& scene) {
+            add(scene, quad_facing_down({0.1f, 1.0f, 0.1f}, 3.0f), diffuse(0.5f), placing.to_world);
+        };
+        const auto same_lamp = [&](SceneDesc& scene) { add_lamp_facing_down(scene, placing, 7.0f); };
+        const auto back = [&](SceneDesc& scene) {
+            add(scene, quad_facing_up({0.0f, 1.0f, 0.0f}, 1.0f), emitter(7.0f), placing.to_world);
+        };
+        for (const std::function<void(SceneDesc&)>& more :
+             {std::function<void(SceneDesc&)>(ceiling), std::function<void(SceneDesc&)>(same_lamp),
+              std::function<void(SceneDesc&)>(back)})
+            EXPECT_NEAR(lit_floor("light", more), expected, 0.02f * expected) << placing.name;
+    }
+}
+
+// A camera on a wall looks from before it, or through it from behind: nothing it stands in is in its way.
+TEST(Contact, ACameraInASurfaceLooksFromBeforeIt) {
+    for (const Placing& placing : placings())
+        for (const float side : {1.0f, -1.0f})
+            for (const float lens_radius : {0.0f, 0.05f}) {
+                SceneDesc scene;
+                set_environment(scene);
+                add(scene, parallelogram({0.1f, 0.05f, 0.0f}, {3.0f, 0.0f, 0.0f}, {0.0f, 3.0f, 0.0f}), diffuse(0.0f),
+                    placing.to_world);
+                look_placed(scene, placing, {0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, side}, 0.2f);
+                scene.cameras[0].lens_radius = lens_radius;
+                for (const char* integrator : {"path", "bdpt"})
+                    for (const Rgb& pixel : placed_pixels(scene, integrator, kDirectLight, 2))
+                        ASSERT_NEAR(pixel.g, 1.0f, 1e-3f) << placing.name << ", " << integrator << ", " << side;
+            }
 }
 
 }  // namespace
