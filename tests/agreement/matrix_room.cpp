@@ -4,6 +4,7 @@
 #include "world/test_scene.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -38,14 +39,47 @@ MaterialDesc make_material(BodyMaterial material) {
             return glass(0.8f);
         case BodyMaterial::Mirror:
             return conductor(0.0f);
+        case BodyMaterial::Pane: {
+            MaterialDesc pane = gltf_plastic();
+            pane.base_color = {0.9f, 0.6f, 0.4f};
+            pane.transmission = 0.8f;
+            pane.roughness = 0.0f;
+            return pane;
+        }
     }
     return {};
+}
+
+/// A closed box between two corners.
+PrimitiveDesc block(const Vec3f& low, const Vec3f& high) {
+    PrimitiveDesc all;
+    for (int axis = 0; axis < 3; ++axis)
+        for (const float side : {-1.0f, 1.0f}) {
+            Vec3f center = (low + high) * 0.5f;
+            center[axis] = side < 0.0f ? low[axis] : high[axis];
+            Vec3f x(0.0f);
+            Vec3f y(0.0f);
+            x[(axis + 1) % 3] = side * 0.5f * (high - low)[(axis + 1) % 3];
+            y[(axis + 2) % 3] = 0.5f * (high - low)[(axis + 2) % 3];
+            const PrimitiveDesc face = quad(center, x, y);
+            const auto first = static_cast<std::uint32_t>(all.positions.size());
+            all.positions.insert(all.positions.end(), face.positions.begin(), face.positions.end());
+            for (const auto& [a, b, c] : face.triangles) all.triangles.push_back({first + a, first + b, first + c});
+        }
+    return all;
 }
 
 /// A ball whose normals are what the room is about.
 void add_body(SceneDesc& scene, const RoomTraits& room, const RoomImages& images) {
     MaterialDesc material = make_material(room.material);
     if (room.normals == BodyNormals::Mapped) material.normal_texture.texture = add_unfiltered(scene, images.normals());
+    if (room.material == BodyMaterial::Pane) {
+        PrimitiveDesc pane = quad({0.0f, 0.6f, -2.7f}, {0.7f, 0.1f, 0.0f}, {0.1f, 0.0f, 0.7f});
+        return add_object(scene, std::move(pane), add_material(scene, std::move(material)));
+    }
+    if (room.normals == BodyNormals::Touching)
+        return add_object(scene, block({-0.4f, -0.7f, -4.4f}, {0.7f, 0.1f, -3.3f}),
+                          add_material(scene, std::move(material)));
     // Coarse, so that shading normals are far from those of the triangles.
     PrimitiveDesc ball = sphere(Vec3f(0.0f), 1.0f, room.normals == BodyNormals::Smooth ? 5 : 8);
     if (room.normals == BodyNormals::Flat) ball.normals.clear();
@@ -96,6 +130,9 @@ void add_light_in_room(SceneDesc& scene, const RoomTraits& room, const RoomImage
     const Mat4f mirror = room.normals == BodyNormals::NegativeScale ? scaling({-1, 1, 1}) : Mat4f();
     switch (room.light) {
         case RoomLight::Area:
+            if (room.normals == BodyNormals::Touching)  // flush with a ceiling
+                add_object(scene, quad({0.1f, 1.5f, -3}, {1.5f, 0, 0}, {0, 0, 1.4f}),
+                           add_material(scene, diffuse(Rgb(0.5f))));
             return add_area_light(scene, {0, 1.5f, -3}, 1.2f, 3.0f, mirror);
         case RoomLight::Point:
             return scene.lights.push_back(point_light());
@@ -192,6 +229,8 @@ AgreementCase make_case(const RoomTraits& room, const RoomImages& images) {
     const bool passes = room.medium != RoomMedium::None || room.material == BodyMaterial::Dielectric ||
                         room.material == BodyMaterial::RoughDielectric;
     result.lengths = {.max_depth = passes ? 4 : 3, .roulette_depth = 2};
+    // Two edges: eye paths do not find what a pane reflects of a point, and light goes through it without one.
+    if (room.material == BodyMaterial::Pane) result.lengths = {.max_depth = 2};
     if (room.cropped) result.window = kCrop;
     result.integrators = finders_of(room);
     return result;

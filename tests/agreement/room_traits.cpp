@@ -58,7 +58,8 @@ bool RoomTraits::has_smooth_body() const {
 }
 
 bool RoomTraits::body_is_seen() const {
-    return !has_smooth_body() || (!cropped && !has_delta_light());
+    // Nor do light paths find what a pane reflects to the eye.
+    return (!has_smooth_body() || (!cropped && !has_delta_light())) && material != BodyMaterial::Pane;
 }
 
 std::string_view name_of(RoomLight light) {
@@ -66,11 +67,11 @@ std::string_view name_of(RoomLight light) {
 }
 
 std::string_view name_of(BodyMaterial material) {
-    return name_in({"diffuse", "glossy", "conductor", "dielectric", "rough dielectric", "mirror"}, material);
+    return name_in({"diffuse", "glossy", "conductor", "dielectric", "rough dielectric", "mirror", "pane"}, material);
 }
 
 std::string_view name_of(BodyNormals normals) {
-    return name_in({"flat", "smooth", "mapped", "negative scale"}, normals);
+    return name_in({"flat", "smooth", "mapped", "negative scale", "touching"}, normals);
 }
 
 std::string_view name_of(RoomCamera camera) {
@@ -108,6 +109,14 @@ std::vector<RoomTraits> all_rooms() {
                          .camera = camera,
                          .medium = RoomMedium::Clear,
                          .place = MediumPlace::CameraIn});
+    for (const RoomLight light : kLights) {
+        for (const BodyMaterial material :
+             {BodyMaterial::Diffuse, BodyMaterial::Glossy, BodyMaterial::Conductor, BodyMaterial::RoughDielectric})
+            rooms.push_back({.light = light, .material = material, .normals = BodyNormals::Touching});
+        for (const RoomCamera camera : kCameras)
+            rooms.push_back(
+                {.light = light, .material = BodyMaterial::Pane, .normals = BodyNormals::Flat, .camera = camera});
+    }
     return rooms;
 }
 

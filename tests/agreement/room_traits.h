@@ -9,8 +9,8 @@
 namespace etendue::test {
 
 enum class RoomLight { Area, Point, Spot, Directional, Environment, Mesh, VisibleEnvironment };
-enum class BodyMaterial { Diffuse, Glossy, Conductor, Dielectric, RoughDielectric, Mirror };
-enum class BodyNormals { Flat, Smooth, Mapped, NegativeScale };
+enum class BodyMaterial { Diffuse, Glossy, Conductor, Dielectric, RoughDielectric, Mirror, Pane };
+enum class BodyNormals { Flat, Smooth, Mapped, NegativeScale, Touching };
 enum class RoomCamera { Pinhole, ThinLens, Orthographic };
 enum class RoomMedium { None, Absorbing, Scattering, Clear };
 enum class MediumPlace { CameraIn, LightIn, BothIn };
@@ -18,7 +18,7 @@ enum class MediumPlace { CameraIn, LightIn, BothIn };
 struct RoomTraits {
     RoomLight light = RoomLight::Area;
     BodyMaterial material = BodyMaterial::Glossy;
-    BodyNormals normals = BodyNormals::Smooth;
+    BodyNormals normals = BodyNormals::Smooth;  ///< Touching: a block that stands on the floor and against the wall
     RoomCamera camera = RoomCamera::Pinhole;
     bool cropped = false;
     RoomMedium medium = RoomMedium::None;
