@@ -1,6 +1,7 @@
 #include "loader/files.h"
 
 #include "core/error.h"
+#include "loader/json_text.h"
 
 #include <algorithm>
 #include <fstream>
@@ -23,6 +24,8 @@ std::optional<int> hex_digit(char c) {
     return std::nullopt;
 }
 
+}  // namespace
+
 std::string percent_decode(std::string_view uri) {
     std::string decoded;
     decoded.reserve(uri.size());
@@ -39,6 +42,8 @@ std::string percent_decode(std::string_view uri) {
     }
     return decoded;
 }
+
+namespace {
 
 /// True for "http:", "file:", "C:" and whatever else starts like a URI's scheme.
 bool has_scheme(std::string_view name) {
@@ -60,9 +65,45 @@ void check_name(std::string_view name) {
     }
     if (has_scheme(name)) throw IoError("only files inside the scene directory are read, no other URIs");
     if (name.front() == '/') throw IoError("absolute paths are not read, only files inside the scene directory");
+    int depth = 0;
     for (const fs::path& part : fs::path(name)) {
-        if (part == "..") throw IoError("'..' leaves the scene directory, and only files inside it are read");
+        if (part == ".") continue;
+        depth += part == ".." ? -1 : 1;
+        if (depth < 0) throw IoError("'..' leaves the scene directory, and only files inside it are read");
     }
+}
+
+/// `name` without letters that have an accent, whether that is part of the letter or follows it (U+0300 to U+036F).
+std::string without_accents(std::string_view name) {
+    std::string plain;
+    for (std::size_t i = 0; i < name.size(); ++i) {
+        const auto byte = static_cast<unsigned char>(name[i]);
+        const bool is_mark = byte == 0xcc || byte == 0xcd;
+        if (is_mark && !plain.empty()) plain.pop_back();
+        if (byte < 0x80) plain += name[i];
+    }
+    return plain;
+}
+
+/// What to say of a file that there is in place of one that is not: names may differ by what cannot be seen, as by how
+/// an accent is encoded, by upper case, or by '\\' for '/'.
+std::string similar_file(const fs::path& root, std::string_view name) {
+    constexpr std::size_t kMostFiles = 1000;
+    std::vector<std::string> names;
+    std::error_code code;
+    for (fs::recursive_directory_iterator entry(root, code), end; !code && entry != end && names.size() < kMostFiles;
+         entry.increment(code)) {
+        std::error_code ignored;
+        if (!entry->is_regular_file(ignored)) continue;
+        names.push_back(entry->path().lexically_relative(root).generic_string());
+        const bool has_accents = without_accents(name).size() < name.size();
+        if (has_accents && without_accents(names.back()) == without_accents(name))
+            return fmt::format("; there is '{}', which may look the same: its letters are encoded another way",
+                               shown(names.back()));
+    }
+    const std::vector<std::string_view> known(names.begin(), names.end());
+    const std::string nearest = nearest_name(name, known);
+    return nearest.empty() ? "" : fmt::format("; did you mean '{}'?", shown(nearest));
 }
 
 bool is_inside(const fs::path& directory, const fs::path& file) {
@@ -71,6 +112,13 @@ bool is_inside(const fs::path& directory, const fs::path& file) {
 }
 
 }  // namespace
+
+std::string lower_extension(const fs::path& file) {
+    std::string extension = file.extension().string();
+    std::ranges::transform(extension, extension.begin(),
+                           [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c; });
+    return extension;
+}
 
 fs::path resolve_name(const fs::path& directory, std::string_view name) {
     check_name(name);
@@ -82,7 +130,7 @@ fs::path resolve_name(const fs::path& directory, std::string_view name) {
     if (!is_inside(root, file)) throw IoError("a symbolic link leads out of the scene directory");
 
     const fs::file_status status = fs::status(file, code);
-    if (!fs::exists(status)) throw IoError("the file does not exist in the scene directory");
+    if (!fs::exists(status)) throw IoError("the file does not exist in the scene directory" + similar_file(root, name));
     if (!fs::is_regular_file(status)) throw IoError("this is not a regular file");
     return file;
 }
@@ -90,7 +138,16 @@ fs::path resolve_name(const fs::path& directory, std::string_view name) {
 fs::path resolve_uri(const fs::path& directory, std::string_view uri) {
     // A scheme counts before decoding, everything else after it.
     if (has_scheme(uri)) throw IoError("only files inside the scene directory are read, no other URIs");
-    return resolve_name(directory, percent_decode(uri));
+    try {
+        return resolve_name(directory, percent_decode(uri));
+    } catch (const IoError&) {
+        if (uri.find('%') == std::string_view::npos) throw;
+        try {
+            return resolve_name(directory, uri);  // some exporters do not encode names, which may have a '%'
+        } catch (const IoError&) {
+        }
+        throw;
+    }
 }
 
 std::vector<unsigned char> read_bytes(const fs::path& file, std::uintmax_t limit, std::uintmax_t wanted) {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -18,12 +19,18 @@ inline constexpr std::uintmax_t kMaxSettingsBytes = std::uintmax_t{1} << 24;
 inline constexpr std::uintmax_t kMaxBufferBytes = std::uintmax_t{1} << 33;
 
 /// The regular file that the relative reference `uri` (RFC 3986, percent-encoded) names below `directory`, with
-/// symbolic links resolved. Throws IoError if it is not such a reference (a scheme, an absolute path, `..`, control
-/// characters, a broken escape), leaves `directory` through a link, or names no regular file.
+/// symbolic links resolved. Throws IoError if it is not such a reference (a scheme, an absolute path, `..` that leads
+/// out, control characters, a broken escape), leaves `directory` through a link, or names no regular file.
 [[nodiscard]] std::filesystem::path resolve_uri(const std::filesystem::path& directory, std::string_view uri);
 
 /// The same for a plain file name such as those in render.json: '%' has no meaning.
 [[nodiscard]] std::filesystem::path resolve_name(const std::filesystem::path& directory, std::string_view name);
+
+/// Text with its percent-encoded bytes (RFC 3986, section 2.1) decoded. Throws IoError at a broken escape.
+[[nodiscard]] std::string percent_decode(std::string_view text);
+
+/// The file's extension in lower case, with its dot.
+[[nodiscard]] std::string lower_extension(const std::filesystem::path& file);
 
 /// The first `wanted` bytes of a file, or all of it if `wanted` is 0. Throws IoError if it is not a regular file,
 /// cannot be read, is shorter than `wanted` or longer than `limit` bytes.

@@ -25,7 +25,8 @@ const SceneLoader* find_loader(const fs::path& file) {
 }
 
 bool has_scene_extension(const fs::path& file) {
-    return file.extension() == ".gltf" || file.extension() == ".glb";
+    const std::string extension = lower_extension(file);
+    return extension == ".gltf" || extension == ".glb";
 }
 
 /// The glTF files directly in `directory`, sorted.

@@ -50,7 +50,7 @@ struct LightDesc {
     float intensity = 1.0f;
     Handle<IesProfileDesc> profile;  ///< point and spot: how intensity depends on direction, times the spot's cone
     float inner_cone_angle = 0.0f;   ///< spot: radians from the axis to where falloff begins
-    float outer_cone_angle = 0.785398163f;  ///< spot: radians from the axis to where light ends, (inner, pi/2]
+    float outer_cone_angle = 0.785398163f;  ///< spot: radians from the axis to where light ends, [inner, pi/2], > 0
     Mat4f to_world;
     SourceLocation location;
 };

@@ -103,9 +103,10 @@ void validate_lights(const SceneDesc& scene, ProblemList& problems) {
         }
         const float inner = light.inner_cone_angle;
         const float outer = light.outer_cone_angle;
-        if (light.type == LightType::Spot && !(inner >= 0.0f && inner < outer && outer <= 0.5f * kPi + 1e-6f)) {
-            problems.error(where, fmt::format("the spot's cone angles are {} and {}, but must satisfy 0 <= inner < "
-                                              "outer <= pi/2",
+        if (light.type == LightType::Spot &&
+            !(inner >= 0.0f && inner <= outer && outer > 0.0f && outer <= 0.5f * kPi + 1e-6f)) {
+            problems.error(where, fmt::format("the spot's cone angles are {} and {}, but must satisfy 0 <= inner <= "
+                                              "outer <= pi/2, and outer > 0",
                                               inner, outer));
         }
     }

@@ -27,6 +27,48 @@ TEST(ResolveUri, FindsFilesInside) {
     EXPECT_EQ(resolve_uri(dir.path(), "sub/b c.bin"), dir.path() / "sub/b c.bin");
 }
 
+TEST(ResolveUri, StepsBackWithinTheDirectory) {
+    const TempDir dir;
+    dir.write("a.bin", "x");
+    dir.write("sub/b.bin", "x");
+    EXPECT_EQ(resolve_uri(dir.path(), "sub/../a.bin"), dir.path() / "a.bin");
+    EXPECT_EQ(resolve_uri(dir.path(), "sub/./../sub/b.bin"), dir.path() / "sub/b.bin");
+    EXPECT_NE(refusal(dir.path(), "sub/../../a.bin").find("'..'"), std::string::npos);
+    // Where a link leads is where its ".." counts from.
+    const TempDir outside;
+    outside.write("in/secret", "x");
+    outside.write("a.bin", "secret");
+    std::filesystem::create_directory_symlink(outside.path() / "in", dir.path() / "link");
+    EXPECT_NE(refusal(dir.path(), "link/../a.bin").find("link leads out"), std::string::npos);
+}
+
+TEST(ResolveUri, TakesNamesThatAreNotEncoded) {
+    const TempDir dir;
+    dir.write("a%20b.png", "x");
+    dir.write("100%.png", "x");
+    EXPECT_EQ(resolve_uri(dir.path(), "a%20b.png"), dir.path() / "a%20b.png");
+    EXPECT_EQ(resolve_uri(dir.path(), "100%.png"), dir.path() / "100%.png");
+    dir.write("a b.png", "x");
+    EXPECT_EQ(resolve_uri(dir.path(), "a%20b.png"), dir.path() / "a b.png");
+}
+
+TEST(ResolveUri, SaysWhatMayHaveBeenMeant) {
+    const TempDir dir;
+    dir.write("sub/Wood.png", "x");
+    dir.write(
+        "u\xcc\x88"
+        "ber.png",
+        "x");  // decomposed, as on a Mac
+    EXPECT_NE(refusal(dir.path(), "sub\\Wood.png").find("did you mean 'sub/Wood.png'"), std::string::npos);
+    EXPECT_NE(refusal(dir.path(), "sub/wood.png").find("did you mean 'sub/Wood.png'"), std::string::npos);
+    EXPECT_NE(refusal(dir.path(),
+                      "\xc3\xbc"
+                      "ber.png")
+                  .find("encoded another way"),
+              std::string::npos);
+    EXPECT_EQ(refusal(dir.path(), "unlike-anything.bin").find("did you mean"), std::string::npos);
+}
+
 TEST(ResolveUri, RefusesWhatIsNoFileInside) {
     const TempDir outside;
     outside.write("secret", "x");

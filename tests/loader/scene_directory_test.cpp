@@ -35,6 +35,13 @@ TEST(LoadScene, TakesTheOnlyFile) {
     EXPECT_EQ(load_scene(dir.path() / ".").scene.name, dir.path().filename());
 }
 
+TEST(LoadScene, TakesExtensionsInUpperCase) {
+    const TempDir dir;
+    dir.write("THING.GLB", lone_triangle());
+    EXPECT_EQ(load_scene(dir.path()).scene.file, dir.path() / "THING.GLB");
+    EXPECT_EQ(find_scene_directories(dir.path()).size(), 1u);
+}
+
 TEST(LoadScene, SeveralFilesNeedAChoice) {
     const TempDir dir;
     dir.write("a.glb", lone_triangle());

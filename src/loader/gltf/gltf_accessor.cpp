@@ -275,8 +275,9 @@ std::optional<AttributeData> AccessorReader::attribute(int accessor, const Attri
         problems_.error(where, fmt::format("accessor {} does not exist", accessor));
         return std::nullopt;
     }
-    const tinygltf::Accessor& a = document_.model.accessors[as_index(accessor)];
+    tinygltf::Accessor a = document_.model.accessors[as_index(accessor)];
     if (!check_format(a, format, where)) return std::nullopt;
+    a.normalized = a.normalized || format.as_fractions;
     std::optional<std::vector<float>> values = read<float>(a, where);
     if (!values) return std::nullopt;
     return AttributeData{std::move(*values), component_count(a)};

@@ -40,6 +40,7 @@ struct AttributeFormat {
     int max_components;
     IntegerTypes integers = kNoIntegers;
     IntegerTypes quantized = kNoIntegers;  ///< besides, where the file uses KHR_mesh_quantization
+    bool as_fractions = false;             ///< integers count as normalised, whatever the accessor says
 };
 
 /// Components per element of an accessor; 0 for matrices other than 4 × 4, which nothing uses.

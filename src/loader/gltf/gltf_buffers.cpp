@@ -73,6 +73,12 @@ class BufferLoader {
     std::uintmax_t repeatable_ = std::uintmax_t{1} << 28;
 };
 
+bool same_but_for_case(std::string_view text, std::string_view lower) {
+    return std::ranges::equal(text, lower, [](char a, char b) {
+        return (a >= 'A' && a <= 'Z' ? static_cast<char>(a + ('a' - 'A')) : a) == b;
+    });
+}
+
 }  // namespace
 
 std::string buffer_name(std::size_t index) {
@@ -80,18 +86,24 @@ std::string buffer_name(std::size_t index) {
 }
 
 bool is_data_uri(std::string_view uri) {
-    return uri.substr(0, 5) == "data:";
+    constexpr std::string_view kScheme = "data:";
+    return uri.size() >= kScheme.size() && same_but_for_case(uri.substr(0, kScheme.size()), kScheme);
 }
 
 std::optional<std::vector<unsigned char>> decode_data_uri(const std::string& uri) {
     const std::size_t comma = uri.find(',');
-    if (comma == std::string::npos || !std::string_view(uri).substr(0, comma).ends_with(";base64")) return std::nullopt;
-    const std::string_view content = std::string_view(uri).substr(comma + 1);
+    constexpr std::string_view kBase64 = ";base64";
+    if (comma == std::string::npos || comma < kBase64.size() ||
+        !same_but_for_case(std::string_view(uri).substr(comma - kBase64.size(), kBase64.size()), kBase64))
+        return std::nullopt;
+    // RFC 3986: any character may be written as its code. White space, which editors break lines with, is none of it.
+    std::string content = percent_decode(std::string_view(uri).substr(comma + 1));
+    std::erase_if(content, [](char c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t'; });
 
     // tinygltf knows a few media types only, and stops without a word at a character that is not base64.
     std::vector<unsigned char> bytes;
     std::string media_type;
-    const std::string known = "data:application/octet-stream;base64," + std::string(content);
+    const std::string known = "data:application/octet-stream;base64," + content;
     if (!tinygltf::DecodeDataURI(&bytes, media_type, known, 0, false)) return std::nullopt;
     const std::size_t digits = content.substr(0, content.find('=')).size();
     if (bytes.size() != digits * 3 / 4) return std::nullopt;

@@ -290,12 +290,8 @@ Json parse_file(const std::filesystem::path& file, std::vector<unsigned char>& b
     } catch (const IoError& error) {
         throw SceneError(result.at(""), error.what());
     }
-    std::string extension = file.extension().string();
-    std::ranges::transform(extension, extension.begin(),
-                           [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
-
     std::string_view text{reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-    if (is_glb(bytes) || extension == ".glb") {
+    if (is_glb(bytes) || lower_extension(file) == ".glb") {
         const GlbChunks chunks = split_glb(bytes, result.at(""));
         text = chunks.json;
         bin = chunks.bin;

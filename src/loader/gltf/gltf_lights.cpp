@@ -55,6 +55,13 @@ void LightReader::place_punctual(const tinygltf::Node& node, std::size_t index, 
     light.outer_cone_angle = static_cast<float>(source.spot.outerConeAngle);
     light.to_world = to_world;
     light.location = document_.at(fmt::format("/extensions/KHR_lights_punctual/lights/{}", index));
+    if (light.type != LightType::Spot || source.spot.innerConeAngle < source.spot.outerConeAngle) return;
+    problems_.warning(
+        light.location,
+        fmt::format("the spot's inner cone of {:.4g} should be narrower than the outer one of {:.4g}: the "
+                    "light ends at a hard edge",
+                    light.inner_cone_angle, light.outer_cone_angle));
+    light.inner_cone_angle = light.outer_cone_angle;
 }
 
 void LightReader::place_measured(const tinygltf::Node& node, const tinygltf::Value& extension, const Mat4f& to_world,

@@ -1,5 +1,6 @@
 #include "loader/gltf/gltf_loader.h"
 
+#include "loader/files.h"
 #include "loader/gltf/gltf_accessor.h"
 #include "loader/gltf/gltf_animation.h"
 #include "loader/gltf/gltf_animation_pointer.h"
@@ -18,9 +19,7 @@
 namespace etendue {
 
 bool GltfLoader::can_load(const std::filesystem::path& file) const {
-    std::string extension = file.extension().string();
-    std::ranges::transform(extension, extension.begin(),
-                           [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
+    const std::string extension = lower_extension(file);
     if (extension == ".gltf" || extension == ".glb") return true;
 
     std::array<char, 4> magic{};

@@ -22,6 +22,9 @@ constexpr AttributeFormat kNormal{3, 3, kNoIntegers, kSignedFractions};
 constexpr AttributeFormat kTangent{4, 4, kNoIntegers, kSignedFractions};
 constexpr AttributeFormat kTexcoord{2, 2, kUnsignedFractions, kAnyIntegers};
 constexpr AttributeFormat kColor{3, 4, kUnsignedFractions};
+/// What some exporters write in its place: fractions that are not marked as such.
+constexpr AttributeFormat kWholeColor{
+    .min_components = 3, .max_components = 4, .integers = kUnsigned, .as_fractions = true};
 
 bool is_finite_uv(const Vec2f& uv) {
     return std::isfinite(uv.x) && std::isfinite(uv.y);
@@ -74,6 +77,20 @@ class PrimitiveReader {
         return document_.at(fmt::format("{}/{}", where_.pointer, member));
     }
 
+    /// True if the attribute is stored as integers that are not normalised. What does not exist is reported elsewhere.
+    bool has_whole_numbers(const std::string& name) {
+        const auto found = source_->attributes.find(name);
+        if (found == source_->attributes.end() || found->second < 0 ||
+            static_cast<std::size_t>(found->second) >= document_.model.accessors.size())
+            return false;
+        const tinygltf::Accessor& accessor = document_.model.accessors[static_cast<std::size_t>(found->second)];
+        const bool is_small = accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
+                              accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
+        if (!is_small || accessor.normalized || draco_) return false;
+        repairs_.add(Repair::WholeColors, 1, at("attributes/" + name));
+        return true;
+    }
+
     /// The attribute's values, if the primitive has it; `failed_` is set if it has and they cannot be read.
     std::optional<AttributeData> attribute(const std::string& name, const AttributeFormat& format) {
         const auto found = source_->attributes.find(name);
@@ -115,12 +132,16 @@ class PrimitiveReader {
         }
 
         const std::optional<std::vector<std::uint32_t>> indices = read_indices();
-        if (!indices || !check_positions(*indices, positions)) return false;
+        if (!indices || !check_indices(*indices)) return false;
         const auto mode = draco_ ? TriangleMode::List : static_cast<TriangleMode>(source_->mode);
         const bool is_list = mode == TriangleMode::List;
         if (is_list ? indices->size() % 3 != 0 : indices->size() < 3) repairs_.add(Repair::LeftoverIndices, 1, where_);
 
         result.triangles = assemble_triangles(*indices, mode);
+        const std::size_t bad = std::erase_if(result.triangles, [&](const Triangle& triangle) {
+            return !std::ranges::all_of(triangle, [&](std::uint32_t vertex) { return is_finite(positions[vertex]); });
+        });
+        repairs_.add(Repair::BadPositions, bad, at("attributes/POSITION"));
         // Strips are joined by triangles without an area on purpose.
         const std::size_t removed = remove_degenerate_triangles(result.triangles, positions);
         if (mode != TriangleMode::Strip) repairs_.add(Repair::DegenerateTriangles, removed, where_);
@@ -141,19 +162,13 @@ class PrimitiveReader {
         return indices;
     }
 
-    /// True if all indices exist and the positions they refer to are finite.
-    bool check_positions(const std::vector<std::uint32_t>& indices, const std::vector<Vec3f>& positions) {
+    /// True if all indices exist.
+    bool check_indices(const std::vector<std::uint32_t>& indices) {
         for (std::size_t i = 0; i < indices.size(); ++i) {
-            if (indices[i] >= positions.size()) {
-                problems_.error(at("indices"), fmt::format("index {} is {}, but the primitive has {} vertices", i,
-                                                           indices[i], positions.size()));
-                return false;
-            }
-            if (!is_finite(positions[indices[i]])) {
-                problems_.error(at("attributes/POSITION"),
-                                fmt::format("the position of vertex {} is not finite", indices[i]));
-                return false;
-            }
+            if (indices[i] < vertex_count_) continue;
+            problems_.error(at("indices"), fmt::format("index {} is {}, but the primitive has {} vertices", i,
+                                                       indices[i], vertex_count_));
+            return false;
         }
         return true;
     }
@@ -184,7 +199,8 @@ class PrimitiveReader {
         result.tangents = gather<Vec4f>(attribute("TANGENT", kTangent), make_vec4);
         result.uv0 = gather<Vec2f>(attribute("TEXCOORD_0", kTexcoord), make_vec2);
         result.uv1 = gather<Vec2f>(attribute("TEXCOORD_1", kTexcoord), make_vec2);
-        const std::optional<AttributeData> colors = attribute("COLOR_0", kColor);
+        const std::optional<AttributeData> colors =
+            attribute("COLOR_0", has_whole_numbers("COLOR_0") ? kWholeColor : kColor);
         const bool has_alpha = colors && colors->components == 4;
         result.colors = gather<Vec4f>(
             colors, [has_alpha](const float* v) { return Vec4f(v[0], v[1], v[2], has_alpha ? v[3] : 1.0f); });

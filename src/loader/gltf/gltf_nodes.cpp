@@ -14,6 +14,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -61,7 +62,44 @@ void check_cycles(const GltfDocument& document, const std::vector<int>& parents,
     }
 }
 
-/// The nodes to start from.
+/// True if an ancestor of `node` is in `listed`. There must be no cycles.
+bool is_below(int node, const std::vector<bool>& listed, const std::vector<int>& parents) {
+    for (int parent = parents[static_cast<std::size_t>(node)]; parent != kNoParent;
+         parent = parents[static_cast<std::size_t>(parent)])
+        if (listed[static_cast<std::size_t>(parent)]) return true;
+    return false;
+}
+
+/// The nodes that scene `index` lists, but for those that others of them bring along. There must be no cycles.
+std::vector<int> roots_of_scene(const GltfDocument& document, std::size_t index, const std::vector<int>& parents,
+                                ProblemList& problems) {
+    const std::vector<int>& nodes = document.model.scenes[index].nodes;
+    std::vector<bool> listed(parents.size(), false);
+    std::vector<int> distinct;
+    std::size_t repeated = 0;
+    for (const int node : nodes) {
+        if (listed[static_cast<std::size_t>(node)]) {
+            ++repeated;
+            continue;
+        }
+        listed[static_cast<std::size_t>(node)] = true;
+        distinct.push_back(node);
+    }
+    const auto warn = [&](std::size_t count, std::string_view what) {
+        if (count > 0)
+            problems.warning(document.at(fmt::format("/scenes/{}/nodes", index)),
+                             fmt::format("{} of the scene's nodes {}", count, what));
+    };
+    warn(repeated, "are listed again, and are shown once");
+    warn(std::erase_if(distinct, [&](int node) { return is_below(node, listed, parents); }),
+         "are children of others of them, and are shown as such");
+    const auto has_parent = [&](int node) { return parents[static_cast<std::size_t>(node)] != kNoParent; };
+    warn(static_cast<std::size_t>(std::ranges::count_if(distinct, has_parent)),
+         "are children of nodes that it does not show, and are shown without their transforms");
+    return distinct;
+}
+
+/// The nodes to start from. There must be no cycles.
 std::vector<int> find_roots(const GltfDocument& document, const std::vector<int>& parents, ProblemList& problems) {
     const tinygltf::Model& model = document.model;
     if (model.scenes.empty()) {
@@ -75,20 +113,7 @@ std::vector<int> find_roots(const GltfDocument& document, const std::vector<int>
         return roots;
     }
     const std::size_t index = model.defaultScene >= 0 ? static_cast<std::size_t>(model.defaultScene) : 0;
-    const std::vector<int>& roots = model.scenes[index].nodes;
-    std::vector<bool> seen(parents.size(), false);
-    for (std::size_t i = 0; i < roots.size(); ++i) {
-        const auto root = static_cast<std::size_t>(roots[i]);
-        const SourceLocation where = document.at(fmt::format("/scenes/{}/nodes/{}", index, i));
-        if (parents[root] != kNoParent) {
-            problems.error(where, fmt::format("node {} is a child of node {}, so it is no root of the scene", root,
-                                              parents[root]));
-        } else if (seen[root]) {
-            problems.error(where, fmt::format("node {} is listed twice", root));
-        }
-        seen[root] = true;
-    }
-    return roots;
+    return roots_of_scene(document, index, parents, problems);
 }
 
 /// Turns one node after the other into what it places.
@@ -295,7 +320,8 @@ void read_nodes(const GltfDocument& document, AccessorReader& accessors, std::sp
     ProblemList structure;
     const std::vector<int> parents = find_parents(document, structure);
     check_cycles(document, parents, structure);
-    const std::vector<int> roots = find_roots(document, parents, structure);
+    const std::vector<int> roots =
+        structure.has_errors() ? std::vector<int>() : find_roots(document, parents, structure);
     for (const Problem& problem : structure.all()) problems.add(problem);
     if (structure.has_errors()) return;
 

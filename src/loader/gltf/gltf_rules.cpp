@@ -50,9 +50,11 @@ class RuleCheck {
                     repairs_.add(Repair::RepeatedJoints, 1, at(pointer + "/joints"));
         });
         for_each("bufferViews", [this](const Json& view, const std::string& pointer) {
-            if (view.contains("byteStride") && view["byteStride"].get<std::uint64_t>() % 4 != 0)
-                problems_.error(at(pointer + "/byteStride"),
-                                fmt::format("must be a multiple of 4, but is {}", view["byteStride"].dump()));
+            if (!view.contains("byteStride")) return;
+            const auto stride = view["byteStride"].get<std::uint64_t>();
+            if (stride % 4 != 0)
+                problems_.error(at(pointer + "/byteStride"), fmt::format("must be a multiple of 4, but is {}", stride));
+            if (stride == 0) repairs_.add(Repair::StrideOfZero, 1, at(pointer + "/byteStride"));
         });
         repairs_.report(problems_);
     }

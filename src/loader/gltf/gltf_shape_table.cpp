@@ -39,7 +39,7 @@ constexpr ShapeField kBufferViewFields[] = {
     {"buffer", index_of("/buffers"), true},
     {"byteOffset", integer(0, kMaxOffset)},
     {"byteLength", integer(1, kMaxOffset), true},
-    {"byteStride", integer(4, 252)},
+    {"byteStride", integer(0, 252)},
     {"target", integer(0, kMaxInt)},
     {"extensions", object(kBufferViewExtensionFields)},
 };

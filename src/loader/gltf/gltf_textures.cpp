@@ -78,10 +78,11 @@ Handle<TextureDesc> TextureReader::read_texture(std::size_t index) {
         std::string extensions;
         for (const auto& [name, value] : source.extensions)
             extensions += (extensions.empty() ? "" : ", ") + shown(name);
-        problems_.error(where,
-                        extensions.empty()
-                            ? "the texture has no image"
-                            : "the texture's only image comes from an extension that is not supported: " + extensions);
+        if (extensions.empty()) {
+            problems_.warning(where, "the texture has no image: what uses it does without");
+            return {};
+        }
+        problems_.error(where, "the texture's only image comes from an extension that is not supported: " + extensions);
         return {};
     }
     const Handle<ImageDesc> pixels = image(static_cast<std::size_t>(image_index));

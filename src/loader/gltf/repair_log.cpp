@@ -32,6 +32,9 @@ constexpr std::array<std::string_view, static_cast<std::size_t>(Repair::Count)> 
     "channels of one animation have the same target; the last of them counts",
     "joints are listed more than once in a skin; each of them moves its vertices",
     "morph targets of a mesh, or weights of them, differ in number; those without a counterpart are ignored",
+    "triangles with a vertex whose position is not finite are removed",
+    "vertex colours are integers that are not marked as normalised; they are read as if they were",
+    "buffer views have a stride of 0; their elements are taken to lie side by side",
 };
 
 }  // namespace

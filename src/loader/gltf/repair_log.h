@@ -32,6 +32,9 @@ enum class Repair {
     RepeatedTargets,      ///< channels of animations
     RepeatedJoints,       ///< joints of skins
     TargetCounts,         ///< primitives, meshes and nodes
+    BadPositions,         ///< triangles
+    WholeColors,          ///< primitives
+    StrideOfZero,         ///< buffer views
     Count
 };
 

@@ -202,5 +202,18 @@ TEST(GltfDocument, BuffersFromDataUris) {
     EXPECT_EQ(loaded.scene.meshes.at(0).primitives.at(0).positions.at(2), Vec3f(0, 1, 0));
 }
 
+// Schemes are the same in upper case, any character may be written as its code, and editors break lines.
+TEST(GltfDocument, DataUrisAsOthersWriteThem) {
+    for (const char* uri : {"DATA:;BASE64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA",
+                            "data:;base64,AAAAAAAAAAAAAAAA%41ACAPwAAAAAAAAAAAAAAAAAAgD8AAAA%41",
+                            "data:;base64,AAAAAAAAAAAAAAAAAACAPwAA\nAAAAAAAAAAAAAAAAgD8AAAAA\r\n"}) {
+        GltfBuilder builder = triangle();
+        builder.json["buffers"] = {{{"byteLength", 36}, {"uri", uri}}};
+        const LoadedScene loaded = builder.load();
+        ASSERT_FALSE(loaded.problems.has_errors()) << uri << listing(loaded.problems);
+        EXPECT_EQ(loaded.scene.meshes.at(0).primitives.at(0).positions.at(2), Vec3f(0, 1, 0)) << uri;
+    }
+}
+
 }  // namespace
 }  // namespace etendue

@@ -60,12 +60,31 @@ TEST(Mesh, IndicesOutOfRangeAreErrors) {
     }
 }
 
-TEST(Mesh, PositionsThatAreNotFiniteAreErrors) {
+TEST(Mesh, TrianglesAtPositionsThatAreNotFiniteAreRemoved) {
     for (const float bad : {kNan, kInf, -kInf}) {
         GltfBuilder builder;
-        builder.add_mesh({{"POSITION", builder.floats({0, 0, 0, 1, bad, 0, 0, 1, 0}, 3)}});
-        EXPECT_TRUE(has_problem(builder.load().problems, Severity::Error, "vertex 1 is not finite", "/POSITION"));
+        builder.add_mesh({{"POSITION", builder.floats({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, bad, 0, 0, 0, 0, 1, 1, 0}, 3)}});
+        const LoadedScene loaded = builder.load();
+        EXPECT_TRUE(has_problem(loaded.problems, Severity::Warning, "not finite are removed (once", "/POSITION"));
+        ASSERT_EQ(loaded.scene.meshes.size(), 1u);
+        EXPECT_EQ(loaded.scene.meshes[0].primitives[0].triangles.size(), 1u);
+        EXPECT_EQ(loaded.scene.meshes[0].primitives[0].positions.size(), 3u) << "the others are not used";
     }
+}
+
+// As some exporters write them.
+TEST(Mesh, ColorsInBytesAreFractions) {
+    const auto color_of = [](bool normalized) {
+        GltfBuilder builder;
+        nlohmann::json& primitive = builder.add_triangle();
+        primitive["attributes"]["COLOR_0"] = builder.accessor(
+            std::vector<std::uint8_t>{255, 51, 0, 0, 255, 51, 0, 0, 255, 51, 0, 0}, "VEC4", 5121, 3, normalized);
+        const LoadedScene loaded = builder.load();
+        EXPECT_EQ(has_problem(loaded.problems, Severity::Warning, "not marked as normalised", "/COLOR_0"), !normalized);
+        return loaded.scene.meshes.at(0).primitives.at(0).colors.at(0);
+    };
+    EXPECT_EQ(color_of(false), Vec4f(1.0f, 0.2f, 0.0f, 0.0f));
+    EXPECT_EQ(color_of(false), color_of(true));
 }
 
 TEST(Mesh, AttributesMustBeAsManyAsPositions) {

@@ -175,14 +175,25 @@ TEST(Nodes, TwoParentsAreAnError) {
         has_problem(loaded.problems, Severity::Error, "node 2 already is a child of node 0", "/nodes/1/children/0"));
 }
 
-TEST(Nodes, ListedTwiceIsAnError) {
-    EXPECT_TRUE(has_problem(with_nodes({{{"mesh", 0}}}, {0, 0}).load().problems, Severity::Error, "listed twice"));
+TEST(Nodes, ChildrenListedTwiceAreAnError) {
     EXPECT_TRUE(has_problem(with_nodes({{{"children", {1, 1}}}, {{"mesh", 0}}}).load().problems, Severity::Error,
                             "already is a child"));
-    EXPECT_TRUE(has_problem(with_nodes({{{"children", {1}}}, {{"mesh", 0}}}, {0, 1}).load().problems, Severity::Error,
-                            "no root"));
 }
 
+// What Unity's exporter writes into every file, among others.
+TEST(Nodes, ScenesMayListChildrenOrANodeTwice) {
+    const auto shows_one = [](GltfBuilder builder, const char* warning) {
+        const LoadedScene loaded = builder.load();
+        EXPECT_TRUE(has_problem(loaded.problems, Severity::Warning, warning, "/scenes/0/nodes"));
+        EXPECT_FALSE(loaded.problems.has_errors());
+        ASSERT_EQ(loaded.scene.instances.size(), 1u) << warning;
+        EXPECT_EQ(loaded.scene.instances[0].to_world[3][0], 3.0f) << warning;
+    };
+    const nlohmann::json placed = {{"mesh", 0}, {"translation", {3, 0, 0}}};
+    shows_one(with_nodes({placed}, {0, 0}), "are listed again");
+    shows_one(with_nodes({{{"children", {1}}}, placed}, {0, 1}), "are children of others of them");
+    shows_one(with_nodes({{{"children", {1}}, {"translation", {9, 0, 0}}}, placed}, {1}), "that it does not show");
+}
 TEST(Nodes, DeepHierarchiesNeedNoStack) {
     constexpr int kDepth = 100'000;
     nlohmann::json nodes = nlohmann::json::array();
@@ -299,12 +310,31 @@ TEST(Lights, AreReadAndPlaced) {
     EXPECT_EQ(loaded.scene.extensions_used.size(), 1u);
 }
 
-TEST(Lights, BadConesAreErrors) {
+/// A file with a spot of these angles, radians.
+LoadedScene with_spot(double inner, double outer) {
     GltfBuilder builder = with_nodes({{{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}}});
     builder.json["extensions"]["KHR_lights_punctual"]["lights"] = {
-        {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.5}, {"outerConeAngle", 0.2}}}}};
-    EXPECT_TRUE(has_problem(builder.load().problems, Severity::Error, "cone", "/lights/0"));
+        {{"type", "spot"}, {"spot", {{"innerConeAngle", inner}, {"outerConeAngle", outer}}}}};
+    return builder.load();
 }
 
+TEST(Lights, BadConesAreErrors) {
+    EXPECT_TRUE(has_problem(with_spot(-0.1, 0.2).problems, Severity::Error, "cone", "/lights/0"));
+    EXPECT_TRUE(has_problem(with_spot(0.0, 2.0).problems, Severity::Error, "cone", "/lights/0"));
+    EXPECT_TRUE(has_problem(with_spot(0.0, 0.0).problems, Severity::Error, "cone", "/lights/0"));
+}
+
+TEST(Lights, ConesWithoutARampHaveAHardEdge) {
+    for (const double inner : {0.2, 0.5}) {
+        const LoadedScene loaded = with_spot(inner, 0.2);
+        EXPECT_TRUE(has_problem(loaded.problems, Severity::Warning, "hard edge", "/lights/0"));
+        ASSERT_EQ(loaded.scene.lights.size(), 1u);
+        EXPECT_EQ(loaded.scene.lights[0].inner_cone_angle, 0.2f);
+    }
+    // Valid, and equal only in single precision.
+    const LoadedScene valid = with_spot(0.08968102931976317, 0.08968102931976318);
+    EXPECT_FALSE(has_problem(valid.problems, Severity::Warning, "hard edge", "/lights/0"));
+    EXPECT_FALSE(valid.problems.has_errors());
+}
 }  // namespace
 }  // namespace etendue

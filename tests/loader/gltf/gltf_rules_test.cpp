@@ -118,6 +118,8 @@ const Breach kBreaches[] = {
          add_camera(
              b, {{"type", "orthographic"}, {"orthographic", {{"xmag", -1}, {"ymag", 1}, {"znear", 0}, {"zfar", 9}}}});
      }},
+    {"StrideOfZero", Severity::Warning, "stride of 0", "/bufferViews/0/byteStride",
+     [](GltfBuilder& b) { b.json["bufferViews"][0]["byteStride"] = 0; }},
     {"OddStride", Severity::Error, "multiple of 4", "/bufferViews/0/byteStride",
      [](GltfBuilder& b) { b.json["bufferViews"][0]["byteStride"] = 13; }},
     {"NoPrimitives", Severity::Error, "at least 1", "/meshes/0/primitives",

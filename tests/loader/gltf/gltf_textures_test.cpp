@@ -160,8 +160,15 @@ TEST(Textures, OnlyFromAnUnsupportedExtensionIsAnError) {
     GltfBuilder builder = textured({{"uri", "a.ktx2"}});
     builder.json["textures"][0] = {{"extensions", {{"KHR_texture_basisu", {{"source", 0}}}}}};
     EXPECT_TRUE(has_problem(builder.load().problems, Severity::Error, "KHR_texture_basisu", "/textures/0"));
+}
+
+TEST(Textures, WithoutAnImageTheyAreLeftOut) {
+    GltfBuilder builder = textured({{"uri", "a.png"}});
     builder.json["textures"][0] = nlohmann::json::object();
-    EXPECT_TRUE(has_problem(builder.load().problems, Severity::Error, "no image", "/textures/0"));
+    const LoadedScene loaded = builder.load();
+    EXPECT_TRUE(has_problem(loaded.problems, Severity::Warning, "no image", "/textures/0"));
+    EXPECT_FALSE(loaded.problems.has_errors());
+    EXPECT_TRUE(loaded.scene.textures.empty());
 }
 
 TEST(Textures, FallbackBesideAnUnsupportedExtensionIsUsed) {
