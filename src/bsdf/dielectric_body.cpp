@@ -1,8 +1,10 @@
 #include "bsdf/dielectric_body.h"
 
+#include "bsdf/ggx.h"
 #include "sampling/warp.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace etendue {
 
@@ -14,6 +16,19 @@ Vec3f facing(const Vec3f& w, const Vec3f& wo) {
 }
 
 }  // namespace
+
+std::variant<SmoothDielectric, RoughDielectric> make_interface(float ior, Vec2f alpha, const Rgb& tint,
+                                                               const InterfaceFresnel& fresnel) {
+    constexpr float kSameIor = 1e-4f;
+    const bool is_same = std::abs(ior - 1.0f) < kSameIor;
+    if (is_same || std::max(alpha.x, alpha.y) < kSmoothAlpha)
+        return SmoothDielectric{.ior = is_same ? 1.0f : ior, .tint = tint, .fresnel = fresnel};
+    RoughDielectric rough =
+        RoughDielectric::make(ior, std::max(alpha.x, kSmoothAlpha), std::max(alpha.y, kSmoothAlpha));
+    rough.tint = tint;
+    rough.fresnel = fresnel;
+    return rough;
+}
 
 bool DielectricBody::has_non_delta() const {
     return std::holds_alternative<RoughDielectric>(interface) || (interface_share < 1.0f && opaque.has_non_delta());

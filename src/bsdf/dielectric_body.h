@@ -12,6 +12,11 @@
 
 namespace etendue {
 
+/// The interface of this index inside over outside and of these alphas along x and y, without roughness where both are
+/// below kSmoothAlpha. Where the indices are the same there is nothing that could refract, however rough it is.
+[[nodiscard]] std::variant<SmoothDielectric, RoughDielectric> make_interface(float ior, Vec2f alpha, const Rgb& tint,
+                                                                             const InterfaceFresnel& fresnel);
+
 struct DielectricBody {
     std::variant<SmoothDielectric, RoughDielectric> interface;
     MetallicRoughness opaque{};

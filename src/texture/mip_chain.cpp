@@ -1,10 +1,12 @@
 #include "texture/mip_chain.h"
 
+#include "texture/slope_rows.h"
 #include "texture/wrap.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <type_traits>
 #include <utility>
 
@@ -110,6 +112,11 @@ std::uint64_t mip_texel_count(int width, int height) {
     return count;
 }
 
+std::uint64_t slope_covariance_bytes(int width, int height) {
+    const auto image = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+    return (mip_texel_count(width, height) - image) * 3 * sizeof(Float16);
+}
+
 MipChain::MipChain(std::vector<NativeImage> levels, Encoding encoding, MipLevels wanted)
     : encoding_(encoding), decoding8_(encoding == Encoding::Srgb ? &srgb_decoding8() : &linear_decoding8()) {
     std::visit(
@@ -127,7 +134,7 @@ std::vector<T> MipChain::take_levels(std::vector<NativeImage>& images) {
     std::vector<T> values;
     for (NativeImage& native : images) {
         auto& level = std::get<Image<T>>(native);
-        levels_.push_back({level.width, level.height, values.size()});
+        levels_.push_back({level.width, level.height, values.size() / static_cast<std::size_t>(channels_)});
         if (values.empty()) {
             values = std::move(level.pixels);
         } else {
@@ -150,7 +157,7 @@ void MipChain::add_levels(std::vector<T>& values) {
     const auto stored = [&](int x, int y, int c) {
         const std::size_t texel =
             static_cast<std::size_t>(y) * static_cast<std::size_t>(last.width) + static_cast<std::size_t>(x);
-        const std::size_t first = last.first + texel * static_cast<std::size_t>(channels_);
+        const std::size_t first = (last.first + texel) * static_cast<std::size_t>(channels_);
         return decode(values[first + static_cast<std::size_t>(c)], curved(c));
     };
     ImageF current;  // not rounded, so that errors do not add up from level to level
@@ -159,29 +166,133 @@ void MipChain::add_levels(std::vector<T>& values) {
     while (static_cast<int>(levels_.size()) < level_count) {
         current = current.pixels.empty() ? halve(last.width, last.height, channels_, stored)
                                          : halve(current.width, current.height, channels_, averaged);
-        levels_.push_back({current.width, current.height, values.size()});
+        levels_.push_back({current.width, current.height, values.size() / static_cast<std::size_t>(channels_)});
         for (std::size_t i = 0; i < current.pixels.size(); ++i)
             values.push_back(
                 encode<T>(current.pixels[i], curved(static_cast<int>(i % static_cast<std::size_t>(channels_)))));
     }
 }
 
+template <typename T>
+float MipChain::decode_color(T value) const {
+    if constexpr (std::is_same_v<T, std::uint8_t>) return (*decoding8_)[value];
+    return decode(value, encoding_ == Encoding::Srgb);
+}
+
+template <int Channels, typename T>
+Texel MipChain::read_texel(const T* texel) const {
+    if constexpr (Channels == 1) return {Rgb(decode_color(texel[0])), 1.0f};
+    if constexpr (Channels == 2) return {Rgb(decode_color(texel[0])), decode(texel[1], false)};
+    if constexpr (Channels == 3)
+        return {{decode_color(texel[0]), decode_color(texel[1]), decode_color(texel[2])}, 1.0f};
+    if constexpr (Channels == 4)
+        return {{decode_color(texel[0]), decode_color(texel[1]), decode_color(texel[2])}, decode(texel[3], false)};
+}
+
+template <typename Read>
+auto MipChain::sample_level(Vec2f uv, const Level& level, bool nearest, const TextureOptions& options,
+                            const Read& read) const {
+    const float x = reduce_coordinate(uv.x, options.wrap_u) * static_cast<float>(level.width);
+    const float y = reduce_coordinate(uv.y, options.wrap_v) * static_cast<float>(level.height);
+    const auto column = [&](int i) {
+        return level.first + static_cast<std::size_t>(wrap_index(i, level.width, options.wrap_u));
+    };
+    const auto row = [&](int i) {
+        return static_cast<std::size_t>(wrap_index(i, level.height, options.wrap_v)) *
+               static_cast<std::size_t>(level.width);
+    };
+    if (nearest) return read(column(static_cast<int>(std::floor(x))) + row(static_cast<int>(std::floor(y))));
+    // Texel centres lie at half-integers.
+    const float left = std::floor(x - 0.5f);
+    const float top = std::floor(y - 0.5f);
+    const float fx = x - 0.5f - left;
+    const float fy = y - 0.5f - top;
+    const std::size_t column0 = column(static_cast<int>(left));
+    const std::size_t column1 = column(static_cast<int>(left) + 1);
+    const std::size_t row0 = row(static_cast<int>(top));
+    const std::size_t row1 = row(static_cast<int>(top) + 1);
+    return mix(mix(read(column0 + row0), read(column1 + row0), fx), mix(read(column0 + row1), read(column1 + row1), fx),
+               fy);
+}
+
+template <typename Read>
+auto MipChain::sample_levels(Vec2f uv, float level, bool nearest, const TextureOptions& options,
+                             const Read& read) const {
+    const float within = std::min(level, static_cast<float>(levels_.size() - 1));
+    const float lower = std::floor(within);
+    const float fraction = within - lower;
+    const Level* const first = &levels_[static_cast<std::size_t>(lower)];
+    const auto fine = sample_level(uv, *first, nearest, options, read);
+    if (fraction == 0.0f) return fine;
+    return mix(fine, sample_level(uv, *(first + 1), nearest, options, read), fraction);
+}
+
 // Which depth and how many channels is asked once for all texels of a look-up: what reads them knows both.
-Texel MipChain::sample(Vec2f uv, float level, bool nearest, const TextureOptions& options) const {
+template <typename Use>
+auto MipChain::with_texels(const Use& use) const {
     return std::visit(
         [&](const auto& values) {
             switch (channels_) {
                 case 1:
-                    return sample_levels<1>(values.data(), uv, level, nearest, options);
+                    return use(values.data(), std::integral_constant<int, 1>());
                 case 2:
-                    return sample_levels<2>(values.data(), uv, level, nearest, options);
+                    return use(values.data(), std::integral_constant<int, 2>());
                 case 3:
-                    return sample_levels<3>(values.data(), uv, level, nearest, options);
+                    return use(values.data(), std::integral_constant<int, 3>());
                 default:
-                    return sample_levels<4>(values.data(), uv, level, nearest, options);
+                    return use(values.data(), std::integral_constant<int, 4>());
             }
         },
         values_);
+}
+
+Texel MipChain::sample(Vec2f uv, float level, bool nearest, const TextureOptions& options) const {
+    return with_texels([&]<int Channels>(const auto* values, std::integral_constant<int, Channels>) {
+        return sample_levels(uv, level, nearest, options,
+                             [&](std::size_t i) { return read_texel<Channels>(values + i * Channels); });
+    });
+}
+
+SlopeDistribution MipChain::sample_slopes(Vec2f uv, float level, bool nearest, const TextureOptions& options) const {
+    if (level_count() == 1) return {slope_of(sample(uv, 0.0f, nearest, options).rgb), {}};
+    const std::size_t first = levels_[1].first;
+    return with_texels([&]<int Channels>(const auto* values, std::integral_constant<int, Channels>) {
+        return sample_levels(uv, level, nearest, options, [&](std::size_t i) {
+            const Float16* const c = &slope_covariances_[3 * (i - first)];
+            return SlopeDistribution{slope_of(read_texel<Channels>(values + i * Channels).rgb), {c[0], c[1], c[2]}};
+        });
+    });
+}
+
+// Moments are averaged without rounding, and from the image: a file's own levels do not know of them.
+void MipChain::keep_slopes(bool interpolated) {
+    slope_covariances_.reserve(slope_covariance_bytes(width(), height()) / sizeof(Float16));
+    ImageF current = with_texels([&]<int Channels>(const auto* values, std::integral_constant<int, Channels>) {
+        const auto read_row = [&](int y, std::span<Vec2f> slopes) {
+            const auto* texel = values + static_cast<std::size_t>(y) * slopes.size() * Channels;
+            for (Vec2f& slope : slopes) {
+                slope = slope_of(read_texel<Channels>(texel).rgb);
+                texel += Channels;
+            }
+        };
+        SlopeRows rows(width(), height(), interpolated);
+        SlopeMoments moments{};
+        return halve(width(), height(), static_cast<int>(moments.size()), [&](int x, int y, int c) {
+            if (c == 0) moments = rows.moments(x, y, read_row);
+            return moments[static_cast<std::size_t>(c)];
+        });
+    });
+    for (int level = 1; level < level_count(); ++level) {
+        for (std::size_t i = 0; i < current.pixels.size(); i += std::tuple_size_v<SlopeMoments>) {
+            SlopeMoments moments;
+            std::copy_n(&current.pixels[i], moments.size(), moments.begin());
+            const SlopeCovariance covariance = distribution_of(moments).covariance;
+            for (const float value : {covariance.xx, covariance.xy, covariance.yy})
+                slope_covariances_.push_back(Float16(value));
+        }
+        current = halve(current.width, current.height, current.channels,
+                        [&](int x, int y, int c) { return current.pixel(x, y)[static_cast<std::size_t>(c)]; });
+    }
 }
 
 void MipChain::fetch(Vec2f uv) const {
@@ -198,62 +309,6 @@ void MipChain::fetch(Vec2f uv) const {
                                            static_cast<std::size_t>(channels_)]);
         },
         values_);
-}
-
-template <int Channels, typename T>
-Texel MipChain::sample_levels(const T* values, Vec2f uv, float level, bool nearest,
-                              const TextureOptions& options) const {
-    const float within = std::min(level, static_cast<float>(levels_.size() - 1));
-    const float lower = std::floor(within);
-    const float fraction = within - lower;
-    const Level* const first = &levels_[static_cast<std::size_t>(lower)];
-    const Texel fine = sample_level<Channels>(values, uv, *first, nearest, options);
-    if (fraction == 0.0f) return fine;
-    return mix(fine, sample_level<Channels>(values, uv, *(first + 1), nearest, options), fraction);
-}
-
-template <int Channels, typename T>
-Texel MipChain::sample_level(const T* values, Vec2f uv, const Level& level, bool nearest,
-                             const TextureOptions& options) const {
-    const T* const texels = values + level.first;
-    const float x = reduce_coordinate(uv.x, options.wrap_u) * static_cast<float>(level.width);
-    const float y = reduce_coordinate(uv.y, options.wrap_v) * static_cast<float>(level.height);
-    const auto column = [&](int i) {
-        return texels + static_cast<std::size_t>(wrap_index(i, level.width, options.wrap_u)) * Channels;
-    };
-    const auto row = [&](int i) {
-        return static_cast<std::size_t>(wrap_index(i, level.height, options.wrap_v)) *
-               static_cast<std::size_t>(level.width) * Channels;
-    };
-    if (nearest)
-        return read_texel<Channels>(column(static_cast<int>(std::floor(x))) + row(static_cast<int>(std::floor(y))));
-    // Texel centres lie at half-integers.
-    const float left = std::floor(x - 0.5f);
-    const float top = std::floor(y - 0.5f);
-    const float fx = x - 0.5f - left;
-    const float fy = y - 0.5f - top;
-    const T* const column0 = column(static_cast<int>(left));
-    const T* const column1 = column(static_cast<int>(left) + 1);
-    const std::size_t row0 = row(static_cast<int>(top));
-    const std::size_t row1 = row(static_cast<int>(top) + 1);
-    return mix(mix(read_texel<Channels>(column0 + row0), read_texel<Channels>(column1 + row0), fx),
-               mix(read_texel<Channels>(column0 + row1), read_texel<Channels>(column1 + row1), fx), fy);
-}
-
-template <int Channels, typename T>
-Texel MipChain::read_texel(const T* texel) const {
-    if constexpr (Channels == 1) return {Rgb(decode_color(texel[0])), 1.0f};
-    if constexpr (Channels == 2) return {Rgb(decode_color(texel[0])), decode(texel[1], false)};
-    if constexpr (Channels == 3)
-        return {{decode_color(texel[0]), decode_color(texel[1]), decode_color(texel[2])}, 1.0f};
-    if constexpr (Channels == 4)
-        return {{decode_color(texel[0]), decode_color(texel[1]), decode_color(texel[2])}, decode(texel[3], false)};
-}
-
-template <typename T>
-float MipChain::decode_color(T value) const {
-    if constexpr (std::is_same_v<T, std::uint8_t>) return (*decoding8_)[value];
-    return decode(value, encoding_ == Encoding::Srgb);
 }
 
 Texel MipChain::mean() const {
@@ -277,7 +332,8 @@ Texel MipChain::mean() const {
 }
 
 std::size_t MipChain::bytes() const {
-    return std::visit([](const auto& values) { return values.size() * sizeof(values[0]); }, values_);
+    return std::visit([](const auto& values) { return values.size() * sizeof(values[0]); }, values_) +
+           slope_covariances_.size() * sizeof(Float16);
 }
 
 }  // namespace etendue

@@ -3,6 +3,7 @@
 
 #include "core/vec.h"
 #include "image/image.h"
+#include "texture/slope_distribution.h"
 #include "texture/srgb.h"
 #include "texture/texture_options.h"
 
@@ -19,6 +20,9 @@ namespace etendue {
 /// Texels of all its levels together: about 4/3 of the image's.
 [[nodiscard]] std::uint64_t mip_texel_count(int width, int height);
 
+/// Bytes that a normal map of this size takes to keep its slopes' covariances.
+[[nodiscard]] std::uint64_t slope_covariance_bytes(int width, int height);
+
 /// Which levels a chain has.
 enum class MipLevels { All, AsGiven };
 
@@ -32,6 +36,14 @@ class MipChain {
     /// Value at `uv`, whose wraps are as `options` say, between the two levels next to `level` >= 0: bilinear in both,
     /// or the nearest texel of both.
     [[nodiscard]] Texel sample(Vec2f uv, float level, bool nearest, const TextureOptions& options) const;
+
+    /// Keeps, of a normal map with all levels, how the slopes of the image, `interpolated` between its texels or not,
+    /// are spread within each texel of the others.
+    void keep_slopes(bool interpolated);
+    /// The slopes of a normal map that keeps them, read as by `sample`, between levels from the first mip level on:
+    /// `level` >= 1.
+    [[nodiscard]] SlopeDistribution sample_slopes(Vec2f uv, float level, bool nearest,
+                                                  const TextureOptions& options) const;
 
     /// Has the texels around `uv` in [0, 1)² of the image itself fetched from memory.
     void fetch(Vec2f uv) const;
@@ -49,7 +61,8 @@ class MipChain {
     /// Of a chain that is_8bit.
     [[nodiscard]] Level8 level8(int index) const {
         const Level& level = levels_[static_cast<std::size_t>(index)];
-        return {std::get<std::vector<std::uint8_t>>(values_).data() + level.first, level.width, level.height};
+        return {std::get<std::vector<std::uint8_t>>(values_).data() + level.first * static_cast<std::size_t>(channels_),
+                level.width, level.height};
     }
     [[nodiscard]] int level_count() const { return static_cast<int>(levels_.size()); }
     [[nodiscard]] int channels() const { return channels_; }
@@ -64,7 +77,7 @@ class MipChain {
     struct Level {
         int width;
         int height;
-        std::size_t first;  ///< value
+        std::size_t first;  ///< texel
     };
     using Values =
         std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>, std::vector<Float16>, std::vector<float>>;
@@ -72,12 +85,16 @@ class MipChain {
     std::vector<T> take_levels(std::vector<NativeImage>& images);
     template <typename T>
     void add_levels(std::vector<T>& values);
-    template <int Channels, typename T>
-    [[nodiscard]] Texel sample_levels(const T* values, Vec2f uv, float level, bool nearest,
-                                      const TextureOptions& options) const;
-    template <int Channels, typename T>
-    [[nodiscard]] Texel sample_level(const T* values, Vec2f uv, const Level& level, bool nearest,
-                                     const TextureOptions& options) const;
+    /// Calls `use(values, channels)` with the values as they are stored and the number of channels as a constant.
+    template <typename Use>
+    auto with_texels(const Use& use) const;
+    /// `read(i)` is the value of texel i, counted through all levels.
+    template <typename Read>
+    [[nodiscard]] auto sample_levels(Vec2f uv, float level, bool nearest, const TextureOptions& options,
+                                     const Read& read) const;
+    template <typename Read>
+    [[nodiscard]] auto sample_level(Vec2f uv, const Level& level, bool nearest, const TextureOptions& options,
+                                    const Read& read) const;
     template <int Channels, typename T>
     [[nodiscard]] Texel read_texel(const T* texel) const;
     template <typename T>
@@ -88,6 +105,7 @@ class MipChain {
     const Decoding8* decoding8_ = nullptr;  ///< of colour in 8 bits
     std::vector<Level> levels_;
     Values values_;
+    std::vector<Float16> slope_covariances_;  ///< xx, xy and yy of each texel from the first mip level on
 };
 
 }  // namespace etendue

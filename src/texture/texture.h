@@ -34,6 +34,10 @@ class Texture {
     /// its width. The same as a point where the footprint is smaller than a texel.
     [[nodiscard]] Texel lookup(Vec2f uv, const TextureFootprint& footprint) const;
 
+    /// How the slopes of a normal map that keeps them are spread over `footprint` around `uv`, along the tangent and
+    /// the bitangent. Zero where `lookup` reads a point: within a texel, or as the options say.
+    [[nodiscard]] SlopeCovariance slope_covariance(Vec2f uv, const TextureFootprint& footprint) const;
+
     /// Mean of rgb and of alpha over the image, linear.
     [[nodiscard]] Texel mean() const;
 
@@ -47,6 +51,15 @@ class Texture {
     [[nodiscard]] std::size_t bytes() const;
 
   private:
+    /// Where a look-up reads: `taps`, with the level as the options want it.
+    struct Plan {
+        FilterTaps<float> taps;
+        bool nearest;
+        bool is_filtered;  ///< false: one tap in the image itself
+    };
+    template <typename Texels>
+    [[nodiscard]] Plan plan(const Texels& texels, const TextureFootprint& footprint) const;
+
     TextureOptions options_;
     std::variant<MipChain, CachedImage> texels_;
 };

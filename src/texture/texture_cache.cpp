@@ -3,6 +3,7 @@
 #include "image/image_module.h"
 #include "texture/linear_pieces.h"
 #include "texture/mip_chain.h"
+#include "texture/slope_pieces.h"
 #include "texture/tile_cache.h"
 #include "texture/wrap.h"
 
@@ -58,24 +59,36 @@ struct TextureCache::Impl {
     }
 };
 
-Texel CachedImage::sample(Vec2f uv, float level, bool nearest, const TextureOptions& options) const {
+bool CachedImage::look_up(const TileImage& image, Vec2f uv, float level, bool nearest, const TextureOptions& options,
+                          float* values) const {
+    const int level_count = mip_level_count(image.width, image.height);
     const TileLookup lookup{.u = reduce_coordinate(uv.x, options.wrap_u),
                             .v = reduce_coordinate(uv.y, options.wrap_v),
-                            .width = width_for_level(level, width_, height_, level_count_),
+                            .width = width_for_level(level, image.width, image.height, level_count),
                             .wrap_u = options.wrap_u,
                             .wrap_v = options.wrap_v,
                             .nearest = nearest};
     const TextureCache::Impl& impl = *cache_->impl_;
+    if (impl.tiles->look_up(image, lookup, values)) return true;
+    impl.count_failure();
+    return false;
+}
+
+Texel CachedImage::sample(Vec2f uv, float level, bool nearest, const TextureOptions& options) const {
     std::array<float, 4> values{};
-    if (!impl.tiles->look_up({handle_, width_, height_, channels_}, lookup, values.data())) {
-        impl.count_failure();
-        return {Rgb(), 0.0f};
-    }
-    return make_texel(channels_, values.data());
+    if (!look_up(texels_, uv, level, nearest, options, values.data())) return {Rgb(), 0.0f};
+    return make_texel(texels_.channels, values.data());
+}
+
+SlopeDistribution CachedImage::sample_slopes(Vec2f uv, float level, bool nearest, const TextureOptions& options) const {
+    SlopeMoments moments{};
+    if (!look_up(slopes_, uv, level - 1.0f, nearest, options, moments.data())) return {};
+    return distribution_of(moments);
 }
 
 Texel CachedImage::mean() const {
-    return sample({0.5f, 0.5f}, static_cast<float>(level_count_ - 1), false, {});
+    const int level_count = mip_level_count(width(), height());
+    return sample({0.5f, 0.5f}, static_cast<float>(level_count - 1), false, {});
 }
 
 TextureCache::TextureCache(std::uint64_t budget) : impl_(std::make_unique<Impl>()) {
@@ -86,16 +99,18 @@ TextureCache::TextureCache(std::uint64_t budget) : impl_(std::make_unique<Impl>(
 TextureCache::~TextureCache() = default;
 
 CachedImage TextureCache::add(Source source, Encoding encoding) {
-    const TileImage tiles = impl_->tiles->add([source = std::move(source), encoding] {
-        return std::make_unique<LinearPieces>(to_image_source(source), encoding);
-    });
     CachedImage image;
     image.cache_ = this;
-    image.handle_ = tiles.handle;
-    image.width_ = tiles.width;
-    image.height_ = tiles.height;
-    image.channels_ = tiles.channels;
-    image.level_count_ = mip_level_count(tiles.width, tiles.height);
+    image.texels_ = impl_->tiles->add([source = std::move(source), encoding] {
+        return std::make_unique<LinearPieces>(to_image_source(source), encoding);
+    });
+    return image;
+}
+
+CachedImage TextureCache::add_normal_map(const Source& source, bool interpolated) {
+    CachedImage image = add(source, Encoding::Linear);
+    image.slopes_ = impl_->tiles->add(
+        [source, interpolated] { return std::make_unique<SlopePieces>(to_image_source(source), interpolated); });
     return image;
 }
 

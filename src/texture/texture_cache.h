@@ -8,7 +8,9 @@
 
 #include "core/vec.h"
 #include "image/read.h"
+#include "texture/slope_distribution.h"
 #include "texture/texture_options.h"
+#include "texture/tile_cache.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -27,21 +29,25 @@ class CachedImage {
   public:
     /// As MipChain's, but where a file's pixels prove broken: there it is zero, and the cache counts it.
     [[nodiscard]] Texel sample(Vec2f uv, float level, bool nearest, const TextureOptions& options) const;
+    /// As MipChain's, of an image that was added as a normal map.
+    [[nodiscard]] SlopeDistribution sample_slopes(Vec2f uv, float level, bool nearest,
+                                                  const TextureOptions& options) const;
     /// Of the image's coarsest mip level: near the mean over all texels.
     [[nodiscard]] Texel mean() const;
 
-    [[nodiscard]] int width() const { return width_; }
-    [[nodiscard]] int height() const { return height_; }
+    [[nodiscard]] int width() const { return texels_.width; }
+    [[nodiscard]] int height() const { return texels_.height; }
 
   private:
     friend class TextureCache;
 
+    /// Writes as many values as `image` has channels; false, and counted, where its pixels prove broken.
+    [[nodiscard]] bool look_up(const TileImage& image, Vec2f uv, float level, bool nearest,
+                               const TextureOptions& options, float* values) const;
+
     const TextureCache* cache_ = nullptr;
-    void* handle_ = nullptr;
-    int width_ = 0;
-    int height_ = 0;
-    int channels_ = 0;
-    int level_count_ = 0;
+    TileImage texels_;
+    TileImage slopes_;  ///< SlopePieces, of a normal map
 };
 
 class TextureCache {
@@ -57,6 +63,8 @@ class TextureCache {
 
     /// Opens the image. Throws IoError if its header is broken. Not while look-ups are made.
     [[nodiscard]] CachedImage add(Source source, Encoding encoding);
+    /// The same for a normal map, which keeps its slopes as MipChain does.
+    [[nodiscard]] CachedImage add_normal_map(const Source& source, bool interpolated);
 
     [[nodiscard]] std::uint64_t budget() const;
     /// Decoded tiles that are held now.

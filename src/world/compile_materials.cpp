@@ -132,13 +132,13 @@ Material compile_material(const MaterialDesc& desc, const ColorMatrix& from_rec7
     if (const auto* model = std::get_if<GltfModel>(&material.model))
         material.is_pane = !material.unlit && !model->refracts && model->transmission > 0.0f &&
                            model->metallic < 1.0f && model->roughness * model->roughness < kSmoothAlpha;
-    material.normal_texture = textures.slot(desc.normal_texture, TextureUse::Data);
+    material.normal_texture = textures.slot(desc.normal_texture, TextureUse::NormalMap);
     material.normal_scale = desc.normal_scale;
 
     if (std::holds_alternative<std::monostate>(desc.override_model)) {
         material.has_coat = desc.clearcoat.factor > 0.0f;
         if (material.has_coat) {
-            material.coat_normal_texture = textures.slot(desc.clearcoat.normal_texture, TextureUse::Data);
+            material.coat_normal_texture = textures.slot(desc.clearcoat.normal_texture, TextureUse::NormalMap);
             material.coat_normal_scale = desc.clearcoat.normal_scale;
         }
         material.is_anisotropic = desc.anisotropy.strength > 0.0f;

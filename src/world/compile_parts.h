@@ -19,7 +19,7 @@
 namespace etendue {
 
 /// How a texture is used, which decides how it is decoded.
-enum class TextureUse { Color, Data };
+enum class TextureUse { Color, Data, NormalMap };
 
 /// Hands out indices of textures and loads each once per use.
 class TextureCompiler {

@@ -63,9 +63,10 @@ auto read_or_blame(const ImageDesc& image, const Step& step) {
     }
 }
 
-std::uint64_t resident_bytes(const ImageInfo& info) {
-    return mip_texel_count(info.width, info.height) * static_cast<std::uint64_t>(info.decoded_channels) *
-           bytes_of(info.depth);
+std::uint64_t resident_bytes(TextureUse use, const ImageInfo& info) {
+    const std::uint64_t texels = mip_texel_count(info.width, info.height) *
+                                 static_cast<std::uint64_t>(info.decoded_channels) * bytes_of(info.depth);
+    return use == TextureUse::NormalMap ? texels + slope_covariance_bytes(info.width, info.height) : texels;
 }
 
 }  // namespace
@@ -99,7 +100,7 @@ ImageInfo TextureCompiler::info_of(const Request& request) const {
 
 std::uint64_t TextureCompiler::bytes_in_memory() const {
     std::uint64_t bytes = 0;
-    for (const Request& request : requests_) bytes += resident_bytes(info_of(request));
+    for (const Request& request : requests_) bytes += resident_bytes(request.second, info_of(request));
     return bytes;
 }
 
@@ -107,7 +108,7 @@ void TextureCompiler::finish(std::uint64_t budget, const ThreadPool& threads, Wo
     std::vector<ImageInfo> infos(requests_.size());
     threads.parallel_for(requests_.size(), [&](std::size_t i, int) { infos[i] = info_of(requests_[i]); });
     std::uint64_t needed = 0;
-    for (const ImageInfo& info : infos) needed += resident_bytes(info);
+    for (std::size_t i = 0; i < infos.size(); ++i) needed += resident_bytes(requests_[i].second, infos[i]);
     data.textures.reserve(requests_.size());
     if (needed <= budget)
         load_resident(infos, threads, data);
@@ -122,8 +123,10 @@ void TextureCompiler::load_resident(std::span<const ImageInfo> infos, const Thre
         const ImageDesc& image = image_of(requests_[i]);
         const Encoding encoding = encoding_of(requests_[i].second, infos[i]);
         loaded[i] = read_or_blame(image, [&] {
-            return Texture(MipChain(read_image_levels(source_of(image)), encoding),
-                           options_of(scene_.textures[requests_[i].first], encoding));
+            MipChain texels(read_image_levels(source_of(image)), encoding);
+            const TextureOptions options = options_of(scene_.textures[requests_[i].first], encoding);
+            if (requests_[i].second == TextureUse::NormalMap) texels.keep_slopes(!options.nearest);
+            return Texture(std::move(texels), options);
         });
     });
     for (std::optional<Texture>& texture : loaded) data.textures.push_back(std::move(*texture));
@@ -142,9 +145,13 @@ void TextureCompiler::open_cached(std::span<const ImageInfo> infos, std::uint64_
             source = bytes;
         }
         const Encoding encoding = encoding_of(requests_[i].second, infos[i]);
-        const CachedImage cached =
-            read_or_blame(image, [&] { return data.texture_cache->add(std::move(source), encoding); });
-        data.textures.emplace_back(cached, options_of(scene_.textures[requests_[i].first], encoding));
+        const TextureOptions options = options_of(scene_.textures[requests_[i].first], encoding);
+        const CachedImage cached = read_or_blame(image, [&] {
+            return requests_[i].second == TextureUse::NormalMap
+                       ? data.texture_cache->add_normal_map(source, !options.nearest)
+                       : data.texture_cache->add(source, encoding);
+        });
+        data.textures.emplace_back(cached, options);
     }
 }
 

@@ -1,6 +1,6 @@
 #include "world/gltf_surface.h"
 
-#include "bsdf/ggx.h"
+#include "bsdf/widening.h"
 #include "world/lookup.h"
 #include "world/material_evaluation.h"
 
@@ -76,29 +76,22 @@ void evaluate_base_layers(const WorldData& data, const GltfLayers& layers, const
     if (lobe.diffuse_transmission > 0.0f)
         lobe.diffuse_transmission_color = clamp_unit(data.from_rec709(
             scaled(data, layers.diffuse_transmission_color, layers.diffuse_transmission_color_texture, point)));
-    // The frame's x axis lies along the direction in which the surface is rougher.
+}
+
+/// The frame's x axis lies along the direction in which the surface is rougher.
+void set_anisotropy(const WorldData& data, const GltfLayers& layers, const SurfacePoint& point,
+                    MetallicRoughness& lobe) {
     const float strength = unit(scaled(data, layers.anisotropy, layers.anisotropy_texture, point, blue));
     lobe.alpha_x += (1.0f - lobe.alpha_x) * squared(strength);
 }
 
-std::variant<SmoothDielectric, RoughDielectric> make_interface(const MetallicRoughness& lobe, float relative_ior,
-                                                               const InterfaceFresnel& fresnel) {
-    // Where the indices are the same there is nothing that could refract, however rough it is.
-    constexpr float kSameIor = 1e-4f;
-    const bool same = std::abs(relative_ior - 1.0f) < kSameIor;
-    if (same) return SmoothDielectric{.ior = 1.0f, .tint = lobe.base, .fresnel = fresnel};
-    if (std::max(lobe.alpha_x, lobe.alpha_y) < kSmoothAlpha)
-        return SmoothDielectric{.ior = relative_ior, .tint = lobe.base, .fresnel = fresnel};
-    RoughDielectric rough =
-        RoughDielectric::make(relative_ior, std::max(lobe.alpha_x, kSmoothAlpha), std::max(lobe.alpha_y, kSmoothAlpha));
-    rough.tint = lobe.base;
-    rough.fresnel = fresnel;
-    return rough;
+Rgb metallic_roughness_texel(const WorldData& data, const GltfModel& model, const SurfacePoint& point) {
+    return scaled(data, Rgb(1.0f), model.metallic_roughness_texture, point);
 }
 
 /// The surface of a closed body; `lobe` as it would be on a thin sheet.
 DielectricBody make_body(const MetallicRoughness& lobe, float relative_ior, const InterfaceFresnel& fresnel) {
-    DielectricBody body{.interface = make_interface(lobe, relative_ior, fresnel),
+    DielectricBody body{.interface = make_interface(relative_ior, {lobe.alpha_x, lobe.alpha_y}, lobe.base, fresnel),
                         .opaque = lobe,
                         .interface_share = (1.0f - lobe.metallic) * lobe.transmission};
     body.opaque.transmission = 0.0f;
@@ -127,6 +120,7 @@ ClearCoat evaluate_clear_coat(const WorldData& data, const GltfLayers& layers, c
     coat.strength = unit(scaled(data, layers.clearcoat, layers.clearcoat_texture, point, red));
     coat.alpha =
         squared(unit(scaled(data, layers.clearcoat_roughness, layers.clearcoat_roughness_texture, point, green)));
+    coat.alpha = widened_alpha(coat.alpha, point.coat_slope_variance);
     coat.normal = point.shading.to_local(point.coat_normal);
     // Seen from behind, the frame is turned about its bitangent, and the coat's normal is the opposite one
     // (LayeredSurface::from_behind).
@@ -139,16 +133,28 @@ void set_metallic_roughness(const GltfModel& model, const Rgb& texel, MetallicRo
     lobe.alpha_x = lobe.alpha_y = squared(unit(model.roughness * texel.g));
 }
 
+Vec2f evaluate_alpha(const WorldData& data, const GltfModel& model, const SurfacePoint& point) {
+    MetallicRoughness lobe;
+    set_metallic_roughness(model, metallic_roughness_texel(data, model, point), lobe);
+    if (model.layers) set_anisotropy(data, *model.layers, point, lobe);
+    return {lobe.alpha_x, lobe.alpha_y};
+}
+
 Bsdf evaluate_gltf_surface(const WorldData& data, const GltfModel& model, const SurfacePoint& point, float relative_ior,
                            bool from_back) {
     MetallicRoughness lobe;
     lobe.base = evaluate_base_color(data, model, point);
-    set_metallic_roughness(model, scaled(data, Rgb(1.0f), model.metallic_roughness_texture, point), lobe);
+    set_metallic_roughness(model, metallic_roughness_texel(data, model, point), lobe);
     const Specular specular(data, model, point);
     lobe.f90 = specular.weight;
     lobe.f0 = specular.f0(data, model.f0);
     lobe.transmission = unit(scaled(data, model.transmission, model.transmission_texture, point, red));
-    if (model.layers) evaluate_base_layers(data, *model.layers, point, lobe);
+    if (model.layers) {
+        evaluate_base_layers(data, *model.layers, point, lobe);
+        set_anisotropy(data, *model.layers, point, lobe);
+    }
+    lobe.alpha_x = widened_alpha(lobe.alpha_x, point.slope_variance.x);
+    lobe.alpha_y = widened_alpha(lobe.alpha_y, point.slope_variance.y);
 
     const bool refracts = model.refracts && (1.0f - lobe.metallic) * lobe.transmission > 0.0f;
     DielectricBody body;

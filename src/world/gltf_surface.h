@@ -15,6 +15,9 @@ namespace etendue {
 /// Sets what the texture of metalness and roughness changes, where it reads `texel`; (1, 1, 1) if there is none.
 void set_metallic_roughness(const GltfModel& model, const Rgb& texel, MetallicRoughness& lobe);
 
+/// What the model says of the base's roughness: its alphas along x and y.
+[[nodiscard]] Vec2f evaluate_alpha(const WorldData& data, const GltfModel& model, const SurfacePoint& point);
+
 /// The clear coat alone.
 [[nodiscard]] ClearCoat evaluate_clear_coat(const WorldData& data, const GltfLayers& layers, const SurfacePoint& point,
                                             bool from_back);

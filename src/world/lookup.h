@@ -35,6 +35,13 @@ namespace etendue {
         transform_point(slot, point.uv[slot.texcoord]), transform_footprint(slot, point.footprint[slot.texcoord]));
 }
 
+/// How the slopes of a normal map are spread over the point's footprint, along the tangent and the bitangent.
+[[nodiscard]] inline SlopeCovariance lookup_slope_covariance(const WorldData& data, const TextureSlot& slot,
+                                                             const SurfacePoint& point) {
+    return data.textures[static_cast<std::size_t>(slot.texture)].slope_covariance(
+        transform_point(slot, point.uv[slot.texcoord]), transform_footprint(slot, point.footprint[slot.texcoord]));
+}
+
 /// `factor` times the texture's `channel(texel)`, if there is a texture.
 template <typename Channel>
 [[nodiscard]] float scaled(const WorldData& data, float factor, const TextureSlot& slot, const SurfacePoint& point,

@@ -2,6 +2,7 @@
 
 #include "world/interpolation.h"
 #include "world/lookup.h"
+#include "world/relief_spread.h"
 
 #include <algorithm>
 #include <cmath>
@@ -50,6 +51,15 @@ Frame apply_normal_map(const WorldData& data, const TextureSlot& map, float scal
     // A mapped normal below the surface is no normal; the interpolated one stands.
     if (!(dot(normal, frame.normal) > 1e-3f * length(normal))) return frame;
     return Frame::from_normal_and_tangent(normalize(normal), frame.tangent);
+}
+
+SlopeCovariance relief_below(const WorldData& data, const TextureSlot& map, float scale, const SurfacePoint& point,
+                             const Frame& frame, float bitangent_sign, const Frame& mapped) {
+    const SlopeCovariance covariance = lookup_slope_covariance(data, map, point);
+    if (covariance.is_zero()) return {};
+    const SlopeCovariance scaled{covariance.xx * scale * scale, covariance.xy * scale * scale,
+                                 covariance.yy * scale * scale};
+    return tilted(scaled, {frame.tangent, frame.bitangent * bitangent_sign, frame.normal}, mapped);
 }
 
 Frame apply_anisotropy(const WorldData& data, const Material& material, const SurfacePoint& point, const Frame& frame,

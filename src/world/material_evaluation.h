@@ -27,6 +27,12 @@ namespace etendue {
 [[nodiscard]] Frame apply_normal_map(const WorldData& data, const TextureSlot& map, float scale,
                                      const SurfacePoint& point, const Frame& frame, float bitangent_sign);
 
+/// How the slopes of a normal map spread over the point's footprint, as seen in the frame `mapped` around the mean
+/// normal; the others as for `apply_normal_map`.
+[[nodiscard]] SlopeCovariance relief_below(const WorldData& data, const TextureSlot& map, float scale,
+                                           const SurfacePoint& point, const Frame& frame, float bitangent_sign,
+                                           const Frame& mapped);
+
 /// The frame turned so that its tangent lies along the direction in which an anisotropic surface is rougher.
 [[nodiscard]] Frame apply_anisotropy(const WorldData& data, const Material& material, const SurfacePoint& point,
                                      const Frame& frame, float bitangent_sign);

@@ -2,14 +2,17 @@
 
 #include "core/position_error.h"
 #include "world/cone_section.h"
+#include "world/gltf_surface.h"
 #include "world/interpolation.h"
 #include "world/material_evaluation.h"
 #include "world/motion.h"
+#include "world/relief_spread.h"
 #include "world/triangle_point.h"
 #include "world/world.h"
 
 #include <array>
 #include <cmath>
+#include <variant>
 
 namespace etendue {
 
@@ -47,6 +50,23 @@ Vec3f step_error(const Vec3f& extent, const TransformMotion& steps, float time) 
     return max_components(position_error(extent, steps[first]), position_error(extent, steps[first + 1]));
 }
 
+/// What the base's normal map averages makes it rougher, and is turned with it.
+void apply_base_spread(const WorldData& data, const Material& material, const Frame& interpolated, float bitangent_sign,
+                       SurfacePoint& point) {
+    const auto* model = std::get_if<GltfModel>(&material.model);
+    // Light goes straight through a thin sheet, whatever its normal is there.
+    if (model != nullptr && model->transmission > 0.0f && !model->refracts) return;
+    const SlopeCovariance relief = relief_below(data, material.normal_texture, material.normal_scale, point,
+                                                interpolated, bitangent_sign, point.shading);
+    if (relief.is_zero()) return;
+    const Vec2f alpha =
+        material.is_anisotropic && model != nullptr ? evaluate_alpha(data, *model, point) : Vec2f(0.0f, 0.0f);
+    const RoughnessAxes axes = roughness_axes(alpha, relief);
+    point.shading = Frame::from_normal_and_tangent(
+        point.shading.normal, point.shading.tangent * axes.direction.x + point.shading.bitangent * axes.direction.y);
+    point.slope_variance = axes.added_variance;
+}
+
 /// What the material's maps make of the interpolated frame. The base's relief does not show in a coat over it.
 void apply_relief(const WorldData& data, const Material& material, float bitangent_sign, SurfacePoint& point) {
     const Frame interpolated = point.shading;
@@ -54,12 +74,16 @@ void apply_relief(const WorldData& data, const Material& material, float bitange
         point.shading =
             apply_normal_map(data, material.normal_texture, material.normal_scale, point, interpolated, bitangent_sign);
     if (material.is_anisotropic) point.shading = apply_anisotropy(data, material, point, point.shading, bitangent_sign);
+    if (material.normal_texture.valid()) apply_base_spread(data, material, interpolated, bitangent_sign, point);
     if (!material.has_coat) return;
     point.coat_normal = interpolated.normal;
-    if (material.coat_normal_texture.valid())
-        point.coat_normal = apply_normal_map(data, material.coat_normal_texture, material.coat_normal_scale, point,
-                                             interpolated, bitangent_sign)
-                                .normal;
+    if (!material.coat_normal_texture.valid()) return;
+    const Frame coat = apply_normal_map(data, material.coat_normal_texture, material.coat_normal_scale, point,
+                                        interpolated, bitangent_sign);
+    point.coat_normal = coat.normal;
+    point.coat_slope_variance = 0.5f * relief_below(data, material.coat_normal_texture, material.coat_normal_scale,
+                                                    point, interpolated, bitangent_sign, coat)
+                                           .trace();
 }
 
 /// `Moves` is false for what neither moves nor deforms, so that it does not pay for what does.

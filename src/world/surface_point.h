@@ -19,6 +19,10 @@ struct SurfacePoint {
     float clearance = 0.0f;        ///< metres along the normal that a ray must start off the surface (position_error.h)
     Frame shading;                 ///< interpolated and normal-mapped; its normal is on the front side too
     Vec3f coat_normal{0.0f};       ///< unit, of the clear coat if the material has one
+    /// Variance of slopes about `shading` that the footprint averages, along the frame's x and y: what a normal map's
+    /// relief adds to the roughness of what lies under the coat.
+    Vec2f slope_variance{0.0f, 0.0f};
+    float coat_slope_variance = 0.0f;  ///< the same about `coat_normal`, the mean of all directions
     Vec2f uv[2]{{0.0f, 0.0f}, {0.0f, 0.0f}};
     TextureFootprint footprint[2];        ///< what a look-up at each `uv` stands for
     Vec4f color{1.0f, 1.0f, 1.0f, 1.0f};  ///< vertex colour, linear Rec.709
@@ -26,6 +30,8 @@ struct SurfacePoint {
     std::uint32_t instance = 0;
     std::uint32_t geometry = 0;
     std::uint32_t triangle = 0;
+
+    [[nodiscard]] bool has_spread_slopes() const { return slope_variance != Vec2f(0.0f, 0.0f); }
 };
 
 /// The surface at `barycentric` (weights of the second and third vertex) of a triangle of an instance, at `time` of the

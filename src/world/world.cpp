@@ -1,6 +1,7 @@
 #include "world/world.h"
 
 #include "bsdf/ggx.h"
+#include "bsdf/widening.h"
 #include "core/position_error.h"
 #include "core/vector_bytes.h"
 #include "world/cone_section.h"
@@ -80,11 +81,10 @@ std::size_t geometry_bytes(const WorldData& data) {
 
 /// The interface of a dielectric between other indices than it was made for.
 Bsdf with_relative_ior(const Bsdf& bsdf, float relative_ior) {
-    constexpr float kSameIor = 1e-4f;
-    const bool is_same = std::abs(relative_ior - 1.0f) < kSameIor;
-    if (const auto* rough = std::get_if<RoughDielectric>(&bsdf); rough != nullptr && !is_same)
-        return RoughDielectric::make(relative_ior, rough->alpha_x, rough->alpha_y);
-    return SmoothDielectric{.ior = is_same ? 1.0f : relative_ior};
+    const auto* rough = std::get_if<RoughDielectric>(&bsdf);
+    const Vec2f alpha = rough != nullptr ? Vec2f(rough->alpha_x, rough->alpha_y) : Vec2f(0.0f, 0.0f);
+    return std::visit([](const auto& interface) { return Bsdf(interface); },
+                      make_interface(relative_ior, alpha, Rgb(1.0f), {}));
 }
 
 }  // namespace
@@ -214,14 +214,16 @@ const Bsdf& World::bsdf(const SurfacePoint& point, const Vec3f& wo, float relati
     if (const auto* model = std::get_if<GltfModel>(&material.model)) {
         // Only a body's interface depends on what is around it.
         const bool as_in_vacuum = !model->refracts || relative_ior == 0.0f || relative_ior == model->ior;
-        if (material.uniform && as_in_vacuum) return *material.uniform;
+        if (material.uniform && as_in_vacuum && !point.has_spread_slopes()) return *material.uniform;
         storage = evaluate_gltf_surface(*data_, *model, point, relative_ior, dot(wo, point.geometric_normal) < 0.0f);
         return storage;
     }
     const Bsdf& constant = std::get<Bsdf>(material.model);
     // Compiled for vacuum around it.
-    if (relative_ior == 0.0f || relative_ior == data_->fillings[material.filling].ior) return constant;
-    storage = with_relative_ior(constant, relative_ior);
+    const bool as_compiled = relative_ior == 0.0f || relative_ior == data_->fillings[material.filling].ior;
+    if (as_compiled && !point.has_spread_slopes()) return constant;
+    storage = as_compiled ? constant : with_relative_ior(constant, relative_ior);
+    if (point.has_spread_slopes()) storage = widened(storage, point.slope_variance);
     return storage;
 }
 
