@@ -42,6 +42,12 @@ class PixelFilter {
         const std::size_t below = std::min(static_cast<std::size_t>(step), kValues - 1);
         return values_[below] + (values_[below + 1] - values_[below]) * (step - static_cast<float>(below));
     }
+    /// Density, per pixel, with which samples are placed at `x` pixels from the centre in one dimension.
+    [[nodiscard]] float pdf(float x) const {
+        if (!(x >= edges_.front() && x < edges_.back())) return 0.0f;
+        const auto next = std::upper_bound(edges_.begin(), edges_.end(), x);
+        return 1.0f / (static_cast<float>(kCells) * (*next - *(next - 1)));
+    }
     [[nodiscard]] float radius() const { return radius_; }
     [[nodiscard]] FilterShape shape() const { return shape_; }
 

@@ -135,6 +135,7 @@ World::World(WorldData data)
     };
     has_specular_surfaces_ = has_surface(is_specular);
     has_unlit_surfaces_ = has_surface([](const Material& material) { return material.unlit; });
+    has_emitting_surfaces_ = has_surface([](const Material& material) { return material.emits; });
 }
 
 World::~World() = default;

@@ -282,6 +282,8 @@ class World {
     [[nodiscard]] bool has_specular_surfaces() const { return has_specular_surfaces_; }
     /// True if some surface shows its colour to the eye and neither scatters nor emits light.
     [[nodiscard]] bool has_unlit_surfaces() const { return has_unlit_surfaces_; }
+    /// True if some surface emits light.
+    [[nodiscard]] bool has_emitting_surfaces() const { return has_emitting_surfaces_; }
     /// True if some surface that emits is met by chance only: it moves while the shutter is open, or is beyond the most
     /// triangles that are sampled.
     [[nodiscard]] bool has_unsampled_emitters() const { return data_->has_unsampled_emitters; }
@@ -439,6 +441,7 @@ class World {
     bool has_delta_lights_ = false;
     bool has_specular_surfaces_ = false;
     bool has_unlit_surfaces_ = false;
+    bool has_emitting_surfaces_ = false;
     bool has_scattering_bodies_ = false;
     bool has_lights_in_media_ = false;
     PlainSurfaces plain_surfaces_;

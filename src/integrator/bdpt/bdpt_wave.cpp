@@ -51,7 +51,7 @@ std::size_t BdptWave::bytes() const {
     return sizeof *this +
            vector_bytes(samples_, camera_rays_, alpha_, shares_, own_, own_begin_, cache_, to_lights_, to_cameras_,
                         between_, receivers_, choosing_, choices_, lit_, wide_to_lights_, wide_to_cameras_) +
-           found_.bytes() + eye_.bytes() + light_.bytes() + to_light_.bytes() + to_camera_.bytes() +
+           found_.bytes() + lamps_.bytes() + eye_.bytes() + light_.bytes() + to_light_.bytes() + to_camera_.bytes() +
            light_connections_.bytes() + wide_light_connections_.bytes() + camera_connections_.bytes() +
            wide_camera_connections_.bytes() + vertex_connections_.bytes() + wide_vertex_connections_.bytes();
 }
@@ -72,9 +72,11 @@ void BdptWave::trace(const World& world, const TileJob& job, const BdptOptions& 
     const int spared_of_eye = options.lengths.roulette_depth - spared_of_light;
     context_ = &context;
     tile_ = &tile;
+    counters_ = &counters;
     eye_.trace(context, spared_of_eye, this, found_, counters);
     context_ = nullptr;
     tile_ = nullptr;
+    counters_ = nullptr;
     if (world.has_lights()) {
         light_.trace(context, spared_of_light, nullptr, found_, counters);
         find_candidates(context);
@@ -104,6 +106,7 @@ void BdptWave::trace(const World& world, const TileJob& job, const BdptOptions& 
                                          &wide_vertex_connections_, &camera_connections_, &wide_camera_connections_})
             connections->resolve(world, job, samples_, found_, tile, counters);
     }
+    lamps_.note_radiance(samples_, found_);
     accumulate(job, samples_, found_, alpha_, tile, counters);
     stamp(job.profile, Stage::Film);
 }
@@ -141,6 +144,7 @@ CameraConnection BdptWave::camera_of(const SubpathJob& job, const PathVertex& ey
 
 void BdptWave::on_first_hits(std::span<const Ray> rays, std::span<const Hit> hits) {
     find_first_hits(context_->world, context_->job, samples_, rays, hits, *tile_);
+    lamps_.note(samples_, rays, hits, *counters_);
 }
 
 void BdptWave::add(const SubpathState& state, const Rgb& light, const StrategySums& sums, const PathLightEnd& end,

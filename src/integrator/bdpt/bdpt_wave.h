@@ -6,6 +6,7 @@
 #include "integrator/bdpt/reference_weights.h"
 #include "integrator/bdpt/strategy_sums.h"
 #include "integrator/connections.h"
+#include "integrator/lamps_in_view.h"
 #include "integrator/subpath/camera_splat.h"
 #include "integrator/subpath/connectible_vertices.h"
 #include "integrator/subpath/subpath_wave.h"
@@ -28,6 +29,8 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
 
     [[nodiscard]] std::size_t bytes() const override;
 
+    /// What the camera rays of the job meet; to be started before its samples are traced, and finished after them.
+    [[nodiscard]] LampsInView& lamps() { return lamps_; }
     /// Traces samples [first, first + count) of the job, count <= kCapacity.
     void trace(const World& world, const TileJob& job, const BdptOptions& options, std::size_t first, std::size_t count,
                TileBuffer& tile, RenderCounters& counters);
@@ -63,6 +66,7 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
     void on_unlit(const SubpathState& state, const SurfacePoint& point, const Vec3f& direction) override;
     void on_escape(const SubpathState& state, const Vec3f& direction) override;
     void on_first_hits(std::span<const Ray> rays, std::span<const Hit> hits) override;
+    [[nodiscard]] bool knows_emission(const Hit& first_hit) const override { return lamps_.finds(first_hit); }
     void add(const SubpathState& state, const Rgb& light, const StrategySums& sums, const PathLightEnd& end,
              const AovSet::Source& source);
 
@@ -159,6 +163,7 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
     std::vector<CameraSample> samples_;
     std::vector<Ray> camera_rays_;
     SampleLight found_;
+    LampsInView lamps_;
     std::vector<float> alpha_;
     std::vector<ExpressionShare> shares_;  ///< of the path at hand
     SubpathWave eye_{SubpathEnd::AtEye, true};
@@ -191,6 +196,7 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
     Connections vertex_connections_{RayKind::Connection}, wide_vertex_connections_{RayKind::Connection};
     const Context* context_ = nullptr;  ///< of the call of `trace` under way, for what eye subpaths find
     TileBuffer* tile_ = nullptr;        ///< the same
+    RenderCounters* counters_ = nullptr;  ///< the same
 };
 
 }  // namespace etendue
