@@ -53,6 +53,22 @@ void for_each_pixel(const PixelRect& rect, const Visit& visit) {
     return grown({pixel.x, pixel.y, pixel.x + 1, pixel.y + 1}, kReach);
 }
 
+/// True if a pixel shows, and shows better, what its neighbours' samples have met.
+[[nodiscard]] bool reaches_neighbours(const PixelFilter& filter) {
+    return filter.radius() > 0.5f && !filter.has_negative_parts();
+}
+
+/// False if no sample of the job's pixels and their neighbours can meet a lamp.
+[[nodiscard]] bool may_see_lamps(const World& world, const TileJob& job) {
+    constexpr float kRounding = 1.0f;  // pixels
+    const float reach = static_cast<float>(kReach) + job.filter->radius() + kRounding;
+    const auto on_film = [&](int x, int y, float beside) {
+        return Vec2f((static_cast<float>(x) + beside) / static_cast<float>(job.full_width),
+                     (static_cast<float>(y) + beside) / static_cast<float>(job.full_height));
+    };
+    return world.may_show_lamps(on_film(job.rect.x0, job.rect.y0, -reach), on_film(job.rect.x1, job.rect.y1, reach));
+}
+
 /// Along one axis, how a place on the film is seen by the pixels around the one whose sample fell there.
 class AlongAxis {
   public:
@@ -92,16 +108,15 @@ void LampsInView::start(const World& world, const TileJob& job, const PathLength
     filters_textures_ = filters_textures;
     share_ = std::move(share);
     const bool is_spelled = job.aovs != nullptr && job.aovs->speller != nullptr;
-    is_active_ = job.filter->radius() > 0.5f && world.has_emitting_surfaces() && world.camera_interior().is_empty() &&
-                 lengths.min_depth <= 1 && !is_spelled;
+    is_active_ = reaches_neighbours(*job.filter) && world.camera_interior().is_empty() && lengths.min_depth <= 1 &&
+                 !is_spelled && may_see_lamps(world, job);
     met_.clear();
     found_.clear();
     if (!is_active_) return;
     around_ = intersection(grown(job.rect, kReach), full_image(job));
     first_samples_.assign(job.rect.area(), job.pixels.empty() ? job.first_sample : kNone);
     for (const PixelJob& pixel : job.pixels) first_samples_[pixel.pixel] = pixel.first_sample;
-    if (job.aovs != nullptr && job.aovs->layout.has_moments)
-        found_.assign(job.rect.area() * job.sample_count, {});
+    if (job.aovs != nullptr && job.aovs->layout.has_moments) found_.assign(job.rect.area() * job.sample_count, {});
     words_.reset(job.aovs);
 }
 
@@ -143,7 +158,6 @@ void LampsInView::note(const CameraSample& sample, const Vec2i& pixel, const Ray
     if (words_.are_followed()) words_.end_at_camera(words_.surface_source(point), shares_);
     met_.push_back({.pixel = pixel,
                     .sample = sample.key.index,
-                    .weight = sample.weight,
                     .offset = job_->filter->sample(sample_2d(job_->sequence, sample.key, kFilmDimension)).offset,
                     .light = light,
                     .expressions = shares_.empty() ? ExpressionMask{0} : shares_.front().expressions,
@@ -157,11 +171,11 @@ void LampsInView::note_radiance(std::span<const CameraSample> samples, const Sam
     for (std::size_t i = 0; i < samples.size(); ++i) {
         const Rgb& radiance = light.radiance(i);
         if (is_finite(radiance) && min_component(radiance) >= 0.0f)
-            found_by(samples[i].pixel, samples[i].key.index) = {radiance * samples[i].weight, samples[i].weight};
+            found_by(samples[i].pixel, samples[i].key.index) = radiance;
     }
 }
 
-LampsInView::Found& LampsInView::found_by(std::uint32_t pixel, std::uint32_t sample) {
+Rgb& LampsInView::found_by(std::uint32_t pixel, std::uint32_t sample) {
     return found_[std::size_t{pixel} * job_->sample_count + (sample - first_samples_[pixel])];
 }
 
@@ -188,10 +202,11 @@ void LampsInView::trace_neighbours(RenderCounters& counters) {
                 samples_.push_back({.key = {seed, next}});
             }
     });
+    if (samples_.empty()) return;
     rays_.resize(samples_.size());
     hits_.resize(samples_.size());
     generate_camera_rays(*world_, *job_, positions_, samples_, rays_);
-    intersect_batch(*world_, *job_, RayKind::Primary, rays_, hits_, counters);
+    intersect_batch(*world_, *job_, RayKind::LampInView, rays_, hits_, counters);
     for (std::size_t i = 0; i < samples_.size(); ++i)
         if (is_lamp(*world_, hits_[i])) note(samples_[i], positions_[i], rays_[i], hits_[i], nullptr);
 }
@@ -215,7 +230,7 @@ void LampsInView::look_at_middles(RenderCounters& counters) {
     rays_.assign(count, {});
     hits_.resize(count);
     world_->generate_rays(film_, lens, times, rays_);
-    intersect_batch(*world_, *job_, RayKind::Primary, rays_, hits_, counters);
+    intersect_batch(*world_, *job_, RayKind::LampInView, rays_, hits_, counters);
     middles_.assign(around_.area(), 0.0f);
     for (std::size_t i = 0; i < count; ++i)
         if (is_lamp(*world_, hits_[i]))
@@ -238,9 +253,8 @@ void LampsInView::spread(const Met& met, TileBuffer& tile, RenderCounters& count
     const AlongAxis y(*job_->filter, met.offset.y, met.pixel.y, job_->full_height);
     for_each_pixel(intersection(neighbours(met.pixel), job_->rect), [&](const Vec2i& pixel) {
         if (!has_sample(pixel, met.sample)) return;
-        const bool is_own = pixel == met.pixel;
-        float scale = x.scale(pixel.x - met.pixel.x) * y.scale(pixel.y - met.pixel.y);
-        if (is_even(pixel)) scale = is_own ? met.weight : 0.0f;
+        const float of_own = pixel == met.pixel ? 1.0f : 0.0f;
+        const float scale = is_even(pixel) ? of_own : x.scale(pixel.x - met.pixel.x) * y.scale(pixel.y - met.pixel.y);
         if (scale != 0.0f) add(met, pixel, met.light * scale, tile, counters);
     });
 }
@@ -282,9 +296,9 @@ void LampsInView::add(const Met& met, const Vec2i& position, const Rgb& light, T
                                   .g = static_cast<double>(light.g),
                                   .b = static_cast<double>(light.b)});
     if (found_.empty()) return;
-    Found& found = found_by(pixel, met.sample);
-    layers.grow_moments(pixel, found.weighted, light, static_cast<double>(found.weight));
-    found.weighted += light;
+    Rgb& found = found_by(pixel, met.sample);
+    layers.grow_moments(pixel, found, light);
+    found += light;
 }
 
 void LampsInView::finish(TileBuffer& tile, RenderCounters& counters) {

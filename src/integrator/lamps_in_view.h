@@ -8,11 +8,13 @@
 //   sum over q of f_p(x_q) E(x_q) / sum over q' of d_q'(x_q)
 //
 // where f is the filter and d the density with which samples are placed: multiple importance sampling with the balance
-// heuristic, one sample of each of nine densities (Veach 1997, equation 9.8). Where the filter reaches no neighbour's
-// samples this is the pixel's own sample. Neighbours beside the image do not exist.
+// heuristic, one sample of each of nine densities (Veach 1997, equation 9.8). Neighbours beside the image do not exist.
 //
 // It is a function of the seed, the pixel and the sample: i-th samples of pixels that the tile does not render are
 // traced again, as far as what they meet first. So crops, parts and adaptive passes see what the whole image would.
+//
+// Filters with negative parts keep to a pixel's own samples, as does a box that reaches no neighbour's: weights of both
+// signs divide a pixel's light, and what has no part in them would be noisier for it.
 //
 // Nine samples are noisier than one where the lamp fills all that the filter sees. So a pixel keeps to its own where
 // rays through the middles of all nine pixels meet emission of about the same brightness: a choice that knows nothing
@@ -35,7 +37,8 @@ class LampsInView {
     /// Share, in [0, 1], of the light of `point`, which the ray of `sample` has met, that is to be found so.
     using Share = std::function<float(const CameraSample& sample, const Ray& ray, const SurfacePoint& point)>;
 
-    /// Starts a job, which must outlive the call of `finish`, for paths of `lengths`. Without a `share` it is all light.
+    /// Starts a job, which must outlive the call of `finish`, for paths of `lengths`. Without a `share` it is all
+    /// light.
     void start(const World& world, const TileJob& job, const PathLengths& lengths, bool filters_textures,
                Share share = {});
 
@@ -58,16 +61,10 @@ class LampsInView {
     struct Met {
         Vec2i pixel;               ///< whose sample it is, of the full image
         std::uint32_t sample = 0;  ///< index in that pixel
-        float weight = 1.0f;       ///< of the pixel filter
         Vec2f offset;              ///< on the film, pixels from the middle of that pixel
         Rgb light;
         ExpressionMask expressions = 0;
         float depth = 0.0f;  ///< metres along the viewing direction; of deep images only
-    };
-    /// What a sample of the job has found.
-    struct Found {
-        Rgb weighted;  ///< by `weight`
-        float weight = 0.0f;
     };
 
     [[nodiscard]] static bool is_lamp(const World& world, const Hit& hit);
@@ -85,8 +82,8 @@ class LampsInView {
     void spread(const Met& met, TileBuffer& tile, RenderCounters& counters);
     /// Adds what `met` brings to the pixel at `position`.
     void add(const Met& met, const Vec2i& position, const Rgb& light, TileBuffer& tile, RenderCounters& counters);
-    /// By the sample of this index, which the job takes, of pixel `pixel` of the tile.
-    [[nodiscard]] Found& found_by(std::uint32_t pixel, std::uint32_t sample);
+    /// What the sample of this index, which the job takes, of pixel `pixel` of the tile has found.
+    [[nodiscard]] Rgb& found_by(std::uint32_t pixel, std::uint32_t sample);
 
     const World* world_ = nullptr;
     const TileJob* job_ = nullptr;
@@ -96,8 +93,8 @@ class LampsInView {
     PixelRect around_;                          ///< the job's rectangle with the neighbours of its pixels
     std::vector<std::uint32_t> first_samples_;  ///< by pixel of the tile; kNone of those without samples
     std::vector<Met> met_;
-    std::vector<Found> found_;   ///< by pixel and sample; only if there are layers of variance
-    std::vector<float> middles_; ///< the largest component of the emission there, by pixel of `around_`
+    std::vector<Rgb> found_;      ///< by pixel and sample; only if there are layers of variance
+    std::vector<float> middles_;  ///< the largest component of the emission there, by pixel of `around_`
     std::vector<std::uint8_t> asks_for_middle_;
     // Of rays that are traced for neighbours and middles.
     std::vector<Vec2i> positions_;

@@ -33,12 +33,10 @@ std::unique_ptr<IntegratorScratch> BdptIntegrator::make_scratch() const {
 
 void BdptIntegrator::render_tile(const World& world, const TileJob& job, IntegratorScratch& scratch, TileBuffer& tile,
                                  RenderCounters& counters) const {
-    LampsInView& lamps = static_cast<BdptWave&>(scratch).lamps();
-    const bool is_wanted = !options_.only || *options_.only == Strategy{.s = 0, .t = 2};
-    lamps.start(world, job, options_.lengths, false,
-                [is_wanted](const CameraSample&, const Ray&, const SurfacePoint&) { return is_wanted ? 1.0f : 0.0f; });
+    auto& wave = static_cast<BdptWave&>(scratch);
+    wave.start(world, job, options_);
     trace_in_waves<BdptWave>(world, job, options_, scratch, tile, counters);
-    lamps.finish(tile, counters);
+    wave.finish(tile, counters);
 }
 
 }  // namespace etendue
