@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <optional>
 #include <string_view>
 #include <tuple>
 #include <utility>
@@ -121,8 +122,8 @@ void LampsInView::start(const World& world, const TileJob& job, const PathLength
 }
 
 std::size_t LampsInView::bytes() const {
-    return vector_bytes(first_samples_, met_, found_, middles_, asks_for_middle_, positions_, samples_, rays_, hits_,
-                        film_, shares_);
+    return vector_bytes(first_samples_, met_, found_, middles_, asks_for_middle_, is_even_, positions_, samples_, rays_,
+                        hits_, film_, shares_);
 }
 
 SurfacePoint LampsInView::surface_point(const Ray& ray, const Hit& hit) const {
@@ -236,9 +237,11 @@ void LampsInView::look_at_middles(RenderCounters& counters) {
         if (is_lamp(*world_, hits_[i]))
             middles_[index_in(around_, positions_[i])] =
                 max_component(world_->emission(surface_point(rays_[i], hits_[i]), -rays_[i].direction));
+    is_even_.clear();
+    for_each_pixel(job_->rect, [&](const Vec2i& pixel) { is_even_.push_back(has_even_middles(pixel) ? 1 : 0); });
 }
 
-bool LampsInView::is_even(const Vec2i& pixel) const {
+bool LampsInView::has_even_middles(const Vec2i& pixel) const {
     float least = middles_[index_in(around_, pixel)];
     float most = least;
     for_each_pixel(intersection(neighbours(pixel), full_image(*job_)), [&](const Vec2i& beside) {
@@ -249,12 +252,18 @@ bool LampsInView::is_even(const Vec2i& pixel) const {
 }
 
 void LampsInView::spread(const Met& met, TileBuffer& tile, RenderCounters& counters) {
-    const AlongAxis x(*job_->filter, met.offset.x, met.pixel.x, job_->full_width);
-    const AlongAxis y(*job_->filter, met.offset.y, met.pixel.y, job_->full_height);
+    // Within a lamp, nothing is asked of the filter.
+    std::optional<std::pair<AlongAxis, AlongAxis>> axes;
     for_each_pixel(intersection(neighbours(met.pixel), job_->rect), [&](const Vec2i& pixel) {
         if (!has_sample(pixel, met.sample)) return;
-        const float of_own = pixel == met.pixel ? 1.0f : 0.0f;
-        const float scale = is_even(pixel) ? of_own : x.scale(pixel.x - met.pixel.x) * y.scale(pixel.y - met.pixel.y);
+        if (is_even_[index_in(job_->rect, pixel)] != 0) {
+            if (pixel == met.pixel) add(met, pixel, met.light, tile, counters);
+            return;
+        }
+        if (!axes)
+            axes.emplace(AlongAxis(*job_->filter, met.offset.x, met.pixel.x, job_->full_width),
+                         AlongAxis(*job_->filter, met.offset.y, met.pixel.y, job_->full_height));
+        const float scale = axes->first.scale(pixel.x - met.pixel.x) * axes->second.scale(pixel.y - met.pixel.y);
         if (scale != 0.0f) add(met, pixel, met.light * scale, tile, counters);
     });
 }

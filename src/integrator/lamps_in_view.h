@@ -78,7 +78,7 @@ class LampsInView {
     /// Finds the emission in the middle of each pixel that light may be added to, and of its neighbours.
     void look_at_middles(RenderCounters& counters);
     /// True if a pixel keeps to its own samples.
-    [[nodiscard]] bool is_even(const Vec2i& pixel) const;
+    [[nodiscard]] bool has_even_middles(const Vec2i& pixel) const;
     void spread(const Met& met, TileBuffer& tile, RenderCounters& counters);
     /// Adds what `met` brings to the pixel at `position`.
     void add(const Met& met, const Vec2i& position, const Rgb& light, TileBuffer& tile, RenderCounters& counters);
@@ -96,6 +96,7 @@ class LampsInView {
     std::vector<Rgb> found_;      ///< by pixel and sample; only if there are layers of variance
     std::vector<float> middles_;  ///< the largest component of the emission there, by pixel of `around_`
     std::vector<std::uint8_t> asks_for_middle_;
+    std::vector<std::uint8_t> is_even_;  ///< by pixel of the tile: 1 for those that keep to their own samples
     // Of rays that are traced for neighbours and middles.
     std::vector<Vec2i> positions_;
     std::vector<CameraSample> samples_;
