@@ -61,10 +61,10 @@ TEST(RenderStrategies, WeightedOnesAddUpToTheImage) {
     const std::vector<ImagePart> parts = strategy_parts(images);
     ASSERT_EQ(parts.size(), images.size());
     EXPECT_EQ(parts[0].name, "s0t2");
-    EXPECT_EQ(parts[3].name, "s2t1");
-    EXPECT_EQ(parts[3].image, &images[3].rgba);
-    EXPECT_EQ(parts[3].image->width, 24);
-    EXPECT_EQ(parts[3].image->channels, 4);
+    EXPECT_EQ(parts[4].name, "s2t1");
+    EXPECT_EQ(parts[4].image, &images[4].rgba);
+    EXPECT_EQ(parts[4].image->width, 24);
+    EXPECT_EQ(parts[4].image->channels, 4);
 }
 
 TEST(RenderStrategies, AStopLeavesThoseThatAreFinished) {
