@@ -232,7 +232,7 @@ class RunMeasurement {
 
     /// Traces the recorded rays again on all threads at once, as they were rendered.
     void replay(const ThreadPool& threads, const RayRecorder& recorder, RayKind kind, RayKindReport& report) const {
-        const Coherence coherence = kind == RayKind::Primary ? Coherence::Coherent : Coherence::Incoherent;
+        const Coherence coherence = is_coherent(kind) ? Coherence::Coherent : Coherence::Incoherent;
         const std::span<const std::vector<Ray>> segments = recorder.segments();
         constexpr std::array kForms{QueryForm::Single, QueryForm::Packet8, QueryForm::Packet16};
         std::array<std::vector<double>, kForms.size()> seconds;

@@ -101,6 +101,12 @@ class LayerBuffer {
         add_rgb(pixel, first + 3, radiance, squared);
         sums_[pixel * layout_.sums() + first + 6] += squared;
     }
+    /// Adds `light` to a sample of weight 1 that is among them with `radiance`.
+    void grow_moments(std::size_t pixel, const Rgb& radiance, const Rgb& light) {
+        const std::size_t first = layout_.moment_sums();
+        add_rgb(pixel, first, light * (radiance * 2.0f + light), 1.0);
+        add_rgb(pixel, first + 3, light, 1.0);
+    }
     /// Keeps `values` if no earlier sample was as near; of equally near ones, the first.
     void add_nearest(std::size_t pixel, float distance, std::span<const float> values) {
         float* const kept = &nearest_[pixel * nearest_stride()];

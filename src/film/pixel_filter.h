@@ -1,5 +1,6 @@
 // Pixel filters, by importance sampling: each sample is placed with the filter's density and counts once, so that
 // pixels need no neighbours and tiles no borders (Ernst, Stamminger, Greiner, "Filter Importance Sampling", RT 2006).
+// Lamps in view are the exception: integrator/lamps_in_view.h.
 #pragma once
 
 #include "core/vec.h"
@@ -42,6 +43,14 @@ class PixelFilter {
         const std::size_t below = std::min(static_cast<std::size_t>(step), kValues - 1);
         return values_[below] + (values_[below + 1] - values_[below]) * (step - static_cast<float>(below));
     }
+    /// Density, per pixel, with which samples are placed at `x` pixels from the centre in one dimension.
+    [[nodiscard]] float pdf(float x) const {
+        if (!(x >= edges_.front() && x < edges_.back())) return 0.0f;
+        const auto next = std::upper_bound(edges_.begin(), edges_.end(), x);
+        return 1.0f / (static_cast<float>(kCells) * (*next - *(next - 1)));
+    }
+    /// True if some samples count negatively; the weights of all others are 1 if none do.
+    [[nodiscard]] bool has_negative_parts() const { return positive_radius_ < radius_; }
     [[nodiscard]] float radius() const { return radius_; }
     [[nodiscard]] FilterShape shape() const { return shape_; }
 

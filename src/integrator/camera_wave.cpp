@@ -174,6 +174,15 @@ void generate_camera_rays(const World& world, const TileJob& job, std::size_t fi
     }
 }
 
+void generate_camera_rays(const World& world, const TileJob& job, std::span<const Vec2i> positions,
+                          std::span<CameraSample> samples, std::span<Ray> rays) {
+    for (std::size_t begin = 0; begin < rays.size(); begin += CameraNumbers::kCapacity) {
+        const std::size_t count = std::min(CameraNumbers::kCapacity, rays.size() - begin);
+        generate_few(world, job, samples.subspan(begin, count), positions.subspan(begin, count),
+                     rays.subspan(begin, count));
+    }
+}
+
 bool accumulate(const TileJob& job, const CameraSample& sample, const Rgb& radiance, float alpha, TileBuffer& tile,
                 RenderCounters& counters) {
     ++counters.samples;

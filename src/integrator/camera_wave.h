@@ -62,6 +62,10 @@ enum class SampleOrder : std::uint8_t {
 void generate_camera_rays(const World& world, const TileJob& job, std::size_t first, std::span<CameraSample> samples,
                           std::span<Ray> rays, SampleOrder order = SampleOrder::PixelByPixel);
 
+/// Makes those of `samples`, whose keys are known, as are their pixels' `positions` in the full image.
+void generate_camera_rays(const World& world, const TileJob& job, std::span<const Vec2i> positions,
+                          std::span<CameraSample> samples, std::span<Ray> rays);
+
 /// Adds `radiance` to the sample's pixel; drops, counts and locates what is not finite or negative: false if it was.
 bool accumulate(const TileJob& job, const CameraSample& sample, const Rgb& radiance, float alpha, TileBuffer& tile,
                 RenderCounters& counters);

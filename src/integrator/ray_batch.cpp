@@ -13,7 +13,7 @@ void intersect_any(const World& world, const TileJob& job, RayKind kind, const B
                    RenderCounters& counters) {
     WaveProfile* profile = job.profile;
     if (profile != nullptr) profile->record(kind, rays);
-    world.intersect(rays, hits, kind == RayKind::Primary ? Coherence::Coherent : Coherence::Incoherent);
+    world.intersect(rays, hits, is_coherent(kind) ? Coherence::Coherent : Coherence::Incoherent);
     counters.rays[kind] += rays.size();
     if (profile == nullptr) return;
     profile->stamp(Stage::Intersect, kind);

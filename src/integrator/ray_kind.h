@@ -16,6 +16,7 @@ enum class RayKind : std::uint8_t {
     LightSubpath,   ///< of a path from a light
     Connection,     ///< between a vertex of an eye path and one of a light path
     LightToCamera,  ///< from a light path to the lens
+    LampInView,     ///< from the camera, where pixels beside that of the sample ask for lamps
     Count
 };
 
@@ -23,7 +24,12 @@ inline constexpr std::size_t kRayKinds = static_cast<std::size_t>(RayKind::Count
 
 /// As reports and statistics name them.
 inline constexpr std::array<std::string_view, kRayKinds> kRayKindNames{
-    "camera", "bounce", "shadow", "light-subpath", "connection", "light-to-camera"};
+    "camera", "bounce", "shadow", "light-subpath", "connection", "light-to-camera", "lamp-in-view"};
+
+/// True of rays whose neighbours go nearly where they do.
+[[nodiscard]] constexpr bool is_coherent(RayKind kind) {
+    return kind == RayKind::Primary || kind == RayKind::LampInView;
+}
 
 /// True of rays that ask whether something is in the way, false of those that look for the nearest surface.
 [[nodiscard]] constexpr bool asks_for_occlusion(RayKind kind) {

@@ -9,9 +9,8 @@ struct Strategy {
     int s = 0;
     int t = 0;
 
-    /// True if there is such a strategy: no light hits the lens (t = 0), and paths of one edge, lights that the camera
-    /// sees, are made by (0, 2) alone.
-    [[nodiscard]] bool exists() const { return s >= 0 && t >= 1 && s + t >= 2 && !(s == 1 && t == 1); }
+    /// True if there is such a strategy: no light hits the lens (t = 0).
+    [[nodiscard]] bool exists() const { return s >= 0 && t >= 1 && s + t >= 2; }
     [[nodiscard]] int edges() const { return s + t - 1; }
     friend bool operator==(const Strategy&, const Strategy&) = default;
 };

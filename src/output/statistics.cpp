@@ -67,9 +67,13 @@ std::string to_json(const RenderStatistics& s) {
                            : Json();
     json["samples"] = s.samples;
     json["samples_per_second"] = per_second(s.samples, s.render.wall);
-    json["rays"] = {{"camera", s.rays.camera},         {"bounce", s.rays.bounce},
-                    {"shadow", s.rays.shadow},         {"light_subpath", s.rays.light_subpath},
-                    {"connection", s.rays.connection}, {"light_to_camera", s.rays.light_to_camera},
+    json["rays"] = {{"camera", s.rays.camera},
+                    {"bounce", s.rays.bounce},
+                    {"shadow", s.rays.shadow},
+                    {"light_subpath", s.rays.light_subpath},
+                    {"connection", s.rays.connection},
+                    {"light_to_camera", s.rays.light_to_camera},
+                    {"lamp_in_view", s.rays.lamp_in_view},
                     {"total", s.rays.total()}};
     json["rays_per_second"] = per_second(s.rays.total(), s.render.wall);
     json["seconds"] = {{"load", to_object(s.load)},

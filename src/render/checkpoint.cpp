@@ -26,7 +26,7 @@ static_assert(std::endian::native == std::endian::little, "checkpoints are writt
 static_assert(sizeof(PixelSum) == 48 && sizeof(SplatSum) == 24 && sizeof(DeepBin) == 64,
               "sums have no padding, and old files hold them so");
 
-constexpr std::array<char, 8> kMagic{'E', 'T', 'D', 'C', 'K', 'P', 'T', '5'};
+constexpr std::array<char, 8> kMagic{'E', 'T', 'D', 'C', 'K', 'P', 'T', '6'};
 
 /// Writes and hashes.
 class Writer {

@@ -149,11 +149,11 @@ void validate_settings(const SceneDesc& scene, ProblemList& problems) {
     check(integrator.cached_connections, 0, kMostCachedConnections, "connections", "/integrator/connections");
     if (integrator.strategy) {
         const auto [s, t] = *integrator.strategy;
-        // No light hits the lens, and lights that the camera sees are (0, 2)'s alone.
-        if (s < 0 || t < 1 || s + t < 2 || (s == 1 && t == 1))
+        // No light hits the lens.
+        if (s < 0 || t < 1 || s + t < 2)
             problems.error(settings.at("/integrator/strategy"),
                            fmt::format("there is no strategy {},{}: s >= 0 vertices from the light and t >= 1 from the "
-                                       "eye make a path of s + t - 1 >= 1 edges, and 0,2 alone those of one edge",
+                                       "eye make a path of s + t - 1 >= 1 edges",
                                        s, t));
     }
     if (!integrator.weighted && !integrator.strategy)

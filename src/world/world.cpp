@@ -15,6 +15,7 @@
 #include "world/plain_lookups.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -135,6 +136,11 @@ World::World(WorldData data)
     };
     has_specular_surfaces_ = has_surface(is_specular);
     has_unlit_surfaces_ = has_surface([](const Material& material) { return material.unlit; });
+    has_emitting_surfaces_ = has_surface([](const Material& material) { return material.emits; });
+    for (const Light& light : data_->lights)
+        if (const auto* mesh = std::get_if<MeshLight>(&light)) lamp_bounds_.push_back(mesh->bounds().box);
+    constexpr std::size_t kMostBounds = 1024;
+    if (lamp_bounds_.size() > kMostBounds) lamp_bounds_ = {data_->bounds};
 }
 
 World::~World() = default;
@@ -362,13 +368,13 @@ Emission World::sample_emission(Vec2f u_light, const EmissionNumbers& u, float t
     return emission;
 }
 
-Rgb World::surface_emission(const Emission& emission, const Vec3f& direction) const {
+SurfaceEmission World::surface_emission(const Emission& emission, const Vec3f& direction) const {
     const MeshLight* mesh = std::get_if<MeshLight>(&data_->lights[emission.light]);
     if (mesh == nullptr) return {};
     const EmissionSample& sample = emission.sample;
     const LightTriangle& t = mesh->triangle(sample.triangle);
-    return mesh_emission(emission.light, sample.triangle, sample.barycentric, direction) *
-           abs_dot(triangle_normal(t.edge1, t.edge2), direction);
+    return {mesh_emission(emission.light, sample.triangle, sample.barycentric, direction),
+            abs_dot(triangle_normal(t.edge1, t.edge2), direction)};
 }
 
 std::uint32_t World::light_at(const SurfacePoint& point) const {
@@ -436,6 +442,30 @@ void World::generate_rays(std::span<const Vec2f> film, std::span<const Vec2f> le
     } else {
         for (std::size_t i = 0; i < rays.size(); ++i) rays[i] = generate_ray(film[i], lens[i], times[i]);
     }
+}
+
+bool World::may_show_lamps(Vec2f least, Vec2f most) const {
+    if (has_motion_ || has_lens() || has_unsampled_emitters()) return has_emitting_surfaces_;
+    const std::array<Vec2f, 4> corners{least, Vec2f(most.x, least.y), most, Vec2f(least.x, most.y)};
+    const Ray middle = generate_ray((least + most) * 0.5f, Vec2f(0.5f, 0.5f), 0.0f);
+    std::array<Ray, 4> rays;
+    for (std::size_t i = 0; i < rays.size(); ++i) rays[i] = generate_ray(corners[i], Vec2f(0.5f, 0.5f), 0.0f);
+    // Planes through neighbouring corners' rays, whose normals point inwards.
+    std::array<Vec3f, 4> normals;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const Ray& next = rays[(i + 1) % rays.size()];
+        const Vec3f normal = cross(rays[i].direction, next.origin + next.direction - rays[i].origin);
+        normals[i] = dot(normal, middle.origin + middle.direction - rays[i].origin) < 0.0f ? -normal : normal;
+    }
+    return std::ranges::any_of(lamp_bounds_, [&](const Bounds& box) {
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            const Vec3f& n = normals[i];
+            const Vec3f inmost{n.x < 0.0f ? box.min.x : box.max.x, n.y < 0.0f ? box.min.y : box.max.y,
+                               n.z < 0.0f ? box.min.z : box.max.z};
+            if (dot(n, inmost - rays[i].origin) < 0.0f) return false;
+        }
+        return true;
+    });
 }
 
 CameraConnection World::connect_to_camera(const Vec3f& point, Vec2f lens, float time) const {

@@ -151,6 +151,12 @@ struct Emission {
     float probability = 0;  ///< of choosing this light
 };
 
+/// What a point of a lamp sends in a direction.
+struct SurfaceEmission {
+    Rgb radiance;         ///< W/(m² sr)
+    float cosine = 0.0f;  ///< between the direction and the surface's normal, >= 0
+};
+
 /// What a light sample is made from, each in [0, 1)².
 struct LightNumbers {
     Vec2f light;      ///< which light
@@ -282,6 +288,10 @@ class World {
     [[nodiscard]] bool has_specular_surfaces() const { return has_specular_surfaces_; }
     /// True if some surface shows its colour to the eye and neither scatters nor emits light.
     [[nodiscard]] bool has_unlit_surfaces() const { return has_unlit_surfaces_; }
+    /// True if some surface emits light.
+    [[nodiscard]] bool has_emitting_surfaces() const { return has_emitting_surfaces_; }
+    /// False if no camera ray through the part of the film from `least` to `most` can meet such a surface.
+    [[nodiscard]] bool may_show_lamps(Vec2f least, Vec2f most) const;
     /// True if some surface that emits is met by chance only: it moves while the shutter is open, or is beyond the most
     /// triangles that are sampled.
     [[nodiscard]] bool has_unsampled_emitters() const { return data_->has_unsampled_emitters; }
@@ -324,9 +334,8 @@ class World {
     [[nodiscard]] float emission_probability(std::uint32_t light) const { return selector_.probability(light); }
     /// A ray that leaves a light, chosen by power with `u_light` in [0, 1)²; it has that time.
     [[nodiscard]] Emission sample_emission(Vec2f u_light, const EmissionNumbers& u, float time) const;
-    /// Radiance and cosine towards `direction` of the point at which an emission starts, W/(m² sr); black for lights
-    /// without a surface.
-    [[nodiscard]] Rgb surface_emission(const Emission& emission, const Vec3f& direction) const;
+    /// What the point at which an emission starts sends towards `direction`; black for lights without a surface.
+    [[nodiscard]] SurfaceEmission surface_emission(const Emission& emission, const Vec3f& direction) const;
     /// True if rays can meet the light of this index by chance.
     [[nodiscard]] bool can_be_hit(std::uint32_t light) const { return !is_delta_light(data_->lights[light]); }
     [[nodiscard]] bool is_at_infinity(std::uint32_t light) const {
@@ -439,6 +448,8 @@ class World {
     bool has_delta_lights_ = false;
     bool has_specular_surfaces_ = false;
     bool has_unlit_surfaces_ = false;
+    bool has_emitting_surfaces_ = false;
+    std::vector<Bounds> lamp_bounds_;  ///< of surfaces that emit, while they stay where they are
     bool has_scattering_bodies_ = false;
     bool has_lights_in_media_ = false;
     PlainSurfaces plain_surfaces_;

@@ -310,8 +310,8 @@ TEST_F(CommandLine, PyramidsThatCannotBeMadeAreRefusedBeforeRendering) {
     };
     refused(2, {"--strategies-image", "--strategies-depth", "--min-depth of 9"}, {"--min-depth", "9"});
     refused(2, {"--strategies-depth", "--min-depth of 4"}, {"--min-depth", "4", "--strategies-depth", "3"});
-    // 4 billion pixels of 43 strategies.
-    refused(1, {"--strategies-image", "43 strategies of 65536x65536", "GiB", "--size", "--strategies-depth"},
+    // 4 billion pixels of 44 strategies.
+    refused(1, {"--strategies-image", "44 strategies of 65536x65536", "GiB", "--size", "--strategies-depth"},
             {"--size", "65536x65536"});
     const std::string shallow = scene("shallow", R"("integrator": {"min_depth": 9},)");
     const ProgramResult result = run({"render", shallow, "--integrator", "bdpt", "--strategies-image", "pyramid.exr"});

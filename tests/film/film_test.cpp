@@ -87,6 +87,19 @@ TEST(Film, VarianceIsThatOfARatioWhereWeightsAreNegative) {
 
 // Two light paths, one of which leaves 3: the mean is 1.5, and the sum of squares less that of the mean is 4.5, over
 // the square of the number of paths.
+TEST(Film, MomentsGrowAsIfAllWereOneSample) {
+    const LayerLayout layout{.has_moments = true};
+    LayerBuffer at_once(layout, 1);
+    LayerBuffer bit_by_bit(layout, 1);
+    const Rgb radiance(1.0f, 2.0f, 0.5f);
+    const Rgb light(4.0f, 0.25f, 8.0f);
+    at_once.add_moments(0, radiance + light, 1.0);
+    bit_by_bit.add_moments(0, radiance, 1.0);
+    bit_by_bit.grow_moments(0, radiance, light);
+    for (std::size_t i = 0; i < LayerLayout::kMomentSums; ++i)
+        EXPECT_NEAR(at_once.all_sums()[i], bit_by_bit.all_sums()[i], 1e-6) << i;
+}
+
 TEST(Film, VarianceOfSplatsIsThatOfTheSumOverKnownLightPaths) {
     const LayerLayout layout{.has_moments = true};
     Film film(1, 1, {0, 0, 1, 1}, {0, 0, 1, 1}, layout);

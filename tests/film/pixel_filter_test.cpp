@@ -89,6 +89,26 @@ TEST_P(Filters, EstimateAnyImageAsTheirIntegralWould) {
     }
 }
 
+TEST_P(Filters, SamplesHaveTheirDensity) {
+    // Of numbers at equal steps, as many lie below any offset as the density integrates to.
+    constexpr int kSteps = 100'000;
+    const float r = filter_.radius();
+    const float step = 2.0f * r / kSteps;
+    double integral = 0.0;
+    int i = 0;
+    for (int k = 0; k < kSteps; ++k) {
+        const float x = r * (2.0f * (static_cast<float>(k) + 0.5f) / kSteps - 1.0f);
+        integral += static_cast<double>(filter_.pdf(x) * step);
+        while (i < kSteps && filter_.sample({(static_cast<float>(i) + 0.5f) / kSteps, 0.5f}).offset.x < x) ++i;
+        if (k % 100 == 0) {
+            EXPECT_NEAR(integral, static_cast<double>(i) / kSteps, 1e-3) << x;
+        }
+    }
+    EXPECT_NEAR(integral, 1.0, 1e-3);
+    EXPECT_EQ(filter_.pdf(r * 1.001f), 0.0f);
+    EXPECT_EQ(filter_.pdf(-r * 1.001f), 0.0f);
+}
+
 TEST_P(Filters, MovesOppositelyForOppositeNumbers) {
     // Symmetric filters sampled by inversion: u and 1 - u lie on opposite sides.
     for (const float u : {0.1f, 0.25f, 0.4f}) {

@@ -149,8 +149,8 @@ TEST_P(AdaptiveAgreement, OfManySeedsWithAUniformReference) {
     RecordProperty("relative_error", std::to_string(worst.relative_error));
     std::printf("largest |z| %.2f; whole image %+.4f%%, standard error %.4f%%\n", worst.z, 100.0 * worst.difference,
                 100.0 * worst.relative_error);
-    const WorstBlock found =
-        compare(estimate_blocks([&](std::uint32_t seed) { return naive(seed); }, 1, std::min(seeds, 32u)), right);
+    const WorstBlock found = compare(
+        estimate_blocks([&](std::uint32_t seed) { return naive(seed); }, 1, std::min(seeds + seeds / 2, 48u)), right);
     EXPECT_GT(found.z, 1.5 * kLargestZ) << "the bias of a naive rule";
     RecordProperty("naive_z", std::to_string(found.z));
 }

@@ -148,10 +148,10 @@ TEST(RayKinds, EachIntegratorTracesItsOwn) {
             if (rays[static_cast<RayKind>(i)] > 0) kinds += std::string(kRayKindNames[i]) + " ";
         return kinds;
     };
-    EXPECT_EQ(kinds_of("naive"), "camera bounce ");
-    EXPECT_EQ(kinds_of("path"), "camera bounce shadow ");
+    EXPECT_EQ(kinds_of("naive"), "camera bounce lamp-in-view ");
+    EXPECT_EQ(kinds_of("path"), "camera bounce shadow lamp-in-view ");
     EXPECT_EQ(kinds_of("light"), "light-subpath light-to-camera ");
-    EXPECT_EQ(kinds_of("bdpt"), "camera bounce shadow light-subpath connection light-to-camera ");
+    EXPECT_EQ(kinds_of("bdpt"), "camera bounce shadow light-subpath connection light-to-camera lamp-in-view ");
     EXPECT_EQ(kinds_of("normals"), "camera ");
 }
 

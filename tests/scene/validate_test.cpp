@@ -149,10 +149,6 @@ const Defect kDefects[] = {
      [](SceneDesc& s) {
          s.settings.integrator.strategy = {{0, 1}};
      }},
-    {"StrategyOfOneEdge", "strategy 1,1",
-     [](SceneDesc& s) {
-         s.settings.integrator.strategy = {{1, 1}};
-     }},
     {"UnweightedSum", "without weights", [](SceneDesc& s) { s.settings.integrator.weighted = false; }},
 };
 

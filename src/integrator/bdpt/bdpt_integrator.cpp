@@ -33,7 +33,10 @@ std::unique_ptr<IntegratorScratch> BdptIntegrator::make_scratch() const {
 
 void BdptIntegrator::render_tile(const World& world, const TileJob& job, IntegratorScratch& scratch, TileBuffer& tile,
                                  RenderCounters& counters) const {
+    auto& wave = static_cast<BdptWave&>(scratch);
+    wave.start(world, job, options_);
     trace_in_waves<BdptWave>(world, job, options_, scratch, tile, counters);
+    wave.finish(tile, counters);
 }
 
 }  // namespace etendue

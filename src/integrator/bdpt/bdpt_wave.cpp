@@ -2,6 +2,7 @@
 
 #include "integrator/aov/first_hits.h"
 #include "integrator/profile/wave_profile.h"
+#include "integrator/subpath/subpath_steps.h"
 
 #include <algorithm>
 #include <cassert>
@@ -11,7 +12,7 @@ namespace etendue {
 
 namespace {
 
-/// Paths of one edge, a light that the camera sees, have no strategy but one.
+/// Index of the vertex at which a camera ray ends.
 constexpr int kDirectlySeen = 1;
 
 /// False if single precision may have cost the reference, which has nothing but positions, more than a few per cent:
@@ -51,9 +52,10 @@ std::size_t BdptWave::bytes() const {
     return sizeof *this +
            vector_bytes(samples_, camera_rays_, alpha_, shares_, own_, own_begin_, cache_, to_lights_, to_cameras_,
                         between_, receivers_, choosing_, choices_, lit_, wide_to_lights_, wide_to_cameras_) +
-           found_.bytes() + eye_.bytes() + light_.bytes() + to_light_.bytes() + to_camera_.bytes() +
-           light_connections_.bytes() + wide_light_connections_.bytes() + camera_connections_.bytes() +
-           wide_camera_connections_.bytes() + vertex_connections_.bytes() + wide_vertex_connections_.bytes();
+           found_.bytes() + lamps_.bytes() + eye_.bytes() + light_.bytes() + lamps_to_camera_.bytes() +
+           to_light_.bytes() + to_camera_.bytes() + light_connections_.bytes() + wide_light_connections_.bytes() +
+           camera_connections_.bytes() + wide_camera_connections_.bytes() + vertex_connections_.bytes() +
+           wide_vertex_connections_.bytes();
 }
 
 void BdptWave::trace(const World& world, const TileJob& job, const BdptOptions& options, std::size_t first,
@@ -72,11 +74,18 @@ void BdptWave::trace(const World& world, const TileJob& job, const BdptOptions& 
     const int spared_of_eye = options.lengths.roulette_depth - spared_of_light;
     context_ = &context;
     tile_ = &tile;
+    counters_ = &counters;
     eye_.trace(context, spared_of_eye, this, found_, counters);
     context_ = nullptr;
     tile_ = nullptr;
+    counters_ = nullptr;
     if (world.has_lights()) {
         light_.trace(context, spared_of_light, nullptr, found_, counters);
+        if (context.wants(1) && context.wants({.s = 1, .t = 1}))
+            lamps_to_camera_.connect(context, light_, camera_connections_,
+                                     [&](const Emission& emission, const CameraConnection& camera, float cosine) {
+                                         return weight(options, sums_of_seen_light(context, emission, camera, cosine));
+                                     });
         find_candidates(context);
         stamp(job.profile, Stage::Mis);
         to_light_.collect(context, SubpathEnd::AtEye, eye_);
@@ -104,8 +113,24 @@ void BdptWave::trace(const World& world, const TileJob& job, const BdptOptions& 
                                          &wide_vertex_connections_, &camera_connections_, &wide_camera_connections_})
             connections->resolve(world, job, samples_, found_, tile, counters);
     }
+    lamps_.note_radiance(samples_, found_);
     accumulate(job, samples_, found_, alpha_, tile, counters);
     stamp(job.profile, Stage::Film);
+}
+
+void BdptWave::start(const World& world, const TileJob& job, const BdptOptions& options) {
+    const bool is_wanted = !options.only || *options.only == Strategy{.s = 0, .t = 2};
+    lamps_.start(
+        world, job, options.lengths, false,
+        [&world, &job, &options, is_wanted](const CameraSample& sample, const Ray& ray, const SurfacePoint& point) {
+            const std::uint32_t light = world.light_at(point);
+            if (!is_wanted || light == kNone) return is_wanted ? 1.0f : 0.0f;
+            const SubpathJob of_sample{world, job, options.lengths, Raised{options.heuristic}, {}, {}};
+            const SubpathDensities arrived =
+                arrive_from_lens(of_sample, {}, world.connect_to_camera(point.position, sample.lens, ray.time),
+                                 static_cast<double>(abs_dot(ray.direction, point.geometric_normal)));
+            return weight(options, sums_at_seen_emitter(of_sample, light, arrived));
+        });
 }
 
 void BdptWave::check(const SubpathJob& job, const BdptOptions& options, std::size_t s, float weight,
@@ -141,6 +166,7 @@ CameraConnection BdptWave::camera_of(const SubpathJob& job, const PathVertex& ey
 
 void BdptWave::on_first_hits(std::span<const Ray> rays, std::span<const Hit> hits) {
     find_first_hits(context_->world, context_->job, samples_, rays, hits, *tile_);
+    lamps_.note(samples_, rays, hits, *counters_);
 }
 
 void BdptWave::add(const SubpathState& state, const Rgb& light, const StrategySums& sums, const PathLightEnd& end,
@@ -170,6 +196,8 @@ void BdptWave::on_emitter(const SubpathState& state, const SurfacePoint& point, 
     const float cos_light = -dot(direction, point.geometric_normal);
     if (state.index > kDirectlySeen && light != kNone)
         sums = sums_at_emitter(*context_, state.from, light, point.triangle, direction, cos_light, arrived);
+    else if (state.is_direct && light != kNone)
+        sums = sums_at_seen_emitter(*context_, light, arrived);
     add(state, emitted, sums,
         {.light = light,
          .triangle = point.triangle,

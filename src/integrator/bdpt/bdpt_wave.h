@@ -6,8 +6,10 @@
 #include "integrator/bdpt/reference_weights.h"
 #include "integrator/bdpt/strategy_sums.h"
 #include "integrator/connections.h"
+#include "integrator/lamps_in_view.h"
 #include "integrator/subpath/camera_splat.h"
 #include "integrator/subpath/connectible_vertices.h"
+#include "integrator/subpath/lamps_to_camera.h"
 #include "integrator/subpath/subpath_wave.h"
 
 #include <array>
@@ -28,6 +30,10 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
 
     [[nodiscard]] std::size_t bytes() const override;
 
+    /// Starts a job, before its samples are traced.
+    void start(const World& world, const TileJob& job, const BdptOptions& options);
+    /// Ends it after them.
+    void finish(TileBuffer& tile, RenderCounters& counters) { lamps_.finish(tile, counters); }
     /// Traces samples [first, first + count) of the job, count <= kCapacity.
     void trace(const World& world, const TileJob& job, const BdptOptions& options, std::size_t first, std::size_t count,
                TileBuffer& tile, RenderCounters& counters);
@@ -63,6 +69,9 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
     void on_unlit(const SubpathState& state, const SurfacePoint& point, const Vec3f& direction) override;
     void on_escape(const SubpathState& state, const Vec3f& direction) override;
     void on_first_hits(std::span<const Ray> rays, std::span<const Hit> hits) override;
+    [[nodiscard]] bool knows_emission(const Hit& first_hit) const override {
+        return lamps_.finds(first_hit);
+    }
     void add(const SubpathState& state, const Rgb& light, const StrategySums& sums, const PathLightEnd& end,
              const AovSet::Source& source);
 
@@ -159,10 +168,12 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
     std::vector<CameraSample> samples_;
     std::vector<Ray> camera_rays_;
     SampleLight found_;
+    LampsInView lamps_;
     std::vector<float> alpha_;
     std::vector<ExpressionShare> shares_;  ///< of the path at hand
     SubpathWave eye_{SubpathEnd::AtEye, true};
     SubpathWave light_{SubpathEnd::AtLight, true};
+    LampsToCamera lamps_to_camera_;
     VerticesToLight to_light_;
     VerticesToCamera to_camera_;
     std::vector<Candidate> own_;            ///< sample by sample, the last vertex first
@@ -189,8 +200,9 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
     Connections light_connections_{RayKind::Shadow}, wide_light_connections_{RayKind::Shadow};
     Connections camera_connections_{RayKind::LightToCamera}, wide_camera_connections_{RayKind::LightToCamera};
     Connections vertex_connections_{RayKind::Connection}, wide_vertex_connections_{RayKind::Connection};
-    const Context* context_ = nullptr;  ///< of the call of `trace` under way, for what eye subpaths find
-    TileBuffer* tile_ = nullptr;        ///< the same
+    const Context* context_ = nullptr;    ///< of the call of `trace` under way, for what eye subpaths find
+    TileBuffer* tile_ = nullptr;          ///< the same
+    RenderCounters* counters_ = nullptr;  ///< the same
 };
 
 }  // namespace etendue

@@ -57,6 +57,14 @@ struct LightPointPdfs {
         job.world.emission_pdf(light, -direction, cos_light), arrived);
 }
 
+/// The same for a lamp that a camera ray has met, which light subpaths know by where they begin.
+[[nodiscard]] inline StrategySums sums_at_seen_emitter(const SubpathJob& job, std::uint32_t light,
+                                                       const SubpathDensities& arrived) {
+    return {.fewer_from_eye = job.raised(static_cast<double>(job.world.emitter_pdf_area(light) *
+                                                             job.world.emission_probability(light))) *
+                              arrived.a};
+}
+
 /// The same for the environment. The vertex is a direction: its density is per solid angle on both sides, and so is
 /// that of the light.
 [[nodiscard]] inline StrategySums sums_at_environment(const SubpathJob& job, const Vec3f& from, const Vec3f& direction,
@@ -105,6 +113,14 @@ struct LightPointPdfs {
         job.samples_per_light_path() * static_cast<double>(camera.importance_area * vertex.cosine(direction));
     return {.fewer_from_light = job.raised(from_eye) *
                                 vertex.densities.fewer(job.raised, static_cast<double>(value.reverse_pdf_solid_angle))};
+}
+
+/// s = 1, t = 1: the point of a lamp at which `emission` begins is seen by `camera` with this cosine.
+[[nodiscard]] inline StrategySums sums_of_seen_light(const SubpathJob& job, const Emission& emission,
+                                                     const CameraConnection& camera, float cosine) {
+    const double from_eye = job.samples_per_light_path() * static_cast<double>(camera.importance_area * cosine);
+    const auto from_light = static_cast<double>(emission.sample.pdf_position_area * emission.probability);
+    return {.fewer_from_light = job.raised(from_eye / from_light)};
 }
 
 /// s > 1, t > 1: the last vertices of both subpaths, `squared` m² apart, the direction from that of the eye being `w`.

@@ -11,7 +11,7 @@ namespace etendue {
 
 std::size_t LightWave::bytes() const {
     return sizeof *this + vector_bytes(samples_, camera_rays_, hits_, alpha_, shares_) + found_.bytes() +
-           subpaths_.bytes() + to_camera_.bytes() + keys_.bytes() + lens_.bytes() + connections_.bytes();
+           subpaths_.bytes() + to_camera_.bytes() + lamps_.bytes() + connections_.bytes();
 }
 
 void LightWave::trace(const World& world, const TileJob& job, const PathLengths& options, std::size_t first,
@@ -38,43 +38,12 @@ void LightWave::trace_subpaths(const World& world, const TileJob& job, const Pat
                                RenderCounters& counters) {
     const SubpathJob subpath_job{world, job, options, Raised{}, samples_, camera_rays_};
     subpaths_.trace(subpath_job, options.roulette_depth, nullptr, found_, counters);
-    if (options.min_depth <= 1) connect_lights(subpath_job);
+    if (options.min_depth <= 1)
+        lamps_.connect(subpath_job, subpaths_, connections_,
+                       [](const Emission&, const CameraConnection&, float) { return 1.0f; });
     connect_vertices(subpath_job, tile, counters);
     stamp(job.profile, Stage::Material);
     connections_.resolve(world, job, samples_, found_, tile, counters);
-}
-
-void LightWave::connect_lights(const SubpathJob& job) {
-    const World& world = job.world;
-    keys_.clear();
-    for (const CameraSample& sample : samples_) keys_.push_back(sample.key);
-    if (job.needs(SubpathEnd::AtLight, BounceNumbers::LightChoice))
-        lens_.draw(job.job.sequence, keys_, subpath_dimension(SubpathEnd::AtLight, 0, BounceNumbers::LightChoice));
-    else
-        lens_.draw_none(keys_.size());
-    for (std::uint32_t slot = 0; slot < samples_.size(); ++slot) {
-        const Emission& emission = subpaths_.emissions()[slot];
-        if (is_black(emission.sample.radiance)) continue;
-        const float time = camera_rays_[slot].time;
-        const auto view = view_from_camera(world, job.job, emission.sample.position, lens_[slot], time);
-        if (!view) continue;
-        const Rgb radiance = world.surface_emission(emission, view->direction);
-        if (is_black(radiance)) continue;
-        const Interior interior = world.has_bodies() ? world.light_interior(emission) : Interior();
-        Ray ray = connecting_ray(emission.sample.origin(view->direction), view->camera.lens);
-        ray.time = time;
-        ray.alpha_key = job.connection_key(SubpathEnd::AtLight, 0, slot);
-        shares_.clear();
-        if (PathWords& words = subpaths_.words(); words.are_followed())
-            words.end_at_camera(words.light_source(world, emission.light), shares_);
-        connections_.to_film(
-            ray, slot,
-            {.position = view->pixel,
-             .value = radiance * transmittance(world, interior, view->distance) *
-                      (view->camera.importance_area / (emission.sample.pdf_position_area * emission.probability)),
-             .depth = view->depth},
-            LightKind::Seen, shares_);
-    }
 }
 
 void LightWave::connect_vertices(const SubpathJob& job, TileBuffer& tile, RenderCounters& counters) {

@@ -3,6 +3,7 @@
 
 #include "integrator/connections.h"
 #include "integrator/subpath/connectible_vertices.h"
+#include "integrator/subpath/lamps_to_camera.h"
 #include "integrator/subpath/subpath_wave.h"
 
 #include <cstddef>
@@ -23,8 +24,6 @@ class LightWave final : public IntegratorScratch {
   private:
     void trace_subpaths(const World& world, const TileJob& job, const PathLengths& options, TileBuffer& tile,
                         RenderCounters& counters);
-    /// The points of the lights where the subpaths begin.
-    void connect_lights(const SubpathJob& job);
     void connect_vertices(const SubpathJob& job, TileBuffer& tile, RenderCounters& counters);
 
     std::vector<CameraSample> samples_;
@@ -35,8 +34,7 @@ class LightWave final : public IntegratorScratch {
     std::vector<ExpressionShare> shares_;  ///< of the path at hand
     SubpathWave subpaths_{SubpathEnd::AtLight, false};
     VerticesToCamera to_camera_;
-    SampleKeys keys_;
-    NumberPairs lens_;  ///< for the points of the lights
+    LampsToCamera lamps_;
     Connections connections_{RayKind::LightToCamera};
 };
 

@@ -34,7 +34,10 @@ std::unique_ptr<IntegratorScratch> PathIntegrator::make_scratch() const {
 
 void PathIntegrator::render_tile(const World& world, const TileJob& job, IntegratorScratch& scratch, TileBuffer& tile,
                                  RenderCounters& counters) const {
+    LampsInView& lamps = static_cast<PathWave&>(scratch).lamps();
+    lamps.start(world, job, options_.lengths, true);
     trace_in_waves<PathWave>(world, job, options_, scratch, tile, counters);
+    lamps.finish(tile, counters);
 }
 
 }  // namespace etendue

@@ -15,7 +15,7 @@ PathWave::PathWave()
     : hits_(kCapacity), singles_(kBlock), samples_(kCapacity), camera_rays_(kCapacity), alpha_(kCapacity) {}
 
 std::size_t PathWave::bytes() const {
-    std::size_t bytes = sizeof *this + light_.bytes() + shadow_rays_.bytes() + lookups_.bytes() +
+    std::size_t bytes = sizeof *this + light_.bytes() + lamps_.bytes() + shadow_rays_.bytes() + lookups_.bytes() +
                         vector_bytes(hits_, interiors_, receivers_, passed_, panes_, ranges_, shares_, singles_,
                                      samples_, camera_rays_, alpha_);
     for (const NumberPairs* numbers :
@@ -48,14 +48,18 @@ void PathWave::trace(const World& world, const TileJob& job, const PathOptions& 
                         std::span(hits_).first(active_), counters);
         if (light_.counts_rays())
             for (std::size_t i = 0; i < active_; ++i) light_.count_ray(paths_.slot[i]);
-        if (depth == 1)
-            find_first_hits(world, job, std::span(samples_).first(count), camera_rays, std::span(hits_).first(count),
-                            tile);
+        if (depth == 1) {
+            const std::span samples = std::span(samples_).first(count);
+            const std::span hits = std::span(hits_).first(count);
+            find_first_hits(world, job, samples, camera_rays, hits, tile);
+            lamps_.note(samples, camera_rays, hits, counters);
+        }
         stamp(job.profile, Stage::HitSetup);
         const auto trace_shadow_rays = [&] { shadow_rays_.resolve(world, job, samples_, light_, tile, counters); };
         shade({world, job, options, depth}, trace_shadow_rays);
         trace_shadow_rays();
     }
+    lamps_.note_radiance(std::span(samples_).first(count), light_);
     accumulate(job, std::span(samples_).first(count), light_, alpha_, tile, counters);
     stamp(job.profile, Stage::Film);
 }

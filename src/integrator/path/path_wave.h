@@ -7,6 +7,7 @@
 #include "integrator/aov/sample_light.h"
 #include "integrator/camera_wave.h"
 #include "integrator/connections.h"
+#include "integrator/lamps_in_view.h"
 #include "integrator/number_pairs.h"
 #include "integrator/path/block_lanes.h"
 #include "integrator/path/glossy_lanes.h"
@@ -66,6 +67,8 @@ class PathWave final : public IntegratorScratch {
     PathWave();
     [[nodiscard]] std::size_t bytes() const override;
 
+    /// What the camera rays of the job meet; to be started before its samples are traced, and finished after them.
+    [[nodiscard]] LampsInView& lamps() { return lamps_; }
     /// Traces samples [first, first + count) of the job, count <= kCapacity.
     void trace(const World& world, const TileJob& job, const PathOptions& options, std::size_t first, std::size_t count,
                TileBuffer& tile, RenderCounters& counters);
@@ -213,6 +216,7 @@ class PathWave final : public IntegratorScratch {
     PathWords words_;
     std::vector<ExpressionShare> shares_;  ///< of the contribution at hand
     Connections shadow_rays_{RayKind::Shadow};
+    LampsInView lamps_;
     // Of the block that is shaded.
     std::size_t first_ = 0;  ///< its first path
     std::size_t count_ = 0;  ///< its paths

@@ -181,6 +181,7 @@ void PathWave::add_emission(const Context& context, std::size_t k) {
     const std::size_t i = first_ + k;
     const SurfacePoint& point = singles_[k].point;
     if (paths_.edges(i) < context.options.lengths.min_depth) return;
+    if (context.depth == 1 && lamps_.finds(hits_[i])) return;
     const Vec3f direction = paths_.direction[i];
     const Rgb emitted = context.world.emission(point, -direction);
     if (is_black(emitted)) return;

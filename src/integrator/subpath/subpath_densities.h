@@ -29,6 +29,8 @@
 //     So a_1 is multiplied by c' / c, the sum that (1, t) compares itself with, P_1 (a + b q) of the eye's, by c / c',
 //     and where an eye subpath ends on the light, P_0 (a + b q) has c' P_0 / c with a, but P_0 with b. a_1 depends on
 //     x_0 and x_1 alone: at a light that reaches x_1 by a delta or through something hidden it is zero as ever.
+//     Where an eye subpath has no vertex between the lens and the light, and for s = 1 and t = 1, P_0 is that of
+//     emission: what is connected to the lens is where a light subpath begins.
 //   eye: D = 0, as no light hits the lens. For t = 1 the lens is sampled anew. Each pixel of the window has one camera
 //     sample and one light path that may fall anywhere: P_1, per area of the film, is multiplied by the film's pixels
 //     over the window's.

@@ -264,7 +264,8 @@ void SubpathWave::find_light(LightFinder& finder, std::size_t i, const ShadedSub
     const SubpathState& state = states_[i];
     const Vec3f& direction = rays_[i].direction;
     if (!hits_[i].valid()) return finder.on_escape(state, direction);
-    if (path.point.material->emits) finder.on_emitter(state, path.point, direction, path.arrived);
+    if (path.point.material->emits && !(bounce_ == 1 && finder.knows_emission(hits_[i])))
+        finder.on_emitter(state, path.point, direction, path.arrived);
     if (path.point.material->unlit && !(path.crossing && path.crossing->is_hidden))
         finder.on_unlit(state, path.point, direction);
 }

@@ -92,6 +92,8 @@ class LightFinder {
     virtual void on_escape(const SubpathState& state, const Vec3f& direction) = 0;
     /// What all camera rays have met, before anything else is said of it.
     virtual void on_first_hits(std::span<const Ray> rays, std::span<const Hit> hits) = 0;
+    /// True if `on_emitter` is not to be told of what a camera ray has hit first.
+    [[nodiscard]] virtual bool knows_emission(const Hit& first_hit) const = 0;
 };
 
 /// A subpath whose ray has hit a surface, between the stages of its shading.

@@ -23,7 +23,10 @@ std::unique_ptr<IntegratorScratch> WhittedIntegrator::make_scratch() const {
 
 void WhittedIntegrator::render_tile(const World& world, const TileJob& job, IntegratorScratch& scratch,
                                     TileBuffer& tile, RenderCounters& counters) const {
+    LampsInView& lamps = static_cast<WhittedWave&>(scratch).lamps();
+    lamps.start(world, job, lengths_, true);
     trace_in_waves<WhittedWave>(world, job, lengths_, scratch, tile, counters);
+    lamps.finish(tile, counters);
 }
 
 }  // namespace etendue

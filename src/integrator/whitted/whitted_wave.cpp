@@ -47,7 +47,7 @@ LightKind kind_of(const WhittedBranch& branch) {
 std::size_t WhittedWave::bytes() const {
     return sizeof *this + vector_bytes(waiting_, batch_, rays_, hits_, samples_, alpha_) + keys_.bytes() +
            shadow_rays_.bytes() + light_choice_.bytes() + light_triangle_.bytes() + light_direction_.bytes() +
-           environment_direction_.bytes() + found_.bytes();
+           environment_direction_.bytes() + found_.bytes() + lamps_.bytes();
 }
 
 void WhittedWave::trace(const World& world, const TileJob& job, const PathLengths& lengths, std::size_t first,
@@ -68,6 +68,7 @@ void WhittedWave::trace(const World& world, const TileJob& job, const PathLength
     }
     const Context context{world, job, lengths};
     while (!waiting_.empty()) trace_batch(context, tile, counters);
+    lamps_.note_radiance(samples_, found_);
     accumulate(job, samples_, found_, alpha_, tile, counters);
 }
 
@@ -89,7 +90,10 @@ void WhittedWave::trace_batch(const Context& context, TileBuffer& tile, RenderCo
     intersect_batch(context.world, context.job, are_camera_rays ? RayKind::Primary : RayKind::Bounce, rays_, hits_,
                     counters);
     // The first batch has all camera rays, in the order of their samples.
-    if (are_camera_rays) find_first_hits(context.world, context.job, samples_, rays_, hits_, tile);
+    if (are_camera_rays) {
+        find_first_hits(context.world, context.job, samples_, rays_, hits_, tile);
+        lamps_.note(samples_, rays_, hits_, counters);
+    }
     light_choice_.draw(context.job.sequence, keys_, kBranchLightChoice);
     light_triangle_.draw(context.job.sequence, keys_, kBranchLightTriangle);
     light_direction_.draw(context.job.sequence, keys_, kBranchLightDirection);
@@ -117,7 +121,7 @@ void WhittedWave::shade(const Context& context, std::size_t i) {
         crossing = hit.in_contact ? world.contact_crossing(point, branch.interior, hit, branch.ray, branch.cone)
                                   : world.crossing(point, branch.interior);
     const bool is_wanted = branch.edges >= context.lengths.min_depth;
-    if (point.material->emits && is_wanted)
+    if (point.material->emits && is_wanted && !(branch.rays == 1 && lamps_.finds(hit)))
         found_.add(branch.slot, branch.throughput * world.emission(point, -branch.ray.direction), kind_of(branch));
     if (crossing && crossing->is_hidden) {
         WhittedBranch next = grow(context, i, 0);

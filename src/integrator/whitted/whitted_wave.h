@@ -6,6 +6,7 @@
 #include "core/rgb.h"
 #include "integrator/camera_wave.h"
 #include "integrator/connections.h"
+#include "integrator/lamps_in_view.h"
 #include "integrator/number_pairs.h"
 
 #include <cstddef>
@@ -40,6 +41,8 @@ class WhittedWave final : public IntegratorScratch {
 
     [[nodiscard]] std::size_t bytes() const override;
 
+    /// What the camera rays of the job meet; to be started before its samples are traced, and finished after them.
+    [[nodiscard]] LampsInView& lamps() { return lamps_; }
     /// Traces samples [first, first + count) of the job, count <= kCapacity.
     void trace(const World& world, const TileJob& job, const PathLengths& lengths, std::size_t first, std::size_t count,
                TileBuffer& tile, RenderCounters& counters);
@@ -77,6 +80,7 @@ class WhittedWave final : public IntegratorScratch {
     SampleKeys keys_;
     NumberPairs light_choice_, light_triangle_, light_direction_, environment_direction_;
     Connections shadow_rays_{RayKind::Shadow};
+    LampsInView lamps_;
     // By slot, that is, by camera sample.
     std::vector<CameraSample> samples_;
     SampleLight found_;

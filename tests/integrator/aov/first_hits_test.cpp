@@ -253,8 +253,12 @@ TEST_P(VarianceLayer, IsTheVarianceOverSeeds) {
 
 INSTANTIATE_TEST_SUITE_P(Integrators, VarianceLayer,
                          testing::Values(VarianceRun{"path", FilterShape::Mitchell},
+                                         VarianceRun{"path", FilterShape::BlackmanHarris},
                                          VarianceRun{"light", FilterShape::Box}, VarianceRun{"bdpt", FilterShape::Box}),
-                         [](const auto& each) { return each.param.integrator; });
+                         [](const auto& each) {
+                             const bool is_wide = each.param.filter == FilterShape::BlackmanHarris;
+                             return each.param.integrator + (is_wide ? "Wide" : "");
+                         });
 
 }  // namespace
 
