@@ -236,7 +236,7 @@ TEST(Scattering, LeaningNormalsLoseNothing) {
                     const Vec3f normal(std::sin(radians(lean)), 0.0f, std::cos(radians(lean)));
                     const Vec3f wo(std::sin(radians(view)) * std::cos(radians(azimuth)),
                                    std::sin(radians(view)) * std::sin(radians(azimuth)), std::cos(radians(view)));
-                    const double albedo = albedo_for_eye(lobe.bsdf, Frame::from_normal(normal), wo, 8192);
+                    const double albedo = albedo_for_eye(lobe.bsdf, Frame::from_normal(normal), wo, 4096);
                     EXPECT_GE(albedo, 0.95) << lobe.name << ", lean " << lean << ", view " << view << ", " << azimuth;
                     EXPECT_LE(albedo, 1.005) << lobe.name << ", lean " << lean << ", view " << view << ", " << azimuth;
                 }
@@ -260,7 +260,7 @@ TEST(Scattering, WalksFromBothEndsExchangeTheSame) {
             const auto exchange = [&](TransportMode mode) {
                 const bool is_eye = mode == TransportMode::Radiance;
                 double sum = 0.0, squares = 0.0;
-                constexpr int kCount = 200'000;
+                constexpr int kCount = 80'000;
                 for (int i = 0; i < kCount; ++i) {
                     const Vec3f wo = random_direction(random);
                     const BsdfSample s = Scattering(lobe.bsdf, frame, geometric_normal, wo)
@@ -280,30 +280,31 @@ TEST(Scattering, WalksFromBothEndsExchangeTheSame) {
         }
 }
 
-// Directions follow the density that is stated for them, of both walks.
+// Directions follow the density that is stated for them, of both walks: of an eye below the shading horizon, and of a
+// light that is so low that its mirror image in the surface lies above that horizon, too.
 TEST(Scattering, SamplesOnLeaningNormalsFollowTheirDensity) {
     const std::vector<NamedLobe> all = lobes();
-    constexpr std::array kModes{TransportMode::Radiance, TransportMode::Importance};
-    const std::array views{normalize(Vec3f(0.3f, 0.4f, 0.8f)), normalize(Vec3f(-0.9f, 0.1f, 0.3f))};
-    const double level = sidak_level(kFamilyLevel, all.size() * kModes.size() * views.size());
+    const std::array walks{std::pair(TransportMode::Radiance, normalize(Vec3f(-0.9f, 0.1f, 0.3f))),
+                           std::pair(TransportMode::Importance, normalize(Vec3f(0.9f, 0.1f, 0.2f)))};
+    const double level = sidak_level(kFamilyLevel, all.size() * walks.size());
     const Frame frame = Frame::from_normal(normalize(Vec3f(0.6f, 0.1f, 0.8f)));
     for (const NamedLobe& lobe : all)
-        for (const TransportMode mode : kModes)
-            for (const Vec3f& wo : views) {
-                const Scattering scattering(lobe.bsdf, frame, {0.0f, 0.0f, 1.0f}, wo);
-                const SamplerCheck check = check_sphere_sampler(
-                    [&](Random& random) -> std::optional<Vec3f> {
-                        const float u_lobe = random.next();
-                        const BsdfSample s = scattering.sample(u_lobe, random.next_2d(), mode);
-                        return is_black(s.weight) ? std::nullopt : std::optional(s.wi);
-                    },
-                    [&](const Vec3f& w) {
-                        const BsdfValue value = scattering.evaluate(w, mode);
-                        return is_black(value.f_cos) ? 0.0 : static_cast<double>(value.pdf_solid_angle);
-                    },
-                    {.least_levels = 3});
-                EXPECT_GE(check.chi2.p_value, level) << lobe.name << ": " << check.chi2.str();
-            }
+        for (const auto& [mode, wo] : walks) {
+            const Scattering scattering(lobe.bsdf, frame, {0.0f, 0.0f, 1.0f}, wo);
+            const SamplerCheck check = check_sphere_sampler(
+                [&, walk = mode](Random& random) -> std::optional<Vec3f> {
+                    const float u_lobe = random.next();
+                    const BsdfSample s = scattering.sample(u_lobe, random.next_2d(), walk);
+                    return is_black(s.weight) ? std::nullopt : std::optional(s.wi);
+                },
+                [&, walk = mode](const Vec3f& w) {
+                    const BsdfValue value = scattering.evaluate(w, walk);
+                    return is_black(value.f_cos) ? 0.0 : static_cast<double>(value.pdf_solid_angle);
+                },
+                {.samples = 20'000, .least_levels = 3});
+            EXPECT_GE(check.chi2.p_value, level) << lobe.name << ": " << check.chi2.str();
+            EXPECT_GT(check.hit_share, 0.3) << lobe.name;
+        }
 }
 
 // The ratio at a delta is what that of a rough surface's densities tends to, where its facets all but lie flat.
