@@ -89,7 +89,10 @@ class AlongAxis {
         }
     }
     /// The filter of the pixel `offset` beside that of the sample, over the density of all of its neighbours' samples.
-    [[nodiscard]] float scale(int offset) const { return scales_[static_cast<std::size_t>(kReach + offset)]; }
+    [[nodiscard]] float scale(int offset) const {
+        const int index = kReach + offset;
+        return scales_[static_cast<std::size_t>(index)];
+    }
 
   private:
     std::array<float, 2 * kReach + 1> scales_{};

@@ -6,6 +6,7 @@
 #include "loader/gltf/gltf_posed_nodes.h"
 #include "loader/gltf/gltf_transform.h"
 #include "loader/gltf/gltf_value.h"
+#include "loader/gltf/vertex_data.h"
 #include "scene/transform.h"
 
 #include <algorithm>
@@ -210,10 +211,38 @@ class Placer {
             node.name.empty() ? mesh.name : node.name, handle, to_float(to_world), {}, where, current_};
         if (!motion.empty()) instance.motion = thin_out(motion, bounds_of(handle));
         if (!is_invertible(instance.to_world) || !std::ranges::all_of(instance.motion, is_invertible)) {
-            problems_.warning(where, "the node's transform is singular: its mesh is left out");
-            return;
+            const Handle<MeshDesc> flat =
+                instance.motion.empty() ? flattened(mesh, to_world, where) : Handle<MeshDesc>();
+            problems_.warning(where, flat ? "the node's transform is singular: its mesh is shown flat"
+                                          : "the node's transform is singular: its mesh is left out");
+            if (!flat) return;
+            instance.mesh = flat;
+            instance.to_world = Mat4f();
         }
         scene_.instances.push_back(std::move(instance));
+    }
+
+    /// A mesh of its own where `to_world`, which cannot be inverted, puts this one: what is left of it has the normals
+    /// of its triangles. Nothing if none has an area.
+    Handle<MeshDesc> flattened(const MeshDesc& mesh, const Mat4d& to_world, const SourceLocation& where) {
+        MeshDesc flat;
+        flat.name = mesh.name;
+        flat.location = mesh.location;
+        for (const PrimitiveDesc& primitive : mesh.primitives) {
+            if (!accessors_.allocate(primitive.positions.size() + primitive.triangles.size(), sizeof(Vec3f) * 4, where))
+                return {};
+            PrimitiveDesc& copy = flat.primitives.emplace_back(primitive);
+            copy.normals.clear();
+            copy.tangents.clear();
+            copy.motion.clear();
+            for (Vec3f& position : copy.positions) position = Vec3f(Vec3d(position) * to_world);
+            static_cast<void>(remove_degenerate_triangles(copy.triangles, copy.positions));
+            const bool is_finite_all = std::ranges::all_of(copy.positions, [](const Vec3f& p) { return is_finite(p); });
+            if (copy.triangles.empty() || !is_finite_all) flat.primitives.pop_back();
+        }
+        if (flat.primitives.empty()) return {};
+        scene_.meshes.push_back(std::move(flat));
+        return {static_cast<std::int32_t>(scene_.meshes.size()) - 1};
     }
 
     /// Of a mesh at rest; found once for each, however often it is placed.

@@ -145,6 +145,21 @@ TEST(Nodes, SingularTransformsAreLeftOut) {
     EXPECT_FALSE(loaded.problems.has_errors());
 }
 
+// glTF lets implementations leave out what is scaled to nothing along all axes, not along one.
+TEST(Nodes, WhatIsScaledFlatIsShownFlat) {
+    const LoadedScene loaded =
+        with_nodes({{{"mesh", 0}, {"scale", {2, 3, 0}}, {"translation", {0, 0, 5}}}, {{"mesh", 0}}}, {0, 1}).load();
+    EXPECT_TRUE(has_problem(loaded.problems, Severity::Warning, "is shown flat", "/nodes/0"));
+    ASSERT_EQ(loaded.scene.instances.size(), 2u);
+    const InstanceDesc& flat = loaded.scene.instances[0];
+    EXPECT_EQ(flat.to_world, Mat4f());
+    const PrimitiveDesc& primitive = loaded.scene.meshes.at(static_cast<std::size_t>(flat.mesh.index)).primitives.at(0);
+    EXPECT_EQ(primitive.positions, (std::vector<Vec3f>{{0, 0, 5}, {2, 0, 5}, {0, 3, 5}}));
+    EXPECT_TRUE(primitive.normals.empty());
+    EXPECT_TRUE(validate(loaded.scene).all().empty()) << listing(validate(loaded.scene));
+    EXPECT_EQ(loaded.scene.instances[1].mesh.index, 0) << "the other one has its thickness";
+}
+
 TEST(Nodes, TransformsThatOverflowAreLeftOut) {
     const LoadedScene loaded =
         with_nodes({{{"children", {1}}, {"scale", {1e30, 1e30, 1e30}}}, {{"mesh", 0}, {"scale", {1e30, 1e30, 1e30}}}})
