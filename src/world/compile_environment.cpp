@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 #include <utility>
 
 namespace etendue {
@@ -23,7 +24,28 @@ void store(const Rgb& value, std::span<float> pixel) {
     pixel[2] = value.b;
 }
 
-Light compile_image(const EnvironmentDesc& desc, const ColorMatrix& from_rec709) {
+/// Puts right what is no radiance in `image`, a file's pixels, with a warning. An infinity is what half precision makes
+/// of a sun that is too bright for it, and becomes the largest number that it holds.
+void repair_radiance(ImageF& image, const EnvironmentDesc& desc, ProblemList& problems) {
+    constexpr float kLargestHalf = 65504.0f;
+    std::size_t infinite = 0;
+    std::size_t no_number = 0;
+    for (float& value : image.pixels) {
+        if (std::isfinite(value)) continue;
+        const bool is_bright = std::isinf(value) && value > 0.0f;
+        ++(is_bright ? infinite : no_number);
+        value = is_bright ? kLargestHalf : 0.0f;
+    }
+    const auto warn = [&](std::size_t count, const char* what) {
+        if (count > 0)
+            problems.warning(desc.location, std::to_string(count) + " values of the environment image '" +
+                                                desc.image.string() + "' are " + what);
+    };
+    warn(infinite, "infinite, and are taken for 65504, the largest of half precision");
+    warn(no_number, "no numbers, and are taken for 0");
+}
+
+Light compile_image(const EnvironmentDesc& desc, const ColorMatrix& from_rec709, ProblemList& problems) {
     const Rgb tint = desc.color * desc.scale;
     ImageF file;
     try {
@@ -32,6 +54,7 @@ Light compile_image(const EnvironmentDesc& desc, const ColorMatrix& from_rec709)
         throw SceneError(desc.location,
                          "the environment image '" + desc.image.string() + "' cannot be read: " + error.what());
     }
+    repair_radiance(file, desc, problems);
     ImageF image(file.width, file.height, 3);
     for (int y = 0; y < file.height; ++y) {
         for (int x = 0; x < file.width; ++x) {
@@ -103,9 +126,10 @@ Light compile_cube(const SceneDesc& scene, const CubeMapDesc& desc, const ColorM
 
 }  // namespace
 
-Light compile_environment(const SceneDesc& scene, const ColorMatrix& from_rec709, const ThreadPool& threads) {
+Light compile_environment(const SceneDesc& scene, const ColorMatrix& from_rec709, const ThreadPool& threads,
+                          ProblemList& problems) {
     const EnvironmentDesc& desc = scene.environment;
-    if (!desc.image.empty()) return compile_image(desc, from_rec709);
+    if (!desc.image.empty()) return compile_image(desc, from_rec709, problems);
     if (desc.cube) return compile_cube(scene, *desc.cube, from_rec709, threads);
     return ConstantEnvironment{clamp_negative(from_rec709(desc.color * desc.scale))};
 }

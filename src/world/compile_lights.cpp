@@ -133,7 +133,7 @@ void compile_lights(const SceneDesc& scene, const ThreadPool& threads, WorldData
     if (scene.environment.enabled) {
         data.environment = static_cast<std::uint32_t>(data.lights.size());
         data.environment_visible = scene.environment.visible_to_camera;
-        data.lights.push_back(compile_environment(scene, data.from_rec709, threads));
+        data.lights.push_back(compile_environment(scene, data.from_rec709, threads, problems));
         data.emitter_of_light.emplace_back();
     }
 }

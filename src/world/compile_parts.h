@@ -65,9 +65,10 @@ void compile_bodies(const SceneDesc& scene, WorldData& data, ProblemList& proble
 /// `Contacts`. Needs materials, geometry and bodies in `data`.
 void build_bvh(const ThreadPool& threads, WorldData& data, ProblemList& problems);
 
-/// The environment, which must be enabled. Throws SceneError if an image cannot be decoded.
+/// The environment, which must be enabled; `problems` gets a warning of values that are no radiance. Throws SceneError
+/// if an image cannot be decoded.
 [[nodiscard]] Light compile_environment(const SceneDesc& scene, const ColorMatrix& from_rec709,
-                                        const ThreadPool& threads);
+                                        const ThreadPool& threads, ProblemList& problems);
 
 /// Emissive triangles that get an entry in a light's table, all instances together: at 76 bytes each, 1.2 GiB. What is
 /// beyond is found by chance only, which is slower but not wrong.

@@ -1,8 +1,13 @@
 // Cube maps; constant and latitude-longitude environments are tested with the other lights.
 
+#include "image/write.h"
 #include "world/test_scene.h"
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <limits>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -95,6 +100,42 @@ TEST(CubeEnvironment, UnreadableFacesAreErrors) {
     CubeScene cube({});
     std::filesystem::remove(cube.scene.images[4].path);
     EXPECT_THROW((void)compile(cube.scene), SceneError);
+}
+
+// What half precision makes of a sun: it was bright, and is not to be black. The rest is no light.
+TEST(EnvironmentImage, InfinitiesAreBrightAndWhatIsNoNumberIsDark) {
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+    const std::filesystem::path file = temporary_file("etendue-infinite-sun.exr");
+    ImageF image(4, 2, 3);
+    std::ranges::fill(image.pixels, 0.25f);
+    std::ranges::fill(image.pixel(1, 0), kInfinity);
+    std::ranges::fill(image.pixel(2, 0), kNan);
+    image.pixel(3, 0)[1] = -kInfinity;
+    write_image(file, image, {.depth = PixelDepth::Float});
+    SceneDesc scene = empty_scene();
+    scene.environment.enabled = true;
+    scene.environment.image = file;
+    ProblemList problems;
+    const World world = compile(scene, kGltfColorSpace, problems);
+    std::filesystem::remove(file);
+    const auto told = [&](const char* text) {
+        return std::ranges::any_of(problems.all(), [&](const Problem& problem) {
+            return problem.severity == Severity::Warning && problem.message.find(text) != std::string::npos;
+        });
+    };
+    EXPECT_TRUE(told("3 values of the environment image '"));
+    EXPECT_TRUE(told("are infinite, and are taken for 65504"));
+    EXPECT_TRUE(told("4 values of the environment image '"));
+    EXPECT_TRUE(told("are no numbers, and are taken for 0"));
+    float brightest = 0.0f;
+    for (int i = 0; i < 64; ++i) {
+        const float angle = static_cast<float>(i) * kPi / 32.0f;
+        const Rgb seen = world.environment_radiance(normalize(Vec3f(std::cos(angle), 1.0f, std::sin(angle))));
+        EXPECT_TRUE(is_finite(seen));
+        brightest = std::max(brightest, seen.r);
+    }
+    EXPECT_GT(brightest, 3e4f);
 }
 
 }  // namespace
