@@ -27,6 +27,16 @@ constexpr std::array kFormats{
     EncodedFormat{"webp", "RIFF"sv, 200'000, "WEBP"sv},
 };
 
+/// What a PNG's header says (PNG specification, 11.2.1), if `head` has it: pixels of a palette or of few greys are
+/// packed.
+int png_bits_per_pixel(std::span<const std::byte> head) {
+    constexpr std::size_t kDepth = 24, kColorType = 25;
+    if (head.size() <= kColorType) return 0;
+    constexpr std::array kSamples{1, 0, 3, 1, 2, 0, 4};  // by colour type
+    const auto type = static_cast<std::size_t>(head[kColorType]);
+    return type < kSamples.size() ? static_cast<int>(head[kDepth]) * kSamples[type] : 0;
+}
+
 }  // namespace
 
 std::optional<EncodedFormat> detect_format(std::span<const std::byte> head) {
@@ -38,7 +48,10 @@ std::optional<EncodedFormat> detect_format(std::span<const std::byte> head) {
             return head.size() >= at + magic.size() &&
                    std::equal(magic.begin(), magic.end(), head.begin() + static_cast<std::ptrdiff_t>(at), matches);
         };
-        if (has(format.magic, 0) && (format.magic_at_8.empty() || has(format.magic_at_8, 8))) return format;
+        if (!has(format.magic, 0) || (!format.magic_at_8.empty() && !has(format.magic_at_8, 8))) continue;
+        EncodedFormat found = format;
+        if (found.name == "png") found.bits_per_pixel = png_bits_per_pixel(head);
+        return found;
     }
     return std::nullopt;
 }

@@ -17,10 +17,12 @@ struct EncodedFormat {
     std::int64_t max_expansion;
     std::string_view magic_at_8 =
         {};  ///< and the bytes from the ninth on, in formats that are one of many in a container
+    int bits_per_pixel =
+        0;  ///< before compression, where a pixel may be less than what is decoded of it; 0 if it is that
 };
 
 /// How many bytes `detect_format` wants to see.
-inline constexpr std::size_t kMagicBytes = 16;
+inline constexpr std::size_t kMagicBytes = 26;
 
 /// The format whose magic bytes `head` starts with, if any.
 [[nodiscard]] std::optional<EncodedFormat> detect_format(std::span<const std::byte> head);

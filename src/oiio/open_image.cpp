@@ -31,8 +31,9 @@ void refuse_absurd(const OIIO::ImageSpec& spec, const EncodedFormat& format, std
                                   spec.height, kMaxImagePixels, kMaxImageSide));
     }
     refuse_large_tiles(spec);
-    const auto bytes_per_pixel = static_cast<std::int64_t>(spec.pixel_bytes(true));
-    if (pixels * bytes_per_pixel / format.max_expansion > encoded_size) {
+    const auto decoded_bits = 8 * static_cast<std::int64_t>(spec.pixel_bytes(true));
+    const std::int64_t bits = format.bits_per_pixel > 0 ? format.bits_per_pixel : decoded_bits;
+    if (pixels * bits / 8 / format.max_expansion > encoded_size) {
         throw IoError(fmt::format("the header claims {} x {} pixels, which {} bytes cannot hold", spec.width,
                                   spec.height, encoded_size));
     }

@@ -213,6 +213,23 @@ TEST(ReadImage, RefusesMoreThanTheBytesCanHold) {
     EXPECT_NE(message.find("cannot hold"), std::string::npos) << message;
 }
 
+// A palette of one bit, as it lies in a file of Khronos' LightsPunctualLamp: 512 x 512 pixels in 126 bytes.
+TEST(ReadImage, AcceptsPackedPixels) {
+    constexpr std::array<std::uint8_t, 126> kPng{
+        137, 80,  78,  71,  13,  10,  26,  10, 0,   0,   0,  13,  73, 72, 68,  82,  0,   0,   2,  0,  0,
+        0,   2,   0,   1,   3,   0,   0,   0,  206, 182, 70, 185, 0,  0,  0,   3,   80,  76,  84, 69, 128,
+        128, 255, 80,  206, 81,  156, 0,   0,  0,   54,  73, 68,  65, 84, 120, 218, 237, 193, 1,  1,  0,
+        0,   0,   130, 32,  255, 175, 110, 72, 64,  1,   0,  0,   0,  0,  0,   0,   0,   0,   0,  0,  0,
+        0,   0,   0,   0,   0,   0,   0,   0,  0,   0,   0,  0,   0,  0,  0,   0,   0,   0,   0,  0,  124,
+        27,  130, 0,   0,   1,   99,  117, 80, 164, 0,   0,  0,   0,  73, 69,  78,  68,  174, 66, 96, 130};
+    const auto view = std::as_bytes(std::span(kPng));
+    const ImageInfo info = read_image_info(view);
+    EXPECT_EQ(info.width, 512);
+    EXPECT_EQ(info.height, 512);
+    const ImageF image = read_image_float(view);
+    EXPECT_NEAR(image.pixel(511, 511)[0], 0.5f, 0.01f);
+}
+
 TEST(ReadImage, AcceptsTheMostCompressibleImages) {
     const TemporaryFolder folder;
     const std::vector<float> black(2048 * 1024 * 3);
