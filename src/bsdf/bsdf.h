@@ -36,7 +36,7 @@ using Bsdf = std::variant<Diffuse, DielectricBody, LayeredSurface, MetallicRough
     return std::visit([&](const auto& lobe) { return lobe.sample(wo, u_lobe, u, mode); }, bsdf);
 }
 
-/// What `evaluate_bsdf` says, in two parts.
+/// Evaluates as `evaluate_bsdf` does, with diffuse and other light apart.
 [[nodiscard]] BsdfParts evaluate_bsdf_parts(const Bsdf& bsdf, const Vec3f& wo, const Vec3f& wi, TransportMode mode);
 
 /// All deltas of the lobe, as radiance: what `sample_bsdf` chooses one of.

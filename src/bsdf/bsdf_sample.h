@@ -45,8 +45,8 @@ struct BasicBsdfSample {
     bool is_delta = false;    ///< as all lanes are
     bool is_transmission = false;
     T eta{1.0f};  ///< index on wi's side over the index on wo's side, for Russian roulette
-    /// Of a delta: density of the way back, from wi, over that of this way. Lobes count the probabilities of choosing
-    /// it, `Scattering` what happens to solid angles, too.
+    /// The density of a delta's way back, from wi, over that of this way. Lobes count the probabilities of choosing it;
+    /// `Scattering` also counts how solid angles change.
     T reverse_ratio{1.0f};
 };
 using BsdfSample = BasicBsdfSample<float>;

@@ -1,4 +1,4 @@
-// What a shading normal that leans away from the geometric one makes of a lobe, in the lobe's frame.
+// The model of shading normals that lean away from the geometric one, in the lobe's frame.
 //
 // A walk from the eye finds every direction above the surface scattering, and the lobe's whole albedo in each:
 // - What is seen from below the shading horizon is seen from its mirror image above that horizon, which is the lobe's
@@ -29,21 +29,22 @@ struct LeaningNormal {
     [[nodiscard]] T side(const Vec& w) const { return dot(w, geometric); }
     /// Mirrors `w` in the surface.
     [[nodiscard]] Vec mirrored(const Vec& w) const { return w - geometric * (T(2.0f) * side(w)); }
-    /// Where the eye sees the lobe from: `wo`, mirrored in the shading horizon if that parts it from its side.
+    /// Returns the direction from which the eye sees the lobe: `wo`, mirrored to the shading normal's side of its
+    /// horizon where it lies beyond it.
     [[nodiscard]] Vec seen_from(const Vec& wo) const {
         constexpr float kLeastCosine = 1e-6f;  // lobes have no answer on the horizon itself
         return {wo.x, wo.y, copysign(max(abs(wo.z), T(kLeastCosine)), side(wo))};
     }
-    /// How much brighter a cosine lobe is for what the surface itself hides of it.
+    /// Returns the factor by which a cosine lobe grows for the share of it that the surface hides.
     [[nodiscard]] T matte_gain() const { return T(2.0f) / (T(1.0f) + max(T(0.0f), geometric.z)); }
-    /// How much brighter the diffuse lobe under a specular layer is, which is narrower and loses less.
+    /// Returns that factor for the diffuse lobe under a specular layer, which is narrower and loses less.
     [[nodiscard]] T diffuse_gain() const {
         constexpr float kNarrower = 0.95f;  // the brightest white surface reflects 1.004; by 1 it would be 1.007
         return T(1.0f) + T(kNarrower) * (matte_gain() - T(1.0f));
     }
 
-    /// What the eye finds towards `wi`. `lobe(w)` tells the lobe's parts (BasicBsdfParts) towards `w`, zero where it
-    /// does not scatter.
+    /// Evaluates the lobe towards `wi` for a walk from the eye. `lobe(w)` returns its parts (BasicBsdfParts) towards
+    /// `w`, zero where it does not scatter.
     template <typename Lobe>
     [[nodiscard]] BasicBsdfParts<T> evaluate_for_eye(const Vec& wi, const Lobe& lobe) const {
         const T above = side(wi);
@@ -64,7 +65,7 @@ struct LeaningNormal {
         }
         return found;
     }
-    /// Where a sample of the lobe goes: back above the surface if it would pass it.
+    /// Returns the direction of a sample of the lobe, mirrored back where it would pass the surface.
     [[nodiscard]] Vec kept_on_side(const Vec& wi) const {
         const auto is_kept = wi.z * side(wi) >= T(0.0f);
         const Vec other = mirrored(wi);

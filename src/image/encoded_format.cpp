@@ -27,8 +27,8 @@ constexpr std::array kFormats{
     EncodedFormat{"webp", "RIFF"sv, 200'000, "WEBP"sv},
 };
 
-/// What a PNG's header says (PNG specification, 11.2.1), if `head` has it: pixels of a palette or of few greys are
-/// packed.
+/// Returns the bits per pixel of a PNG's header (PNG specification, 11.2.1), 0 if `head` ends before: pixels of a
+/// palette or of few greys are packed.
 int png_bits_per_pixel(std::span<const std::byte> head) {
     constexpr std::size_t kDepth = 24, kColorType = 25;
     if (head.size() <= kColorType) return 0;

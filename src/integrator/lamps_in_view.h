@@ -82,7 +82,7 @@ class LampsInView {
     void spread(const Met& met, TileBuffer& tile, RenderCounters& counters);
     /// Adds what `met` brings to the pixel at `position`.
     void add(const Met& met, const Vec2i& position, const Rgb& light, TileBuffer& tile, RenderCounters& counters);
-    /// What the sample of this index, which the job takes, of pixel `pixel` of the tile has found.
+    /// Returns the radiance that a sample has found; `pixel` is its pixel in the tile, and the job takes it.
     [[nodiscard]] Rgb& found_by(std::uint32_t pixel, std::uint32_t sample);
 
     const World* world_ = nullptr;

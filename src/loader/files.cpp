@@ -85,8 +85,8 @@ std::string without_accents(std::string_view name) {
     return plain;
 }
 
-/// What to say of a file that there is in place of one that is not: names may differ by what cannot be seen, as by how
-/// an accent is encoded, by upper case, or by '\\' for '/'.
+/// Suggests a file that exists in place of `name`, or returns nothing: names may differ by how an accent is encoded, by
+/// upper case, or by '\\' for '/'.
 std::string similar_file(const fs::path& root, std::string_view name) {
     constexpr std::size_t kMostFiles = 1000;
     std::vector<std::string> names;

@@ -14,7 +14,7 @@ namespace etendue {
 
 class SlopeRows {
   public:
-    /// Of a map of this size, whose normals are `interpolated` between texels where it is magnified.
+    /// Prepares for a map of this size, whose normals are `interpolated` between texels where it is magnified.
     SlopeRows(int width, int height, bool interpolated)
         : width_(width), height_(height), offset_(interpolated ? kGaussOffset : 0.0f) {
         held_.fill(-1);
@@ -47,7 +47,7 @@ class SlopeRows {
     }
 
   private:
-    /// Of a point of Gauss's rule on a segment from its nearer end: (1 - 1/sqrt(3)) / 2.
+    /// Distance of a point of Gauss's rule from the nearer end of a unit segment: (1 - 1/sqrt(3)) / 2.
     static constexpr float kGaussOffset = 0.21132487f;
     static constexpr int kHeld = 8;
 

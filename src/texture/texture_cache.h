@@ -29,7 +29,7 @@ class CachedImage {
   public:
     /// As MipChain's, but where a file's pixels prove broken: there it is zero, and the cache counts it.
     [[nodiscard]] Texel sample(Vec2f uv, float level, bool nearest, const TextureOptions& options) const;
-    /// As MipChain's, of an image that was added as a normal map.
+    /// Returns the slopes of an image that was added as a normal map, as MipChain does.
     [[nodiscard]] SlopeDistribution sample_slopes(Vec2f uv, float level, bool nearest,
                                                   const TextureOptions& options) const;
     /// Of the image's coarsest mip level: near the mean over all texels.
@@ -63,7 +63,7 @@ class TextureCache {
 
     /// Opens the image. Throws IoError if its header is broken. Not while look-ups are made.
     [[nodiscard]] CachedImage add(Source source, Encoding encoding);
-    /// The same for a normal map, which keeps its slopes as MipChain does.
+    /// Adds a normal map, whose slopes are kept as MipChain keeps them.
     [[nodiscard]] CachedImage add_normal_map(const Source& source, bool interpolated);
 
     [[nodiscard]] std::uint64_t budget() const;

@@ -15,7 +15,7 @@ namespace etendue {
 /// Sets what the texture of metalness and roughness changes, where it reads `texel`; (1, 1, 1) if there is none.
 void set_metallic_roughness(const GltfModel& model, const Rgb& texel, MetallicRoughness& lobe);
 
-/// What the model says of the base's roughness: its alphas along x and y.
+/// Returns the base's alphas along x and y at `point`.
 [[nodiscard]] Vec2f evaluate_alpha(const WorldData& data, const GltfModel& model, const SurfacePoint& point);
 
 /// The clear coat alone.

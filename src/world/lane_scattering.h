@@ -1,4 +1,4 @@
-// What `Scattering` does with lobes that only reflect, for lanes of any width; surfaces are turned to `wo`.
+// Matte lobes on surfaces with leaning normals, for lanes of any width; surfaces are turned to `wo`.
 #pragma once
 
 #include "bsdf/diffuse.h"

@@ -31,11 +31,11 @@ struct OrientedSurface {
         leaning.geometric = frame.to_local(geometric_normal);
     }
 
-    /// Where the eye sees the lobe from, in the frame.
+    /// Returns the direction from which the eye sees the lobe, in the frame.
     [[nodiscard]] Vec seen_from() const { return leaning.seen_from(wo_local); }
 
-    /// |wo·n_s| / |wo·n_g|: what the adjoint factor of importance has of the side that light comes from (Veach 1997,
-    /// equation 5.19); 0 where a lobe that only reflects receives none.
+    /// Returns |wo·n_s| / |wo·n_g|, the part of importance's adjoint factor that depends on where light comes from
+    /// (Veach 1997, equation 5.19); 0 where a lobe that only reflects receives none.
     [[nodiscard]] T received() const {
         const T side = leaning.side(wo_local);
         return select(side > T(0.0f) && wo_local.z > T(0.0f), wo_local.z / side, T(0.0f));

@@ -37,8 +37,8 @@ struct Arrivals {
     [[nodiscard]] float chance(float cosine) const { return cosine / sum(); }
 };
 
-/// Where the eye may be that sees a lobe from `direct`: there, or at the mirror image in the shading horizon. A walk
-/// from a light goes to one of the two by their cosines.
+/// Eyes that see a lobe from one direction are there, or at its mirror image in the shading horizon. A walk from a
+/// light goes to one of the two by their cosines.
 struct Viewpoints {
     Vec3f direct, mirrored;
     float direct_side, mirrored_side;  ///< cosines to the geometric normal; 0 where the eye would not see the lobe so
@@ -57,13 +57,13 @@ struct Viewpoints {
     [[nodiscard]] float chance(float side) const { return std::abs(side) / sum(); }
 };
 
-/// A number in [0, 1) that nothing else is made of, from those that chose a direction.
+/// Hashes the numbers that chose a direction into another one in [0, 1).
 float number_besides(float u_lobe, Vec2f u) {
     const auto bits = [](float v) { return std::bit_cast<std::uint32_t>(v); };
     return to_unit_float(hash_combine(hash_combine(bits(u.x), bits(u.y)), bits(u_lobe)));
 }
 
-/// How refraction from `wo` to `wi`, both local, compresses solid angles on the way back, over this way.
+/// Returns how refraction compresses solid angles on the way back, over this way; 1 for reflection.
 float compression_ratio(const BsdfSample& sample, float cos_o, float cos_i) {
     if (!sample.is_transmission) return 1.0f;
     return std::abs(cos_o) / (sample.eta * sample.eta * std::max(std::abs(cos_i), 1e-6f));

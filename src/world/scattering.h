@@ -74,7 +74,7 @@ class Scattering {
     [[nodiscard]] const Vec3f& geometric_normal() const { return surface_.geometric_normal; }
     [[nodiscard]] const Bsdf& bsdf() const { return *bsdf_; }
     [[nodiscard]] const Vec3f& wo() const { return surface_.wo; }
-    /// Where a walk from the eye sees the lobe from, in its frame.
+    /// Returns the direction from which a walk from the eye sees the lobe, in its frame.
     [[nodiscard]] Vec3f wo_local() const { return surface_.seen_from(); }
 
   private:

@@ -50,7 +50,7 @@ Vec3f step_error(const Vec3f& extent, const TransformMotion& steps, float time) 
     return max_components(position_error(extent, steps[first]), position_error(extent, steps[first + 1]));
 }
 
-/// What the base's normal map averages makes it rougher, and is turned with it.
+/// Sets how much rougher the base is for the relief that its normal map averages, and turns the frame to its axes.
 void apply_base_spread(const WorldData& data, const Material& material, const Frame& interpolated, float bitangent_sign,
                        SurfacePoint& point) {
     const auto* model = std::get_if<GltfModel>(&material.model);

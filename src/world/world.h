@@ -151,7 +151,7 @@ struct Emission {
     float probability = 0;  ///< of choosing this light
 };
 
-/// What a point of a lamp sends in a direction.
+/// Emission of a point of a lamp in one direction.
 struct SurfaceEmission {
     Rgb radiance;         ///< W/(m² sr)
     float cosine = 0.0f;  ///< between the direction and the surface's normal, >= 0
@@ -334,7 +334,7 @@ class World {
     [[nodiscard]] float emission_probability(std::uint32_t light) const { return selector_.probability(light); }
     /// A ray that leaves a light, chosen by power with `u_light` in [0, 1)²; it has that time.
     [[nodiscard]] Emission sample_emission(Vec2f u_light, const EmissionNumbers& u, float time) const;
-    /// What the point at which an emission starts sends towards `direction`; black for lights without a surface.
+    /// Evaluates the light that leaves the starting point of `emission` along `direction`; black without a surface.
     [[nodiscard]] SurfaceEmission surface_emission(const Emission& emission, const Vec3f& direction) const;
     /// True if rays can meet the light of this index by chance.
     [[nodiscard]] bool can_be_hit(std::uint32_t light) const { return !is_delta_light(data_->lights[light]); }

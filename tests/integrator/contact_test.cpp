@@ -202,6 +202,16 @@ TEST(Contact, NoLightPassesAFloorThatGlassStandsOn) {
         }
 }
 
+/// A smooth thin sheet that lets half of the light through.
+MaterialDesc tinted_sheet() {
+    MaterialDesc sheet;
+    sheet.base_color = Rgb(0.5f);
+    sheet.metallic = 0.0f;
+    sheet.roughness = 0.0f;
+    sheet.transmission = 1.0f;
+    return sheet;
+}
+
 /// A square at y = 0 of `cells` × `cells` pairs of triangles.
 PrimitiveDesc grid_facing_up(float size, int cells) {
     PrimitiveDesc grid;
@@ -222,11 +232,7 @@ PrimitiveDesc grid_facing_up(float size, int cells) {
 }
 
 TEST(Contact, ThinSheetsInOnePlaceAreAsManyAsThereAre) {
-    MaterialDesc sheet;
-    sheet.base_color = Rgb(0.5f);
-    sheet.metallic = 0.0f;
-    sheet.roughness = 0.0f;
-    sheet.transmission = 1.0f;
+    const MaterialDesc sheet = tinted_sheet();
     for (const Placing& placing : placings()) {
         const auto seen_through = [&](float gap, int sheets) {
             SceneDesc scene;
@@ -244,11 +250,7 @@ TEST(Contact, ThinSheetsInOnePlaceAreAsManyAsThereAre) {
 
 // Instances of one mesh, small enough to be copied and large enough to be shared.
 TEST(Contact, InstancesOfOneSheetInOnePlaceAreAsManyAsThereAre) {
-    MaterialDesc sheet;
-    sheet.base_color = Rgb(0.5f);
-    sheet.metallic = 0.0f;
-    sheet.roughness = 0.0f;
-    sheet.transmission = 1.0f;
+    const MaterialDesc sheet = tinted_sheet();
     for (const int cells : {1, 40})
         for (const Placing& placing : placings()) {
             const auto seen_through = [&](float gap) {
@@ -369,7 +371,7 @@ TEST(Contact, LightPathsLeaveALampInACeiling) {
     }
 }
 
-// Of panels, which light paths start from: as bright as the lamp alone, for who sees more than a point of the floor.
+// A panel in one place with other surfaces lights the floor as it does alone, for light paths that start on it, too.
 TEST(Contact, LightPathsLeavePanelsInOnePlace) {
     for (const Placing& placing : placings()) {
         const auto lit_floor = [&](const std::string& integrator, const std::function<void(SceneDesc&)>& add_more) {

@@ -43,7 +43,7 @@ struct SceneChange {
         m.setScale(scale);
         return m * rigid();
     }
-    /// Of cameras and lamps, whose axes stay unit vectors.
+    /// Returns where the change puts a camera or a lamp, whose axes stay unit vectors.
     [[nodiscard]] Mat4f placed(Mat4f to_world) const {
         for (int i = 0; i < 3; ++i) to_world[3][i] *= scale;
         return to_world * rigid();

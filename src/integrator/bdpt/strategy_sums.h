@@ -57,7 +57,7 @@ struct LightPointPdfs {
         job.world.emission_pdf(light, -direction, cos_light), arrived);
 }
 
-/// The same for a lamp that a camera ray has met, which light subpaths know by where they begin.
+/// Sums for a lamp that a camera ray has met, which the strategy (1, 1) finds, too.
 [[nodiscard]] inline StrategySums sums_at_seen_emitter(const SubpathJob& job, std::uint32_t light,
                                                        const SubpathDensities& arrived) {
     return {.fewer_from_eye = job.raised(static_cast<double>(job.world.emitter_pdf_area(light) *

@@ -67,7 +67,8 @@ class PathWave final : public IntegratorScratch {
     PathWave();
     [[nodiscard]] std::size_t bytes() const override;
 
-    /// What the camera rays of the job meet; to be started before its samples are traced, and finished after them.
+    /// Returns the estimate of lamps in view, to be started before the job's samples are traced and finished after
+    /// them.
     [[nodiscard]] LampsInView& lamps() { return lamps_; }
     /// Traces samples [first, first + count) of the job, count <= kCapacity.
     void trace(const World& world, const TileJob& job, const PathOptions& options, std::size_t first, std::size_t count,

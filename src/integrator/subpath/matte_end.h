@@ -24,9 +24,9 @@ struct BasicMatteEnd {
     Vec origin;            ///< of rays to where light is scattered to: as `position`, clear of the surface
     Vec normal;            ///< of shading, unit, on the side of the vertex before
     Vec geometric_normal;  ///< unit, on the same side
-    /// What `importance` or `radiance` is times: the throughput that arrives, the albedo with what it gains where the
-    /// normal leans (bsdf/leaning_normal.h) and, of importance, what the adjoint factor has of the vertex before. Black
-    /// where nothing scatters.
+    /// The factor of `radiance` and `importance`: the throughput that arrives, times the albedo and its gain where the
+    /// normal leans (bsdf/leaning_normal.h), for importance also times OrientedSurface::received. Black where nothing
+    /// scatters.
     BasicRgb<T> weight;
     /// SubpathDensities::fewer. A matte surface turns back to the vertex before with the same density wherever light
     /// comes from, so that nothing of it is left open.

@@ -22,7 +22,7 @@ constexpr AttributeFormat kNormal{3, 3, kNoIntegers, kSignedFractions};
 constexpr AttributeFormat kTangent{4, 4, kNoIntegers, kSignedFractions};
 constexpr AttributeFormat kTexcoord{2, 2, kUnsignedFractions, kAnyIntegers};
 constexpr AttributeFormat kColor{3, 4, kUnsignedFractions};
-/// What some exporters write in its place: fractions that are not marked as such.
+/// Colours as some exporters write them: fractions that are not marked as such.
 constexpr AttributeFormat kWholeColor{
     .min_components = 3, .max_components = 4, .integers = kUnsigned, .as_fractions = true};
 
