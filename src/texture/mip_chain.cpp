@@ -222,7 +222,7 @@ auto MipChain::sample_levels(Vec2f uv, float level, bool nearest, const TextureO
     const float lower = std::floor(within);
     const float fraction = within - lower;
     const Level* const first = &levels_[static_cast<std::size_t>(lower)];
-    const auto fine = sample_level(uv, *first, nearest, options, read);
+    auto fine = sample_level(uv, *first, nearest, options, read);
     if (fraction == 0.0f) return fine;
     return mix(fine, sample_level(uv, *(first + 1), nearest, options, read), fraction);
 }

@@ -6,6 +6,7 @@
 #include "integrator/closed_form_scene.h"
 #include "integrator/form_factors.h"
 #include "integrator/integrator.h"
+#include "world/test_scene.h"
 
 #include <cmath>
 #include <cstddef>

@@ -109,8 +109,10 @@ std::vector<std::vector<double>> block_means(const SceneDesc& scene, const Agree
         for (std::vector<double>& block : means) block.push_back(0.0);
         for (int y = 0; y < kAgreementHeight; ++y)
             for (int x = 0; x < kAgreementWidth; ++x) {
-                const auto pixel = static_cast<std::size_t>(y * kAgreementWidth + x);
-                const auto block = static_cast<std::size_t>(y / kPairedBlock * kColumns + x / kPairedBlock);
+                const int number = y * kAgreementWidth + x;
+                const int block_number = y / kPairedBlock * kColumns + x / kPairedBlock;
+                const auto pixel = static_cast<std::size_t>(number);
+                const auto block = static_cast<std::size_t>(block_number);
                 for (std::size_t channel = 0; channel < 3; ++channel)
                     means[block].back() +=
                         static_cast<double>(rgba[4 * pixel + channel]) / (3.0 * kPairedBlock * kPairedBlock);
