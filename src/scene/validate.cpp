@@ -16,6 +16,7 @@ ProblemList validate(const SceneDesc& scene) {
     validate_cameras(scene, problems);
     validate_lights(scene, problems);
     validate_settings(scene, problems);
+    if (!problems.has_errors()) validate_extent(scene, problems);
     return problems;
 }
 

@@ -23,6 +23,10 @@ void validate_cameras(const SceneDesc& scene, ProblemList& problems);
 void validate_lights(const SceneDesc& scene, ProblemList& problems);
 void validate_settings(const SceneDesc& scene, ProblemList& problems);
 
+/// Errors where something reaches so far that rays to it are beyond single precision. Everything must be finite, and
+/// all that refers to something must refer to what exists.
+void validate_extent(const SceneDesc& scene, ProblemList& problems);
+
 /// Adds an error unless `handle` refers to an element of `elements`.
 template <typename T>
 void check_handle(Handle<T> handle, const std::vector<T>& elements, std::string_view what, const SourceLocation& where,

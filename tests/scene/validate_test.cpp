@@ -139,6 +139,35 @@ const Defect kDefects[] = {
      [](SceneDesc& s) {
          s.settings.film.crop = {{10, 0, 10, 10}};
      }},
+    {"MeshFar", "the mesh reaches 2e+15 m", [](SceneDesc& s) { s.instances[0].to_world[3][1] = -2e15f; }},
+    {"VertexFar", "the mesh reaches", [](SceneDesc& s) { primitive(s).positions[2].z = 1e38f; }},
+    {"VertexMovesFar", "the mesh reaches",
+     [](SceneDesc& s) {
+         primitive(s).motion.resize(2, {primitive(s).positions, primitive(s).normals});
+         primitive(s).motion[1].positions[0].x = 1e17f;
+     }},
+    {"MeshMovesFar", "the mesh reaches",
+     [](SceneDesc& s) {
+         s.instances[0].motion.resize(2);
+         s.instances[0].motion[1][3][2] = 1e20f;
+     }},
+    {"MeshTiny", "shrinks the mesh so much",
+     [](SceneDesc& s) {
+         s.instances[0].to_world[0][0] = 1e-9f;
+         s.lights[0].to_world[3][0] = 1e12f;
+     }},
+    {"CameraFar", "the camera's view reaches", [](SceneDesc& s) { s.cameras[0].to_world[3][2] = 2e18f; }},
+    {"OrthographicHuge", "the camera's view reaches",
+     [](SceneDesc& s) {
+         s.cameras[0].type = CameraType::Orthographic;
+         s.cameras[0].ymag = 1e30f;
+     }},
+    {"FocusFar", "the camera's focus reaches",
+     [](SceneDesc& s) {
+         s.cameras[0].lens_radius = 0.01f;
+         s.cameras[0].focus_distance = 1e30f;
+     }},
+    {"LightFar", "the light reaches", [](SceneDesc& s) { s.lights[0].to_world[3][0] = 1e19f; }},
     {"LightSamplesMany", "light_samples", [](SceneDesc& s) { s.settings.integrator.light_samples = 65; }},
     {"DepthsSwapped", "min_depth", [](SceneDesc& s) { s.settings.integrator.min_depth = 99; }},
     {"StrategyHitsTheLens", "strategy 3,0",
