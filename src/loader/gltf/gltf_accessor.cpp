@@ -107,10 +107,13 @@ int component_count(const tinygltf::Accessor& accessor) {
     }
 }
 
-DecodeBudget::DecodeBudget(const GltfDocument& document) : left_(std::uint64_t{1} << 30) {
-    // Bytes grow at most fourfold on their way to floats; the rest is room for primitives that share their vertices.
+DecodeBudget::DecodeBudget(const GltfDocument& document) {
+    // Bytes grow at most fourfold on their way to floats; the rest is room for what is shared and placed often.
     constexpr std::uint64_t kGrowth = 64;
-    for (const tinygltf::Buffer& buffer : document.model.buffers) left_ += kGrowth * buffer.data.size();
+    constexpr std::uint64_t kLeast = std::uint64_t{1} << 30;
+    std::uint64_t size = document.size;
+    for (const tinygltf::Buffer& buffer : document.model.buffers) size += buffer.data.size();
+    left_ = kLeast + kGrowth * size;
 }
 
 bool DecodeBudget::take(std::uint64_t bytes) {
@@ -195,7 +198,11 @@ std::optional<AccessorReader::Elements> AccessorReader::elements(const tinygltf:
 bool AccessorReader::allocate(std::uint64_t count, std::uint64_t bytes, const SourceLocation& where) {
     // Counts are below 2^32 and sizes below 2^10 here, or `bytes` is 1.
     if (budget_.take(count * bytes)) return true;
-    problems_.error(where, "the file refers to the same bytes so often that it would take too much memory");
+    // The file is refused; whatever else would take too much is no news.
+    if (!std::exchange(is_exhausted_, true))
+        problems_.error(where,
+                        "the file refers to the same things so often that it would take too much memory: more "
+                        "than 1 GiB and 64 times its size");
     return false;
 }
 

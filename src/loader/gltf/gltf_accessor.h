@@ -68,8 +68,8 @@ class AccessorReader {
     [[nodiscard]] bool check_format(const tinygltf::Accessor& accessor, const AttributeFormat& format,
                                     const SourceLocation& where);
 
-    /// Takes memory for `count` elements of `bytes` each from what may still be decoded; false and an error at `where`
-    /// if that is too much.
+    /// Takes memory for `count` elements of `bytes` each from what may still be decoded; false if that is too much,
+    /// with an error at `where` if it is the first time.
     [[nodiscard]] bool allocate(std::uint64_t count, std::uint64_t bytes, const SourceLocation& where);
 
     /// The bytes of a buffer view, at most as many as may still be decoded; the same on errors.
@@ -98,7 +98,8 @@ class AccessorReader {
     const GltfDocument& document_;
     ProblemList& problems_;
     DecodeBudget budget_;
-    bool is_quantized_;  ///< the file uses KHR_mesh_quantization
+    bool is_exhausted_ = false;  ///< more was asked for than may be decoded, and that was reported
+    bool is_quantized_;          ///< the file uses KHR_mesh_quantization
 };
 
 }  // namespace etendue

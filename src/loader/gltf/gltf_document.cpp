@@ -337,6 +337,7 @@ GltfDocument read_gltf_document(const std::filesystem::path& file, ProblemList& 
     expand_meshopt_views(document, buffers, result.at(""), found);
     throw_if_errors(found);
 
+    result.size = bytes.size();
     bytes = {};
     result.model = parse_model(document, buffers, result);
     for (const PrimitiveIndices& taken : indices)

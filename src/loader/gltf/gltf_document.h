@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -57,6 +58,7 @@ struct GltfDocument {
     std::string animatable;  ///< JSON of what animations point to; empty if none does
     std::filesystem::path directory;
     std::string file;                             ///< for messages
+    std::uint64_t size = 0;                       ///< of the file, bytes
     std::vector<std::string> extensions_used;     ///< and supported
     std::vector<std::string> extensions_ignored;  ///< used, not supported, not required
     std::vector<std::filesystem::path> inputs;    ///< the file and the buffers it names

@@ -57,7 +57,7 @@ std::optional<std::vector<Mat4d>> read_instance_transforms(const tinygltf::Value
     const std::vector<float> translations = attributes.read("TRANSLATION", 3, kNoIntegers);
     const std::vector<float> rotations = attributes.read("ROTATION", 4, kSignedFractions);
     const std::vector<float> scales = attributes.read("SCALE", 3, kNoIntegers);
-    if (attributes.failed()) return std::nullopt;
+    if (attributes.failed() || !accessors.allocate(attributes.count(), sizeof(Mat4d), where)) return std::nullopt;
 
     std::vector<Mat4d> transforms(attributes.count());
     std::size_t zero_rotations = 0;

@@ -24,8 +24,13 @@ namespace etendue {
 
 namespace {
 
-/// Most nodes of a file, and so most instances, cameras and lights.
+/// Most nodes of a file, and so most cameras and lights.
 constexpr std::size_t kMaxNodes = std::size_t{1} << 24;
+
+/// About what each place of a mesh takes, from its description to Embree's node of it.
+constexpr std::uint64_t kBytesOfPlace = 1024;
+/// About what each primitive of a placed mesh takes besides: its slot for a light and its box.
+constexpr std::uint64_t kBytesOfPlacedPrimitive = 64;
 
 constexpr int kNoParent = -1;
 
@@ -150,16 +155,7 @@ class Placer {
         const tinygltf::Node& node = document_.model.nodes[static_cast<std::size_t>(placed.node)];
         const SourceLocation where = document_.at(fmt::format("/nodes/{}", placed.node));
         const std::span<const Mat4d> motion = nodes_.motion(placed.node);
-        if (placed.visible && node.mesh >= 0) {
-            const MeshDeformer::Result mesh = deformer_.deform(placed.node, where);
-            const tinygltf::Value* instancing = find_extension(node.extensions, "EXT_mesh_gpu_instancing");
-            if (mesh.is_in_world_space)
-                place_mesh(node, mesh.mesh, Mat4d(), {}, where);
-            else if (instancing != nullptr)
-                place_instances(node, mesh.mesh, *instancing, placed, where);
-            else
-                place_mesh(node, mesh.mesh, placed.to_world, motion, where);
-        }
+        if (placed.visible && node.mesh >= 0) place_meshes(node, placed, where);
         const bool shines = placed.visible && LightReader::has_light(node);
         if (node.camera < 0 && !shines) return;
 
@@ -184,18 +180,36 @@ class Placer {
     }
 
   private:
+    /// The mesh of `node`, everywhere the node has it.
+    void place_meshes(const tinygltf::Node& node, const PlacedNode& placed, const SourceLocation& where) {
+        const MeshDeformer::Result mesh = deformer_.deform(placed.node, where);
+        const tinygltf::Value* instancing = find_extension(node.extensions, "EXT_mesh_gpu_instancing");
+        if (instancing != nullptr && !mesh.is_in_world_space)
+            place_instances(node, mesh.mesh, *instancing, placed, where);
+        else if (!allocate_places(1, mesh.mesh, where))
+            return;
+        else if (mesh.is_in_world_space)
+            place_mesh(node, mesh.mesh, Mat4d(), {}, where);
+        else
+            place_mesh(node, mesh.mesh, placed.to_world, nodes_.motion(placed.node), where);
+    }
+
+    /// Takes the memory of `count` places of `mesh` from what may still be decoded.
+    [[nodiscard]] bool allocate_places(std::size_t count, Handle<MeshDesc> mesh, const SourceLocation& where) {
+        const std::size_t primitives = scene_.meshes[static_cast<std::size_t>(mesh.index)].primitives.size();
+        return accessors_.allocate(count, kBytesOfPlace + kBytesOfPlacedPrimitive * primitives, where);
+    }
+
     void place_instances(const tinygltf::Node& node, Handle<MeshDesc> mesh, const tinygltf::Value& extension,
                          const PlacedNode& placed, const SourceLocation& where) {
         const SourceLocation at = document_.at(where.pointer + "/extensions/EXT_mesh_gpu_instancing");
         const std::optional<std::vector<Mat4d>> transforms =
             read_instance_transforms(extension, accessors_, at, problems_);
         if (!transforms) return;
-        if (transforms->size() > kMaxNodes - std::min(kMaxNodes, scene_.instances.size())) {
-            problems_.error(at, fmt::format("more than {} instances in all", kMaxNodes));
-            return;
-        }
         const std::span<const Mat4d> node_motion = nodes_.motion(placed.node);
-        if (!accessors_.allocate(transforms->size() * node_motion.size(), sizeof(Mat4f), at)) return;
+        if (!allocate_places(transforms->size(), mesh, at) ||
+            !accessors_.allocate(transforms->size() * node_motion.size(), sizeof(Mat4f), at))
+            return;
         std::vector<Mat4d> motion(node_motion.size());
         for (const Mat4d& to_node : *transforms) {
             std::ranges::transform(node_motion, motion.begin(), [&](const Mat4d& m) { return to_node * m; });

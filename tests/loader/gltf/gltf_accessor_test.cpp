@@ -228,7 +228,7 @@ TEST(Accessor, SharingTheSameBytesWithoutEndIsAnError) {
     for (int i = 0; i < 2000; ++i) list.push_back(primitives);
     builder.json["meshes"][0]["primitives"] = list;
     const LoadedScene loaded = builder.load();
-    EXPECT_TRUE(has_problem(loaded.problems, Severity::Error, "refers to the same bytes so often"));
+    EXPECT_TRUE(has_problem(loaded.problems, Severity::Error, "refers to the same things so often"));
 }
 
 /// A triangle whose positions, normals and texture coordinates are quantised.

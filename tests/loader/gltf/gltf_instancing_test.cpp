@@ -54,5 +54,32 @@ TEST(GpuInstancing, WrongTypesAreAnError) {
     EXPECT_TRUE(has_problem(loaded.problems, Severity::Error, "2 components", "/attributes/TRANSLATION"));
 }
 
+TEST(GpuInstancing, InstancesOutOfNothingAreAnError) {
+    // An accessor without bytes, which costs a file nothing.
+    const LoadedScene loaded =
+        instanced([](GltfBuilder& b) {
+            b.json["accessors"].push_back({{"componentType", 5126}, {"type", "VEC3"}, {"count", 2'000'000}});
+            return nlohmann::json{{"TRANSLATION", b.json["accessors"].size() - 1}};
+        }).load();
+    EXPECT_TRUE(has_problem(loaded.problems, Severity::Error, "would take too much memory"));
+}
+
+TEST(GpuInstancing, ManyPlacesOfManyPrimitivesAreAnError) {
+    // Each primitive has a place of its own in the world wherever its mesh is placed.
+    GltfBuilder builder;
+    const nlohmann::json primitive = builder.add_triangle();
+    builder.json["meshes"][0]["primitives"] = nlohmann::json::array();
+    for (int i = 0; i < 7000; ++i) builder.json["meshes"][0]["primitives"].push_back(primitive);
+    builder.json["nodes"] = nlohmann::json::array();
+    builder.json["scenes"][0]["nodes"] = nlohmann::json::array();
+    for (int i = 0; i < 7000; ++i) {
+        builder.json["nodes"].push_back({{"mesh", 0}});
+        builder.json["scenes"][0]["nodes"].push_back(i);
+    }
+    const ProblemList problems = builder.load().problems;
+    EXPECT_EQ(problems.error_count(), 1u);
+    EXPECT_TRUE(has_problem(problems, Severity::Error, "would take too much memory")) << listing(problems);
+}
+
 }  // namespace
 }  // namespace etendue
