@@ -1,4 +1,4 @@
-// The CIE 1931 colour matching functions, and the way from XYZ to linear Rec.709.
+// The CIE 1931 colour matching functions.
 #pragma once
 
 #include <array>
@@ -8,9 +8,5 @@ namespace etendue {
 /// x, y and z of a wavelength in nanometres, by a fit that is within 0.02 of the tables (Wyman, Sloan and Shirley,
 /// "Simple Analytic Approximations to the CIE XYZ Color Matching Functions", JCGT 2(2), 2013).
 [[nodiscard]] std::array<double, 3> color_matching_xyz(double nanometres);
-
-/// CIE XYZ to linear Rec.709, from the primaries and white point of ITU-R BT.709.
-inline constexpr std::array<std::array<double, 3>, 3> kXyzToRec709{
-    {{3.2404542, -1.5371385, -0.4985314}, {-0.9692660, 1.8760108, 0.0415560}, {0.0556434, -0.2040259, 1.0572252}}};
 
 }  // namespace etendue

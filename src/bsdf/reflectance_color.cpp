@@ -1,6 +1,7 @@
 #include "bsdf/reflectance_color.h"
 
 #include "bsdf/color_matching.h"
+#include "core/xyz.h"
 
 #include <array>
 #include <cmath>

@@ -7,9 +7,13 @@
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <span>
+#include <string>
 #include <system_error>
+#include <utility>
 #include <variant>
+#include <vector>
 
 namespace etendue {
 
@@ -46,6 +50,40 @@ Beginning beginning_of(std::span<const std::byte> bytes) {
     return beginning;
 }
 
+std::vector<std::byte> first_bytes(const std::filesystem::path& path, std::size_t most) {
+    std::vector<std::byte> bytes(most);
+    std::ifstream stream(path, std::ios::binary);
+    stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    bytes.resize(static_cast<std::size_t>(stream.gcount()));
+    return bytes;
+}
+
+std::vector<std::byte> first_bytes(std::span<const std::byte> bytes, std::size_t most) {
+    bytes = bytes.first(std::min(bytes.size(), most));
+    return {bytes.begin(), bytes.end()};
+}
+
+/// Gives a Radiance picture a header that the library reads, if it has another.
+void rewrite_radiance(EncodedImage& image) {
+    const auto first = [&](std::size_t most) {
+        most = std::min(most, static_cast<std::size_t>(image.size));
+        return std::visit([most](const auto& place) { return first_bytes(place, most); }, image.source);
+    };
+    const RadianceHeader header = parse_radiance_header(first(kMostRadianceHeader));
+    if (header.is_plain) return;
+    // Four bytes a pixel where none is packed.
+    constexpr std::size_t kMostPixelBytes = 4 * static_cast<std::size_t>(kMaxImagePixels);
+    const std::vector<std::byte> file = first(header.size + kMostPixelBytes);
+    const std::string plain = plain_radiance_header(header);
+    const auto plain_bytes = std::as_bytes(std::span(plain));
+    auto rewritten = std::make_shared<std::vector<std::byte>>(plain_bytes.begin(), plain_bytes.end());
+    rewritten->insert(rewritten->end(), file.begin() + static_cast<std::ptrdiff_t>(header.size), file.end());
+    image.radiance = header;
+    image.source = std::span<const std::byte>(*rewritten);
+    image.size = static_cast<std::int64_t>(rewritten->size());
+    image.rewritten = std::move(rewritten);
+}
+
 }  // namespace
 
 EncodedImage look_at(const ImageSource& source) {
@@ -53,7 +91,9 @@ EncodedImage look_at(const ImageSource& source) {
     if (beginning.size == 0) throw IoError("the file is empty");
     const auto format = detect_format(std::span(beginning.head).first(beginning.head_size));
     if (!format) throw IoError("not an image of a known format (PNG, JPEG, WebP, OpenEXR, Radiance HDR, TIFF)");
-    return {source, *format, beginning.size};
+    EncodedImage image{source, *format, beginning.size};
+    if (format->name == "hdr") rewrite_radiance(image);
+    return image;
 }
 
 }  // namespace etendue

@@ -2,9 +2,14 @@
 #pragma once
 
 #include "image/encoded_format.h"
+#include "image/radiance_header.h"
 #include "image/read.h"
 
+#include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
 
 namespace etendue {
 
@@ -12,6 +17,10 @@ struct EncodedImage {
     ImageSource source;
     EncodedFormat format;
     std::int64_t size = 0;  ///< bytes
+    /// How to develop what is decoded, of a Radiance picture that the library would not read as it is meant. Then
+    /// `source` is `rewritten`, with a header that it does read.
+    std::optional<RadianceHeader> radiance{};
+    std::shared_ptr<const std::vector<std::byte>> rewritten{};
 };
 
 /// Throws IoError if `source` cannot be opened, is empty or of no known format.

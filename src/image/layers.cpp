@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 namespace etendue {
 
@@ -40,7 +41,8 @@ std::optional<ImageLayer> main_layer(const LayeredImage& image) {
 
 ImageF read_layer(const ImageSource& source, const ImageLayer& layer) {
     const EncodedImage image = look_at(source);
-    return image_functions().read_layer(image, layer);
+    ImageF pixels = image_functions().read_layer(image, layer);
+    return image.radiance ? developed(std::move(pixels), *image.radiance) : pixels;
 }
 
 }  // namespace etendue

@@ -1,7 +1,10 @@
 #include "image/read.h"
 
+#include "core/error.h"
 #include "image/encoded_image.h"
 #include "image/image_functions.h"
+
+#include <utility>
 
 #include <OpenImageIO/oiioversion.h>
 
@@ -24,21 +27,30 @@ std::size_t bytes_of(TexelDepth depth) {
 
 ImageInfo read_image_info(const ImageSource& source) {
     const EncodedImage image = look_at(source);
-    return image_functions().read_image_info(image);
+    ImageInfo info = image_functions().read_image_info(image);
+    if (image.radiance) {
+        info.width = image.radiance->width;
+        info.height = image.radiance->height;
+        info.data_window = info.display_window = {0, 0, info.width, info.height};
+    }
+    return info;
 }
 
 ImageF read_image_float(const ImageSource& source) {
     const EncodedImage image = look_at(source);
-    return image_functions().read_image_float(image);
+    ImageF pixels = image_functions().read_image_float(image);
+    return image.radiance ? developed(std::move(pixels), *image.radiance) : pixels;
 }
 
 Image8 read_image_8bit(const ImageSource& source) {
     const EncodedImage image = look_at(source);
+    if (image.radiance) throw IoError("a Radiance picture with such a header is not read in 8 bits");
     return image_functions().read_image_8bit(image);
 }
 
 std::vector<NativeImage> read_image_levels(const ImageSource& source) {
     const EncodedImage image = look_at(source);
+    if (image.radiance) return {read_image_float(source)};
     return image_functions().read_image_levels(image);
 }
 

@@ -1,8 +1,8 @@
 #include "world/compile.h"
 
-#include "bsdf/color_matching.h"
 #include "core/byte_size.h"
 #include "core/process_time.h"
+#include "core/xyz.h"
 #include "world/compile_parts.h"
 #include "world/embree_scene.h"
 

@@ -1,3 +1,4 @@
+#include "image/displayed.h"
 #include "image/read.h"
 #include "texture/cube_map.h"
 #include "world/compile_parts.h"
@@ -49,7 +50,7 @@ Light compile_image(const EnvironmentDesc& desc, const ColorMatrix& from_rec709,
     const Rgb tint = desc.color * desc.scale;
     ImageF file;
     try {
-        file = read_image_float(desc.image);
+        file = read_displayed_float(desc.image);
     } catch (const IoError& error) {
         throw SceneError(desc.location,
                          "the environment image '" + desc.image.string() + "' cannot be read: " + error.what());

@@ -38,6 +38,8 @@ class TextureCompiler {
     using Request = std::pair<std::size_t, TextureUse>;  ///< texture of the scene, and its use
     [[nodiscard]] const ImageDesc& image_of(const Request& request) const;
     [[nodiscard]] ImageInfo info_of(const Request& request) const;
+    /// Decodes the whole texture. Throws SceneError if its image cannot be read.
+    [[nodiscard]] Texture load(const Request& request, const ImageInfo& info) const;
     void load_resident(std::span<const ImageInfo> infos, const ThreadPool& threads, WorldData& data) const;
     void open_cached(std::span<const ImageInfo> infos, std::uint64_t budget, WorldData& data) const;
 

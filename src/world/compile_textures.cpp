@@ -1,4 +1,4 @@
-#include "image/read.h"
+#include "image/displayed.h"
 #include "world/compile_parts.h"
 
 #include <cmath>
@@ -95,7 +95,7 @@ const ImageDesc& TextureCompiler::image_of(const Request& request) const {
 
 ImageInfo TextureCompiler::info_of(const Request& request) const {
     const ImageDesc& image = image_of(request);
-    return read_or_blame(image, [&] { return read_image_info(source_of(image)); });
+    return read_or_blame(image, [&] { return read_displayed_info(source_of(image)); });
 }
 
 std::uint64_t TextureCompiler::bytes_in_memory() const {
@@ -116,19 +116,21 @@ void TextureCompiler::finish(std::uint64_t budget, const ThreadPool& threads, Wo
         open_cached(infos, budget, data);
 }
 
+Texture TextureCompiler::load(const Request& request, const ImageInfo& info) const {
+    const ImageDesc& image = image_of(request);
+    const Encoding encoding = encoding_of(request.second, info);
+    return read_or_blame(image, [&] {
+        MipChain texels(read_displayed_levels(source_of(image)), encoding);
+        const TextureOptions options = options_of(scene_.textures[request.first], encoding);
+        if (request.second == TextureUse::NormalMap) texels.keep_slopes(!options.nearest);
+        return Texture(std::move(texels), options);
+    });
+}
+
 void TextureCompiler::load_resident(std::span<const ImageInfo> infos, const ThreadPool& threads,
                                     WorldData& data) const {
     std::vector<std::optional<Texture>> loaded(requests_.size());
-    threads.parallel_for(requests_.size(), [&](std::size_t i, int) {
-        const ImageDesc& image = image_of(requests_[i]);
-        const Encoding encoding = encoding_of(requests_[i].second, infos[i]);
-        loaded[i] = read_or_blame(image, [&] {
-            MipChain texels(read_image_levels(source_of(image)), encoding);
-            const TextureOptions options = options_of(scene_.textures[requests_[i].first], encoding);
-            if (requests_[i].second == TextureUse::NormalMap) texels.keep_slopes(!options.nearest);
-            return Texture(std::move(texels), options);
-        });
-    });
+    threads.parallel_for(requests_.size(), [&](std::size_t i, int) { loaded[i] = load(requests_[i], infos[i]); });
     for (std::optional<Texture>& texture : loaded) data.textures.push_back(std::move(*texture));
 }
 
@@ -137,6 +139,10 @@ void TextureCompiler::open_cached(std::span<const ImageInfo> infos, std::uint64_
     // Embedded images are copied: the scene does not outlive compilation. Once, however many textures show them.
     std::map<const ImageDesc*, std::shared_ptr<const std::vector<std::byte>>> embedded;
     for (std::size_t i = 0; i < requests_.size(); ++i) {
+        if (!fills_display(infos[i])) {
+            data.textures.push_back(load(requests_[i], infos[i]));
+            continue;
+        }
         const ImageDesc& image = image_of(requests_[i]);
         TextureCache::Source source = image.path;
         if (image.path.empty()) {
