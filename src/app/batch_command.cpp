@@ -62,7 +62,7 @@ ExitCode run_batch(const BatchOptions& options) {
     std::vector<BatchTask> tasks = collect_tasks(options, look);
     if (tasks.empty()) {
         log_error(
-            "error: no scene directory was found; a scene directory holds a render.json or exactly one glTF file");
+            "error: no scene directory was found; a scene directory holds a render.json or a glTF file");
         return ExitCode::InvalidScene;
     }
     if (!options.dry_run) prepare_output(options.output);
@@ -148,7 +148,7 @@ void add_batch_command(CLI::App& app, Action& action) {
     options->overrides.add_options(*command);
     command->get_option("--variants")->excludes(command->get_option("--variant"));
     command->footer(
-        "A scene directory holds a render.json or exactly one glTF file. Each image is rendered by a process of its "
+        "A scene directory holds a render.json or a glTF file. Each image is rendered by a process of its "
         "own;\n"
         "one that fails is reported and the others go on. Images whose inputs have not changed and that were "
         "made\n"

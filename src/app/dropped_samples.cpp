@@ -40,6 +40,8 @@ void report_dropped(const RenderCounters& counters, const std::filesystem::path&
     if (!settings.variant.empty()) command += " --variant " + quoted(settings.variant);
     if (overrides.light_units) command += fmt::format(" --light-units {}", light_units_name(settings.light_units));
     if (overrides.environment) command += " --environment " + quoted(*overrides.environment);
+    for (const std::filesystem::path& directory : overrides.moment.assets)
+        command += " --assets " + quoted(directory.string());
     log_warning(
         "warning: {} samples were not finite and were dropped; the first is sample {} of pixel ({}, {}). To see it "
         "alone: {}",

@@ -1,16 +1,20 @@
 // etendue inspect: what is in a scene, and what is wrong with it.
 #include "app/commands.h"
 #include "app/scene_render.h"
+#include "app/settings_overrides.h"
 #include "color/color_config.h"
 #include "loader/loader.h"
 #include "picture/render_setup.h"
+#include "picture/scene_completion.h"
 #include "processor/ray_code.h"
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -22,6 +26,7 @@ namespace {
 
 struct InspectArguments {
     std::string scene;
+    std::vector<std::filesystem::path> assets;
     bool json = false;
 };
 
@@ -62,9 +67,12 @@ nlohmann::json summarize(const SceneDesc& s) {
             {"extensions_ignored", s.extensions_ignored}};
 }
 
-Inspection inspect(const std::string& path) {
+Inspection inspect(const std::string& path, const std::vector<std::filesystem::path>& assets) {
     Inspection result;
-    LoadedScene loaded = inspect_scene(path);
+    LoadOptions options{.assets = assets, .every_animation = true};
+    // What a render of the sequence would show first.
+    if (const std::optional<FrameRange> frames = find_frames(path)) options.frame = frames->first;
+    LoadedScene loaded = inspect_scene(path, options);
     SceneDesc& scene = loaded.scene;
     result.problems = std::move(loaded.problems);
     // Without a scene file there is nothing to describe.
@@ -79,9 +87,8 @@ Inspection inspect(const std::string& path) {
         }
     if (result.problems.has_errors()) return result;
     // Images are decoded and everything is built, because much of what can be wrong shows only then.
-    apply_variant(scene);
-    add_missing_camera_and_light(scene, result.problems);
     try {
+        complete_scene(scene, result.problems);
         (void)create_integrator(scene.settings);
         const ThreadPool threads;
         const ColorConfig colors = ColorConfig::from_environment();
@@ -161,6 +168,7 @@ void add_inspect_command(CLI::App& app, Action& action) {
     auto arguments = std::make_shared<InspectArguments>();
     CLI::App* command = app.add_subcommand("inspect", "Say what is in a scene and everything that is wrong with it");
     command->add_option("scene", arguments->scene, "Scene directory, .gltf or .glb")->required();
+    add_assets_option(*command, arguments->assets);
     command->add_flag("--json", arguments->json, "Print JSON");
     command->footer(
         "Loads and compiles everything and renders nothing. Exit code 3 if there is an error.\n\n"
@@ -169,7 +177,7 @@ void add_inspect_command(CLI::App& app, Action& action) {
         "  etendue inspect scenes/cornell-box --json");
     command->callback([arguments, &action] {
         action = [arguments] {
-            const Inspection inspection = inspect(arguments->scene);
+            const Inspection inspection = inspect(arguments->scene, arguments->assets);
             if (arguments->json)
                 print_json(inspection);
             else

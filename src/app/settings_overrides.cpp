@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <map>
+#include <sstream>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -134,6 +136,25 @@ std::array<int, 4> parse_pixel_window(const std::string& option, const std::stri
     return c;
 }
 
+void add_assets_option(CLI::App& command, std::vector<std::filesystem::path>& assets) {
+    if (const char* listed = std::getenv("ETENDUE_ASSETS")) {
+        std::istringstream list(listed);
+        for (std::string directory; std::getline(list, directory, ':');)
+            if (!directory.empty()) assets.emplace_back(directory);
+    }
+    command
+        .add_option_function<std::vector<std::string>>(
+            "--assets",
+            [&assets](const std::vector<std::string>& given) {
+                assets.insert(assets.begin(), given.begin(), given.end());
+            },
+            "Directory outside of the scene's from which the environment image that render.json names may come; may be "
+            "repeated. $ETENDUE_ASSETS lists more, with ':' between them")
+        ->check(CLI::ExistingDirectory)
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
 void SettingsOverrides::add_options(CLI::App& command) {
     command
         .add_option_function<std::string>(
@@ -210,6 +231,7 @@ void SettingsOverrides::add_options(CLI::App& command) {
         ->check(CLI::IsMember(kLightUnits));
     command.add_option("--environment", environment, "Environment image (EXR or HDR), in place of the scene's")
         ->check(CLI::ExistingFile);
+    add_assets_option(command, moment.assets);
     command.add_option_function<std::string>(
         "--texture-memory", [this](const std::string& text) { texture_memory = parse_texture_memory(text); },
         "Memory for decoded textures, such as 8G or 512M; scenes with more read them piece by piece as they are "

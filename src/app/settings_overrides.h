@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -77,6 +78,9 @@ struct SettingsOverrides {
     void add_adaptive_options(CLI::App& command);
     void add_color_options(CLI::App& command);
 };
+
+/// Adds --assets DIR, which adds to `assets` before what $ETENDUE_ASSETS lists.
+void add_assets_option(CLI::App& command, std::vector<std::filesystem::path>& assets);
 
 /// Of the registry, in its order.
 [[nodiscard]] std::vector<std::string> integrator_names();

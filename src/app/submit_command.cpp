@@ -117,7 +117,7 @@ ExitCode run_submit(const SubmitArguments& arguments) {
     const std::vector<BatchTask> tasks = find_images(arguments);
     if (tasks.empty()) {
         log_error(
-            "error: no scene directory was found; a scene directory holds a render.json or exactly one glTF file");
+            "error: no scene directory was found; a scene directory holds a render.json or a glTF file");
         return ExitCode::InvalidScene;
     }
     const fs::path& output = arguments.request.farm.output;

@@ -135,6 +135,26 @@ fs::path resolve_name(const fs::path& directory, std::string_view name) {
     return file;
 }
 
+fs::path resolve_asset(const fs::path& directory, std::span<const fs::path> assets, std::string_view name) {
+    try {
+        return resolve_name(directory, name);
+    } catch (const IoError& error) {
+        std::error_code code;
+        const fs::path named = fs::weakly_canonical(directory / fs::path(name), code);
+        for (const fs::path& asset : assets) {
+            const fs::path root = fs::canonical(asset, code);
+            if (!code && is_inside(root, named) && fs::is_regular_file(named, code)) return named;
+            try {
+                return resolve_name(asset, name);
+            } catch (const IoError&) {
+            }
+        }
+        throw IoError(std::string(error.what()) +
+                      (assets.empty() ? "; --assets DIR names a directory outside of it from which it may come"
+                                      : "; it is in none of the directories of --assets and $ETENDUE_ASSETS either"));
+    }
+}
+
 fs::path resolve_uri(const fs::path& directory, std::string_view uri) {
     // A scheme counts before decoding, everything else after it.
     if (has_scheme(uri)) throw IoError("only files inside the scene directory are read, no other URIs");

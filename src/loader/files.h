@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,6 +26,12 @@ inline constexpr std::uintmax_t kMaxBufferBytes = std::uintmax_t{1} << 33;
 
 /// The same for a plain file name such as those in render.json: '%' has no meaning.
 [[nodiscard]] std::filesystem::path resolve_name(const std::filesystem::path& directory, std::string_view name);
+
+/// The regular file that `name` is below `directory` or, if it is not there, below one of `assets`, with symbolic links
+/// resolved: `name` may lead there from `directory`, as an absolute path or from one of `assets`, the first that has
+/// it. Throws IoError as `resolve_name`.
+[[nodiscard]] std::filesystem::path resolve_asset(const std::filesystem::path& directory,
+                                                  std::span<const std::filesystem::path> assets, std::string_view name);
 
 /// Text with its percent-encoded bytes (RFC 3986, section 2.1) decoded. Throws IoError at a broken escape.
 [[nodiscard]] std::string percent_decode(std::string_view text);

@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace etendue {
 
@@ -22,6 +23,10 @@ struct LoadOptions {
     /// The text of another render.json, merged into the scene's as RFC 7386 says: members replace members, objects are
     /// merged, null removes. Problems of it are located in kGivenSettings where the scene has no render.json.
     std::string settings{};
+    /// Directories outside of the scene's from which the environment image that its settings name may come.
+    std::vector<std::filesystem::path> assets{};
+    /// Animations that are not shown are read too, and warnings say what is wrong with them; for `inspect`.
+    bool every_animation = false;
 };
 
 /// Stands in messages for settings that no file holds.
@@ -38,9 +43,9 @@ class SceneLoader {
     /// "broken".
     [[nodiscard]] virtual bool can_load(const std::filesystem::path& file) const = 0;
 
-    /// Fills `scene` from `file`, at the moment that `settings` show. Every problem goes to `problems`; when nothing
-    /// useful can follow, throws SceneError with those that are not in `problems` yet.
-    virtual void load(const std::filesystem::path& file, const RenderSettings& settings, SceneDesc& scene,
+    /// Fills `scene`, which has its settings, from `file` at the moment that these show. Every problem goes to
+    /// `problems`; when nothing useful can follow, throws SceneError with those that are not in `problems` yet.
+    virtual void load(const std::filesystem::path& file, const LoadOptions& options, SceneDesc& scene,
                       ProblemList& problems) const = 0;
 };
 
@@ -66,8 +71,9 @@ struct LoadedScene {
 /// cannot be read, which loading the scene will say.
 [[nodiscard]] std::optional<FrameRange> find_frames(const std::filesystem::path& path);
 
-/// Every scene directory at or below `root`, sorted by path: a directory that holds a render.json or exactly one glTF
-/// file, also inside another one. Does not follow links. Throws SceneError if `root` is no directory.
+/// Every scene directory at or below `root`, sorted by path: a directory that holds a render.json or glTF files, also
+/// inside another one. Loading says of those with several files that one must be named. Does not follow links. Throws
+/// SceneError if `root` is no directory.
 [[nodiscard]] std::vector<std::filesystem::path> find_scene_directories(const std::filesystem::path& root);
 
 }  // namespace etendue

@@ -138,10 +138,10 @@ void load_into(const fs::path& path, const LoadOptions& options, SceneDesc& scen
         throw SceneError({scene.file.string(), {}}, "the file's format is not known; glTF files are .gltf or .glb");
     }
     scene.settings = apply_options(settings ? settings->settings : RenderSettings{}, options);
-    loader->load(scene.file, scene.settings, scene, problems);
+    loader->load(scene.file, options, scene, problems);
     if (!settings) return;
     if (!settings->file.empty()) scene.inputs.push_back(settings->file);
-    apply_render_json(*settings, scene, problems);
+    apply_render_json(*settings, options.assets, scene, problems);
 }
 
 void append(const ProblemList& from, ProblemList& to) {
@@ -199,8 +199,7 @@ std::vector<fs::path> find_scene_directories(const fs::path& root) {
     while (!pending.empty()) {
         const fs::path directory = std::move(pending.back());
         pending.pop_back();
-        if (fs::exists(directory / kSettingsName, code) || scene_files(directory).size() == 1)
-            found.push_back(directory);
+        if (fs::exists(directory / kSettingsName, code) || !scene_files(directory).empty()) found.push_back(directory);
         for (fs::directory_iterator entry(directory, code), end; !code && entry != end; entry.increment(code)) {
             std::error_code ignored;
             if (entry->is_directory(ignored) && !entry->is_symlink(ignored)) pending.push_back(entry->path());

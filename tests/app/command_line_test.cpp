@@ -544,6 +544,20 @@ TEST_F(CommandLine, InspectTellsWhatWasLoadedAndRendersNothing) {
     EXPECT_TRUE(list(work_).empty());
 }
 
+TEST_F(CommandLine, EnvironmentsMayComeFromDirectoriesThatAreNamed) {
+    const std::string box = scene("box");
+    std::ofstream(fs::path(box) / "render.json") << R"({"resolution": [4, 4], "environment": {"image": "sky.hdr"}})";
+    fs::create_directories(work_ / "skies");
+    std::ofstream(work_ / "skies/sky.hdr", std::ios::binary)
+        << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n\x80\x80\x80\x81\x80\x80\x80\x81";
+    const ProgramResult refused = run({"inspect", box});
+    EXPECT_EQ(refused.exit_code, 3);
+    EXPECT_NE(refused.out.find("--assets DIR names a directory"), std::string::npos) << refused.out;
+    EXPECT_EQ(run({"inspect", box, "--assets", "skies"}).exit_code, 0);
+    EXPECT_EQ(run({"render", box, "--assets", "skies", "--spp", "1", "-o", "sky.exr"}).exit_code, 0);
+    EXPECT_EQ(run({"inspect", box, "--assets", "nowhere"}).exit_code, 2);
+}
+
 TEST_F(CommandLine, InspectReportsEveryProblem) {
     const std::string broken = scene("broken", R"("ssp": 4, "samplre": "sobol",)");
     const ProgramResult result = run({"inspect", broken, "--json"});

@@ -141,6 +141,48 @@ TEST(ResolveName, GivesPercentNoMeaning) {
     EXPECT_EQ(resolve_name(dir.path(), "100%.hdr"), dir.path() / "100%.hdr");
 }
 
+TEST(ResolveAsset, FindsFilesOfTheSceneAndOfDirectoriesThatAreNamed) {
+    const TempDir scene;
+    const TempDir first;
+    const TempDir second;
+    scene.write("own.exr", "x");
+    first.write("both.exr", "x");
+    second.write("both.exr", "x");
+    second.write("sky/noon.exr", "x");
+    const std::vector<std::filesystem::path> assets{first.path(), second.path()};
+    const auto find = [&](const std::string& name) { return resolve_asset(scene.path(), assets, name); };
+    EXPECT_EQ(find("own.exr"), scene.path() / "own.exr");
+    EXPECT_EQ(find("both.exr"), first.path() / "both.exr");
+    EXPECT_EQ(find("sky/noon.exr"), second.path() / "sky/noon.exr");
+    EXPECT_EQ(find((second.path() / "sky/noon.exr").string()), second.path() / "sky/noon.exr");
+    const std::string from_scene = "../" + second.path().filename().string() + "/sky/noon.exr";
+    EXPECT_EQ(find(from_scene), second.path() / "sky/noon.exr");
+}
+
+TEST(ResolveAsset, ReadsNothingFromElsewhere) {
+    const TempDir scene;
+    const TempDir assets;
+    const TempDir elsewhere;
+    elsewhere.write("secret.exr", "x");
+    const std::filesystem::path secret = elsewhere.path() / "secret.exr";
+    std::filesystem::create_symlink(secret, assets.path() / "link.exr");
+    const auto refusal_of = [&](const std::string& name, const std::vector<std::filesystem::path>& directories) {
+        try {
+            return "resolved to " + resolve_asset(scene.path(), directories, name).string();
+        } catch (const IoError& error) {
+            return std::string(error.what());
+        }
+    };
+    const std::vector<std::filesystem::path> one{assets.path()};
+    const std::vector<std::filesystem::path> missing{scene.path() / "nowhere"};
+    for (const std::string& name : {secret.string(), "../" + elsewhere.path().filename().string() + "/secret.exr",
+                                    std::string("link.exr"), std::string("absent.exr")}) {
+        EXPECT_NE(refusal_of(name, one).find("in none of the directories of --assets"), std::string::npos) << name;
+        EXPECT_NE(refusal_of(name, missing).find("in none of the directories"), std::string::npos) << name;
+        EXPECT_NE(refusal_of(name, {}).find("; --assets DIR names"), std::string::npos) << name;
+    }
+}
+
 TEST(ReadBytes, ReadsAllOrTheFirstOnes) {
     const TempDir dir;
     dir.write("a", "hello");

@@ -166,7 +166,8 @@ TEST(FindSceneDirectories, FindsThemSortedAtEveryDepth) {
     const auto& root = dir.path();
     EXPECT_EQ(find_scene_directories(root),
               (std::vector<std::filesystem::path>{root / "a", root / "b", root / "b/inner", root / "c/d/e",
-                                                  root / "two/deeper"}));
+                                                  root / "two", root / "two/deeper"}))
+        << "loading says of two files in one directory that one must be named";
     EXPECT_EQ(find_scene_directories(root / "b"), (std::vector<std::filesystem::path>{root / "b", root / "b/inner"}));
 }
 

@@ -14,9 +14,29 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <optional>
 #include <string_view>
+#include <utility>
 
 namespace etendue {
+
+namespace {
+
+/// Says what is wrong with the animations other than `shown`, all of it as warnings: the image does not show them.
+void check_other_animations(const GltfDocument& document, const GltfAnimation* shown, ProblemList& problems) {
+    for (const GltfAnimation& animation : document.animations) {
+        if (&animation == shown) continue;
+        ProblemList found;
+        AccessorReader accessors(document, found);
+        const AnimationSampler sampler(document, animation, accessors, found);
+        for (Problem problem : found.all()) {
+            problem.severity = std::min(problem.severity, Severity::Warning);
+            problems.add(std::move(problem));
+        }
+    }
+}
+
+}  // namespace
 
 bool GltfLoader::can_load(const std::filesystem::path& file) const {
     const std::string extension = lower_extension(file);
@@ -30,8 +50,9 @@ bool GltfLoader::can_load(const std::filesystem::path& file) const {
     return stream && std::string_view(magic.data(), magic.size()) == "glTF";
 }
 
-void GltfLoader::load(const std::filesystem::path& file, const RenderSettings& settings, SceneDesc& scene,
+void GltfLoader::load(const std::filesystem::path& file, const LoadOptions& options, SceneDesc& scene,
                       ProblemList& problems) const {
+    const RenderSettings& settings = scene.settings;
     GltfDocument document = read_gltf_document(file, problems);
     scene.extensions_used = document.extensions_used;
     scene.extensions_ignored = document.extensions_ignored;
@@ -39,14 +60,16 @@ void GltfLoader::load(const std::filesystem::path& file, const RenderSettings& s
     AccessorReader accessors(document, problems);
     for (const GltfAnimation& animation : document.animations) scene.animations.push_back(animation.name);
     std::optional<AnimationSampler> sampler;
+    const GltfAnimation* shown = nullptr;
     if (settings.shown_time()) {
-        if (const GltfAnimation* animation = find_animation(document, settings, problems))
-            sampler.emplace(document, *animation, accessors, problems);
+        shown = find_animation(document, settings, problems);
+        if (shown != nullptr) sampler.emplace(document, *shown, accessors, problems);
     } else if (!document.animations.empty()) {
         problems.note(document.at("/animations"),
                       "the scene is shown at rest; --time-code SECONDS shows a moment of "
                       "its animation");
     }
+    if (options.every_animation) check_other_animations(document, shown, problems);
     if (sampler)
         apply_pointers(sampler->pointer_values(*settings.shown_time() + settings.shutter.middle()), document, problems);
     TextureReader textures(document, accessors, scene, problems);

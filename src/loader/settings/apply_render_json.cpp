@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <span>
 #include <vector>
 
 #include <fmt/format.h>
@@ -159,7 +160,8 @@ void apply_camera(const RenderJson& json, SceneDesc& scene, ProblemList& problem
     }
 }
 
-void apply_environment(const RenderJson& json, SceneDesc& scene, ProblemList& problems) {
+void apply_environment(const RenderJson& json, std::span<const std::filesystem::path> assets, SceneDesc& scene,
+                       ProblemList& problems) {
     if (!json.environment) return;
     scene.environment = *json.environment;
     if (scene.environment.image.empty()) return;
@@ -168,7 +170,7 @@ void apply_environment(const RenderJson& json, SceneDesc& scene, ProblemList& pr
     const SourceLocation where{json.location.file, child_pointer(scene.environment.location.pointer, "image")};
     scene.environment.image.clear();
     try {
-        const std::filesystem::path file = resolve_name(scene.directory, name);
+        const std::filesystem::path file = resolve_asset(scene.directory, assets, name);
         const ImageInfo info = read_image_info(file);
         if (info.format != "openexr" && info.format != "hdr") {
             throw IoError("an environment is an EXR or HDR image, but this is " + info.format);
@@ -182,9 +184,10 @@ void apply_environment(const RenderJson& json, SceneDesc& scene, ProblemList& pr
 
 }  // namespace
 
-void apply_render_json(const RenderJson& json, SceneDesc& scene, ProblemList& problems) {
+void apply_render_json(const RenderJson& json, std::span<const std::filesystem::path> assets, SceneDesc& scene,
+                       ProblemList& problems) {
     apply_camera(json, scene, problems);
-    apply_environment(json, scene, problems);
+    apply_environment(json, assets, scene, problems);
     apply_materials(json, scene, problems);
     apply_lights(json, scene, problems);
 }

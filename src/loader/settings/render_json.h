@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -64,7 +65,9 @@ struct RenderJson {
                                           ProblemList& problems);
 
 /// Applies what the document says of the scene to one that has been loaded: overrides by name, camera, environment
-/// (whose header is read). Names that the scene does not have are errors that suggest the nearest one.
-void apply_render_json(const RenderJson& json, SceneDesc& scene, ProblemList& problems);
+/// (whose header is read, and which may come from one of `assets`, directories outside of the scene's). Names that the
+/// scene does not have are errors that suggest the nearest one.
+void apply_render_json(const RenderJson& json, std::span<const std::filesystem::path> assets, SceneDesc& scene,
+                       ProblemList& problems);
 
 }  // namespace etendue

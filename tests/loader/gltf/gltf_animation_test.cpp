@@ -118,6 +118,20 @@ Vec3f third_vertex(const LoadedScene& loaded) {
     return loaded.scene.meshes.at(static_cast<std::size_t>(mesh.index)).primitives.at(0).positions.at(2);
 }
 
+TEST(Animation, ThoseThatAreNotShownAreReadIfAsked) {
+    GltfBuilder builder = animated("translation", {0, 0, 0, 4, 8, 0}, 3, "LINEAR");
+    builder.json["animations"].push_back(builder.json["animations"][0]);
+    builder.json["animations"][1]["samplers"][0]["input"] = builder.floats({3.0f, 1.0f}, 1);
+    EXPECT_FALSE(has_problem(builder.load().problems, Severity::Warning, "", "/animations/1/channels/0"));
+    for (const LoadOptions& options :
+         {LoadOptions{.every_animation = true}, LoadOptions{.time_code = 1.0, .every_animation = true}}) {
+        const ProblemList problems = builder.load(options).problems;
+        EXPECT_FALSE(problems.has_errors()) << listing(problems);
+        EXPECT_TRUE(has_problem(problems, Severity::Warning, "increas", "/animations/1/channels/0"))
+            << listing(problems);
+    }
+}
+
 TEST(Morph, WeightsOfTheNodeComeBeforeTheMeshs) {
     GltfBuilder builder = morphing();
     EXPECT_EQ(third_vertex(builder.load()), Vec3f(0, 1, 0));
