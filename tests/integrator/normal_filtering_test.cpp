@@ -94,18 +94,17 @@ class ReliefBelowPixels : public testing::Test {
         double whole = 0.0;
         double block = 0.0;
     };
-    static Difference compare(const World& world) {
-        const auto means = [&](int size, std::uint32_t spp) {
-            const std::vector<Rgb> pixels = render_pixels(world, kReliefPath, {0, 0, size, size}, size, size, spp);
-            std::array<double, kBlocks * kBlocks> sums{};
-            for (int y = 0; y < size; ++y)
-                for (int x = 0; x < size; ++x)
-                    sums[static_cast<std::size_t>(y * kBlocks / size * kBlocks + x * kBlocks / size)] +=
-                        static_cast<double>(pixels[static_cast<std::size_t>(y * size + x)].g) / (size * size);
-            return sums;
-        };
-        const auto large = means(kLarge, kSamples);
-        const auto small = means(kSmall, kSamples * kShrink * kShrink);
+    using Means = std::array<double, kBlocks * kBlocks>;
+    static Means means(const World& world, int size, std::uint32_t spp) {
+        const std::vector<Rgb> pixels = render_pixels(world, kReliefPath, {0, 0, size, size}, size, size, spp);
+        Means sums{};
+        for (int y = 0; y < size; ++y)
+            for (int x = 0; x < size; ++x)
+                sums[static_cast<std::size_t>(y * kBlocks / size * kBlocks + x * kBlocks / size)] +=
+                    static_cast<double>(pixels[static_cast<std::size_t>(y * size + x)].g) / (size * size);
+        return sums;
+    }
+    static Difference compare(const Means& small, const Means& large) {
         Difference difference;
         double sum_large = 0.0;
         double sum_small = 0.0;
@@ -120,7 +119,9 @@ class ReliefBelowPixels : public testing::Test {
         return difference;
     }
     static void expect_average(SceneDesc scene) {
-        const Difference difference = compare(compile(std::move(scene)));
+        const World world = compile(std::move(scene));
+        const Difference difference =
+            compare(means(world, kSmall, kSamples * kShrink * kShrink), means(world, kLarge, kSamples));
         EXPECT_LT(difference.whole, 0.03);
         EXPECT_LT(difference.block, 0.03);
     }
@@ -146,6 +147,22 @@ TEST_F(ReliefBelowPixels, BumpsOfMetalAreRough) {
     material.roughness = 0.45f;
     material.normal_texture.texture = add_normal_map(scene, "bumps", bumps(0.1f, 5));
     expect_average(lit(std::move(scene), material));
+}
+
+// The samples are the same, so that what differs is the filtering alone.
+TEST_F(ReliefBelowPixels, IsTheSameThroughTheCacheOfTiles) {
+    SceneDesc scene = empty_scene();
+    MaterialDesc material;
+    material.roughness = 0.45f;
+    material.normal_texture.texture = add_normal_map(scene, "cached", grooves(0.15f));
+    scene = lit(std::move(scene), material);
+    const World in_memory = compile(scene);
+    scene.settings.texture_memory = 1;  // too little for the map
+    const World cached = compile(std::move(scene));
+    ASSERT_GT(cached.statistics().texture_cache_budget, 0u);
+    const Difference difference = compare(means(cached, kSmall, 64), means(in_memory, kSmall, 64));
+    EXPECT_LT(difference.whole, 0.003);
+    EXPECT_LT(difference.block, 0.005);
 }
 
 TEST_F(ReliefBelowPixels, CoatsAreRoughByTheirOwn) {
