@@ -110,7 +110,10 @@ void give_all_alpha(std::vector<Part>& parts) {
             if (has_alpha(a) != has_alpha(b)) return has_alpha(a);
             return ratio(a, part) < ratio(b, part);
         };
-        std::ranges::min_element(parts, is_better)->add_light(part);
+        std::size_t nearest = 0;
+        for (std::size_t i = 1; i < parts.size(); ++i)
+            if (is_better(parts[i], parts[nearest])) nearest = i;
+        parts[nearest].add_light(part);
     }
 }
 
