@@ -202,6 +202,7 @@ void dump_material(std::size_t index, const MaterialDesc& m, Out out) {
                    text(m.emissive_texture));
     fmt::format_to(out, "  specular {:g}, {} color {:g} {:g} {:g}, {}\n", m.specular, text(m.specular_texture),
                    m.specular_color.r, m.specular_color.g, m.specular_color.b, text(m.specular_color_texture));
+    if (m.glossiness) fmt::format_to(out, "  glossiness {:g}\n", *m.glossiness);
     fmt::format_to(out, "  ior {:g} transmission {:g}, {}\n", m.ior, m.transmission, text(m.transmission_texture));
     dump_layers(m, out);
 }

@@ -96,6 +96,7 @@ GltfModel compile_gltf(const MaterialDesc& desc, TextureCompiler& textures) {
     model.specular_texture = textures.slot(desc.specular_texture, TextureUse::Data);
     model.specular_color = desc.specular_color;
     model.specular_color_texture = textures.slot(desc.specular_color_texture, TextureUse::Color);
+    model.glossiness = desc.glossiness;
     model.transmission = desc.transmission;
     model.transmission_texture = textures.slot(desc.transmission_texture, TextureUse::Data);
     // An infinite index reflects everything.

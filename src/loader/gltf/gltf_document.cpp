@@ -25,7 +25,7 @@ namespace {
 using Json = nlohmann::json;
 
 /// To support another extension, see CONTRIBUTING.md (Smaller things; A layer of glTF's material).
-constexpr std::array<std::string_view, 25> kSupportedExtensions{
+constexpr std::array<std::string_view, 26> kSupportedExtensions{
     "EXT_lights_ies",
     "EXT_lights_image_based",
     "EXT_mesh_gpu_instancing",
@@ -41,6 +41,7 @@ constexpr std::array<std::string_view, 25> kSupportedExtensions{
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",
     "KHR_materials_iridescence",
+    "KHR_materials_pbrSpecularGlossiness",
     "KHR_materials_sheen",
     "KHR_materials_specular",
     "KHR_materials_transmission",
