@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -98,7 +99,8 @@ class AccessorReader {
     const GltfDocument& document_;
     ProblemList& problems_;
     DecodeBudget budget_;
-    bool is_quantized_;  ///< the file uses KHR_mesh_quantization
+    std::set<std::size_t> reported_buffers_;  ///< of those that are absent
+    bool is_quantized_;                       ///< the file uses KHR_mesh_quantization
 };
 
 }  // namespace etendue

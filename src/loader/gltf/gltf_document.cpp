@@ -25,7 +25,7 @@ namespace {
 using Json = nlohmann::json;
 
 /// To support another extension, see CONTRIBUTING.md (Smaller things; A layer of glTF's material).
-constexpr std::array<std::string_view, 26> kSupportedExtensions{
+constexpr std::array<std::string_view, 27> kSupportedExtensions{
     "EXT_lights_ies",
     "EXT_lights_image_based",
     "EXT_mesh_gpu_instancing",
@@ -50,6 +50,7 @@ constexpr std::array<std::string_view, 26> kSupportedExtensions{
     "KHR_materials_volume",
     "KHR_materials_volume_scatter",
     "KHR_mesh_quantization",
+    "KHR_meshopt_compression",
     "KHR_node_visibility",
     "KHR_texture_transform",
 };
@@ -334,8 +335,8 @@ GltfDocument read_gltf_document(const std::filesystem::path& file, ProblemList& 
     const std::vector<PrimitiveIndices> indices = take_indices(document, result, found);
     take_images(document, result, found);
     take_animations_and_skins(document, result);
-    GltfBuffers buffers = load_gltf_buffers(document, bin, result.directory, result.at(""), result.inputs, found);
-    expand_meshopt_views(document, buffers, result.at(""), found);
+    GltfBuffers buffers = load_gltf_buffers(document, bin, result.directory, result.inputs, result.absent_buffers);
+    expand_meshopt_views(document, buffers, result.absent_buffers, result.at(""), found);
     throw_if_errors(found);
 
     bytes = {};

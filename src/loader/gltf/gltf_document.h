@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/error.h"
+#include "loader/gltf/gltf_buffers.h"
 
 #include <filesystem>
 #include <optional>
@@ -60,6 +61,7 @@ struct GltfDocument {
     std::vector<std::string> extensions_used;     ///< and supported
     std::vector<std::string> extensions_ignored;  ///< used, not supported, not required
     std::vector<std::filesystem::path> inputs;    ///< the file and the buffers it names
+    AbsentBuffers absent_buffers;
 
     [[nodiscard]] SourceLocation at(std::string pointer) const { return {file, std::move(pointer)}; }
 };
