@@ -1,6 +1,7 @@
 // etendue inspect: what is in a scene, and what is wrong with it.
 #include "app/commands.h"
 #include "app/scene_render.h"
+#include "app/settings_overrides.h"
 #include "color/color_config.h"
 #include "loader/loader.h"
 #include "picture/render_setup.h"
@@ -22,6 +23,7 @@ namespace {
 
 struct InspectArguments {
     std::string scene;
+    LoadOptions options;
     bool json = false;
 };
 
@@ -51,6 +53,7 @@ nlohmann::json summarize(const SceneDesc& s) {
             {"materials", names(s.materials)},
             {"textures", s.textures.size()},
             {"images", s.images.size()},
+            {"missing_textures", count_missing_textures(s)},
             {"lights", names(s.lights)},
             {"cameras", names(s.cameras)},
             {"variants", s.variants},
@@ -62,9 +65,9 @@ nlohmann::json summarize(const SceneDesc& s) {
             {"extensions_ignored", s.extensions_ignored}};
 }
 
-Inspection inspect(const std::string& path) {
+Inspection inspect(const std::string& path, const LoadOptions& options) {
     Inspection result;
-    LoadedScene loaded = inspect_scene(path);
+    LoadedScene loaded = inspect_scene(path, options);
     SceneDesc& scene = loaded.scene;
     result.problems = std::move(loaded.problems);
     // Without a scene file there is nothing to describe.
@@ -89,6 +92,7 @@ Inspection inspect(const std::string& path) {
         const World world =
             ray_code().compile_world(std::move(scene), colors, working_space, threads, result.problems, {});
         result.world = world.statistics();
+        result.summary["missing_textures"] = result.world->missing_textures;
     } catch (const SceneError& error) {
         for (const Problem& problem : error.problems().all()) result.problems.add(problem);
     }
@@ -161,6 +165,7 @@ void add_inspect_command(CLI::App& app, Action& action) {
     auto arguments = std::make_shared<InspectArguments>();
     CLI::App* command = app.add_subcommand("inspect", "Say what is in a scene and everything that is wrong with it");
     command->add_option("scene", arguments->scene, "Scene directory, .gltf or .glb")->required();
+    add_missing_textures_option(*command, arguments->options);
     command->add_flag("--json", arguments->json, "Print JSON");
     command->footer(
         "Loads and compiles everything and renders nothing. Exit code 3 if there is an error.\n\n"
@@ -169,7 +174,7 @@ void add_inspect_command(CLI::App& app, Action& action) {
         "  etendue inspect scenes/cornell-box --json");
     command->callback([arguments, &action] {
         action = [arguments] {
-            const Inspection inspection = inspect(arguments->scene);
+            const Inspection inspection = inspect(arguments->scene, arguments->options);
             if (arguments->json)
                 print_json(inspection);
             else

@@ -78,6 +78,9 @@ struct SettingsOverrides {
     void add_color_options(CLI::App& command);
 };
 
+/// Adds --missing-textures to a subcommand; `options` must outlive it.
+void add_missing_textures_option(CLI::App& command, LoadOptions& options);
+
 /// Of the registry, in its order.
 [[nodiscard]] std::vector<std::string> integrator_names();
 

@@ -121,6 +121,10 @@ const char* text(PixelFilterType filter) {
 void dump_textures(const SceneDesc& scene, Out out) {
     for (std::size_t i = 0; i < scene.images.size(); ++i) {
         const ImageDesc& image = scene.images[i];
+        if (image.unreadable) {
+            fmt::format_to(out, "image {} \"{}\": unreadable\n", i, image.name);
+            continue;
+        }
         fmt::format_to(out, "image {} \"{}\": {} x {}, {}\n", i, image.name, image.width, image.height,
                        image.path.empty() ? fmt::format("{} bytes embedded", image.encoded.size())
                                           : image.path.filename().string());

@@ -125,6 +125,7 @@ void validate_material(const MaterialDesc& m, const SceneDesc& scene, ProblemLis
 
 void validate_images_and_textures(const SceneDesc& scene, ProblemList& problems) {
     for (const ImageDesc& image : scene.images) {
+        if (image.unreadable) continue;
         if (image.path.empty() == image.encoded.empty()) {
             problems.error(image.location, "an image must be either a file or bytes in memory");
         }

@@ -160,6 +160,8 @@ Material compile_material(const MaterialDesc& desc, const ColorMatrix& from_rec7
 }  // namespace
 
 void compile_materials(const SceneDesc& scene, TextureCompiler& textures, WorldData& data) {
+    data.materials.clear();
+    data.fillings.clear();
     data.materials.reserve(scene.materials.size());
     for (const MaterialDesc& desc : scene.materials) {
         data.materials.push_back(compile_material(desc, data.from_rec709, textures));

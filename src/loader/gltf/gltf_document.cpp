@@ -157,16 +157,11 @@ void take_images(Json& document, GltfDocument& result, ProblemList& problems) {
     const Json& images = document["images"];
     for (std::size_t i = 0; i < images.size(); ++i) {
         const Json& json = images[i];
-        GltfImage image{json.value("name", ""), json.value("mimeType", ""), json.value("uri", ""), std::nullopt, {}};
+        GltfImage image{json.value("name", ""), json.value("mimeType", ""), json.value("uri", ""), std::nullopt};
         if (json.contains("bufferView")) image.buffer_view = json["bufferView"].get<int>();
         const SourceLocation where = result.at(child_pointer("/images", i));
         if (json.contains("bufferView") == json.contains("uri")) {
             problems.error(where, "an image needs either a URI or a buffer view");
-        } else if (is_data_uri(image.uri)) {
-            std::optional<std::vector<unsigned char>> bytes = decode_data_uri(image.uri);
-            if (!bytes) problems.error(where, "the data URI is empty or not base64");
-            if (bytes) image.encoded = std::move(*bytes);
-            image.uri.clear();
         }
         result.images.push_back(std::move(image));
     }

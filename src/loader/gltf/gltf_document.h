@@ -19,9 +19,8 @@ namespace etendue {
 struct GltfImage {
     std::string name;
     std::string mime_type;
-    std::string uri;                     ///< as it stood in the file, for messages; empty unless a file
-    std::optional<int> buffer_view;      ///< index; checked
-    std::vector<unsigned char> encoded;  ///< decoded data URI
+    std::string uri;                 ///< as it stood in the file; empty if there is a buffer view
+    std::optional<int> buffer_view;  ///< index; checked
 };
 
 enum class Interpolation { Linear, Step, CubicSpline };
