@@ -208,8 +208,8 @@ TEST(GltfDocument, BuffersThatNothingReadsMayBeAbsent) {
 
 TEST(GltfDocument, AnAbsentBufferIsReportedOnceHoweverMuchReadsIt) {
     GltfBuilder builder = triangle();
-    nlohmann::json& primitive = builder.json["meshes"][0]["primitives"][0];
-    primitive["attributes"]["NORMAL"] = builder.floats({0, 0, 1, 0, 0, 1, 0, 0, 1}, 3);
+    nlohmann::json& primitives = builder.json["meshes"][0]["primitives"];
+    primitives.push_back(nlohmann::json(primitives[0]));
     builder.json["buffers"] = {{{"byteLength", 1000}, {"uri", "missing.bin"}}};
     EXPECT_EQ(builder.load().problems.error_count(), 1u) << listing(builder.load().problems);
 }
