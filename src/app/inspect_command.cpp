@@ -26,7 +26,7 @@ namespace {
 
 struct InspectArguments {
     std::string scene;
-    std::vector<std::filesystem::path> assets;
+    LoadOptions options;
     bool json = false;
 };
 
@@ -56,6 +56,7 @@ nlohmann::json summarize(const SceneDesc& s) {
             {"materials", names(s.materials)},
             {"textures", s.textures.size()},
             {"images", s.images.size()},
+            {"missing_textures", count_missing_textures(s)},
             {"lights", names(s.lights)},
             {"cameras", names(s.cameras)},
             {"variants", s.variants},
@@ -67,9 +68,9 @@ nlohmann::json summarize(const SceneDesc& s) {
             {"extensions_ignored", s.extensions_ignored}};
 }
 
-Inspection inspect(const std::string& path, const std::vector<std::filesystem::path>& assets) {
+Inspection inspect(const std::string& path, LoadOptions options) {
     Inspection result;
-    LoadOptions options{.assets = assets, .every_animation = true};
+    options.every_animation = true;
     // What a render of the sequence would show first.
     if (const std::optional<FrameRange> frames = find_frames(path)) options.frame = frames->first;
     LoadedScene loaded = inspect_scene(path, options);
@@ -96,6 +97,7 @@ Inspection inspect(const std::string& path, const std::vector<std::filesystem::p
         const World world =
             ray_code().compile_world(std::move(scene), colors, working_space, threads, result.problems, {});
         result.world = world.statistics();
+        result.summary["missing_textures"] = result.world->missing_textures;
     } catch (const SceneError& error) {
         for (const Problem& problem : error.problems().all()) result.problems.add(problem);
     }
@@ -168,7 +170,8 @@ void add_inspect_command(CLI::App& app, Action& action) {
     auto arguments = std::make_shared<InspectArguments>();
     CLI::App* command = app.add_subcommand("inspect", "Say what is in a scene and everything that is wrong with it");
     command->add_option("scene", arguments->scene, "Scene directory, .gltf or .glb")->required();
-    add_assets_option(*command, arguments->assets);
+    add_assets_option(*command, arguments->options.assets);
+    add_missing_textures_option(*command, arguments->options);
     command->add_flag("--json", arguments->json, "Print JSON");
     command->footer(
         "Loads and compiles everything and renders nothing. Exit code 3 if there is an error.\n\n"
@@ -177,7 +180,7 @@ void add_inspect_command(CLI::App& app, Action& action) {
         "  etendue inspect scenes/cornell-box --json");
     command->callback([arguments, &action] {
         action = [arguments] {
-            const Inspection inspection = inspect(arguments->scene, arguments->assets);
+            const Inspection inspection = inspect(arguments->scene, arguments->options);
             if (arguments->json)
                 print_json(inspection);
             else

@@ -228,6 +228,7 @@ class SceneRender {
         s.triangles = from.triangles;
         s.instances = from.instances;
         s.lights = from.lights;
+        s.missing_textures = from.missing_textures;
         describe_camera(description_, world);
         if (!request_.quiet)
             for (const std::string& note : notes_on(world, *integrator_, settings_)) log_warning("note: {}", note);

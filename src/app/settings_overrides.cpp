@@ -29,6 +29,8 @@ const std::map<std::string, HeuristicType> kHeuristics{{"power", HeuristicType::
                                                        {"balance", HeuristicType::Balance}};
 
 const std::map<std::string, AovLayout> kAovLayouts(kAovLayoutNames.begin(), kAovLayoutNames.end());
+const std::map<std::string, MissingTextures> kMissingTextures(kMissingTexturesNames.begin(),
+                                                              kMissingTexturesNames.end());
 const std::map<std::string, LightUnits> kLightUnits(kLightUnitNames.begin(), kLightUnitNames.end());
 
 void apply_quality(Quality quality, RenderSettings& settings) {
@@ -155,6 +157,15 @@ void add_assets_option(CLI::App& command, std::vector<std::filesystem::path>& as
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
+void add_missing_textures_option(CLI::App& command, LoadOptions& options) {
+    command
+        .add_option_function<std::string>(
+            "--missing-textures",
+            [&options](const std::string& text) { options.missing_textures = kMissingTextures.at(text); },
+            "warn: materials do without a texture that is missing or broken (default); error: the scene is refused")
+        ->check(CLI::IsMember(kMissingTextures));
+}
+
 void SettingsOverrides::add_options(CLI::App& command) {
     command
         .add_option_function<std::string>(
@@ -236,6 +247,7 @@ void SettingsOverrides::add_options(CLI::App& command) {
         "--texture-memory", [this](const std::string& text) { texture_memory = parse_texture_memory(text); },
         "Memory for decoded textures, such as 8G or 512M; scenes with more read them piece by piece as they are "
         "needed (default: half of the machine's)");
+    add_missing_textures_option(command, moment);
     command
         .add_option_function<std::vector<std::string>>(
             "--aov", [this](const std::vector<std::string>& texts) { aovs = parse_aovs(texts); },

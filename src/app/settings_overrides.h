@@ -82,6 +82,9 @@ struct SettingsOverrides {
 /// Adds --assets DIR, which adds to `assets` before what $ETENDUE_ASSETS lists.
 void add_assets_option(CLI::App& command, std::vector<std::filesystem::path>& assets);
 
+/// Adds --missing-textures to a subcommand; `options` must outlive it.
+void add_missing_textures_option(CLI::App& command, LoadOptions& options);
+
 /// Of the registry, in its order.
 [[nodiscard]] std::vector<std::string> integrator_names();
 

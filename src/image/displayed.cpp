@@ -1,6 +1,7 @@
 #include "image/displayed.h"
 
 #include "core/error.h"
+#include "core/refused_input.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -25,8 +26,9 @@ void refuse_absurd_display(const ImageInfo& info) {
     const std::int64_t held = std::int64_t{info.width} * info.height;
     const std::int64_t most = std::min(kMaxImagePixels, std::max(kAlwaysAllowed, kMostEmpty * held));
     if (width > kMaxImageSide || height > kMaxImageSide || width * height > most)
-        throw IoError(fmt::format("its display window of {} x {} pixels is far larger than the {} x {} pixels it holds",
-                                  width, height, info.width, info.height));
+        throw RefusedInput(
+            fmt::format("its display window of {} x {} pixels is far larger than the {} x {} pixels it holds", width,
+                        height, info.width, info.height));
 }
 
 template <typename T>

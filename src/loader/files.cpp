@@ -1,6 +1,7 @@
 #include "loader/files.h"
 
 #include "core/error.h"
+#include "core/refused_input.h"
 #include "loader/json_text.h"
 
 #include <algorithm>
@@ -63,13 +64,13 @@ void check_name(std::string_view name) {
     if (std::ranges::any_of(name, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; })) {
         throw IoError("the file name contains control characters");
     }
-    if (has_scheme(name)) throw IoError("only files inside the scene directory are read, no other URIs");
-    if (name.front() == '/') throw IoError("absolute paths are not read, only files inside the scene directory");
+    if (has_scheme(name)) throw RefusedInput("only files inside the scene directory are read, no other URIs");
+    if (name.front() == '/') throw RefusedInput("absolute paths are not read, only files inside the scene directory");
     int depth = 0;
     for (const fs::path& part : fs::path(name)) {
         if (part == ".") continue;
         depth += part == ".." ? -1 : 1;
-        if (depth < 0) throw IoError("'..' leaves the scene directory, and only files inside it are read");
+        if (depth < 0) throw RefusedInput("'..' leaves the scene directory, and only files inside it are read");
     }
 }
 
@@ -127,7 +128,7 @@ fs::path resolve_name(const fs::path& directory, std::string_view name) {
     if (code) throw IoError("the scene directory cannot be read: " + code.message());
     fs::path file = fs::weakly_canonical(root / fs::path(name), code);
     if (code) throw IoError("the file cannot be reached: " + code.message());
-    if (!is_inside(root, file)) throw IoError("a symbolic link leads out of the scene directory");
+    if (!is_inside(root, file)) throw RefusedInput("a symbolic link leads out of the scene directory");
 
     const fs::file_status status = fs::status(file, code);
     if (!fs::exists(status)) throw IoError("the file does not exist in the scene directory" + similar_file(root, name));
@@ -157,7 +158,7 @@ fs::path resolve_asset(const fs::path& directory, std::span<const fs::path> asse
 
 fs::path resolve_uri(const fs::path& directory, std::string_view uri) {
     // A scheme counts before decoding, everything else after it.
-    if (has_scheme(uri)) throw IoError("only files inside the scene directory are read, no other URIs");
+    if (has_scheme(uri)) throw RefusedInput("only files inside the scene directory are read, no other URIs");
     try {
         return resolve_name(directory, percent_decode(uri));
     } catch (const IoError&) {

@@ -20,8 +20,8 @@ inline constexpr std::uintmax_t kMaxSettingsBytes = std::uintmax_t{1} << 24;
 inline constexpr std::uintmax_t kMaxBufferBytes = std::uintmax_t{1} << 33;
 
 /// The regular file that the relative reference `uri` (RFC 3986, percent-encoded) names below `directory`, with
-/// symbolic links resolved. Throws IoError if it is not such a reference (a scheme, an absolute path, `..` that leads
-/// out, control characters, a broken escape), leaves `directory` through a link, or names no regular file.
+/// symbolic links resolved. Throws RefusedInput if it leads out of `directory` (by a scheme, an absolute path, `..` or
+/// a link), IoError if it is no name (control characters, a broken escape) or names no regular file.
 [[nodiscard]] std::filesystem::path resolve_uri(const std::filesystem::path& directory, std::string_view uri);
 
 /// The same for a plain file name such as those in render.json: '%' has no meaning.

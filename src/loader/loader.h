@@ -20,6 +20,7 @@ struct LoadOptions {
     std::optional<int> frame{};         ///< of a sequence: shown at time_code (0 if none) + frame / fps
     std::optional<double> fps{};        ///< frames per second, > 0
     std::optional<Shutter> shutter{};
+    std::optional<MissingTextures> missing_textures{};
     /// The text of another render.json, merged into the scene's as RFC 7386 says: members replace members, objects are
     /// merged, null removes. Problems of it are located in kGivenSettings where the scene has no render.json.
     std::string settings{};

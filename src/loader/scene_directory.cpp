@@ -114,6 +114,7 @@ RenderSettings apply_options(RenderSettings settings, const LoadOptions& options
     settings.frame = options.frame;
     settings.fps = options.fps.value_or(settings.fps);
     settings.shutter = options.shutter.value_or(settings.shutter);
+    settings.missing_textures = options.missing_textures.value_or(settings.missing_textures);
     return settings;
 }
 
@@ -154,6 +155,7 @@ LoadedScene inspect_scene(const fs::path& path, const LoadOptions& options) {
     LoadedScene result;
     try {
         load_into(path, options, result.scene, result.problems);
+        leave_out_unreadable_images(result.scene);
         append(validate(result.scene), result.problems);
     } catch (const SceneError& error) {
         append(error.problems(), result.problems);

@@ -1,6 +1,7 @@
 #include "oiio/open_image.h"
 
 #include "core/error.h"
+#include "core/refused_input.h"
 #include "oiio/library_setup.h"
 
 #include <algorithm>
@@ -27,8 +28,8 @@ void refuse_absurd(const OIIO::ImageSpec& spec, const EncodedFormat& format, std
     if (spec.deep || spec.depth > 1) throw IoError("deep and volume images are not supported");
     const std::int64_t pixels = std::int64_t{spec.width} * spec.height;
     if (spec.width > kMaxImageSide || spec.height > kMaxImageSide || pixels > kMaxImagePixels) {
-        throw IoError(fmt::format("{} x {} pixels are more than are allowed ({} in all, {} on a side)", spec.width,
-                                  spec.height, kMaxImagePixels, kMaxImageSide));
+        throw RefusedInput(fmt::format("{} x {} pixels are more than are allowed ({} in all, {} on a side)", spec.width,
+                                       spec.height, kMaxImagePixels, kMaxImageSide));
     }
     refuse_large_tiles(spec);
     const auto decoded_bits = 8 * static_cast<std::int64_t>(spec.pixel_bytes(true));

@@ -1,4 +1,5 @@
 #include "core/error.h"
+#include "core/refused_input.h"
 #include "oiio/functions.h"
 #include "oiio/open_image.h"
 
@@ -29,7 +30,7 @@ Image<T> read_image(const EncodedImage& image) {
         OpenImage open = open_image(image);
         return read_level<T>(open, {open.spec.width, open.spec.height}, 0);
     } catch (const std::bad_alloc&) {
-        throw IoError("not enough memory to decode the image");
+        throw RefusedInput("not enough memory to decode the image");
     }
 }
 
@@ -72,7 +73,7 @@ std::vector<NativeImage> read_image_levels(const EncodedImage& image) {
             levels.push_back(read_native_level(open, sizes[i], static_cast<int>(i), depth));
         return levels;
     } catch (const std::bad_alloc&) {
-        throw IoError("not enough memory to decode the image");
+        throw RefusedInput("not enough memory to decode the image");
     }
 }
 

@@ -102,6 +102,7 @@ Json to_object(const RenderStatistics& s) {
             {"triangles", s.triangles},
             {"instances", s.instances},
             {"lights", s.lights},
+            {"missing_textures", s.missing_textures},
             {"isa", s.isa},
             {"instruction_set", s.instruction_set}};
 }
@@ -118,6 +119,7 @@ RenderStatistics to_statistics(const Json& json) {
     json.at("triangles").get_to(s.triangles);
     json.at("instances").get_to(s.instances);
     json.at("lights").get_to(s.lights);
+    json.at("missing_textures").get_to(s.missing_textures);
     json.at("isa").get_to(s.isa);
     json.at("instruction_set").get_to(s.instruction_set);
     return s;

@@ -121,6 +121,10 @@ const char* text(PixelFilterType filter) {
 void dump_textures(const SceneDesc& scene, Out out) {
     for (std::size_t i = 0; i < scene.images.size(); ++i) {
         const ImageDesc& image = scene.images[i];
+        if (image.unreadable) {
+            fmt::format_to(out, "image {} \"{}\": unreadable\n", i, image.name);
+            continue;
+        }
         fmt::format_to(out, "image {} \"{}\": {} x {}, {}\n", i, image.name, image.width, image.height,
                        image.path.empty() ? fmt::format("{} bytes embedded", image.encoded.size())
                                           : image.path.filename().string());
@@ -202,6 +206,7 @@ void dump_material(std::size_t index, const MaterialDesc& m, Out out) {
                    text(m.emissive_texture));
     fmt::format_to(out, "  specular {:g}, {} color {:g} {:g} {:g}, {}\n", m.specular, text(m.specular_texture),
                    m.specular_color.r, m.specular_color.g, m.specular_color.b, text(m.specular_color_texture));
+    if (m.glossiness) fmt::format_to(out, "  glossiness {:g}\n", *m.glossiness);
     fmt::format_to(out, "  ior {:g} transmission {:g}, {}\n", m.ior, m.transmission, text(m.transmission_texture));
     dump_layers(m, out);
 }

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -132,9 +133,12 @@ struct MaterialDesc {
     float specular = 1.0f;              ///< KHR_materials_specular: strength of the dielectric's reflection, [0, 1]
     TextureRef specular_texture;        ///< data: A
     Rgb specular_color{1.0f};           ///< KHR_materials_specular: linear Rec.709, >= 0; its tint at normal incidence
-    TextureRef specular_color_texture;  ///< sRGB
-    float transmission = 0.0f;          ///< KHR_materials_transmission, [0, 1]
-    TextureRef transmission_texture;    ///< data: R
+    TextureRef specular_color_texture;  ///< sRGB; glossiness in A
+    /// KHR_materials_pbrSpecularGlossiness, [0, 1]: with an ior of 0 and no metal, the specular colour is the
+    /// reflectance at normal incidence and dims the base colour, and roughness is 1 less glossiness.
+    std::optional<float> glossiness;
+    float transmission = 0.0f;        ///< KHR_materials_transmission, [0, 1]
+    TextureRef transmission_texture;  ///< data: R
     DiffuseTransmissionDesc diffuse_transmission;
     VolumeDesc volume;
     AnisotropyDesc anisotropy;

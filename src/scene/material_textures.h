@@ -7,9 +7,9 @@
 
 namespace etendue {
 
-/// Calls `visit(const TextureRef&, std::string_view name)` for each slot, also for those that are empty.
-template <typename Visit>
-void for_each_texture(const MaterialDesc& m, const Visit& visit) {
+/// Calls `visit(TextureRef&, std::string_view name)` for each slot of a MaterialDesc, also for those that are empty.
+template <typename Material, typename Visit>
+void for_each_texture(Material& m, const Visit& visit) {
     visit(m.base_color_texture, "base colour");
     visit(m.metallic_roughness_texture, "metallic-roughness");
     visit(m.normal_texture, "the normal map");

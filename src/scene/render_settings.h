@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace etendue {
@@ -49,6 +50,15 @@ inline constexpr std::string_view kRobustForm = "mean or mon:N, N odd and from 3
 
 /// Largest number of `RenderSettings::brightest`.
 inline constexpr int kMostBrightest = 1024;
+
+/// What a texture that cannot be read is: left out with a warning, or an error.
+enum class MissingTextures { Warn, Error };
+
+/// What they are called in render.json and on the command line.
+inline constexpr std::array<std::pair<std::string_view, MissingTextures>, 2> kMissingTexturesNames{{
+    {"warn", MissingTextures::Warn},
+    {"error", MissingTextures::Error},
+}};
 
 enum class SamplerType { Sobol, Random };
 enum class PixelFilterType { BlackmanHarris, Box, Gaussian, Mitchell };
@@ -116,6 +126,7 @@ struct RenderSettings {
     std::string animation;     ///< its name; empty for the file's first
     LightUnits light_units = LightUnits::Photometric;
     std::optional<std::uint64_t> texture_memory;  ///< bytes for decoded textures; none for half of the machine's memory
+    MissingTextures missing_textures = MissingTextures::Warn;
     FilmSettings film;
     std::vector<AovDesc> aovs;  ///< layers to write besides the image
     AovLayout aov_layout = AovLayout::Layers;

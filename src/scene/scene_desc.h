@@ -51,6 +51,13 @@ struct SceneDesc {
 /// can be compiled from it.
 [[nodiscard]] ProblemList validate(const SceneDesc& scene);
 
+/// Takes the textures whose image is unreadable from all materials: factors stand alone, normals stay as they are. What
+/// a map of emission was to choose from stays dark, and what one of specular colour and glossiness was to, matte.
+void leave_out_unreadable_images(SceneDesc& scene);
+
+/// Counts the images that materials do without because they are unreadable.
+[[nodiscard]] std::size_t count_missing_textures(const SceneDesc& scene);
+
 /// Gives every primitive the material that it has in the variant that the settings name, if they name one. The scene
 /// must have passed `validate`.
 void apply_variant(SceneDesc& scene);

@@ -12,7 +12,8 @@
 
 namespace etendue {
 
-/// An encoded image: a file, or bytes from a buffer view or a data URI. Exactly one of the two is set.
+/// An encoded image: a file, or bytes from a buffer view or a data URI. Exactly one of the two is set, unless it is
+/// unreadable.
 struct ImageDesc {
     std::string name;
     std::filesystem::path path;      ///< resolved and inside the scene directory; empty if `encoded` is used
@@ -20,6 +21,7 @@ struct ImageDesc {
     std::string mime_type;           ///< "image/png", "image/jpeg", or empty if the file did not say
     int width = 0;                   ///< pixels, from the image's header
     int height = 0;                  ///< pixels, from the image's header
+    bool unreadable = false;         ///< missing or broken: there is neither path nor bytes, and nothing shows it
     SourceLocation location;
 };
 

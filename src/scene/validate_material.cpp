@@ -110,6 +110,7 @@ void validate_material(const MaterialDesc& m, const SceneDesc& scene, ProblemLis
     in_range(m.specular, 0.0, 1.0, "specular");
     check_range(m.specular_color, 0.0, std::numeric_limits<double>::infinity(), "specular colour", m.location,
                 problems);
+    in_range(m.glossiness.value_or(0.0f), 0.0, 1.0, "glossiness");
     if (m.ior != 0.0f) in_range(m.ior, 1.0, kInfinity, "ior (other than 0)");
 
     validate_layers(m, problems);
@@ -124,6 +125,7 @@ void validate_material(const MaterialDesc& m, const SceneDesc& scene, ProblemLis
 
 void validate_images_and_textures(const SceneDesc& scene, ProblemList& problems) {
     for (const ImageDesc& image : scene.images) {
+        if (image.unreadable) continue;
         if (image.path.empty() == image.encoded.empty()) {
             problems.error(image.location, "an image must be either a file or bytes in memory");
         }

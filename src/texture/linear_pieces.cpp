@@ -1,5 +1,6 @@
 #include "texture/linear_pieces.h"
 
+#include "image/finite.h"
 #include "texture/mip_chain.h"
 #include "texture/srgb.h"
 
@@ -26,8 +27,7 @@ void LinearPieces::read_tile(int level, int x, int y, std::span<float> values) {
 }
 
 void LinearPieces::linearize(std::span<float> values) const {
-    for (float& value : values)
-        if (!std::isfinite(value)) value = 0.0f;
+    (void)make_finite(values);
     if (encoding_ == Encoding::Linear) return;
     const int channels = info_.decoded_channels;
     const bool is_8bit = reader_.info().depth == TexelDepth::UInt8;

@@ -9,8 +9,8 @@
 
 namespace etendue {
 
-/// Integers under a curve become 16-bit floats, everything else keeps its depth; what is not finite becomes 0. The
-/// file's own mip levels are shown if they reach 1 × 1.
+/// Integers under a curve become 16-bit floats, everything else keeps its depth; what is not finite becomes its
+/// `finite_value`. The file's own mip levels are shown if they reach 1 × 1.
 class LinearPieces final : public ImagePieces {
   public:
     /// Bytes in memory must outlive it. Throws IoError as ImageReader does.

@@ -1,5 +1,6 @@
 #include "texture/mip_chain.h"
 
+#include "image/finite.h"
 #include "texture/slope_rows.h"
 #include "texture/wrap.h"
 
@@ -143,9 +144,7 @@ std::vector<T> MipChain::take_levels(std::vector<NativeImage>& images) {
         }
     }
     // One texel that is no number would spoil all that it is averaged with.
-    if constexpr (!std::is_integral_v<T>)
-        for (T& value : values)
-            if (!std::isfinite(static_cast<float>(value))) value = T(0.0f);
+    if constexpr (!std::is_integral_v<T>) (void)make_finite(std::span(values));
     return values;
 }
 

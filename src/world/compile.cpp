@@ -10,6 +10,7 @@
 #include <chrono>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace etendue {
 
@@ -31,6 +32,20 @@ XyzToWorking xyz_to_working(const ColorMatrix& from_rec709) {
 
 std::uint64_t texture_budget(const SceneDesc& scene) {
     return scene.settings.texture_memory.value_or(default_texture_memory());
+}
+
+/// Makes the textures that materials ask for, and again the materials if some do without.
+void compile_textures(SceneDesc& scene, TextureCompiler& textures, const ThreadPool& threads, WorldData& data,
+                      ProblemList& problems) {
+    const std::uint64_t budget = texture_budget(scene);
+    for (;;) {
+        const std::vector<std::size_t> unreadable = textures.finish(budget, threads, data, problems);
+        if (unreadable.empty()) break;
+        for (const std::size_t image : unreadable) scene.images[image].unreadable = true;
+        leave_out_unreadable_images(scene);
+        compile_materials(scene, textures, data);
+    }
+    data.missing_textures = count_missing_textures(scene);
 }
 
 }  // namespace
@@ -65,7 +80,7 @@ World compile_world(SceneDesc scene, const ColorConfig& colors, const std::strin
     TextureCompiler textures(scene);
     compile_materials(scene, textures, data);
     end_phase("materials");
-    textures.finish(texture_budget(scene), threads, data);
+    compile_textures(scene, textures, threads, data, problems);
     end_phase("textures");
     compile_geometry(scene, threads, options.most_copied_triangles, data);
     compile_bodies(scene, data, problems);

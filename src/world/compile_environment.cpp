@@ -1,11 +1,12 @@
 #include "image/displayed.h"
+#include "image/finite.h"
 #include "image/read.h"
 #include "texture/cube_map.h"
 #include "world/compile_parts.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -25,27 +26,6 @@ void store(const Rgb& value, std::span<float> pixel) {
     pixel[2] = value.b;
 }
 
-/// Puts right what is no radiance in `image`, a file's pixels, with a warning. An infinity is what half precision makes
-/// of a sun that is too bright for it, and becomes the largest number that it holds.
-void repair_radiance(ImageF& image, const EnvironmentDesc& desc, ProblemList& problems) {
-    constexpr float kLargestHalf = 65504.0f;
-    std::size_t infinite = 0;
-    std::size_t no_number = 0;
-    for (float& value : image.pixels) {
-        if (std::isfinite(value)) continue;
-        const bool is_bright = std::isinf(value) && value > 0.0f;
-        ++(is_bright ? infinite : no_number);
-        value = is_bright ? kLargestHalf : 0.0f;
-    }
-    const auto warn = [&](std::size_t count, const char* what) {
-        if (count > 0)
-            problems.warning(desc.location, std::to_string(count) + " values of the environment image '" +
-                                                desc.image.string() + "' are " + what);
-    };
-    warn(infinite, "infinite, and are taken for 65504, the largest of half precision");
-    warn(no_number, "no numbers, and are taken for 0");
-}
-
 Light compile_image(const EnvironmentDesc& desc, const ColorMatrix& from_rec709, ProblemList& problems) {
     const Rgb tint = desc.color * desc.scale;
     ImageF file;
@@ -55,7 +35,8 @@ Light compile_image(const EnvironmentDesc& desc, const ColorMatrix& from_rec709,
         throw SceneError(desc.location,
                          "the environment image '" + desc.image.string() + "' cannot be read: " + error.what());
     }
-    repair_radiance(file, desc, problems);
+    warn_of_repairs(make_finite(std::span(file.pixels)), "the environment image '" + desc.image.string() + "'",
+                    desc.location, problems);
     ImageF image(file.width, file.height, 3);
     for (int y = 0; y < file.height; ++y) {
         for (int x = 0; x < file.width; ++x) {

@@ -96,6 +96,7 @@ GltfModel compile_gltf(const MaterialDesc& desc, TextureCompiler& textures) {
     model.specular_texture = textures.slot(desc.specular_texture, TextureUse::Data);
     model.specular_color = desc.specular_color;
     model.specular_color_texture = textures.slot(desc.specular_color_texture, TextureUse::Color);
+    model.glossiness = desc.glossiness;
     model.transmission = desc.transmission;
     model.transmission_texture = textures.slot(desc.transmission_texture, TextureUse::Data);
     // An infinite index reflects everything.
@@ -159,6 +160,8 @@ Material compile_material(const MaterialDesc& desc, const ColorMatrix& from_rec7
 }  // namespace
 
 void compile_materials(const SceneDesc& scene, TextureCompiler& textures, WorldData& data) {
+    data.materials.clear();
+    data.fillings.clear();
     data.materials.reserve(scene.materials.size());
     for (const MaterialDesc& desc : scene.materials) {
         data.materials.push_back(compile_material(desc, data.from_rec709, textures));

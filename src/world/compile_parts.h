@@ -4,6 +4,7 @@
 #include "color/color_config.h"
 #include "core/error.h"
 #include "core/parallel.h"
+#include "image/finite.h"
 #include "image/read.h"
 #include "scene/scene_desc.h"
 #include "world/world.h"
@@ -29,26 +30,41 @@ class TextureCompiler {
     /// The slot for `ref`; invalid if `ref` is.
     [[nodiscard]] TextureSlot slot(const TextureRef& ref, TextureUse use);
     /// Makes the textures asked for: in memory if all of them fit into `budget` bytes, which is known from the images'
-    /// headers, else through a cache of that size. Throws SceneError if an image cannot be read.
-    void finish(std::uint64_t budget, const ThreadPool& threads, WorldData& data) const;
+    /// headers, else through a cache of that size. If images cannot be read, nothing is made and nothing asked for any
+    /// more, and it returns them, with a warning each. Throws SceneError if that is an error, or one takes too much
+    /// memory.
+    [[nodiscard]] std::vector<std::size_t> finish(std::uint64_t budget, const ThreadPool& threads, WorldData& data,
+                                                  ProblemList& problems);
     /// What the textures asked for take in memory. Throws SceneError if an image cannot be read.
     [[nodiscard]] std::uint64_t bytes_in_memory() const;
 
   private:
     using Request = std::pair<std::size_t, TextureUse>;  ///< texture of the scene, and its use
+    /// A decoded texture, and what of its image was put right.
+    struct Loaded {
+        Texture texture;
+        RepairedValues repaired;
+        int whole_rows;  ///< before the first that is broken
+    };
     [[nodiscard]] const ImageDesc& image_of(const Request& request) const;
     [[nodiscard]] ImageInfo info_of(const Request& request) const;
-    /// Decodes the whole texture. Throws SceneError if its image cannot be read.
-    [[nodiscard]] Texture load(const Request& request, const ImageInfo& info) const;
-    void load_resident(std::span<const ImageInfo> infos, const ThreadPool& threads, WorldData& data) const;
+    /// Calls `step(i)` for each request, and returns the images that could not be read.
+    template <typename Step>
+    [[nodiscard]] std::vector<std::size_t> for_each_request(const ThreadPool& threads, ProblemList& problems,
+                                                            const Step& step) const;
+    void warn_of_cut_images(std::span<const std::uint8_t> is_cut, ProblemList& problems) const;
+    [[nodiscard]] Loaded load(const Request& request, const ImageInfo& info) const;
+    [[nodiscard]] std::vector<std::size_t> load_resident(std::span<const ImageInfo> infos, const ThreadPool& threads,
+                                                         WorldData& data, ProblemList& problems);
     void open_cached(std::span<const ImageInfo> infos, std::uint64_t budget, WorldData& data) const;
 
     const SceneDesc& scene_;
     std::vector<Request> requests_;
     std::map<Request, std::size_t> index_of_;
+    std::map<Request, Loaded> loaded_;  ///< by rounds that came to nothing
 };
 
-/// Materials and what fills their bodies. Needs the working space in `data`.
+/// Materials and what fills their bodies, in place of those that are there. Needs the working space in `data`.
 void compile_materials(const SceneDesc& scene, TextureCompiler& textures, WorldData& data);
 
 /// What fills the closed surfaces of a material, if it has such.

@@ -1,11 +1,24 @@
+#include "core/refused_input.h"
 #include "image/displayed.h"
+#include "image/finite.h"
+#include "image/image_reader.h"
+#include "image/jpeg.h"
+#include "image/read.h"
 #include "world/compile_parts.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+#include <fmt/format.h>
 
 namespace etendue {
 
@@ -53,14 +66,60 @@ ImageSource source_of(const ImageDesc& image) {
     return image.path.empty() ? ImageSource(std::span<const std::byte>(image.encoded)) : ImageSource(image.path);
 }
 
+/// "the image 'a.exr'", as messages call it.
+std::string name_of(const ImageDesc& image) {
+    return image.path.empty() ? "the image" : "the image '" + image.path.filename().string() + "'";
+}
+
+SceneError cannot_be_decoded(const ImageDesc& image, const IoError& error) {
+    return {image.location, fmt::format("{} cannot be decoded: {}", name_of(image), error.what())};
+}
+
 /// Runs `step`; what it cannot read is blamed on `image`.
 template <typename Step>
 auto read_or_blame(const ImageDesc& image, const Step& step) {
     try {
         return step();
     } catch (const IoError& error) {
-        throw SceneError(image.location, std::string("the image cannot be decoded: ") + error.what());
+        throw cannot_be_decoded(image, error);
     }
+}
+
+/// Puts right what is no number in the image itself; of integers, nothing.
+RepairedValues make_finite(NativeImage& image) {
+    return std::visit(
+        [](auto& pixels) -> RepairedValues {
+            using Value = typename std::decay_t<decltype(pixels.pixels)>::value_type;
+            if constexpr (std::is_integral_v<Value>)
+                return {};
+            else
+                return etendue::make_finite(std::span(pixels.pixels));
+        },
+        image);
+}
+
+/// The rows of an image before the first that is broken, whose place the last of them takes.
+struct WholeRows {
+    ImageF image;
+    int count = 0;
+};
+
+WholeRows read_whole_rows(const ImageSource& source) {
+    ImageReader reader(source);
+    WholeRows rows{ImageF(reader.info().width, reader.info().height, reader.info().decoded_channels)};
+    if (reader.tile().width > 0) return rows;
+    const std::size_t length = rows.image.pixels.size() / static_cast<std::size_t>(rows.image.height);
+    const auto row = [&](int y) {
+        return std::span(rows.image.pixels).subspan(static_cast<std::size_t>(y) * length, length);
+    };
+    try {
+        for (; rows.count < rows.image.height; ++rows.count)
+            reader.read_rows(0, rows.count, rows.count + 1, row(rows.count));
+    } catch (const IoError&) {
+        for (int y = rows.count; y < rows.image.height && rows.count > 0; ++y)
+            std::ranges::copy(row(rows.count - 1), row(y).begin());
+    }
+    return rows;
 }
 
 std::uint64_t resident_bytes(TextureUse use, const ImageInfo& info) {
@@ -94,44 +153,127 @@ const ImageDesc& TextureCompiler::image_of(const Request& request) const {
 }
 
 ImageInfo TextureCompiler::info_of(const Request& request) const {
-    const ImageDesc& image = image_of(request);
-    return read_or_blame(image, [&] { return read_displayed_info(source_of(image)); });
+    return read_displayed_info(source_of(image_of(request)));
 }
 
 std::uint64_t TextureCompiler::bytes_in_memory() const {
     std::uint64_t bytes = 0;
-    for (const Request& request : requests_) bytes += resident_bytes(request.second, info_of(request));
+    for (const Request& request : requests_)
+        bytes += resident_bytes(request.second, read_or_blame(image_of(request), [&] { return info_of(request); }));
     return bytes;
 }
 
-void TextureCompiler::finish(std::uint64_t budget, const ThreadPool& threads, WorldData& data) const {
-    std::vector<ImageInfo> infos(requests_.size());
-    threads.parallel_for(requests_.size(), [&](std::size_t i, int) { infos[i] = info_of(requests_[i]); });
-    std::uint64_t needed = 0;
-    for (std::size_t i = 0; i < infos.size(); ++i) needed += resident_bytes(requests_[i].second, infos[i]);
-    data.textures.reserve(requests_.size());
-    if (needed <= budget)
-        load_resident(infos, threads, data);
-    else
-        open_cached(infos, budget, data);
-}
-
-Texture TextureCompiler::load(const Request& request, const ImageInfo& info) const {
-    const ImageDesc& image = image_of(request);
-    const Encoding encoding = encoding_of(request.second, info);
-    return read_or_blame(image, [&] {
-        MipChain texels(read_displayed_levels(source_of(image)), encoding);
-        const TextureOptions options = options_of(scene_.textures[request.first], encoding);
-        if (request.second == TextureUse::NormalMap) texels.keep_slopes(!options.nearest);
-        return Texture(std::move(texels), options);
+template <typename Step>
+std::vector<std::size_t> TextureCompiler::for_each_request(const ThreadPool& threads, ProblemList& problems,
+                                                           const Step& step) const {
+    std::vector<std::string> failures(requests_.size());
+    threads.parallel_for(requests_.size(), [&](std::size_t i, int) {
+        try {
+            step(i);
+        } catch (const RefusedInput& error) {
+            throw cannot_be_decoded(image_of(requests_[i]), error);
+        } catch (const IoError& error) {
+            if (scene_.settings.missing_textures == MissingTextures::Error)
+                throw cannot_be_decoded(image_of(requests_[i]), error);
+            failures[i] = error.what();
+        }
     });
+    std::vector<std::size_t> unreadable;
+    for (std::size_t i = 0; i < requests_.size(); ++i) {
+        if (failures[i].empty()) continue;
+        const ImageDesc& image = image_of(requests_[i]);
+        const auto index = static_cast<std::size_t>(&image - scene_.images.data());
+        if (std::ranges::find(unreadable, index) != unreadable.end()) continue;
+        unreadable.push_back(index);
+        problems.warning(image.location,
+                         fmt::format("{} cannot be decoded: {}; materials do without it", name_of(image), failures[i]));
+    }
+    return unreadable;
 }
 
-void TextureCompiler::load_resident(std::span<const ImageInfo> infos, const ThreadPool& threads,
-                                    WorldData& data) const {
-    std::vector<std::optional<Texture>> loaded(requests_.size());
-    threads.parallel_for(requests_.size(), [&](std::size_t i, int) { loaded[i] = load(requests_[i], infos[i]); });
-    for (std::optional<Texture>& texture : loaded) data.textures.push_back(std::move(*texture));
+void TextureCompiler::warn_of_cut_images(std::span<const std::uint8_t> is_cut, ProblemList& problems) const {
+    std::set<const ImageDesc*> cut;
+    for (std::size_t i = 0; i < requests_.size(); ++i) {
+        const ImageDesc& image = image_of(requests_[i]);
+        if (is_cut[i] == 1 && cut.insert(&image).second)
+            problems.warning(image.location,
+                             fmt::format("the data of {} ends early: the rest of it is made up", name_of(image)));
+    }
+}
+
+std::vector<std::size_t> TextureCompiler::finish(std::uint64_t budget, const ThreadPool& threads, WorldData& data,
+                                                 ProblemList& problems) {
+    std::vector<ImageInfo> infos(requests_.size());
+    std::vector<std::uint8_t> is_cut(requests_.size());
+    std::vector<std::size_t> unreadable = for_each_request(threads, problems, [&](std::size_t i) {
+        infos[i] = info_of(requests_[i]);
+        is_cut[i] = is_cut_jpeg(source_of(image_of(requests_[i]))) ? 1 : 0;
+    });
+    if (unreadable.empty()) {
+        std::uint64_t needed = 0;
+        for (std::size_t i = 0; i < infos.size(); ++i) needed += resident_bytes(requests_[i].second, infos[i]);
+        data.textures.reserve(requests_.size());
+        if (needed <= budget)
+            unreadable = load_resident(infos, threads, data, problems);
+        else
+            open_cached(infos, budget, data);
+    }
+    if (unreadable.empty()) {
+        warn_of_cut_images(is_cut, problems);
+        return {};
+    }
+    requests_.clear();
+    index_of_.clear();
+    return unreadable;
+}
+
+TextureCompiler::Loaded TextureCompiler::load(const Request& request, const ImageInfo& info) const {
+    const ImageSource source = source_of(image_of(request));
+    std::vector<NativeImage> levels;
+    int whole_rows = info.height;
+    try {
+        levels = read_displayed_levels(source);
+    } catch (const RefusedInput&) {
+        throw;
+    } catch (const IoError&) {
+        if (scene_.settings.missing_textures == MissingTextures::Error || !fills_display(info)) throw;
+        WholeRows rows = read_whole_rows(source);
+        whole_rows = rows.count;
+        if (whole_rows == 0) throw;
+        levels.emplace_back(std::move(rows.image));
+    }
+    const RepairedValues repaired = make_finite(levels.front());
+    const Encoding encoding = encoding_of(request.second, info);
+    MipChain texels(std::move(levels), encoding);
+    const TextureOptions options = options_of(scene_.textures[request.first], encoding);
+    if (request.second == TextureUse::NormalMap) texels.keep_slopes(!options.nearest);
+    return {Texture(std::move(texels), options), repaired, whole_rows};
+}
+
+std::vector<std::size_t> TextureCompiler::load_resident(std::span<const ImageInfo> infos, const ThreadPool& threads,
+                                                        WorldData& data, ProblemList& problems) {
+    std::vector<std::optional<Loaded>> loaded(requests_.size());
+    std::vector<std::size_t> unreadable = for_each_request(threads, problems, [&](std::size_t i) {
+        if (!loaded_.contains(requests_[i])) loaded[i] = load(requests_[i], infos[i]);
+    });
+    for (std::size_t i = 0; i < requests_.size(); ++i)
+        if (loaded[i]) loaded_.emplace(requests_[i], std::move(*loaded[i]));
+    if (!unreadable.empty()) return unreadable;
+    std::set<const ImageDesc*> reported;
+    for (const Request& request : requests_) {
+        Loaded& made = loaded_.at(request);
+        const ImageDesc& image = image_of(request);
+        if (reported.insert(&image).second) {
+            warn_of_repairs(made.repaired, name_of(image), image.location, problems);
+            if (made.whole_rows < image.height)
+                problems.warning(image.location,
+                                 fmt::format("the data of {} is cut off or broken from row {} of {} on: "
+                                             "the row before takes the place of the rest",
+                                             name_of(image), made.whole_rows, image.height));
+        }
+        data.textures.push_back(std::move(made.texture));
+    }
+    return {};
 }
 
 void TextureCompiler::open_cached(std::span<const ImageInfo> infos, std::uint64_t budget, WorldData& data) const {
@@ -139,11 +281,12 @@ void TextureCompiler::open_cached(std::span<const ImageInfo> infos, std::uint64_
     // Embedded images are copied: the scene does not outlive compilation. Once, however many textures show them.
     std::map<const ImageDesc*, std::shared_ptr<const std::vector<std::byte>>> embedded;
     for (std::size_t i = 0; i < requests_.size(); ++i) {
+        const ImageDesc& image = image_of(requests_[i]);
         if (!fills_display(infos[i])) {
-            data.textures.push_back(load(requests_[i], infos[i]));
+            data.textures.push_back(
+                read_or_blame(image, [&] { return std::move(load(requests_[i], infos[i]).texture); }));
             continue;
         }
-        const ImageDesc& image = image_of(requests_[i]);
         TextureCache::Source source = image.path;
         if (image.path.empty()) {
             auto& bytes = embedded[&image];

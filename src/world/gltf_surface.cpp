@@ -43,6 +43,8 @@ struct Specular {
           tint(scaled(data, model.specular_color, model.specular_color_texture, point)) {}
 
     [[nodiscard]] bool is_tinted() const { return !(tint == Rgb(1.0f)); }
+    /// What KHR_materials_pbrSpecularGlossiness leaves of the base colour.
+    [[nodiscard]] float not_reflected() const { return 1.0f - unit(max_component(tint)); }
     [[nodiscard]] Rgb f0(const WorldData& data, float f0) const {
         return (is_tinted() ? clamp_unit(data.from_rec709(tint * f0)) : Rgb(f0)) * weight;
     }
@@ -86,6 +88,8 @@ void set_anisotropy(const WorldData& data, const GltfLayers& layers, const Surfa
 }
 
 Rgb metallic_roughness_texel(const WorldData& data, const GltfModel& model, const SurfacePoint& point) {
+    if (model.glossiness)
+        return Rgb(1.0f - unit(scaled(data, *model.glossiness, model.specular_color_texture, point, alpha)));
     return scaled(data, Rgb(1.0f), model.metallic_roughness_texture, point);
 }
 
@@ -146,6 +150,7 @@ Bsdf evaluate_gltf_surface(const WorldData& data, const GltfModel& model, const 
     lobe.base = evaluate_base_color(data, model, point);
     set_metallic_roughness(model, metallic_roughness_texel(data, model, point), lobe);
     const Specular specular(data, model, point);
+    if (model.glossiness) lobe.base *= specular.not_reflected();
     lobe.f90 = specular.weight;
     lobe.f0 = specular.f0(data, model.f0);
     lobe.transmission = unit(scaled(data, model.transmission, model.transmission_texture, point, red));

@@ -69,6 +69,7 @@ struct GltfModel {
     TextureSlot specular_texture;
     Rgb specular_color{1.0f};  ///< linear Rec.709
     TextureSlot specular_color_texture;
+    std::optional<float> glossiness;  ///< KHR_materials_pbrSpecularGlossiness, as in scene/material_desc.h
     float transmission = 0.0f;
     TextureSlot transmission_texture;
     bool refracts = false;  ///< the surface of a closed body rather than a thin sheet

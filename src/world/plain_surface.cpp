@@ -27,7 +27,7 @@ std::optional<PlainSurface> make_plain_surface(const WorldData& data, const Mate
     untextured.base_color_texture = untextured.metallic_roughness_texture = TextureSlot{};
     const bool coordinates_differ =
         base_color.valid() && metallic_roughness.valid() && base_color.texcoord != metallic_roughness.texcoord;
-    if (untextured.is_textured() || coordinates_differ) return std::nullopt;
+    if (untextured.is_textured() || coordinates_differ || model.glossiness) return std::nullopt;
     const Bsdf bsdf = evaluate_gltf_surface(data, untextured, SurfacePoint{}, 0.0f, false);
     const auto* lobe = std::get_if<MetallicRoughness>(&bsdf);
     if (lobe == nullptr || !lobe->is_plain()) return std::nullopt;

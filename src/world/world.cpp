@@ -493,6 +493,7 @@ WorldStatistics World::statistics() const {
     s.material_bytes =
         vector_bytes(data_->materials, data_->fillings, plain_surfaces_.of_material, plain_surfaces_.of_geometry);
     s.textures = data_->textures.size();
+    s.missing_textures = data_->missing_textures;
     for (const Texture& texture : data_->textures) s.texture_bytes += texture.bytes();
     if (data_->texture_cache) {
         s.texture_bytes = static_cast<std::size_t>(data_->texture_cache->bytes());

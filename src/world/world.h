@@ -82,6 +82,7 @@ struct WorldStatistics {
     std::size_t material_bytes = 0;
     std::size_t light_bytes = 0;  ///< of lights, the image of an environment included, and of the choice between them
     std::size_t textures = 0;
+    std::size_t missing_textures = 0;          ///< images that could not be read, which materials do without
     std::size_t texture_bytes = 0;             ///< held in memory: all of them, or tiles in the cache
     bool textures_cached = false;              ///< some did not fit, so that all come through a cache
     std::uint64_t texture_cache_budget = 0;    ///< bytes
@@ -104,6 +105,7 @@ struct WorldData {
     std::vector<Material> materials;
     std::unique_ptr<TextureCache> texture_cache;  ///< null if all textures are resident
     std::vector<Texture> textures;
+    std::size_t missing_textures = 0;  ///< images that materials do without
     std::vector<Light> lights;
     std::vector<Emitter> emitter_of_light;     ///< of each light
     std::vector<std::uint32_t> light_of_slot;  ///< light index of (instance, geometry), kNone if it is not sampled

@@ -568,6 +568,22 @@ TEST_F(CommandLine, InspectReportsEveryProblem) {
     EXPECT_EQ(errors, 2) << result.out;
 }
 
+TEST_F(CommandLine, MissingTexturesAreWarningsOrErrors) {
+    const std::string box = scene("box");
+    name_missing_texture(box);
+    const ProgramResult rendered = run({"render", box, "--spp", "1", "-o", "a.exr"});
+    EXPECT_EQ(rendered.exit_code, 0) << rendered.err;
+    EXPECT_NE(rendered.err.find("scene.gltf#/images/0: image file 'missing.hdr': the file does not exist"),
+              std::string::npos)
+        << rendered.err;
+    EXPECT_EQ(json::parse(read_file(work_ / "a.json")).at("missing_textures"), 1);
+    EXPECT_EQ(json::parse(run({"inspect", box, "--json"}).out).at("missing_textures"), 1);
+    for (const char* command : {"render", "inspect"}) {
+        const ProgramResult refused = run({command, box, "--missing-textures", "error"});
+        EXPECT_EQ(refused.exit_code, 3) << command << refused.err;
+    }
+}
+
 }  // namespace
 
 }  // namespace etendue::test

@@ -77,6 +77,12 @@ TEST(SettingsOverrides, TextureMemoryHasAUnit) {
         EXPECT_THROW(parse({"--texture-memory", bad}), CLI::ValidationError) << bad;
 }
 
+TEST(SettingsOverrides, MissingTexturesMatterWhenTheSceneIsLoaded) {
+    EXPECT_EQ(parse({}).moment.missing_textures, std::nullopt);
+    EXPECT_EQ(parse({"--missing-textures", "warn"}).moment.missing_textures, MissingTextures::Warn);
+    EXPECT_EQ(parse({"--missing-textures", "error"}).moment.missing_textures, MissingTextures::Error);
+}
+
 TEST(SettingsOverrides, WhatIsStatedWinsOverQuality) {
     SceneDesc scene = scene_of(640, 360, 100);
     parse({"--size", "100x50", "--quality", "draft", "--spp", "7", "--crop", "1,2,30,40"}).apply(scene);
@@ -206,6 +212,7 @@ TEST(SettingsOverrides, NonsenseIsAUsageError) {
                                                        {"--integrator", "photons"},
                                                        {"--environment", "/no/such/file.exr"},
                                                        {"--light-units", "watts"},
+                                                       {"--missing-textures", "pink"},
                                                        {"--half", "--float"},
                                                        {"--colour", "red"}};
     for (const auto& arguments : bad)

@@ -68,6 +68,20 @@ void write_scene(const fs::path& directory, const std::string& extra) {
                "{" + extra + R"("resolution": [16, 12], "spp": 2, "camera": "main", "environment": {}})");
 }
 
+void name_missing_texture(const fs::path& directory) {
+    std::string text = read_file(directory / "scene.gltf");
+    constexpr std::string_view kPrimitive = R"({"attributes": {"POSITION": 0}})";
+    text.replace(text.find(kPrimitive), kPrimitive.size(), R"({"material": 0, "attributes": {"POSITION": 0}})");
+    text.insert(text.rfind('}'), R"(, "images": [{"uri": "missing.hdr"}], "textures": [{"source": 0}],
+  "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}]
+)");
+    write_file(directory / "scene.gltf", text);
+}
+
+std::string hdr_bytes() {
+    return "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n" + std::string(4, '\1');
+}
+
 std::string animated_scene(const std::string& directory) {
     std::string text = read_file(directory + "/scene.gltf");
     const auto replace = [&text](const std::string& from, const std::string& to) {

@@ -31,6 +31,11 @@ void write_file(const std::filesystem::path& file, const std::string& text);
 /// `extra` is put into render.json, for example `"seed": 3,`.
 void write_scene(const std::filesystem::path& directory, const std::string& extra = "");
 
+/// Gives the triangle of such a scene a texture, "missing.hdr", which is not there.
+void name_missing_texture(const std::filesystem::path& directory);
+/// An image of one pixel that may lie there.
+[[nodiscard]] std::string hdr_bytes();
+
 /// Makes the triangle of such a scene move to the right, off the screen, in the second after time 0. Returns
 /// `directory`.
 std::string animated_scene(const std::string& directory);

@@ -98,6 +98,20 @@ TEST_F(UpToDate, NotWhenThereAreNewInputs) {
     EXPECT_EQ(reason(), "input render.json is new");
 }
 
+TEST_F(UpToDate, NotWhenATextureIsThereThatWasMissingOrBroken) {
+    name_missing_texture(scene_);
+    write_report();
+    EXPECT_EQ(reason(), "");
+    write_file(scene_ / "missing.hdr", "no image");
+    EXPECT_EQ(reason(), "") << "materials do without it still";
+    write_file(scene_ / "missing.hdr", hdr_bytes());
+    EXPECT_EQ(reason(), "input missing.hdr is new");
+    write_report();
+    EXPECT_EQ(reason(), "");
+    fs::remove(scene_ / "missing.hdr");
+    EXPECT_EQ(reason(), "input missing.hdr is missing");
+}
+
 TEST_F(UpToDate, AlsoWhereTheSceneHasBeenMovedOrCopied) {
     fs::rename(scene_, folder_ / "moved");
     scene_ = folder_ / "moved";

@@ -35,6 +35,22 @@ float largest_difference(const ImageF& decoded, const ImageF& image) {
     return largest;
 }
 
+TEST(Jpeg, IsCutOffWithoutItsEndMarker) {
+    const std::vector<unsigned char> whole = encode_jpeg(wave(50, 30, 3), 90);
+    const auto cut = [](std::span<const unsigned char> bytes) { return is_cut_jpeg(std::as_bytes(bytes)); };
+    EXPECT_FALSE(cut(whole));
+    std::vector<unsigned char> longer = whole;
+    longer.resize(whole.size() + 100);
+    EXPECT_FALSE(cut(longer)) << "what follows the end does not matter";
+    for (std::size_t length = 30; length < whole.size(); ++length)
+        EXPECT_TRUE(cut(std::span(whole).first(length))) << length;
+    // A comment may hold an image of its own: it is passed over.
+    std::vector<unsigned char> comment{0xff, 0xd8, 0xff, 0xfe, 0x00, 0x06, 0xff, 0xd8, 0xff, 0xd9};
+    comment.insert(comment.end(), whole.begin() + 2, whole.end() - 2);
+    EXPECT_TRUE(cut(comment));
+    EXPECT_FALSE(is_cut_jpeg(std::as_bytes(std::span("\x89PNG\r\n\x1a\n"))));
+}
+
 TEST(Jpeg, HoldsTheImage) {
     for (const int channels : {1, 3}) {
         const ImageF image = wave(50, 30, channels);

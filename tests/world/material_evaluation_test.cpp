@@ -98,6 +98,68 @@ TEST_F(MaterialEvaluation, SpecularTintsAndWeakensTheReflection) {
     EXPECT_NEAR(lobe.f0.b, factor, 1e-5f);
 }
 
+/// A material of KHR_materials_pbrSpecularGlossiness, as the loader makes it.
+MaterialDesc specular_glossiness(const Rgb& diffuse, const Rgb& specular, float glossiness) {
+    MaterialDesc material;
+    material.base_color = diffuse;
+    material.metallic = 0.0f;
+    material.ior = 0.0f;
+    material.specular_color = specular;
+    material.glossiness = glossiness;
+    return material;
+}
+
+TEST_F(MaterialEvaluation, SpecularGlossinessIsReadAtEachTexel) {
+    MaterialDesc material = specular_glossiness({0.8f, 0.5f, 0.2f}, {0.9f, 0.6f, 0.3f}, 0.75f);
+    material.specular_color_texture.texture = texture(2, {{200, 150, 100, 51}, {60, 255, 30, 204}});
+    material.base_color_texture.texture = texture(1, {{188, 188, 188, 255}});
+    const World world = world_with(material);
+    const std::array<std::array<int, 4>, 2> texels{{{200, 150, 100, 51}, {60, 255, 30, 204}}};
+    for (const std::size_t i : {0u, 1u}) {
+        const MetallicRoughness lobe = lobe_at(world, i == 0 ? -0.5f : 0.5f, 0.1f);
+        const Rgb specular(static_cast<float>(0.9 * srgb_to_linear(texels[i][0])),
+                           static_cast<float>(0.6 * srgb_to_linear(texels[i][1])),
+                           static_cast<float>(0.3 * srgb_to_linear(texels[i][2])));
+        const float diffuse = static_cast<float>(srgb_to_linear(188)) * (1.0f - max_component(specular));
+        const float roughness = 1.0f - 0.75f * static_cast<float>(texels[i][3]) / 255.0f;
+        for (const std::size_t c : {0u, 1u, 2u}) {
+            EXPECT_NEAR((&lobe.f0.r)[c], (&specular.r)[c], 1e-5f) << i;
+            EXPECT_NEAR((&lobe.base.r)[c], (&material.base_color.r)[c] * diffuse, 1e-5f) << i;
+        }
+        EXPECT_NEAR(lobe.alpha_x, roughness * roughness, 1e-5f) << i;
+        EXPECT_EQ(lobe.alpha_y, lobe.alpha_x);
+        EXPECT_EQ(lobe.f90, 1.0f);
+        EXPECT_EQ(lobe.metallic, 0.0f);
+    }
+}
+
+// A mirror reflects F0 + (1 - F0) (1 - cos)^5, and what is below is c_diff times what that lets through at both ends.
+TEST_F(MaterialEvaluation, SpecularGlossinessScattersAsItsFormulaSays) {
+    const Rgb diffuse(0.8f, 0.5f, 0.2f);
+    const Rgb specular(0.7f, 0.4f, 0.1f);
+    const MetallicRoughness lobe = lobe_at(world_with(specular_glossiness(diffuse, specular, 1.0f)), 0.1f, 0.1f);
+    const auto fresnel = [](double f0, double cosine) { return f0 + (1.0 - f0) * std::pow(1.0 - cosine, 5.0); };
+    const double average = 0.7 + 0.3 / 21.0;
+    for (const float o : {0.2f, 0.6f, 1.0f}) {
+        const Vec3f wo(std::sqrt(1.0f - o * o), 0.0f, o);
+        DeltaList deltas;
+        lobe.add_deltas(wo, deltas);
+        ASSERT_NE(deltas.begin(), deltas.end());
+        for (const std::size_t c : {0u, 1u, 2u}) {
+            const double f0 = static_cast<double>((&specular.r)[c]);
+            EXPECT_NEAR((&deltas.begin()->weight.r)[c], fresnel(f0, static_cast<double>(o)), 1e-5) << o;
+            for (const float i : {0.3f, 0.9f}) {
+                const double passed = (1.0 - fresnel(0.7, static_cast<double>(o))) *
+                                      (1.0 - fresnel(0.7, static_cast<double>(i))) / (1.0 - average);
+                const double c_diff = static_cast<double>((&diffuse.r)[c]) * (1.0 - 0.7);
+                const Rgb value = lobe.evaluate_parts(wo, {0.0f, std::sqrt(1.0f - i * i), i}).diffuse;
+                EXPECT_NEAR((&value.r)[c], c_diff * passed * static_cast<double>(i) / static_cast<double>(kPi), 1e-5)
+                    << o << ' ' << i;
+            }
+        }
+    }
+}
+
 TEST_F(MaterialEvaluation, AnIndexOfZeroReflectsEverything) {
     MaterialDesc material;
     material.ior = 0.0f;

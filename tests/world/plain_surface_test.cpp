@@ -71,6 +71,10 @@ TEST_F(PlainSurfaces, AreNotWhatMirrorsEmitsOrHasMoreLayers) {
     EXPECT_FALSE(is_plain([](MaterialDesc& m) { m.unlit = true; }));
     EXPECT_FALSE(is_plain([](MaterialDesc& m) { m.normal_texture.texture = {0}; }));
     EXPECT_FALSE(is_plain([](MaterialDesc& m) { m.transmission = 0.5f; }));
+    EXPECT_FALSE(is_plain([](MaterialDesc& m) {
+        m.base_color_texture.texture = {0};
+        m.glossiness = 0.5f;
+    })) << "the base colour is dimmed at each point";
     EXPECT_FALSE(is_plain([](MaterialDesc& m) { m.clearcoat.factor = 1.0f; }));
     EXPECT_FALSE(is_plain([](MaterialDesc& m) {
         m.base_color_texture.texture = {0};

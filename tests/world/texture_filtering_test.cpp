@@ -1,4 +1,6 @@
-// Footprints, curvature and the choice between the two ways to hold textures.
+// Footprints, curvature, the choice between the two ways to hold textures, and textures that are broken.
+#include "image/jpeg.h"
+#include "image/write.h"
 #include "world/test_scene.h"
 
 #include <algorithm>
@@ -6,6 +8,11 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <span>
+#include <string>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -207,10 +214,24 @@ TEST_F(TextureFiltering, TexturesAreResidentIfTheyFitAndCachedIfNot) {
     EXPECT_EQ(cached.statistics().failed_texture_lookups, 0u);
 }
 
-TEST_F(TextureFiltering, ABrokenImageIsAnErrorInBothWays) {
-    SceneDesc scene = checkered(textured_material());
+/// True if `problems` have a warning at `pointer` that has `text` in it.
+bool warns(const ProblemList& problems, const std::string& pointer, const std::string& text) {
+    return std::ranges::any_of(problems.all(), [&](const Problem& problem) {
+        return problem.severity == Severity::Warning && problem.where.pointer == pointer &&
+               problem.message.find(text) != std::string::npos;
+    });
+}
+
+/// The checkered scene with its image cut off after `bytes`.
+SceneDesc cut_off(SceneDesc scene, std::uintmax_t bytes) {
     scene.images[0].location = {"scene.gltf", "/images/0"};
-    std::filesystem::resize_file(png_, 20);
+    std::filesystem::resize_file(scene.images[0].path, bytes);
+    return scene;
+}
+
+TEST_F(TextureFiltering, ABrokenImageIsAnErrorInBothWaysIfThatIsAskedFor) {
+    SceneDesc scene = cut_off(checkered(textured_material()), 20);
+    scene.settings.missing_textures = MissingTextures::Error;
     for (const std::uint64_t budget : {std::uint64_t{0}, std::uint64_t{1} << 30}) {
         scene.settings.texture_memory = budget;
         try {
@@ -220,6 +241,128 @@ TEST_F(TextureFiltering, ABrokenImageIsAnErrorInBothWays) {
             EXPECT_NE(std::string(error.what()).find("scene.gltf#/images/0"), std::string::npos) << error.what();
         }
     }
+}
+
+TEST_F(TextureFiltering, MaterialsDoWithoutAnImageWhoseHeaderIsBroken) {
+    MaterialDesc material = textured_material();
+    material.base_color = Rgb(0.25f);
+    SceneDesc scene = cut_off(checkered(material), 20);
+    for (const std::uint64_t budget : {std::uint64_t{0}, std::uint64_t{1} << 30}) {
+        scene.settings.texture_memory = budget;
+        ProblemList problems;
+        const World world = compile(scene, kGltfColorSpace, problems);
+        EXPECT_EQ(world.statistics().missing_textures, 1u);
+        EXPECT_EQ(base_of(world, kWhite, 0.0f), 0.25f);
+        EXPECT_TRUE(warns(problems, "/images/0", "materials do without it"));
+    }
+}
+
+/// Where the pixels of a PNG begin.
+std::uintmax_t pixels_of(const std::filesystem::path& png) {
+    std::ifstream stream(png, std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+    return bytes.find("IDAT") + 4;
+}
+
+// The header tells nothing of it: other textures have been decoded by then.
+TEST_F(TextureFiltering, MaterialsDoWithoutAnImageWhosePixelsAreBroken) {
+    MaterialDesc material;
+    material.emissive = Rgb(1.0f);
+    material.emissive_texture.texture = {0};
+    material.base_color_texture.texture = {1};
+    SceneDesc scene = checkered(material);
+    const std::filesystem::path whole = temporary_file("etendue-whole-texture.png");
+    (void)add_texture(scene, whole, 1, {{188, 188, 188, 255}});
+    scene = cut_off(std::move(scene), pixels_of(png_) + 6);
+    ProblemList problems;
+    const World world = compile(scene, kGltfColorSpace, problems);
+    std::filesystem::remove(whole);
+    EXPECT_EQ(world.statistics().missing_textures, 1u);
+    EXPECT_EQ(world.statistics().textures, 1u);
+    EXPECT_NEAR(base_of(world, kWhite, 0.0f), 0.502886f, 1e-4f) << "the other texture is there";
+    EXPECT_FALSE(world.has_lights()) << "nobody knows which part of the surface shines";
+    EXPECT_TRUE(warns(problems, "/images/0", "materials do without it"));
+}
+
+TEST_F(TextureFiltering, ImagesThatEndEarlyAreShownAsFarAsTheyGo) {
+    SceneDesc scene = empty_scene();
+    Random random(3);
+    std::vector<std::array<int, 4>> texels;
+    for (int i = 0; i < 128 * 128; ++i) texels.push_back({static_cast<int>(255.0f * random.next()), 0, 0, 255});
+    MaterialDesc material;
+    material.base_color_texture.texture = add_texture(scene, png_, 128, texels);
+    scene.textures[0].filter = TextureFilter::Nearest;
+    add_object(scene, quad({0, 0, -1}, {1, 0, 0}, {0, 1, 0}), add_material(scene, material));
+    const auto color_at = [](const World& world, float y) {
+        const Hit hit = intersect(world, {.origin = {0.01f, y, 0}, .direction = {0, 0, -1}});
+        Bsdf storage;
+        return std::get<MetallicRoughness>(world.bsdf(world.surface_point(hit), {0, 0, 1}, 0.0f, storage)).base;
+    };
+    const World whole = compile(scene);
+    scene = cut_off(std::move(scene), std::filesystem::file_size(png_) / 4 * 3);  // PNGs are decoded by 8 KiB
+    ProblemList problems;
+    const World cut = compile(scene, kGltfColorSpace, problems);
+    EXPECT_TRUE(warns(problems, "/images/0", "is cut off or broken from row")) << problems.all().size();
+    EXPECT_EQ(cut.statistics().missing_textures, 0u);
+    for (const float y : {0.99f, 0.5f}) EXPECT_NEAR(color_at(cut, y).r, color_at(whole, y).r, 1e-5f) << y;
+    EXPECT_EQ(color_at(cut, -0.99f), color_at(cut, -0.6f)) << "one row is repeated";
+    EXPECT_GT(color_at(cut, -0.99f).r, 0.0f);
+    scene.settings.missing_textures = MissingTextures::Error;
+    EXPECT_THROW((void)compile(scene), SceneError);
+}
+
+TEST_F(TextureFiltering, JpegsThatEndEarlyAreShownWithAWarning) {
+    const std::filesystem::path file = temporary_file("etendue-cut.jpg");
+    ImageF image(64, 64, 3);
+    Random random(5);
+    std::ranges::generate(image.pixels, [&] { return random.next(); });
+    const std::vector<unsigned char> jpeg = encode_jpeg(image, 90);
+    for (const std::size_t missing : {std::size_t{0}, jpeg.size() / 8}) {
+        SceneDesc scene = empty_scene();
+        MaterialDesc material;
+        material.base_color_texture.texture = add_texture(scene, file, 64, 64);
+        scene.images[0].location = {"scene.gltf", "/images/0"};
+        scene.images[0].path.clear();
+        const auto bytes = std::as_bytes(std::span(jpeg)).first(jpeg.size() - missing);
+        scene.images[0].encoded.assign(bytes.begin(), bytes.end());
+        add_object(scene, quad({0, 0, -1}, {1, 0, 0}, {0, 1, 0}), add_material(scene, material));
+        ProblemList problems;
+        const World world = compile(scene, kGltfColorSpace, problems);
+        EXPECT_EQ(warns(problems, "/images/0", "ends early"), missing > 0);
+        EXPECT_EQ(world.statistics().missing_textures, 0u);
+    }
+}
+
+TEST_F(TextureFiltering, TexelsThatAreNoNumbersAreCounted) {
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    const std::filesystem::path file = temporary_file("etendue-texels.exr");
+    ImageF image(4, 1, 3);
+    std::ranges::fill(image.pixels, 0.5f);
+    image.pixel(1, 0)[0] = kInfinity;
+    image.pixel(2, 0)[1] = -kInfinity;
+    image.pixel(2, 0)[2] = std::numeric_limits<float>::quiet_NaN();
+    write_image(file, image, {.depth = PixelDepth::Float});
+    for (const std::uint64_t budget : {std::uint64_t{0}, std::uint64_t{1} << 30}) {
+        SceneDesc scene = empty_scene();
+        scene.settings.texture_memory = budget;
+        MaterialDesc material = emissive(Rgb(1.0f));
+        material.emissive_texture.texture = add_texture(scene, file, 4, 1);
+        scene.images[0].location = {"scene.gltf", "/images/0"};
+        scene.textures[0].filter = TextureFilter::Nearest;
+        add_object(scene, quad({0, 0, -1}, {1, 0, 0}, {0, 1, 0}), add_material(scene, material));
+        ProblemList problems;
+        const World world = compile(scene, kGltfColorSpace, problems);
+        const auto emission_at = [&](float x) {
+            const Hit hit = intersect(world, {.origin = {x, 0.1f, 0}, .direction = {0, 0, -1}});
+            return world.emission(world.surface_point(hit), {0, 0, 1});
+        };
+        EXPECT_EQ(emission_at(-0.25f), Rgb(65504.0f, 0.5f, 0.5f)) << budget;
+        EXPECT_EQ(emission_at(0.25f), Rgb(0.5f, 0.0f, 0.0f)) << budget;
+        // The cache reads pieces when they are asked for, and counts nothing.
+        EXPECT_EQ(warns(problems, "/images/0", "1 values of the image '"), budget > 0);
+        EXPECT_EQ(warns(problems, "/images/0", "2 values of the image '"), budget > 0);
+    }
+    std::filesystem::remove(file);
 }
 
 }  // namespace

@@ -142,6 +142,13 @@ std::optional<std::span<const unsigned char>> AccessorReader::view(int buffer_vi
     if (view.buffer < 0 || as_index(view.buffer) >= model.buffers.size()) {
         return fail(fmt::format("buffer {} does not exist", view.buffer));
     }
+    if (const auto absent = document_.absent_buffers.find(as_index(view.buffer));
+        absent != document_.absent_buffers.end()) {
+        // One buffer may hold all that a file has.
+        if (reported_buffers_.insert(absent->first).second)
+            problems_.error(document_.at(fmt::format("/buffers/{}", absent->first)), absent->second);
+        return std::nullopt;
+    }
     const std::vector<unsigned char>& data = model.buffers[as_index(view.buffer)].data;
     if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset) {
         return fail(fmt::format("buffer view {} covers {} bytes from {}, but buffer {} has {}", buffer_view,

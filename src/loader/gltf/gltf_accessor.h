@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -98,8 +99,9 @@ class AccessorReader {
     const GltfDocument& document_;
     ProblemList& problems_;
     DecodeBudget budget_;
-    bool is_exhausted_ = false;  ///< more was asked for than may be decoded, and that was reported
-    bool is_quantized_;          ///< the file uses KHR_mesh_quantization
+    bool is_exhausted_ = false;               ///< more was asked for than may be decoded, and that was reported
+    std::set<std::size_t> reported_buffers_;  ///< of those that are absent
+    bool is_quantized_;                       ///< the file uses KHR_mesh_quantization
 };
 
 }  // namespace etendue

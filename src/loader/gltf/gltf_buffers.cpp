@@ -1,7 +1,6 @@
 #include "loader/gltf/gltf_buffers.h"
 
 #include "loader/files.h"
-#include "loader/gltf/gltf_meshopt.h"
 #include "loader/json_text.h"
 
 #include <algorithm>
@@ -111,26 +110,22 @@ std::optional<std::vector<unsigned char>> decode_data_uri(const std::string& uri
 }
 
 GltfBuffers load_gltf_buffers(nlohmann::json& document, std::optional<std::span<const unsigned char>> bin,
-                              const std::filesystem::path& directory, const SourceLocation& file,
-                              std::vector<std::filesystem::path>& inputs, ProblemList& problems) {
+                              const std::filesystem::path& directory, std::vector<std::filesystem::path>& inputs,
+                              AbsentBuffers& absent) {
     GltfBuffers result;
     if (!document.contains("buffers")) return result;
     BufferLoader loader(bin, directory, inputs);
     nlohmann::json& buffers = document["buffers"];
     for (std::size_t i = 0; i < buffers.size(); ++i) {
+        const std::string name = buffer_name(i);
         try {
-            const std::string name = buffer_name(i);
-            if (is_meshopt_fallback(buffers[i])) {
-                // A byte, as no buffer is empty; whatever still refers to it is outside.
-                buffers[i]["byteLength"] = 1;
-                result.emplace(name, std::vector<unsigned char>(1));
-            } else {
-                result.emplace(name, loader.load(buffers[i], i == 0));
-            }
-            buffers[i]["uri"] = name;
+            result.emplace(name, loader.load(buffers[i], i == 0));
         } catch (const IoError& error) {
-            problems.error({file.file, child_pointer("/buffers", i)}, error.what());
+            absent.emplace(i, error.what());
+            buffers[i]["byteLength"] = 1;
+            result.emplace(name, std::vector<unsigned char>(1));
         }
+        buffers[i]["uri"] = name;
     }
     return result;
 }

@@ -3,11 +3,13 @@
 
 #include "core/error.h"
 
+#include <cstddef>
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
@@ -27,11 +29,15 @@ using GltfBuffers = std::map<std::string, std::vector<unsigned char>>;
 /// The bytes of a base64 data URI; nothing if it is malformed.
 [[nodiscard]] std::optional<std::vector<unsigned char>> decode_data_uri(const std::string& uri);
 
+/// Why buffers could not be loaded, by their index. That is an error only for what reads one: buffers may stand in for
+/// compressed views alone.
+using AbsentBuffers = std::map<std::size_t, std::string>;
+
 /// Loads every buffer of the checked `document` and replaces its `uri` by the key it has in the result. Each is exactly
-/// `byteLength` long; one that only stands in for compressed views is shortened to a byte. `bin` is the binary chunk of
-/// a GLB. Files read are added to `inputs`, errors to `problems`.
+/// `byteLength` long, or a byte where it is added to `absent`. `bin` is the binary chunk of a GLB. Files read are added
+/// to `inputs`.
 [[nodiscard]] GltfBuffers load_gltf_buffers(nlohmann::json& document, std::optional<std::span<const unsigned char>> bin,
-                                            const std::filesystem::path& directory, const SourceLocation& file,
-                                            std::vector<std::filesystem::path>& inputs, ProblemList& problems);
+                                            const std::filesystem::path& directory,
+                                            std::vector<std::filesystem::path>& inputs, AbsentBuffers& absent);
 
 }  // namespace etendue

@@ -25,7 +25,7 @@ namespace {
 using Json = nlohmann::json;
 
 /// To support another extension, see CONTRIBUTING.md (Smaller things; A layer of glTF's material).
-constexpr std::array<std::string_view, 25> kSupportedExtensions{
+constexpr std::array<std::string_view, 27> kSupportedExtensions{
     "EXT_lights_ies",
     "EXT_lights_image_based",
     "EXT_mesh_gpu_instancing",
@@ -41,6 +41,7 @@ constexpr std::array<std::string_view, 25> kSupportedExtensions{
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",
     "KHR_materials_iridescence",
+    "KHR_materials_pbrSpecularGlossiness",
     "KHR_materials_sheen",
     "KHR_materials_specular",
     "KHR_materials_transmission",
@@ -49,6 +50,7 @@ constexpr std::array<std::string_view, 25> kSupportedExtensions{
     "KHR_materials_volume",
     "KHR_materials_volume_scatter",
     "KHR_mesh_quantization",
+    "KHR_meshopt_compression",
     "KHR_node_visibility",
     "KHR_texture_transform",
 };
@@ -155,16 +157,11 @@ void take_images(Json& document, GltfDocument& result, ProblemList& problems) {
     const Json& images = document["images"];
     for (std::size_t i = 0; i < images.size(); ++i) {
         const Json& json = images[i];
-        GltfImage image{json.value("name", ""), json.value("mimeType", ""), json.value("uri", ""), std::nullopt, {}};
+        GltfImage image{json.value("name", ""), json.value("mimeType", ""), json.value("uri", ""), std::nullopt};
         if (json.contains("bufferView")) image.buffer_view = json["bufferView"].get<int>();
         const SourceLocation where = result.at(child_pointer("/images", i));
         if (json.contains("bufferView") == json.contains("uri")) {
             problems.error(where, "an image needs either a URI or a buffer view");
-        } else if (is_data_uri(image.uri)) {
-            std::optional<std::vector<unsigned char>> bytes = decode_data_uri(image.uri);
-            if (!bytes) problems.error(where, "the data URI is empty or not base64");
-            if (bytes) image.encoded = std::move(*bytes);
-            image.uri.clear();
         }
         result.images.push_back(std::move(image));
     }
@@ -333,8 +330,8 @@ GltfDocument read_gltf_document(const std::filesystem::path& file, ProblemList& 
     const std::vector<PrimitiveIndices> indices = take_indices(document, result, found);
     take_images(document, result, found);
     take_animations_and_skins(document, result);
-    GltfBuffers buffers = load_gltf_buffers(document, bin, result.directory, result.at(""), result.inputs, found);
-    expand_meshopt_views(document, buffers, result.at(""), found);
+    GltfBuffers buffers = load_gltf_buffers(document, bin, result.directory, result.inputs, result.absent_buffers);
+    expand_meshopt_views(document, buffers, result.absent_buffers, result.at(""), found);
     throw_if_errors(found);
 
     result.size = bytes.size();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/error.h"
+#include "loader/gltf/gltf_buffers.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -19,9 +20,8 @@ namespace etendue {
 struct GltfImage {
     std::string name;
     std::string mime_type;
-    std::string uri;                     ///< as it stood in the file, for messages; empty unless a file
-    std::optional<int> buffer_view;      ///< index; checked
-    std::vector<unsigned char> encoded;  ///< decoded data URI
+    std::string uri;                 ///< as it stood in the file; empty if there is a buffer view
+    std::optional<int> buffer_view;  ///< index; checked
 };
 
 enum class Interpolation { Linear, Step, CubicSpline };
@@ -62,6 +62,7 @@ struct GltfDocument {
     std::vector<std::string> extensions_used;     ///< and supported
     std::vector<std::string> extensions_ignored;  ///< used, not supported, not required
     std::vector<std::filesystem::path> inputs;    ///< the file and the buffers it names
+    AbsentBuffers absent_buffers;
 
     [[nodiscard]] SourceLocation at(std::string pointer) const { return {file, std::move(pointer)}; }
 };

@@ -81,6 +81,7 @@ std::optional<DracoMesh> decode_draco(const GltfDocument& document, const tinygl
     for (draco::FaceIndex face(0); face < mesh->num_faces(); ++face)
         for (const draco::PointIndex& point : mesh->face(face)) result.indices.push_back(point.value());
 
+    std::string wrong_count;
     const tinygltf::Value& names = extension.Get("attributes");
     for (const std::string& name : names.Keys()) {
         const auto named = primitive.attributes.find(name);
@@ -94,14 +95,16 @@ std::optional<DracoMesh> decode_draco(const GltfDocument& document, const tinygl
             return fail(fmt::format("{} has {} components in the Draco data, but {} in its accessor", name,
                                     attribute->num_components(), components));
         if (accessor.count != mesh->num_points())
-            return fail(fmt::format("the Draco data has {} vertices, but the accessor of {} has {}", mesh->num_points(),
-                                    name, accessor.count));
+            wrong_count =
+                fmt::format("the Draco data has {} vertices, which are taken, though the accessor of {} has {}",
+                            mesh->num_points(), name, accessor.count);
         if (!accessors.allocate(mesh->num_points(), static_cast<std::uint64_t>(components) * sizeof(float), where))
             return std::nullopt;
         std::vector<float> values = point_values(*mesh, *attribute, components, accessor);
         if (values.empty()) return fail("the Draco data cannot be converted to numbers");
         result.attributes[name] = {std::move(values), components};
     }
+    if (!wrong_count.empty()) problems.warning(where, wrong_count);
     return result;
 }
 

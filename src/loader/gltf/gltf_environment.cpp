@@ -56,7 +56,7 @@ void read_environment(const GltfDocument& document, TextureReader& textures, Sce
     const tinygltf::Value& sharpest = light.Get("specularImages").Get(0);
     for (std::size_t face = 0; face < cube.faces.size(); ++face) {
         cube.faces[face] =
-            textures.image(static_cast<std::size_t>(sharpest.Get(static_cast<int>(face)).GetNumberAsInt()));
+            textures.required_image(static_cast<std::size_t>(sharpest.Get(static_cast<int>(face)).GetNumberAsInt()));
         if (!cube.faces[face]) return;  // reported with the image
     }
     if (!check_faces(cube, integer_or(light, "specularImageSize", 0), scene, where, problems)) return;

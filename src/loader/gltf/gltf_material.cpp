@@ -146,6 +146,8 @@ class MaterialReader {
         read("KHR_materials_iridescence", &MaterialReader::read_iridescence);
         read("KHR_materials_sheen", &MaterialReader::read_sheen);
         read("KHR_materials_clearcoat", &MaterialReader::read_clearcoat);
+        // In place of what the file has for programs that do not know the extension.
+        if (!result.unlit) read("KHR_materials_pbrSpecularGlossiness", &MaterialReader::read_specular_glossiness);
     }
 
     /// A factor in [0, 1] of the extension that is being read.
@@ -186,6 +188,21 @@ class MaterialReader {
         };
         result.specular_color = {channel(0), channel(1), channel(2)};
         result.specular_color_texture = extension_texture(specular, "specularColorTexture");
+    }
+
+    void read_specular_glossiness(const Value& extension, MaterialDesc& result) {
+        result.base_color = unit_color(extension, "diffuseFactor", 1.0);
+        result.base_alpha = factor(element_or(extension, "diffuseFactor", 3, 1.0), extension_ + "/diffuseFactor");
+        result.base_color_texture = extension_texture(extension, "diffuseTexture");
+        result.specular_color = unit_color(extension, "specularFactor", 1.0);
+        result.specular_color_texture = extension_texture(extension, "specularGlossinessTexture");
+        result.glossiness = unit(extension, "glossinessFactor", 1.0);
+        result.metallic = 0.0f;
+        result.roughness = 1.0f;
+        result.metallic_roughness_texture = {};
+        result.ior = 0.0f;
+        result.specular = 1.0f;
+        result.specular_texture = {};
     }
 
     void read_transmission(const Value& transmission, MaterialDesc& result) {

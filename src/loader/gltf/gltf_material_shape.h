@@ -65,6 +65,11 @@ inline constexpr ShapeField kSpecularFields[] = {
     {"specularColorFactor", array(kNumber, 3)},
     {"specularColorTexture", kTextureInfo},
 };
+inline constexpr ShapeField kSpecularGlossinessFields[] = {
+    {"diffuseFactor", array(kNumber, 4)},        {"diffuseTexture", kTextureInfo},
+    {"specularFactor", array(kNumber, 3)},       {"glossinessFactor", number()},
+    {"specularGlossinessTexture", kTextureInfo},
+};
 inline constexpr ShapeField kIorFields[] = {{"ior", number(0.0)}};
 inline constexpr ShapeField kVolumeFields[] = {
     {"thicknessFactor", number(0.0)},
@@ -115,6 +120,7 @@ inline constexpr ShapeField kMaterialExtensionFields[] = {
     {"KHR_materials_diffuse_transmission", object(kDiffuseTransmissionFields)},
     {"KHR_materials_dispersion", object(kDispersionFields)},
     {"KHR_materials_iridescence", object(kIridescenceFields)},
+    {"KHR_materials_pbrSpecularGlossiness", object(kSpecularGlossinessFields)},
     {"KHR_materials_sheen", object(kSheenFields)},
     {"KHR_materials_volume", object(kVolumeFields)},
     {"KHR_materials_volume_scatter", object(kVolumeScatterFields)},

@@ -1,9 +1,9 @@
 #include "loader/gltf/gltf_meshopt.h"
 
+#include "loader/gltf/meshopt_attributes.h"
 #include "loader/json_text.h"
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,7 +18,13 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr const char* kMeshopt = "EXT_meshopt_compression";
+/// The name of the extension that compresses a view; null if none does.
+const char* compression_of(const Json& view) {
+    if (!view.contains("extensions")) return nullptr;
+    for (const char* name : {"KHR_meshopt_compression", "EXT_meshopt_compression"})
+        if (view["extensions"].contains(name)) return name;
+    return nullptr;
+}
 
 /// Most bytes that all views of a file may become.
 constexpr std::uint64_t kMaxDecoded = std::uint64_t{1} << 33;
@@ -46,12 +52,14 @@ std::string find_fault(const CompressedView& view) {
     if (view.filter != "NONE" && view.mode != "ATTRIBUTES") return "only attributes have filters";
     if (view.filter == "OCTAHEDRAL" && view.stride != 4 && view.stride != 8)
         return fmt::format("the octahedral filter needs a stride of 4 or 8, not {}", view.stride);
+    if (view.filter == "COLOR" && view.stride != 4 && view.stride != 8)
+        return fmt::format("the colour filter needs a stride of 4 or 8, not {}", view.stride);
     if (view.filter == "QUATERNION" && view.stride != 8)
         return fmt::format("the quaternion filter needs a stride of 8, not {}", view.stride);
-    // The densest codes are two bits for 16 bytes of a vertex and a byte for a triangle, so a file that claims more
-    // lies, and must not get the memory first.
-    constexpr std::uint64_t kDensest = 64;
-    if (view.decoded_size() > kDensest * (view.bytes.size() + 64))
+    // The densest codes are two bits for 16 bytes of a vertex, or in version 1 for 256 of them, and a byte for a
+    // triangle, so a file that claims more lies, and must not get the memory first.
+    const std::uint64_t densest = is_meshopt_attributes_v1(view.bytes) ? 1024 : 64;
+    if (view.decoded_size() > densest * (view.bytes.size() + 64))
         return fmt::format("{} elements of {} bytes cannot come out of {} bytes", view.count, view.stride,
                            view.bytes.size());
     return {};
@@ -60,11 +68,14 @@ std::string find_fault(const CompressedView& view) {
 void apply_filter(const CompressedView& view, std::vector<unsigned char>& decoded) {
     if (view.filter == "OCTAHEDRAL") meshopt_decodeFilterOct(decoded.data(), view.count, view.stride);
     if (view.filter == "QUATERNION") meshopt_decodeFilterQuat(decoded.data(), view.count, view.stride);
+    if (view.filter == "COLOR") decode_meshopt_colors(decoded, view.stride);
     if (view.filter == "EXPONENTIAL") meshopt_decodeFilterExp(decoded.data(), view.count, view.stride);
 }
 
-/// Nothing if the codec refuses the bytes.
-std::optional<std::vector<unsigned char>> decode(const CompressedView& view) {
+/// Throws IoError if the codec refuses the bytes.
+std::vector<unsigned char> decode_codec(const CompressedView& view) {
+    if (view.mode == "ATTRIBUTES" && is_meshopt_attributes_v1(view.bytes))
+        return decode_meshopt_attributes_v1(view.bytes, view.count, view.stride);
     std::vector<unsigned char> decoded(view.decoded_size());
     const auto* bytes = view.bytes.data();
     const std::size_t size = view.bytes.size();
@@ -72,17 +83,22 @@ std::optional<std::vector<unsigned char>> decode(const CompressedView& view) {
         view.mode == "ATTRIBUTES"  ? meshopt_decodeVertexBuffer(decoded.data(), view.count, view.stride, bytes, size)
         : view.mode == "TRIANGLES" ? meshopt_decodeIndexBuffer(decoded.data(), view.count, view.stride, bytes, size)
                                    : meshopt_decodeIndexSequence(decoded.data(), view.count, view.stride, bytes, size);
-    if (failure != 0) return std::nullopt;
+    if (failure != 0) throw IoError("the compressed bytes are damaged");
+    return decoded;
+}
+
+std::vector<unsigned char> decode(const CompressedView& view) {
+    std::vector<unsigned char> decoded = decode_codec(view);
     apply_filter(view, decoded);
     return decoded;
 }
 
 /// The compressed bytes and how to read them. Throws IoError.
-CompressedView find_view(const Json& extension, const GltfBuffers& buffers) {
-    const std::string buffer = buffer_name(extension["buffer"].get<std::size_t>());
-    const auto found = buffers.find(buffer);
-    if (found == buffers.end()) throw IoError("its buffer could not be loaded");
-    const std::vector<unsigned char>& data = found->second;
+CompressedView find_view(const Json& extension, const GltfBuffers& buffers, const AbsentBuffers& absent) {
+    const auto buffer = extension["buffer"].get<std::size_t>();
+    if (const auto reason = absent.find(buffer); reason != absent.end())
+        throw IoError(fmt::format("buffer {} is not there: {}", buffer, reason->second));
+    const std::vector<unsigned char>& data = buffers.at(buffer_name(buffer));
     const auto offset = extension.value("byteOffset", std::uint64_t{0});
     const auto length = extension["byteLength"].get<std::uint64_t>();
     if (offset > data.size() || length > data.size() - offset) {
@@ -95,40 +111,36 @@ CompressedView find_view(const Json& extension, const GltfBuffers& buffers) {
 
 }  // namespace
 
-bool is_meshopt_fallback(const Json& buffer) {
-    return buffer.contains("extensions") && buffer["extensions"].contains(kMeshopt) &&
-           buffer["extensions"][kMeshopt].value("fallback", false) && !buffer.contains("uri");
-}
-
-void expand_meshopt_views(Json& document, GltfBuffers& buffers, const SourceLocation& file, ProblemList& problems) {
+void expand_meshopt_views(Json& document, GltfBuffers& buffers, const AbsentBuffers& absent, const SourceLocation& file,
+                          ProblemList& problems) {
     if (!document.contains("bufferViews")) return;
     Json& views = document["bufferViews"];
     std::uint64_t total = 0;
     for (std::size_t i = 0; i < views.size(); ++i) {
         Json& view = views[i];
-        if (!view.contains("extensions") || !view["extensions"].contains(kMeshopt)) continue;
+        const char* const extension = compression_of(view);
+        if (extension == nullptr) continue;
         const SourceLocation where{file.file,
-                                   child_pointer(child_pointer("/bufferViews", i), "extensions") + "/" + kMeshopt};
+                                   child_pointer(child_pointer("/bufferViews", i), "extensions") + "/" + extension};
         try {
-            const CompressedView compressed = find_view(view["extensions"][kMeshopt], buffers);
+            const CompressedView compressed = find_view(view["extensions"][extension], buffers, absent);
             const std::string fault = find_fault(compressed);
             if (!fault.empty()) throw IoError(fault);
             total += compressed.decoded_size();
             if (total > kMaxDecoded) throw IoError("all compressed views together would take too much memory");
-            std::optional<std::vector<unsigned char>> decoded = decode(compressed);
-            if (!decoded) throw IoError("the compressed bytes are damaged");
+            std::vector<unsigned char> decoded = decode(compressed);
 
             const std::size_t index = document["buffers"].size();
-            document["buffers"].push_back({{"uri", buffer_name(index)}, {"byteLength", decoded->size()}});
+            document["buffers"].push_back({{"uri", buffer_name(index)}, {"byteLength", decoded.size()}});
             view["buffer"] = index;
             view["byteOffset"] = 0;
-            view["byteLength"] = decoded->size();
+            view["byteLength"] = decoded.size();
             if (compressed.mode == "ATTRIBUTES")
                 view["byteStride"] = compressed.stride;
             else
                 view.erase("byteStride");
             view.erase("extensions");
-            buffers.emplace(buffer_name(index), std::move(*decoded));
+            buffers.emplace(buffer_name(index), std::move(decoded));
         } catch (const IoError& error) {
             problems.error(where, error.what());
         }

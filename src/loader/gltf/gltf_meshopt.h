@@ -1,4 +1,5 @@
-// EXT_meshopt_compression: buffer views whose bytes are compressed with meshoptimizer's codecs.
+// KHR_meshopt_compression, and EXT_meshopt_compression that it came from: buffer views whose bytes are compressed with
+// meshoptimizer's codecs.
 #pragma once
 
 #include "core/error.h"
@@ -8,12 +9,9 @@
 
 namespace etendue {
 
-/// True for a buffer that holds no bytes of its own: only loaders without the extension would need it.
-[[nodiscard]] bool is_meshopt_fallback(const nlohmann::json& buffer);
-
-/// Decompresses every buffer view of the checked `document` that has the extension. Each becomes a plain view of a
-/// buffer of its own, which is added to `buffers`. Errors go to `problems`.
-void expand_meshopt_views(nlohmann::json& document, GltfBuffers& buffers, const SourceLocation& file,
-                          ProblemList& problems);
+/// Decompresses every buffer view of the checked `document` that has one of the extensions. Each becomes a plain view
+/// of a buffer of its own, which is added to `buffers`. Errors go to `problems`.
+void expand_meshopt_views(nlohmann::json& document, GltfBuffers& buffers, const AbsentBuffers& absent,
+                          const SourceLocation& file, ProblemList& problems);
 
 }  // namespace etendue

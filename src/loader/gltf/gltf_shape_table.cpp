@@ -13,7 +13,10 @@ using namespace gltf_schema;
 // ---- buffers, views, accessors ----
 
 constexpr ShapeField kMeshoptBufferFields[] = {{"fallback", boolean()}};
-constexpr ShapeField kBufferExtensionFields[] = {{"EXT_meshopt_compression", object(kMeshoptBufferFields)}};
+constexpr ShapeField kBufferExtensionFields[] = {
+    {"EXT_meshopt_compression", object(kMeshoptBufferFields)},
+    {"KHR_meshopt_compression", object(kMeshoptBufferFields)},
+};
 constexpr ShapeField kBufferFields[] = {
     {"name", text()},
     {"uri", text()},
@@ -23,7 +26,7 @@ constexpr ShapeField kBufferFields[] = {
 constexpr Shape kBuffer = object(kBufferFields);
 
 constexpr std::string_view kMeshoptModes[] = {"ATTRIBUTES", "TRIANGLES", "INDICES"};
-constexpr std::string_view kMeshoptFilters[] = {"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL"};
+constexpr std::string_view kMeshoptFilters[] = {"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL", "COLOR"};
 constexpr ShapeField kMeshoptViewFields[] = {
     {"buffer", index_of("/buffers"), true},
     {"byteOffset", integer(0, kMaxOffset)},
@@ -33,7 +36,10 @@ constexpr ShapeField kMeshoptViewFields[] = {
     {"mode", text(kMeshoptModes), true},
     {"filter", text(kMeshoptFilters)},
 };
-constexpr ShapeField kBufferViewExtensionFields[] = {{"EXT_meshopt_compression", object(kMeshoptViewFields)}};
+constexpr ShapeField kBufferViewExtensionFields[] = {
+    {"EXT_meshopt_compression", object(kMeshoptViewFields)},
+    {"KHR_meshopt_compression", object(kMeshoptViewFields)},
+};
 constexpr ShapeField kBufferViewFields[] = {
     {"name", text()},
     {"buffer", index_of("/buffers"), true},

@@ -1,7 +1,9 @@
 #include "loader/gltf/gltf_textures.h"
 
-#include "image/read.h"
+#include "core/refused_input.h"
+#include "image/displayed.h"
 #include "loader/files.h"
+#include "loader/gltf/gltf_buffers.h"
 #include "loader/gltf/gltf_value.h"
 #include "loader/json_text.h"
 
@@ -52,6 +54,12 @@ void read_min_filter(int code, TextureDesc& texture) {
 std::vector<std::byte> to_bytes(std::span<const unsigned char> source) {
     const auto bytes = std::as_bytes(source);
     return {bytes.begin(), bytes.end()};
+}
+
+/// "image file 'x.png': ", if it is one.
+std::string file_name(const GltfImage& source) {
+    if (source.buffer_view || is_data_uri(source.uri)) return {};
+    return fmt::format("image file '{}': ", shown(source.uri));
 }
 
 }  // namespace
@@ -116,6 +124,13 @@ Handle<ImageDesc> TextureReader::image(std::size_t index) {
     return images_[index] = handle;
 }
 
+Handle<ImageDesc> TextureReader::required_image(std::size_t index) {
+    const Handle<ImageDesc> handle = image(index);
+    if (!handle || !scene_.images[static_cast<std::size_t>(handle.index)].unreadable) return handle;
+    problems_.error(document_.at(fmt::format("/images/{}", index)), "the environment cannot do without this image");
+    return {};
+}
+
 std::optional<ImageDesc> TextureReader::read_image(std::size_t index) {
     const GltfImage& source = document_.images[index];
     ImageDesc image;
@@ -124,8 +139,8 @@ std::optional<ImageDesc> TextureReader::read_image(std::size_t index) {
     image.location = document_.at(fmt::format("/images/{}", index));
     try {
         if (!take_pixels(source, image)) return std::nullopt;
-        const ImageInfo info = image.path.empty() ? read_image_info(std::span<const std::byte>(image.encoded))
-                                                  : read_image_info(image.path);
+        const ImageInfo info = image.path.empty() ? read_displayed_info(std::span<const std::byte>(image.encoded))
+                                                  : read_displayed_info(image.path);
         if (info.format != "png" && info.format != "jpeg" && info.format != "webp") {
             problems_.warning(image.location,
                               fmt::format("glTF images are PNG, JPEG or (EXT_texture_webp) WebP; this one is {}, which "
@@ -137,11 +152,24 @@ std::optional<ImageDesc> TextureReader::read_image(std::size_t index) {
                                                           shown(source.mime_type)));
         image.width = info.width;
         image.height = info.height;
-    } catch (const IoError& error) {
-        const std::string name = source.uri.empty() ? "" : fmt::format("image file '{}': ", shown(source.uri));
-        problems_.error(image.location, name + error.what());
+    } catch (const RefusedInput& error) {
+        problems_.error(image.location, file_name(source) + error.what());
         return std::nullopt;
+    } catch (const IoError& error) {
+        if (scene_.settings.missing_textures == MissingTextures::Error) {
+            problems_.error(image.location, file_name(source) + error.what());
+            return std::nullopt;
+        }
+        problems_.warning(image.location,
+                          fmt::format("{}{}; materials do without it", file_name(source), error.what()));
+        ImageDesc unreadable;
+        unreadable.name = source.name;
+        unreadable.location = image.location;
+        unreadable.unreadable = true;
+        return unreadable;
     }
+    if (!image.path.empty() && std::ranges::find(scene_.inputs, image.path) == scene_.inputs.end())
+        scene_.inputs.push_back(image.path);
     return image;
 }
 
@@ -150,11 +178,12 @@ bool TextureReader::take_pixels(const GltfImage& source, ImageDesc& image) {
         const auto bytes = accessors_.copyable_view(*source.buffer_view, image.location);
         if (!bytes) return false;
         image.encoded = to_bytes(*bytes);
-    } else if (source.uri.empty()) {
-        image.encoded = to_bytes(source.encoded);
+    } else if (is_data_uri(source.uri)) {
+        const auto bytes = decode_data_uri(source.uri);
+        if (!bytes) throw IoError("the data URI is empty or not base64");
+        image.encoded = to_bytes(*bytes);
     } else {
         image.path = resolve_uri(document_.directory, source.uri);
-        if (std::ranges::find(scene_.inputs, image.path) == scene_.inputs.end()) scene_.inputs.push_back(image.path);
     }
     return true;
 }

@@ -19,10 +19,11 @@ class TextureReader {
     /// The texture with this glTF index, appended to the scene when first asked for. An invalid handle if it cannot be
     /// used; why has then been reported once.
     [[nodiscard]] Handle<TextureDesc> texture(int index);
-    /// The image with this glTF index, the same way.
-    [[nodiscard]] Handle<ImageDesc> image(std::size_t index);
+    /// The image with this glTF index, the same way; it is an error if it cannot be read.
+    [[nodiscard]] Handle<ImageDesc> required_image(std::size_t index);
 
   private:
+    [[nodiscard]] Handle<ImageDesc> image(std::size_t index);
     [[nodiscard]] Handle<TextureDesc> read_texture(std::size_t index);
     [[nodiscard]] std::optional<ImageDesc> read_image(std::size_t index);
     [[nodiscard]] bool take_pixels(const GltfImage& source, ImageDesc& image);

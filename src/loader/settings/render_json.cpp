@@ -347,6 +347,7 @@ void read_document(const Json& value, ProblemList& problems, RenderJson& out) {
     }
     object.choice("sampler", kSamplers, settings.sampler);
     object.choice("light_units", kLightUnitNames, settings.light_units);
+    object.choice("missing_textures", kMissingTexturesNames, settings.missing_textures);
     object.integer("spp", 1, kMaxSpp, settings.spp);
     object.integer("seed", 0, kMaxSeed, settings.seed);
     object.number("time", kNotNegative, settings.time_limit);

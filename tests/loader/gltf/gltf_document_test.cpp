@@ -130,7 +130,7 @@ TEST(GltfDocument, ExtrasMayBeAnything) {
 }
 
 TEST(GltfDocument, RequiredExtensionsMustBeSupported) {
-    for (const char* name : {"KHR_texture_basisu", "VENDOR_unknown", "KHR_materials_pbrSpecularGlossiness"}) {
+    for (const char* name : {"KHR_texture_basisu", "VENDOR_unknown", "KHR_techniques_webgl"}) {
         GltfBuilder builder = triangle();
         builder.json["extensionsUsed"] = {name};
         builder.json["extensionsRequired"] = {name};
@@ -188,7 +188,30 @@ TEST(GltfDocument, OneLargeFileIsNotReadAgainAndAgain) {
     builder.json["buffers"] = nlohmann::json::array();
     for (int i = 0; i < 4; ++i)
         builder.json["buffers"].push_back({{"byteLength", builder.bin.size()}, {"uri", "scene.bin"}});
+    builder.json["bufferViews"][0]["buffer"] = 3;
     EXPECT_TRUE(has_problem(builder.load().problems, Severity::Error, "more than the limit", "/buffers/3"));
+}
+
+TEST(GltfDocument, BuffersThatNothingReadsMayBeAbsent) {
+    GltfBuilder builder = triangle();
+    builder.json["buffers"] = {{{"byteLength", 36}, {"uri", "scene.bin"}},
+                               {{"byteLength", 12}},
+                               {{"byteLength", 12}, {"uri", "missing.bin"}},
+                               {{"byteLength", 12}, {"uri", "../outside.bin"}},
+                               {{"byteLength", 12}, {"uri", "data:;base64,AAAA"}}};
+    for (int buffer = 1; buffer < 5; ++buffer)
+        builder.json["bufferViews"].push_back({{"buffer", buffer}, {"byteLength", 12}});
+    const LoadedScene loaded = builder.load();
+    EXPECT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
+    EXPECT_EQ(loaded.scene.inputs.size(), 2u);
+}
+
+TEST(GltfDocument, AnAbsentBufferIsReportedOnceHoweverMuchReadsIt) {
+    GltfBuilder builder = triangle();
+    nlohmann::json& primitives = builder.json["meshes"][0]["primitives"];
+    primitives.push_back(nlohmann::json(primitives[0]));
+    builder.json["buffers"] = {{{"byteLength", 1000}, {"uri", "missing.bin"}}};
+    EXPECT_EQ(builder.load().problems.error_count(), 1u) << listing(builder.load().problems);
 }
 
 TEST(GltfDocument, BuffersFromDataUris) {

@@ -164,6 +164,36 @@ TEST(Material, EverythingIsRead) {
     EXPECT_EQ(loaded.scene.images.size(), 1u);  // shared by the three
 }
 
+TEST(Material, SpecularGlossinessTakesThePlaceOfMetallicRoughness) {
+    const LoadedScene loaded = load_with_material(R"({
+        "pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 0], "metallicFactor": 0.5, "roughnessFactor": 0.5,
+            "metallicRoughnessTexture": {"index": 2}},
+        "extensions": {"KHR_materials_pbrSpecularGlossiness": {"diffuseFactor": [0.1, 0.2, 0.3, 0.4],
+            "diffuseTexture": {"index": 0}, "specularFactor": [0.5, 0.6, 0.7], "glossinessFactor": 0.9,
+            "specularGlossinessTexture": {"index": 1, "texCoord": 1}}}})");
+    const MaterialDesc& m = material_of(loaded);
+    EXPECT_EQ(m.base_color, Rgb(0.1f, 0.2f, 0.3f));
+    EXPECT_EQ(m.base_alpha, 0.4f);
+    EXPECT_EQ(texture_name(loaded, m.base_color_texture), "t0");
+    EXPECT_EQ(m.specular_color, Rgb(0.5f, 0.6f, 0.7f));
+    EXPECT_EQ(texture_name(loaded, m.specular_color_texture), "t1");
+    EXPECT_EQ(m.specular_color_texture.texcoord, 1);
+    EXPECT_EQ(m.glossiness, 0.9f);
+    EXPECT_EQ(m.metallic, 0.0f);
+    EXPECT_EQ(m.roughness, 1.0f);
+    EXPECT_EQ(m.ior, 0.0f);
+    EXPECT_FALSE(m.metallic_roughness_texture.valid());
+}
+
+TEST(Material, SpecularGlossinessHasItsDefaults) {
+    const LoadedScene loaded = load_with_material(R"({"extensions": {"KHR_materials_pbrSpecularGlossiness": {}}})");
+    const MaterialDesc& m = material_of(loaded);
+    EXPECT_EQ(m.base_color, Rgb(1.0f));
+    EXPECT_EQ(m.base_alpha, 1.0f);
+    EXPECT_EQ(m.specular_color, Rgb(1.0f));
+    EXPECT_EQ(m.glossiness, 1.0f);
+}
+
 TEST(Material, TextureTransformsAndTheirTexcoord) {
     const LoadedScene loaded = load_with_material(R"({
         "pbrMetallicRoughness": {"baseColorTexture": {"index": 0, "extensions": {"KHR_texture_transform":

@@ -1,6 +1,9 @@
 #include "loader/gltf/gltf_builder.h"
 
+#include <cstddef>
 #include <functional>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <meshoptimizer.h>
@@ -59,6 +62,59 @@ GltfBuilder meshopt_mesh() {
 
 nlohmann::json& extension(GltfBuilder& builder, std::size_t compressed) {
     return builder.json["bufferViews"][2 * compressed + 1]["extensions"]["EXT_meshopt_compression"];
+}
+
+/// `builder` with the ratified extension's name in place of its predecessor's.
+GltfBuilder renamed(const GltfBuilder& builder) {
+    GltfBuilder result = builder;
+    std::string text = builder.json.dump();
+    for (std::size_t at = 0; (at = text.find("EXT_meshopt", at)) != std::string::npos;) text.replace(at, 3, "KHR");
+    result.json = nlohmann::json::parse(text);
+    return result;
+}
+
+TEST(Meshopt, BothExtensionsAreRead) {
+    const LoadedScene loaded = renamed(meshopt_mesh()).load();
+    ASSERT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
+    EXPECT_EQ(first_primitive(loaded).positions, first_primitive(meshopt_mesh().load()).positions);
+    EXPECT_EQ(loaded.scene.extensions_used, (std::vector<std::string>{"KHR_meshopt_compression"}));
+}
+
+// Version 1, all of it literal: the first vertex is the element before it, then each adds to the last.
+TEST(Meshopt, AttributesOfVersion1AreRead) {
+    GltfBuilder builder;
+    Bytes bytes{0xa1, 0xff, 0xff, 0xff};
+    for (std::size_t k = 0; k < 12; ++k)
+        for (std::size_t i = 0; i < 4; ++i) {
+            const auto* values = reinterpret_cast<const unsigned char*>(kPositions.data());
+            const int delta = values[12 * i + k] - (i > 0 ? values[12 * (i - 1) + k] : 0);
+            const auto signed_delta = static_cast<signed char>(delta);
+            bytes.push_back(static_cast<unsigned char>((signed_delta << 1) ^ (signed_delta >> 7)));
+        }
+    bytes.resize(bytes.size() + 24);
+    const int positions = compressed_view(builder, bytes, 4, 12, "ATTRIBUTES");
+    builder.add_mesh({{"POSITION", builder.accessor_of_view(positions, "VEC3", 5126, 4)}})["indices"] =
+        builder.indices(kIndices);
+    builder.json["extensionsUsed"] = {"EXT_meshopt_compression"};
+    builder.json["buffers"] = {{{"byteLength", builder.bin.size()}, {"uri", "scene.bin"}}, {{"byteLength", 48}}};
+    const LoadedScene loaded = renamed(builder).load();
+    ASSERT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
+    EXPECT_EQ(first_primitive(loaded).positions.at(3), Vec3f(1, 1, 0.5f));
+}
+
+TEST(Meshopt, TheBufferInItsPlaceMayBeAbsentAndNeedNotSaySo) {
+    GltfBuilder builder = meshopt_mesh();
+    builder.json["buffers"][1].erase("extensions");
+    EXPECT_EQ(first_primitive(builder.load()).positions.size(), 4u);
+    builder.json["buffers"][1]["uri"] = "missing.bin";
+    EXPECT_EQ(first_primitive(builder.load()).positions.size(), 4u);
+}
+
+TEST(Meshopt, AnAbsentBufferOfCompressedBytesIsAnError) {
+    GltfBuilder builder = meshopt_mesh();
+    builder.json["buffers"][0]["uri"] = "missing.bin";
+    EXPECT_TRUE(has_problem(builder.load().problems, Severity::Error, "'missing.bin': the file does not exist",
+                            "/EXT_meshopt_compression"));
 }
 
 TEST(Meshopt, PositionsAndIndicesComeOutAsTheyWentIn) {
@@ -125,10 +181,11 @@ TEST_P(BadMeshopt, IsAnError) {
 
 INSTANTIATE_TEST_SUITE_P(Meshopt, BadMeshopt, testing::ValuesIn(kBadViews), [](const auto& i) { return i.param.name; });
 
-TEST(Meshopt, PlainViewsOfTheFallbackBufferAreOutside) {
+TEST(Meshopt, PlainViewsOfTheFallbackBufferAreErrors) {
     GltfBuilder builder = meshopt_mesh();
     builder.json["bufferViews"][1].erase("extensions");
-    EXPECT_TRUE(has_problem(builder.load().problems, Severity::Error, "but buffer 1 has 1"));
+    EXPECT_TRUE(
+        has_problem(builder.load().problems, Severity::Error, "neither a URI nor a binary chunk", "/buffers/1"));
 }
 
 }  // namespace

@@ -1,9 +1,12 @@
 #include "loader/gltf/gltf_builder.h"
 
 #include <functional>
+#include <string>
 #include <tuple>
+#include <vector>
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 namespace etendue {
 namespace {
@@ -121,22 +124,105 @@ TEST(Textures, FormatsThatGltfDoesNotNameAreReadWithAWarning) {
         << listing(loaded.problems);
 }
 
-TEST(Textures, BadFilesAreErrors) {
-    const auto expect_error = [](const nlohmann::json& image, const std::string& content, const char* expected) {
-        const LoadedScene loaded = load_with_file(textured(image), "a.png", content);
-        EXPECT_TRUE(has_problem(loaded.problems, Severity::Error, expected, "/images/0")) << listing(loaded.problems);
-    };
-    expect_error({{"uri", "b.png"}}, png_bytes(), "'b.png': the file does not exist");
-    expect_error({{"uri", "../a.png"}}, png_bytes(), "'..'");
-    expect_error({{"uri", "https://example.com/a.png"}}, png_bytes(), "other URIs");
-    expect_error({{"uri", "a.png"}}, "", "a.png");
-    expect_error({{"uri", "a.png"}}, "not an image at all", "a.png");
-    expect_error({{"uri", "a.png"}}, png_bytes().substr(0, 20), "a.png");
-    expect_error({{"uri", "data:image/png;base64,AAAA"}}, png_bytes(), "");
+/// A texture that cannot be read, and what is said of it.
+struct BadImage {
+    nlohmann::json image;
+    std::string content;  ///< of a.png
+    const char* message;
+};
 
-    std::string absurd = png_bytes();
-    absurd.replace(16, 8, std::string("\x7f\xff\xff\xff\x7f\xff\xff\xff", 8));
-    expect_error({{"uri", "a.png"}}, absurd, "a.png");
+std::vector<BadImage> unreadable_images() {
+    return {{{{"uri", "b.png"}}, png_bytes(), "'b.png': the file does not exist"},
+            {{{"uri", "a.png"}}, "", "'a.png': the file is empty"},
+            {{{"uri", "a.png"}}, "not an image at all", "'a.png': not an image of a known format"},
+            {{{"uri", "a.png"}}, png_bytes().substr(0, 20), "a.png"},
+            {{{"uri", "%zz.png"}}, png_bytes(), "'%' is not followed"},
+            {{{"uri", ""}}, png_bytes(), "the file name is empty"},
+            {{{"uri", "directory"}}, png_bytes(), "'directory': this is not a regular file"},
+            {{{"uri", "pipe"}}, png_bytes(), "'pipe': this is not a regular file"},
+            {{{"uri", "data:image/png;base64,AAAA"}}, png_bytes(), "not an image of a known format"},
+            {{{"uri", "data:image/png;base64,%zz"}}, png_bytes(), "'%' is not followed"},
+            {{{"uri", "data:image/png,xyz"}}, png_bytes(), "the data URI is empty or not base64"}};
+}
+
+/// Loads what `bad` describes beside a directory and a pipe without a writer.
+LoadedScene load_bad_image(const BadImage& bad, const LoadOptions& options) {
+    const TempDir dir;
+    textured(bad.image).write(dir);
+    dir.write("a.png", bad.content);
+    std::filesystem::create_directory(dir.path() / "directory");
+    EXPECT_EQ(mkfifo((dir.path() / "pipe").c_str(), 0600), 0);
+    return inspect_scene(dir.path() / "scene.gltf", options);
+}
+
+TEST(Textures, WhatCannotBeReadIsLeftOutWithAWarning) {
+    for (const BadImage& bad : unreadable_images()) {
+        const LoadedScene loaded = load_bad_image(bad, {});
+        EXPECT_FALSE(loaded.problems.has_errors()) << bad.message << listing(loaded.problems);
+        EXPECT_TRUE(has_problem(loaded.problems, Severity::Warning, bad.message, "/images/0"))
+            << bad.message << listing(loaded.problems);
+        EXPECT_TRUE(has_problem(loaded.problems, Severity::Warning, "materials do without it", "/images/0"));
+        EXPECT_EQ(count_missing_textures(loaded.scene), 1u) << bad.message;
+        EXPECT_EQ(loaded.scene.inputs.size(), 2u) << "what is not there is no input: " << bad.message;
+        EXPECT_FALSE(loaded.scene.materials.at(0).emissive_texture.valid());
+    }
+}
+
+TEST(Textures, WhatCannotBeReadIsAnErrorWhereThatIsAskedFor) {
+    for (const BadImage& bad : unreadable_images()) {
+        const LoadedScene loaded = load_bad_image(bad, {.missing_textures = MissingTextures::Error});
+        EXPECT_TRUE(has_problem(loaded.problems, Severity::Error, bad.message, "/images/0"))
+            << bad.message << listing(loaded.problems);
+    }
+}
+
+TEST(Textures, WhatMayNotBeReadIsAlwaysAnError) {
+    const std::string huge = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 70000 +X 70000\n";
+    const BadImage refused[] = {{{{"uri", "../a.png"}}, png_bytes(), "'..'"},
+                                {{{"uri", "/a.png"}}, png_bytes(), "absolute"},
+                                {{{"uri", "https://example.com/a.png"}}, png_bytes(), "other URIs"},
+                                {{{"uri", "a.png"}}, huge, "more than are allowed"}};
+    for (const BadImage& bad : refused) {
+        const LoadedScene loaded = load_bad_image(bad, {});
+        EXPECT_TRUE(has_problem(loaded.problems, Severity::Error, bad.message, "/images/0"))
+            << bad.message << listing(loaded.problems);
+    }
+}
+
+// Factors stand alone, but a lamp that the map was to choose from a surface is none, and no surface becomes a mirror.
+TEST(Textures, AMaterialWithoutItsTexturesIsPlain) {
+    GltfBuilder builder = textured({{"uri", "missing.png"}});
+    builder.json["materials"] = nlohmann::json::parse(R"([{
+        "pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.25, 1, 0.5], "baseColorTexture": {"index": 0},
+            "roughnessFactor": 0.5, "metallicRoughnessTexture": {"index": 0}},
+        "normalTexture": {"index": 0}, "emissiveFactor": [1, 1, 1], "emissiveTexture": {"index": 0},
+        "extensions": {"KHR_materials_clearcoat": {"clearcoatFactor": 0.5, "clearcoatTexture": {"index": 0}}}},
+        {"extensions": {"KHR_materials_pbrSpecularGlossiness": {"specularGlossinessTexture": {"index": 0}}}}])");
+    const LoadedScene loaded = builder.load();
+    ASSERT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
+    const MaterialDesc& m = loaded.scene.materials.at(0);
+    EXPECT_EQ(m.base_color, Rgb(0.5f, 0.25f, 1.0f));
+    EXPECT_EQ(m.base_alpha, 0.5f);
+    EXPECT_EQ(m.roughness, 0.5f);
+    EXPECT_EQ(m.clearcoat.factor, 0.5f);
+    EXPECT_TRUE(is_black(m.emissive));
+    for (const TextureRef* ref : {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture,
+                                  &m.emissive_texture, &m.clearcoat.texture})
+        EXPECT_FALSE(ref->valid());
+    const MaterialDesc& glossy = loaded.scene.materials.at(1);
+    EXPECT_LT(max_component(glossy.specular_color), 0.1f);
+    EXPECT_EQ(glossy.glossiness, 0.0f);
+    EXPECT_EQ(count_missing_textures(loaded.scene), 1u) << "one image, however many show it";
+}
+
+TEST(Textures, RenderJsonSaysWhetherMissingOnesAreErrors) {
+    const TempDir dir;
+    textured({{"uri", "missing.png"}}).write(dir);
+    dir.write("render.json", R"({"missing_textures": "error"})");
+    EXPECT_TRUE(inspect_scene(dir.path()).problems.has_errors());
+    EXPECT_FALSE(inspect_scene(dir.path(), {.missing_textures = MissingTextures::Warn}).problems.has_errors());
+    dir.write("render.json", R"({"missing_textures": "warn"})");
+    EXPECT_FALSE(inspect_scene(dir.path()).problems.has_errors());
 }
 
 TEST(Textures, FilesBehindLinksOutsideAreErrors) {

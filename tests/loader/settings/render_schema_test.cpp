@@ -101,6 +101,8 @@ const char* const kGood[] = {
         "anisotropy": 0.9, "ior": 1, "roughness": 1}}, "c": {"diffuse": {"roughness": 1}}}})",
     R"({"materials": {"a": {"emission": {"color": [0, 5, 1], "strength": 100}}, "b": {"diffuse": {}, "emission": {}}}})",
     R"({"lights": {"a": {"color": [1, 2, 3], "intensity": 0, "scale": 2, "enabled": false}, "b": {"ies": "x.ies"}}})",
+    R"({"missing_textures": "warn"})",
+    R"({"missing_textures": "error"})",
     R"({"light_units": "photometric"})",
     R"({"light_units": "radiometric"})",
 };
@@ -140,6 +142,8 @@ const char* const kBad[] = {
     R"({"integrator": {"roulette_depth": "5"}})",
     R"({"sampler": "halton"})",
     R"({"sampler": 3})",
+    R"({"missing_textures": "pink"})",
+    R"({"missing_textures": false})",
     R"({"light_units": "raw"})",
     R"({"light_units": 683})",
     R"({"lights": {"a": {"ies": ""}}})",
