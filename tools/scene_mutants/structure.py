@@ -260,6 +260,55 @@ def graft(model, random, others):
     return f"{place.pointer}/{foreign.key} of another model"
 
 
+def rewrite_accessor(model, random, _):
+    """An accessor whose members fit each other, but are more, without data, or sparse."""
+    place = choose_if(model, random, lambda one: one.kind == ("accessors", "*") and isinstance(one.value, dict))
+    if place is None:
+        return None
+    accessor = place.value
+    many = random.choice((0, 1, 2, 1000, 10**6, 10**7, 2**28, 2**31 - 1, 2**31, 2**32 - 1, 2**32, 2**40, 2**62, 2**63))
+    view = accessor.get("bufferView", 0)
+    what = random.randrange(4)
+    if what == 0:
+        accessor.pop("bufferView", None)
+        accessor["count"] = many
+        return f"{place.pointer} has {many} values and no data"
+    if what == 1:
+        accessor["count"] = many
+        views = model.document.get("bufferViews")
+        if isinstance(views, list):
+            views.append({"buffer": 0, "byteLength": many, "byteOffset": random.choice((0, 1, many))})
+            accessor["bufferView"] = len(views) - 1
+        return f"{place.pointer} has {many} values in a view of as many bytes"
+    if what == 2:
+        accessor["sparse"] = {"count": random.choice((1, many)),
+                              "indices": {"bufferView": view, "componentType": random.choice((5121, 5123, 5125))},
+                              "values": {"bufferView": random.choice((view, 0))}}
+        return f"{place.pointer} is sparse"
+    accessor |= {"componentType": random.choice((5120, 5121, 5122, 5123, 5125, 5126)), "normalized": random.random() < 0.5}
+    return f"{place.pointer} has another component type"
+
+
+LENGTHS = (0, 1e-45, 1e-30, 1e-12, 1e-6, 1e6, 1e12, 1e18, 1e20, 1e30, 1e38, 1e300, -1, -1e12)
+
+
+def transform_node(model, random, _):
+    """A node far away, turned, flat, tiny or huge, whether or not it had a transform."""
+    place = choose_if(model, random, lambda one: one.kind == ("nodes", "*") and isinstance(one.value, dict))
+    if place is None:
+        return None
+    axes = [random.choice(LENGTHS) if random.random() < 0.5 else 1 for _ in range(3)]
+    key, value = random.choice((("translation", axes), ("scale", axes), ("scale", axes[:1] * 3), ("rotation", [*axes, 0]),
+                                ("matrix", [axes[0], 0, 0, 0, axes[1], 1, 0, 0, 0, 0, axes[2], 0, *axes, 1])))
+    if key == "matrix":
+        for one in ("translation", "rotation", "scale"):
+            place.value.pop(one, None)
+    else:
+        place.value.pop("matrix", None)
+    place.value[key] = value
+    return f"{place.pointer}/{key} = {value}"
+
+
 SCHEMA = json.loads((ROOT / "scenes/render.schema.json").read_text())
 
 
@@ -325,4 +374,4 @@ def json_short(value):
 MUTATIONS = {"type swapped": swap_type, "key deleted": delete, "key twice": duplicate_key, "member moved": move,
              "values exchanged": exchange, "number": extreme_number, "index": shift_index, "cycle": make_cycle,
              "array": resize_array, "string": change_string, "boolean": negate, "enumeration": change_enum,
-             "extension": change_extension, "graft": graft, "setting": set_setting}
+             "extension": change_extension, "graft": graft, "accessor": rewrite_accessor, "transform": transform_node, "setting": set_setting}

@@ -11,7 +11,7 @@ from .images import nonfinite_colors
 
 MUTATIONS = structure.MUTATIONS | data.MUTATIONS
 # Most of the others are refused at once, and tell nothing of what comes after the loader.
-WEIGHTS = {kind: 1 for kind in MUTATIONS} | {"number": 5, "graft": 5, "setting": 4, "values": 4, "values scaled": 3, "index": 2,
+WEIGHTS = {kind: 1 for kind in MUTATIONS} | {"number": 5, "graft": 5, "accessor": 3, "transform": 2, "setting": 4, "values": 4, "values scaled": 3, "index": 2,
                                              "enumeration": 2, "extension": 2, "array": 2, "key deleted": 2}
 INTEGRATORS = ("path", "bdpt", "light", "whitted", "direct", "naive")
 OK, REFUSED = 0, 3
@@ -26,6 +26,7 @@ class Mutant:
     base: str
     kinds: list
     changes: list
+    options: list  # of render
     model: object = field(repr=False)
 
 
@@ -46,7 +47,7 @@ def make_mutant(number, seed, bases, size, kinds=None):
         if len(used) == wanted:
             break
     make_small(model.settings, size)
-    return Mutant(number, model.name, used, changes, model)
+    return Mutant(number, model.name, used, changes, moment_of(model, number), model)
 
 
 def prepare(model, number, random):
@@ -55,6 +56,12 @@ def prepare(model, number, random):
     integrator["type"] = INTEGRATORS[number % len(INTEGRATORS)]
     if model.document.get("animations") and random.random() < 0.5:
         model.settings |= {"time_code": 0.3, "shutter": [0, 0.2]}
+
+
+def moment_of(model, number):
+    """Options for another moment than that of render.json: whatever moves has to be sound at all of them."""
+    moves = isinstance(model.document.get("animations"), list) and model.document["animations"]
+    return ["--time-code", "0.3", "--shutter", "0:0.2"] if moves and number // len(INTEGRATORS) % 2 else []
 
 
 def make_small(settings, size):
@@ -144,7 +151,7 @@ class Laboratory:
 
     def judge(self, mutant, top, scene, out, logs):
         before = listing(top / "in")
-        words = ["render", str(scene), "-o", str(out / "image.exr"), "--threads", "1"]
+        words = ["render", str(scene), "-o", str(out / "image.exr"), "--threads", "1", *mutant.options]
         inspected = self.program.run(["inspect", str(scene)], out, logs / "inspect")
         rendered = self.program.run(words, out, logs / "render")
         faults = faults_of_command("inspect", inspected, self.program.seconds) + \
