@@ -3,6 +3,7 @@
 #include "app/scene_render.h"
 #include "color/color_config.h"
 #include "loader/loader.h"
+#include "picture/aov_setup.h"
 #include "picture/render_setup.h"
 #include "processor/ray_code.h"
 
@@ -62,9 +63,16 @@ nlohmann::json summarize(const SceneDesc& s) {
             {"extensions_ignored", s.extensions_ignored}};
 }
 
+/// What a render of `path` shows first: a frame where render.json asks for a sequence.
+LoadOptions first_image(const std::string& path) {
+    LoadOptions options;
+    if (const std::optional<FrameRange> frames = find_frames(path)) options.frame = frames->frame(0);
+    return options;
+}
+
 Inspection inspect(const std::string& path) {
     Inspection result;
-    LoadedScene loaded = inspect_scene(path);
+    LoadedScene loaded = inspect_scene(path, first_image(path));
     SceneDesc& scene = loaded.scene;
     result.problems = std::move(loaded.problems);
     // Without a scene file there is nothing to describe.
@@ -83,6 +91,7 @@ Inspection inspect(const std::string& path) {
     add_missing_camera_and_light(scene, result.problems);
     try {
         (void)create_integrator(scene.settings);
+        (void)make_aov_plan(scene, result.problems);
         const ThreadPool threads;
         const ColorConfig colors = ColorConfig::from_environment();
         const std::string working_space = resolve_colors(scene.settings, colors);
