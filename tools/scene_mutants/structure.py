@@ -289,6 +289,20 @@ def rewrite_accessor(model, random, _):
     return f"{place.pointer} has another component type"
 
 
+def empty_attributes(model, random, _):
+    """All attributes of a primitive or of instances lose their data, and have as many values as each other."""
+    place = choose_if(model, random, lambda one: one.key == "attributes" and isinstance(one.value, dict))
+    if place is None:
+        return None
+    many = random.choice((1, 1000, 10**6, 10**7, 2**24, 2**24 + 1, 2**31))
+    for index in place.value.values():
+        accessor = at(model.document, "accessors", index)
+        if isinstance(accessor, dict):
+            accessor.pop("bufferView", None)
+            accessor["count"] = many
+    return f"{place.pointer} have {many} values and no data"
+
+
 LENGTHS = (0, 1e-45, 1e-30, 1e-12, 1e-6, 1e6, 1e12, 1e18, 1e20, 1e30, 1e38, 1e300, -1, -1e12)
 
 
@@ -374,4 +388,4 @@ def json_short(value):
 MUTATIONS = {"type swapped": swap_type, "key deleted": delete, "key twice": duplicate_key, "member moved": move,
              "values exchanged": exchange, "number": extreme_number, "index": shift_index, "cycle": make_cycle,
              "array": resize_array, "string": change_string, "boolean": negate, "enumeration": change_enum,
-             "extension": change_extension, "graft": graft, "accessor": rewrite_accessor, "transform": transform_node, "setting": set_setting}
+             "extension": change_extension, "graft": graft, "accessor": rewrite_accessor, "attributes": empty_attributes, "transform": transform_node, "setting": set_setting}
