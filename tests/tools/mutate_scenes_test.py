@@ -127,12 +127,13 @@ class Mutants(unittest.TestCase):
         for number in range(60):
             self.written(make_mutant(number, 3, self.bases, SIZE).model)
 
-    def test_sizes_stay_small_and_wrong_ones_wrong(self):
-        for seed in range(20):
-            settings = make_mutant(1, seed, self.bases, SIZE, ["setting"]).model.settings
-            self.assertNotIn("frames", settings)
-            self.assertFalse(isinstance(settings["spp"], int) and 1 < settings["spp"] <= 1 << 24)
-            self.assertFalse(all(isinstance(one, int) and 8 < one <= 65536 for one in settings["resolution"][:1]))
+    def test_large_images_become_small_and_wrong_sizes_stay(self):
+        for settings, expected in (({}, {"spp": 1, "resolution": [8, 8]}),
+                                   ({"spp": 64, "resolution": [1, 65536]}, {"spp": 1, "resolution": [8, 8]}),
+                                   ({"spp": "64", "resolution": [0, 9]}, {"spp": "64", "resolution": [0, 9]}),
+                                   ({"spp": True, "resolution": [9]}, {"spp": True, "resolution": [9]})):
+            make_small(settings, SIZE)
+            self.assertEqual(settings, expected)
 
     def test_glb_is_written_whole(self):
         base = next(base for base in self.bases if base.main == "scene.glb")

@@ -65,8 +65,7 @@ def moment_of(model, number):
 
 
 def make_small(settings, size):
-    """No large images and no sequences; what is no size or number of samples at all stays."""
-    settings.pop("frames", None)
+    """No large images; what is no size or number of samples at all stays."""
     if is_in(settings.get("spp", 1), 1 << 24):
         settings["spp"] = 1
     resolution = settings.get("resolution", list(size))
