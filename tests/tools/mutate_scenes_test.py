@@ -134,6 +134,9 @@ class Mutants(unittest.TestCase):
                                    ({"spp": True, "resolution": [9]}, {"spp": True, "resolution": [9]})):
             make_small(settings, SIZE)
             self.assertEqual(settings, expected)
+        settings = {"integrator": {"max_depth": 1 << 30, "roulette_depth": -1, "min_depth": 3}}
+        make_small(settings, SIZE)
+        self.assertEqual(settings["integrator"], {"max_depth": 64, "roulette_depth": -1, "min_depth": 3})
 
     def test_glb_is_written_whole(self):
         base = next(base for base in self.bases if base.main == "scene.glb")

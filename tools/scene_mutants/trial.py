@@ -16,6 +16,7 @@ WEIGHTS = {kind: 1 for kind in MUTATIONS} | {"number": 5, "graft": 5, "accessor"
 INTEGRATORS = ("path", "bdpt", "light", "whitted", "direct", "naive")
 OK, REFUSED = 0, 3
 TRIES = 50
+LONGEST_PATH = 64  # edges
 
 
 @dataclass
@@ -65,12 +66,16 @@ def moment_of(model, number):
 
 
 def make_small(settings, size):
-    """No large images; what is no size or number of samples at all stays."""
+    """No large images and no long paths, which anybody may ask for; numbers that are not allowed stay."""
     if is_in(settings.get("spp", 1), 1 << 24):
         settings["spp"] = 1
     resolution = settings.get("resolution", list(size))
     if isinstance(resolution, list) and len(resolution) == 2 and all(is_in(one, 1 << 16) for one in resolution):
         settings["resolution"] = list(size)
+    integrator = settings.get("integrator")
+    for key in ("max_depth", "roulette_depth"):
+        if isinstance(integrator, dict) and is_in(integrator.get(key), (1 << 31) - 1):
+            integrator[key] = min(integrator[key], LONGEST_PATH)
 
 
 def is_in(value, last):
