@@ -4,6 +4,7 @@
 #include "app/settings_overrides.h"
 #include "color/color_config.h"
 #include "loader/loader.h"
+#include "picture/aov_setup.h"
 #include "picture/render_setup.h"
 #include "picture/scene_completion.h"
 #include "processor/ray_code.h"
@@ -72,7 +73,7 @@ Inspection inspect(const std::string& path, LoadOptions options) {
     Inspection result;
     options.every_animation = true;
     // What a render of the sequence would show first.
-    if (const std::optional<FrameRange> frames = find_frames(path)) options.frame = frames->first;
+    if (const std::optional<FrameRange> frames = find_frames(path)) options.frame = frames->frame(0);
     LoadedScene loaded = inspect_scene(path, options);
     SceneDesc& scene = loaded.scene;
     result.problems = std::move(loaded.problems);
@@ -91,6 +92,7 @@ Inspection inspect(const std::string& path, LoadOptions options) {
     try {
         complete_scene(scene, result.problems);
         (void)create_integrator(scene.settings);
+        (void)make_aov_plan(scene, result.problems);
         const ThreadPool threads;
         const ColorConfig colors = ColorConfig::from_environment();
         const std::string working_space = resolve_colors(scene.settings, colors);
@@ -170,6 +172,7 @@ void add_inspect_command(CLI::App& app, Action& action) {
     auto arguments = std::make_shared<InspectArguments>();
     CLI::App* command = app.add_subcommand("inspect", "Say what is in a scene and everything that is wrong with it");
     command->add_option("scene", arguments->scene, "Scene directory, .gltf or .glb")->required();
+    add_moment_options(*command, arguments->options);
     add_assets_option(*command, arguments->options.assets);
     add_missing_textures_option(*command, arguments->options);
     command->add_flag("--json", arguments->json, "Print JSON");

@@ -31,8 +31,10 @@ ExitCode run(const Action& action) {
         log_error("error: {}", error.what());
         return ExitCode::UsageError;
     } catch (const std::bad_alloc&) {
-        log_error("error: there is not enough memory; a smaller --size or --crop needs less: {} bytes a pixel",
-                  sizeof(PixelSum));
+        log_error(
+            "error: there is not enough memory for the scene and its image; a smaller --size or --crop needs less, {} "
+            "bytes a pixel",
+            sizeof(PixelSum));
         return ExitCode::RenderFailed;
     } catch (const std::exception& error) {
         log_error("error: {}", error.what());

@@ -138,6 +138,14 @@ std::array<int, 4> parse_pixel_window(const std::string& option, const std::stri
     return c;
 }
 
+void add_moment_options(CLI::App& command, LoadOptions& options) {
+    command.add_option("--time-code", options.time_code, "Moment of the animation to show, seconds (default: at rest)");
+    command.add_option("--animation", options.animation, "Name of the animation to show (default: the first)");
+    command.add_option_function<std::string>(
+        "--shutter", [&options](const std::string& text) { options.shutter = parse_shutter(text); },
+        "Blur what moves from OPEN to CLOSE, seconds from the moment shown: OPEN:CLOSE (default: no motion blur)");
+}
+
 void add_assets_option(CLI::App& command, std::vector<std::filesystem::path>& assets) {
     if (const char* listed = std::getenv("ETENDUE_ASSETS")) {
         std::istringstream list(listed);
@@ -181,16 +189,12 @@ void SettingsOverrides::add_options(CLI::App& command) {
         "--crop", [this](const std::string& text) { crop = parse_pixel_window("--crop", text); },
         "Render only pixels x0,y0,x1,y1 (half-open, y down)");
     command.add_option("--camera", camera, "Name of the camera (default: the first)");
-    command.add_option("--time-code", moment.time_code, "Moment of the animation to show, seconds (default: at rest)");
-    command.add_option("--animation", moment.animation, "Name of the animation to show (default: the first)");
+    add_moment_options(command, moment);
     command.add_option_function<std::string>(
         "--frames", [this](const std::string& text) { frames = parse_frames(text); },
         "Render a sequence, FIRST:LAST or FIRST:LAST:STEP, or one frame of it; frame f is at time code + f / fps");
     command.add_option("--fps", moment.fps, "Frames per second of a sequence (default: 24)")
         ->check(real_range(1e-3, 1e6));
-    command.add_option_function<std::string>(
-        "--shutter", [this](const std::string& text) { moment.shutter = parse_shutter(text); },
-        "Blur what moves from OPEN to CLOSE, seconds from the moment shown: OPEN:CLOSE (default: no motion blur)");
     command.add_option("--variant", variant, "Name of the file's set of materials (KHR_materials_variants)");
     command.add_option("--seed", seed, "Seed of everything random");
     command.add_option("--time", time_seconds, "Start no new pass after this many seconds")

@@ -79,6 +79,9 @@ struct SettingsOverrides {
     void add_color_options(CLI::App& command);
 };
 
+/// Adds --time-code, --animation and --shutter to a subcommand; `options` must outlive it.
+void add_moment_options(CLI::App& command, LoadOptions& options);
+
 /// Adds --assets DIR, which adds to `assets` before what $ETENDUE_ASSETS lists.
 void add_assets_option(CLI::App& command, std::vector<std::filesystem::path>& assets);
 

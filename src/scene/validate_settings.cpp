@@ -123,6 +123,8 @@ void validate_lights(const SceneDesc& scene, ProblemList& problems) {
     check_range(environment.color, 0.0, kUnbounded, "environment colour", environment.location, problems);
     check_range(static_cast<double>(environment.scale), 0.0, kUnbounded, "environment scale", environment.location,
                 problems);
+    if (const Rgb radiance = environment.color * environment.scale; std::isinf(max_component(radiance)))
+        problems.error(environment.location, "the environment's colour times its scale is infinite");
     check_range(static_cast<double>(environment.rotation), -std::numeric_limits<float>::max(), kUnbounded,
                 "environment rotation", environment.location, problems);
 }

@@ -7,6 +7,7 @@
 #include "world/world.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <utility>
@@ -49,8 +50,12 @@ struct Touches {
 [[nodiscard]] PlacedTriangle place(const WorldData& data, std::uint32_t instance, std::uint32_t geometry,
                                    std::uint32_t triangle);
 
+/// Triangles that are looked at in all, some seconds of it.
+inline constexpr std::size_t kMostWorkForTouches = std::size_t{1} << 24;
+
 /// All that touch of which one is an emitter, the boundary of a body or a thin sheet: for others it does not matter.
 /// Needs materials, geometry and the BVH in `data`.
-[[nodiscard]] Touches find_touches(const WorldData& data, const ThreadPool& threads);
+[[nodiscard]] Touches find_touches(const WorldData& data, const ThreadPool& threads,
+                                   std::size_t most_work = kMostWorkForTouches);
 
 }  // namespace etendue

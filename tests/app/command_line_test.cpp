@@ -214,6 +214,8 @@ TEST_F(CommandLine, SettingsAreBlamedWhereTheyStand) {
               std::string::npos);
     EXPECT_NE(error_of("d", R"("color": {"display": "nope"},)").find("render.json#/color/display: there is no display"),
               std::string::npos);
+    EXPECT_NE(error_of("e", R"("aovs": ["nope"],)").find("render.json#/aovs/0: layer 'nope'"), std::string::npos);
+    EXPECT_NE(error_of("f", R"("frames": [0, 1],)").find("scene.gltf: the file has no animation"), std::string::npos);
 }
 
 TEST_F(CommandLine, UnknownCommandsAreNamed) {

@@ -128,6 +128,11 @@ const Defect kDefects[] = {
     {"LightNegative", "light intensity", [](SceneDesc& s) { s.lights[0].intensity = -1; }},
     {"SpotConesSwapped", "cone", [](SceneDesc& s) { s.lights[0].inner_cone_angle = 1; }},
     {"EnvironmentScale", "environment scale", [](SceneDesc& s) { s.environment.scale = kNan; }},
+    {"EnvironmentInfinite", "colour times its scale is infinite",
+     [](SceneDesc& s) {
+         s.environment.color = Rgb(3e38f);
+         s.environment.scale = 3e38f;
+     }},
     {"UnknownCamera", "did you mean 'main'", [](SceneDesc& s) { s.settings.camera = "mian"; }},
     {"SppZero", "spp", [](SceneDesc& s) { s.settings.spp = 0; }},
     {"WidthHuge", "width", [](SceneDesc& s) { s.settings.film.width = 65537; }},
