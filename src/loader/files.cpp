@@ -1,6 +1,7 @@
 #include "loader/files.h"
 
 #include "core/error.h"
+#include "core/shown_text.h"
 #include "loader/json_text.h"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 #include "loader/gltf/gltf_textures.h"
 
+#include "core/shown_text.h"
 #include "image/read.h"
 #include "loader/files.h"
 #include "loader/gltf/gltf_value.h"
