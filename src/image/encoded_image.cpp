@@ -1,12 +1,16 @@
 #include "image/encoded_image.h"
 
 #include "core/error.h"
+#include "image/exr_claims.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <span>
 #include <system_error>
 #include <variant>
@@ -46,6 +50,24 @@ Beginning beginning_of(std::span<const std::byte> bytes) {
     return beginning;
 }
 
+ByteSource bytes_of(const std::filesystem::path& path) {
+    const auto stream = std::make_shared<std::ifstream>(path, std::ios::binary);
+    return [stream](std::uint64_t offset, std::span<std::uint8_t> bytes) {
+        stream->clear();
+        stream->seekg(static_cast<std::streamoff>(offset));
+        stream->read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+        return static_cast<std::size_t>(std::max<std::streamsize>(0, stream->gcount()));
+    };
+}
+
+ByteSource bytes_of(std::span<const std::byte> all) {
+    return [all](std::uint64_t offset, std::span<std::uint8_t> bytes) {
+        const std::size_t count = offset < all.size() ? std::min(bytes.size(), all.size() - offset) : 0;
+        if (count > 0) std::memcpy(bytes.data(), all.data() + offset, count);
+        return count;
+    };
+}
+
 }  // namespace
 
 EncodedImage look_at(const ImageSource& source) {
@@ -53,6 +75,9 @@ EncodedImage look_at(const ImageSource& source) {
     if (beginning.size == 0) throw IoError("the file is empty");
     const auto format = detect_format(std::span(beginning.head).first(beginning.head_size));
     if (!format) throw IoError("not an image of a known format (PNG, JPEG, WebP, OpenEXR, Radiance HDR, TIFF)");
+    if (format->name == "openexr")
+        check_exr_claims(std::visit([](const auto& place) { return bytes_of(place); }, source),
+                         static_cast<std::uint64_t>(beginning.size));
     return {source, *format, beginning.size};
 }
 

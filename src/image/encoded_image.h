@@ -14,7 +14,8 @@ struct EncodedImage {
     std::int64_t size = 0;  ///< bytes
 };
 
-/// Throws IoError if `source` cannot be opened, is empty or of no known format.
+/// Throws IoError if `source` cannot be opened, is empty, of no known format, or an OpenEXR file that claims to be
+/// larger than it can be.
 [[nodiscard]] EncodedImage look_at(const ImageSource& source);
 
 }  // namespace etendue
