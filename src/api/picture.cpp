@@ -71,9 +71,10 @@ void Picture::write_exr(const std::filesystem::path& file, Depth depth) const {
         if (image.frame.aces_container && depth == Depth::Float)
             throw IoError(
                 fmt::format("cannot write {}: an ACES container (SMPTE ST 2065-4) holds 16-bit floats", file.string()));
-        require_writable(file, state_->inputs);
-        for (const std::string& name : layer_file_names(file, image))
-            require_writable(file.parent_path() / name, state_->inputs);
+        std::vector<std::filesystem::path> outputs{file};
+        for (const std::string& name : layer_file_names(file, image)) outputs.push_back(file.parent_path() / name);
+        for (const std::filesystem::path& output : outputs) require_writable(output);
+        require_inputs_kept("Picture::write_exr", outputs, state_->inputs);
         write_exr_files(file, image, state_->colors, depth == Depth::Float ? PixelDepth::Float : PixelDepth::Half);
     });
 }

@@ -11,10 +11,10 @@
 #include "core/byte_size.h"
 #include "core/error.h"
 #include "core/log.h"
+#include "core/standard_output.h"
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdio>
 #include <memory>
 #include <span>
 #include <string>
@@ -44,9 +44,9 @@ void prepare_output(const fs::path& output) {
 
 void print(const BatchOptions& options, const std::string& json, const std::string& table) {
     if (options.json)
-        std::fputs(json.c_str(), stdout);
+        print_data(json);
     else if (!options.quiet)
-        std::fputs(table.c_str(), stdout);
+        print_text(table);
 }
 
 ExitCode exit_code_of(const BatchRunner& runner) {

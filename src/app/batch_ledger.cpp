@@ -3,13 +3,13 @@
 #include "app/file_descriptor.h"
 #include "app/process_owner.h"
 #include "core/error.h"
+#include "core/system_error_text.h"
 
 #include <array>
 #include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <fstream>
-#include <system_error>
 
 #include <fcntl.h>
 #include <fmt/chrono.h>
@@ -31,7 +31,7 @@ constexpr std::array<LedgerEventKind, 7> kKinds{LedgerEventKind::BatchStarted, L
                                                 LedgerEventKind::UnitNotTried};
 
 [[noreturn]] void throw_ledger_error(const std::filesystem::path& path, int error) {
-    throw IoError(fmt::format("cannot append to {}: {}", path.string(), std::generic_category().message(error)));
+    throw IoError(fmt::format("cannot append to {}: {}", path.string(), system_error_text(error)));
 }
 
 std::string to_line(const LedgerEvent& event) {

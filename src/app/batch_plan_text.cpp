@@ -1,6 +1,7 @@
 // How a plan reads.
 #include "app/batch_plan.h"
 #include "app/progress_display.h"
+#include "core/shown_text.h"
 
 #include <algorithm>
 #include <map>
@@ -32,8 +33,8 @@ std::string to_table(const BatchPlan& plan) {
     std::size_t name_width = 5;
     std::size_t reason_width = 3;
     for (const PlannedUnit& unit : plan) {
-        name_width = std::max(name_width, unit.task.job.name.size());
-        reason_width = std::max(reason_width, unit.reason.size());
+        name_width = std::max(name_width, shown_text(unit.task.job.name).size());
+        reason_width = std::max(reason_width, shown_text(unit.reason).size());
     }
     const auto row = [&](const std::string& name, const std::string& plan_text, const std::string& why,
                          const std::string& time, const std::string& image) {
@@ -42,8 +43,10 @@ std::string to_table(const BatchPlan& plan) {
     };
     std::string text = row("scene", "plan", "why", "estimate", "image");
     for (const PlannedUnit& unit : plan)
-        text += row(unit.task.job.name, unit.is_stale() ? "render" : "up to date", unit.is_stale() ? unit.reason : "-",
-                    unit.is_stale() ? format_estimate(unit.estimated_seconds) : "-", unit.task.job.output.string());
+        text += row(shown_text(unit.task.job.name), unit.is_stale() ? "render" : "up to date",
+                    unit.is_stale() ? shown_text(unit.reason) : "-",
+                    unit.is_stale() ? format_estimate(unit.estimated_seconds) : "-",
+                    shown_text(unit.task.job.output.string()));
     return text + counted(plan) + "\n";
 }
 

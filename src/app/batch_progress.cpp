@@ -1,6 +1,7 @@
 #include "app/batch_progress.h"
 
 #include "app/progress_display.h"
+#include "core/shown_text.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -70,12 +71,11 @@ std::string format_line(const BatchProgressLine& line, int width) {
     if (line.left) after += fmt::format(", {} left", format_duration(*line.left));
     const auto room = static_cast<std::size_t>(std::max(0, width - static_cast<int>(before.size() + after.size())));
     constexpr std::string_view kCut = "...";
-    std::string name = line.current;
+    std::string name = shown_text(line.current);
     if (name.size() > room)
-        name = room > kCut.size() ? std::string(kCut) + name.substr(name.size() - (room - kCut.size())) : std::string();
+        name = room > kCut.size() ? std::string(kCut) + std::string(last_characters(name, room - kCut.size())) : "";
     std::string text = before + name + after;
-    if (static_cast<int>(text.size()) > width) text.resize(static_cast<std::size_t>(std::max(width, 0)));
-    return text;
+    return std::string(first_characters(text, static_cast<std::size_t>(std::max(width, 0))));
 }
 
 BatchProgress::BatchProgress(bool quiet) : quiet_(quiet), terminal_(::isatty(STDERR_FILENO) == 1) {}
@@ -105,7 +105,7 @@ void BatchProgress::clear() {
 void BatchProgress::say(const std::string& text) {
     if (quiet_) return;
     clear();
-    std::fprintf(stderr, "%s\n", text.c_str());
+    std::fprintf(stderr, "%s\n", shown_message(text).c_str());
 }
 
 double BatchProgress::elapsed() const {

@@ -1,6 +1,7 @@
 #include "app/brightest_list.h"
 
 #include "core/log.h"
+#include "core/shown_text.h"
 
 #include <fmt/format.h>
 
@@ -15,7 +16,7 @@ void list_brightest(const RenderStatistics& statistics) {
         const bool is_known = !c.path.empty();
         log_info("{:>37} {:>8} {:>30}  {:>7} {:>5}  {}", fmt::format("({}, {})", c.x, c.y), c.sample, value,
                  is_known ? fmt::format("({},{})", c.s, c.t) : "?", is_known ? fmt::format("{}", c.edges) : "?",
-                 is_known ? c.path : "not known");
+                 is_known ? shown_text(c.path) : "not known");
     }
 }
 

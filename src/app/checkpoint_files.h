@@ -5,6 +5,7 @@
 #include "render/checkpoint.h"
 #include "render/render.h"
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -40,6 +41,8 @@ class CheckpointFiles {
     /// expected.
     [[nodiscard]] std::optional<Checkpoint> read(const Expected& expected, bool quiet) const;
 
+    /// Both, whether they exist or not.
+    [[nodiscard]] std::array<std::filesystem::path, 2> paths() const { return {newest_, previous_}; }
     /// True if there is one.
     [[nodiscard]] bool exist() const;
     /// Once the image is complete.

@@ -12,14 +12,14 @@
 #include "app/library_versions.h"
 #include "app/output_directory.h"
 #include "core/log.h"
+#include "core/source_date.h"
+#include "core/standard_output.h"
 #include "core/write_file.h"
 #include "output/software_name.h"
 #include "picture/render_setup.h"
 
 #include <algorithm>
 #include <array>
-#include <chrono>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -99,8 +99,7 @@ ComparisonReport start_report(const CompareArguments& arguments, const Variant& 
     const RenderSettings& settings = variant.settings;
     ComparisonReport report;
     report.program = software_name();
-    report.created = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}",
-                                 fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())));
+    report.created = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(creation_time()));
     report.command = arguments.command;
     report.scene = scene_name(arguments.scene);
     report.scene_path = arguments.scene;
@@ -191,7 +190,11 @@ ExitCode run_compare(const CompareArguments& arguments) {
     RequestedReference requested = requested_reference(arguments, variants, request.budget, colors);
     if (!arguments.quiet)
         for (const std::string& note : requested.notes) log_warning("note: {}", note);
-    const std::vector<std::filesystem::path> files = prepare_directory(arguments.output, {"report.json", "index.html"});
+    std::vector<std::filesystem::path> inputs;
+    if (!arguments.reference.empty()) inputs.emplace_back(arguments.reference);
+    for (const Variant& variant : variants) inputs.insert(inputs.end(), variant.inputs.begin(), variant.inputs.end());
+    const std::vector<std::filesystem::path> files =
+        prepare_directory(arguments.output, {"report.json", "index.html"}, inputs);
     ImageStore store(arguments.output, window.width(), window.height(), 3);
     const std::vector<VariantRenders> renders = render_variants(variants, request, store, threads);
     const std::size_t rounds = renders.front().seeds.size();
@@ -238,7 +241,7 @@ ExitCode run_compare(const CompareArguments& arguments) {
         print_summary(report, notes_said);
         log_info("{}", files[1].string());
     }
-    if (arguments.json) std::fputs(to_json(report).c_str(), stdout);
+    if (arguments.json) print_data(to_json(report));
     if (interrupt_requested()) return interrupt_exit_code();
     return report.agrees() ? ExitCode::Success : ExitCode::DiffFailed;
 }

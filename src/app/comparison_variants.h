@@ -36,7 +36,8 @@ struct VariantRequest {
 struct Variant {
     std::string name{};
     std::string options{};
-    std::vector<GivenOption> given{};  ///< of `render`: its own and those of all variants
+    std::vector<GivenOption> given{};             ///< of `render`: its own and those of all variants
+    std::vector<std::filesystem::path> inputs{};  ///< files that its scene was read from
     RenderSettings settings{};
     RenderOptions sampling{};
     std::unique_ptr<const Integrator> integrator{};

@@ -1,5 +1,6 @@
 // etendue denoise: an image with less noise, from what the renderer knows of its noise.
 #include "app/commands.h"
+#include "app/input_files.h"
 #include "app/interrupt.h"
 #include "app/usage_error.h"
 #include "core/error.h"
@@ -241,8 +242,8 @@ ExitCode run_denoise(const DenoiseArguments& arguments) {
         if (arguments.method == "oidn" && std::ranges::find(kOidnFeatures, feature) == kOidnFeatures.end())
             throw UsageError(fmt::format("--features {}: the network of '--method oidn' knows {} only", feature,
                                          fmt::join(kOidnFeatures, " and ")));
-    const std::filesystem::path image = arguments.image;
-    require_writable(arguments.output, std::span(&image, 1));
+    require_writable(arguments.output);
+    require_files_kept("--output", std::array<std::filesystem::path, 1>{arguments.output}, {arguments.image});
     try {
         const auto start = std::chrono::steady_clock::now();
         DenoiseInput input = read_input(arguments);

@@ -2,9 +2,12 @@
 #include "app/commands.h"
 #include "app/image_measures.h"
 #include "app/image_pair.h"
+#include "app/input_files.h"
 #include "app/settings_overrides.h"
 #include "core/log.h"
 #include "core/pixel_rect_text.h"
+#include "core/shown_text.h"
+#include "core/standard_output.h"
 #include "image/write.h"
 #include "metrics/color_map.h"
 #include "metrics/error_metrics.h"
@@ -17,6 +20,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -177,30 +181,34 @@ MapWritten write_map(const MeasuredPair& pair, const Measure& measure, const Dif
 // ---- The report.
 
 std::string describe(const ComparedFile& file) {
-    return fmt::format("{}: {}, {}, {} channels, {}{}", file.path.string(), size_text_of(file.display), file.format,
-                       file.channels, file.color_space.empty() ? "colour space not said" : file.color_space,
+    return fmt::format("{}: {}, {}, {} channels, {}{}", shown_text(file.path.string()), size_text_of(file.display),
+                       file.format, file.channels,
+                       file.color_space.empty() ? "colour space not said" : shown_text(file.color_space),
                        file.data == file.display ? "" : fmt::format(", pixels {}", text_of(file.data)));
 }
 
 void print_report(const MeasuredPair& pair, const DiffArguments& arguments, const DiffResult& result) {
+    std::string text;
+    const auto out = std::back_inserter(text);
     const PixelRect region = arguments.options.region.value_or(pair.pair().window);
-    fmt::print("image           {}\n", describe(pair.pair().image_file));
-    fmt::print("reference       {}\n", describe(pair.pair().reference_file));
-    fmt::print(
-        "compared        R, G, B of {} pixels, {} from {},{}{}\n", pair.pixel_count(), size_text_of(region), region.x0,
-        region.y0,
+    fmt::format_to(out, "image           {}\n", describe(pair.pair().image_file));
+    fmt::format_to(out, "reference       {}\n", describe(pair.pair().reference_file));
+    fmt::format_to(
+        out, "compared        R, G, B of {} pixels, {} from {},{}{}\n", pair.pixel_count(), size_text_of(region),
+        region.x0, region.y0,
         pair.left_out_count() == 0 ? "" : fmt::format("; {} that are not finite left out", pair.left_out_count()));
-    fmt::print("                v is the image's value, r the reference's{}\n",
-               pair.pair().is_encoded ? ", in [0, 1] as they stand in the files" : "");
+    fmt::format_to(out, "                v is the image's value, r the reference's{}\n",
+                   pair.pair().is_encoded ? ", in [0, 1] as they stand in the files" : "");
     for (const Measure& measure : result.measures) {
         const auto limit = result.limit_of(measure.name);
-        fmt::print(
-            "{:<15} {:<12.6g} {}{}\n", measure.name, measure.value, measure.description,
+        fmt::format_to(
+            out, "{:<15} {:<12.6g} {}{}\n", measure.name, measure.value, measure.description,
             limit ? fmt::format("; limit {:g}{}", *limit, result.is_too_large(measure) ? ", exceeded" : "") : "");
     }
     if (result.map)
-        fmt::print("map             {}: {} from 0 to {:.6g} ({})\n", result.map->file, result.map->measure,
-                   result.map->largest, result.map->scale);
+        fmt::format_to(out, "map             {}: {} from 0 to {:.6g} ({})\n", result.map->file, result.map->measure,
+                       result.map->largest, result.map->scale);
+    print_text(text);
 }
 
 OrderedJson to_json(const PixelRect& rect) {
@@ -260,7 +268,7 @@ void print_json(const MeasuredPair& pair, const DiffArguments& arguments, const 
         json["map"] = {{"file", result.map->file}, {"measure", result.map->measure}, {"largest", result.map->largest}};
     json["warnings"] = pair.pair().warnings;
     json["passed"] = passed;
-    fmt::print("{}\n", json.dump(2, ' ', false, OrderedJson::error_handler_t::replace));
+    print_data(json.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n");
 }
 
 void log_faults(const ComparedFile& file, const NotFinite& faults) {
@@ -296,6 +304,9 @@ void add_flip_warning(ImagePair& pair, const std::vector<std::string>& names, co
 }
 
 ExitCode run_diff(const DiffArguments& arguments) {
+    if (!arguments.map.empty())
+        require_files_kept("--map", std::array<std::filesystem::path, 1>{arguments.map},
+                           {arguments.image, arguments.reference});
     const ColorConfig colors = ColorConfig::from_environment();
     ImagePair images = read_image_pair(arguments.image, arguments.reference, colors);
     const std::vector<std::string> names = chosen_measures(arguments, images.is_encoded);
@@ -312,10 +323,9 @@ ExitCode run_diff(const DiffArguments& arguments) {
         result.limits.push_back({resolve_measure(limit.measure, pair.pair().is_encoded), limit.value});
     // What was measured must not be lost with a map that cannot be written.
     std::exception_ptr map_failure;
-    const std::array<std::filesystem::path, 2> read{arguments.image, arguments.reference};
     try {
         if (!arguments.map.empty()) {
-            require_writable(arguments.map, read);
+            require_writable(arguments.map);
             result.map = write_map(pair, result.measures.front(), arguments);
         }
     } catch (const std::exception&) {
@@ -335,10 +345,7 @@ ExitCode run_diff(const DiffArguments& arguments) {
         print_json(pair, arguments, result, passed);
     else if (!arguments.quiet)
         print_report(pair, arguments, result);
-    if (map_failure) {
-        std::fflush(stdout);
-        std::rethrow_exception(map_failure);
-    }
+    if (map_failure) std::rethrow_exception(map_failure);
     return passed ? ExitCode::Success : ExitCode::DiffFailed;
 }
 

@@ -1,8 +1,8 @@
 // etendue help: what --help says, of the program or of a command.
 #include "app/command_line.h"
 #include "app/commands.h"
+#include "core/standard_output.h"
 
-#include <cstdio>
 #include <memory>
 #include <string>
 
@@ -33,7 +33,7 @@ void add_help_command(CLI::App& app, Action& action) {
         "  etendue help render");
     command->callback([name, &action] {
         action = [name] {
-            std::fputs(help_text(*name).c_str(), stdout);
+            print_text(help_text(*name));
             return ExitCode::Success;
         };
     });

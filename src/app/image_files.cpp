@@ -1,5 +1,6 @@
 #include "app/image_files.h"
 
+#include "app/checkpoint_files.h"
 #include "app/peak_memory.h"
 #include "app/phase_timer.h"
 #include "app/up_to_date.h"
@@ -13,6 +14,22 @@
 #include <system_error>
 
 namespace etendue {
+
+std::filesystem::path preview_path(const std::filesystem::path& output) {
+    std::filesystem::path path = output;
+    return path.replace_extension(".preview.png");
+}
+
+std::vector<std::filesystem::path> files_of_image(const std::filesystem::path& output,
+                                                  std::span<const std::string> layers) {
+    std::vector<std::filesystem::path> files{output, preview_path(output)};
+    for (const std::filesystem::path& checkpoint : CheckpointFiles(output).paths()) files.push_back(checkpoint);
+    if (is_partial(output)) return files;
+    const OutputPaths paths = OutputPaths::beside(output);
+    files.insert(files.end(), {paths.png, paths.json});
+    for (const std::string& layer : layers) files.push_back(layer_path(output, layer));
+    return files;
+}
 
 std::vector<std::string> write_image_files(const OutputPaths& paths, ImageDescription& image, const ColorConfig& colors,
                                            PixelDepth depth, const std::function<void()>& beside) {

@@ -6,11 +6,21 @@
 #include "picture/image_description.h"
 #include "picture/output_paths.h"
 
+#include <filesystem>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace etendue {
+
+/// Where SIGUSR1 has the image of that moment written.
+[[nodiscard]] std::filesystem::path preview_path(const std::filesystem::path& output);
+
+/// Every file that a render of the image or part `output` may write; `layers` are the names of those that have files of
+/// their own.
+[[nodiscard]] std::vector<std::filesystem::path> files_of_image(const std::filesystem::path& output,
+                                                                std::span<const std::string> layers = {});
 
 /// Writes the files of `image`, whose state has been described; fills in how long that took. `beside` is called for
 /// what else belongs to the image. Layers stand where `image` says. Statistics are removed first and written last, so

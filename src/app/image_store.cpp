@@ -1,11 +1,11 @@
 #include "app/image_store.h"
 
 #include "core/error.h"
+#include "core/system_error_text.h"
 
 #include <cerrno>
 #include <cstdlib>
 #include <string>
-#include <system_error>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -15,8 +15,8 @@ namespace etendue {
 namespace {
 
 [[noreturn]] void fail(const char* what, const std::filesystem::path& directory, int error) {
-    throw IoError(fmt::format("cannot {} a temporary file in {}: {}", what, directory.string(),
-                              std::generic_category().message(error)));
+    throw IoError(
+        fmt::format("cannot {} a temporary file in {}: {}", what, directory.string(), system_error_text(error)));
 }
 
 }  // namespace

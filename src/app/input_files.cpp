@@ -1,12 +1,15 @@
 #include "app/input_files.h"
 
+#include "color/color_config.h"
 #include "core/content_hash.h"
 #include "core/error.h"
+#include "picture/output_paths.h"
 
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -48,6 +51,11 @@ std::string input_name(const fs::path& input, const fs::path& directory) {
     const fs::path path = whole.lexically_relative(canonical_directory(directory));
     const bool is_inside = !path.empty() && *path.begin() != "..";
     return (is_inside ? path : whole).generic_string();
+}
+
+void require_files_kept(std::string_view option, std::span<const fs::path> outputs, std::vector<fs::path> inputs) {
+    for (fs::path& file : ColorConfig::environment_files()) inputs.push_back(std::move(file));
+    require_inputs_kept(option, outputs, inputs);
 }
 
 std::vector<InputFile> stamp_inputs(const SceneDesc& scene, fs::file_time_type started) {

@@ -8,9 +8,15 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace etendue {
+
+/// Throws ReplacedInput if one of `outputs`, which `option` asks for, is one of `inputs`, of the OpenColorIO config in
+/// use or of its tables. For commands that read no scene, whose inputs hold these.
+void require_files_kept(std::string_view option, std::span<const std::filesystem::path> outputs,
+                        std::vector<std::filesystem::path> inputs);
 
 /// Name, size and time of each input of `scene`, without content. One that has changed since `started`, when the first
 /// of them was read, has time 0: nobody knows what of it was read.

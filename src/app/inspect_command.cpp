@@ -3,6 +3,8 @@
 #include "app/scene_render.h"
 #include "app/settings_overrides.h"
 #include "color/color_config.h"
+#include "core/shown_text.h"
+#include "core/standard_output.h"
 #include "loader/loader.h"
 #include "picture/aov_setup.h"
 #include "picture/render_setup.h"
@@ -10,8 +12,8 @@
 #include "processor/ray_code.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -113,15 +115,19 @@ std::string place_text(const Vec3f& point, const Vec3d& origin) {
     return fmt::format("({:.12g} {:.12g} {:.12g})", place.x, place.y, place.z);
 }
 
-void print_text(const Inspection& i) {
-    fmt::print("{}", i.description);
+std::string to_text(const Inspection& i) {
+    std::string text;
+    const auto out = std::back_inserter(text);
+    fmt::format_to(out, "{}", i.description);
     if (i.bounds.empty())
-        fmt::print("bounds: none (nothing is placed)\n");
+        fmt::format_to(out, "bounds: none (nothing is placed)\n");
     else
-        fmt::print("bounds: {} to {} metres\n", place_text(i.bounds.min, i.origin), place_text(i.bounds.max, i.origin));
-    fmt::print("triangles: {}, vertices: {}\n", i.triangles, i.vertices);
+        fmt::format_to(out, "bounds: {} to {} metres\n", place_text(i.bounds.min, i.origin),
+                       place_text(i.bounds.max, i.origin));
+    fmt::format_to(out, "triangles: {}, vertices: {}\n", i.triangles, i.vertices);
     if (i.world)
-        fmt::print(
+        fmt::format_to(
+            out,
             "compiled: {} triangles as seen, {} lights, {:.1f} MiB BVH in {:.2f} s ({:.2f} Mtris/s), {:.1f} MiB "
             "geometry, "
             "{:.1f} MiB textures\n",
@@ -130,9 +136,10 @@ void print_text(const Inspection& i) {
             static_cast<double>(i.world->triangles) / std::max(i.world->bvh_build_seconds, 1e-9) * 1e-6,
             static_cast<double>(i.world->geometry_bytes) / (1 << 20),
             static_cast<double>(i.world->texture_bytes) / (1 << 20));
-    if (i.problems.all().empty()) fmt::print("problems: none\n");
-    for (const Problem& problem : i.problems.all()) fmt::print("{}\n", problem.str());
-    if (i.problems.dropped() > 0) fmt::print("(and {} more problems)\n", i.problems.dropped());
+    if (i.problems.all().empty()) fmt::format_to(out, "problems: none\n");
+    for (const Problem& problem : i.problems.all()) fmt::format_to(out, "{}\n", shown_message(problem.str()));
+    if (i.problems.dropped() > 0) fmt::format_to(out, "(and {} more problems)\n", i.problems.dropped());
+    return text;
 }
 
 nlohmann::json place_json(const Vec3f& point, const Vec3d& origin) {
@@ -163,7 +170,7 @@ void print_json(const Inspection& i) {
                                     {"file", problem.where.file},
                                     {"pointer", problem.where.pointer},
                                     {"message", problem.message}});
-    fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    print_data(json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace
@@ -187,7 +194,7 @@ void add_inspect_command(CLI::App& app, Action& action) {
             if (arguments->json)
                 print_json(inspection);
             else
-                print_text(inspection);
+                print_text(to_text(inspection));
             return inspection.problems.has_errors() ? ExitCode::InvalidScene : ExitCode::Success;
         };
     });

@@ -1,6 +1,7 @@
 // etendue merge: one image from parts that were rendered apart.
 #include "app/commands.h"
 #include "app/image_files.h"
+#include "app/input_files.h"
 #include "app/library_versions.h"
 #include "app/merge_parts.h"
 #include "app/phase_timer.h"
@@ -9,14 +10,16 @@
 #include "core/error.h"
 #include "core/log.h"
 #include "core/pixel_rect_text.h"
+#include "core/standard_output.h"
+#include "picture/exr_files.h"
 #include "picture/image_description.h"
 #include "picture/output_paths.h"
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -61,7 +64,11 @@ ExitCode run_merge(const MergeArguments& arguments) {
             fmt::format("--output '{}' must end in .exr, or in .partial for a larger part", output.string()));
     const OutputPaths paths = OutputPaths::beside(output);
     const std::vector<std::filesystem::path> parts(arguments.parts.begin(), arguments.parts.end());
-    require_writable(output, parts);
+    require_writable(output);
+    const auto require_parts_kept = [&](std::span<const std::filesystem::path> outputs) {
+        require_files_kept("--output", outputs, parts);
+    };
+    require_parts_kept(is_partial(output) ? std::vector{output} : std::vector{output, paths.png, paths.json});
     const PhaseTimer timer;
     const MergedParts merged = merge_parts(parts, [&](const std::string& note) {
         // A part says where its samples begin and how many there are, and no more.
@@ -88,6 +95,9 @@ ExitCode run_merge(const MergeArguments& arguments) {
             throw UsageError(
                 "--float: the parts were rendered for an ACES container (SMPTE ST 2065-4), which holds 16-bit floats");
         resolve_layers(image, state);
+        std::vector<std::filesystem::path> layers;
+        for (const std::string& name : layer_file_names(output, image)) layers.push_back(output.parent_path() / name);
+        require_parts_kept(layers);
         image.statistics.libraries = library_versions();
         const std::vector<std::string> earlier =
             write_image_files(paths, image, ColorConfig::from_environment(), arguments.depth);
@@ -97,7 +107,7 @@ ExitCode run_merge(const MergeArguments& arguments) {
     if (!arguments.quiet)
         log_info("{}: {} parts, {}x{}, {} spp{}", output.string(), arguments.parts.size(), window.width(),
                  window.height(), state.spp_done, complete || is_partial(output) ? "" : ", incomplete");
-    if (arguments.json) std::fputs(to_json(image.statistics).c_str(), stdout);
+    if (arguments.json) print_data(to_json(image.statistics));
     return ExitCode::Success;
 }
 

@@ -10,7 +10,8 @@
 namespace etendue {
 
 std::vector<std::filesystem::path> prepare_directory(const std::filesystem::path& directory,
-                                                     const std::vector<std::string>& names) {
+                                                     const std::vector<std::string>& names,
+                                                     std::span<const std::filesystem::path> inputs) {
     std::error_code error;
     std::filesystem::create_directories(directory, error);
     if (!std::filesystem::is_directory(directory))
@@ -21,6 +22,7 @@ std::vector<std::filesystem::path> prepare_directory(const std::filesystem::path
         files.push_back(directory / name);
         require_writable(files.back());
     }
+    require_inputs_kept("--output", files, inputs);
     return files;
 }
 

@@ -19,8 +19,8 @@ PreparedScene prepare_scene(const std::filesystem::path& path, const SettingsOve
     LoadedScene loaded = load_scene(path, overrides.moment);
     PreparedScene prepared{std::move(loaded.scene), std::move(loaded.problems), {}, {}};
     overrides.apply(prepared.scene);
-    const std::filesystem::path colors = ColorConfig::environment_path();
-    if (!colors.empty()) prepared.scene.inputs.push_back(colors);
+    for (std::filesystem::path& file : ColorConfig::environment_files())
+        prepared.scene.inputs.push_back(std::move(file));
     complete_scene(prepared.scene, prepared.problems);
     prepared.inputs = stamp_inputs(prepared.scene, started);
     prepared.load = timer.elapsed();

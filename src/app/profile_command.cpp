@@ -11,6 +11,8 @@
 #include "core/log.h"
 #include "core/memory_nodes.h"
 #include "core/process_time.h"
+#include "core/source_date.h"
+#include "core/standard_output.h"
 #include "core/write_file.h"
 #include "image/write.h"
 #include "metrics/color_map.h"
@@ -23,8 +25,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
-#include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <fstream>
@@ -129,6 +129,8 @@ class LoadedScene {
         report.load.push_back({"files", prepared.load.wall});
         const std::string working_space = resolve_colors(prepared.scene.settings, colors);
         settings = prepared.scene.settings;
+        inputs = prepared.scene.inputs;
+        if (!arguments.against.empty()) inputs.emplace_back(arguments.against);
         leave_out_unmeasured(settings, report.notes);
         report.scene = prepared.scene.name;
         const PhaseTimer timer;
@@ -145,6 +147,7 @@ class LoadedScene {
     }
 
     RenderSettings settings;
+    std::vector<std::filesystem::path> inputs;  ///< files that are read, the baseline among them
     std::unique_ptr<const World> world;
 };
 
@@ -175,8 +178,7 @@ void describe(ProfileReport& report, const ProfileArguments& arguments, const Re
               const World& world) {
     const WorldStatistics of_world = world.statistics();
     report.program = software_name();
-    report.created = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}",
-                                 fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())));
+    report.created = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(creation_time()));
     report.command = arguments.command;
     report.scene_path = arguments.scene;
     report.width = settings.film.width;
@@ -224,6 +226,10 @@ void describe_memory(ProfileReport& report, const World& world, const ProfileRun
     report.peak_memory_bytes = runs.peak_memory_bytes;
 }
 
+std::string heat_map_stem(const std::string& integrator, int threads) {
+    return fmt::format("heat-{}-{}", integrator, threads);
+}
+
 /// Writes the map's EXR, and keeps its picture for the page.
 void write_costs(const std::filesystem::path& directory, const PixelRect& window, const CostMap& costs,
                  ProfileReport& report, ProfileImages& images) {
@@ -240,7 +246,7 @@ void write_costs(const std::filesystem::path& directory, const PixelRect& window
     const ImageF picture = paint_magma(seconds, static_cast<double>(*high));
     const auto most_threads = std::ranges::max_element(
         report.runs, {}, [&](const ProfileRun& run) { return run.integrator == costs.integrator ? run.threads : 0; });
-    const std::filesystem::path stem = directory / fmt::format("heat-{}-{}", costs.integrator, most_threads->threads);
+    const std::filesystem::path stem = directory / heat_map_stem(costs.integrator, most_threads->threads);
     write_image(stem.string() + ".exr", both, {.depth = PixelDepth::Float, .channel_names = {"rays", "seconds"}});
     write_image(stem.string() + ".png", picture, {.depth = PixelDepth::UInt8});
     most_threads->heat_map = stem.filename().string() + ".exr";
@@ -258,22 +264,24 @@ void require_comparable(const ProfileBaseline& baseline, const ProfileReport& re
     if (!refusal.empty()) throw SceneError({arguments.against, {}}, refusal);
 }
 
-/// Of earlier profiles in the same directory: those of runs that are made again are written anew.
-void remove_heat_maps(const std::filesystem::path& directory) {
+/// Names of those of earlier profiles; none if there is no such directory.
+std::vector<std::string> heat_maps_in(const std::filesystem::path& directory) {
     const auto is_number = [](std::string_view text) {
         return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
     };
-    for (const auto& entry : std::filesystem::directory_iterator(directory)) {
+    std::vector<std::string> names;
+    std::error_code none;
+    for (const auto& entry : std::filesystem::directory_iterator(directory, none)) {
         const std::string extension = entry.path().extension().string();
-        if (!entry.is_regular_file() || (extension != ".exr" && extension != ".png")) continue;
+        if (!entry.is_regular_file(none) || (extension != ".exr" && extension != ".png")) continue;
         const std::string stem = entry.path().stem().string();
         const bool is_ours = std::ranges::any_of(integrator_names(), [&](const std::string& integrator) {
             const std::string start = fmt::format("heat-{}-", integrator);
             return stem.starts_with(start) && is_number(std::string_view(stem).substr(start.size()));
         });
-        std::error_code error;  // one that stays is only one too many
-        if (is_ours) std::filesystem::remove(entry.path(), error);
+        if (is_ours) names.push_back(entry.path().filename().string());
     }
+    return names;
 }
 
 ExitCode run_profile(const ProfileArguments& arguments) {
@@ -288,7 +296,13 @@ ExitCode run_profile(const ProfileArguments& arguments) {
     describe(report, arguments, loaded.settings, *loaded.world);
     if (baseline) require_comparable(*baseline, report, arguments, threads);
     const std::filesystem::path directory = arguments.output;
-    const std::vector<std::filesystem::path> files = prepare_directory(directory, {kData, "trace.json", "index.html"});
+    std::vector<std::string> names{kData, "trace.json", "index.html"};
+    for (const std::string& name : heat_maps_in(directory)) names.push_back(name);
+    for (const std::string& integrator : arguments.integrators)
+        for (const int count : threads)
+            for (const char* extension : {".exr", ".png"})
+                names.push_back(heat_map_stem(integrator, count) + extension);
+    const std::vector<std::filesystem::path> files = prepare_directory(directory, names, loaded.inputs);
     time_first_pixels(*loaded.world, loaded.settings, arguments, all, report);
 
     const ProfileRequest request{.integrators = arguments.integrators,
@@ -311,7 +325,9 @@ ExitCode run_profile(const ProfileArguments& arguments) {
         write_text(files[1], to_chrome_trace(report));
         write_text(files[2], make_profile_page(report, images));
     };
-    remove_heat_maps(directory);
+    // Those of runs that are made again are written anew.
+    std::error_code ignored;  // one that stays is only one too many
+    for (const std::string& name : heat_maps_in(directory)) std::filesystem::remove(directory / name, ignored);
     write_report();
     // What was measured must not be lost with pictures that cannot be written.
     std::exception_ptr failure;
@@ -323,10 +339,9 @@ ExitCode run_profile(const ProfileArguments& arguments) {
         failure = std::current_exception();
     }
     if (arguments.json)
-        std::fputs(to_json(report).c_str(), stdout);
+        print_data(to_json(report));
     else if (!arguments.quiet)
-        std::fputs(to_table(report).c_str(), stdout);
-    std::fflush(stdout);
+        print_text(to_table(report));
     if (failure) std::rethrow_exception(failure);
     if (!arguments.quiet) log_info("{}", files[2].string());
     if (!report.against || !report.against->has_regression()) return ExitCode::Success;
@@ -384,11 +399,6 @@ void require_useful_baseline(const ProfileArguments& arguments) {
     if (arguments.against.empty()) return;
     if (arguments.repetitions < 2)
         throw CLI::ValidationError("--against", "takes --repeat 2 or more: of one repetition nothing can be concluded");
-    std::error_code error;  // where there is no such file yet, it is another one
-    if (std::filesystem::equivalent(arguments.against, std::filesystem::path(arguments.output) / kData, error))
-        throw CLI::ValidationError("--against", fmt::format("{} is the file that would be written; name another "
-                                                            "directory with -o",
-                                                            arguments.against));
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "app/progress_display.h"
 
+#include "core/shown_text.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -53,12 +55,11 @@ std::string format_progress(const std::string& title, const RenderProgress& p, i
               std::string(static_cast<std::size_t>(cells - full), '.') + "]";
     }
     std::string line = title + bar + " " + numbers;
-    if (static_cast<int>(line.size()) > width) line.resize(static_cast<std::size_t>(std::max(width, 0)));
-    return line;
+    return std::string(first_characters(line, static_cast<std::size_t>(std::max(width, 0))));
 }
 
-ProgressDisplay::ProgressDisplay(std::string title, bool quiet)
-    : title_(std::move(title)), quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
+ProgressDisplay::ProgressDisplay(const std::string& title, bool quiet)
+    : title_(shown_text(title)), quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
 
 ProgressDisplay::~ProgressDisplay() {
     if (drawn_ && terminal_) std::fputc('\n', stderr);

@@ -10,7 +10,7 @@ namespace etendue {
 class ProgressDisplay {
   public:
     /// `title` stands before the bar. Nothing is written if `quiet`.
-    ProgressDisplay(std::string title, bool quiet);
+    ProgressDisplay(const std::string& title, bool quiet);
     /// Ends the bar's line, so that what follows starts on its own.
     ~ProgressDisplay();
     ProgressDisplay(const ProgressDisplay&) = delete;

@@ -7,6 +7,7 @@
 #include "app/scene_render.h"
 #include "app/usage_error.h"
 #include "core/log.h"
+#include "core/standard_output.h"
 #include "loader/files.h"
 #include "picture/aov_setup.h"
 #include "picture/output_paths.h"
@@ -14,7 +15,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -84,7 +84,7 @@ ExitCode render_jobs(const RenderArguments& arguments, const std::vector<ImageJo
     }
     // An interrupt may have come before the first.
     if (arguments.json && (is_sequence || !results.empty()))
-        std::fputs((is_sequence ? to_json(results) : statistics_of(results.front())).c_str(), stdout);
+        print_data(is_sequence ? to_json(results) : statistics_of(results.front()));
     return interrupt_requested() ? interrupt_exit_code() : ExitCode::Success;
 }
 
@@ -101,7 +101,7 @@ ExitCode run_render(const RenderArguments& arguments) {
         const std::string answer = probe(jobs.front(), overrides, ThreadPool(arguments.threads));
         // What was cut short says nothing about the image.
         if (interrupt_requested()) return interrupt_exit_code();
-        std::fputs(answer.c_str(), stdout);
+        print_data(answer);
         return ExitCode::Success;
     }
     return render_jobs(arguments, jobs);

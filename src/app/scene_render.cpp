@@ -11,6 +11,7 @@
 #include "app/progress_display.h"
 #include "app/progress_pipe.h"
 #include "app/render_identity.h"
+#include "app/up_to_date.h"
 #include "color/color_config.h"
 #include "core/log.h"
 #include "image/image_module.h"
@@ -25,6 +26,7 @@
 #include "render/render.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <future>
 #include <memory>
@@ -37,8 +39,8 @@ namespace etendue {
 
 namespace {
 
-void require_all_writable(const OutputPaths& paths, std::span<const std::filesystem::path> inputs) {
-    for (const std::filesystem::path& path : {paths.exr, paths.png, paths.json}) require_writable(path, inputs);
+void require_all_writable(const OutputPaths& paths) {
+    for (const std::filesystem::path& path : {paths.exr, paths.png, paths.json}) require_writable(path);
 }
 
 /// After rendering, when the cache has held what it will. Look-ups that failed are an error to tell, not one to lose
@@ -130,34 +132,56 @@ class SceneRender {
     }
 
     void check_outputs() const {
+        const std::vector<std::string> layers =
+            layers_with_files(aovs_, scene_.settings.aov_layout == AovLayout::Files);
+        require_inputs_kept(fmt::format("--output {}", output_.string()), files_of_image(output_, layers),
+                            scene_.inputs);
         if (is_partial(output_)) {
             const bool is_crop = options_.window != PixelRect{0, 0, options_.full_width, options_.full_height};
             if (is_crop && is_deep() && integrator_->makes_splats())
                 throw SceneError({"--deep", {}},
                                  "a part that is a crop has no depths of the light that falls into others: render "
                                  "parts that are ranges of samples (--samples), or with 'path'");
-            require_writable(output_, scene_.inputs);
+            require_writable(output_);
             return;
         }
-        require_all_writable(paths_, scene_.inputs);
-        for (const AovOutput& layer : aovs_.outputs)
-            if (scene_.settings.aov_layout == AovLayout::Files || layer.kind == AovKind::Deep) require_free(layer);
-        if (request_.strategies.output.empty()) return;
-        require_all_writable(OutputPaths::beside(request_.strategies.output), scene_.inputs);
+        require_all_writable(paths_);
+        require_no_layer_of_another();
+        for (const std::string& layer : layers) require_free(layer);
+        const std::filesystem::path& strategies = request_.strategies.output;
+        if (strategies.empty()) return;
+        const OutputPaths pyramid = OutputPaths::beside(strategies);
+        require_inputs_kept(fmt::format("--strategies-image {}", strategies.string()),
+                            std::array{pyramid.exr, pyramid.png}, scene_.inputs);
+        require_all_writable(pyramid);
         require_strategies(scene_.settings, {"--strategies-image", {}});
         check_strategies_request(request_.strategies, paths_, scene_.settings, options_, request_.overrides.depth);
     }
 
+    /// The image may have the name of another one's layer: of NAME, if it is NAME.LAYER.
+    void require_no_layer_of_another() const {
+        const std::string name = output_.filename().string();
+        for (std::size_t dot = name.rfind('.', name.size() - output_.extension().string().size() - 1);
+             dot != std::string::npos && dot > 0; dot = name.rfind('.', dot - 1)) {
+            const OutputPaths other = OutputPaths::beside(output_.parent_path() / (name.substr(0, dot) + ".exr"));
+            const std::vector<std::string> of_other = listed_layer_files(other);
+            if (std::ranges::find(of_other, name) == of_other.end()) continue;
+            throw SceneError({}, fmt::format("{} is a layer of the image {}, as {} tells, and would be lost; give the "
+                                             "output another name, or remove the layer",
+                                             output_.string(), other.exr.string(), other.json.string()));
+        }
+    }
+
     /// Another image may have the name of a layer.
-    void require_free(const AovOutput& layer) const {
-        const std::filesystem::path path = layer_path(output_, layer.name);
-        require_writable(path, scene_.inputs);
+    void require_free(const std::string& layer) const {
+        const std::filesystem::path path = layer_path(output_, layer);
+        require_writable(path);
         const std::filesystem::path other = OutputPaths::beside(path).json;
         if (std::filesystem::exists(other))
             throw SceneError(scene_.settings.at("/aov_layout"),
                              fmt::format("the layer '{}' would be written to {}, which is an image of its own, as {} "
                                          "tells; give the layer another name, or use another layout",
-                                         layer.name, path.string(), other.string()));
+                                         layer, path.string(), other.string()));
     }
 
     void describe_scene(PreparedScene& prepared) {
@@ -272,8 +296,7 @@ class SceneRender {
 
     void write_preview(const RenderState& state) {
         clear_preview_request();
-        std::filesystem::path path = output_;
-        path.replace_extension(".preview.png");
+        const std::filesystem::path path = preview_path(output_);
         ImageDescription now = description_;
         describe_state(now, state, false, "preview");
         try {

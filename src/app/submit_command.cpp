@@ -13,10 +13,12 @@
 #include "core/byte_size.h"
 #include "core/error.h"
 #include "core/log.h"
+#include "core/shown_text.h"
+#include "core/standard_output.h"
 #include "world/compile.h"
 
-#include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <span>
@@ -72,22 +74,29 @@ std::size_t task_count(const FarmPlan& plan) {
 
 /// The plan for people: each array with what its tasks get, and, before anything is submitted, what would be called.
 void print_plan(const SlurmFarm& farm, const FarmWork& work, bool dry_run) {
+    std::string text;
+    const auto out = std::back_inserter(text);
     const FarmPlan& plan = farm.plan;
-    fmt::print("{} images in {} tasks of {} job arrays; {} up to date, {} submitted before, {} failed\n",
-               work.images.size(), task_count(plan), plan.arrays.size(), work.up_to_date.size(), work.busy.size(),
-               work.failed.size());
-    if (!plan.arrays.empty()) fmt::print("{:<12}  {:>6}  {:>8}  {:>10}\n", "array", "tasks", "minutes", "memory");
+    fmt::format_to(out, "{} images in {} tasks of {} job arrays; {} up to date, {} submitted before, {} failed\n",
+                   work.images.size(), task_count(plan), plan.arrays.size(), work.up_to_date.size(), work.busy.size(),
+                   work.failed.size());
+    if (!plan.arrays.empty())
+        fmt::format_to(out, "{:<12}  {:>6}  {:>8}  {:>10}\n", "array", "tasks", "minutes", "memory");
     for (const JobArray& array : plan.arrays)
-        fmt::print("{:<12}  {:>6}  {:>8}  {:>6} MiB\n", array.name, array.commands.size(), array.needs.minutes,
-                   array.needs.mebibytes);
+        fmt::format_to(out, "{:<12}  {:>6}  {:>8}  {:>6} MiB\n", array.name, array.commands.size(), array.needs.minutes,
+                       array.needs.mebibytes);
+    print_text(text);
     if (!dry_run) return;
+    text.clear();
     std::vector<std::string> jobs;
     for (std::size_t array = 0; array < plan.arrays.size(); ++array) {
         const std::vector<std::string> words = submit_command(farm, array, jobs);
-        for (const std::string& word : words) fmt::print("{}{}", quoted(word), &word == &words.back() ? "\n" : " ");
+        for (const std::string& word : words)
+            fmt::format_to(out, "{}{}", quoted(word), &word == &words.back() ? "\n" : " ");
         // A number that the shell would not take for one.
         jobs.push_back(fmt::format("JOB-OF-{}", plan.arrays[array].name));
     }
+    print_text(text);
 }
 
 void print_json(const SlurmFarm& farm, const FarmWork& work, const std::vector<std::string>& jobs) {
@@ -110,7 +119,7 @@ void print_json(const SlurmFarm& farm, const FarmWork& work, const std::vector<s
                                   {"submitted_before", work.busy.size()},
                                   {"failed", std::move(failed)},
                                   {"arrays", std::move(arrays)}};
-    fmt::print("{}\n", document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    print_data(document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
 ExitCode run_submit(const SubmitArguments& arguments) {
@@ -158,18 +167,21 @@ ExitCode run_status(const SubmitArguments& arguments) {
     std::map<FarmState, std::size_t> counts;
     for (const FarmImageStatus& image : images) ++counts[image.state];
     if (arguments.json) {
-        std::fputs(to_json(images).c_str(), stdout);
+        print_data(to_json(images));
     } else {
+        std::string text;
+        const auto out = std::back_inserter(text);
         for (const FarmImageStatus& image : images) {
-            fmt::print("{:<8} {}/{}  {}\n", farm_state_name(image.state), image.tasks_done, image.image.tasks.size(),
-                       image.image.output.string());
+            fmt::format_to(out, "{:<8} {}/{}  {}\n", farm_state_name(image.state), image.tasks_done,
+                           image.image.tasks.size(), shown_text(image.image.output.string()));
             if (image.state != FarmState::Failed) continue;
-            if (!image.log.empty()) fmt::print("    {}:\n", image.log.string());
+            if (!image.log.empty()) fmt::format_to(out, "    {}:\n", shown_text(image.log.string()));
             std::istringstream lines(image.error);
-            for (std::string line; std::getline(lines, line);) fmt::print("    {}\n", line);
+            for (std::string line; std::getline(lines, line);) fmt::format_to(out, "    {}\n", line);
         }
-        fmt::print("{} done, {} running, {} pending, {} failed\n", counts[FarmState::Done], counts[FarmState::Running],
-                   counts[FarmState::Pending], counts[FarmState::Failed]);
+        fmt::format_to(out, "{} done, {} running, {} pending, {} failed\n", counts[FarmState::Done],
+                       counts[FarmState::Running], counts[FarmState::Pending], counts[FarmState::Failed]);
+        print_text(text);
     }
     if (counts[FarmState::Failed] > 0) return ExitCode::RenderFailed;
     return counts[FarmState::Done] == images.size() ? ExitCode::Success : ExitCode::Unfinished;

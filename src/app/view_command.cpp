@@ -1,11 +1,13 @@
 // etendue view: an EXR as a display shows it.
 #include "app/commands.h"
 #include "app/file_color_space.h"
+#include "app/input_files.h"
 #include "app/settings_overrides.h"
 #include "app/usage_error.h"
 #include "app/view_listing.h"
 #include "core/error.h"
 #include "core/log.h"
+#include "core/standard_output.h"
 #include "image/layers.h"
 #include "image/write.h"
 #include "output/data_image.h"
@@ -15,13 +17,13 @@
 #include "picture/output_paths.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -225,7 +227,10 @@ ExitCode run_list(const ViewArguments& arguments, const ColorConfig& colors) {
         });
         file->color_space = space_of_file(file->image.parts.front(), colors);
     }
-    std::fputs((arguments.json ? list_as_json(colors, file) : list_as_text(colors, file)).c_str(), stdout);
+    if (arguments.json)
+        print_data(list_as_json(colors, file));
+    else
+        print_text(list_as_text(colors, file));
     return ExitCode::Success;
 }
 
@@ -233,7 +238,8 @@ ExitCode run_view(const ViewArguments& arguments) {
     const ColorConfig colors = ColorConfig::from_environment();
     if (arguments.list) return run_list(arguments, colors);
     const std::filesystem::path path = arguments.file;
-    require_writable(arguments.output, std::span(&path, 1));
+    require_writable(arguments.output);
+    require_files_kept("--output", std::array{arguments.output}, {path});
     const LayeredImage file = of_file(arguments.file, [&] { return read_layers(path); });
     const ImageLayer layer = chosen_layer(file, arguments);
     const bool is_matte = is_cryptomatte(layer, file);

@@ -1,5 +1,7 @@
 #include "app/view_listing.h"
 
+#include "core/shown_text.h"
+
 #include <iterator>
 
 #include <fmt/format.h>
@@ -15,28 +17,28 @@ void list_displays(const ColorConfig& colors, std::string& text) {
     const auto out = std::back_inserter(text);
     fmt::format_to(out, "displays, with their views (* is the default)\n");
     for (const std::string& display : colors.displays()) {
-        fmt::format_to(out, "  {}{}\n", display, display == colors.default_display() ? " *" : "");
+        fmt::format_to(out, "  {}{}\n", shown_text(display), display == colors.default_display() ? " *" : "");
         for (const std::string& view : colors.views(display)) {
             const std::string looks = colors.looks_of_view(display, view);
-            fmt::format_to(out, "    {}{}{}\n", view, view == colors.default_view(display) ? " *" : "",
-                           looks.empty() ? "" : fmt::format(", look {}", looks));
+            fmt::format_to(out, "    {}{}{}\n", shown_text(view), view == colors.default_view(display) ? " *" : "",
+                           looks.empty() ? "" : fmt::format(", look {}", shown_text(looks)));
         }
     }
     fmt::format_to(out, "looks\n");
-    for (const std::string& look : colors.looks()) fmt::format_to(out, "  {}\n", look);
+    for (const std::string& look : colors.looks()) fmt::format_to(out, "  {}\n", shown_text(look));
 }
 
 void list_layers(const ViewedFile& file, std::string& text) {
     const auto out = std::back_inserter(text);
-    fmt::format_to(out, "layers of {} ({}; * is the default)\n", file.path,
-                   file.color_space.empty() ? "colour space not said" : file.color_space);
+    fmt::format_to(out, "layers of {} ({}; * is the default)\n", shown_text(file.path),
+                   file.color_space.empty() ? "colour space not said" : shown_text(file.color_space));
     const auto main = main_layer(file.image);
     for (const ImageLayer& layer : file.image.layers) {
         const ImageInfo& part = file.image.parts[static_cast<std::size_t>(layer.part)];
-        fmt::format_to(out, "  {}{}: {} {}, {}x{}{}\n", layer.name.empty() ? "(main)" : layer.name,
+        fmt::format_to(out, "  {}{}: {} {}, {}x{}{}\n", layer.name.empty() ? "(main)" : shown_text(layer.name),
                        layer.name == main->name ? " *" : "", layer_kind_name(layer.kind),
-                       fmt::join(layer.channels, " "), part.width, part.height,
-                       layer.problem.empty() ? "" : fmt::format(", cannot be read: {}", layer.problem));
+                       shown_text(fmt::format("{}", fmt::join(layer.channels, " "))), part.width, part.height,
+                       layer.problem.empty() ? "" : fmt::format(", cannot be read: {}", shown_text(layer.problem)));
     }
 }
 

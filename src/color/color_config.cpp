@@ -2,6 +2,7 @@
 
 #include "color/built_in_config.h"
 #include "color/color_transform_impl.h"
+#include "color/config_files.h"
 #include "color/primaries.h"
 #include "core/error.h"
 
@@ -23,6 +24,7 @@ namespace etendue {
 struct ColorConfig::Impl {
     OCIO::ConstConfigRcPtr config;
     std::string origin;
+    std::vector<std::filesystem::path> files;
 
     [[nodiscard]] OCIO::ConstColorSpaceRcPtr find_space(const std::string& name) const;
     [[nodiscard]] OCIO::ConstCPUProcessorRcPtr processor(const std::string& from, const std::string& to) const;
@@ -204,6 +206,11 @@ ColorConfig ColorConfig::from_environment() {
     return path.empty() ? built_in() : from_file(path);
 }
 
+std::vector<std::filesystem::path> ColorConfig::environment_files() {
+    const std::filesystem::path path = environment_path();
+    return path.empty() ? std::vector<std::filesystem::path>() : from_file(path).files();
+}
+
 ColorConfig ColorConfig::built_in() {
     auto impl = std::make_shared<Impl>();
     std::istringstream stream{std::string(built_in_config_text())};
@@ -215,11 +222,23 @@ ColorConfig ColorConfig::built_in() {
 ColorConfig ColorConfig::from_file(const std::filesystem::path& path) {
     auto impl = std::make_shared<Impl>();
     impl->origin = path.string();
+    const auto refuse = [&](const std::string& why) {
+        throw SceneError(SourceLocation{path.string(), ""},
+                         fmt::format("the OpenColorIO config cannot be read: {}", why));
+    };
+    // OpenColorIO has configs of its own, which are no files.
+    const bool is_file = !impl->origin.starts_with("ocio://");
+    if (is_file) {
+        if (const std::string why = why_not_read(path); !why.empty()) refuse(why);
+        impl->files.push_back(path);
+    }
     try {
         impl->config = OCIO::Config::CreateFromFile(path.c_str());
+        ConfigReferences references = find_references(*impl->config);
+        if (!references.problem.empty()) refuse(references.problem);
+        impl->files.insert(impl->files.end(), references.files.begin(), references.files.end());
     } catch (const OCIO::Exception& error) {
-        throw SceneError(SourceLocation{path.string(), ""},
-                         fmt::format("the OpenColorIO config cannot be read: {}", error.what()));
+        refuse(error.what());
     }
     return ColorConfig(std::move(impl));
 }
@@ -256,6 +275,10 @@ std::string ColorConfig::default_display() const {
 std::string ColorConfig::default_view(const std::string& display) const {
     if (views(display).empty()) return {};
     return impl_->config->getDefaultView(display.c_str());
+}
+
+const std::vector<std::filesystem::path>& ColorConfig::files() const {
+    return impl_->files;
 }
 
 const std::string& ColorConfig::origin() const {

@@ -50,8 +50,11 @@ class ColorConfig {
   public:
     /// Path of the config that $OCIO names; empty if it is unset or empty.
     [[nodiscard]] static std::filesystem::path environment_path();
-    /// That config, else the project's own, which is built into the program. Throws SceneError if it cannot be read.
+    /// That config, else the project's own, which is built into the program. Throws SceneError if it cannot be read, if
+    /// it refers to itself, or if one of its tables is no regular file.
     [[nodiscard]] static ColorConfig from_environment();
+    /// What that reads: the config that $OCIO names and its tables; none if it is unset or empty. Throws SceneError.
+    [[nodiscard]] static std::vector<std::filesystem::path> environment_files();
     [[nodiscard]] static ColorConfig built_in();
     [[nodiscard]] static ColorConfig from_file(const std::filesystem::path& path);
 
@@ -62,6 +65,8 @@ class ColorConfig {
     [[nodiscard]] std::vector<std::string> views(const std::string& display) const;
     [[nodiscard]] std::string default_display() const;
     [[nodiscard]] std::string default_view(const std::string& display) const;
+    /// The config and the tables it names that exist; none if it is built in.
+    [[nodiscard]] const std::vector<std::filesystem::path>& files() const;
     /// Path of the config, or "built-in".
     [[nodiscard]] const std::string& origin() const;
 

@@ -3,6 +3,7 @@
 #include "core/error.h"
 
 #include <cerrno>
+#include <filesystem>
 #include <fstream>
 #include <new>
 #include <system_error>
@@ -49,6 +50,10 @@ ContentHash::Digest hash_file(const std::filesystem::path& path) {
     const auto fail = [&] {
         throw IoError(fmt::format("cannot read {}: {}", path.string(), std::generic_category().message(errno)));
     };
+    // A pipe would be waited for, and a device read for ever.
+    std::error_code ignored;
+    if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored))
+        throw IoError(fmt::format("cannot read {}: it is no regular file", path.string()));
     std::ifstream file(path, std::ios::binary);
     if (!file) fail();
     ContentHash hash;

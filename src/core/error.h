@@ -77,6 +77,12 @@ class IoError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// A file that would be written is one that is read, and would be lost: exit code 2.
+class ReplacedInput : public IoError {
+  public:
+    using IoError::IoError;
+};
+
 /// What to write instead of `name`: "did you mean 'x'?" if one of `known` is near enough, else the first of them.
 [[nodiscard]] std::string name_hint(std::string_view name, std::span<const std::string_view> known);
 

@@ -1,5 +1,7 @@
 #include "core/log.h"
 
+#include "core/shown_text.h"
+
 #include <memory>
 
 #include <spdlog/sinks/stdout_sinks.h>
@@ -41,7 +43,7 @@ void set_log_level(LogLevel level) {
 }
 
 void log_line(LogLevel level, std::string_view line) {
-    logger().log(to_spdlog(level), "{}", line);
+    logger().log(to_spdlog(level), "{}", shown_message(line));
 }
 
 }  // namespace etendue

@@ -12,6 +12,7 @@ enum class LogLevel { Debug, Info, Warning, Error, Off };
 
 /// Lines below `level` are not written. The default is Info.
 void set_log_level(LogLevel level);
+/// Writes `line` as `shown_message` shows it: it may hold names from any file.
 void log_line(LogLevel level, std::string_view line);
 
 template <typename... Args>

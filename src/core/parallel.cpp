@@ -1,13 +1,17 @@
 #include "core/parallel.h"
 
+#include "core/error.h"
+
 #include <algorithm>
 #include <atomic>
 #include <exception>
 #include <mutex>
 #include <optional>
+#include <system_error>
 #include <thread>
 #include <vector>
 
+#include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
@@ -72,8 +76,29 @@ FlushDenormals::~FlushDenormals() {
     _mm_setcsr(saved_);
 }
 
+namespace {
+
+/// Throws IoError unless so many threads can run at once beside the caller. TBB, which starts its own when there is
+/// work, ends the process where it gets none.
+void require_threads(int count) {
+    std::mutex mutex;
+    std::vector<std::jthread> threads;
+    const std::lock_guard until_all_are_asked_for(mutex);
+    try {
+        for (int i = 0; i < count; ++i) threads.emplace_back([&mutex] { const std::lock_guard wait(mutex); });
+    } catch (const std::system_error& error) {
+        throw IoError(
+            fmt::format("only {} of {} threads can be started: {}; ask for fewer (--threads), or raise the "
+                        "limit (ulimit -u)",
+                        threads.size() + 1, count + 1, error.code().message()));
+    }
+}
+
+}  // namespace
+
 struct ThreadPool::Impl {
     Impl(int thread_count, std::span<const ProcessorSet> nodes) : arena(thread_count) {
+        require_threads(thread_count - 1);
         // TBB keeps one worker per processor; more are allowed when asked for, so that determinism can be tested on a
         // small machine. Fewer are the arena's business: a global limit would hold for other pools too.
         if (thread_count > tbb::info::default_concurrency())

@@ -1,6 +1,7 @@
 #include "core/write_file.h"
 
 #include "core/error.h"
+#include "core/system_error_text.h"
 
 #include <array>
 #include <cerrno>
@@ -21,7 +22,7 @@ namespace etendue {
 namespace {
 
 [[noreturn]] void throw_errno(const std::filesystem::path& path, int error) {
-    throw IoError(fmt::format("cannot write {}: {}", path.string(), std::generic_category().message(error)));
+    throw IoError(fmt::format("cannot write {}: {}", path.string(), system_error_text(error)));
 }
 
 // An open file of the name `path`, for messages. Closing can report what earlier writes could not (a full disk or
@@ -188,9 +189,13 @@ class TemporaryFile {
 };
 
 void write_in_place(const std::filesystem::path& path, const std::function<void(const ByteSink&)>& produce) {
-    const int fd = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    // A named pipe that nobody reads from is an error, and nothing to wait for.
+    const int fd = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK);
+    if (fd < 0 && errno == ENXIO)
+        throw IoError(fmt::format("cannot write {}: nobody reads from the pipe", path.string()));
     if (fd < 0) throw_errno(path, errno);
     OpenFile file(path, fd);
+    if (::fcntl(fd, F_SETFL, ::fcntl(fd, F_GETFL) & ~O_NONBLOCK) != 0) throw_errno(path, errno);
     produce([&](std::span<const std::byte> bytes) { file.write(bytes); });
     file.close();
 }

@@ -15,8 +15,8 @@ using ByteSink = std::function<void(std::span<const std::byte>)>;
 
 /// Writes what `produce` hands to its sink, piece by piece, so that the file need not be in memory at once. The bytes
 /// are on the disk before the name is. A link is followed, and what exists and is no regular file (a pipe, a device) is
-/// written in place, since renaming would replace it. Creates no directory. Throws IoError with the path and the
-/// reason; the temporary file is gone then, as it is when `produce` throws.
+/// written in place, since renaming would replace it; a pipe must have a reader. Creates no directory. Throws IoError
+/// with the path and the reason; the temporary file is gone then, as it is when `produce` throws.
 ///
 /// It is `.NAME.HOST-N.etendue.tmp` beside NAME, and locked while it is written: what a killed writer left is known by
 /// that, and used again by the next writer of the same file. On file systems without locks it is known by its age.

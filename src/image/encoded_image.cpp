@@ -1,10 +1,13 @@
 #include "image/encoded_image.h"
 
 #include "core/error.h"
+#include "image/exr_claims.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -84,6 +87,24 @@ void rewrite_radiance(EncodedImage& image) {
     image.rewritten = std::move(rewritten);
 }
 
+ByteSource bytes_of(const std::filesystem::path& path) {
+    const auto stream = std::make_shared<std::ifstream>(path, std::ios::binary);
+    return [stream](std::uint64_t offset, std::span<std::uint8_t> bytes) {
+        stream->clear();
+        stream->seekg(static_cast<std::streamoff>(offset));
+        stream->read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+        return static_cast<std::size_t>(std::max<std::streamsize>(0, stream->gcount()));
+    };
+}
+
+ByteSource bytes_of(std::span<const std::byte> all) {
+    return [all](std::uint64_t offset, std::span<std::uint8_t> bytes) {
+        const std::size_t count = offset < all.size() ? std::min(bytes.size(), all.size() - offset) : 0;
+        if (count > 0) std::memcpy(bytes.data(), all.data() + offset, count);
+        return count;
+    };
+}
+
 }  // namespace
 
 EncodedImage look_at(const ImageSource& source) {
@@ -91,6 +112,9 @@ EncodedImage look_at(const ImageSource& source) {
     if (beginning.size == 0) throw IoError("the file is empty");
     const auto format = detect_format(std::span(beginning.head).first(beginning.head_size));
     if (!format) throw IoError("not an image of a known format (PNG, JPEG, WebP, OpenEXR, Radiance HDR, TIFF)");
+    if (format->name == "openexr")
+        check_exr_claims(std::visit([](const auto& place) { return bytes_of(place); }, source),
+                         static_cast<std::uint64_t>(beginning.size));
     EncodedImage image{source, *format, beginning.size};
     if (format->name == "hdr") rewrite_radiance(image);
     return image;

@@ -23,7 +23,8 @@ struct EncodedImage {
     std::shared_ptr<const std::vector<std::byte>> rewritten{};
 };
 
-/// Throws IoError if `source` cannot be opened, is empty or of no known format.
+/// Throws IoError if `source` cannot be opened, is empty, of no known format, or an OpenEXR file that claims to be
+/// larger than it can be.
 [[nodiscard]] EncodedImage look_at(const ImageSource& source);
 
 }  // namespace etendue

@@ -93,7 +93,11 @@ void* image_module_symbol(const char* symbol) {
 }
 
 std::future<void> load_image_module_early() {
-    return std::async(std::launch::async, [] { module_handle(); });
+    try {
+        return std::async(std::launch::async, [] { module_handle(); });
+    } catch (const std::system_error& error) {
+        fail(fmt::format("no thread can be started: {}; raise that limit (ulimit -u)", error.code().message()));
+    }
 }
 
 }  // namespace etendue

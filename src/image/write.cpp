@@ -1,6 +1,7 @@
 #include "image/write.h"
 
 #include "core/error.h"
+#include "core/source_date.h"
 #include "core/write_file.h"
 #include "image/exr_header.h"
 #include "image/image_functions.h"
@@ -10,8 +11,10 @@
 #include <cctype>
 #include <cstddef>
 #include <span>
+#include <string>
 #include <string_view>
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 namespace etendue {
@@ -22,6 +25,9 @@ namespace {
 // so it is written under a name of the same length and renamed in the encoded header.
 constexpr std::string_view kColorSpace = "oiio:ColorSpace";
 constexpr std::string_view kColorSpaceStandIn = "etnd:ColorSpace";
+
+/// What OpenImageIO calls EXR's capDate.
+constexpr std::string_view kDate = "DateTime";
 
 // OpenImageIO's name of the format that the extension asks for; throws if that format cannot hold the pixels.
 std::string output_format(const std::filesystem::path& path, PixelDepth depth) {
@@ -53,10 +59,15 @@ void check_shape(const std::filesystem::path& path, const ImagePart& part, const
     }
 }
 
-/// As the library gets them.
-ImageWriteOptions with_stand_in(ImageWriteOptions options) {
+/// As the library gets them for an EXR.
+ImageWriteOptions for_library(ImageWriteOptions options) {
     for (ImageAttribute& attribute : options.attributes)
         if (attribute.name == kColorSpace) attribute.name = kColorSpaceStandIn;
+    // Else the library writes what time it is.
+    if (const auto date = source_date()) {
+        std::erase_if(options.attributes, [](const ImageAttribute& attribute) { return attribute.name == kDate; });
+        options.attributes.push_back({std::string(kDate), fmt::format("{:%Y:%m:%d %H:%M:%S}", fmt::gmtime(*date))});
+    }
     return options;
 }
 
@@ -66,7 +77,7 @@ std::vector<unsigned char> encode(const std::filesystem::path& path, std::span<c
     for (const ImagePart& part : parts) check_shape(path, part, options);
     const std::string format = output_format(path, options.depth);
     if (is_integer(options.depth)) return image_functions().encode(path, format, parts, options);
-    std::vector<unsigned char> encoded = image_functions().encode(path, format, parts, with_stand_in(options));
+    std::vector<unsigned char> encoded = image_functions().encode(path, format, parts, for_library(options));
     rename_exr_attribute(encoded, kColorSpaceStandIn, kColorSpace);
     return encoded;
 }
@@ -74,7 +85,7 @@ std::vector<unsigned char> encode(const std::filesystem::path& path, std::span<c
 }  // namespace
 
 void write_deep_image(const std::filesystem::path& path, const DeepImageView& image, const ImageWriteOptions& options) {
-    std::vector<unsigned char> encoded = image_functions().encode_deep(path, image, with_stand_in(options));
+    std::vector<unsigned char> encoded = image_functions().encode_deep(path, image, for_library(options));
     rename_exr_attribute(encoded, kColorSpaceStandIn, kColorSpace);
     write_bytes(path, std::as_bytes(std::span<const unsigned char>(encoded)));
 }

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/refused_input.h"
+#include "core/shown_text.h"
 #include "loader/json_text.h"
 
 #include <algorithm>

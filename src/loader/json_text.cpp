@@ -1,5 +1,7 @@
 #include "loader/json_text.h"
 
+#include "core/shown_text.h"
+
 #include <unordered_set>
 #include <vector>
 
@@ -113,16 +115,6 @@ std::string_view json_kind(const Json& value) {
         default:
             return "a number";
     }
-}
-
-std::string shown(std::string_view name) {
-    constexpr std::size_t kLongest = 80;
-    std::string result(name.substr(0, kLongest));
-    for (char& c : result) {
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
-    }
-    if (name.size() > kLongest) result += "...";
-    return result;
 }
 
 }  // namespace etendue

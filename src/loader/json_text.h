@@ -24,7 +24,4 @@ inline constexpr int kMaxJsonDepth = 64;
 /// What kind of JSON value it is, with its article, for messages: "a string", "an array".
 [[nodiscard]] std::string_view json_kind(const nlohmann::json& value);
 
-/// A name from a file as it may stand in a message: cut after 80 bytes, control characters replaced.
-[[nodiscard]] std::string shown(std::string_view name);
-
 }  // namespace etendue

@@ -68,9 +68,16 @@ struct LoadedScene {
 /// What the user would call the scene directory or file `path`, also for "." and "scenes/box/".
 [[nodiscard]] std::string scene_name(const std::filesystem::path& path);
 
-/// The frames that the render.json of the scene directory or file `path` asks for; none if there are none, or if it
-/// cannot be read, which loading the scene will say.
+/// What the render.json of the scene directory or file `path` says of settings; none if there is none, or if it cannot
+/// be read, which loading the scene will say.
+[[nodiscard]] std::optional<RenderSettings> find_settings(const std::filesystem::path& path);
+
+/// The frames that these settings ask for; none if they ask for none.
 [[nodiscard]] std::optional<FrameRange> find_frames(const std::filesystem::path& path);
+
+/// Every file that the scene directory or file `path` may be read from: scene files, render.json and what their JSON
+/// names, which need not exist. Nothing else is read of them, and what cannot be read is left out.
+[[nodiscard]] std::vector<std::filesystem::path> find_inputs(const std::filesystem::path& path);
 
 /// Every scene directory at or below `root`, sorted by path: a directory that holds a render.json or glTF files, also
 /// inside another one. Loading says of those with several files that one must be named. Does not follow links. Throws

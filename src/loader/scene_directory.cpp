@@ -2,6 +2,7 @@
 
 #include "loader/files.h"
 #include "loader/loader.h"
+#include "loader/named_files.h"
 #include "loader/settings/render_json.h"
 
 #include <algorithm>
@@ -178,7 +179,7 @@ std::string scene_name(const fs::path& path) {
     return (full.has_filename() ? full.filename() : full.parent_path().filename()).string();
 }
 
-std::optional<FrameRange> find_frames(const fs::path& path) {
+std::optional<RenderSettings> find_settings(const fs::path& path) {
     std::error_code code;
     const bool is_directory = fs::is_directory(path, code);
     const fs::path directory = directory_of(path, is_directory);
@@ -186,10 +187,26 @@ std::optional<FrameRange> find_frames(const fs::path& path) {
     try {
         const std::optional<RenderJson> settings = read_settings(directory, {}, problems);
         if (!settings || (!is_directory && is_for_another_file(*settings, directory, path))) return std::nullopt;
-        return settings->settings.frames;
+        return settings->settings;
     } catch (const SceneError&) {
         return std::nullopt;
     }
+}
+
+std::optional<FrameRange> find_frames(const fs::path& path) {
+    const std::optional<RenderSettings> settings = find_settings(path);
+    return settings ? settings->frames : std::nullopt;
+}
+
+std::vector<fs::path> find_inputs(const fs::path& path) {
+    std::error_code code;
+    const bool is_directory = fs::is_directory(path, code);
+    const fs::path directory = directory_of(path, is_directory);
+    std::vector<fs::path> files = is_directory ? scene_files(path) : std::vector{path};
+    files.push_back(directory / kSettingsName);
+    for (std::size_t i = files.size(); i-- > 0;)
+        for (const std::string& name : named_files(files[i])) files.push_back(directory / name);
+    return files;
 }
 
 std::vector<fs::path> find_scene_directories(const fs::path& root) {

@@ -1,6 +1,7 @@
 #include "output/exr_driver.h"
 
 #include "core/error.h"
+#include "core/source_date.h"
 #include "output/cryptomatte.h"
 #include "output/output_space.h"
 #include "output/software_name.h"
@@ -52,10 +53,11 @@ std::vector<ImageAttribute> make_attributes(const OutputFrame& frame, const Colo
         {"etendue:sampler", frame.sampler},
         {"etendue:spp", frame.spp},
         {"etendue:seed", std::to_string(frame.seed)},  // EXR's integers are signed
-        {"etendue:renderTime", static_cast<float>(frame.render_seconds)},
         {"etendue:complete", frame.complete ? 1 : 0},
         {"etendue:haltReason", frame.halt_reason},
     };
+    // How long it took is never the same twice: files that are to have the same bytes do not tell.
+    if (!source_date()) attributes.push_back({"etendue:renderTime", static_cast<float>(frame.render_seconds)});
     if (frame.half_share > 0.0f) attributes.push_back({"etendue:halfShare", frame.half_share});
     if (!frame.layers.empty()) {
         // Nothing else is to be denoised, whatever its channels are called.

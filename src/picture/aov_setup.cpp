@@ -1,6 +1,7 @@
 #include "picture/aov_setup.h"
 
 #include "core/pointed_text.h"
+#include "core/shown_text.h"
 #include "integrator/integrator.h"
 #include "lightpath/usual_expressions.h"
 #include "output/cryptomatte.h"
@@ -104,8 +105,7 @@ std::string layer_name(const std::string& name, std::set<std::string>& taken) {
     constexpr std::size_t kMostCharacters = 100;
     std::string plain;
     for (const char c : name) {
-        const bool continues_character = (static_cast<unsigned char>(c) & 0xc0u) == 0x80u;  // in UTF-8
-        if (continues_character || plain.size() == kMostCharacters) continue;
+        if (continues_character(c) || plain.size() == kMostCharacters) continue;
         plain += std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' ? c : '_';
     }
     std::string result = plain;
@@ -412,6 +412,25 @@ AovPlan make_aov_plan(const SceneDesc& scene, ProblemList& problems) {
                          "an ACES container (SMPTE ST 2065-4) holds one image: write layers in files of their own "
                          "(--aov-layout files)");
     return plan;
+}
+
+bool has_half(const AovOutput& output) {
+    return output.kind != AovKind::Matte && output.kind != AovKind::Deep;
+}
+
+std::string half_name(const AovOutput& output) {
+    return fmt::format("{}.{}", kHalf, output.name);
+}
+
+std::vector<std::string> layers_with_files(const AovPlan& plan, bool each_has_file) {
+    std::vector<std::string> names;
+    for (const AovOutput& output : plan.outputs)
+        if (each_has_file || output.kind == AovKind::Deep) names.push_back(output.name);
+    if (!each_has_file || !plan.has_halves) return names;
+    names.emplace_back(kHalf);
+    for (const AovOutput& output : plan.outputs)
+        if (has_half(output)) names.push_back(half_name(output));
+    return names;
 }
 
 std::string list_aov_sources() {

@@ -8,6 +8,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace etendue {
@@ -23,6 +24,17 @@ struct AovPlan {
 /// in `problems`. Throws SceneError for sources that do not exist, expressions that are wrong, names that are there
 /// twice, what the integrator cannot tell apart, and layers in an ACES container.
 [[nodiscard]] AovPlan make_aov_plan(const SceneDesc& scene, ProblemList& problems);
+
+/// Name of the layer that is the image of half of the samples.
+inline constexpr std::string_view kHalf = "half";
+/// True if that layer has a layer of half of the samples, too: mattes and depths are nothing to denoise.
+[[nodiscard]] bool has_half(const AovOutput& output);
+/// Name of that.
+[[nodiscard]] std::string half_name(const AovOutput& output);
+
+/// Names of the layers that have files of their own: depths always do, the others if they are all to have some
+/// (`each_has_file`).
+[[nodiscard]] std::vector<std::string> layers_with_files(const AovPlan& plan, bool each_has_file);
 
 /// All sources with what they are, a line each, for --help.
 [[nodiscard]] std::string list_aov_sources();

@@ -380,12 +380,12 @@ void resolve_layers(ImageDescription& description, const RenderState& state) {
     const Film& half = evened ? *evened : *state.every_other_pass;
     frame.half_share =
         is_adaptive ? 0.5f : static_cast<float>(state.every_other_spp) / static_cast<float>(state.spp_done);
-    OutputLayer image{.name = "half", .channels = "RGBA", .is_color = true, .pixels = rgba_image(half)};
+    OutputLayer image{.name = std::string(kHalf), .channels = "RGBA", .is_color = true, .pixels = rgba_image(half)};
     frame.layers.push_back(std::move(image));
     for (const AovOutput& aov : description.aovs) {
-        if (aov.kind == AovKind::Matte || aov.kind == AovKind::Deep) continue;  // nothing to denoise
+        if (!has_half(aov)) continue;
         frame.layers.push_back(resolve_layer(half, aov));
-        frame.layers.back().name.insert(0, "half.");
+        frame.layers.back().name = half_name(aov);
     }
 }
 

@@ -2,13 +2,30 @@
 
 #include "core/error.h"
 
-#include <algorithm>
-#include <system_error>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace etendue {
+
+namespace {
+
+/// Device and inode.
+using FileId = std::pair<std::uint64_t, std::uint64_t>;
+
+/// None if there is no such file, or if it is a device or a pipe, which writing does not replace.
+std::optional<FileId> file_id(const std::filesystem::path& path) {
+    struct stat status {};
+    if (::stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
+    return FileId(status.st_dev, status.st_ino);
+}
+
+}  // namespace
 
 OutputPaths OutputPaths::beside(const std::filesystem::path& exr) {
     OutputPaths paths{exr, exr, exr};
@@ -26,7 +43,7 @@ bool is_partial(const std::filesystem::path& output) {
     return output.extension() == ".partial";
 }
 
-void require_writable(const std::filesystem::path& file, std::span<const std::filesystem::path> inputs) {
+void require_writable(const std::filesystem::path& file) {
     const std::filesystem::path parent = file.parent_path();
     const std::filesystem::path directory = parent.empty() ? "." : parent;
     if (!std::filesystem::is_directory(directory))
@@ -35,13 +52,27 @@ void require_writable(const std::filesystem::path& file, std::span<const std::fi
         throw IoError(fmt::format("cannot write {}: it is a directory", file.string()));
     if (access(directory.c_str(), W_OK | X_OK) != 0)
         throw IoError(fmt::format("cannot write {}: {} is not writable", file.string(), directory.string()));
-    const auto is_file = [&file](const std::filesystem::path& input) {
-        std::error_code error;
-        return std::filesystem::equivalent(file, input, error);
-    };
-    if (std::ranges::any_of(inputs, is_file))
-        throw IoError(fmt::format("cannot write {}: it is an input, which would be lost; give the output another name",
-                                  file.string()));
+}
+
+void require_inputs_kept(std::string_view option, std::span<const std::filesystem::path> outputs,
+                         std::span<const std::filesystem::path> inputs) {
+    // One look at each file: a batch has thousands of both.
+    std::map<FileId, const std::filesystem::path*> read;
+    for (const std::filesystem::path& input : inputs)
+        if (const auto id = file_id(input)) read.emplace(*id, &input);
+    if (read.empty()) return;
+    for (const std::filesystem::path& output : outputs) {
+        const auto id = file_id(output);
+        const auto input = id ? read.find(*id) : read.end();
+        if (input == read.end()) continue;
+        const bool is_spelled_alike = std::filesystem::absolute(output).lexically_normal() ==
+                                      std::filesystem::absolute(*input->second).lexically_normal();
+        const std::string is = is_spelled_alike ? "" : fmt::format(", which is {}", input->second->string());
+        throw ReplacedInput(
+            fmt::format("{} would replace {}{}: it is an input, which would be lost; give the output "
+                        "another name",
+                        option, output.string(), is));
+    }
 }
 
 std::filesystem::path written_file(const std::filesystem::path& file) {

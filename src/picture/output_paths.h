@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace etendue {
 
@@ -21,9 +22,13 @@ struct OutputPaths {
 /// True for the name of a part: it ends in .partial.
 [[nodiscard]] bool is_partial(const std::filesystem::path& output);
 
-/// Throws IoError if `file` cannot be written later, or is one of `inputs`, which it would replace: better found before
-/// hours of rendering than after.
-void require_writable(const std::filesystem::path& file, std::span<const std::filesystem::path> inputs = {});
+/// Throws IoError if `file` cannot be written later: better found before hours of rendering than after.
+void require_writable(const std::filesystem::path& file);
+
+/// Throws ReplacedInput if one of `outputs` is one of `inputs`, whatever links and spellings lead there. `option` says
+/// in the message what asked for the outputs: "--output box.exr".
+void require_inputs_kept(std::string_view option, std::span<const std::filesystem::path> outputs,
+                         std::span<const std::filesystem::path> inputs);
 
 /// Where `file` will lie once it is written, and with it all that links lead to by then: equal for two names of one
 /// file, whether it exists or not.

@@ -1,5 +1,7 @@
 #include "report/text_table.h"
 
+#include "core/shown_text.h"
+
 #include <algorithm>
 #include <string_view>
 
@@ -9,19 +11,15 @@ namespace {
 
 constexpr std::size_t kGap = 2;  // spaces between columns
 
-bool starts_character(char c) {
-    return (static_cast<unsigned char>(c) & 0xc0u) != 0x80u;
-}
-
 /// Characters of UTF-8, each taken to be one column wide.
 std::size_t width_of(std::string_view text) {
-    return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), starts_character));
+    return text.size() - static_cast<std::size_t>(std::count_if(text.begin(), text.end(), continues_character));
 }
 
 /// The bytes of the first `width` characters of `text`.
 std::size_t bytes_of(std::string_view text, std::size_t width) {
     std::size_t bytes = 0;
-    while (bytes < text.size() && (!starts_character(text[bytes]) || width-- > 0)) ++bytes;
+    while (bytes < text.size() && (continues_character(text[bytes]) || width-- > 0)) ++bytes;
     return bytes;
 }
 

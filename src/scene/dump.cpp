@@ -1,5 +1,6 @@
 // SceneDesc as text: one line per thing, in the order of the struct, bulk arrays as counts.
 
+#include "core/shown_text.h"
 #include "scene/scene_desc.h"
 #include "scene/settings_text.h"
 
@@ -118,20 +119,25 @@ const char* text(PixelFilterType filter) {
     return "?";
 }
 
+/// As terminals may show it; each name in a way of its own.
+std::string quoted(const std::string& name) {
+    return '"' + shown_text(name) + '"';
+}
+
 void dump_textures(const SceneDesc& scene, Out out) {
     for (std::size_t i = 0; i < scene.images.size(); ++i) {
         const ImageDesc& image = scene.images[i];
         if (image.unreadable) {
-            fmt::format_to(out, "image {} \"{}\": unreadable\n", i, image.name);
+            fmt::format_to(out, "image {} {}: unreadable\n", i, quoted(image.name));
             continue;
         }
-        fmt::format_to(out, "image {} \"{}\": {} x {}, {}\n", i, image.name, image.width, image.height,
+        fmt::format_to(out, "image {} {}: {} x {}, {}\n", i, quoted(image.name), image.width, image.height,
                        image.path.empty() ? fmt::format("{} bytes embedded", image.encoded.size())
-                                          : image.path.filename().string());
+                                          : shown_text(image.path.filename().string()));
     }
     for (std::size_t i = 0; i < scene.textures.size(); ++i) {
         const TextureDesc& t = scene.textures[i];
-        fmt::format_to(out, "texture {} \"{}\": image {}, wrap {} {}, {}, minified {} mip {}\n", i, t.name,
+        fmt::format_to(out, "texture {} {}: image {}, wrap {} {}, {}, minified {} mip {}\n", i, quoted(t.name),
                        t.image.index, text(t.wrap_u), text(t.wrap_v), text(t.filter), text(t.min_filter),
                        text(t.mip_filter));
     }
@@ -193,7 +199,7 @@ std::string text_of_override(const MaterialDesc& material) {
 }
 
 void dump_material(std::size_t index, const MaterialDesc& m, Out out) {
-    fmt::format_to(out, "material {} \"{}\": alpha {}{}{}\n", index, m.name, text(m.alpha_mode),
+    fmt::format_to(out, "material {} {}: alpha {}{}{}\n", index, quoted(m.name), text(m.alpha_mode),
                    m.double_sided ? ", double-sided" : "", m.unlit ? ", unlit" : "");
     if (m.alpha_mode == AlphaMode::Mask) fmt::format_to(out, "  alpha cutoff {:g}\n", m.alpha_cutoff);
     if (const std::string model = text_of_override(m); !model.empty()) fmt::format_to(out, "  override {}\n", model);
@@ -213,7 +219,7 @@ void dump_material(std::size_t index, const MaterialDesc& m, Out out) {
 
 void dump_geometry(const SceneDesc& scene, Out out) {
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
-        fmt::format_to(out, "mesh {} \"{}\"\n", i, scene.meshes[i].name);
+        fmt::format_to(out, "mesh {} {}\n", i, quoted(scene.meshes[i].name));
         for (const PrimitiveDesc& p : scene.meshes[i].primitives) {
             fmt::format_to(out, "  {} triangles, {} vertices, material {}{}{}{}{}{}\n", p.triangles.size(),
                            p.positions.size(), p.material.index, p.tangents.empty() ? "" : ", tangents",
@@ -224,12 +230,12 @@ void dump_geometry(const SceneDesc& scene, Out out) {
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
         const NodeDesc& node = scene.nodes[i];
         if (node.parent != NodeDesc::kNone)
-            fmt::format_to(out, "node {} \"{}\" below node {} \"{}\"\n", i, node.name, node.parent,
-                           scene.nodes[node.parent].name);
+            fmt::format_to(out, "node {} {} below node {} {}\n", i, quoted(node.name), node.parent,
+                           quoted(scene.nodes[node.parent].name));
     }
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
         const InstanceDesc& instance = scene.instances[i];
-        fmt::format_to(out, "instance {} \"{}\": mesh {}, {}{}\n", i, instance.name, instance.mesh.index,
+        fmt::format_to(out, "instance {} {}: mesh {}, {}{}\n", i, quoted(instance.name), instance.mesh.index,
                        text(instance.to_world, scene.origin), text_of_motion(instance.motion.size()));
     }
 }
@@ -238,19 +244,19 @@ void dump_cameras_and_lights(const SceneDesc& scene, Out out) {
     for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
         const CameraDesc& c = scene.cameras[i];
         const bool perspective = c.type == CameraType::Perspective;
-        fmt::format_to(out, "camera {} \"{}\": {} {:g}, aspect {:g}, lens radius {:g}, focus {:g}, {}{}\n", i, c.name,
-                       perspective ? "perspective yfov" : "orthographic ymag", perspective ? c.yfov : c.ymag,
-                       c.aspect_ratio, c.lens_radius, c.focus_distance, text(c.to_world, scene.origin),
-                       text_of_motion(c.motion.size()));
+        fmt::format_to(out, "camera {} {}: {} {:g}, aspect {:g}, lens radius {:g}, focus {:g}, {}{}\n", i,
+                       quoted(c.name), perspective ? "perspective yfov" : "orthographic ymag",
+                       perspective ? c.yfov : c.ymag, c.aspect_ratio, c.lens_radius, c.focus_distance,
+                       text(c.to_world, scene.origin), text_of_motion(c.motion.size()));
     }
     for (std::size_t i = 0; i < scene.ies_profiles.size(); ++i) {
         const IesProfileDesc& p = scene.ies_profiles[i];
-        fmt::format_to(out, "IES profile {} \"{}\": {} x {} directions, peak {:g} cd\n", i, p.name, p.vertical.size(),
-                       p.horizontal.size(), peak_candela(p));
+        fmt::format_to(out, "IES profile {} {}: {} x {} directions, peak {:g} cd\n", i, quoted(p.name),
+                       p.vertical.size(), p.horizontal.size(), peak_candela(p));
     }
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         const LightDesc& light = scene.lights[i];
-        fmt::format_to(out, "light {} \"{}\": {} colour {} intensity {:g}", i, light.name, text(light.type),
+        fmt::format_to(out, "light {} {}: {} colour {} intensity {:g}", i, quoted(light.name), text(light.type),
                        text(light.color), light.intensity);
         if (light.type == LightType::Spot) {
             fmt::format_to(out, " cone {:g} to {:g}", light.inner_cone_angle, light.outer_cone_angle);
@@ -264,8 +270,8 @@ void dump_cameras_and_lights(const SceneDesc& scene, Out out) {
         fmt::format_to(out, "environment cube map: images {} {} {} {} {} {}, intensity {:g}, {}\n",
                        e.cube->faces[0].index, e.cube->faces[1].index, e.cube->faces[2].index, e.cube->faces[3].index,
                        e.cube->faces[4].index, e.cube->faces[5].index, e.cube->intensity, text(e.cube->to_world));
-    fmt::format_to(out, "environment: image \"{}\", colour {} scale {:g} rotation {:g}{}\n",
-                   e.image.filename().string(), text(e.color), e.scale, e.rotation,
+    fmt::format_to(out, "environment: image {}, colour {} scale {:g} rotation {:g}{}\n",
+                   quoted(e.image.filename().string()), text(e.color), e.scale, e.rotation,
                    e.visible_to_camera ? "" : ", hidden from the camera");
 }
 
@@ -294,20 +300,20 @@ std::string dump(const RenderSettings& s) {
     fmt::format_to(out, "film: {} x {}, filter {} radius {:g}\n", s.film.width, s.film.height, text(s.film.filter),
                    s.film.filter_radius);
     if (s.film.crop) fmt::format_to(out, "crop: {}\n", fmt::join(*s.film.crop, " "));
-    for (const AovDesc& aov : s.aovs) fmt::format_to(out, "aov {}\n", to_text(aov));
+    for (const AovDesc& aov : s.aovs) fmt::format_to(out, "aov {}\n", shown_text(to_text(aov)));
     if (!s.aovs.empty()) fmt::format_to(out, "layout of layers: {}\n", text(s.aov_layout));
-    fmt::format_to(out, "camera used: \"{}\"\n", s.camera);
+    fmt::format_to(out, "camera used: {}\n", quoted(s.camera));
     fmt::format_to(out, "light units: {}\n", light_units_name(s.light_units));
     // Not the sequence that a frame belongs to: it is the same image in a longer one.
-    if (s.shown_time()) fmt::format_to(out, "time code {} of animation \"{}\"\n", *s.shown_time(), s.animation);
+    if (s.shown_time()) fmt::format_to(out, "time code {} of animation {}\n", *s.shown_time(), quoted(s.animation));
     if (s.shutter.is_open() || s.shutter.middle() != 0.0)
         fmt::format_to(out, "shutter {} to {}\n", s.shutter.open, s.shutter.close);
-    if (!s.variant.empty()) fmt::format_to(out, "variant used: \"{}\"\n", s.variant);
+    if (!s.variant.empty()) fmt::format_to(out, "variant used: {}\n", quoted(s.variant));
     if (s.texture_memory) fmt::format_to(out, "texture memory: {} bytes\n", *s.texture_memory);
-    fmt::format_to(out, "colour: working space \"{}\", display \"{}\", view \"{}\", exposure {:g}",
-                   s.color.working_space, s.color.display, s.color.view, s.color.exposure);
-    if (!s.color.look.empty()) fmt::format_to(out, ", look \"{}\"", s.color.look);
-    if (!s.color.output_space.empty()) fmt::format_to(out, ", output space \"{}\"", s.color.output_space);
+    fmt::format_to(out, "colour: working space {}, display {}, view {}, exposure {:g}", quoted(s.color.working_space),
+                   quoted(s.color.display), quoted(s.color.view), s.color.exposure);
+    if (!s.color.look.empty()) fmt::format_to(out, ", look {}", quoted(s.color.look));
+    if (!s.color.output_space.empty()) fmt::format_to(out, ", output space {}", quoted(s.color.output_space));
     if (s.color.aces_container) fmt::format_to(out, ", ACES container");
     fmt::format_to(out, "\n");
     return result;
@@ -316,14 +322,15 @@ std::string dump(const RenderSettings& s) {
 std::string dump(const SceneDesc& scene) {
     std::string result;
     const Out out = std::back_inserter(result);
-    fmt::format_to(out, "scene \"{}\"\n", scene.name);
-    fmt::format_to(out, "extensions used: {}\nextensions ignored: {}\n", fmt::join(scene.extensions_used, " "),
-                   fmt::join(scene.extensions_ignored, " "));
+    fmt::format_to(out, "scene {}\n", quoted(scene.name));
+    fmt::format_to(out, "extensions used: {}\nextensions ignored: {}\n",
+                   shown_text(fmt::format("{}", fmt::join(scene.extensions_used, " "))),
+                   shown_text(fmt::format("{}", fmt::join(scene.extensions_ignored, " "))));
     dump_textures(scene, out);
     for (std::size_t i = 0; i < scene.materials.size(); ++i) dump_material(i, scene.materials[i], out);
     dump_geometry(scene, out);
-    for (const std::string& animation : scene.animations) fmt::format_to(out, "animation \"{}\"\n", animation);
-    for (const std::string& variant : scene.variants) fmt::format_to(out, "variant \"{}\"\n", variant);
+    for (const std::string& animation : scene.animations) fmt::format_to(out, "animation {}\n", quoted(animation));
+    for (const std::string& variant : scene.variants) fmt::format_to(out, "variant {}\n", quoted(variant));
     dump_cameras_and_lights(scene, out);
     return result + dump(scene.settings);
 }

@@ -78,6 +78,49 @@ TEST_F(BatchUnits, OfOneFileAreAnError) {
                  SceneError);
 }
 
+TEST_F(BatchUnits, WriteNoLayerOverAnImage) {
+    for (const char* name : {"a", "a.deep", "a.depth", "a.v2"}) write_scene(folder_ / "scenes" / name);
+    EXPECT_EQ(collect().size(), 4u) << "without layers that have files of their own";
+    options_.overrides.deep = true;
+    EXPECT_THROW((void)collect(), SceneError);
+    std::filesystem::remove_all(folder_ / "scenes/a.deep");
+    EXPECT_EQ(collect().size(), 3u);
+    options_.overrides.aovs = {{.name = "depth", .source = "depth", .is_float = {}, .location = {}}};
+    EXPECT_EQ(collect().size(), 3u) << "in the image's own file";
+    options_.overrides.aov_layout = AovLayout::Files;
+    try {
+        (void)collect();
+        ADD_FAILURE() << "a.depth.exr has two images";
+    } catch (const SceneError& error) {
+        EXPECT_NE(std::string(error.what()).find("two files would be written to 'out/a.depth.exr'"), std::string::npos)
+            << error.what();
+    }
+    std::filesystem::remove_all(folder_ / "scenes/a.depth");
+    options_.overrides.aovs = {{.name = "denoising", .source = "denoising", .is_float = {}, .location = {}}};
+    EXPECT_EQ(collect().size(), 2u);
+    write_scene(folder_ / "scenes/a.half.N");
+    EXPECT_THROW((void)collect(), SceneError);
+}
+
+TEST_F(BatchUnits, WriteNoPreviewOverAnImage) {
+    write_scene(folder_ / "scenes/a");
+    write_scene(folder_ / "scenes/a.preview");
+    EXPECT_THROW((void)collect(), SceneError);
+}
+
+TEST_F(BatchUnits, AreCutBetweenCharactersOfVariants) {
+    write_scene(folder_ / "scenes/shoe");
+    options_.all_variants = true;
+    EXPECT_EQ(images(collect({std::string(99, 'x') + "é", "a\u009b\u202e"})),
+              (Names{"out/shoe." + std::string(99, 'x') + ".exr", "out/shoe.a__.exr"}));
+}
+
+TEST_F(BatchUnits, AreNoneOfVariantsThatNoCommandLineCanName) {
+    write_scene(folder_ / "scenes/shoe");
+    options_.all_variants = true;
+    EXPECT_THROW((void)collect({std::string("a\0b", 3)}), SceneError);
+}
+
 TEST_F(BatchUnits, MayNotTakeThePlaceOfTheReport) {
     write_scene(folder_ / "scenes/report");
     EXPECT_THROW((void)collect(), SceneError);

@@ -16,6 +16,7 @@
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/wait.h>
 
 namespace etendue::test {
 
@@ -81,30 +82,155 @@ TEST_F(CommandLine, SaysWhichInstructionSetRunsAndTakesNoOther) {
         << result.err;
 }
 
+/// Gives the buffer of a scene of `write_scene` another name.
+void name_buffer(const fs::path& directory, const std::string& name) {
+    json scene = json::parse(read_file(directory / "scene.gltf"));
+    scene["buffers"][0]["uri"] = name;
+    write_file(directory / "scene.gltf", scene.dump());
+    fs::rename(directory / "triangle.bin", directory / name);
+}
+
 TEST_F(CommandLine, OutputsReplaceNoInput) {
-    const std::string box = scene("box");
+    const fs::path box = scene("box");
+    name_buffer(box, "t.depth.exr");
     ASSERT_EQ(run({"render", box, "--quiet", "-o", "sky.exr"}).exit_code, 0);
     fs::create_symlink("sky.exr", work_ / "link.exr");
+    fs::create_hard_link(work_ / "sky.exr", work_ / "second.exr");
     const std::string parts = "part.partial";
     ASSERT_EQ(run({"render", box, "--samples", "0:1", "--quiet", "-o", parts}).exit_code, 0);
-    const std::string settings = (fs::path(box) / "render.json").string();
+    fs::create_directory(work_ / "out");
+    for (const char* name : {"report.json", "profile.json", "heat-path-1.png"})
+        fs::copy(work_ / "sky.exr", work_ / "out" / name);
+    const std::string settings = box / "render.json";
+    const std::string buffer = box / "t.depth.exr";
     struct Case {
         std::vector<std::string> arguments;
         std::string input;
     };
-    for (const Case& c : {Case{{"render", box, "--environment", "sky.exr", "-o", "sky.exr"}, "sky.exr"},
-                          {{"render", box, "--environment", "sky.exr", "-o", "link.exr"}, "sky.exr"},
-                          {{"render", box, "-o", (fs::path(box) / "render.exr").string()}, settings},
-                          {{"view", "sky.png", "-o", "./sky.png"}, "sky.png"},
-                          {{"denoise", "sky.exr", "-o", "sky.exr"}, "sky.exr"},
-                          {{"diff", "sky.exr", "sky.exr", "--map", "sky.exr"}, "sky.exr"},
-                          {{"merge", parts, "-o", parts}, parts}}) {
+    for (const Case& c :
+         {Case{{"render", box, "--environment", "sky.exr", "-o", "sky.exr"}, "sky.exr"},
+          {{"render", box, "--environment", "sky.exr", "-o", "link.exr"}, "sky.exr"},
+          {{"render", box, "--environment", "sky.exr", "-o", "second.exr"}, "sky.exr"},
+          {{"render", box, "-o", box / "render.exr"}, settings},
+          {{"render", box, "-o", box / "t.exr", "--aov", "depth", "--aov-layout", "files"}, buffer},
+          {{"render", box, "-o", "a.exr", "--integrator", "bdpt", "--strategies-image", buffer}, buffer},
+          {{"view", "sky.png", "-o", "./sky.png"}, "sky.png"},
+          {{"denoise", "sky.exr", "-o", "sky.exr"}, "sky.exr"},
+          {{"diff", "sky.exr", "sky.exr", "--map", "sky.exr"}, "sky.exr"},
+          {{"merge", parts, "-o", parts}, parts},
+          {{"compare", box, "--reference", "out/report.json", "-o", "out"}, "out/report.json"},
+          {{"compare", box, "--environment", "out/report.json", "-o", "out"}, "out/report.json"},
+          {{"profile", box, "--environment", "out/profile.json", "-o", "out"}, "out/profile.json"},
+          {{"profile", box, "--environment", "out/heat-path-1.png", "-o", "out"}, "out/heat-path-1.png"},
+          {{"batch", box, "--no-probe", "-o", box.parent_path()}, box.parent_path() / "box.json"}}) {
+        if (c.arguments.front() == "batch") {
+            // The image would replace the settings of another scene.
+            write_scene(box.parent_path() / "other");
+            name_buffer(box.parent_path() / "other", "t.bin");
+            fs::rename(box.parent_path() / "other/render.json", box.parent_path() / "box.json");
+            fs::create_symlink("../box.json", box.parent_path() / "other/render.json");
+        }
         const std::string before = read_file(work_ / c.input);
-        const ProgramResult result = run(c.arguments);
-        EXPECT_EQ(result.exit_code, 1) << fmt::format("{}: {}", fmt::join(c.arguments, " "), result.err);
+        std::vector<std::string> arguments = c.arguments;
+        if (arguments.front() == "batch") arguments[1] = box.parent_path();
+        const ProgramResult result = run(arguments);
+        EXPECT_EQ(result.exit_code, 2) << fmt::format("{}: {}", fmt::join(c.arguments, " "), result.err);
         EXPECT_NE(result.err.find("it is an input, which would be lost"), std::string::npos) << result.err;
+        EXPECT_NE(result.err.find(c.arguments.front() == "diff" ? "error: --map would replace" : "error: --"),
+                  std::string::npos)
+            << result.err;
         EXPECT_TRUE(read_file(work_ / c.input) == before) << c.input;
     }
+    EXPECT_FALSE(fs::exists(work_ / "a.exr"));
+}
+
+TEST_F(CommandLine, OutputsReplaceNoColourConfig) {
+    const std::string box = scene("box");
+    write_file(
+        work_ / "c.json",
+        "ocio_profile_version: 2\nsearch_path: .\nroles: {scene_linear: ref, default: ref}\n"
+        "file_rules:\n  - !<Rule> {name: Default, colorspace: ref}\n"
+        "displays:\n  d:\n    - !<View> {name: v, colorspace: ref}\ncolorspaces:\n  - !<ColorSpace> {name: ref}\n"
+        "  - !<ColorSpace> {name: a, from_scene_reference: !<FileTransform> {src: lut.png}}\n");
+    write_file(work_ / "lut.png", "a table");
+    ::setenv("OCIO", (work_ / "c.json").c_str(), 1);
+    for (const char* image : {"c.exr", "lut.exr"}) {
+        const ProgramResult result = run({"render", box, "-o", image});
+        EXPECT_EQ(result.exit_code, 2) << result.err;
+    }
+    const ProgramResult view = run({"view", "any.exr", "-o", "lut.png"});
+    ::unsetenv("OCIO");
+    EXPECT_EQ(view.exit_code, 2) << view.err;
+    EXPECT_EQ(list(work_), (Names{"c.json", "lut.png"}));
+    EXPECT_EQ(read_file(work_ / "lut.png"), "a table");
+}
+
+TEST_F(CommandLine, AnImageReplacesNoLayerOfAnother) {
+    const std::string box = scene("box");
+    ASSERT_EQ(run({"render", box, "--quiet", "-o", "a.exr", "--deep"}).exit_code, 0);
+    const ProgramResult result = run({"render", box, "--quiet", "-o", "a.deep.exr"});
+    EXPECT_EQ(result.exit_code, 3);
+    EXPECT_NE(result.err.find("a.deep.exr is a layer of the image a.exr"), std::string::npos) << result.err;
+}
+
+TEST_F(CommandLine, WhatCannotBePrintedIsAnError) {
+    const std::string box = scene("box");
+    const std::string error_file = work_ / "err";
+    for (const std::string& command :
+         {std::string("--version"), std::string("--help"), std::string("help render"), std::string("render --help"),
+          "inspect --json " + box, "inspect " + box, "batch --dry-run --no-probe --json -o out " + scenes()}) {
+        const int status = std::system(
+            fmt::format("cd {} && {} {} >/dev/full 2>{}", work_.string(), program_file().string(), command, error_file)
+                .c_str());
+        EXPECT_EQ(WEXITSTATUS(status), 1) << command;
+        EXPECT_NE(read_file(error_file).find("error: cannot write to standard output: No space left on device"),
+                  std::string::npos)
+            << command << ": " << read_file(error_file);
+    }
+}
+
+TEST_F(CommandLine, NamesFromFilesDoNothingToTheTerminal) {
+    const fs::path box = scene("box");
+    json scene = json::parse(read_file(box / "scene.gltf"));
+    const std::string name = "a\x1b]0;x\x07\nerror: fake\xc2\x9b\xe2\x80\xae";
+    for (const char* list : {"nodes", "meshes"}) scene[list][0]["name"] = name;
+    scene["materials"] = json::array({{{"name", name}}});
+    scene["extensionsUsed"] = json::array({"EXT_" + name});
+    write_file(box / "scene.gltf", scene.dump());
+    const auto expect_harmless = [](const std::string& text) {
+        for (const char* harm : {"\x1b", "\x07", "\nerror: fake", "\xc2\x9b", "\xe2\x80\xae"})
+            EXPECT_EQ(text.find(harm), std::string::npos) << text;
+    };
+    const ProgramResult inspected = run({"inspect", box});
+    EXPECT_EQ(inspected.exit_code, 0) << inspected.out << inspected.err;
+    expect_harmless(inspected.out + inspected.err);
+    EXPECT_NE(inspected.out.find(R"(material 0 "a\x1b]0;x\x07\x0aerror: fake\u{9b}\u{202e}")"), std::string::npos)
+        << inspected.out;
+    EXPECT_EQ(json::parse(run({"inspect", box, "--json"}).out).at("materials").at(0), name)
+        << "exact where programs read";
+    const ProgramResult unknown = run({"render", box, "--camera", "b" + name});
+    EXPECT_EQ(unknown.exit_code, 3);
+    expect_harmless(unknown.err);
+    fs::rename(box, box.parent_path() / "a\x1b[2J");
+    const ProgramResult planned = run({"batch", "--dry-run", "--no-probe", "-o", "out", scenes()});
+    EXPECT_EQ(planned.exit_code, 0);
+    expect_harmless(planned.out + planned.err);
+}
+
+TEST_F(CommandLine, FilesHaveTheDateOfTheEnvironment) {
+    const std::string box = scene("box");
+    ::setenv("SOURCE_DATE_EPOCH", "86400", 1);
+    for (const char* image : {"a.exr", "b.exr"})
+        EXPECT_EQ(run({"render", box, "--quiet", "--deep", "-o", image}).exit_code, 0);
+    ::setenv("SOURCE_DATE_EPOCH", "yesterday", 1);
+    const ProgramResult wrong = run({"--version"});
+    ::unsetenv("SOURCE_DATE_EPOCH");
+    EXPECT_EQ(wrong.exit_code, 2);
+    EXPECT_NE(wrong.err.find("SOURCE_DATE_EPOCH is 'yesterday'"), std::string::npos) << wrong.err;
+    for (const char* name : {".exr", ".deep.exr", ".png"})
+        EXPECT_TRUE(read_file(work_ / ("a" + std::string(name))) == read_file(work_ / ("b" + std::string(name))))
+            << name;
+    EXPECT_NE(read_file(work_ / "a.exr").find("1970:01:02 00:00:00"), std::string::npos);
 }
 
 TEST_F(CommandLine, UsageErrorsEndWithTwo) {

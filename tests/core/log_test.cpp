@@ -20,6 +20,12 @@ TEST(Log, WritesLinesFromItsLevelUp) {
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "loaded 1 of 2\nfailed\n");
 }
 
+TEST(Log, NamesInALineAddNoMessageAndMoveNoCursor) {
+    testing::internal::CaptureStderr();
+    log_warning("material '{}' is black", "a\x1b[2J\nerror: fake");
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "material 'a\\x1b[2J\n  error: fake' is black\n");
+}
+
 TEST(Log, BracesInALineAreJustText) {
     testing::internal::CaptureStderr();
     log_line(LogLevel::Info, "a {} b {0} %s");

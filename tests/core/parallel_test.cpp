@@ -1,16 +1,21 @@
 #include "core/parallel.h"
 
+#include "core/error.h"
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <fstream>
 #include <limits>
 #include <memory>
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 namespace etendue {
 
@@ -25,6 +30,29 @@ float half_of_the_smallest_normal() {
 TEST(ThreadPool, HasAsManyThreadsAsAskedFor) {
     for (const int count : {1, 2, 5}) EXPECT_EQ(ThreadPool(count).thread_count(), count);
     EXPECT_GE(ThreadPool().thread_count(), 1);
+}
+
+// As with 'ulimit -u', which does not hold for root.
+TEST(ThreadPool, IsAnErrorWhereThreadsCannotBeStarted) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "sanitizers take more address space than can be limited";
+#endif
+    rlimit old{};
+    ASSERT_EQ(::getrlimit(RLIMIT_AS, &old), 0);
+    std::ifstream statm("/proc/self/statm");
+    rlim_t pages = 0;
+    statm >> pages;
+    const rlimit limit{pages * 4096 + (rlim_t{256} << 20), old.rlim_max};
+    ASSERT_EQ(::setrlimit(RLIMIT_AS, &limit), 0);
+    std::string error;
+    try {
+        const ThreadPool pool(1000);
+    } catch (const IoError& failure) {
+        error = failure.what();
+    }
+    ::setrlimit(RLIMIT_AS, &old);
+    EXPECT_NE(error.find("of 1000 threads can be started"), std::string::npos) << error;
+    EXPECT_EQ(ThreadPool(2).thread_count(), 2);
 }
 
 TEST(ThreadPool, CallsEveryIndexOnce) {

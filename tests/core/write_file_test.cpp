@@ -4,6 +4,7 @@
 #include "support/file_calls.h"
 #include "support/temporary_folder.h"
 
+#include <array>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -11,9 +12,11 @@
 #include <span>
 #include <string>
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/file.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
@@ -128,12 +131,32 @@ class FileSizeLimit {
     void (*old_handler_)(int);
 };
 
+TEST(WriteText, FailsOnAPipeThatNobodyReads) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+    EXPECT_THROW(write_text(folder / "pipe", "text"), IoError);
+    const int reader = ::open((folder / "pipe").c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    ASSERT_GE(reader, 0);
+    write_text(folder / "pipe", "text");
+    std::array<char, 8> text{};
+    EXPECT_EQ(::read(reader, text.data(), text.size()), 4);
+    ::close(reader);
+}
+
 TEST(WriteText, AFailureHalfWayLeavesTheOldFileAndNoOther) {
     const TemporaryFolder folder;
     write_text(folder / "a.json", "old");
     {
-        const FileSizeLimit limit(1000);
-        EXPECT_THROW(write_text(folder / "a.json", std::string(5000, 'x')), IoError);
+        const FileSizeLimit limit(1024);
+        try {
+            write_text(folder / "a.json", std::string(5000, 'x'));
+            ADD_FAILURE() << "it was written";
+        } catch (const IoError& error) {
+            const std::string text = error.what();
+            EXPECT_NE(text.find("no file may have more than 1 KiB here; raise that limit (ulimit -f)"),
+                      std::string::npos)
+                << text;
+        }
     }
     EXPECT_EQ(text_of(folder / "a.json"), "old");
     EXPECT_EQ(folder.file_count(), 1u);

@@ -54,10 +54,5 @@ TEST(ChildPointer, EscapesAsTheRfcSays) {
     EXPECT_EQ(child_pointer("", std::size_t{3}), "/3");
 }
 
-TEST(Shown, CutsAndCleans) {
-    EXPECT_EQ(shown("a\nb"), "a?b");
-    EXPECT_LT(shown(std::string(1000, 'x')).size(), 100u);
-}
-
 }  // namespace
 }  // namespace etendue

@@ -13,6 +13,7 @@ constexpr std::uint32_t kJsonChunk = 0x4E4F534A;
 constexpr std::uint32_t kBinChunk = 0x004E4942;
 constexpr std::size_t kHeaderBytes = 12;
 constexpr std::size_t kChunkHeaderBytes = 8;
+static_assert(kGlbJsonOffset == kHeaderBytes + kChunkHeaderBytes);
 
 /// The little-endian number at `offset`, which must lie inside.
 std::uint32_t read_u32(std::span<const unsigned char> bytes, std::size_t offset) {
@@ -24,6 +25,10 @@ std::uint32_t read_u32(std::span<const unsigned char> bytes, std::size_t offset)
 
 bool is_glb(std::span<const unsigned char> bytes) {
     return bytes.size() >= 4 && read_u32(bytes, 0) == kMagic;
+}
+
+std::size_t glb_json_length(std::span<const unsigned char, kGlbJsonOffset> header) {
+    return read_u32(header, kHeaderBytes);
 }
 
 GlbChunks split_glb(std::span<const unsigned char> bytes, const SourceLocation& where) {

@@ -1,5 +1,6 @@
 #include "loader/gltf/gltf_animation_pointer.h"
 
+#include "core/shown_text.h"
 #include "loader/gltf/gltf_shape.h"
 #include "loader/json_text.h"
 

@@ -1,5 +1,6 @@
 #include "loader/gltf/gltf_buffers.h"
 
+#include "core/shown_text.h"
 #include "loader/files.h"
 #include "loader/json_text.h"
 

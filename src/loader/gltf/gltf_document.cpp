@@ -1,5 +1,6 @@
 #include "loader/gltf/gltf_document.h"
 
+#include "core/shown_text.h"
 #include "loader/files.h"
 #include "loader/gltf/glb.h"
 #include "loader/gltf/gltf_animation_pointer.h"

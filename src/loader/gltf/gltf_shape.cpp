@@ -1,5 +1,6 @@
 #include "loader/gltf/gltf_shape.h"
 
+#include "core/shown_text.h"
 #include "loader/json_text.h"
 
 #include <algorithm>

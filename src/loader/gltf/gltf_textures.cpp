@@ -1,6 +1,7 @@
 #include "loader/gltf/gltf_textures.h"
 
 #include "core/refused_input.h"
+#include "core/shown_text.h"
 #include "image/displayed.h"
 #include "loader/files.h"
 #include "loader/gltf/gltf_buffers.h"

@@ -1,3 +1,4 @@
+#include "core/shown_text.h"
 #include "image/read.h"
 #include "loader/files.h"
 #include "loader/ies/ies_file.h"

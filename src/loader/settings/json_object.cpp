@@ -1,5 +1,6 @@
 #include "loader/settings/json_object.h"
 
+#include "core/shown_text.h"
 #include "loader/json_text.h"
 
 #include <algorithm>

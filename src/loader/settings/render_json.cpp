@@ -1,6 +1,7 @@
 #include "loader/settings/render_json.h"
 
 #include "core/byte_size.h"
+#include "core/shown_text.h"
 #include "loader/files.h"
 #include "loader/json_text.h"
 #include "loader/loader.h"

@@ -1,0 +1,16 @@
+// When files say that they were made.
+#pragma once
+
+#include <ctime>
+#include <optional>
+
+namespace etendue {
+
+/// What $SOURCE_DATE_EPOCH says, in seconds since 1970, so that files which are made again can have the same bytes;
+/// none if it is unset or empty. Throws std::invalid_argument if it is no such number.
+[[nodiscard]] std::optional<std::time_t> source_date();
+
+/// That time, or now.
+[[nodiscard]] std::time_t creation_time();
+
+}  // namespace etendue
