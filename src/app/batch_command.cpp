@@ -61,8 +61,7 @@ ExitCode run_batch(const BatchOptions& options) {
     const auto look = [&](const fs::path& scene) { return find_variants(scene, options); };
     std::vector<BatchTask> tasks = collect_tasks(options, look);
     if (tasks.empty()) {
-        log_error(
-            "error: no scene directory was found; a scene directory holds a render.json or a glTF file");
+        log_error("error: no scene directory was found; a scene directory holds a render.json or a glTF file");
         return ExitCode::InvalidScene;
     }
     if (!options.dry_run) prepare_output(options.output);

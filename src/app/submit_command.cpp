@@ -125,8 +125,7 @@ void print_json(const SlurmFarm& farm, const FarmWork& work, const std::vector<s
 ExitCode run_submit(const SubmitArguments& arguments) {
     const std::vector<BatchTask> tasks = find_images(arguments);
     if (tasks.empty()) {
-        log_error(
-            "error: no scene directory was found; a scene directory holds a render.json or a glTF file");
+        log_error("error: no scene directory was found; a scene directory holds a render.json or a glTF file");
         return ExitCode::InvalidScene;
     }
     const fs::path& output = arguments.request.farm.output;
