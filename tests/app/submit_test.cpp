@@ -373,7 +373,7 @@ TEST_F(Submit, AnInterruptStopsItBeforeTheNextArrayAndTakesHalvesBack) {
     slurm_.interrupt_after(2);
     const ProgramResult result = submit(split_);
     EXPECT_EQ(result.exit_code, 130) << result.err;
-    EXPECT_NE(result.err.find("interrupted\n0 of 4"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("interrupted\n  0 of 4"), std::string::npos) << result.err;
     EXPECT_EQ(slurm_.calls("sbatch").size(), 2u);
     ASSERT_EQ(slurm_.calls("scancel").size(), 1u);
     EXPECT_EQ(slurm_.calls("scancel")[0], (std::vector<std::string>{"1", "2"}));
