@@ -142,7 +142,7 @@ fs::path resolve_asset(const fs::path& directory, std::span<const fs::path> asse
         return resolve_name(directory, name);
     } catch (const IoError& error) {
         std::error_code code;
-        const fs::path named = fs::weakly_canonical(directory / fs::path(name), code);
+        fs::path named = fs::weakly_canonical(directory / fs::path(name), code);
         for (const fs::path& asset : assets) {
             const fs::path root = fs::canonical(asset, code);
             if (!code && is_inside(root, named) && fs::is_regular_file(named, code)) return named;

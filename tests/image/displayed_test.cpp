@@ -21,6 +21,7 @@ std::filesystem::path exr(const TemporaryFolder& folder, int x, int y, int width
     spec.full_width = 4;
     spec.full_height = 3;
     std::vector<float> values;
+    values.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     for (int i = 0; i < width * height; ++i) values.push_back(static_cast<float>(i + 1));
     return write_reference(folder / "a.exr", spec, values);
 }

@@ -139,12 +139,13 @@ bool is_channel_mode(unsigned char mode) {
 /// The colour of one element, of components of `T`.
 template <typename T>
 void decode_color(unsigned char* element) {
-    using Signed = std::make_signed_t<T>;
+    constexpr int kValues = 1 << std::numeric_limits<T>::digits;
+    const auto with_sign = [](T bits) { return int{bits} < kValues / 2 ? int{bits} : int{bits} - kValues; };
     std::array<T, 4> in;
     std::memcpy(in.data(), element, sizeof(in));
     const int y = in[0];
-    const int orange = static_cast<Signed>(in[1]);
-    const int green = static_cast<Signed>(in[2]);
+    const int orange = with_sign(in[1]);
+    const int green = with_sign(in[2]);
     // The highest bit of alpha says how many bits the others have.
     const unsigned most = (1u << std::bit_width(unsigned{in[3]})) - 1;
     unsigned alpha = in[3] & (most >> 1);
