@@ -69,8 +69,8 @@ struct SettingsOverrides {
     /// Adds the options to a subcommand; the values arrive when it is parsed.
     void add_options(CLI::App& command);
 
-    /// Applies quality first, then everything that was stated explicitly. Throws SceneError if the environment image
-    /// does not exist, or --float is asked of an ACES container.
+    /// Applies quality first, then everything that was stated explicitly. Throws SceneError if --float is asked of an
+    /// ACES container.
     void apply(SceneDesc& scene) const;
 
   private:

@@ -53,7 +53,8 @@ class ColorConfig {
     /// That config, else the project's own, which is built into the program. Throws SceneError if it cannot be read, if
     /// it refers to itself, or if one of its tables is no regular file.
     [[nodiscard]] static ColorConfig from_environment();
-    /// What that reads: the config that $OCIO names and its tables; none if it is unset or empty. Throws SceneError.
+    /// Lists the config that $OCIO names and the tables that it reads; none if $OCIO is unset or empty. Throws
+    /// SceneError.
     [[nodiscard]] static std::vector<std::filesystem::path> environment_files();
     [[nodiscard]] static ColorConfig built_in();
     [[nodiscard]] static ColorConfig from_file(const std::filesystem::path& path);

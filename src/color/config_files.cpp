@@ -14,13 +14,13 @@ namespace etendue {
 
 namespace {
 
-/// Of transforms that are nested or refer to each other: a config that is made by hand has a few, and OpenColorIO's
-/// stack has room for many more.
+/// Limits how deep transforms are nested or refer to each other: a config that is made by hand has a few levels, and
+/// OpenColorIO's stack has room for many more.
 constexpr int kMostLevels = 64;
-/// Of all that one conversion expands to.
+/// Limits the transforms that one conversion expands to.
 constexpr std::uint64_t kMostSteps = 100'000;
 
-/// What a transform expands to.
+/// Counts the transforms that a transform expands to, and their levels.
 struct Expansion {
     std::uint64_t steps = 1;
     int levels = 1;
@@ -64,8 +64,8 @@ class Follower {
         else if (expansion.steps > kMostSteps)
             found_.problem = fmt::format("{} is made of more than {} transforms", what, kMostSteps);
     }
-    /// What `expand` finds of the thing that is called `key`: once, and nothing of what is in the middle of it or too
-    /// deep.
+    /// Returns what `expand` finds of the thing that is called `key`, which it looks at once; a thing that refers to
+    /// itself is too deep.
     Expansion once(const std::string& key, const auto& expand) {
         const Expansion too_deep{.levels = kMostLevels + 1};
         if (const auto known = known_.find(key); known != known_.end()) return known->second;
@@ -77,7 +77,7 @@ class Follower {
         return known_[key] = result;
     }
 
-    /// Both ways, as OpenColorIO looks at both whichever is wanted.
+    /// Expands the transforms to and from the space: OpenColorIO looks at both, whichever is wanted.
     Expansion of_space(const char* name) {
         const auto space = config_.getColorSpace(context_->resolveStringVar(name));
         if (!space) return {};

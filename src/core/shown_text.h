@@ -26,13 +26,13 @@ namespace etendue {
 /// A text of several lines, each as `shown_text` shows it.
 [[nodiscard]] std::string shown_lines(std::string_view text);
 
-/// The same of a message: its lines but for the first begin with blanks, so that no name can add a message.
+/// Shows a message as `shown_text` does, with blanks before each line but the first, so that no name can add a message.
 [[nodiscard]] std::string shown_message(std::string_view message);
 
-/// As many of the first characters as have at most `most_bytes` together.
+/// Returns the first characters, as many as fit into `most_bytes`.
 [[nodiscard]] std::string_view first_characters(std::string_view text, std::size_t most_bytes);
 
-/// The same of the last characters.
+/// Returns the last characters, as many as fit into `most_bytes`.
 [[nodiscard]] std::string_view last_characters(std::string_view text, std::size_t most_bytes);
 
 }  // namespace etendue

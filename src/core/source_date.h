@@ -6,8 +6,8 @@
 
 namespace etendue {
 
-/// What $SOURCE_DATE_EPOCH says, in seconds since 1970, so that files which are made again can have the same bytes;
-/// none if it is unset or empty. Throws std::invalid_argument if it is no such number.
+/// Returns the date in $SOURCE_DATE_EPOCH, in seconds since 1970, which lets files that are made again have the same
+/// bytes; none if it is unset or empty. Throws std::invalid_argument if it is no such number.
 [[nodiscard]] std::optional<std::time_t> source_date();
 
 /// That time, or now.

@@ -1,4 +1,4 @@
-// CIE XYZ and the working primaries of glTF.
+// CIE XYZ and the primaries of glTF, Rec.709.
 #pragma once
 
 #include <array>

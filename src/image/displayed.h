@@ -11,8 +11,8 @@ namespace etendue {
 /// be printed, and count for nothing.
 [[nodiscard]] bool fills_display(const ImageInfo& info);
 
-/// Describes the displayed image: `read_image_info`, with the size of the display window. Throws IoError as that does,
-/// and if the display window is far larger than what the file holds of it.
+/// Describes the displayed image as `read_image_info` does, with the size of the display window. Throws IoError as that
+/// does, and RefusedInput if the display window is far larger than what the file holds of it.
 [[nodiscard]] ImageInfo read_displayed_info(const ImageSource& source);
 
 /// Decodes as `read_image_float`, with the pixels at their place in the display window and zeros where it has none.

@@ -17,7 +17,7 @@ namespace {
 constexpr std::array<std::uint64_t, 11> kChunkLines{1, 1, 1, 16, 32, 16, 32, 32, 32, 256, 256};
 /// Lines or tiles that may be decoded at once, whatever the file's size: 65536 x 256 pixels of four floats.
 constexpr std::uint64_t kMostChunkBytes = std::uint64_t{256} << 20;
-/// What is deflated may be this much larger than it is encoded.
+/// Deflated data may be this many times larger than their encoding.
 constexpr std::uint64_t kMostInflation = 1100;
 
 std::uint64_t saturated_product(std::uint64_t a, std::uint64_t b) {
@@ -66,7 +66,7 @@ class ValueReader {
     std::uint64_t offset_;
 };
 
-/// What one header says that decides how much memory its part takes.
+/// Holds what decides in one header how much memory its part takes.
 struct Part {
     std::uint64_t width = 0;
     std::uint64_t height = 0;

@@ -26,7 +26,7 @@ namespace {
 constexpr std::string_view kColorSpace = "oiio:ColorSpace";
 constexpr std::string_view kColorSpaceStandIn = "etnd:ColorSpace";
 
-/// What OpenImageIO calls EXR's capDate.
+/// OpenImageIO calls EXR's capDate by this name.
 constexpr std::string_view kDate = "DateTime";
 
 // OpenImageIO's name of the format that the extension asks for; throws if that format cannot hold the pixels.
@@ -59,7 +59,7 @@ void check_shape(const std::filesystem::path& path, const ImagePart& part, const
     }
 }
 
-/// As the library gets them for an EXR.
+/// Returns the options that the library gets for an EXR.
 ImageWriteOptions for_library(ImageWriteOptions options) {
     for (ImageAttribute& attribute : options.attributes)
         if (attribute.name == kColorSpace) attribute.name = kColorSpaceStandIn;

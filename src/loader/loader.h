@@ -68,7 +68,7 @@ struct LoadedScene {
 /// What the user would call the scene directory or file `path`, also for "." and "scenes/box/".
 [[nodiscard]] std::string scene_name(const std::filesystem::path& path);
 
-/// What the render.json of the scene directory or file `path` says of settings; none if there is none, or if it cannot
+/// Reads the settings of the render.json of the scene directory or file `path`; none if there is none, or if it cannot
 /// be read, which loading the scene will say.
 [[nodiscard]] std::optional<RenderSettings> find_settings(const std::filesystem::path& path);
 

@@ -47,7 +47,7 @@ class NameReader : public nlohmann::json_sax<nlohmann::json> {
     bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception&) override { return false; }
 
   private:
-    /// As it stands and as percent-encoded bytes: the loader tries both.
+    /// Adds the name as it stands and with its percent-encoded bytes decoded: the loader tries both.
     void add(const std::string& value) {
         names.push_back(value);
         try {

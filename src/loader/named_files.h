@@ -7,8 +7,8 @@
 
 namespace etendue {
 
-/// What `file`, a glTF file or settings, names where names of files stand, as the file system would spell it. Empty if
-/// the file cannot be read or is no JSON; nothing says that the names are of files that exist.
+/// Lists the names of files in `file`, a glTF file or settings, as the file system would spell them. The list is empty
+/// if the file cannot be read or is no JSON; the files that it names need not exist.
 [[nodiscard]] std::vector<std::string> named_files(const std::filesystem::path& file);
 
 }  // namespace etendue

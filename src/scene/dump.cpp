@@ -119,7 +119,7 @@ const char* text(PixelFilterType filter) {
     return "?";
 }
 
-/// As terminals may show it; each name in a way of its own.
+/// Quotes a name as terminals may show it; different names stay different.
 std::string quoted(const std::string& name) {
     return '"' + shown_text(name) + '"';
 }

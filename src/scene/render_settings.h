@@ -51,10 +51,10 @@ inline constexpr std::string_view kRobustForm = "mean or mon:N, N odd and from 3
 /// Largest number of `RenderSettings::brightest`.
 inline constexpr int kMostBrightest = 1024;
 
-/// What a texture that cannot be read is: left out with a warning, or an error.
+/// Says whether a texture that cannot be read is left out with a warning, or is an error.
 enum class MissingTextures { Warn, Error };
 
-/// What they are called in render.json and on the command line.
+/// Gives them the names that render.json and the command line have.
 inline constexpr std::array<std::pair<std::string_view, MissingTextures>, 2> kMissingTexturesNames{{
     {"warn", MissingTextures::Warn},
     {"error", MissingTextures::Error},

@@ -9,7 +9,7 @@ namespace etendue {
 
 namespace {
 
-/// What stands in for a map of specular colour and glossiness: a factor of 1 alone would be a perfect mirror.
+/// This reflectance stands in for a map of specular colour and glossiness: a factor of 1 would be a perfect mirror.
 constexpr float kPlainReflectance = 0.04f;
 
 void leave_out(TextureRef& ref, MaterialDesc& material) {

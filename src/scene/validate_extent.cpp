@@ -63,7 +63,7 @@ class Extent {
                                                what, reach, kFarthest));
     }
 
-    /// Of everything, metres.
+    /// Returns how far anything reaches, metres.
     [[nodiscard]] double farthest() const { return farthest_; }
 
   private:
@@ -78,7 +78,8 @@ void for_each_transform(const Thing& thing, const Use& use) {
     for (const Mat4f& step : thing.motion) use(step);
 }
 
-/// How far the scene's places can be from the origin of the mesh's space: at most this times their largest coordinate.
+/// Bounds how far the scene's places are from the origin of the mesh's space: at most this times their largest
+/// coordinate.
 double growth_in_mesh(const Mat4f& to_world) {
     const Imath::M44d to_mesh = Imath::M44d(to_world).inverse();
     double largest = 0.0;

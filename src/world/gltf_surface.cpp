@@ -43,7 +43,7 @@ struct Specular {
           tint(scaled(data, model.specular_color, model.specular_color_texture, point)) {}
 
     [[nodiscard]] bool is_tinted() const { return !(tint == Rgb(1.0f)); }
-    /// What KHR_materials_pbrSpecularGlossiness leaves of the base colour.
+    /// KHR_materials_pbrSpecularGlossiness leaves this share of the base colour.
     [[nodiscard]] float not_reflected() const { return 1.0f - unit(max_component(tint)); }
     [[nodiscard]] Rgb f0(const WorldData& data, float f0) const {
         return (is_tinted() ? clamp_unit(data.from_rec709(tint * f0)) : Rgb(f0)) * weight;

@@ -180,7 +180,7 @@ class Placer {
     }
 
   private:
-    /// The mesh of `node`, everywhere the node has it.
+    /// Places the mesh of `node` everywhere the node has it.
     void place_meshes(const tinygltf::Node& node, const PlacedNode& placed, const SourceLocation& where) {
         const MeshDeformer::Result mesh = deformer_.deform(placed.node, where);
         const tinygltf::Value* instancing = find_extension(node.extensions, "EXT_mesh_gpu_instancing");
