@@ -77,15 +77,21 @@ class Follower {
         return known_[key] = result;
     }
 
-    /// Expands the transforms to and from the space: OpenColorIO looks at both, whichever is wanted.
+    /// Expands a thing's transforms of both ways: OpenColorIO looks at both, whichever is wanted.
+    Expansion of_both(const std::string& key, const OCIO::ConstTransformRcPtr& one,
+                      const OCIO::ConstTransformRcPtr& other) {
+        return once(key, [&] {
+            Expansion sum = of_transform(one);
+            sum.add(of_transform(other));
+            return sum;
+        });
+    }
     Expansion of_space(const char* name) {
         const auto space = config_.getColorSpace(context_->resolveStringVar(name));
         if (!space) return {};
-        return once(fmt::format("space {}", space->getName()), [&] {
-            Expansion sum = of_transform(space->getTransform(OCIO::COLORSPACE_DIR_TO_REFERENCE));
-            sum.add(of_transform(space->getTransform(OCIO::COLORSPACE_DIR_FROM_REFERENCE)));
-            return sum;
-        });
+        return of_both(fmt::format("space {}", space->getName()),
+                       space->getTransform(OCIO::COLORSPACE_DIR_TO_REFERENCE),
+                       space->getTransform(OCIO::COLORSPACE_DIR_FROM_REFERENCE));
     }
     Expansion of_spaces(const char* from, const char* to) {
         Expansion sum = of_space(from);
@@ -95,20 +101,14 @@ class Follower {
     Expansion of_named(const char* name) {
         const auto named = config_.getNamedTransform(name);
         if (!named) return {};
-        return once(fmt::format("named {}", name), [&] {
-            Expansion sum = of_transform(named->getTransform(OCIO::TRANSFORM_DIR_FORWARD));
-            sum.add(of_transform(named->getTransform(OCIO::TRANSFORM_DIR_INVERSE)));
-            return sum;
-        });
+        return of_both(fmt::format("named {}", name), named->getTransform(OCIO::TRANSFORM_DIR_FORWARD),
+                       named->getTransform(OCIO::TRANSFORM_DIR_INVERSE));
     }
     Expansion of_view_transform(const char* name) {
         const auto view = config_.getViewTransform(name);
         if (!view) return {};
-        return once(fmt::format("view {}", name), [&] {
-            Expansion sum = of_transform(view->getTransform(OCIO::VIEWTRANSFORM_DIR_FROM_REFERENCE));
-            sum.add(of_transform(view->getTransform(OCIO::VIEWTRANSFORM_DIR_TO_REFERENCE)));
-            return sum;
-        });
+        return of_both(fmt::format("view {}", name), view->getTransform(OCIO::VIEWTRANSFORM_DIR_FROM_REFERENCE),
+                       view->getTransform(OCIO::VIEWTRANSFORM_DIR_TO_REFERENCE));
     }
     Expansion of_look(const OCIO::ConstLookRcPtr& look) {
         if (!look) return {};
