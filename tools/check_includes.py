@@ -43,9 +43,19 @@ ROOMS = {
     "denoise": "image core",
     "picture": "core lightpath image color scene world film integrator processor render output",
     "api": "core color loader scene world integrator processor render output picture",
-    "app": "core lightpath sampling image color scene loader bsdf medium texture light camera world film integrator "
-    "processor render output metrics report denoise picture",
+    "process": "core",
+    "session": "process picture output render processor integrator world color image loader scene core",
+    "batch": "session process picture report output render color image loader core",
+    "farm": "batch session process picture render processor film scene color core",
+    "compare": "session process picture report metrics output render processor integrator film world texture color image "
+    "loader core",
+    "profile": "session process picture report render integrator world scene core",
+    "cli": "profile compare farm batch session process picture denoise report metrics output render processor film world "
+    "color image loader core",
 }
+
+# Those whose tests are one program, tests/cli/CMakeLists.txt.
+PROGRAM_ROOMS = ("process", "session", "batch", "farm", "compare", "profile", "cli", "program")
 
 # Pattern of a third-party header, the rooms that may include it, and whether their headers may show it to other rooms.
 ANY_ROOM = " ".join(ROOMS)
@@ -62,13 +72,14 @@ THIRD_PARTY = [
     (r"OpenImageIO/", "oiio", WRAPPED),
     (r"OpenColorIO/", "color", WRAPPED),
     (r"(tiny_gltf\.h|draco/|meshoptimizer\.h)", "loader", WRAPPED),
-    (r"nlohmann/", "loader output report picture api app", WRAPPED),
+    (r"nlohmann/", "loader output report picture api session batch farm cli", WRAPPED),
     (r"(openvdb|nanovdb)/", "medium", WRAPPED),
     (r"embree[34]/", "world", WRAPPED),
-    (r"CLI/", "app", WRAPPED),
+    (r"CLI/", "cli session compare", WRAPPED),
     (r"hwy/", "core", SHOWN),
     # The processor and the operating system.
     (r"[a-z]+mmintrin\.h|immintrin\.h", ANY_ROOM, SHOWN),
+    (r"sys/types\.h", ANY_ROOM, SHOWN),
     (r"(unistd|dlfcn|elf|fcntl|link|poll|pthread|pwd|sched|spawn)\.h|linux/|sys/", ANY_ROOM, WRAPPED),
 ]
 STANDARD = re.compile(r"[a-z][a-z0-9_]*$")  # <vector>, <cstdint>: no slash, no suffix
@@ -146,10 +157,12 @@ class Checker:
         self.check_overloads()
         return self.problems
 
-    def check_overloads(self):
-        for room in sorted(path for path in self.src.iterdir() if path.is_dir()):
+    def check_overloads(self, together=()):
+        """`together`: rooms that are compiled as one."""
+        rooms = [[path] for path in sorted(self.src.iterdir()) if path.is_dir() and path.name not in together]
+        for folders in [*rooms, [self.src / room for room in together]]:
             found = {}  # name: [(file, line, fewest arguments, most arguments)]
-            for path in sorted(room.rglob("*.cpp")):
+            for path in sorted(path for folder in folders for path in folder.rglob("*.cpp")):
                 file = path.relative_to(self.src).as_posix()
                 for name, line, fewest, most in unnamed_functions(path.read_text(encoding="utf-8")):
                     for other, other_line, others_fewest, others_most in found.get(name, []):
@@ -266,15 +279,15 @@ SELF_TESTS = [
                                        "integrator/path/a.cpp": '#include "integrator/path/a.h"\n'}, None),
     ("a wrapped header inside its room", {"world/embree.h": "#pragma once\n#include <embree4/rtcore.h>\n",
                                           "world/bvh.cpp": '#include "world/embree.h"\n'}, None),
-    ("an include in a comment", {"core/a.cpp": '// #include "app/main.h"\n'}, None),
+    ("an include in a comment", {"core/a.cpp": '// #include "cli/main.h"\n'}, None),
     ("a generated file", {"bsdf/a.cpp": '#include "bsdf/tables.inc"\n',
                           "bsdf/CMakeLists.txt": 'set(tables "generated/bsdf/tables.inc")\n'}, None),
     ("wrong direction in a source", {"core/a.cpp": '#include "sampling/warp.h"\n'},
      "core may not include room sampling"),
     ("wrong direction in a header", {"bsdf/a.h": '#pragma once\n#include "light/l.h"\n', "light/l.h": "#pragma once\n"},
      "src/bsdf/a.h:2: room bsdf may not include room light"),
-    ("nobody includes app", {"render/a.cpp": '#include "app/a.h"\n', "app/a.h": "#pragma once\n"},
-     "may not include room app"),
+    ("nobody includes cli", {"render/a.cpp": '#include "cli/a.h"\n', "cli/a.h": "#pragma once\n"},
+     "may not include room cli"),
     ("third-party in the wrong room", {"film/a.cpp": "#include <embree3/rtcore.h>\n"}, "only in: world"),
     ("unknown third-party", {"film/a.cpp": "#include <glm/glm.hpp>\n"}, "is not known"),
     ("third-party in quotes", {"loader/a.cpp": '#include "tiny_gltf.h"\n'}, "included with <>"),
@@ -346,7 +359,7 @@ def main():
     else:
         problems = check_table() + Checker(arguments.src).run()
         tests = Checker(Path(arguments.src).parent / "tests")
-        tests.check_overloads()
+        tests.check_overloads(PROGRAM_ROOMS)
         problems += tests.problems
     for problem in problems:
         print(problem)

@@ -1,8 +1,8 @@
 // make_manual DIRECTORY: writes man pages and the completions of shells below DIRECTORY, as they lie below a share/.
-#include "app/command_help.h"
-#include "app/command_line.h"
-#include "app/man_page.h"
-#include "app/shell_completion.h"
+#include "cli/command_help.h"
+#include "cli/command_line.h"
+#include "cli/man_page.h"
+#include "cli/shell_completion.h"
 #include "core/write_file.h"
 #include "output/software_name.h"
 

@@ -1,5 +1,5 @@
 // The library as another program sees it: public headers and the shared library only.
-#include "app/small_files.h"
+#include "program/small_files.h"
 
 #include <algorithm>
 #include <filesystem>

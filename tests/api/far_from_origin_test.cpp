@@ -1,5 +1,5 @@
 // Scenes that lie anywhere in the world look the same: a room is rendered here and there, and compared with itself.
-#include "app/small_files.h"
+#include "program/small_files.h"
 
 #include <algorithm>
 #include <array>

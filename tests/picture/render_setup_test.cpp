@@ -1,6 +1,6 @@
 #include "picture/render_setup.h"
 
-#include "app/small_files.h"
+#include "program/small_files.h"
 
 #include <string>
 #include <vector>

@@ -2,7 +2,7 @@
 // like to be markup, and as many units as are asked for.
 //
 // Usage: sample_batch DIRECTORY UNITS [PNG...]. The images are the files that are named, or else some that are made.
-#include "app/batch_page.h"
+#include "batch/batch_page.h"
 #include "image/write.h"
 
 #include <array>

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 PAUSE = 0.004  # seconds between looks at a process
 PATIENCE = 5  # times as long as it may work, a command may take by the clock
 LARGEST_FILE = 1 << 28
-START, HAS_ENDED, WAIT = range(3)  # requests, and all else of the protocol: tests/app/program_requests.h
+START, HAS_ENDED, WAIT = range(3)  # requests, and all else of the protocol: tests/program/program_requests.h
 REQUESTS = 3
 
 

@@ -1,6 +1,0 @@
-// etendue: the command line.
-#include "app/program.h"
-
-int main(int argc, char** argv) {
-    return etendue::run_program(argc, argv);
-}

@@ -1,0 +1,208 @@
+#include "batch/batch_attempt.h"
+
+#include "core/error.h"
+#include "render/checkpoint.h"
+#include "session/exit_code.h"
+#include "session/image_job.h"
+#include "session/interrupt.h"
+#include "session/usage_error.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <csignal>
+#include <cstring>
+#include <mutex>
+#include <new>
+#include <optional>
+#include <stop_token>
+#include <string_view>
+#include <thread>
+
+#include <fmt/format.h>
+
+namespace etendue {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds kBetweenLooks(100);
+/// Without a sign of progress since it was told to stop, a child is ended: longer than any file takes to be written.
+constexpr std::chrono::minutes kMostSilence(5);
+
+std::vector<std::string> child_arguments(const BatchTask& task, const BatchOptions& options,
+                                         const AttemptOptions& how) {
+    std::vector<std::string> arguments = render_arguments(task, options);
+    arguments.insert(arguments.end(), {"--progress-fd", fmt::format("{}", ChildProcess::kProgressDescriptor),
+                                       "--checkpoint-every", fmt::format("{}", options.checkpoint_minutes)});
+    if (how.resume) arguments.emplace_back("--resume");
+    if (how.force) arguments.emplace_back("--force");
+    return arguments;
+}
+
+/// True if a failure with this message is one of memory.
+bool tells_of_memory(const std::deque<std::string>& messages) {
+    // Of this program, of the standard library, of the system, and of the loader, which starts programs.
+    constexpr std::array<std::string_view, 7> kWords{
+        "not enough memory",     "bad_alloc",          "annot allocate memory", "Resource temporarily unavailable",
+        "pthread_create failed", "failed to map segm", "cannot map zero-fill"};
+    return std::ranges::any_of(messages, [&](const std::string& line) {
+        return std::ranges::any_of(kWords, [&](std::string_view w) { return line.find(w) != std::string::npos; });
+    });
+}
+
+std::string end_in_words(const ChildEnd& end) {
+    if (end.signal == 0) return fmt::format("its process ended with exit code {}", end.exit_code);
+    const char* const description = ::sigdescr_np(end.signal);
+    std::string text = fmt::format("its process was ended by {}", signal_name(end.signal));
+    if (description != nullptr) text += fmt::format(" ({})", description);
+    if (end.signal == SIGKILL) text += ": by somebody, or by the system for want of memory";
+    return text;
+}
+
+bool is_interrupt(const ChildEnd& end) {
+    return end.signal == SIGINT || end.signal == SIGTERM || end.exit_code == static_cast<int>(ExitCode::Interrupted) ||
+           end.exit_code == static_cast<int>(ExitCode::Terminated);
+}
+
+/// What the end of a child that was not done means.
+void judge_failure(const ChildProcess& child, const BatchOptions& options, Attempt& attempt) {
+    const ChildEnd& end = child.end();
+    attempt.log.assign(child.last_messages().begin(), child.last_messages().end());
+    attempt.error = error_of(child.last_messages());
+    attempt.was_said = !attempt.error.empty() && end.signal == 0;
+    if (attempt.is_stalled)
+        attempt.error = fmt::format("it was ended because it showed no progress for {:g} minutes (--stall-minutes){}",
+                                    options.stall_minutes,
+                                    attempt.phase.empty() ? "" : fmt::format(", in phase '{}'", attempt.phase));
+    else if (!attempt.was_said)
+        attempt.error = end_in_words(end);
+    if (interrupt_requested() && is_interrupt(end)) {
+        attempt.end = AttemptEnd::Interrupted;
+        attempt.error.clear();
+    } else if (options.max_memory && tells_of_memory(child.last_messages())) {
+        attempt.end = AttemptEnd::Hopeless;
+        attempt.was_said = false;
+        attempt.error =
+            fmt::format("it needs more memory than --max-memory {}: {}", options.max_memory_text, attempt.error);
+    } else if (end.signal == 0 && end.exit_code == static_cast<int>(ExitCode::InvalidScene)) {
+        attempt.end = AttemptEnd::Invalid;
+    } else if (end.signal == 0 && end.exit_code == static_cast<int>(ExitCode::UsageError)) {
+        attempt.end = AttemptEnd::Hopeless;
+    } else if ((end.signal != 0 || !attempt.was_said) && options.max_memory) {
+        attempt.error += fmt::format("; --max-memory {} may be the reason", options.max_memory_text);
+    }
+}
+
+/// Calls something a few times a second, from a thread of its own, for as long as it lives.
+class Repeater {
+  public:
+    explicit Repeater(const std::function<void()>& call)
+        : thread_([call](const std::stop_token& stop) {
+              std::mutex mutex;
+              std::condition_variable_any waiting;
+              std::unique_lock lock(mutex);
+              while (!waiting.wait_for(lock, stop, kBetweenLooks, [&] { return stop.stop_requested(); })) call();
+          }) {}
+
+  private:
+    std::jthread thread_;
+};
+
+}  // namespace
+
+Attempt attempt_in_child(const BatchTask& task, const BatchOptions& options, const AttemptOptions& how,
+                         const AttemptCallbacks& callbacks) {
+    ChildProcess child({.arguments = child_arguments(task, options, how), .memory_limit = options.max_memory});
+    Attempt attempt;
+    Clock::time_point last_sign = Clock::now();  // of its going on
+    bool was_told_to_stop = false;
+    const std::chrono::duration<double, std::ratio<60>> stall_limit(options.stall_minutes);
+    const auto on_progress = [&](const std::string& line) {
+        const std::optional<ChildProgress> progress = parse_progress(line);
+        if (!progress) return;
+        last_sign = Clock::now();
+        attempt.phase = progress->phase;
+        callbacks.on_progress(*progress);
+    };
+    bool has_lock = true;
+    while (child.wait(kBetweenLooks, callbacks.on_message, on_progress)) {
+        if (interrupt_requested() && !was_told_to_stop) {
+            // It may have got the signal itself, which is as good. A second one from the user ends this process, and
+            // with it the child.
+            child.send(interrupt_exit_code() == ExitCode::Terminated ? SIGTERM : SIGINT);
+            was_told_to_stop = true;
+            last_sign = Clock::now();
+        }
+        // Libraries that were denied memory may wait for a lock for ever.
+        const Clock::duration silence = Clock::now() - last_sign;
+        attempt.is_stalled = !was_told_to_stop && stall_limit.count() > 0.0 && silence > stall_limit;
+        if (attempt.is_stalled || (was_told_to_stop && silence > kMostSilence)) child.send(SIGKILL);
+        if (attempt.phase == "render" && preview_requested()) {
+            clear_preview_request();
+            child.send(SIGUSR1);
+        }
+        if (has_lock && !callbacks.keep_alive()) {
+            has_lock = false;
+            child.send(SIGKILL);
+        }
+    }
+    const ChildEnd& end = child.end();
+    if (end.signal == 0)
+        attempt.exit_code = end.exit_code;
+    else
+        attempt.signal = signal_name(end.signal);
+    if (!has_lock)
+        attempt.end = AttemptEnd::LockLost;
+    else if (end.signal == 0 && end.exit_code == 0)
+        attempt.end = AttemptEnd::Done;
+    else
+        judge_failure(child, options, attempt);
+    return attempt;
+}
+
+Attempt attempt_here(const BatchTask& task, const BatchOptions& options, const AttemptOptions& how,
+                     const std::string& title, const std::function<bool()>& keep_alive, const ThreadPool& threads) {
+    Attempt attempt{.end = AttemptEnd::Done};
+    std::atomic<bool> is_lost = false;
+    const Repeater heart([&] {
+        if (!is_lost && !keep_alive()) is_lost = true;
+    });
+    try {
+        const ImageResult result = run_job(task.job,
+                                           {.overrides = options.overrides,
+                                            .force = how.force,
+                                            .quiet = options.quiet,
+                                            .make_directories = true,
+                                            .checkpoint_minutes = options.checkpoint_minutes,
+                                            .resume = how.resume,
+                                            .title = title,
+                                            .is_lost = &is_lost},
+                                           threads);
+        if (result.outcome == ImageOutcome::Interrupted) attempt.end = AttemptEnd::Interrupted;
+    } catch (const LostRender&) {
+        attempt.end = AttemptEnd::LockLost;
+    } catch (const RefusedCheckpoint& error) {
+        attempt.end = AttemptEnd::Invalid;
+        attempt.phase = "resume";
+        attempt.error = error.what();
+    } catch (const SceneError& error) {
+        attempt.end = AttemptEnd::Invalid;
+        attempt.error = error.what();
+    } catch (const UsageError& error) {
+        attempt.end = AttemptEnd::Hopeless;
+        attempt.error = error.what();
+    } catch (const std::bad_alloc&) {
+        attempt.end = AttemptEnd::Hopeless;
+        attempt.error = "there is not enough memory";
+    } catch (const std::exception& error) {
+        attempt.end = AttemptEnd::Failed;
+        attempt.error = error.what();
+    }
+    return attempt;
+}
+
+}  // namespace etendue

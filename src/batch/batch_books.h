@@ -1,0 +1,40 @@
+// What a batch writes about itself: the ledger, and the reports.
+#pragma once
+
+#include "batch/batch_ledger.h"
+#include "report/batch_report.h"
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+
+namespace etendue {
+
+/// Images matter more than books: what cannot be written is an error that is told once, and the batch goes on.
+class BatchBooks {
+  public:
+    explicit BatchBooks(const std::filesystem::path& output);
+
+    void append(const LedgerEvent& event);
+
+    /// Writes report.json and index.html, unless the time that this takes would not be small against the time since it
+    /// was last done: for many units it costs a part of the whole, and not more the more there are.
+    void write_reports(const BatchReport& report);
+    /// The same in any case.
+    void write_last_reports(const BatchReport& report);
+
+    /// False if something could not be written.
+    [[nodiscard]] bool are_kept() const { return are_kept_; }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    void try_to(const std::function<void()>& write);
+
+    std::filesystem::path output_;
+    BatchLedger ledger_;
+    bool are_kept_ = true;
+    Clock::time_point written_{};
+    Clock::duration took_{};
+};
+
+}  // namespace etendue

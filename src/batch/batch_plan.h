@@ -1,0 +1,70 @@
+// What a batch is going to do, before it does it: which images are stale, why, and how long they will take.
+#pragma once
+
+#include "batch/batch_ledger.h"
+#include "batch/batch_options.h"
+#include "batch/batch_units.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace etendue {
+
+/// Tells two states of a file apart; equal for a file that is missing.
+struct FileStamp {
+    std::uint64_t inode = 0;
+    std::int64_t seconds = 0;
+    std::int64_t nanoseconds = 0;
+
+    [[nodiscard]] static FileStamp of(const std::filesystem::path& path);
+    friend bool operator==(const FileStamp&, const FileStamp&) = default;
+};
+
+struct PlannedUnit {
+    BatchTask task;
+    std::string reason{};                       ///< why it is stale; empty if it is up to date
+    double done = 0.0;                          ///< part of its samples that a checkpoint holds, [0, 1]
+    std::optional<double> estimated_seconds{};  ///< of what is left; if it is stale and a probe was possible
+    FileStamp seen{};                           ///< the statistics beside the image, when they were looked at
+
+    [[nodiscard]] bool is_stale() const { return !reason.empty(); }
+};
+
+/// The reason of an image that is rendered again although it is up to date.
+inline constexpr std::string_view kForced = "--force";
+
+using BatchPlan = std::vector<PlannedUnit>;
+
+/// Looks at one image: fills `reason`, `done` and `seen`. `force` is a reason, too. The scene is only loaded if the
+/// files do not tell enough; if that fails, it is stale, and rendering it will say why. `history` is what the ledger
+/// says.
+void examine(PlannedUnit& unit, const BatchOptions& options, bool force, const LedgerHistory& history);
+
+/// Told what is being looked at, and how many of how many things came before.
+using PlanProgress = std::function<void(const std::string& what, std::size_t done, std::size_t of)>;
+
+/// Examines all images, and, unless it is not wanted, lets each scene's first stale one be probed: the others of that
+/// scene are taken to cost the same. Ends early if it is interrupted.
+[[nodiscard]] BatchPlan make_plan(std::vector<BatchTask> tasks, const BatchOptions& options,
+                                  const LedgerHistory& history, const PlanProgress& progress);
+
+/// Sums over the stale images of a plan.
+struct PlanTotals {
+    std::size_t stale = 0;
+    std::optional<double> seconds{};  ///< if every stale image has an estimate
+};
+[[nodiscard]] PlanTotals totals(const BatchPlan& plan);
+
+/// A table, with a row for each image and a last line that sums them up.
+[[nodiscard]] std::string to_table(const BatchPlan& plan);
+/// One JSON object: docs/batch.md tells its keys.
+[[nodiscard]] std::string to_json(const BatchPlan& plan);
+/// One line: "3 of 5 images to render, about 2:10: 2 never rendered, 1 settings changed".
+[[nodiscard]] std::string summary(const BatchPlan& plan);
+
+}  // namespace etendue

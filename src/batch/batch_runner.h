@@ -1,0 +1,80 @@
+// A batch at work: image after image, each under its lock, beside other processes that do the same.
+#pragma once
+
+#include "batch/batch_attempt.h"
+#include "batch/batch_books.h"
+#include "batch/batch_ledger.h"
+#include "batch/batch_lock.h"
+#include "batch/batch_options.h"
+#include "batch/batch_plan.h"
+#include "batch/batch_progress.h"
+#include "core/parallel.h"
+#include "report/batch_report.h"
+
+#include <chrono>
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace etendue {
+
+class BatchRunner {
+  public:
+    /// `options`, `history` and `progress` outlive it.
+    BatchRunner(const BatchOptions& options, BatchPlan plan, LedgerHistory& history, BatchProgress& progress);
+
+    /// Makes every stale image of the plan that can be made, or waits until another process has. Ends early when it is
+    /// interrupted. Writes ledger and reports as it goes on.
+    void run();
+
+    [[nodiscard]] const BatchReport& report() const { return report_; }
+    /// False if something could not be written into the ledger or the reports; it was said when it happened.
+    [[nodiscard]] bool has_kept_books() const { return books_.are_kept(); }
+
+  private:
+    /// Of an image that is up to date: a render that was killed after its image was complete has left them.
+    void remove_checkpoints(std::size_t index);
+    /// False if another process has the image now.
+    bool work_on(std::size_t index);
+    /// Under its lock. False if the lock was lost.
+    bool work_under(BatchLock& lock, std::size_t index);
+    /// True if another process has made the image, or failed to, since this one looked at it last.
+    bool was_made_elsewhere(std::size_t index, const BatchLock& lock);
+    /// Tries until it is made, or there is no more hope. False if the lock was lost.
+    bool make(std::size_t index, BatchLock& lock);
+    Attempt attempt(std::size_t index, const AttemptOptions& how, BatchLock& lock);
+    /// What was said before is not said again.
+    [[nodiscard]] std::string failure_in_words(const Attempt& attempt) const;
+    void begin_record(std::size_t index, const BatchLock& lock);
+    /// Of an image whose scene is invalid, as another one has shown.
+    void give_up(std::size_t index);
+    void end_record(std::size_t index, const Attempt& attempt, double seconds, bool again);
+    void finish(std::size_t index, const Attempt& attempt, double seconds);
+
+    void show(const std::string& name, const std::string& state, double seconds, double fraction);
+    void wait_for_others(const std::vector<std::size_t>& held);
+    void write_reports(bool is_end);
+    void tidy() const;
+
+    const BatchOptions& options_;
+    BatchPlan plan_;
+    LedgerHistory& history_;
+    BatchProgress& progress_;
+    BatchBooks books_;
+    BatchLocks locks_;
+    std::optional<ThreadPool> threads_{};  ///< if images are rendered in this process
+    BatchReport report_{};
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    TimeLeft time_left_{};
+    std::set<std::filesystem::path> invalid_scenes_{};
+    std::size_t stale_ = 0;
+    std::size_t done_ = 0;  ///< of the stale ones
+    std::size_t failed_ = 0;
+    std::size_t not_tried_ = 0;
+    bool has_waited_ = false;
+};
+
+}  // namespace etendue

@@ -1,0 +1,75 @@
+#include "cli/command_help.h"
+
+#include <algorithm>
+#include <sstream>
+#include <string_view>
+
+#include <CLI/CLI.hpp>
+
+namespace etendue {
+
+namespace {
+
+std::string without_spaces(const std::string& text) {
+    const std::size_t begin = text.find_first_not_of(' ');
+    return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(' ') + 1 - begin);
+}
+
+/// The words of "TEXT:{draft,final,preview}"; none if the type has no such list.
+std::vector<std::string> choices_of(const std::string& type) {
+    const std::size_t begin = type.find('{');
+    const std::size_t end = type.find('}', begin == std::string::npos ? 0 : begin);
+    std::vector<std::string> choices;
+    if (begin == std::string::npos || end == std::string::npos) return choices;
+    std::istringstream words(type.substr(begin + 1, end - begin - 1));
+    for (std::string word; std::getline(words, word, ',');) choices.push_back(word);
+    return choices;
+}
+
+OptionHelp::Value value_of(const CLI::Option& option, const std::vector<std::string>& choices) {
+    if (option.get_type_size() == 0) return OptionHelp::Value::None;
+    if (!choices.empty()) return OptionHelp::Value::Choice;
+    const std::string type = option.get_type_name();
+    const bool is_number = std::ranges::any_of(std::vector<std::string_view>{"INT", "UINT", "FLOAT"},
+                                               [&](std::string_view name) { return type.starts_with(name); });
+    return is_number ? OptionHelp::Value::Number : OptionHelp::Value::Text;
+}
+
+OptionHelp describe_option(const CLI::Option& option) {
+    OptionHelp help;
+    if (option.get_positional()) help.names.push_back(option.get_name(true));
+    for (const std::string& name : option.get_snames()) help.names.push_back("-" + name);
+    for (const std::string& name : option.get_lnames()) help.names.push_back("--" + name);
+    const CLI::Formatter formatter;
+    help.terms = without_spaces(formatter.make_option_opts(&option));
+    help.description = option.get_description();
+    help.choices = choices_of(option.get_type_name());
+    help.value = value_of(option, help.choices);
+    return help;
+}
+
+}  // namespace
+
+CommandHelp describe_command(const CLI::App& app) {
+    CommandHelp help{.name = app.get_name(),
+                     .summary = app.get_description(),
+                     .footer = app.get_footer(),
+                     .arguments = {},
+                     .options = {},
+                     .commands = {}};
+    for (const CLI::Option* option : app.get_options()) {
+        if (option->get_group().empty()) continue;  // hidden
+        (option->get_positional() ? help.arguments : help.options).push_back(describe_option(*option));
+    }
+    for (const CLI::App* command : app.get_subcommands({}))
+        if (!command->get_group().empty()) help.commands.push_back(describe_command(*command));
+    return help;
+}
+
+std::string first_clause(const std::string& text) {
+    std::size_t end = text.size();
+    for (const char* mark : {". ", "; ", ": ", " (", ", ", "\n"}) end = std::min(end, text.find(mark));
+    return text.substr(0, end);
+}
+
+}  // namespace etendue

@@ -1,0 +1,341 @@
+// etendue compare: ways of rendering one scene against each other.
+#include "cli/commands.h"
+#include "compare/comparison_images.h"
+#include "compare/comparison_measures.h"
+#include "compare/comparison_reference.h"
+#include "compare/comparison_renders.h"
+#include "compare/comparison_summary.h"
+#include "compare/comparison_variants.h"
+#include "compare/image_pair.h"
+#include "core/log.h"
+#include "core/source_date.h"
+#include "core/standard_output.h"
+#include "core/write_file.h"
+#include "output/software_name.h"
+#include "picture/render_setup.h"
+#include "session/given_options.h"
+#include "session/interrupt.h"
+#include "session/library_versions.h"
+#include "session/output_directory.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+namespace etendue {
+
+namespace {
+
+constexpr double kDefaultSeconds = 10.0;
+constexpr int kDefaultSeeds = 4;
+constexpr int kDefaultStrategies = 5;  // edges
+constexpr std::array kLetters{'a', 'b', 'c', 'd', 'e', 'f'};
+
+struct CompareArguments {
+    std::string scene;
+    std::string output;
+    std::vector<std::string> integrators;
+    std::array<std::optional<std::string>, kLetters.size()> variants;
+    RenderRequest common;  ///< of all variants
+    std::string command;   ///< this comparison's
+    std::optional<double> seconds;
+    int seeds = kDefaultSeeds;
+    std::string reference;
+    std::string reference_integrator;
+    std::optional<double> reference_seconds;
+    std::vector<NamedRegion> regions;
+    int longest_strategy = kDefaultStrategies;
+    int threads = 0;
+    bool quiet = false;
+    bool json = false;
+};
+
+/// "caustic:10,20,100,80".
+NamedRegion parse_region(const std::string& text) {
+    const std::size_t colon = text.rfind(':');
+    if (colon == std::string::npos || colon == 0)
+        throw CLI::ValidationError("--region", "'" + text + "' is not NAME:x0,y0,x1,y1");
+    const auto window = parse_pixel_window("--region", text.substr(colon + 1));
+    return {text.substr(0, colon), {window[0], window[1], window[2], window[3]}, false};
+}
+
+/// What has one name could not be told apart.
+void require_different(const std::string& option, const std::vector<std::string>& names) {
+    std::set<std::string> known;
+    for (const std::string& name : names)
+        if (!known.insert(name).second) throw CLI::ValidationError(option, "'" + name + "' is named twice");
+}
+
+std::vector<VariantRequest> variant_requests(const CompareArguments& arguments) {
+    std::vector<VariantRequest> requests;
+    for (std::size_t i = 0; i < kLetters.size(); ++i)
+        if (arguments.variants[i])
+            requests.push_back({fmt::format("{}: {}", kLetters[i], *arguments.variants[i]), *arguments.variants[i]});
+    const std::vector<std::string> usual{"path", "bdpt"};
+    if (requests.empty())
+        for (const std::string& name : arguments.integrators.empty() ? usual : arguments.integrators)
+            requests.push_back({name, "--integrator " + name});
+    return requests;
+}
+
+RenderBudget budget_of(const CompareArguments& arguments) {
+    if (arguments.common.overrides.spp) return {.spp = static_cast<std::uint32_t>(*arguments.common.overrides.spp)};
+    return {.seconds = arguments.seconds.value_or(kDefaultSeconds)};
+}
+
+ComparisonReport start_report(const CompareArguments& arguments, const Variant& variant, const RendersRequest& request,
+                              std::size_t rounds, const ThreadPool& threads) {
+    const RenderSettings& settings = variant.settings;
+    ComparisonReport report;
+    report.program = software_name();
+    report.created = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(creation_time()));
+    report.command = arguments.command;
+    report.scene = scene_name(arguments.scene);
+    report.scene_path = arguments.scene;
+    report.width = settings.film.width;
+    report.height = settings.film.height;
+    if (settings.film.crop) report.crop = variant.sampling.window;
+    report.working_space = settings.color.working_space;
+    report.display = settings.color.display;
+    report.view = settings.color.view;
+    report.look = settings.color.look;
+    report.exposure = static_cast<double>(settings.color.exposure);
+    report.threads = threads.thread_count();
+    report.isa = variant.world->statistics().isa;
+    report.libraries = library_versions();
+    report.seconds = request.budget.seconds;
+    report.spp = request.budget.spp;
+    report.seeds = static_cast<int>(rounds);
+    report.first_seed = request.first_seed;
+    return report;
+}
+
+/// A reference that is asked for: what can be known of it before anything is rendered.
+struct RequestedReference {
+    std::optional<ImageF> image{};     ///< of the file
+    std::optional<Variant> variant{};  ///< that renders it
+    double seconds = 0.0;              ///< that it renders for
+    std::vector<std::string> notes{};
+};
+
+RequestedReference requested_reference(const CompareArguments& arguments, const std::vector<Variant>& variants,
+                                       const RenderBudget& budget, const ColorConfig& colors) {
+    RequestedReference requested;
+    const Variant& first = variants.front();
+    if (!arguments.reference.empty()) {
+        const RenderOptions& sampling = first.sampling;
+        SceneLinearImage file = read_scene_linear(arguments.reference, sampling.full_width, sampling.full_height,
+                                                  sampling.window, first.settings.color.working_space, colors);
+        requested.image = std::move(file.pixels);
+        requested.notes = std::move(file.warnings);
+    } else if (!arguments.reference_integrator.empty()) {
+        requested.variant = with_integrator(first, arguments.reference_integrator);
+        requested.seconds = arguments.reference_seconds.value_or(10.0 * budget.seconds.value_or(kDefaultSeconds));
+        requested.notes = reference_notes(*requested.variant, variants);
+    }
+    return requested;
+}
+
+/// `seed` is that of its render, if it is rendered.
+std::optional<Reference> find_reference(const CompareArguments& arguments, RequestedReference requested,
+                                        std::uint32_t seed, const std::vector<Variant>& variants,
+                                        const std::vector<FinishedImages>& images, const ThreadPool& threads,
+                                        ComparisonReport& report) {
+    if (requested.image)
+        return Reference(std::move(*requested.image),
+                         {.kind = "file", .text = fmt::format("The file {}.", arguments.reference)});
+    if (!requested.variant) return pool_reference(variants, images, report.pairs, report.notes);
+    auto image = render_reference(*requested.variant, requested.seconds, seed, threads, arguments.quiet);
+    if (!image) {
+        report.notes.emplace_back(
+            "there is no reference, so no errors are given: it was not rendered, because the comparison was "
+            "interrupted");
+        return std::nullopt;
+    }
+    return Reference(std::move(*image), {.kind = "integrator",
+                                         .text = fmt::format("Rendered by {} for {:g} s with a seed of its own, {}.",
+                                                             requested.variant->name, requested.seconds, seed)});
+}
+
+void require_regions_within(const std::vector<NamedRegion>& regions, const PixelRect& window) {
+    for (const NamedRegion& region : regions)
+        if (intersection(region.pixels, window) != region.pixels)
+            throw SceneError({"--region", {}},
+                             fmt::format("'{}' does not lie within the pixels {},{},{},{} that are rendered",
+                                         region.name, window.x0, window.y0, window.x1, window.y1));
+}
+
+ExitCode run_compare(const CompareArguments& arguments) {
+    const ThreadPool threads(arguments.threads);
+    const ColorConfig colors = ColorConfig::from_environment();
+    const std::vector<Variant> variants =
+        make_variants(arguments.scene, variant_requests(arguments), arguments.common, colors, threads, arguments.quiet);
+    const PixelRect& window = variants.front().sampling.window;
+    require_regions_within(arguments.regions, window);
+    const RendersRequest request{.budget = budget_of(arguments),
+                                 .seeds = arguments.seeds,
+                                 .first_seed = variants.front().settings.seed,
+                                 .quiet = arguments.quiet};
+    RequestedReference requested = requested_reference(arguments, variants, request.budget, colors);
+    if (!arguments.quiet)
+        for (const std::string& note : requested.notes) log_warning("note: {}", note);
+    std::vector<std::filesystem::path> inputs;
+    if (!arguments.reference.empty()) inputs.emplace_back(arguments.reference);
+    for (const Variant& variant : variants) inputs.insert(inputs.end(), variant.inputs.begin(), variant.inputs.end());
+    const std::vector<std::filesystem::path> files =
+        prepare_directory(arguments.output, {"report.json", "index.html"}, inputs);
+    ImageStore store(arguments.output, window.width(), window.height(), 3);
+    const std::vector<VariantRenders> renders = render_variants(variants, request, store, threads);
+    const std::size_t rounds = renders.front().seeds.size();
+    if (rounds == 0) return interrupt_exit_code();
+
+    ComparisonReport report = start_report(arguments, variants.front(), request, rounds, threads);
+    report.notes = requested.notes;
+    const std::size_t notes_said = report.notes.size();
+    if (report.seeds < arguments.seeds)
+        report.notes.push_back(fmt::format("interrupted after {} of {} seeds", report.seeds, arguments.seeds));
+    const MeasureContext context{colors, threads, store};
+    const std::vector<FinishedImages> images = finished_images(renders, store);
+    report.pairs = compare_pairs(variants, images);
+    // The one after those of all renders.
+    const std::uint32_t reference_seed =
+        render_seed(request.first_seed, static_cast<std::size_t>(request.seeds), 0, variants.size());
+    const std::optional<Reference> reference =
+        find_reference(arguments, std::move(requested), reference_seed, variants, images, threads, report);
+    report.reference = reference ? reference->report() : ReferenceReport{.kind = "none", .text = "There is none."};
+    const ErrorMaps maps = reference ? map_errors(images, *reference, report.working_space, context) : ErrorMaps{};
+    const std::vector<NamedRegion> regions =
+        arguments.regions.empty() ? find_regions(maps.rel_mse, window) : arguments.regions;
+    measure(report, variants, renders, images, reference, maps, regions, context);
+    for (std::size_t v = 0; v < variants.size(); ++v) {
+        VariantReport& variant = report.variants[v];
+        variant.command = render_command(arguments.scene, variants[v], variant.spp, variant.seeds.front());
+        variant.command_note = command_note(variants[v]);
+    }
+
+    // What was measured must not be lost with pictures that cannot be made.
+    write_text(files[0], to_json(report));
+    const DisplayView view{report.working_space, report.display, report.view, report.look,
+                           static_cast<float>(report.exposure)};
+    ReportImages pictures;
+    add_images(pictures, report, images, reference, maps, view, context);
+    const auto bdpt = std::ranges::find_if(
+        variants, [](const Variant& variant) { return has_strategies(variant.settings.integrator.type); });
+    if (bdpt != variants.end() && arguments.longest_strategy > 0)
+        add_strategies(pictures, report, *bdpt, arguments.longest_strategy, view, context, arguments.quiet);
+
+    write_text(files[0], to_json(report));
+    write_text(files[1], make_page(report, pictures));
+    if (!arguments.quiet) {
+        print_summary(report, notes_said);
+        log_info("{}", files[1].string());
+    }
+    if (arguments.json) print_data(to_json(report));
+    if (interrupt_requested()) return interrupt_exit_code();
+    return report.agrees() ? ExitCode::Success : ExitCode::DiffFailed;
+}
+
+void add_compare_options(CLI::App& command, CompareArguments& arguments) {
+    command.add_option("scene", arguments.scene, "Scene directory, .gltf or .glb")->required();
+    command
+        .add_option("-o,--output", arguments.output, "Directory for report.json and index.html; made if it is missing")
+        ->required()
+        ->check(CLI::Validator([](const std::string& text) { return std::string(text.empty() ? "it is empty" : ""); },
+                               "DIR"));
+    auto* integrators = command.add_option("--integrators", arguments.integrators,
+                                           "Algorithms to compare, separated by commas (default: path,bdpt)");
+    integrators->delimiter(',')->allow_extra_args(false)->check(CLI::IsMember(integrator_names()));
+    for (std::size_t i = 0; i < kLetters.size(); ++i)
+        command
+            .add_option(fmt::format("--variant-{}", kLetters[i]), arguments.variants[i],
+                        "Options of 'render' that make this variant, in quotes; in place of --integrators")
+            ->excludes(integrators);
+    command.add_option("--seconds", arguments.seconds, "Time of each render (default: 10)")
+        ->check(real_range(1e-3, 1e9));
+    command.add_option("--seeds", arguments.seeds, "Independent renders of each variant (default: 4)")
+        ->check(CLI::Range(1, 1000));
+    auto* file = command.add_option("--reference", arguments.reference, "EXR or HDR file to measure errors against")
+                     ->check(CLI::ExistingFile);
+    auto* by = command.add_option("--reference-integrator", arguments.reference_integrator,
+                                  "Algorithm that renders the reference (default: the variants' renders are pooled)");
+    by->check(CLI::IsMember(integrator_names()))->excludes(file);
+    command
+        .add_option("--reference-seconds", arguments.reference_seconds,
+                    "Time of that render (default: ten times --seconds)")
+        ->check(real_range(1e-3, 1e9))
+        ->needs(by);
+    command
+        .add_option_function<std::vector<std::string>>(
+            "--region",
+            [&arguments](const std::vector<std::string>& texts) {
+                for (const std::string& text : texts) arguments.regions.push_back(parse_region(text));
+            },
+            "Part of the image to report by itself, NAME:x0,y0,x1,y1; may be repeated (default: where variants differ "
+            "most)")
+        ->allow_extra_args(false);
+    command
+        .add_option("--strategies-depth", arguments.longest_strategy,
+                    "Longest paths whose strategies are shown for bdpt (default: 5); 0 for none")
+        ->check(CLI::Range(0, 12));
+    command.add_option("--threads", arguments.threads, "Threads to use (default: one per processor)")
+        ->check(CLI::Range(1, 4096));
+    command.add_flag("--quiet", arguments.quiet, "No progress, notes or summary; errors only");
+    command.add_flag("--json", arguments.json, "Print report.json on stdout, too");
+}
+
+}  // namespace
+
+void add_compare_command(CLI::App& app, Action& action) {
+    auto arguments = std::make_shared<CompareArguments>();
+    CLI::App* command =
+        app.add_subcommand("compare", "Render one scene in several ways and report which comes to the image soonest");
+    add_compare_options(*command, *arguments);
+    const std::size_t own = command->get_options().size();
+    arguments->common.overrides.add_options(*command);
+    hide_options(*command, options_compare_sets());
+    command->footer(
+        "Every variant is rendered as many times, each time with a seed that no other render has and for the same "
+        "time\n"
+        "unless --spp is given, and its error is measured on the way. Other options override render.json for all\n"
+        "variants. Exit code 1 if variants that show the same light and find all of it do not make the same image.\n\n"
+        "Examples:\n"
+        "  etendue compare scenes/caustic-glass -o report\n"
+        "  etendue compare scenes/cornell-box --integrators path,bdpt,light --seconds 5 --seeds 8 -o report\n"
+        "  etendue compare scenes/caustic-glass --region caustic:105,192,150,216 --reference glass.exr -o report\n"
+        "  etendue compare scenes/veach-mis --variant-a '--integrator path' --variant-b '--integrator path --max-depth "
+        "4' -o report");
+    command->callback([arguments, command, own, &action] {
+        const CompareArguments& given = *arguments;
+        refuse_options(*command, options_compare_sets());
+        if (given.common.overrides.spp && given.seconds)
+            throw CLI::ValidationError("--seconds", "cannot be given with --spp: one of them ends a render");
+        require_different("--integrators", given.integrators);
+        std::vector<std::string> regions;
+        for (const NamedRegion& region : given.regions) regions.push_back(region.name);
+        require_different("--region", regions);
+        const std::vector<const CLI::Option*> all = std::as_const(*command).get_options();
+        arguments->command = command_line("etendue compare", given_options(all));
+        arguments->common.given = given_options(std::span(all).subspan(own));
+        action = [arguments] {
+            try {
+                return run_compare(*arguments);
+            } catch (const CLI::ParseError& error) {
+                log_error("error: in the options of a variant: {}", error.what());
+                return ExitCode::UsageError;
+            }
+        };
+    });
+}
+
+}  // namespace etendue

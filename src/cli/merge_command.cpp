@@ -1,0 +1,152 @@
+// etendue merge: one image from parts that were rendered apart.
+#include "cli/commands.h"
+#include "color/color_config.h"
+#include "core/error.h"
+#include "core/log.h"
+#include "core/pixel_rect_text.h"
+#include "core/standard_output.h"
+#include "picture/exr_files.h"
+#include "picture/image_description.h"
+#include "picture/output_paths.h"
+#include "session/image_files.h"
+#include "session/input_files.h"
+#include "session/library_versions.h"
+#include "session/merge_parts.h"
+#include "session/phase_timer.h"
+#include "session/usage_error.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace etendue {
+
+namespace {
+
+struct MergeArguments {
+    std::vector<std::string> parts;
+    std::string output;
+    PixelDepth depth = PixelDepth::Half;
+    bool quiet = false;
+    bool json = false;
+};
+
+/// True if the image is all that was asked for when its parts were rendered. Parts of one window may have been meant to
+/// be a crop; other ones are tiles of the whole image.
+bool is_whole(const MergedParts& merged, std::uint32_t spp_requested) {
+    const RenderState& state = merged.sum.state;
+    const PixelRect all{0, 0, state.film.full_width(), state.film.full_height()};
+    return state.spp_done >= spp_requested && (merged.has_one_window || state.film.window() == all);
+}
+
+/// What is missing at the ends; gaps have been noted before.
+void note_missing(const MergedParts& merged, std::uint32_t spp_requested) {
+    const RenderState& state = merged.sum.state;
+    const std::uint32_t end = state.first_sample + merged.spp_span;
+    if (state.first_sample > 0) log_warning("note: no part has samples 0 to {}", state.first_sample - 1);
+    if (end < spp_requested) log_warning("note: no part has samples {} to {}", end, spp_requested - 1);
+    const PixelRect all{0, 0, state.film.full_width(), state.film.full_height()};
+    if (!merged.has_one_window && state.film.window() != all)
+        log_warning("note: the parts have the pixels {} of {}", text_of(state.film.window()), text_of(all));
+}
+
+ExitCode run_merge(const MergeArguments& arguments) {
+    const std::filesystem::path output = arguments.output;
+    if (!is_partial(output) && output.extension() != ".exr")
+        throw UsageError(
+            fmt::format("--output '{}' must end in .exr, or in .partial for a larger part", output.string()));
+    const OutputPaths paths = OutputPaths::beside(output);
+    const std::vector<std::filesystem::path> parts(arguments.parts.begin(), arguments.parts.end());
+    require_writable(output);
+    const auto require_parts_kept = [&](std::span<const std::filesystem::path> outputs) {
+        require_files_kept("--output", outputs, parts);
+    };
+    require_parts_kept(is_partial(output) ? std::vector{output} : std::vector{output, paths.png, paths.json});
+    const PhaseTimer timer;
+    const MergedParts merged = merge_parts(parts, [&](const std::string& note) {
+        // A part says where its samples begin and how many there are, and no more.
+        if (is_partial(output)) throw SceneError({output.string(), {}}, note + "; such parts can become an image only");
+        if (!arguments.quiet) log_warning("note: {}", note);
+    });
+    const RenderState& state = merged.sum.state;
+    ImageDescription image = description_of(merged.sum, arguments.parts.front());
+    image.statistics.load = timer.elapsed();
+    const auto spp_requested = static_cast<std::uint32_t>(std::max(image.statistics.spp_requested, 0));
+    const bool complete = is_whole(merged, spp_requested);
+    // That of the first part, which is of the settings for its own window.
+    if (!merged.has_one_window) image.statistics.settings_hash.clear();
+    describe_state(image, state, complete, "merged");
+    if (is_partial(output)) {
+        write_checkpoint(output, merged.sum.identity, merged.sum.description, state);
+    } else {
+        if (!arguments.quiet) note_missing(merged, spp_requested);
+        if (const auto note = few_buckets(image.statistics); note && !arguments.quiet)
+            log_warning("note: {}: {}", output.string(), *note);
+        require_writable(paths.png);
+        require_writable(paths.json);
+        if (image.frame.aces_container && arguments.depth == PixelDepth::Float)
+            throw UsageError(
+                "--float: the parts were rendered for an ACES container (SMPTE ST 2065-4), which holds 16-bit floats");
+        resolve_layers(image, state);
+        std::vector<std::filesystem::path> layers;
+        for (const std::string& name : layer_file_names(output, image)) layers.push_back(output.parent_path() / name);
+        require_parts_kept(layers);
+        image.statistics.libraries = library_versions();
+        const std::vector<std::string> earlier =
+            write_image_files(paths, image, ColorConfig::from_environment(), arguments.depth);
+        if (!arguments.quiet) note_earlier_files(earlier);
+    }
+    const PixelRect& window = state.film.window();
+    if (!arguments.quiet)
+        log_info("{}: {} parts, {}x{}, {} spp{}", output.string(), arguments.parts.size(), window.width(),
+                 window.height(), state.spp_done, complete || is_partial(output) ? "" : ", incomplete");
+    if (arguments.json) print_data(to_json(image.statistics));
+    return ExitCode::Success;
+}
+
+}  // namespace
+
+void add_merge_command(CLI::App& app, Action& action) {
+    auto arguments = std::make_shared<MergeArguments>();
+    CLI::App* command = app.add_subcommand("merge", "Make one image of parts that were rendered apart");
+    command->add_option("parts", arguments->parts, "Files of 'etendue render -o PART.partial'")
+        ->required()
+        ->check(CLI::ExistingFile);
+    command
+        ->add_option("-o,--output", arguments->output,
+                     "EXR file to write; PNG and JSON go beside it. Or a .partial, to be merged further")
+        ->required();
+    auto* half = command->add_flag_callback(
+        "--half", [arguments] { arguments->depth = PixelDepth::Half; }, "Write 16-bit floats (default)");
+    command
+        ->add_flag_callback(
+            "--float", [arguments] { arguments->depth = PixelDepth::Float; }, "Write 32-bit floats")
+        ->excludes(half);
+    command->add_flag("--quiet", arguments->quiet, "No notes; errors only");
+    command->add_flag("--json", arguments->json, "Print the statistics as JSON on stdout");
+    command->footer(
+        "Parts are ranges of samples (--samples) of the same pixels, or crops (--crop) that do not overlap, or both; "
+        "all\n"
+        "of the same scene, settings and version, which is checked, as is that no sample is there twice and no pixel "
+        "has\n"
+        "fewer than the others. If samples or pixels are missing, the image is marked incomplete. The image is that of "
+        "a single render but for the order in which sums were added "
+        "(1e-6).\n"
+        "The memory it takes is that of two parts and the image: 48 bytes a pixel, 72 with light subpaths,\n"
+        "and more with layers (docs/aovs.md).\n\n"
+        "Examples:\n"
+        "  etendue render scenes/cornell-box --samples 0:128 -o a.partial\n"
+        "  etendue render scenes/cornell-box --samples 128:256 -o b.partial\n"
+        "  etendue merge a.partial b.partial -o box.exr\n"
+        "  etendue merge parts/*.partial -o half.partial");
+    command->callback([arguments, &action] { action = [arguments] { return run_merge(*arguments); }; });
+}
+
+}  // namespace etendue

@@ -1,0 +1,94 @@
+#include "cli/program.h"
+
+#include "cli/command_line.h"
+#include "core/error.h"
+#include "core/log.h"
+#include "core/source_date.h"
+#include "core/standard_output.h"
+#include "film/film.h"
+#include "processor/ray_code.h"
+#include "session/interrupt.h"
+#include "session/usage_error.h"
+
+#include <cstddef>
+#include <exception>
+#include <memory>
+#include <new>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace etendue {
+
+namespace {
+
+/// Runs `action` and turns what it throws into messages and exit codes.
+ExitCode run(const Action& action) {
+    try {
+        return action();
+    } catch (const SceneError& error) {
+        // One by one: what follows the first line of a message is no message of its own.
+        for (const Problem& problem : error.problems().all())
+            if (problem.severity == Severity::Error) log_error("{}", problem.str());
+        if (const std::size_t more = error.problems().dropped()) log_error("(and {} more problems)", more);
+        return ExitCode::InvalidScene;
+    } catch (const UsageError& error) {
+        log_error("error: {}", error.what());
+        return ExitCode::UsageError;
+    } catch (const ReplacedInput& error) {
+        log_error("error: {}", error.what());
+        return ExitCode::UsageError;
+    } catch (const std::bad_alloc&) {
+        log_error(
+            "error: there is not enough memory for the scene and its image; a smaller --size or --crop needs less, {} "
+            "bytes a pixel",
+            sizeof(PixelSum));
+        return ExitCode::RenderFailed;
+    } catch (const std::exception& error) {
+        log_error("error: {}", error.what());
+        return ExitCode::RenderFailed;
+    }
+}
+
+/// Says what is wrong with a command line, or prints what --help and --version ask for.
+ExitCode answer(const CLI::App& app, const CLI::ParseError& error) {
+    std::ostringstream out;
+    std::ostringstream err;
+    const bool is_wrong = app.exit(error, out, err) != 0;
+    print_text(out.str());
+    std::string message = err.str();
+    message.erase(message.find_last_not_of('\n') + 1);
+    if (!message.empty()) log_error("{}", message);
+    return is_wrong ? ExitCode::UsageError : ExitCode::Success;
+}
+
+}  // namespace
+
+int run_program(int argc, char** argv) {
+    try {
+        (void)ray_code();
+        (void)source_date();
+    } catch (const std::invalid_argument& error) {
+        log_error("error: {}", error.what());
+        return static_cast<int>(ExitCode::UsageError);
+    }
+    Action action;
+    const std::unique_ptr<CLI::App> app = make_command_line(action);
+    try {
+        // CLI11 would only say that a command is missing.
+        if (argc > 1 && argv[1][0] != '-') require_command(*app, argv[1]);
+        app->parse(argc, argv);
+    } catch (const UsageError& error) {
+        log_error("error: {}", error.what());
+        return static_cast<int>(ExitCode::UsageError);
+    } catch (const CLI::ParseError& error) {
+        return static_cast<int>(run([&] { return answer(*app, error); }));
+    }
+    install_interrupt_handlers();
+    return static_cast<int>(run(action));
+}
+
+}  // namespace etendue

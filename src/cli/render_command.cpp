@@ -1,0 +1,239 @@
+// etendue render: one scene.
+#include "cli/commands.h"
+#include "core/log.h"
+#include "core/standard_output.h"
+#include "farm/probe.h"
+#include "loader/files.h"
+#include "picture/aov_setup.h"
+#include "picture/output_paths.h"
+#include "session/image_job.h"
+#include "session/interrupt.h"
+#include "session/progress_display.h"
+#include "session/scene_render.h"
+#include "session/usage_error.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace etendue {
+
+namespace {
+
+struct RenderArguments {
+    ImageJobOptions job;
+    std::string scene;
+    std::filesystem::path output;
+    int threads = 0;
+    bool force = false;
+    bool probe = false;
+    bool json = false;
+};
+
+void report(const std::filesystem::path& output, const RenderStatistics& s) {
+    const double seconds = std::max(s.render.wall, 1e-9);
+    const std::string spp = s.adaptive ? fmt::format("{} to {} spp, {:.0f} on average,", s.adaptive->least,
+                                                     s.adaptive->most, s.adaptive->mean)
+                                       : fmt::format("{} spp", s.spp_done);
+    log_info("{}: {}x{}, {} in {} ({:.2f} Msamples/s, {:.1f} Mrays/s){}{}", output.string(), s.width, s.height, spp,
+             format_duration(s.render.wall), static_cast<double>(s.samples) / seconds * 1e-6,
+             static_cast<double>(s.rays.total()) / seconds * 1e-6,
+             s.relative_error ? fmt::format(", relative error about {:.2g}", *s.relative_error) : "",
+             s.complete ? "" : fmt::format(", incomplete: {}", s.halt_reason));
+}
+
+/// NAME.exr, or NAME.partial if it is to be part of an image.
+std::filesystem::path default_output(const RenderArguments& arguments, const std::string& name) {
+    const auto& samples = arguments.job.samples;
+    return samples ? fmt::format("{}.{}-{}.partial", name, samples->begin, samples->end) : name + ".exr";
+}
+
+/// Of the only image: those of what was rendered before if it is up to date.
+std::string statistics_of(const ImageResult& result) {
+    if (result.outcome != ImageOutcome::UpToDate || is_partial(result.job.output)) return to_json(result.statistics);
+    const std::vector<unsigned char> bytes = read_bytes(OutputPaths::beside(result.job.output).json, kMaxJsonBytes);
+    return {bytes.begin(), bytes.end()};
+}
+
+/// One image is rendered whether or not it is up to date, unless it is gone on with. Of a sequence, what an earlier run
+/// has finished is left as it is.
+ExitCode render_jobs(const RenderArguments& arguments, const std::vector<ImageJob>& jobs) {
+    const ThreadPool threads(arguments.threads);
+    const bool is_sequence = jobs.front().frame.has_value();
+    const bool quiet = arguments.job.quiet;
+    std::vector<ImageResult> results;
+    for (std::size_t i = 0; i < jobs.size() && !interrupt_requested(); ++i) {
+        ImageJobOptions options = arguments.job;
+        options.force = arguments.force || (!is_sequence && !arguments.job.resume);
+        if (is_sequence) options.title = fmt::format("[{}/{}] {}", i + 1, jobs.size(), jobs[i].name);
+        ImageResult result = run_job(jobs[i], options, threads);
+        if (!quiet && result.outcome == ImageOutcome::UpToDate)
+            log_info("{}: up to date", result.job.output.string());
+        else if (!quiet)
+            report(result.job.output, result.statistics);
+        // Statistics of many frames are kept only for those who want them.
+        if (arguments.json) results.push_back(std::move(result));
+    }
+    // An interrupt may have come before the first.
+    if (arguments.json && (is_sequence || !results.empty()))
+        print_data(is_sequence ? to_json(results) : statistics_of(results.front()));
+    return interrupt_requested() ? interrupt_exit_code() : ExitCode::Success;
+}
+
+ExitCode run_render(const RenderArguments& arguments) {
+    const std::string name = scene_name(arguments.scene);
+    const std::filesystem::path output = arguments.output.empty() ? default_output(arguments, name) : arguments.output;
+    const std::vector<ImageJob> jobs = image_jobs(arguments.scene, output, name, arguments.job.overrides);
+    if (jobs.front().frame && !arguments.job.strategies.output.empty())
+        throw SceneError({"--strategies-image", {}},
+                         "it shows one image, and this is a sequence of frames: name the moment with --time-code");
+    if (arguments.probe) {
+        SettingsOverrides overrides = arguments.job.overrides;
+        if (const auto& range = arguments.job.samples) overrides.spp = static_cast<int>(range->end - range->begin);
+        const std::string answer = probe(jobs.front(), overrides, ThreadPool(arguments.threads));
+        // What was cut short says nothing about the image.
+        if (interrupt_requested()) return interrupt_exit_code();
+        print_data(answer);
+        return ExitCode::Success;
+    }
+    return render_jobs(arguments, jobs);
+}
+
+/// Throws UsageError for names that cannot be.
+void check_outputs(const RenderArguments& arguments) {
+    const std::filesystem::path& output = arguments.output;
+    const std::filesystem::path& pyramid = arguments.job.strategies.output;
+    const bool partial = arguments.job.samples || is_partial(output);
+    if (partial && !output.empty() && !is_partial(output))
+        throw UsageError(
+            fmt::format("--output '{}' must end in .partial: it holds a range of the samples, and "
+                        "'etendue merge' makes the image",
+                        output.string()));
+    if (!partial && !output.empty() && output.extension() != ".exr")
+        throw UsageError(
+            fmt::format("--output '{}' must end in .exr, or in .partial for a part of an image to be "
+                        "merged with others",
+                        output.string()));
+    if (!pyramid.empty() && pyramid.extension() != ".exr")
+        throw UsageError(fmt::format("--strategies-image '{}' must end in .exr", pyramid.string()));
+    if (partial && !pyramid.empty()) throw UsageError("--strategies-image shows an image, not a part of one");
+    if (partial && (arguments.job.overrides.time_seconds || arguments.job.overrides.relative_error))
+        throw UsageError("--time and --error end an image; a part of one has the samples that --samples names");
+}
+
+/// "0:64" to that range. Throws CLI::ValidationError.
+SampleRange parse_sample_range(const std::string& text) {
+    constexpr std::uint32_t kMost = 1u << 24;
+    SampleRange range;
+    const char* const end = text.data() + text.size();
+    const auto [colon, first_error] = std::from_chars(text.data(), end, range.begin);
+    if (first_error == std::errc{} && colon != end && *colon == ':') {
+        const auto [rest, error] = std::from_chars(colon + 1, end, range.end);
+        if (error == std::errc{} && rest == end && range.begin < range.end && range.end <= kMost) return range;
+    }
+    throw CLI::ValidationError("--samples",
+                               fmt::format("'{}' is no A:B with 0 <= A < B <= {}: samples A to B - 1", text, kMost));
+}
+
+/// How to stop, to go on and to split.
+void add_continuation_options(CLI::App& command, const std::shared_ptr<RenderArguments>& arguments) {
+    command
+        .add_option(
+            "--checkpoint-every", arguments->job.checkpoint_minutes,
+            "Minutes between checkpoints, NAME.checkpoint beside the image; 0 (default) for none but the one of "
+            "an interrupted render")
+        ->check(real_range(0.0, 1e6));
+    command.add_flag(
+        "--resume", arguments->job.resume,
+        "Go on with the checkpoint, if there is one, to the same image bit for bit; leave an image or a part that is "
+        "up to date");
+    command.add_option_function<std::string>(
+        "--samples", [arguments](const std::string& text) { arguments->job.samples = parse_sample_range(text); },
+        "Render samples A to B-1 of every pixel, A:B, into a part of the image for 'etendue merge'");
+    command.add_flag("--probe", arguments->probe,
+                     "Render for about a second, write no file, and print as JSON what the image would take");
+    command
+        .add_option(
+            "--progress-fd", arguments->job.progress_descriptor,
+            "Write progress as JSON lines to this open file descriptor, in place of the bar. For a program that "
+            "looks after this one: a second Ctrl-C or SIGTERM is then as the first, only SIGKILL ends at once")
+        ->check(CLI::Range(3, 1 << 20));
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& app, Action& action) {
+    auto arguments = std::make_shared<RenderArguments>();
+    CLI::App* command = app.add_subcommand(
+        "render", "Render one scene to NAME.exr, NAME.png and NAME.json, or its frames to NAME.0001.exr ...");
+    command->add_option("scene", arguments->scene, "Scene directory, .gltf or .glb")->required();
+    command->add_option("-o,--output", arguments->output,
+                        "EXR file to write; PNG and JSON go beside it (default: NAME.exr in the current directory). "
+                        "Frames of a sequence have their number in place of #### or before the extension. A .partial "
+                        "holds a part of an image (a range of --samples, or a --crop) for 'etendue merge'");
+    arguments->job.overrides.add_options(*command);
+    command->add_option("--threads", arguments->threads, "Threads to use (default: one per processor)")
+        ->check(CLI::Range(1, 4096));
+    add_continuation_options(*command, arguments);
+    auto* strategies = command->add_option_function<std::string>(
+        "--strategies-image", [arguments](const std::string& path) { arguments->job.strategies.output = path; },
+        "Also write the images of all strategies of bdpt, one by one: an EXR with a part for each and a labelled PNG. "
+        "They stay in memory until all are rendered, about 24 bytes a pixel and strategy, with --float 32");
+    command
+        ->add_option("--strategies-depth", arguments->job.strategies.longest,
+                     "Longest paths whose strategies are shown (default: 8, or --max-depth if that is less)")
+        ->check(CLI::Range(1, 64))
+        ->needs(strategies);
+    command
+        ->add_flag_callback(
+            "--strategies-unweighted", [arguments] { arguments->job.strategies.weighted = false; },
+            "Show each as if it were the only one")
+        ->needs(strategies);
+    command->add_flag(
+        "--force", arguments->force,
+        "Of a sequence or with --resume, render again what is up to date, and replace a part whatever it is; a "
+        "checkpoint is gone on with all the same");
+    command->add_flag("--quiet", arguments->job.quiet, "No progress, notes or warnings; errors only");
+    command->add_flag("--json", arguments->json, "Print the statistics as JSON on stdout; of a sequence, an array");
+    command->footer(
+        "Options override render.json. Of a sequence, frames whose inputs have not changed and that were made "
+        "with\n"
+        "the same settings are skipped. Ctrl-C writes a checkpoint and the image so far, marked incomplete: --resume "
+        "goes\n"
+        "on from there. SIGUSR1 writes NAME.preview.png and goes on. --spp, --time and --error can be combined: the "
+        "first\n"
+        "that is reached ends the render.\n\n"
+        "Examples:\n"
+        "  etendue render scenes/cornell-box -o box.exr\n"
+        "  etendue render scenes/cornell-box --quality draft --integrator naive --seed 7\n"
+        "  etendue render model.glb --environment studio.hdr --size 800x600 --spp 256 --exposure 0.5\n"
+        "  etendue render model.glb --display 'Display P3 - Display' --look 'ACES 1.3 Reference Gamut Compression'\n"
+        "  etendue render model.glb -o plate.exr --aces-container\n"
+        "  etendue render fox.glb --time-code 0.35 --animation Run\n"
+        "  etendue render fox.glb --frames 0:23 --fps 30 -o run/fox.####.exr --shutter 0:0.0167\n"
+        "  etendue render scenes/caustic-glass --integrator bdpt --strategies-image pyramid.exr --strategies-depth 5\n"
+        "  etendue render scenes/cornell-box --spp 65536 --error 0.02 --checkpoint-every 10 --resume\n"
+        "  etendue render scenes/cornell-box --samples 0:128 -o a.partial   # and 128:256 elsewhere, then 'merge'\n"
+        "  etendue render scenes/caustic-glass --robust mon:7 --aov mean --brightest 20\n"
+        "  etendue render scenes/caustic-glass --integrator bdpt --aov passes --aov 'caustics=lpe:C D S+ L'\n"
+        "  etendue render scenes/veach-mis --crop 100,100,200,200 --time 60 --json --quiet\n\n"
+        "Layers for --aov:\n" +
+        list_aov_sources());
+    command->callback([arguments, &action] {
+        action = [arguments] {
+            check_outputs(*arguments);
+            if (arguments->job.progress_descriptor >= 0) take_all_interrupts_for_one();
+            return run_render(*arguments);
+        };
+    });
+}
+
+}  // namespace etendue

@@ -1,0 +1,258 @@
+#include "compare/comparison_measures.h"
+
+#include "compare/image_pair.h"
+#include "metrics/convergence.h"
+#include "metrics/error_metrics.h"
+#include "metrics/flip.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace etendue {
+
+namespace {
+
+constexpr const char* kRelMse = "relmse";
+constexpr const char* kFlip = "flip";
+constexpr std::size_t kFoundRegions = 3;
+
+std::string key_of(ErrorMetric metric) {
+    return std::string(name_of(metric));
+}
+
+std::string title_of(ErrorMetric metric) {
+    switch (metric) {
+        case ErrorMetric::RelMse:
+            return "relMSE";
+        case ErrorMetric::RelMseTrimmed:
+            return "relMSE, trimmed";
+        case ErrorMetric::Mse:
+            return "MSE";
+        case ErrorMetric::Mae:
+            return "MAE";
+        case ErrorMetric::Smape:
+            break;
+    }
+    return "SMAPE";
+}
+
+/// `region`, of the full image, as pixels of an image of `window`.
+PixelRect within(const PixelRect& region, const PixelRect& window) {
+    return moved_to(region, region.x0 - window.x0, region.y0 - window.y0);
+}
+
+void add(ErrorsByMetric& errors, const ErrorMetrics& measured) {
+    for (const ErrorMetric metric : kErrorMetrics) errors[key_of(metric)].values.push_back(measured.value(metric));
+}
+
+std::array<double, 3> mean_color(const ImageF& image, const PixelRect& region) {
+    std::array<double, 3> sum{};
+    for_each_pixel(image, {.region = region}, [&](std::size_t pixel) {
+        for (std::size_t c = 0; c < 3; ++c) sum[c] += static_cast<double>(image.pixels[3 * pixel + c]);
+    });
+    for (double& value : sum) value /= static_cast<double>(region.area());
+    return sum;
+}
+
+double luminance(const std::array<double, 3>& rgb, const Rgb& weights) {
+    return rgb[0] * static_cast<double>(weights.r) + rgb[1] * static_cast<double>(weights.g) +
+           rgb[2] * static_cast<double>(weights.b);
+}
+
+PixelRect whole(const ImageF& image) {
+    return {0, 0, image.width, image.height};
+}
+
+/// Times, rays and what else needs no reference.
+VariantReport describe(const Variant& variant, const VariantRenders& renders, const FinishedImages& images) {
+    VariantReport report{.name = variant.name, .options = variant.options, .cannot_find = variant.cannot_find};
+    const auto count = static_cast<double>(renders.seeds.size());
+    double rays = 0.0;
+    double samples = 0.0;
+    for (const SeedRender& seed : renders.seeds) {
+        report.seeds.push_back(seed.seed);
+        report.spp = seed.checkpoints.back().spp;
+        report.seconds.values.push_back(seed.checkpoints.back().seconds);
+        report.cpu_seconds.values.push_back(seed.checkpoints.back().cpu_seconds);
+        rays += static_cast<double>(seed.counters.rays.total());
+        samples += static_cast<double>(seed.counters.samples);
+        report.dropped_samples += seed.counters.dropped;
+    }
+    report.rays = static_cast<std::uint64_t>(std::llround(rays / count));
+    report.rays_per_second = rays / count / report.seconds.mean();
+    report.samples_per_cpu_second = samples / count / report.cpu_seconds.mean();
+    for (const ImageF& image : images.of_seeds) {
+        const std::array<double, 3> mean = mean_color(image, whole(image));
+        for (std::size_t c = 0; c < 3; ++c) report.mean[c] += mean[c] / count;
+    }
+    report.variance = images.relative_variance;
+    // Without any variance there is nothing to tell it by.
+    if (report.variance > 0.0) report.efficiency = 1.0 / (report.variance * report.seconds.mean());
+    return report;
+}
+
+/// The errors of all kept images; seeds have the same ones.
+void measure_convergence(VariantReport& report, const VariantRenders& renders, const Reference& reference,
+                         const ImageStore& store) {
+    for (std::size_t i = 0; i < renders.seeds.front().checkpoints.size(); ++i) {
+        ConvergenceStep step{.spp = renders.seeds.front().checkpoints[i].spp};
+        for (std::size_t seed = 0; seed < renders.seeds.size(); ++seed) {
+            const Snapshot& checkpoint = renders.seeds[seed].checkpoints[i];
+            step.seconds += checkpoint.seconds / static_cast<double>(renders.seeds.size());
+            step.cpu_seconds += checkpoint.cpu_seconds / static_cast<double>(renders.seeds.size());
+            add(step.errors, compute_error_metrics(store.get(checkpoint.image), reference.of_round(seed)));
+        }
+        report.convergence.push_back(std::move(step));
+    }
+    report.errors = report.convergence.back().errors;
+}
+
+std::vector<ErrorAfter> errors_after(const VariantReport& report, const std::string& metric, bool of_seconds) {
+    std::vector<ErrorAfter> points;
+    for (const ConvergenceStep& step : report.convergence)
+        points.push_back({of_seconds ? step.seconds : static_cast<double>(step.spp), step.errors.at(metric).mean()});
+    return points;
+}
+
+void fit_slopes(VariantReport& report) {
+    for (const auto& [metric, values] : report.errors)
+        if (report.convergence.front().errors.contains(metric))
+            report.slopes[metric] = {.spp = log_log_slope(errors_after(report, metric, false)).value_or(kUnknown),
+                                     .seconds = log_log_slope(errors_after(report, metric, true)).value_or(kUnknown)};
+}
+
+/// HDR-FLIP with the same exposures for all images of a comparison.
+ImageF flip_map(const ImageF& image, const ImageF& reference, const ExposureRange& exposures,
+                const std::string& working_space, const MeasureContext& context) {
+    const HdrFlipOptions options{.start_exposure = exposures.start, .stop_exposure = exposures.stop};
+    return hdr_flip(to_linear_rec709(image, false, working_space, context.colors),
+                    to_linear_rec709(reference, false, working_space, context.colors), options, context.threads)
+        .map;
+}
+
+/// HDR-FLIP of the finished images, of the first of which there are maps.
+void measure_flip(ComparisonReport& report, std::span<const FinishedImages> images, const Reference& reference,
+                  const ErrorMaps& maps, const MeasureContext& context) {
+    for (std::size_t v = 0; v < images.size(); ++v) {
+        std::vector<double>& values = report.variants[v].errors[kFlip].values;
+        values.push_back(mean_of(maps.flip[v]));
+        for (std::size_t seed = 1; seed < images[v].of_seeds.size(); ++seed)
+            values.push_back(mean_of(flip_map(images[v].of_seeds[seed], reference.of_round(seed), maps.exposures,
+                                              report.working_space, context)));
+    }
+}
+
+std::optional<ReachedError> time_to_reach(const VariantReport& one, const VariantReport& other) {
+    const auto reached = work_to_reach(errors_after(one, kRelMse, true), other.errors.at(kRelMse).mean());
+    if (!reached) return std::nullopt;
+    return ReachedError{reached->work, reached->extrapolated};
+}
+
+void fill_ratios(PairReport& pair, const VariantReport& a, const VariantReport& b) {
+    pair.ratios["rays_per_second"] = a.rays_per_second / b.rays_per_second;
+    pair.ratios["efficiency"] = a.efficiency / b.efficiency;
+    if (a.errors.empty()) return;
+    for (const auto& [metric, values] : a.errors) pair.ratios[metric] = values.mean() / b.errors.at(metric).mean();
+    pair.ratios["relmse_seconds"] = pair.ratios[kRelMse] * a.seconds.mean() / b.seconds.mean();
+    pair.a_reaches_b = time_to_reach(a, b);
+    pair.b_reaches_a = time_to_reach(b, a);
+}
+
+/// Means, and errors if there is a reference.
+RegionReport measure_region(const NamedRegion& region, const ComparisonReport& report,
+                            std::span<const FinishedImages> images, const std::optional<Reference>& reference,
+                            const PixelRect& window, const Rgb& weights) {
+    RegionReport result{.name = region.name, .found = region.found, .pixels = region.pixels};
+    const PixelRect pixels = within(region.pixels, window);
+    for (std::size_t v = 0; v < images.size(); ++v) {
+        RegionVariant variant{.name = report.variants[v].name};
+        for (std::size_t seed = 0; seed < images[v].of_seeds.size(); ++seed) {
+            const ImageF& image = images[v].of_seeds[seed];
+            const std::array<double, 3> mean = mean_color(image, pixels);
+            for (std::size_t c = 0; c < 3; ++c)
+                variant.mean[c] += mean[c] / static_cast<double>(images[v].of_seeds.size());
+            variant.luminance.values.push_back(luminance(mean, weights));
+            if (!reference) continue;
+            const ImageF& expected = reference->of_round(seed);
+            variant.mean_error.values.push_back(
+                variant.luminance.values.back() / luminance(mean_color(expected, pixels), weights) - 1.0);
+            add(variant.errors, compute_error_metrics(image, expected, {.region = pixels}));
+        }
+        if (reference) variant.rel_mse_seconds = variant.errors.at(kRelMse).mean() * report.variants[v].seconds.mean();
+        result.variants.push_back(std::move(variant));
+    }
+    return result;
+}
+
+}  // namespace
+
+ErrorMaps map_errors(std::span<const FinishedImages> images, const Reference& reference,
+                     const std::string& working_space, const MeasureContext& context) {
+    const ImageF& expected = reference.of_round(0);
+    ErrorMaps maps{.exposures = exposures_for(to_linear_rec709(expected, false, working_space, context.colors))};
+    for (const FinishedImages& of_variant : images) {
+        const ImageF& image = of_variant.of_seeds.front();
+        maps.rel_mse.push_back(error_map(ErrorMetric::RelMse, image, expected));
+        maps.flip.push_back(flip_map(image, expected, maps.exposures, working_space, context));
+    }
+    return maps;
+}
+
+std::vector<NamedRegion> find_regions(std::span<const ImageF> maps, const PixelRect& window) {
+    if (maps.size() < 2) return {};
+    // Whole blocks, so that no two overlap.
+    const int side = std::max(8, std::min(window.width(), window.height()) / 6);
+    struct Candidate {
+        PixelRect pixels;
+        double difference;
+    };
+    std::vector<Candidate> candidates;
+    for (int y = 0; y + side <= window.height(); y += side)
+        for (int x = 0; x + side <= window.width(); x += side) {
+            const PixelRect block{x, y, x + side, y + side};
+            std::vector<double> errors;
+            for (const ImageF& map : maps) errors.push_back(mean_of(map, {.region = block}));
+            // They could not be sorted.
+            if (!std::ranges::all_of(errors, [](double error) { return std::isfinite(error); })) continue;
+            const auto [least, most] = std::ranges::minmax(errors);
+            candidates.push_back({moved_to(block, x + window.x0, y + window.y0), most - least});
+        }
+    std::ranges::stable_sort(candidates, std::ranges::greater{}, &Candidate::difference);
+    std::vector<NamedRegion> regions;
+    for (std::size_t i = 0; i < std::min(kFoundRegions, candidates.size()); ++i)
+        regions.push_back({fmt::format("difference {}", i + 1), candidates[i].pixels, true});
+    return regions;
+}
+
+void measure(ComparisonReport& report, std::span<const Variant> variants, std::span<const VariantRenders> renders,
+             std::span<const FinishedImages> images, const std::optional<Reference>& reference, const ErrorMaps& maps,
+             std::span<const NamedRegion> regions, const MeasureContext& context) {
+    for (std::size_t v = 0; v < variants.size(); ++v) {
+        report.variants.push_back(describe(variants[v], renders[v], images[v]));
+        if (!reference) continue;
+        measure_convergence(report.variants.back(), renders[v], *reference, context.store);
+        fit_slopes(report.variants.back());
+    }
+    if (reference) {
+        for (const ErrorMetric metric : kErrorMetrics)
+            report.metrics.push_back({key_of(metric), title_of(metric), formula_of(metric)});
+        measure_flip(report, images, *reference, maps, context);
+        report.metrics.push_back({kFlip, "HDR-FLIP", describe_hdr_flip(kFlipPixelsPerDegree, maps.exposures)});
+    }
+    const Rgb weights = context.colors.luminance_weights(report.working_space);
+    for (const NamedRegion& region : regions)
+        report.regions.push_back(
+            measure_region(region, report, images, reference, variants.front().sampling.window, weights));
+    for (PairReport& pair : report.pairs) {
+        const auto named = [&](const std::string& name) -> const VariantReport& {
+            return *std::ranges::find(report.variants, name, &VariantReport::name);
+        };
+        fill_ratios(pair, named(pair.a), named(pair.b));
+    }
+}
+
+}  // namespace etendue

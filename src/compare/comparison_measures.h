@@ -1,0 +1,49 @@
+// From the images of a comparison to what is reported of them.
+#pragma once
+
+#include "color/color_config.h"
+#include "compare/comparison_reference.h"
+#include "metrics/flip.h"
+#include "report/comparison_report.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace etendue {
+
+/// What is measured with.
+struct MeasureContext {
+    const ColorConfig& colors;
+    const ThreadPool& threads;
+    const ImageStore& store;
+};
+
+/// How the first image of every variant differs from the reference, pixel by pixel: one channel each.
+struct ErrorMaps {
+    std::vector<ImageF> rel_mse{};
+    std::vector<ImageF> flip{};  ///< HDR-FLIP
+    ExposureRange exposures{};   ///< that all images are looked at with: those of the reference
+};
+
+[[nodiscard]] ErrorMaps map_errors(std::span<const FinishedImages> images, const Reference& reference,
+                                   const std::string& working_space, const MeasureContext& context);
+
+/// A part of the image to look at, in the full image's coordinates.
+struct NamedRegion {
+    std::string name;
+    PixelRect pixels;
+    bool found = false;
+};
+
+/// The blocks of the image whose errors, of which each variant has a map, differ most between two of the variants; at
+/// most three. Blocks with an error that is not finite have no place among them.
+[[nodiscard]] std::vector<NamedRegion> find_regions(std::span<const ImageF> maps, const PixelRect& window);
+
+/// Fills `report.variants`, `metrics`, `pairs`' ratios and `regions`; errors where there is a reference, of which
+/// `maps` are then.
+void measure(ComparisonReport& report, std::span<const Variant> variants, std::span<const VariantRenders> renders,
+             std::span<const FinishedImages> images, const std::optional<Reference>& reference, const ErrorMaps& maps,
+             std::span<const NamedRegion> regions, const MeasureContext& context);
+
+}  // namespace etendue

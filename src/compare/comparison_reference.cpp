@@ -1,0 +1,217 @@
+#include "compare/comparison_reference.h"
+
+#include "metrics/error_metrics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace etendue {
+
+namespace {
+
+/// Adds `weight` times the mean of all images but the one of round `left_out`.
+void add_mean(ImageF& sum, std::span<const ImageF> images, std::size_t left_out, double weight) {
+    const double scale = weight / static_cast<double>(images.size() - 1);
+    for (std::size_t i = 0; i < sum.pixels.size(); ++i) {
+        double value = 0.0;
+        for (std::size_t round = 0; round < images.size(); ++round)
+            if (round != left_out) value += static_cast<double>(images[round].pixels[i]);
+        sum.pixels[i] += static_cast<float>(scale * value);
+    }
+}
+
+std::string weights_text(const std::map<std::string, double>& weights) {
+    std::vector<std::string> parts;
+    parts.reserve(weights.size());
+    for (const auto& [name, weight] : weights) parts.push_back(fmt::format("{} {:.3g}", name, weight));
+    return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+/// Places of variants.
+using Members = std::vector<std::size_t>;
+
+/// Variants that find all of the light they show, by which light that is; most of one kind first.
+std::vector<Members> groups_of_light(std::span<const Variant> variants) {
+    std::vector<Members> groups;
+    for (std::size_t v = 0; v < variants.size(); ++v) {
+        if (!variants[v].cannot_find.empty()) continue;
+        const auto group = std::ranges::find_if(groups, [&](const Members& members) {
+            return different_light(variants[members.front()], variants[v]).empty();
+        });
+        if (group != groups.end())
+            group->push_back(v);
+        else
+            groups.push_back({v});
+    }
+    std::ranges::stable_sort(groups, std::ranges::greater{}, &Members::size);
+    return groups;
+}
+
+/// Why the first of `groups` cannot be pooled; empty if it can.
+std::string why_not_pooled(std::span<const Variant> variants, const std::vector<Members>& groups,
+                           std::span<const PairReport> pairs, std::size_t rounds) {
+    if (variants.size() < 2) return "one variant alone cannot be pooled";
+    if (groups.empty() || groups.front().size() < 2)
+        return "no two of the variants show the same light and find all of it, and none can be its own reference";
+    const Members& members = groups.front();
+    if (groups.size() > 1 && groups[1].size() == members.size())
+        return "the variants show different light, and as many of them one as another";
+    if (rounds < 3) return "pooling a reference needs three seeds or more";
+    const auto is_member = [&](const std::string& name) {
+        return std::ranges::any_of(members, [&](std::size_t v) { return variants[v].name == name; });
+    };
+    for (const PairReport& pair : pairs) {
+        if (!pair.comparable || !is_member(pair.a) || !is_member(pair.b)) continue;
+        if (!pair.agreement)
+            return fmt::format(
+                "so few pixels make up the image of '{}' or of '{}' that nothing can be said about their agreement: "
+                "give them more time",
+                pair.a, pair.b);
+        if (!pair.agreement->agree())
+            return fmt::format("'{}' and '{}' do not make the same image, so none was pooled", pair.a, pair.b);
+    }
+    return "";
+}
+
+/// One over each variance, their sum being 1. What has no variance is known exactly: the others have no weight then.
+std::vector<double> pooling_weights(const std::vector<double>& variances) {
+    const bool some_are_exact = std::ranges::find(variances, 0.0) != variances.end();
+    std::vector<double> weights;
+    weights.reserve(variances.size());
+    for (const double variance : variances)
+        weights.push_back(some_are_exact ? (variance == 0.0 ? 1.0 : 0.0) : 1.0 / variance);
+    const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+    for (double& weight : weights) weight /= sum;
+    return weights;
+}
+
+/// Notes about variants that `reference` says little about: they show different light than it.
+void add_different_light(std::vector<std::string>& notes, const Variant& reference, std::span<const Variant> variants) {
+    for (const Variant& variant : variants)
+        if (const std::string why = different_light(reference, variant); !why.empty())
+            notes.push_back(
+                fmt::format("the errors of '{}' are against an image of different light: {}", variant.name, why));
+}
+
+std::string made_alone_by(const std::string& integrator, const std::string& measured) {
+    return fmt::format(
+        "the reference comes from '{}' alone, which {} measured against: an error of that algorithm would not be seen",
+        integrator, measured);
+}
+
+}  // namespace
+
+Reference::Reference(ImageF image, ReferenceReport report) : report_(std::move(report)) {
+    images_.push_back(std::move(image));
+}
+
+Reference::Reference(std::vector<ImageF> of_rounds, ReferenceReport report)
+    : images_(std::move(of_rounds)), report_(std::move(report)) {}
+
+const ImageF& Reference::of_round(std::size_t round) const {
+    return images_.size() == 1 ? images_.front() : images_[round];
+}
+
+std::vector<FinishedImages> finished_images(std::span<const VariantRenders> renders, const ImageStore& store) {
+    std::vector<FinishedImages> all;
+    for (const VariantRenders& variant : renders) {
+        FinishedImages images;
+        for (const SeedRender& seed : variant.seeds)
+            images.of_seeds.push_back(store.get(seed.checkpoints.back().image));
+        if (images.of_seeds.size() > 1) {
+            images.estimate = estimate_image(images.of_seeds);
+            images.relative_variance = static_cast<double>(images.of_seeds.size()) * relative_variance(images.estimate);
+            images.block_size = testable_block_size(images.of_seeds, AgreementOptions{}.block_size);
+        }
+        all.push_back(std::move(images));
+    }
+    return all;
+}
+
+ImageEstimate widened_estimate(const FinishedImages& images, int block_size) {
+    ImageEstimate estimate = images.estimate;
+    widen_for_correlation(estimate, images.of_seeds, block_size);
+    pool_variance(estimate, block_size);
+    return estimate;
+}
+
+std::vector<PairReport> compare_pairs(std::span<const Variant> variants, std::span<const FinishedImages> images) {
+    std::vector<PairReport> pairs;
+    for (std::size_t a = 0; a < variants.size(); ++a)
+        for (std::size_t b = a + 1; b < variants.size(); ++b) {
+            PairReport pair{.a = variants[a].name,
+                            .b = variants[b].name,
+                            .different_light = different_light(variants[a], variants[b])};
+            const bool same_light = pair.different_light.empty();
+            pair.comparable = same_light && variants[a].cannot_find.empty() && variants[b].cannot_find.empty();
+            if (same_light && images[a].block_size && images[b].block_size) {
+                const int size = std::max(*images[a].block_size, *images[b].block_size);
+                pair.agreement_options.block_size = size;
+                // Of images that are still noisy the test of the whole says more than a fixed difference of means.
+                pair.agreement_options.mean_tolerance = std::numeric_limits<double>::infinity();
+                BlockAgreement tested = test_agreement(widened_estimate(images[a], size),
+                                                       widened_estimate(images[b], size), pair.agreement_options);
+                // In the full image's coordinates, as all places of the report.
+                tested.worst.x += variants[a].sampling.window.x0;
+                tested.worst.y += variants[a].sampling.window.y0;
+                pair.agreement = tested;
+            }
+            pairs.push_back(std::move(pair));
+        }
+    return pairs;
+}
+
+std::optional<Reference> pool_reference(std::span<const Variant> variants, std::span<const FinishedImages> images,
+                                        std::span<const PairReport> pairs, std::vector<std::string>& notes) {
+    const std::size_t rounds = images.front().of_seeds.size();
+    const std::vector<Members> groups = groups_of_light(variants);
+    if (const std::string why_not = why_not_pooled(variants, groups, pairs, rounds); !why_not.empty()) {
+        notes.push_back(fmt::format(
+            "there is no reference, so no errors are given: {}; --reference or --reference-integrator give one",
+            why_not));
+        return std::nullopt;
+    }
+    const Members& members = groups.front();
+    std::vector<double> variances;
+    for (const std::size_t v : members) variances.push_back(images[v].relative_variance);
+    const std::vector<double> weights = pooling_weights(variances);
+    ReferenceReport report{.kind = "pooled", .noise_rel_mse = 0.0};
+    const ImageF& like = images.front().of_seeds.front();
+    std::vector<ImageF> of_rounds(rounds, ImageF(like.width, like.height, like.channels));
+    for (std::size_t i = 0; i < members.size(); ++i) {
+        const FinishedImages& member = images[members[i]];
+        report.weights[variants[members[i]].name] = weights[i];
+        report.noise_rel_mse += weights[i] * weights[i] * variances[i] / static_cast<double>(rounds - 1);
+        for (std::size_t round = 0; round < rounds; ++round)
+            add_mean(of_rounds[round], member.of_seeds, round, weights[i]);
+    }
+    report.text = fmt::format(
+        "Pooled from the variants after they were found to agree: each image is measured against the mean of all "
+        "renders of other rounds, weighted by one over the variants' mean relative variance ({}).",
+        weights_text(report.weights));
+
+    const Variant& first = variants[members.front()];
+    const std::string& integrator = first.settings.integrator.type;
+    if (std::ranges::all_of(members, [&](std::size_t v) { return variants[v].settings.integrator.type == integrator; }))
+        notes.push_back(made_alone_by(integrator, "all variants that it was pooled from are"));
+    add_different_light(notes, first, variants);
+    return Reference(std::move(of_rounds), std::move(report));
+}
+
+std::vector<std::string> reference_notes(const Variant& reference, std::span<const Variant> variants) {
+    std::vector<std::string> notes;
+    for (const std::string& missing : reference.cannot_find)
+        notes.push_back(fmt::format("the reference lacks light, as '{}' makes it: {}", reference.name, missing));
+    for (const Variant& variant : variants)
+        if (variant.settings.integrator.type == reference.settings.integrator.type)
+            notes.push_back(made_alone_by(reference.name, fmt::format("'{}' is", variant.name)));
+    add_different_light(notes, reference, variants);
+    return notes;
+}
+
+}  // namespace etendue

@@ -1,0 +1,65 @@
+// What the images of a comparison are measured against, and whether they agree among themselves.
+#pragma once
+
+#include "compare/comparison_renders.h"
+#include "compare/comparison_variants.h"
+#include "report/comparison_report.h"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace etendue {
+
+/// What the images are compared with.
+class Reference {
+  public:
+    /// An image that has nothing to do with those that are measured.
+    Reference(ImageF image, ReferenceReport report);
+    /// A pooled one: for every round of renders an image that it had no part in.
+    Reference(std::vector<ImageF> of_rounds, ReferenceReport report);
+
+    /// For the render with number `round` of every variant.
+    [[nodiscard]] const ImageF& of_round(std::size_t round) const;
+    [[nodiscard]] const ReferenceReport& report() const { return report_; }
+
+  private:
+    std::vector<ImageF> images_;
+    ReferenceReport report_;
+};
+
+/// The finished images of a variant.
+struct FinishedImages {
+    std::vector<ImageF> of_seeds{};
+    ImageEstimate estimate{};         ///< of two seeds or more
+    std::optional<int> block_size{};  ///< smallest that can be tested; nothing if few pixels make up the whole image
+    double relative_variance = kUnknown;  ///< of one render
+};
+
+[[nodiscard]] std::vector<FinishedImages> finished_images(std::span<const VariantRenders> renders,
+                                                          const ImageStore& store);
+
+/// Tests every two variants that show the same light and whose images can be tested, in the smallest blocks that both
+/// allow. Those count as comparable that also find all of it.
+[[nodiscard]] std::vector<PairReport> compare_pairs(std::span<const Variant> variants,
+                                                    std::span<const FinishedImages> images);
+
+/// The same estimate with its variance widened for splats that fall into several pixels of a block.
+[[nodiscard]] ImageEstimate widened_estimate(const FinishedImages& images, int block_size);
+
+/// The mean of all renders of the variants that show the same light and find all of it, of all rounds but one each
+/// time: weighted by one over their mean relative variance, or those without any alike and the others not at all. If
+/// there are several kinds of light, the one that most variants show. Nothing if fewer than two variants, or fewer than
+/// three rounds, are there to be pooled, or if those variants disagree or could not be tested. `notes` gets what is to
+/// be said of it.
+[[nodiscard]] std::optional<Reference> pool_reference(std::span<const Variant> variants,
+                                                      std::span<const FinishedImages> images,
+                                                      std::span<const PairReport> pairs,
+                                                      std::vector<std::string>& notes);
+
+/// What is to be said of a reference that `reference` renders, and `variants` are measured against: light that it does
+/// not find, or that they do not show; and whether it would make the same errors as they.
+[[nodiscard]] std::vector<std::string> reference_notes(const Variant& reference, std::span<const Variant> variants);
+
+}  // namespace etendue

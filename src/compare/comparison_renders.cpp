@@ -1,0 +1,138 @@
+#include "compare/comparison_renders.h"
+
+#include "film/median_of_means.h"
+#include "render/progressive_render.h"
+#include "render/tiles.h"
+#include "session/interrupt.h"
+#include "session/progress_display.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace etendue {
+
+namespace {
+
+constexpr std::uint32_t kMostSamples = 1u << 24;
+
+/// Factor between the samples of one kept image and the next.
+constexpr double kStep = 1.4142135623730951;
+
+std::uint32_t next_checkpoint(std::uint32_t spp) {
+    return std::max(spp + 1, static_cast<std::uint32_t>(std::lround(std::min(spp * kStep, 2.0 * kMostSamples))));
+}
+
+ImageF rgb_of(const Film& film, const AovSet* aovs) {
+    const bool is_median = aovs != nullptr && aovs->buckets.count > 0;
+    const std::vector<float> rgba = is_median ? median_of_means(film, aovs->buckets) : film.resolve();
+    ImageF image(film.window().width(), film.window().height(), 3);
+    for (std::size_t i = 0; i < rgba.size() / 4; ++i) std::copy_n(&rgba[4 * i], 3, &image.pixels[3 * i]);
+    return image;
+}
+
+/// A render whose time is counted while it renders only.
+class TimedRender {
+  public:
+    TimedRender(const Variant& variant, std::uint32_t seed, const ThreadPool& threads, const RenderBudget& budget,
+                std::string title, bool quiet)
+        : budget_(budget),
+          area_(variant.sampling.window.area()),
+          aovs_(variant.sampling.aovs),
+          render_(*variant.world, *variant.integrator, with_seed(variant.sampling, seed), threads),
+          display_(std::move(title), quiet) {}
+
+    /// One more pass, up to `last` samples. False if the time is spent, the samples are taken, or it is interrupted.
+    bool advance(std::uint32_t last) {
+        const std::uint32_t most = std::min(last, budget_.spp.value_or(kMostSamples));
+        if (spp() >= most || (budget_.seconds && seconds() >= *budget_.seconds && spp() > 0)) return false;
+        std::uint32_t count = pass_size(spp(), most);
+        if (budget_.seconds) count = fit_pass(count, spp(), seconds(), *budget_.seconds);
+        const bool done = render_.add_samples(count, [] { return interrupt_requested().load(); });
+        const double fraction = budget_.seconds ? seconds() / *budget_.seconds : double(spp()) / double(*budget_.spp);
+        // Written so that no fraction at all, as of no time, is 1.
+        display_.update({.fraction = fraction < 1.0 ? fraction : 1.0,
+                         .seconds = seconds(),
+                         .samples = area_ * spp(),
+                         .rays = state().counters.rays.total()});
+        return done;
+    }
+
+    [[nodiscard]] std::uint32_t spp() const { return state().spp_done; }
+    [[nodiscard]] double seconds() const { return state().wall_seconds; }
+    [[nodiscard]] double cpu_seconds() const { return state().cpu_seconds; }
+    [[nodiscard]] ImageF image() const { return rgb_of(state().film, aovs_.get()); }
+    [[nodiscard]] RenderCounters counters() const { return state().counters; }
+
+  private:
+    [[nodiscard]] const RenderState& state() const { return render_.state(); }
+    [[nodiscard]] static RenderOptions with_seed(RenderOptions options, std::uint32_t seed) {
+        options.seed = seed;
+        return options;
+    }
+
+    RenderBudget budget_;
+    std::uint64_t area_;
+    std::shared_ptr<const AovSet> aovs_;
+    ProgressiveRender render_;
+    ProgressDisplay display_;
+};
+
+/// False if it is interrupted.
+bool keep_images(TimedRender& render, ImageStore& store, SeedRender& result) {
+    std::uint32_t next = 1;
+    const auto keep = [&] {
+        result.checkpoints.push_back({render.spp(), render.seconds(), render.cpu_seconds(), store.add(render.image())});
+    };
+    while (render.advance(next)) {
+        if (render.spp() < next) continue;
+        keep();
+        next = next_checkpoint(next);
+    }
+    if (interrupt_requested()) return false;
+    if (result.checkpoints.back().spp < render.spp()) keep();
+    result.counters = render.counters();
+    return true;
+}
+
+}  // namespace
+
+std::uint32_t render_seed(std::uint32_t first, std::size_t render, std::size_t variant, std::size_t variants) {
+    return first + static_cast<std::uint32_t>(render * variants + variant);
+}
+
+std::vector<VariantRenders> render_variants(std::span<const Variant> variants, const RendersRequest& request,
+                                            ImageStore& store, const ThreadPool& threads) {
+    std::vector<VariantRenders> renders(variants.size());
+    for (int seed = 0; seed < request.seeds; ++seed)
+        for (std::size_t v = 0; v < variants.size(); ++v) {
+            const RenderBudget budget =
+                seed == 0 ? request.budget : RenderBudget{.spp = renders[v].seeds.front().checkpoints.back().spp};
+            SeedRender result{.seed =
+                                  render_seed(request.first_seed, static_cast<std::size_t>(seed), v, variants.size())};
+            TimedRender render(variants[v], result.seed, threads, budget,
+                               fmt::format("{} {}/{}", variants[v].name, seed + 1, request.seeds), request.quiet);
+            if (!keep_images(render, store, result)) {
+                for (VariantRenders& of_variant : renders) of_variant.seeds.resize(static_cast<std::size_t>(seed));
+                return renders;
+            }
+            renders[v].seeds.push_back(std::move(result));
+        }
+    return renders;
+}
+
+std::optional<ImageF> render_reference(const Variant& variant, double seconds, std::uint32_t seed,
+                                       const ThreadPool& threads, bool quiet) {
+    TimedRender render(variant, seed, threads, {.seconds = seconds}, "reference by " + variant.name, quiet);
+    while (render.advance(kMostSamples)) {
+    }
+    if (interrupt_requested()) return std::nullopt;
+    return render.image();
+}
+
+}  // namespace etendue

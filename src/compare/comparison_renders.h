@@ -1,0 +1,66 @@
+// Rendering variants with several seeds each, and keeping what their images were on the way.
+#pragma once
+
+#include "compare/comparison_variants.h"
+#include "compare/image_store.h"
+#include "core/parallel.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace etendue {
+
+/// What each render takes: one of the two is set.
+struct RenderBudget {
+    std::optional<double> seconds{};
+    std::optional<std::uint32_t> spp{};
+};
+
+/// An image on the way.
+struct Snapshot {
+    std::uint32_t spp = 0;
+    double seconds = 0.0;  ///< of rendering alone
+    double cpu_seconds = 0.0;
+    std::size_t image = 0;  ///< in the store
+};
+
+/// One render with one seed.
+struct SeedRender {
+    std::uint32_t seed = 0;
+    std::vector<Snapshot> checkpoints{};  ///< the last is the finished image
+    RenderCounters counters{};
+};
+
+struct VariantRenders {
+    std::vector<SeedRender> seeds;
+};
+
+struct RendersRequest {
+    RenderBudget budget{};
+    int seeds = 1;
+    std::uint32_t first_seed = 0;
+    bool quiet = false;
+};
+
+/// The seed of a variant's render with number `render`, of `variants` that are rendered: no two renders have the same,
+/// so that all images are independent. Counts on from `first` by rounds of one render of each variant; what would be
+/// the number after the last seed there is, is 0.
+[[nodiscard]] std::uint32_t render_seed(std::uint32_t first, std::size_t render, std::size_t variant,
+                                        std::size_t variants);
+
+/// Renders every variant `seeds` times, each time with a seed of its own, one variant after the other, so that what
+/// else the machine does falls on all alike. The first render of a variant takes as many samples as fit into the time,
+/// the others as many as the first. Images are kept after 1, 2, 3, 4, 6, 8, ... samples, a factor of sqrt(2) apart.
+/// Once an interrupt is requested, the renders are returned that all variants have.
+[[nodiscard]] std::vector<VariantRenders> render_variants(std::span<const Variant> variants,
+                                                          const RendersRequest& request, ImageStore& store,
+                                                          const ThreadPool& threads);
+
+/// One image of `variant`, R, G and B, with a seed of its own; nothing if it is interrupted.
+[[nodiscard]] std::optional<ImageF> render_reference(const Variant& variant, double seconds, std::uint32_t seed,
+                                                     const ThreadPool& threads, bool quiet);
+
+}  // namespace etendue

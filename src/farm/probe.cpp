@@ -1,0 +1,82 @@
+#include "farm/probe.h"
+
+#include "picture/aov_setup.h"
+#include "picture/render_setup.h"
+#include "process/peak_memory.h"
+#include "processor/ray_code.h"
+#include "render/progressive_render.h"
+#include "render/tiles.h"
+#include "session/interrupt.h"
+#include "session/phase_timer.h"
+#include "session/prepared_scene.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+namespace etendue {
+
+namespace {
+
+constexpr double kSeconds = 1.0;
+
+struct ShortRender {
+    double seconds_per_spp = 0.0;  ///< for one sample of every pixel
+    std::uint64_t deep_bytes = 0;  ///< that bins of depth have taken, which grow with the samples; 0 without such
+};
+
+/// Renders for about kSeconds, a tile at least.
+ShortRender render_shortly(const World& world, const Integrator& integrator, const RenderOptions& options,
+                           const ThreadPool& threads) {
+    // Memory for large images may take longer than all of the time that there is for rendering.
+    ProgressiveRender rendering(world, integrator, options, threads);
+    const PhaseTimer timer;
+    std::atomic<bool> has_tile = false;
+    const auto enough = [&] { return interrupt_requested().load() || (has_tile && timer.elapsed().wall > kSeconds); };
+    const RenderState& state = rendering.state();
+    while (!enough() && state.spp_done < options.spp)
+        rendering.add_samples(pass_size(state.spp_done, options.spp), enough,
+                              [&](std::uint64_t, std::uint64_t) { has_tile = true; });
+    const double spp = static_cast<double>(state.counters.samples) / static_cast<double>(options.window.area());
+    return {state.wall_seconds / std::max(spp, 1e-9), state.film.layers().deep().bytes()};
+}
+
+}  // namespace
+
+std::string probe(const ImageJob& job, const SettingsOverrides& overrides, const ThreadPool& threads) {
+    SettingsOverrides given = overrides;
+    given.moment.frame = job.frame;
+    PreparedScene prepared = prepare_scene(job.scene, given);
+    const PhaseTimer build_timer;
+    const ColorConfig colors = ColorConfig::from_environment();
+    RenderSettings settings = prepared.scene.settings;
+    const std::string working_space = resolve_colors(settings, colors);
+    RenderOptions options = make_render_options(settings);
+    options.aovs = make_aov_plan(prepared.scene, prepared.problems).set;
+    const auto integrator = create_integrator(settings);
+    const World world =
+        ray_code().compile_world(std::move(prepared.scene), colors, working_space, threads, prepared.problems, {});
+    const PhaseTime build = build_timer.elapsed();
+    const ShortRender rendered = render_shortly(world, *integrator, options, threads);
+
+    const double limit = settings.time_limit;
+    const double all = rendered.seconds_per_spp * static_cast<double>(options.spp);
+    const double start = prepared.load.wall + build.wall;
+    const nlohmann::ordered_json json{{"scene", job.scene.string()},
+                                      {"width", options.window.width()},
+                                      {"height", options.window.height()},
+                                      {"spp", options.spp},
+                                      {"threads", threads.thread_count()},
+                                      {"load_seconds", prepared.load.wall},
+                                      {"build_seconds", build.wall},
+                                      {"seconds_per_spp", rendered.seconds_per_spp},
+                                      {"estimated_seconds", start + (limit > 0.0 ? std::min(all, limit) : all)},
+                                      {"peak_memory_bytes", peak_memory_bytes()},
+                                      {"deep_bytes", rendered.deep_bytes}};
+    return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace etendue

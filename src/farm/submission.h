@@ -1,0 +1,70 @@
+// What was submitted to a scheduler: OUT/.etendue/submit-ID/ with
+//   submission.json   the images, and which tasks each of them consists of
+//   ARRAY.sh          the script of each job array
+//   ARRAY.tasks       its command lines
+//   logs/             what the tasks wrote
+//   jobs              the scheduler's numbers of the jobs
+#pragma once
+
+#include "farm/farm_plan.h"
+#include "farm/slurm_script.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace etendue {
+
+struct SubmittedTask {
+    std::string array;
+    std::size_t index = 0;
+    std::filesystem::path makes;  ///< the file
+};
+
+struct SubmittedImage {
+    std::string name;
+    std::filesystem::path scene;
+    std::filesystem::path output;
+    std::optional<int> frame;
+    std::vector<SubmittedTask> tasks;  ///< none if it was up to date or could not be planned
+    std::string error;                 ///< why it could not be planned
+};
+
+struct Submission {
+    std::filesystem::path directory;
+    std::string user;  ///< the one whose jobs they are
+    std::vector<SubmittedImage> images;
+
+    /// Its name for the scheduler's jobs: "etendue-ID".
+    [[nodiscard]] std::string job_prefix() const;
+    /// The name of the job of one of its arrays.
+    [[nodiscard]] std::string job_name(const std::string& array) const { return job_prefix() + "-" + array; }
+    /// The file that is as old as the submission: what is newer was made since.
+    [[nodiscard]] std::filesystem::path file() const { return directory / "submission.json"; }
+};
+
+/// Makes a directory of its own for a new submission below the output directory. Throws IoError.
+[[nodiscard]] std::filesystem::path make_submission_directory(const std::filesystem::path& output);
+
+/// Writes everything but the jobs. Throws IoError.
+void write_submission(const Submission& submission, const FarmPlan& plan, const SlurmOptions& options);
+
+/// Adds to the jobs. Throws IoError.
+void record_job(const Submission& submission, const std::string& job);
+
+/// All submissions of the output directory, oldest first. Throws IoError if one cannot be read.
+[[nodiscard]] std::vector<Submission> read_submissions(const std::filesystem::path& output);
+
+/// Removes the directories of earlier submissions whose images are all in `last`: their logs tell nothing any more.
+void remove_superseded(std::span<const Submission> earlier, const Submission& last);
+
+/// The directory of submissions, parts and logs in the output directory.
+[[nodiscard]] std::filesystem::path farm_directory(const std::filesystem::path& output);
+
+/// True if `text` can be written down there: it is UTF-8.
+[[nodiscard]] bool can_be_recorded(const std::string& text);
+
+}  // namespace etendue

@@ -1,0 +1,84 @@
+#include "process/run_command.h"
+
+#include "core/error.h"
+#include "process/pipe.h"
+
+#include <array>
+#include <cerrno>
+#include <cstddef>
+#include <system_error>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace etendue {
+
+namespace {
+
+[[noreturn]] void throw_error(const std::string& program, int error) {
+    throw IoError(fmt::format("cannot run {}: {}", program, std::generic_category().message(error)));
+}
+
+Pipe pipe_to(const std::string& program) {
+    Pipe pipe = make_pipe();
+    if (!pipe.reader.is_open()) throw_error(program, errno);
+    return pipe;
+}
+
+pid_t start(const std::vector<std::string>& words, const Pipe& out, const Pipe& err) {
+    std::vector<char*> argv;
+    argv.reserve(words.size() + 1);
+    // posix_spawn takes words that it does not write to.
+    for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
+    argv.push_back(nullptr);
+    posix_spawn_file_actions_t actions;
+    if (const int error = ::posix_spawn_file_actions_init(&actions)) throw_error(words.front(), error);
+    pid_t pid = -1;
+    int error = ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    if (error == 0) error = ::posix_spawn_file_actions_adddup2(&actions, out.writer.get(), STDOUT_FILENO);
+    if (error == 0) error = ::posix_spawn_file_actions_adddup2(&actions, err.writer.get(), STDERR_FILENO);
+    if (error == 0) error = ::posix_spawnp(&pid, words.front().c_str(), &actions, nullptr, argv.data(), environ);
+    ::posix_spawn_file_actions_destroy(&actions);
+    if (error != 0) throw_error(words.front(), error);
+    return pid;
+}
+
+/// Reads both until both have ended; at once, so that the program never waits for one while we wait for the other.
+void read_all(const Pipe& out, const Pipe& err, CommandResult& result) {
+    std::array<pollfd, 2> open{pollfd{out.reader.get(), POLLIN, 0}, pollfd{err.reader.get(), POLLIN, 0}};
+    const std::array<std::string*, 2> texts{&result.out, &result.err};
+    std::array<char, 4096> buffer{};
+    while (open[0].fd >= 0 || open[1].fd >= 0) {
+        if (::poll(open.data(), open.size(), -1) < 0 && errno != EINTR) break;
+        for (std::size_t i = 0; i < open.size(); ++i) {
+            if (open[i].fd < 0 || open[i].revents == 0) continue;
+            const ssize_t count = ::read(open[i].fd, buffer.data(), buffer.size());
+            if (count > 0) texts[i]->append(buffer.data(), static_cast<std::size_t>(count));
+            // poll passes over what is negative.
+            if (count == 0 || (count < 0 && errno != EINTR)) open[i].fd = -1;
+        }
+    }
+}
+
+}  // namespace
+
+CommandResult run_command(const std::vector<std::string>& words) {
+    Pipe out = pipe_to(words.front());
+    Pipe err = pipe_to(words.front());
+    const pid_t pid = start(words, out, err);
+    out.writer.close();
+    err.writer.close();
+    CommandResult result;
+    read_all(out, err, result);
+    int status = 0;
+    while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) {
+    }
+    result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    return result;
+}
+
+}  // namespace etendue

@@ -1,0 +1,57 @@
+#include "session/interrupt.h"
+
+#include <csignal>
+
+namespace etendue {
+
+namespace {
+
+// Signal handlers can reach nothing but globals.
+std::atomic<bool> requested{false};
+std::atomic<bool> preview{false};
+std::atomic<int> signal_number{0};
+std::atomic<bool> second_ends{true};
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
+
+extern "C" void on_signal(int number) {
+    signal_number.store(number);
+    requested.store(true);
+    if (!second_ends.load()) return;
+    for (const int either : {SIGINT, SIGTERM}) std::signal(either, SIG_DFL);
+}
+
+extern "C" void on_preview_signal(int) {
+    preview.store(true);
+}
+
+}  // namespace
+
+void install_interrupt_handlers() {
+    std::signal(SIGINT, on_signal);
+    std::signal(SIGTERM, on_signal);
+    std::signal(SIGUSR1, on_preview_signal);
+    // A file that would pass the limit of file sizes (ulimit -f) is an error of writing, which says so.
+    std::signal(SIGXFSZ, SIG_IGN);
+}
+
+void take_all_interrupts_for_one() {
+    second_ends.store(false);
+}
+
+const std::atomic<bool>& interrupt_requested() {
+    return requested;
+}
+
+bool preview_requested() {
+    return preview.load(std::memory_order_relaxed);
+}
+
+void clear_preview_request() {
+    preview.store(false);
+}
+
+ExitCode interrupt_exit_code() {
+    return signal_number.load() == SIGTERM ? ExitCode::Terminated : ExitCode::Interrupted;
+}
+
+}  // namespace etendue

@@ -1,0 +1,28 @@
+// SIGINT and SIGTERM: the first asks the render to stop and write what there is, the second ends the process at once.
+// SIGUSR1 asks it to show what there is and to go on.
+#pragma once
+
+#include "session/exit_code.h"
+
+#include <atomic>
+
+namespace etendue {
+
+/// Installs the handlers; once, from main.
+void install_interrupt_handlers();
+
+/// From now on all signals are as the first, and none ends the process at once: for one that another process looks
+/// after. A signal to all processes of a group or a job reaches it twice, once through that other one.
+void take_all_interrupts_for_one();
+
+/// Becomes true when a signal has arrived.
+[[nodiscard]] const std::atomic<bool>& interrupt_requested();
+
+/// True after SIGUSR1, until it is cleared.
+[[nodiscard]] bool preview_requested();
+void clear_preview_request();
+
+/// Interrupted or Terminated, by the signal that arrived.
+[[nodiscard]] ExitCode interrupt_exit_code();
+
+}  // namespace etendue

@@ -1,0 +1,29 @@
+#include "session/output_directory.h"
+
+#include "core/error.h"
+#include "picture/output_paths.h"
+
+#include <system_error>
+
+#include <fmt/format.h>
+
+namespace etendue {
+
+std::vector<std::filesystem::path> prepare_directory(const std::filesystem::path& directory,
+                                                     const std::vector<std::string>& names,
+                                                     std::span<const std::filesystem::path> inputs) {
+    std::error_code error;
+    std::filesystem::create_directories(directory, error);
+    if (!std::filesystem::is_directory(directory))
+        throw IoError(fmt::format("cannot make the directory {}: {}", directory.string(),
+                                  error ? error.message() : "there is something else of that name"));
+    std::vector<std::filesystem::path> files;
+    for (const std::string& name : names) {
+        files.push_back(directory / name);
+        require_writable(files.back());
+    }
+    require_inputs_kept("--output", files, inputs);
+    return files;
+}
+
+}  // namespace etendue

@@ -1,0 +1,31 @@
+// A scene directory read and completed, before anything is made of it.
+#pragma once
+
+#include "core/error.h"
+#include "output/statistics.h"
+#include "scene/scene_desc.h"
+#include "session/settings_overrides.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace etendue {
+
+/// A scene as it will be rendered: loaded, overridden, completed and validated.
+struct PreparedScene {
+    SceneDesc scene;
+    ProblemList problems;           ///< notes and warnings
+    std::vector<InputFile> inputs;  ///< as they were before they were read, without content
+    PhaseTime load;
+};
+
+/// Loads the scene directory or file `path` and applies overrides and defaults. Throws SceneError.
+[[nodiscard]] PreparedScene prepare_scene(const std::filesystem::path& path, const SettingsOverrides& overrides);
+
+/// Hash of every setting that the image depends on, and of the program's version. How much memory textures may take is
+/// left out: where nothing says, that is the machine's own matter, and one image may be asked for from several. Equal
+/// for equal pictures as long as the input files are the same.
+[[nodiscard]] std::string settings_hash(const SceneDesc& scene, PixelDepth depth);
+
+}  // namespace etendue

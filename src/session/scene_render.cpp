@@ -1,0 +1,358 @@
+#include "session/scene_render.h"
+
+#include "color/color_config.h"
+#include "core/log.h"
+#include "image/image_module.h"
+#include "output/preview_driver.h"
+#include "picture/aov_setup.h"
+#include "picture/image_description.h"
+#include "picture/output_paths.h"
+#include "picture/render_setup.h"
+#include "processor/ray_code.h"
+#include "render/brightest_paths.h"
+#include "render/checkpoint.h"
+#include "render/render.h"
+#include "session/brightest_list.h"
+#include "session/checkpoint_files.h"
+#include "session/dropped_samples.h"
+#include "session/image_files.h"
+#include "session/input_files.h"
+#include "session/interrupt.h"
+#include "session/library_versions.h"
+#include "session/phase_timer.h"
+#include "session/progress_display.h"
+#include "session/progress_pipe.h"
+#include "session/render_identity.h"
+#include "session/up_to_date.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <future>
+#include <memory>
+#include <span>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace etendue {
+
+namespace {
+
+void require_all_writable(const OutputPaths& paths) {
+    for (const std::filesystem::path& path : {paths.exr, paths.png, paths.json}) require_writable(path);
+}
+
+/// After rendering, when the cache has held what it will. Look-ups that failed are an error to tell, not one to lose
+/// the image for.
+void fill_texture_statistics(const World& world, RenderStatistics& s) {
+    const WorldStatistics from = world.statistics();
+    s.textures = from.textures;
+    s.texture_bytes = from.texture_bytes;
+    s.textures_cached = from.textures_cached;
+    s.texture_cache_budget = from.texture_cache_budget;
+    s.failed_texture_lookups = from.failed_texture_lookups;
+    if (from.failed_texture_lookups > 0)
+        log_error("error: {} texture look-ups met broken pixels and read black: {}", from.failed_texture_lookups,
+                  from.first_texture_failure);
+}
+
+/// One render, step by step.
+class SceneRender {
+  public:
+    SceneRender(PreparedScene prepared, const SceneRenderRequest& request, const ThreadPool& threads)
+        : request_(request),
+          threads_(threads),
+          problems_(std::move(prepared.problems)),
+          scene_(std::move(prepared.scene)),
+          output_(request.output.empty() ? std::filesystem::path(scene_.name + ".exr") : request.output),
+          paths_(OutputPaths::beside(output_)),
+          checkpoints_(output_),
+          progress_pipe_(request.progress_descriptor) {
+        progress_pipe_.enter("load");
+        if (!is_partial(output_)) image_module_ = load_image_module_early();
+        report_problems();
+        options_ = is_partial(output_) ? make_part_options(scene_.settings, request.samples)
+                                       : make_render_options(scene_.settings);
+        integrator_ = create_integrator(scene_.settings);
+        aovs_ = make_aov_plan(scene_, problems_);
+        report_problems();
+        options_.aovs = aovs_.set;
+        check_outputs();
+        hash_inputs(scene_, prepared.inputs);
+        describe_scene(prepared);
+    }
+
+    SceneRenderResult run() {
+        std::optional<Checkpoint> kept = read_kept();
+        if (kept && is_finished_part(*kept)) return finished_part(*kept);
+        if (kept && !request_.quiet)
+            log_info("{}: going on after {} of {} samples per pixel", output_.string(), kept->state.spp_done,
+                     options_.spp);
+        const World world = compile();
+        require_image_module();
+        RenderResult rendered = render_from(world, kept ? std::move(kept->state) : new_state());
+        find_brightest_paths(world, *integrator_, options_, rendered);
+        report_dropped(rendered.counters, request_.scene, request_.overrides, settings_, settings_.color.working_space);
+        fill_texture_statistics(world, description_.statistics);
+        require_not_lost();
+        const bool interrupted = rendered.halt_reason == HaltReason::Interrupted;
+        if (interrupted && rendered.counters.samples > 0) {
+            const bool is_kept = write_checkpoint(rendered);
+            if (!request_.quiet)
+                log_info("{}: stopped after {} of {} samples per pixel{}", output_.string(), rendered.spp_done,
+                         options_.spp, is_kept ? "; --resume goes on from there" : "");
+        }
+        // An earlier image is worth more than a black one.
+        if (!interrupted || rendered.counters.samples > 0) write(world, rendered, !interrupted);
+        if (request_.overrides.brightest && !request_.quiet) list_brightest(description_.statistics);
+        if (!interrupted) checkpoints_.remove();
+        return {std::move(description_.statistics), output_, interrupted, false};
+    }
+
+  private:
+    [[nodiscard]] bool is_deep() const { return aovs_.set && aovs_.set->layout.is_deep; }
+
+    [[nodiscard]] bool is_lost() const { return request_.is_lost != nullptr && *request_.is_lost; }
+
+    void require_not_lost() const {
+        if (is_lost()) throw LostRender();
+    }
+
+    /// A render of hours must not end with an image that nothing can write. Does not wait for what is being loaded,
+    /// which fails at once if at all.
+    void require_image_module() {
+        if (image_module_.valid() && image_module_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
+            image_module_.get();
+    }
+
+    void report_problems() {
+        for (; reported_ < problems_.all().size(); ++reported_)
+            if (!request_.quiet) log_warning("{}", problems_.all()[reported_].str());
+    }
+
+    void check_outputs() const {
+        const std::vector<std::string> layers =
+            layers_with_files(aovs_, scene_.settings.aov_layout == AovLayout::Files);
+        require_inputs_kept(fmt::format("--output {}", output_.string()), files_of_image(output_, layers),
+                            scene_.inputs);
+        if (is_partial(output_)) {
+            const bool is_crop = options_.window != PixelRect{0, 0, options_.full_width, options_.full_height};
+            if (is_crop && is_deep() && integrator_->makes_splats())
+                throw SceneError({"--deep", {}},
+                                 "a part that is a crop has no depths of the light that falls into others: render "
+                                 "parts that are ranges of samples (--samples), or with 'path'");
+            require_writable(output_);
+            return;
+        }
+        require_all_writable(paths_);
+        require_no_layer_of_another();
+        for (const std::string& layer : layers) require_free(layer);
+        const std::filesystem::path& strategies = request_.strategies.output;
+        if (strategies.empty()) return;
+        const OutputPaths pyramid = OutputPaths::beside(strategies);
+        require_inputs_kept(fmt::format("--strategies-image {}", strategies.string()),
+                            std::array{pyramid.exr, pyramid.png}, scene_.inputs);
+        require_all_writable(pyramid);
+        require_strategies(scene_.settings, {"--strategies-image", {}});
+        check_strategies_request(request_.strategies, paths_, scene_.settings, options_, request_.overrides.depth);
+    }
+
+    /// The image may have the name of another one's layer: of NAME, if it is NAME.LAYER.
+    void require_no_layer_of_another() const {
+        const std::string name = output_.filename().string();
+        for (std::size_t dot = name.rfind('.', name.size() - output_.extension().string().size() - 1);
+             dot != std::string::npos && dot > 0; dot = name.rfind('.', dot - 1)) {
+            const OutputPaths other = OutputPaths::beside(output_.parent_path() / (name.substr(0, dot) + ".exr"));
+            const std::vector<std::string> of_other = listed_layer_files(other);
+            if (std::ranges::find(of_other, name) == of_other.end()) continue;
+            throw SceneError({}, fmt::format("{} is a layer of the image {}, as {} tells, and would be lost; give the "
+                                             "output another name, or remove the layer",
+                                             output_.string(), other.exr.string(), other.json.string()));
+        }
+    }
+
+    /// Another image may have the name of a layer.
+    void require_free(const std::string& layer) const {
+        const std::filesystem::path path = layer_path(output_, layer);
+        require_writable(path);
+        const std::filesystem::path other = OutputPaths::beside(path).json;
+        if (std::filesystem::exists(other))
+            throw SceneError(scene_.settings.at("/aov_layout"),
+                             fmt::format("the layer '{}' would be written to {}, which is an image of its own, as {} "
+                                         "tells; give the layer another name, or use another layout",
+                                         layer, path.string(), other.string()));
+    }
+
+    void describe_scene(PreparedScene& prepared) {
+        // Before names are resolved: batch compares it with that of a scene that was only prepared.
+        const std::string hash = settings_hash(scene_, request_.overrides.depth);
+        const std::string working_space = resolve_colors(scene_.settings, colors_);
+        description_ = describe_settings(scene_, aovs_);
+        RenderStatistics& s = description_.statistics;
+        s.load = prepared.load;
+        s.inputs = std::move(prepared.inputs);
+        s.settings_hash = hash;
+        s.threads = threads_.thread_count();
+        s.libraries = library_versions();
+        s.instruction_set = instruction_set_name(ray_code().instruction_set);
+        identity_ = render_identity(scene_, s.inputs, working_space);
+        settings_ = scene_.settings;
+    }
+
+    [[nodiscard]] std::uint32_t first_sample() const { return request_.samples ? request_.samples->begin : 0; }
+
+    [[nodiscard]] RenderState new_state() const {
+        RenderState state = make_render_state(options_, aovs_.has_halves);
+        state.first_sample = first_sample();
+        return state;
+    }
+
+    /// A checkpoint, or a part that was rendered before.
+    [[nodiscard]] std::optional<Checkpoint> read_kept() const {
+        if (!request_.resume) return std::nullopt;
+        progress_pipe_.enter("resume");
+        const bool has_second_film = keeps_every_other_pass(options_, aovs_.has_halves);
+        const CheckpointFiles::Expected expected =
+            is_partial(output_) ? expected_part(identity_, options_, first_sample(), has_second_film)
+                                : expected_image(identity_, options_, has_second_film);
+        std::optional<Checkpoint> kept;
+        if (is_partial(output_) && !request_.force) kept = read_part(output_, expected, request_.quiet);
+        if (!kept) kept = checkpoints_.read(expected, request_.quiet);
+        return kept;
+    }
+
+    /// One that was to be shown otherwise has all samples but is written again: its merged image would be shown so,
+    /// too.
+    [[nodiscard]] bool is_finished_part(const Checkpoint& kept) const {
+        return is_partial(output_) && std::filesystem::exists(output_) && kept.state.pass_size == 0 &&
+               kept.state.spp_done == options_.spp &&
+               description_of(kept, output_).statistics.settings_hash == description_.statistics.settings_hash;
+    }
+
+    /// Of a part that needs nothing to be done.
+    [[nodiscard]] SceneRenderResult finished_part(const Checkpoint& kept) const {
+        ImageDescription description = description_of(kept, output_);
+        describe_state(description, kept.state, true, halt_reason_name(HaltReason::SamplesDone));
+        return {std::move(description.statistics), output_, false, true};
+    }
+
+    [[nodiscard]] World compile() {
+        progress_pipe_.enter("build");
+        const PhaseTimer timer;
+        World world = ray_code().compile_world(std::move(scene_), colors_, settings_.color.working_space, threads_,
+                                               problems_, {});
+        report_problems();
+        const WorldStatistics from = world.statistics();
+        RenderStatistics& s = description_.statistics;
+        s.build = timer.elapsed();
+        s.isa = from.isa;
+        s.bvh_bytes = from.bvh_bytes;
+        s.bvh_build_seconds = from.bvh_build_seconds;
+        s.triangles = from.triangles;
+        s.instances = from.instances;
+        s.lights = from.lights;
+        s.missing_textures = from.missing_textures;
+        describe_camera(description_, world);
+        if (!request_.quiet)
+            for (const std::string& note : notes_on(world, *integrator_, settings_)) log_warning("note: {}", note);
+        return world;
+    }
+
+    [[nodiscard]] RenderResult render_from(const World& world, RenderState state) {
+        ProgressDisplay display(title(), request_.quiet || request_.progress_descriptor >= 0);
+        PhaseTimer since_checkpoint;
+        const auto checkpoint_is_due = [&] {
+            return request_.checkpoint_minutes > 0.0 &&
+                   since_checkpoint.elapsed().wall >= request_.checkpoint_minutes * 60.0;
+        };
+        const RenderPause pause{[&] { return preview_requested() || checkpoint_is_due() || is_lost(); },
+                                [&](const RenderState& now) {
+                                    require_not_lost();
+                                    if (preview_requested()) write_preview(now);
+                                    if (!checkpoint_is_due()) return;
+                                    write_checkpoint(now);
+                                    since_checkpoint = {};
+                                }};
+        return render(
+            world, *integrator_, options_, threads_, interrupt_requested(),
+            [&](const RenderProgress& now) {
+                display.update(now);
+                progress_pipe_.update(now);
+            },
+            pause, std::move(state));
+    }
+
+    /// False if it could not be written. A disk that is full must not end a render: it may have room again by the end.
+    bool write_checkpoint(const RenderState& state) const {
+        try {
+            checkpoints_.write(identity_, to_text(description_), state);
+            return true;
+        } catch (const IoError& error) {
+            log_error("error: no checkpoint was written: {}", error.what());
+            return false;
+        }
+    }
+
+    void write_preview(const RenderState& state) {
+        clear_preview_request();
+        const std::filesystem::path path = preview_path(output_);
+        ImageDescription now = description_;
+        describe_state(now, state, false, "preview");
+        try {
+            PreviewDriver(path, colors_).write(now.frame);
+            if (!request_.quiet) log_info("{}: preview after {} samples per pixel", path.string(), state.spp_done);
+        } catch (const IoError& error) {
+            log_error("error: {}", error.what());
+        }
+    }
+
+    void write(const World& world, const RenderResult& rendered, bool complete) {
+        progress_pipe_.enter("write");
+        describe_state(description_, rendered, complete, halt_reason_name(rendered.halt_reason));
+        if (is_partial(output_)) {
+            if (complete) etendue::write_checkpoint(output_, identity_, to_text(description_), rendered);
+            return;
+        }
+        if (const auto note = few_buckets(description_.statistics); note && !request_.quiet)
+            log_warning("note: {}: {}", output_.string(), *note);
+        resolve_layers(description_, rendered);
+        const PixelDepth depth = request_.overrides.depth;
+        const std::vector<std::string> earlier = write_image_files(paths_, description_, colors_, depth, [&] {
+            if (!request_.strategies.output.empty() && complete)
+                write_strategies_image(request_.strategies, world, integrator_options(settings_), options_,
+                                       description_.frame, colors_, depth, threads_, title(), request_.quiet);
+        });
+        if (!request_.quiet) note_earlier_files(earlier);
+    }
+
+    [[nodiscard]] const std::string& title() const {
+        return request_.title.empty() ? description_.statistics.scene : request_.title;
+    }
+
+    const SceneRenderRequest& request_;
+    const ThreadPool& threads_;
+    ProblemList problems_;
+    std::size_t reported_ = 0;
+    SceneDesc scene_;  ///< until it is compiled
+    std::filesystem::path output_;
+    OutputPaths paths_;
+    CheckpointFiles checkpoints_;
+    ProgressPipe progress_pipe_;
+    std::future<void> image_module_;  ///< while it is loaded; of a part, which is no image, none
+    RenderOptions options_;
+    std::unique_ptr<const Integrator> integrator_;
+    AovPlan aovs_;
+    ColorConfig colors_ = ColorConfig::from_environment();
+    RenderSettings settings_;  ///< with names of colour spaces resolved
+    RenderIdentity identity_;
+    ImageDescription description_;
+};
+
+}  // namespace
+
+SceneRenderResult render_scene(PreparedScene prepared, const SceneRenderRequest& request, const ThreadPool& threads) {
+    return SceneRender(std::move(prepared), request, threads).run();
+}
+
+}  // namespace etendue

@@ -1,0 +1,129 @@
+#include "session/strategies_image.h"
+
+#include "core/byte_size.h"
+#include "core/log.h"
+#include "image/scale_down.h"
+#include "image/write.h"
+#include "output/contact_sheet.h"
+#include "output/display_image.h"
+#include "output/exr_driver.h"
+#include "output/output_space.h"
+#include "session/interrupt.h"
+#include "session/progress_display.h"
+#include "session/usage_error.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace etendue {
+
+namespace {
+
+constexpr int kThumbnailWidth = 240;  // pixels
+
+/// Of every pixel of each strategy: four floats, kept until all are rendered, and for encoding them (measured) about
+/// what they would take in a file without compression.
+double bytes_per_pixel(PixelDepth depth) {
+    return 16.0 + (depth == PixelDepth::Float ? 16.0 : 8.0);
+}
+
+/// Edges of the longest paths that are shown.
+int longest_shown(const StrategiesRequest& request, const PathLengths& lengths) {
+    return std::min(request.longest > 0 ? request.longest : StrategiesRequest::kLongest, lengths.max_depth);
+}
+
+std::vector<Strategy> shown_strategies(const StrategiesRequest& request, const PathLengths& lengths) {
+    return strategies_between(lengths.min_depth, longest_shown(request, lengths));
+}
+
+void require_other_files(const OutputPaths& image, const OutputPaths& pyramid) {
+    for (const std::filesystem::path& of_image : {image.exr, image.png, image.json})
+        for (const std::filesystem::path& of_pyramid : {pyramid.exr, pyramid.png})
+            if (written_file(of_image) == written_file(of_pyramid))
+                throw UsageError(
+                    fmt::format("--strategies-image would write {} over {}, which belongs to the image (--output): "
+                                "give one of them another name",
+                                of_pyramid.string(), of_image.string()));
+}
+
+void require_memory(std::size_t strategies, const PixelRect& window, PixelDepth depth) {
+    constexpr double kGiB = 1024.0 * 1024.0 * 1024.0;
+    const double needed = bytes_per_pixel(depth) * static_cast<double>(strategies) * static_cast<double>(window.area());
+    const auto available = static_cast<double>(physical_memory());
+    if (needed > available)
+        throw std::runtime_error(
+            fmt::format("--strategies-image: {} strategies of {}x{} pixels take about {:.1f} GiB of memory, and the "
+                        "machine has {:.1f}; a smaller --size, --crop or --strategies-depth needs less",
+                        strategies, window.width(), window.height(), needed / kGiB, available / kGiB));
+}
+
+/// A row for each length of path.
+std::vector<std::vector<LabelledImage>> make_rows(std::span<const StrategyImage> images, const DisplayView& view,
+                                                  const ColorConfig& colors) {
+    std::vector<std::vector<LabelledImage>> rows;
+    for (std::size_t i = 0; i < images.size(); ++i) {
+        const auto& [strategy, rgba] = images[i];
+        if (i == 0 || images[i - 1].strategy.edges() != strategy.edges()) rows.emplace_back();
+        rows.back().push_back(
+            {strategy_label(strategy), display_image(scale_down(rgba, kThumbnailWidth), view, colors)});
+    }
+    return rows;
+}
+
+}  // namespace
+
+std::string strategy_label(const Strategy& strategy) {
+    return fmt::format("({},{})", strategy.s, strategy.t);
+}
+
+void check_strategies_request(const StrategiesRequest& request, const OutputPaths& image,
+                              const RenderSettings& settings, const RenderOptions& options, PixelDepth depth) {
+    require_other_files(image, OutputPaths::beside(request.output));
+    const PathLengths lengths{settings.integrator.max_depth, settings.integrator.min_depth};
+    const std::size_t count = shown_strategies(request, lengths).size();
+    if (count == 0)
+        throw UsageError(fmt::format(
+            "--strategies-image shows paths of up to {} edges, and with {} of {} none of them is kept: raise "
+            "--strategies-depth or lower --min-depth",
+            longest_shown(request, lengths), settings.at("/integrator/min_depth").str(), lengths.min_depth));
+    require_memory(count, options.window, depth);
+}
+
+void write_strategies_image(const StrategiesRequest& request, const World& world, const IntegratorOptions& integrator,
+                            const RenderOptions& options, OutputFrame frame, const ColorConfig& colors,
+                            PixelDepth depth, const ThreadPool& threads, const std::string& title, bool quiet) {
+    const PathLengths& lengths = integrator.lengths;
+    const int longest = longest_shown(request, lengths);
+    if (longest < lengths.max_depth && !quiet)
+        log_warning("note: {} shows the strategies of paths of up to {} edges, of {}; --strategies-depth shows more",
+                    request.output.string(), longest, lengths.max_depth);
+    IntegratorOptions one = integrator;
+    one.weighted = request.weighted;
+    ProgressDisplay display(title + " strategies", quiet);
+    const std::vector<Strategy> wanted = shown_strategies(request, lengths);
+    std::vector<StrategyImage> images =
+        render_strategies(world, one, wanted, options, threads, interrupt_requested(),
+                          [&](const RenderProgress& progress) { display.update(progress); });
+    if (images.size() < wanted.size()) return;
+    if (!frame.output_space.empty() && frame.output_space != frame.working_space) {
+        // In place, since there is no room for another of each.
+        for (StrategyImage& image : images) convert_space(image.rgba, frame.working_space, frame.output_space, colors);
+        frame.working_space = frame.output_space;
+    }
+    ExrDriver(request.output, colors, depth).write_parts(frame, strategy_parts(images));
+    const DisplayView view =
+        with_defaults({frame.working_space, frame.display, frame.view, frame.look, frame.exposure}, colors);
+    ImageWriteOptions png;
+    png.depth = PixelDepth::UInt8;
+    png.attributes = display_attributes(view);
+    write_image(std::filesystem::path(request.output).replace_extension(".png"),
+                make_contact_sheet(make_rows(images, view, colors)), png);
+}
+
+}  // namespace etendue

@@ -1,0 +1,99 @@
+#include "batch/batch_page.h"
+
+#include "core/error.h"
+#include "image/write.h"
+#include "program/small_files.h"
+
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace etendue {
+
+namespace {
+
+using Json = nlohmann::json;
+using test::TestFolder;
+
+/// What no encoder makes small.
+ImageF noise(int width, int height) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> values;
+    ImageF image(width, height, 3);
+    for (float& value : image.pixels) value = values(random);
+    return image;
+}
+
+BatchReport report_of(const std::vector<std::string>& names) {
+    BatchReport report;
+    report.title = "out";
+    for (const std::string& name : names) {
+        BatchUnit unit;
+        unit.name = name;
+        unit.image = name + ".exr";
+        unit.outcome = UnitOutcome::Rendered;
+        report.units.push_back(unit);
+    }
+    return report;
+}
+
+Json images_of(const std::filesystem::path& page) {
+    const std::string text = test::read_file(page);
+    const std::size_t begin = text.find('>', text.find("id=\"thumbnails\" type")) + 1;
+    return Json::parse(text.substr(begin, text.find("</script>", begin) - begin));
+}
+
+TEST(BatchReportFiles, HoldThumbnailsOfTheImages) {
+    const TestFolder folder;
+    write_image(folder / "large.png", noise(900, 500), {.depth = PixelDepth::UInt8});
+    write_image(folder / "tall.png", noise(40, 2000), {.depth = PixelDepth::UInt8});
+    write_batch_report(report_of({"large", "tall"}), folder.path());
+    EXPECT_EQ(Json::parse(test::read_file(folder / "report.json"))["units"].size(), 2u);
+    const Json images = images_of(folder / "index.html");
+    for (const Json& unit : images["units"]) {
+        const auto url = unit.at("thumbnail").get<std::string>();
+        EXPECT_TRUE(url.starts_with("data:image/jpeg;base64,"));
+        EXPECT_LT(url.size(), 20'000u * 4 / 3 + 40);
+        EXPECT_GT(url.size(), 1'000u);
+    }
+    EXPECT_EQ(images["note"], "");
+}
+
+TEST(BatchReportFiles, ImagesThatCannotBeReadLeaveAnEmptyPlace) {
+    const TestFolder folder;
+    write_image(folder / "whole.png", noise(30, 30), {.depth = PixelDepth::UInt8});
+    test::write_file(folder / "broken.png", "\x89PNG\r\n\x1a\n and no more");
+    write_batch_report(report_of({"missing", "broken", "whole"}), folder.path());
+    const Json units = images_of(folder / "index.html")["units"];
+    EXPECT_FALSE(units[0].contains("thumbnail"));
+    EXPECT_FALSE(units[1].contains("thumbnail"));
+    EXPECT_TRUE(units[2].contains("thumbnail"));
+}
+
+TEST(BatchReportFiles, WhatFailedShowsNoOlderImage) {
+    const TestFolder folder;
+    write_image(folder / "old.png", noise(30, 30), {.depth = PixelDepth::UInt8});
+    BatchReport report = report_of({"old"});
+    report.units[0].outcome = UnitOutcome::Failed;
+    write_batch_report(report, folder.path());
+    EXPECT_TRUE(images_of(folder / "index.html")["units"][0].empty());
+}
+
+TEST(BatchReportFiles, TooManyImagesHaveNoThumbnailsAndThePageSaysSo) {
+    const TestFolder folder;
+    write_batch_report(report_of(std::vector<std::string>(30'000, "missing")), folder.path());
+    const Json images = images_of(folder / "index.html");
+    EXPECT_NE(images["note"].get<std::string>().find("too many"), std::string::npos);
+}
+
+TEST(BatchReportFiles, AreNotWrittenWhereTheyCannotBe) {
+    const TestFolder folder;
+    EXPECT_THROW(write_batch_report(report_of({}), folder / "missing"), IoError);
+}
+
+}  // namespace
+
+}  // namespace etendue

@@ -1,0 +1,132 @@
+#include "batch/batch_plan.h"
+
+#include "program/small_files.h"
+#include "session/input_files.h"
+#include "session/prepared_scene.h"
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace etendue::test {
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+class BatchPlanTest : public testing::Test {
+  protected:
+    BatchPlanTest() {
+        write_scene(folder_ / "scene");
+        unit_.task = {.job = {.scene = folder_ / "scene", .output = folder_ / "box.exr", .name = "box", .frame = {}},
+                      .render_output = folder_ / "box.exr",
+                      .id = "box"};
+    }
+    /// As if it had been rendered with the options.
+    void render(bool complete = true) {
+        auto prepared = prepare_scene(folder_ / "scene", options_.overrides);
+        hash_inputs(prepared.scene, prepared.inputs);
+        json inputs = json::array();
+        for (const InputFile& file : prepared.inputs)
+            inputs.push_back(
+                {{"path", file.path}, {"size", file.size}, {"modified", file.modified}, {"content", file.content}});
+        write_file(folder_ / "box.exr", "exr");
+        write_file(folder_ / "box.png", "png");
+        write_file(folder_ / "box.json",
+                   json{{"complete", complete},
+                        {"inputs", inputs},
+                        {"spp", {{"done", 12}, {"requested", 48}}},
+                        {"settings_hash", settings_hash(prepared.scene, options_.overrides.depth)}}
+                       .dump());
+    }
+    static void age(const fs::path& file, int seconds) {
+        fs::last_write_time(file, fs::file_time_type::clock::now() - std::chrono::seconds(seconds));
+    }
+    std::string reason(bool force = false) {
+        LedgerHistory history(folder_ / "ledger.jsonl");
+        history.read_new();
+        examine(unit_, options_, force, history);
+        return unit_.reason;
+    }
+
+    TestFolder folder_;
+    BatchOptions options_{};
+    PlannedUnit unit_{};
+};
+
+TEST_F(BatchPlanTest, SaysWhyAnImageIsStale) {
+    EXPECT_EQ(reason(), "never rendered");
+    render();
+    EXPECT_EQ(reason(), "");
+    EXPECT_EQ(reason(true), kForced);
+    age(folder_ / "scene/triangle.bin", -10);
+    EXPECT_EQ(reason(), "") << "another time is not another content";
+    write_file(folder_ / "scene/triangle.bin", read_file(folder_ / "scene/triangle.bin") + "more");
+    EXPECT_EQ(reason(), "input triangle.bin has changed");
+    render();
+    options_.overrides.spp = 7;
+    EXPECT_EQ(reason(), "settings changed");
+    render();
+    EXPECT_EQ(reason(), "");
+    fs::remove(folder_ / "box.png");
+    EXPECT_EQ(reason(), "box.png is missing");
+    render();
+    write_file(folder_ / "scene/scene.gltf", "broken");
+    EXPECT_EQ(reason(), "input scene.gltf has changed") << "it is not loaded here";
+}
+
+TEST_F(BatchPlanTest, SaysWhatCanBeGoneOnWith) {
+    render(false);
+    EXPECT_EQ(reason(), "was interrupted at 12 of 48 spp");
+    EXPECT_EQ(unit_.done, 0.0) << "nothing was kept of it";
+    write_file(folder_ / "box.checkpoint", "");
+    EXPECT_EQ(reason(), "was interrupted at 12 of 48 spp, goes on from a checkpoint");
+    EXPECT_EQ(unit_.done, 0.25);
+    fs::remove(folder_ / "box.exr");
+    fs::remove(folder_ / "box.png");
+    fs::remove(folder_ / "box.json");
+    EXPECT_EQ(reason(), "was interrupted, goes on from a checkpoint");
+    const BatchLedger ledger(folder_ / "ledger.jsonl");
+    ledger.append({.kind = LedgerEventKind::UnitFailed, .unit = "box"});
+    EXPECT_EQ(reason(), "failed last time, goes on from a checkpoint");
+    fs::remove(folder_ / "box.checkpoint");
+    EXPECT_EQ(reason(), "failed last time");
+    ledger.append({.kind = LedgerEventKind::UnitFinished, .unit = "box"});
+    EXPECT_EQ(reason(), "never rendered") << "somebody has removed the image";
+}
+
+TEST_F(BatchPlanTest, TellsTwoStatesOfAFileApart) {
+    const fs::path file = folder_ / "file";
+    EXPECT_EQ(FileStamp::of(file), FileStamp{});
+    write_file(file, "a");
+    const FileStamp first = FileStamp::of(file);
+    EXPECT_EQ(FileStamp::of(file), first);
+    age(file, 7);
+    EXPECT_NE(FileStamp::of(file), first);
+    EXPECT_NE(first, FileStamp{});
+}
+
+TEST_F(BatchPlanTest, IsSummedUp) {
+    BatchPlan plan(4, unit_);
+    EXPECT_EQ(summary(plan), "4 images, all up to date");
+    plan[0].reason = "never rendered";
+    plan[1].reason = "settings changed";
+    plan[2].reason = "never rendered";
+    EXPECT_EQ(summary(plan), "3 of 4 images to render: 2 never rendered; 1 settings changed");
+    for (int i = 0; i < 3; ++i) plan[static_cast<std::size_t>(i)].estimated_seconds = 40.0;
+    EXPECT_EQ(summary(plan), "3 of 4 images to render, about 2:00: 2 never rendered; 1 settings changed");
+    EXPECT_EQ(totals(plan).seconds, 120.0);
+    const json all = json::parse(to_json(plan));
+    EXPECT_EQ(all["stale"], 3);
+    EXPECT_EQ(all["units"][1]["reason"], "settings changed");
+    EXPECT_EQ(all["units"][3]["stale"], false);
+    EXPECT_NE(to_table(plan).find("3 of 4 images to render, about 2:00\n"), std::string::npos) << to_table(plan);
+}
+
+}  // namespace
+
+}  // namespace etendue::test

@@ -1,0 +1,69 @@
+#include "batch/batch_progress.h"
+
+#include <optional>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace etendue::test {
+
+namespace {
+
+constexpr std::nullopt_t kNotKnown = std::nullopt;
+
+TEST(TimeLeft, IsTheSumOfTheEstimates) {
+    TimeLeft time;
+    time.add(10.0);
+    time.add(30.0);
+    EXPECT_EQ(time.left(0.0, 0.0), 40.0);
+    time.begin(10.0);
+    EXPECT_EQ(time.left(0.0, 0.0), 40.0);
+    EXPECT_EQ(time.left(4.0, 0.01), 36.0);
+}
+
+TEST(TimeLeft, IsCorrectedByWhatHasFinished) {
+    TimeLeft time;
+    time.add(10.0);
+    time.add(30.0);
+    time.begin(10.0);
+    time.end(20.0);
+    EXPECT_EQ(time.left(0.0, 0.0), 60.0) << "it all takes twice as long";
+    time.begin(30.0);
+    EXPECT_EQ(time.left(15.0, 0.01), 45.0);
+    EXPECT_EQ(time.left(15.0, 0.5), 15.0) << "the image under way knows better";
+    EXPECT_EQ(time.left(100.0, 0.01), 0.0) << "never less than nothing";
+}
+
+TEST(TimeLeft, WithoutEstimatesIsTheMeanOfWhatHasFinished) {
+    TimeLeft time;
+    for (int i = 0; i < 3; ++i) time.add(kNotKnown);
+    EXPECT_EQ(time.left(0.0, 0.0), kNotKnown);
+    time.begin(kNotKnown);
+    EXPECT_EQ(time.left(1.0, 0.01), kNotKnown);
+    EXPECT_EQ(time.left(1.0, 0.25), 3.0 + 2 * 4.0) << "by the image under way";
+    time.end(6.0);
+    EXPECT_EQ(time.left(0.0, 0.0), 12.0);
+    time.begin(kNotKnown);
+    time.end(kNotKnown);
+    EXPECT_EQ(time.left(0.0, 0.0), 6.0) << "one that failed at once says nothing";
+}
+
+TEST(FormatLine, TellsHowFarTheBatchIs) {
+    const BatchProgressLine line{
+        .done = 12, .failed = 1, .of = 40, .current = "box frame 7", .state = "43%", .elapsed = 62.0, .left = 750.0};
+    EXPECT_EQ(format_line(line, 100), "[12/40, 1 failed] box frame 7: 43%  1:02 elapsed, 12:30 left");
+    EXPECT_EQ(format_line({.done = 1, .of = 3, .current = "box", .state = "load"}, 100),
+              "[1/3] box: load  0.0 s elapsed");
+}
+
+TEST(FormatLine, FitsTheTerminalAndKeepsTheEndOfTheName) {
+    const BatchProgressLine line{.done = 1, .of = 3, .current = "a/very/long/name frame 7", .state = "43%"};
+    const std::string whole = format_line(line, 200);
+    for (int width = 0; width < 200; ++width)
+        EXPECT_LE(format_line(line, width).size(), static_cast<std::size_t>(width)) << width;
+    EXPECT_EQ(format_line(line, static_cast<int>(whole.size()) - 1).substr(0, 29), "[1/3] ...ry/long/name frame 7");
+}
+
+}  // namespace
+
+}  // namespace etendue::test

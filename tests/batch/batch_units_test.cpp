@@ -1,0 +1,131 @@
+#include "batch/batch_units.h"
+
+#include "core/error.h"
+#include "program/small_files.h"
+
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace etendue::test {
+
+namespace {
+
+using Names = std::vector<std::string>;
+
+class BatchUnits : public testing::Test {
+  protected:
+    BatchUnits() {
+        options_.roots = {(folder_ / "scenes").string()};
+        options_.output = "out";
+    }
+    [[nodiscard]] std::vector<BatchTask> collect(const Names& variants = {}) const {
+        return collect_tasks(options_, [&](const std::filesystem::path&) { return variants; });
+    }
+    [[nodiscard]] static Names images(const std::vector<BatchTask>& tasks) {
+        Names names;
+        for (const BatchTask& task : tasks) names.push_back(task.job.output.string());
+        return names;
+    }
+
+    TestFolder folder_;
+    BatchOptions options_;
+};
+
+TEST_F(BatchUnits, AreOneForEachSceneAndFrame) {
+    write_scene(folder_ / "scenes/a/still");
+    write_scene(folder_ / "scenes/moving", R"("frames": [3, 9, 4],)");
+    const std::vector<BatchTask> tasks = collect({"red"});
+    EXPECT_EQ(images(tasks), (Names{"out/a/still.exr", "out/moving.0003.exr", "out/moving.0007.exr"}));
+    EXPECT_EQ(tasks[2].id, "moving.0007");
+    EXPECT_EQ(tasks[2].render_output, "out/moving.exr");
+    EXPECT_EQ(tasks[2].job.frame, 7);
+    EXPECT_FALSE(tasks[2].job.variant) << "they were not asked for";
+}
+
+TEST_F(BatchUnits, AreOneForEachVariantIfAsked) {
+    write_scene(folder_ / "scenes/shoe");
+    options_.all_variants = true;
+    EXPECT_EQ(images(collect()), Names{"out/shoe.exr"});
+    options_.overrides.frames = FrameRange{1, 2, 1};
+    const std::vector<BatchTask> tasks = collect({"red", "blue"});
+    EXPECT_EQ(images(tasks), (Names{"out/shoe.red.0001.exr", "out/shoe.red.0002.exr", "out/shoe.blue.0001.exr",
+                                    "out/shoe.blue.0002.exr"}));
+    EXPECT_EQ(tasks[1].job.variant, "red");
+    EXPECT_EQ(tasks[1].job.name, "shoe variant red frame 2");
+    EXPECT_EQ(tasks[1].render_output, "out/shoe.red.exr");
+}
+
+TEST_F(BatchUnits, HaveFileNamesOfTheirOwnWhateverVariantsAreCalled) {
+    write_scene(folder_ / "scenes/shoe");
+    options_.all_variants = true;
+    EXPECT_EQ(images(collect({"a/b", "a#b", "a_b", "a/b", "", "../..", "\n"})),
+              (Names{"out/shoe.a_b.exr", "out/shoe.a_b-2.exr", "out/shoe.a_b-3.exr", "out/shoe..exr",
+                     "out/shoe..._...exr", "out/shoe._.exr"}));
+    EXPECT_LT(images(collect({std::string(1000, 'x')})).front().size(), 200u);
+}
+
+TEST_F(BatchUnits, OfOneFileAreAnError) {
+    write_scene(folder_ / "scenes/shoe.red");
+    write_scene(folder_ / "scenes/shoe");
+    options_.all_variants = true;
+    EXPECT_EQ(collect().size(), 2u);
+    EXPECT_THROW((void)collect_tasks(options_,
+                                     [](const std::filesystem::path& scene) {
+                                         return scene.extension() == ".red" ? Names{} : Names{"red"};
+                                     }),
+                 SceneError);
+}
+
+TEST_F(BatchUnits, WriteNoLayerOverAnImage) {
+    for (const char* name : {"a", "a.deep", "a.depth", "a.v2"}) write_scene(folder_ / "scenes" / name);
+    EXPECT_EQ(collect().size(), 4u) << "without layers that have files of their own";
+    options_.overrides.deep = true;
+    EXPECT_THROW((void)collect(), SceneError);
+    std::filesystem::remove_all(folder_ / "scenes/a.deep");
+    EXPECT_EQ(collect().size(), 3u);
+    options_.overrides.aovs = {{.name = "depth", .source = "depth", .is_float = {}, .location = {}}};
+    EXPECT_EQ(collect().size(), 3u) << "in the image's own file";
+    options_.overrides.aov_layout = AovLayout::Files;
+    try {
+        (void)collect();
+        ADD_FAILURE() << "a.depth.exr has two images";
+    } catch (const SceneError& error) {
+        EXPECT_NE(std::string(error.what()).find("two files would be written to 'out/a.depth.exr'"), std::string::npos)
+            << error.what();
+    }
+    std::filesystem::remove_all(folder_ / "scenes/a.depth");
+    options_.overrides.aovs = {{.name = "denoising", .source = "denoising", .is_float = {}, .location = {}}};
+    EXPECT_EQ(collect().size(), 2u);
+    write_scene(folder_ / "scenes/a.half.N");
+    EXPECT_THROW((void)collect(), SceneError);
+}
+
+TEST_F(BatchUnits, WriteNoPreviewOverAnImage) {
+    write_scene(folder_ / "scenes/a");
+    write_scene(folder_ / "scenes/a.preview");
+    EXPECT_THROW((void)collect(), SceneError);
+}
+
+TEST_F(BatchUnits, AreCutBetweenCharactersOfVariants) {
+    write_scene(folder_ / "scenes/shoe");
+    options_.all_variants = true;
+    EXPECT_EQ(images(collect({std::string(99, 'x') + "é", "a\u009b\u202e"})),
+              (Names{"out/shoe." + std::string(99, 'x') + ".exr", "out/shoe.a__.exr"}));
+}
+
+TEST_F(BatchUnits, AreNoneOfVariantsThatNoCommandLineCanName) {
+    write_scene(folder_ / "scenes/shoe");
+    options_.all_variants = true;
+    EXPECT_THROW((void)collect({std::string("a\0b", 3)}), SceneError);
+}
+
+TEST_F(BatchUnits, MayNotTakeThePlaceOfTheReport) {
+    write_scene(folder_ / "scenes/report");
+    EXPECT_THROW((void)collect(), SceneError);
+}
+
+}  // namespace
+
+}  // namespace etendue::test

@@ -1,0 +1,63 @@
+#include "farm/slurm_script.h"
+
+#include "farm/slurm.h"
+#include "process/run_command.h"
+#include "program/small_files.h"
+#include "session/usage_error.h"
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace etendue::test {
+
+namespace {
+
+const JobArray kArray{"render-3", {90, 2048}, {"true", "false"}, ArrayWait::No, {}};
+
+TEST(SlurmScript, SaysWhatSlurmIsToDo) {
+    const std::string script =
+        slurm_script(kArray, "etendue-x-render-3", {.threads = 8, .max_running = 0, .options = {}});
+    EXPECT_TRUE(script.starts_with("#!/bin/bash\n"));
+    for (const char* line :
+         {"--job-name=etendue-x-render-3", "--array=0-1", "--cpus-per-task=8", "--mem=2048M", "--time=90", "--requeue",
+          "--output=logs/render-3.%a.log", "--open-mode=append", "--signal=B:USR2@60"})
+        EXPECT_NE(script.find(std::string("\n#SBATCH ") + line + "\n"), std::string::npos) << line << "\n" << script;
+    EXPECT_NE(script.find("tasks=render-3.tasks\n"), std::string::npos);
+    const TestFolder folder;
+    write_file(folder / "script.sh", script);
+    const CommandResult check = run_command({"bash", "-n", (folder / "script.sh").string()});
+    EXPECT_EQ(check.exit_code, 0) << check.err;
+}
+
+TEST(SlurmScript, TakesOptionsOfTheClusterButNothingElse) {
+    const std::string script =
+        slurm_script(kArray, "n", {.threads = 1, .max_running = 5, .options = {"--partition=short", "--qos=a.b"}});
+    EXPECT_NE(script.find("#SBATCH --array=0-1%5\n"), std::string::npos);
+    EXPECT_NE(script.find("\n#SBATCH --partition=short\n#SBATCH --qos=a.b\nset -u\n"), std::string::npos) << script;
+    for (const char* bad :
+         {"partition", "-p x", "--x=a b", "--x=$(run)", "--x\nrm -rf /", "--x=`run`", "--x='", "--x#"})
+        EXPECT_THROW((void)slurm_script(kArray, "n", {.threads = 1, .max_running = 0, .options = {bad}}), UsageError)
+            << bad;
+}
+
+TEST(Slurm, TasksAreReadFromItsList) {
+    const std::vector<SlurmTask> tasks = parse_squeue(
+        "etendue-x-render-0|3|PENDING|Priority\n"
+        "etendue-x-merge-1|12|PENDING|DependencyNeverSatisfied\n"
+        "  etendue-x-render-0|4|RUNNING|None  \n"
+        "a|strange|name|7|RUNNING|None\n"
+        "no array|N/A|RUNNING|None\n"
+        "half a line|\n"
+        "\n");
+    ASSERT_EQ(tasks.size(), 4u);
+    EXPECT_EQ(tasks[0].job_name, "etendue-x-render-0");
+    EXPECT_EQ(tasks[0].index, 3u);
+    EXPECT_EQ(tasks[1].reason, "DependencyNeverSatisfied");
+    EXPECT_EQ(tasks[2].state, "RUNNING");
+    EXPECT_EQ(tasks[3].job_name, "a|strange|name");
+}
+
+}  // namespace
+
+}  // namespace etendue::test

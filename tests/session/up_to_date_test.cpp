@@ -1,0 +1,165 @@
+#include "session/up_to_date.h"
+
+#include "program/small_files.h"
+#include "session/input_files.h"
+#include "session/prepared_scene.h"
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace etendue::test {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+class UpToDate : public testing::Test {
+  protected:
+    void SetUp() override {
+        write_scene(folder_ / "box");
+        write_file(output_.exr, "exr");
+        write_file(output_.png, "png");
+        write_report();
+    }
+    [[nodiscard]] static RenderStatistics complete() {
+        RenderStatistics statistics;
+        statistics.settings_hash = "abc";
+        return statistics;
+    }
+    void write_report(RenderStatistics statistics = complete()) {
+        PreparedScene prepared = prepare_scene(scene_, {});
+        hash_inputs(prepared.scene, prepared.inputs);
+        statistics.inputs = prepared.inputs;
+        write_file(output_.json, to_json(statistics));
+    }
+    static void age(const fs::path& file, int seconds) {
+        fs::last_write_time(file, fs::file_time_type::clock::now() - std::chrono::seconds(seconds));
+    }
+    /// Why the image is to be rendered again; empty if it is not.
+    [[nodiscard]] std::string reason(const std::string& hash = "abc") const {
+        if (const auto stale = why_unfinished(output_)) return stale->reason;
+        if (const auto stale = why_outdated(output_, scene_)) return stale->reason;
+        const PreparedScene prepared = prepare_scene(scene_, {});
+        EXPECT_EQ(is_up_to_date(output_, scene_, prepared.scene, hash), !why_outdated(output_, prepared.scene, hash));
+        const auto stale = why_outdated(output_, prepared.scene, hash);
+        return stale ? stale->reason : "";
+    }
+
+    TestFolder folder_;
+    fs::path scene_ = folder_ / "box";
+    fs::path bin_ = scene_ / "triangle.bin";
+    OutputPaths output_ = OutputPaths::beside(folder_ / "image.exr");
+};
+
+TEST_F(UpToDate, WhenMadeOfTheSameFilesWithTheSameSettings) {
+    EXPECT_EQ(reason(), "");
+    EXPECT_EQ(reason("abd"), "settings changed");
+    EXPECT_EQ(reason(""), "settings changed");
+}
+
+TEST_F(UpToDate, NotWhenAnInputHasAnotherContentHoweverOldItIs) {
+    const std::string content = read_file(bin_);
+    std::string other = content;
+    other.back() = static_cast<char>(other.back() ^ 1);
+    for (const int seconds : {-100, 10, 100'000}) {
+        write_file(bin_, other);
+        age(bin_, seconds);
+        EXPECT_EQ(reason(), "input triangle.bin has changed") << seconds;
+        write_file(bin_, content);
+        age(bin_, seconds);
+        EXPECT_EQ(reason(), "") << "the same content at another time, " << seconds;
+    }
+    write_file(bin_, content + "x");
+    EXPECT_EQ(reason(), "input triangle.bin has changed");
+}
+
+TEST_F(UpToDate, NotWhenAnInputChangedWhileItWasRead) {
+    PreparedScene prepared = prepare_scene(scene_, {});
+    const std::string content = read_file(bin_);
+    write_file(bin_, content);
+    age(bin_, 1);  // the same, but who knows what was there when it was read
+    hash_inputs(prepared.scene, prepared.inputs);
+    RenderStatistics statistics = complete();
+    statistics.inputs = prepared.inputs;
+    write_file(output_.json, to_json(statistics));
+    EXPECT_EQ(reason(), "input triangle.bin changed while the image was made of it");
+    for (const InputFile& file : stamp_inputs(prepared.scene, fs::file_time_type::min())) EXPECT_EQ(file.modified, 0);
+}
+
+TEST_F(UpToDate, NotWhenThereAreNewInputs) {
+    const std::string settings = read_file(scene_ / "render.json");
+    fs::remove(scene_ / "render.json");
+    write_report();
+    EXPECT_EQ(reason(), "");
+    write_file(scene_ / "render.json", settings);
+    EXPECT_EQ(reason(), "input render.json is new");
+}
+
+TEST_F(UpToDate, NotWhenATextureIsThereThatWasMissingOrBroken) {
+    name_missing_texture(scene_);
+    write_report();
+    EXPECT_EQ(reason(), "");
+    write_file(scene_ / "missing.hdr", "no image");
+    EXPECT_EQ(reason(), "") << "materials do without it still";
+    write_file(scene_ / "missing.hdr", hdr_bytes());
+    EXPECT_EQ(reason(), "input missing.hdr is new");
+    write_report();
+    EXPECT_EQ(reason(), "");
+    fs::remove(scene_ / "missing.hdr");
+    EXPECT_EQ(reason(), "input missing.hdr is missing");
+}
+
+TEST_F(UpToDate, AlsoWhereTheSceneHasBeenMovedOrCopied) {
+    fs::rename(scene_, folder_ / "moved");
+    scene_ = folder_ / "moved";
+    EXPECT_EQ(reason(), "");
+    fs::copy(scene_, folder_ / "copied", fs::copy_options::recursive);
+    EXPECT_FALSE(why_outdated(output_, folder_ / "copied" / "scene.gltf"));
+}
+
+TEST_F(UpToDate, NotWhenAFileIsMissing) {
+    for (const fs::path& file : {output_.exr, output_.png, output_.json, bin_}) {
+        const fs::path away = folder_ / "away";
+        fs::rename(file, away);
+        EXPECT_EQ(reason(), file == bin_ ? "input triangle.bin is missing" : file.filename().string() + " is missing");
+        fs::rename(away, file);
+        EXPECT_EQ(reason(), "");
+    }
+}
+
+TEST_F(UpToDate, NotWhenAFileOfALayerIsMissing) {
+    RenderStatistics statistics = complete();
+    statistics.layer_files = {"image.depth.exr"};
+    write_report(statistics);
+    EXPECT_EQ(reason(), "image.depth.exr is missing");
+    write_file(folder_ / "image.depth.exr", "exr");
+    EXPECT_EQ(reason(), "");
+}
+
+TEST_F(UpToDate, NotWhenTheRenderWasCutShortOrItsReportIsForeign) {
+    RenderStatistics statistics = complete();
+    statistics.complete = false;
+    write_report(statistics);
+    EXPECT_EQ(reason(), "was not finished");
+    for (const char* text : {"", "{", "[]", "null", "{}", R"({"complete": true})", R"({"settings_hash": "abc"})",
+                             R"({"complete": 1, "settings_hash": "abc"})", R"({"complete": true, "settings_hash": 7})",
+                             R"({"complete": true, "settings_hash": "abc", "inputs": 3})",
+                             R"({"complete": true, "settings_hash": "abc", "inputs": [3]})"}) {
+        write_file(output_.json, text);
+        EXPECT_NE(reason(), "") << text;
+    }
+}
+
+TEST(OutputPaths, StandBesideTheExr) {
+    const OutputPaths paths = OutputPaths::beside("some.dir/image.v2.exr");
+    EXPECT_EQ(paths.exr, "some.dir/image.v2.exr");
+    EXPECT_EQ(paths.png, "some.dir/image.v2.png");
+    EXPECT_EQ(paths.json, "some.dir/image.v2.json");
+}
+
+}  // namespace
+
+}  // namespace etendue::test
