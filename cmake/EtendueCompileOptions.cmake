@@ -34,6 +34,9 @@ if(ETENDUE_SANITIZERS)
   set(ETENDUE_QUICK_OPTIONS -Og)  # nearly as quick as -O0, after which g++ 12 forgets what it was told of headers
 elseif(NOT CMAKE_BUILD_TYPE STREQUAL "Debug")
   set(ETENDUE_QUICK_OPTIONS -O1)
+  if(ETENDUE_QUICK_BUILD)
+    list(APPEND ETENDUE_QUICK_OPTIONS -D_GLIBCXX_ASSERTIONS)
+  endif()
 endif()
 
 # etendue_compile_singly(<target>...)
