@@ -35,7 +35,7 @@ add_custom_target(uninstall
   COMMAND "${CMAKE_COMMAND}" -D "build=${PROJECT_BINARY_DIR}" -P "${PROJECT_SOURCE_DIR}/cmake/uninstall.cmake"
   COMMENT "Removing what was installed" VERBATIM)
 
-# tools/package makes Debian packages of it.
+# tools/dev/package makes Debian packages of it.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME etendue)
 set(CPACK_PACKAGE_CONTACT "The Etendue authors <etendue@localhost>")

@@ -1,7 +1,7 @@
 # etendue_room(<name> SOURCES ... [DEPENDS room...] [PUBLIC target...] [PRIVATE target...] [QUICKLY])
 #
 # One static library per folder of src/. DEPENDS lists other rooms and is the architecture table of src/README.md in
-# executable form: a room that is not listed cannot be linked, and tools/check_includes.py checks headers against the same
+# executable form: a room that is not listed cannot be linked, and tools/dev/check_includes.py checks headers against the same
 # table. Third-party targets go to PRIVATE unless the room's headers include them. QUICKLY: it is optimised little.
 function(etendue_room name)
   cmake_parse_arguments(ARG "QUICKLY" "" "SOURCES;DEPENDS;PUBLIC;PRIVATE" ${ARGN})

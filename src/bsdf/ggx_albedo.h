@@ -2,7 +2,7 @@
 // times between the microfacets, which the lobes put back (Kulla and Conty, "Revisiting Physically Based Shading at
 // Imageworks", SIGGRAPH 2017 course).
 //
-// Tables are computed while the project is built, by tools/make_ggx_albedo.cpp.
+// Tables are computed while the project is built, by tools/gen/make_ggx_albedo.cpp.
 #pragma once
 
 namespace etendue {

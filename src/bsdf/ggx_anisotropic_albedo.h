@@ -1,6 +1,6 @@
 // Directional albedo of single scattering on anisotropic GGX surfaces (ggx_albedo.h has the isotropic ones).
 //
-// Tables are computed while the project is built, by tools/make_ggx_anisotropic_albedo.cpp.
+// Tables are computed while the project is built, by tools/gen/make_ggx_anisotropic_albedo.cpp.
 #pragma once
 
 #include "bsdf/ggx_albedo.h"

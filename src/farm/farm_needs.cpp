@@ -88,7 +88,7 @@ FilmSize film_size_of(const SceneDesc& scene) {
 }
 
 TaskNeeds merge_needs_of(const FilmSize& size, std::size_t parts) {
-    // The coefficients of docs/farm.md, which tools/farm-model has measured.
+    // The coefficients of docs/farm.md, which tools/lab/farm-model has measured.
     constexpr double kStart = 0.223;
     constexpr double kPerMegapixel = 0.32;
     constexpr double kPerMegapixelAndPart = 0.122;

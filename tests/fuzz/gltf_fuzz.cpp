@@ -2,7 +2,7 @@
 // or take memory without bound. Beside each lie the files of tests/fuzz/beside, which it may name; they stay as they
 // are.
 //
-// Usage: fuzz_gltf [libFuzzer options] CORPUS_DIRECTORY; tools/fuzz makes the corpus and runs it.
+// Usage: fuzz_gltf [libFuzzer options] CORPUS_DIRECTORY; tools/lab/fuzz makes the corpus and runs it.
 #include "loader/loader.h"
 
 #include <cstddef>

@@ -47,8 +47,8 @@ class SceneRegression : public testing::Test {
         }
         const ImageEstimate reference = read_reference(scene_);
         const ImageEstimate image = render_estimate(scene_, scene_.test, SampleSequence::Sobol, arguments_.seed);
-        ASSERT_EQ(image.mean.width, reference.mean.width) << "run tools/update_references";
-        ASSERT_EQ(image.mean.height, reference.mean.height) << "run tools/update_references";
+        ASSERT_EQ(image.mean.width, reference.mean.width) << "run tools/dev/update_references";
+        ASSERT_EQ(image.mean.height, reference.mean.height) << "run tools/dev/update_references";
         const BlockAgreement agreement = test_agreement(image, reference,
                                                         {.block_size = scene_.block_size,
                                                          .significance = kSignificance,
@@ -59,7 +59,7 @@ class SceneRegression : public testing::Test {
         FAIL() << agreement.str() << ".\n"
                << compute_error_metrics(image.mean, reference.mean).str()
                << write_difference(ETENDUE_REGRESSION_OUTPUT, std::string(scene_.name), image.mean, reference.mean)
-               << "\nIf the change is meant, look at the images, then run tools/update_references.";
+               << "\nIf the change is meant, look at the images, then run tools/dev/update_references.";
     }
 
   private:

@@ -14,12 +14,12 @@ struct Sampling {
     int spp = 32;     ///< of each render
 };
 
-/// Where scenes are: those for users, and what tools/make_material_rows.py makes.
+/// Where scenes are: those for users, and what tools/gen/make_material_rows.py makes.
 inline constexpr std::string_view kSceneDirectories[] = {ETENDUE_SCENES, ETENDUE_MATERIAL_ROWS};
 
 /// A scene of kSceneDirectories, seen small.
 ///
-/// To add one: a row in regression_scenes.cpp, then tools/update_references with a filter for its name.
+/// To add one: a row in regression_scenes.cpp, then tools/dev/update_references with a filter for its name.
 struct RegressionScene {
     std::string_view parent;  ///< one of kSceneDirectories
     std::string_view name;    ///< of the directory in it

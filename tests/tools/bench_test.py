@@ -1,4 +1,4 @@
-"""Tests of what tools/bench does with its measurements: laws through them, tables, plots, the page, the aims; and of the
+"""Tests of what tools/lab/bench does with its measurements: laws through them, tables, plots, the page, the aims; and of the
 scenes that it has generated."""
 
 import io
@@ -17,7 +17,7 @@ from pathlib import Path
 from unittest import mock
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "tests/bench")]
+sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "tools/lab"), str(ROOT / "tests/bench")]
 
 from benchmark import aims, curves, layers, machine, standard, threads  # noqa: E402
 from benchmark.fit import last_exponent, power_law, straight_line  # noqa: E402
@@ -28,7 +28,7 @@ from lib.page_blocks import with_block  # noqa: E402
 from make_large_glb import write_glb  # noqa: E402
 from tool_module import load_tool  # noqa: E402
 
-tool = load_tool("bench")
+tool = load_tool("lab/bench")
 
 SVG = "{http://www.w3.org/2000/svg}"
 

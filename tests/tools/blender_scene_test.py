@@ -1,4 +1,4 @@
-"""Tests of what tools/compare-cycles tells Blender, in whose place stands a dummy that takes note of it."""
+"""Tests of what tools/lab/compare-cycles tells Blender, in whose place stands a dummy that takes note of it."""
 
 import math
 import sys
@@ -8,7 +8,8 @@ from collections import defaultdict
 from pathlib import Path
 from unittest import mock
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools/lab"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools/gen"))
 
 BPY = mock.MagicMock()
 BPY.types.NodeSocket = type("NodeSocket", (), {})

@@ -1,4 +1,4 @@
-"""The page of a batch, in a browser: tools/check_batch_page on one that was made up by the program sample_batch.
+"""The page of a batch, in a browser: tools/ci/check_batch_page on one that was made up by the program sample_batch.
 
 Usage: check_batch_page_test.py SAMPLE_BATCH"""
 
@@ -7,7 +7,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-CHECK = Path(__file__).resolve().parents[2] / "tools/check_batch_page"
+CHECK = Path(__file__).resolve().parents[2] / "tools/ci/check_batch_page"
 NO_BROWSER = 2
 
 

@@ -1,4 +1,4 @@
-"""The page of a profile, in a browser: tools/check_profile_page on ones that were made up by the program sample_profile.
+"""The page of a profile, in a browser: tools/ci/check_profile_page on ones that were made up by the program sample_profile.
 
 Usage: check_profile_page_test.py SAMPLE_PROFILE"""
 
@@ -7,7 +7,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-CHECK = Path(__file__).resolve().parents[2] / "tools/check_profile_page"
+CHECK = Path(__file__).resolve().parents[2] / "tools/ci/check_profile_page"
 NO_BROWSER = 2
 
 

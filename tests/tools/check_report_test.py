@@ -1,4 +1,4 @@
-"""The report of a comparison, in a browser: tools/check_report on one that `etendue compare` makes.
+"""The report of a comparison, in a browser: tools/ci/check_report on one that `etendue compare` makes.
 
 Usage: check_report_test.py ETENDUE"""
 
@@ -8,7 +8,7 @@ import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-CHECK = ROOT / "tools/check_report"
+CHECK = ROOT / "tools/ci/check_report"
 NO_BROWSER = 2
 
 

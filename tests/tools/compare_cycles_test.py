@@ -1,4 +1,4 @@
-"""Tests of what tools/compare-cycles does outside of Blender: what it carries over and refuses, its images, its lobes."""
+"""Tests of what tools/lab/compare-cycles does outside of Blender: what it carries over and refuses, its images, its lobes."""
 
 import io
 import json
@@ -17,7 +17,7 @@ from pathlib import Path
 from unittest import mock
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
+sys.path[:0] = [str(ROOT / "tools" / folder) for folder in ("", "lab", "gen")]
 
 from cycles import lobes  # noqa: E402
 from cycles.height_field import make_height_field  # noqa: E402
@@ -26,7 +26,7 @@ from cycles.instancing import without_instancing  # noqa: E402
 from cycles.plan import NotComparable, make_plan  # noqa: E402
 from tool_module import load_tool  # noqa: E402
 
-tool = load_tool("compare-cycles")
+tool = load_tool("lab/compare-cycles")
 
 METALS = (ROOT / "src/bsdf/measured_metals.cpp").read_text()
 WHITE = {"name": "white", "pbrMetallicRoughness": {"metallicFactor": 0.0}}

@@ -1,4 +1,4 @@
-"""Tests of tools/make_material_rows.py: the rows are right, and their spheres and images are what they say."""
+"""Tests of tools/gen/make_material_rows.py: the rows are right, and their spheres and images are what they say."""
 
 import json
 import math
@@ -8,7 +8,7 @@ import zlib
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
+sys.path[:0] = [str(ROOT / "tools" / folder) for folder in ("", "lab", "gen")]
 
 from scenegen import check, mesh, vector  # noqa: E402
 from scenegen.rows import ROWS, textures  # noqa: E402

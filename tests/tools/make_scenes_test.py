@@ -1,4 +1,4 @@
-"""Tests of tools/make_scenes.py: the scenes are right, and each check sees what it is for."""
+"""Tests of tools/gen/make_scenes.py: the scenes are right, and each check sees what it is for."""
 
 import math
 import struct
@@ -8,7 +8,7 @@ import zlib
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
+sys.path[:0] = [str(ROOT / "tools" / folder) for folder in ("", "lab", "gen")]
 
 from scenegen import check, images, mesh, noise, patterns, sky, spectra, vector  # noqa: E402
 from scenegen.gltf import GltfWriter  # noqa: E402

@@ -1,4 +1,4 @@
-"""Tests of what tools/measure-lights refuses, and of what its figures are made of."""
+"""Tests of what tools/lab/measure-lights refuses, and of what its figures are made of."""
 
 import contextlib
 import io
@@ -9,7 +9,7 @@ from pathlib import Path
 
 from tool_module import load_tool
 
-tool = load_tool("measure-lights")
+tool = load_tool("lab/measure-lights")
 
 
 class Arguments(unittest.TestCase):

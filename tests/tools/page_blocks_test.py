@@ -7,7 +7,7 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
+sys.path[:0] = [str(ROOT / "tools" / folder) for folder in ("", "lab", "gen")]
 
 from lib.page_blocks import MarkerMissing, with_block, write_blocks  # noqa: E402
 from tool_module import load_tool  # noqa: E402
@@ -36,10 +36,12 @@ class Blocks(unittest.TestCase):
             self.assertEqual(file.read_text(encoding="utf-8"), f"– {BEGIN}\n\nnew\n\n{END}")
 
     def test_every_page_has_the_blocks_of_its_tool(self):
-        pages = {"torture": "docs/reliability.md"}
-        for name, blocks in {"compare-cycles": [""], "measure-lights": [""], "measure-denoising": [""],
-                             "measure-fireflies": [""], "measure-bdpt": [""], "measure-adaptive": [""], "torture": [""],
-                             "caustics": ["regions", "energy", "images", "pictures"], "farm-model": ["coefficients", "farm"]}.items():
+        pages = {"lab/torture": "docs/reliability.md"}
+        usual = ("compare-cycles", "measure-lights", "measure-denoising", "measure-fireflies", "measure-bdpt",
+                 "measure-adaptive", "torture")
+        for name, blocks in {**{f"lab/{name}": [""] for name in usual},
+                             "lab/caustics": ["regions", "energy", "images", "pictures"],
+                             "lab/farm-model": ["coefficients", "farm"]}.items():
             tool = load_tool(name)
             page = (ROOT / pages[name] if name in pages else tool.PAGE).read_text(encoding="utf-8")
             for block in blocks:

@@ -1,5 +1,5 @@
-// Writes the report of a batch that never was, for tools/check_batch_page: every outcome, names and errors that would
-// like to be markup, and as many units as are asked for.
+// Writes the report of a batch that never was, for tools/ci/check_batch_page: every outcome, names and errors that
+// would like to be markup, and as many units as are asked for.
 //
 // Usage: sample_batch DIRECTORY UNITS [PNG...]. The images are the files that are named, or else some that are made.
 #include "batch/batch_page.h"

@@ -1,4 +1,4 @@
-// Writes the report of a profile that never was, for tools/check_profile_page: figures as a renderer may have them,
+// Writes the report of a profile that never was, for tools/ci/check_profile_page: figures as a renderer may have them,
 // made up all the same, names that would like to be markup, and passes of tiles on as many threads as are asked for.
 //
 // Usage: sample_profile DIRECTORY THREADS [empty]. With `empty` next to nothing was measured.

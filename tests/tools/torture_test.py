@@ -1,4 +1,4 @@
-"""Tests of tools/torture: that it sees what it is for. With a program it also tortures that, in the quick way.
+"""Tests of tools/lab/torture: that it sees what it is for. With a program it also tortures that, in the quick way.
 
 Usage: torture_test.py [PROGRAM]"""
 
@@ -15,7 +15,7 @@ import zlib
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
+sys.path[:0] = [str(ROOT / "tools" / folder) for folder in ("", "lab", "gen")]
 
 from faults.batches import Batches, check_output  # noqa: E402
 from faults.corruption import Corruption, damage, torture_checkpoints  # noqa: E402
@@ -152,7 +152,7 @@ class Torture(unittest.TestCase):
 
     def test_the_program_withstands_it(self):
         # What it keeps when it fails goes with this test.
-        result = subprocess.run([sys.executable, "-B", ROOT / "tools/torture", "--quick", "--program", PROGRAM],
+        result = subprocess.run([sys.executable, "-B", ROOT / "tools/lab/torture", "--quick", "--program", PROGRAM],
                                 capture_output=True, text=True, check=False,
                                 env={**os.environ, "TMPDIR": str(self.folder)})
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)

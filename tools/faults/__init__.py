@@ -1,1 +1,0 @@
-"""The fault programme of docs/reliability.md, which tools/torture runs."""

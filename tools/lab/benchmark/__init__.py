@@ -1,0 +1,1 @@
+"""What tools/lab/bench is made of: measuring, fitting, tables and plots."""

@@ -1,0 +1,1 @@
+"""The fault programme of docs/reliability.md, which tools/lab/torture runs."""
