@@ -1,6 +1,7 @@
 #include "bsdf/metallic_roughness.h"
 
 #include "bsdf/metallic_roughness_layers.h"
+#include "bsdf/rough_diffuse.h"
 #include "sampling/warp.h"
 
 #include <algorithm>
@@ -28,13 +29,15 @@ UncoatedLayers layers_of(const MetallicRoughness& m, const Vec3f& wo) {
             wo};
 }
 
-BsdfParts evaluate_below(const UncoatedLayers& layers, const Vec3f& wo, const Vec3f& wi) {
+BsdfParts evaluate_below(const MetallicRoughness& m, const UncoatedLayers& layers, const Vec3f& wo, const Vec3f& wi) {
     const Vec3f mirrored{wi.x, wi.y, -wi.z};
     BsdfParts value;
     if (layers.p_diffuse_transmitted > 0.0f) {
         const float cosine_pdf = cosine_hemisphere_pdf_solid_angle(mirrored);
         const GgxAlbedo albedo_i = layers.reflection.albedo(mirrored);
         value.diffuse = layers.below.diffuse_transmitted * (layers.coupling_with(albedo_i, mirrored.z) * cosine_pdf);
+        if (m.diffuse_roughness > 0.0f)
+            value.diffuse *= rough_over_lambertian(m.diffuse_transmission_color, m.diffuse_roughness, wo, mirrored);
         value.pdf_solid_angle = layers.p_diffuse_transmitted * cosine_pdf;
     }
     if (layers.smooth || layers.p_transmitted == 0.0f) return value;
@@ -65,8 +68,11 @@ BsdfSample sample_smooth(const UncoatedLayers& layers, const Vec3f& wo, bool tra
     return {.wi = mirror_direction(wo), .weight = layers.fresnel(wo.z) / layers.p_specular, .is_delta = true};
 }
 
-BsdfParts evaluate_layers(const UncoatedLayers& layers, const Vec3f& wo, const Vec3f& wi) {
-    return wi.z > 0.0f ? layers.evaluate_above(wo, wi) : evaluate_below(layers, wo, wi);
+BsdfParts evaluate_layers(const MetallicRoughness& m, const UncoatedLayers& layers, const Vec3f& wo, const Vec3f& wi) {
+    if (wi.z < 0.0f) return evaluate_below(m, layers, wo, wi);
+    BsdfParts value = layers.evaluate_above(wo, wi);
+    if (m.diffuse_roughness > 0.0f) value.diffuse *= rough_over_lambertian(m.base, m.diffuse_roughness, wo, wi);
+    return value;
 }
 
 }  // namespace
@@ -77,7 +83,7 @@ bool MetallicRoughness::has_non_delta() const {
 
 BsdfParts MetallicRoughness::evaluate_parts(const Vec3f& wo, const Vec3f& wi) const {
     if (wo.z <= 0.0f || wi.z == 0.0f) return {};
-    return evaluate_layers(layers_of(*this, wo), wo, wi);
+    return evaluate_layers(*this, layers_of(*this, wo), wo, wi);
 }
 
 float MetallicRoughness::pdf_solid_angle(const Vec3f& wo, const Vec3f& wi) const {
@@ -115,7 +121,7 @@ BsdfSample MetallicRoughness::sample(const Vec3f& wo, float u_lobe, Vec2f u, Tra
         if (transmit) wi.z = -wi.z;
     }
     if (wi.z == 0.0f) return {};
-    const BsdfValue value = evaluate_layers(layers, wo, wi).sum();
+    const BsdfValue value = evaluate_layers(*this, layers, wo, wi).sum();
     if (!(value.pdf_solid_angle > 0.0f)) return {};
     return {.wi = wi,
             .weight = value.f_cos / value.pdf_solid_angle,

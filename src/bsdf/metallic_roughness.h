@@ -1,5 +1,5 @@
-// glTF 2.0 metallic-roughness with KHR_materials_ior, _specular, _iridescence, _anisotropy, _diffuse_transmission and
-// thin-walled _transmission.
+// glTF 2.0 metallic-roughness with KHR_materials_ior, _specular, _iridescence, _anisotropy, _diffuse_roughness,
+// _diffuse_transmission and thin-walled _transmission.
 //
 // material   = mix(dielectric, metal, metallic)                                  (glTF 2.0 specification, appendix B)
 // metal      = GGX with Schlick's Fresnel term, f0 = base colour
@@ -16,6 +16,9 @@
 // single and in the multiple scattering: reciprocal, and with the reflected part exactly 1 for a white sheet. Under a
 // thin film E is an estimate (facet_fresnel.h): the brightest channel of a white surface reflects between 0.98
 // and 1.01.
+//
+// A rough diffuse part is EON (rough_diffuse.h), diffuse transmission the same on the other side. Under the specular
+// layer, which passes less light at grazing angles, a white one keeps between 0.97 and 1 of the light.
 //
 // Thin-walled: light leaves opposite to where a mirror would send it, without refraction, tinted once by the base
 // colour. With both alphas below kSmoothAlpha the specular and transmitted parts are deltas. Scatters for wo.z > 0
@@ -39,12 +42,13 @@ struct MetallicRoughness {
     float transmission = 0.0f;  ///< [0, 1]
     float diffuse_transmission = 0.0f;
     Rgb diffuse_transmission_color{1.0f};
+    float diffuse_roughness = 0.0f;  ///< [0, 1]; 0 is Lambert's surface
     ThinFilm film{};
 
     /// True of what PlainMetallicRoughness can be.
     [[nodiscard]] bool is_plain() const {
         return alpha_x == alpha_y && alpha_x >= kSmoothAlpha && transmission == 0.0f && diffuse_transmission == 0.0f &&
-               !film.exists();
+               diffuse_roughness == 0.0f && !film.exists();
     }
 
     [[nodiscard]] BsdfParts evaluate_parts(const Vec3f& wo, const Vec3f& wi) const;

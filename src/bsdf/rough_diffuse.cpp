@@ -23,21 +23,24 @@ float single_albedo(float cos_theta, float roughness) {
 
 }  // namespace
 
-BsdfValue RoughDiffuse::evaluate(const Vec3f& wo, const Vec3f& wi, TransportMode) const {
-    if (wo.z <= 0.0f || wi.z <= 0.0f) return {};
-    const float pdf = cosine_hemisphere_pdf_solid_angle(wi);
+Rgb rough_over_lambertian(const Rgb& albedo, float roughness, const Vec3f& wo, const Vec3f& wi) {
     const float s = wo.x * wi.x + wo.y * wi.y;
     const float s_over_t = s > 0.0f ? s / std::max(wo.z, wi.z) : s;
     const float a = 1.0f / (1.0f + kA * roughness);
-    const Rgb single = albedo * (a * std::max(0.0f, 1.0f + roughness * s_over_t));
+    const Rgb single{a * std::max(0.0f, 1.0f + roughness * s_over_t)};
 
     const float mean = a * (1.0f + kAverage * roughness);
     const float missing = 1.0f - mean;
-    if (!(missing > 0.0f)) return {single * pdf, pdf};
-    const auto series = [&](float rho) { return rho * rho * mean / (1.0f - rho * missing); };
+    if (!(missing > 0.0f)) return single;
+    const auto series = [&](float rho) { return rho * mean / (1.0f - rho * missing); };
     const float shape = (1.0f - single_albedo(wo.z, roughness)) * (1.0f - single_albedo(wi.z, roughness)) / missing;
-    const Rgb multiple = Rgb(series(albedo.r), series(albedo.g), series(albedo.b)) * std::max(0.0f, shape);
-    return {(single + multiple) * pdf, pdf};
+    return single + Rgb(series(albedo.r), series(albedo.g), series(albedo.b)) * std::max(0.0f, shape);
+}
+
+BsdfValue RoughDiffuse::evaluate(const Vec3f& wo, const Vec3f& wi, TransportMode) const {
+    if (wo.z <= 0.0f || wi.z <= 0.0f) return {};
+    const float pdf = cosine_hemisphere_pdf_solid_angle(wi);
+    return {albedo * rough_over_lambertian(albedo, roughness, wo, wi) * pdf, pdf};
 }
 
 BsdfSample RoughDiffuse::sample(const Vec3f& wo, float, Vec2f u, TransportMode mode) const {

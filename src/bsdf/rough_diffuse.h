@@ -9,6 +9,10 @@
 
 namespace etendue {
 
+/// Returns how much more light a rough surface of `albedo` scatters from `wi` to `wo` than Lambert's surface of that
+/// albedo, for wo.z > 0 and wi.z > 0; symmetric in both. `roughness` is in [0, 1], and 0 gives 1.
+[[nodiscard]] Rgb rough_over_lambertian(const Rgb& albedo, float roughness, const Vec3f& wo, const Vec3f& wi);
+
 struct RoughDiffuse {
     Rgb albedo{0.5f};        ///< of the facets, [0, 1]
     float roughness = 0.0f;  ///< [0, 1]; 0 is Lambert's surface

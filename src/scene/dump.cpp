@@ -151,6 +151,9 @@ std::string text(const VolumeDesc& v) {
 
 /// The layers that extensions add, those that are there.
 void dump_layers(const MaterialDesc& m, Out out) {
+    if (m.diffuse_roughness.factor > 0.0f)
+        fmt::format_to(out, "  diffuse roughness {:g}, {}\n", m.diffuse_roughness.factor,
+                       text(m.diffuse_roughness.texture));
     if (m.diffuse_transmission.factor > 0.0f)
         fmt::format_to(out, "  diffuse transmission {:g}, {} colour {}, {}\n", m.diffuse_transmission.factor,
                        text(m.diffuse_transmission.texture), text(m.diffuse_transmission.color),

@@ -104,6 +104,12 @@ struct DiffuseTransmissionDesc {
     TextureRef color_texture;  ///< sRGB
 };
 
+/// KHR_materials_diffuse_roughness.
+struct DiffuseRoughnessDesc {
+    float factor = 0.0f;  ///< [0, 1]
+    TextureRef texture;   ///< data: R
+};
+
 /// What render.json can put in the place of glTF's model.
 using MaterialModelDesc = std::variant<std::monostate, ConductorDesc, DielectricDesc, DiffuseDesc, SubsurfaceDesc>;
 
@@ -140,6 +146,7 @@ struct MaterialDesc {
     float transmission = 0.0f;        ///< KHR_materials_transmission, [0, 1]
     TextureRef transmission_texture;  ///< data: R
     DiffuseTransmissionDesc diffuse_transmission;
+    DiffuseRoughnessDesc diffuse_roughness;
     VolumeDesc volume;
     AnisotropyDesc anisotropy;
     IridescenceDesc iridescence;

@@ -25,6 +25,7 @@ void for_each_texture(Material& m, const Visit& visit) {
     visit(m.iridescence.texture, "iridescence");
     visit(m.iridescence.thickness_texture, "iridescence thickness");
     visit(m.anisotropy.texture, "anisotropy");
+    visit(m.diffuse_roughness.texture, "diffuse roughness");
     visit(m.diffuse_transmission.texture, "diffuse transmission");
     visit(m.diffuse_transmission.color_texture, "diffuse transmission colour");
 }

@@ -90,6 +90,7 @@ void validate_layers(const MaterialDesc& m, ProblemList& problems) {
     finite(m.iridescence.thickness_maximum_nm, 0.0, "iridescence thickness maximum");
     in_unit(m.anisotropy.strength, "anisotropy");
     finite(m.anisotropy.rotation, -std::numeric_limits<float>::max(), "anisotropy rotation");
+    in_unit(m.diffuse_roughness.factor, "diffuse roughness");
     in_unit(m.diffuse_transmission.factor, "diffuse transmission");
     check_range(m.diffuse_transmission.color, 0.0, 1.0, "diffuse transmission colour", m.location, problems);
 }

@@ -44,10 +44,13 @@ float f0_from_ior(float ior) {
 }
 
 std::optional<GltfLayers> compile_layers(const MaterialDesc& desc, TextureCompiler& textures) {
-    const bool any = desc.diffuse_transmission.factor > 0.0f || desc.anisotropy.strength > 0.0f ||
-                     desc.iridescence.factor > 0.0f || !is_black(desc.sheen.color) || desc.clearcoat.factor > 0.0f;
+    const bool any = desc.diffuse_roughness.factor > 0.0f || desc.diffuse_transmission.factor > 0.0f ||
+                     desc.anisotropy.strength > 0.0f || desc.iridescence.factor > 0.0f || !is_black(desc.sheen.color) ||
+                     desc.clearcoat.factor > 0.0f;
     if (!any) return std::nullopt;
     GltfLayers layers;
+    layers.diffuse_roughness = desc.diffuse_roughness.factor;
+    layers.diffuse_roughness_texture = textures.slot(desc.diffuse_roughness.texture, TextureUse::Data);
     layers.diffuse_transmission = desc.diffuse_transmission.factor;
     layers.diffuse_transmission_texture = textures.slot(desc.diffuse_transmission.texture, TextureUse::Data);
     layers.diffuse_transmission_color = desc.diffuse_transmission.color;

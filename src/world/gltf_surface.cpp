@@ -73,6 +73,7 @@ ThinFilm evaluate_film(const WorldData& data, const GltfLayers& layers, const Su
 void evaluate_base_layers(const WorldData& data, const GltfLayers& layers, const SurfacePoint& point,
                           MetallicRoughness& lobe) {
     lobe.film = evaluate_film(data, layers, point);
+    lobe.diffuse_roughness = unit(scaled(data, layers.diffuse_roughness, layers.diffuse_roughness_texture, point, red));
     lobe.diffuse_transmission =
         unit(scaled(data, layers.diffuse_transmission, layers.diffuse_transmission_texture, point, alpha));
     if (lobe.diffuse_transmission > 0.0f)

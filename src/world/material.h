@@ -24,6 +24,9 @@ struct TextureSlot {
 
 /// Of glTF's material, what its extensions add. Factors and textures as in scene/material_desc.h.
 struct GltfLayers {
+    float diffuse_roughness = 0.0f;
+    TextureSlot diffuse_roughness_texture;
+
     float diffuse_transmission = 0.0f;
     TextureSlot diffuse_transmission_texture;
     Rgb diffuse_transmission_color{1.0f};  ///< linear Rec.709
@@ -50,10 +53,10 @@ struct GltfLayers {
     TextureSlot clearcoat_roughness_texture;
 
     [[nodiscard]] bool is_textured() const {
-        return diffuse_transmission_texture.valid() || diffuse_transmission_color_texture.valid() ||
-               anisotropy_texture.valid() || iridescence_texture.valid() || film_thickness_texture.valid() ||
-               sheen_color_texture.valid() || sheen_roughness_texture.valid() || clearcoat_texture.valid() ||
-               clearcoat_roughness_texture.valid();
+        return diffuse_roughness_texture.valid() || diffuse_transmission_texture.valid() ||
+               diffuse_transmission_color_texture.valid() || anisotropy_texture.valid() ||
+               iridescence_texture.valid() || film_thickness_texture.valid() || sheen_color_texture.valid() ||
+               sheen_roughness_texture.valid() || clearcoat_texture.valid() || clearcoat_roughness_texture.valid();
     }
 };
 

@@ -98,6 +98,18 @@ void add_layered(std::vector<BsdfSetting>& settings) {
     }
 }
 
+void add_rough_diffuse_under_gloss(std::vector<BsdfSetting>& settings) {
+    for (const float roughness : {0.3f, 1.0f})
+        settings.push_back({fmt::format("rough diffuse {} under gloss", roughness),
+                            MetallicRoughness{.base = {0.9f, 0.5f, 0.1f},
+                                              .metallic = 0.1f,
+                                              .alpha_x = 0.3f,
+                                              .alpha_y = 0.3f,
+                                              .diffuse_transmission = 0.4f,
+                                              .diffuse_transmission_color = {0.5f, 0.9f, 0.1f},
+                                              .diffuse_roughness = roughness}});
+}
+
 /// Sheets that light passes, bare and under layers.
 void add_sheets(std::vector<BsdfSetting>& settings) {
     MetallicRoughness pane = kPlastic;
@@ -177,6 +189,7 @@ std::vector<BsdfSetting> all_bsdf_settings() {
     add_sheets(settings);
     add_conductors(settings);
     add_dielectrics(settings);
+    add_rough_diffuse_under_gloss(settings);  // last: each setting has a seed by its place
     return settings;
 }
 

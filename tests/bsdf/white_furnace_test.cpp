@@ -204,6 +204,23 @@ TEST(WhiteFurnace, Leaf) {
     expect_white("leaf", make, 1.0f);
 }
 
+/// Without a specular layer it is EON itself; under one some light is lost that EON would send back at grazing angles.
+TEST(WhiteFurnace, RoughDiffuseUnderGloss) {
+    for (const float shine : {0.0f, 1.0f}) {
+        const auto make = [=](float roughness) {
+            return MetallicRoughness{.base = Rgb(1.0f),
+                                     .metallic = 0.0f,
+                                     .alpha_x = 0.3f,
+                                     .alpha_y = 0.3f,
+                                     .f0 = Rgb(0.04f * shine),
+                                     .f90 = shine,
+                                     .diffuse_transmission = 0.5f,
+                                     .diffuse_roughness = roughness};
+        };
+        expect_white("shine " + std::to_string(shine), make, 1.0f, shine > 0.0f ? 0.03 : kTolerance);
+    }
+}
+
 TEST(WhiteFurnace, AnisotropicMetal) {
     for (const float strength : {0.3f, 0.6f, 1.0f}) {
         const auto make = [=](float alpha) {

@@ -260,6 +260,8 @@ TEST_F(MaterialEvaluation, LayersTakeTheirChannels) {
     material.iridescence.thickness_texture.texture = texture(1, {{255, 128, 255, 255}});
     material.diffuse_transmission.factor = 0.6f;
     material.diffuse_transmission.texture.texture = texture(1, {{255, 255, 255, 128}});
+    material.diffuse_roughness.factor = 0.5f;
+    material.diffuse_roughness.texture.texture = texture(1, {{64, 255, 255, 255}});
     material.anisotropy.strength = 0.7f;
     material.anisotropy.texture.texture = texture(1, {{255, 128, 128, 255}});
     const World world = world_with(material);
@@ -277,6 +279,7 @@ TEST_F(MaterialEvaluation, LayersTakeTheirChannels) {
     EXPECT_NEAR(base.film.strength, 0.9f * kQuarter, 1e-5f);
     EXPECT_NEAR(base.film.thickness_nm, 100.0f + 300.0f * kHalf, 1e-3f);
     EXPECT_NEAR(base.diffuse_transmission, 0.6f * kHalf, 1e-5f);
+    EXPECT_NEAR(base.diffuse_roughness, 0.5f * kQuarter, 1e-5f);
     const float strength = 0.7f * kHalf;
     EXPECT_NEAR(base.alpha_x, 0.25f + 0.75f * strength * strength, 1e-5f);
     EXPECT_NEAR(base.alpha_y, 0.25f, 1e-6f);

@@ -26,7 +26,7 @@ namespace {
 using Json = nlohmann::json;
 
 /// To support another extension, see CONTRIBUTING.md (Smaller things; A layer of glTF's material).
-constexpr std::array<std::string_view, 27> kSupportedExtensions{
+constexpr std::array<std::string_view, 28> kSupportedExtensions{
     "EXT_lights_ies",
     "EXT_lights_image_based",
     "EXT_mesh_gpu_instancing",
@@ -37,6 +37,7 @@ constexpr std::array<std::string_view, 27> kSupportedExtensions{
     "KHR_lights_punctual",
     "KHR_materials_anisotropy",
     "KHR_materials_clearcoat",
+    "KHR_materials_diffuse_roughness",
     "KHR_materials_diffuse_transmission",
     "KHR_materials_dispersion",
     "KHR_materials_emissive_strength",

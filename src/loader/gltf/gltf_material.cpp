@@ -138,6 +138,7 @@ class MaterialReader {
         read("KHR_materials_ior", &MaterialReader::read_ior);
         read("KHR_materials_specular", &MaterialReader::read_specular);
         read("KHR_materials_transmission", &MaterialReader::read_transmission);
+        read("KHR_materials_diffuse_roughness", &MaterialReader::read_diffuse_roughness);
         read("KHR_materials_diffuse_transmission", &MaterialReader::read_diffuse_transmission);
         read("KHR_materials_volume", &MaterialReader::read_volume);
         read("KHR_materials_dispersion", &MaterialReader::read_dispersion);
@@ -208,6 +209,11 @@ class MaterialReader {
     void read_transmission(const Value& transmission, MaterialDesc& result) {
         result.transmission = unit(transmission, "transmissionFactor", 0.0);
         result.transmission_texture = extension_texture(transmission, "transmissionTexture");
+    }
+
+    void read_diffuse_roughness(const Value& extension, MaterialDesc& result) {
+        result.diffuse_roughness.factor = unit(extension, "diffuseRoughnessFactor", 0.0);
+        result.diffuse_roughness.texture = extension_texture(extension, "diffuseRoughnessTexture");
     }
 
     void read_diffuse_transmission(const Value& extension, MaterialDesc& result) {

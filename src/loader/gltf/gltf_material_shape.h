@@ -82,6 +82,10 @@ inline constexpr ShapeField kVolumeScatterFields[] = {
     {"multiscatterColor", array(kNumber, 3)},
     {"scatterAnisotropy", number(-1.0, 1.0)},
 };
+inline constexpr ShapeField kDiffuseRoughnessFields[] = {
+    {"diffuseRoughnessFactor", number()},
+    {"diffuseRoughnessTexture", kTextureInfo},
+};
 inline constexpr ShapeField kDiffuseTransmissionFields[] = {
     {"diffuseTransmissionFactor", number()},
     {"diffuseTransmissionTexture", kTextureInfo},
@@ -117,6 +121,7 @@ inline constexpr ShapeField kClearcoatFields[] = {
 inline constexpr ShapeField kMaterialExtensionFields[] = {
     {"KHR_materials_anisotropy", object(kAnisotropyFields)},
     {"KHR_materials_clearcoat", object(kClearcoatFields)},
+    {"KHR_materials_diffuse_roughness", object(kDiffuseRoughnessFields)},
     {"KHR_materials_diffuse_transmission", object(kDiffuseTransmissionFields)},
     {"KHR_materials_dispersion", object(kDispersionFields)},
     {"KHR_materials_iridescence", object(kIridescenceFields)},

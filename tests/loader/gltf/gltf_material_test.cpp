@@ -66,6 +66,7 @@ TEST(Material, LayersAreRead) {
             "iridescenceThicknessTexture": {"index": 1}},
         "KHR_materials_anisotropy": {"anisotropyStrength": 0.6, "anisotropyRotation": 1.5,
             "anisotropyTexture": {"index": 2}},
+        "KHR_materials_diffuse_roughness": {"diffuseRoughnessFactor": 0.3, "diffuseRoughnessTexture": {"index": 2}},
         "KHR_materials_diffuse_transmission": {"diffuseTransmissionFactor": 0.4,
             "diffuseTransmissionTexture": {"index": 0}, "diffuseTransmissionColorFactor": [1, 0.5, 0.25],
             "diffuseTransmissionColorTexture": {"index": 1}}}})");
@@ -89,6 +90,8 @@ TEST(Material, LayersAreRead) {
     EXPECT_EQ(m.anisotropy.strength, 0.6f);
     EXPECT_EQ(m.anisotropy.rotation, 1.5f);
     EXPECT_EQ(texture_name(loaded, m.anisotropy.texture), "t2");
+    EXPECT_EQ(m.diffuse_roughness.factor, 0.3f);
+    EXPECT_EQ(texture_name(loaded, m.diffuse_roughness.texture), "t2");
     EXPECT_EQ(m.diffuse_transmission.factor, 0.4f);
     EXPECT_EQ(m.diffuse_transmission.color, Rgb(1.0f, 0.5f, 0.25f));
     EXPECT_EQ(texture_name(loaded, m.diffuse_transmission.texture), "t0");
