@@ -34,7 +34,8 @@ ROOMS = {
     "camera": "sampling core",
     "world": "scene bsdf medium light camera texture image color sampling core",
     "film": "sampling core",
-    "integrator": "world lightpath film bsdf medium light camera sampling core",
+    "transport": "world bsdf medium light sampling core",
+    "integrator": "transport world lightpath film bsdf medium light camera sampling core",
     "processor": "integrator world core",
     "render": "processor integrator world film image core",
     "output": "film color image core",
@@ -43,7 +44,7 @@ ROOMS = {
     "denoise": "image core",
     "picture": "core lightpath image color scene world film integrator processor render output",
     "api": "core color loader scene world integrator processor render output picture",
-    "app": "core lightpath sampling image color scene loader bsdf medium texture light camera world film integrator "
+    "app": "core lightpath sampling image color scene loader bsdf medium texture light camera world film transport integrator "
     "processor render output metrics report denoise picture",
 }
 

@@ -5,9 +5,9 @@
 #pragma once
 
 #include "integrator/bdpt/strategy_sums.h"
-#include "integrator/connecting_ray.h"
 #include "integrator/subpath/matte_end.h"
 #include "light/mesh_light.h"
+#include "transport/connecting_ray.h"
 
 namespace etendue {
 

@@ -1,12 +1,12 @@
 // Where light subpaths begin, connected to the camera: lamps in view, found from their side.
 #pragma once
 
-#include "integrator/connecting_ray.h"
 #include "integrator/connections.h"
 #include "integrator/number_pairs.h"
 #include "integrator/subpath/camera_splat.h"
 #include "integrator/subpath/subpath_wave.h"
-#include "integrator/walk.h"
+#include "transport/bodies.h"
+#include "transport/connecting_ray.h"
 
 #include <cstddef>
 #include <cstdint>

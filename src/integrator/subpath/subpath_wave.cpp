@@ -3,7 +3,8 @@
 #include "core/in_place.h"
 #include "integrator/ray_batch.h"
 #include "integrator/subpath/subpath_steps.h"
-#include "integrator/walk.h"
+#include "transport/bodies.h"
+#include "transport/roulette.h"
 
 #include <algorithm>
 #include <cmath>
@@ -52,7 +53,7 @@ std::uint32_t SubpathJob::connection_key(SubpathEnd end, int index, std::uint32_
 void SubpathWave::trace(const SubpathJob& job, int roulette_depth, LightFinder* finder, SampleLight& light,
                         RenderCounters& counters) {
     // In bodies nothing but roulette bounds a walk: neither media nor hidden boundaries add edges.
-    roulette_depth_ = job.world.has_bodies() ? std::min(roulette_depth, kLongPath) : roulette_depth;
+    roulette_depth_ = first_roulette(job.world, roulette_depth);
     const std::size_t count = job.samples.size();
     states_.assign(count, {});
     rays_.assign(job.camera_rays.begin(), job.camera_rays.end());

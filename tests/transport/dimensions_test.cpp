@@ -1,4 +1,4 @@
-#include "integrator/path/path_dimensions.h"
+#include "transport/dimensions.h"
 
 #include "integrator/subpath/subpath_wave.h"
 

@@ -1,0 +1,20 @@
+// What paths ask of the bodies that they go through.
+#pragma once
+
+#include "world/world.h"
+
+namespace etendue {
+
+/// Share of light that arrives from `distance` metres away.
+[[nodiscard]] inline Rgb transmittance(const World& world, const Interior& interior, float distance) {
+    const HomogeneousMedium* medium = world.medium(interior);
+    return medium != nullptr ? medium->transmittance(distance) : Rgb(1.0f);
+}
+
+/// Where a direction leads from a boundary.
+[[nodiscard]] inline const Interior& beyond(const Crossing& crossing, const SurfacePoint& point,
+                                            const Vec3f& direction) {
+    return dot(direction, point.geometric_normal) > 0.0f ? crossing.outside : crossing.inside;
+}
+
+}  // namespace etendue
