@@ -34,7 +34,7 @@ ROOMS = {
     "camera": "sampling core",
     "world": "scene bsdf medium light camera texture image color sampling core",
     "film": "sampling core",
-    "transport": "world bsdf medium light sampling core",
+    "transport": "world bsdf medium light camera sampling core",
     "integrator": "transport world lightpath film bsdf medium light camera sampling core",
     "processor": "integrator world core",
     "render": "processor integrator world film image core",

@@ -8,10 +8,10 @@
 #include "film/pixel_filter.h"
 #include "integrator/aov/aov_set.h"
 #include "integrator/bright_sample.h"
-#include "integrator/heuristic.h"
 #include "integrator/ray_kind.h"
 #include "integrator/strategy.h"
 #include "sampling/sampler.h"
+#include "transport/heuristic.h"
 #include "transport/path_lengths.h"
 #include "world/world.h"
 

@@ -17,4 +17,9 @@ namespace etendue {
     return dot(direction, point.geometric_normal) > 0.0f ? crossing.outside : crossing.inside;
 }
 
+/// Returns the bodies that a ray starts in that leaves a light with `emission`.
+[[nodiscard]] inline Interior interior_at_light(const World& world, const Emission& emission) {
+    return world.has_bodies() ? world.light_interior(emission) : Interior();
+}
+
 }  // namespace etendue

@@ -47,6 +47,37 @@ enum BranchDimension : std::uint32_t {
     kBranchEnd
 };
 
+/// Where a subpath of bidirectional path tracing begins.
+enum class SubpathEnd { AtEye, AtLight };
+
+/// Pairs of dimensions of each bounce of a subpath, scattering and connections.
+enum class BounceNumbers : std::uint32_t {
+    Scattering,
+    Choices,  ///< x: which lobe, y: whether the path ends
+    Medium,
+    Alpha,
+    LightChoice,  ///< of connections; of those to the camera, the lens
+    LightTriangle,
+    LightDirection,
+    Count
+};
+
+/// Pairs of dimensions of the beginning of a light subpath, from kFirstLightDimension on.
+enum EmissionDimension : std::uint32_t { kEmitterChoice, kTriangle, kPosition, kDirection, kEmissionDimensions };
+
+/// The first dimension of light subpaths, far from those of eye paths.
+inline constexpr std::uint32_t kFirstLightDimension = 1u << 29;
+/// The dimension of the wavelength that both subpaths of a sample take in dispersive bodies.
+inline constexpr std::uint32_t kSubpathWavelengthDimension = 1u << 30;
+
+/// Returns the dimension of bounce `bounce` of a subpath, from 1 on; 0 is where a light subpath begins.
+[[nodiscard]] constexpr std::uint32_t subpath_dimension(SubpathEnd end, int bounce, BounceNumbers which) {
+    const std::uint32_t first =
+        end == SubpathEnd::AtEye ? kTimeDimension + 1 : kFirstLightDimension + kEmissionDimensions;
+    return first + static_cast<std::uint32_t>(bounce) * static_cast<std::uint32_t>(BounceNumbers::Count) +
+           static_cast<std::uint32_t>(which);
+}
+
 [[nodiscard]] constexpr std::uint32_t bounce_dimension(int depth, BounceDimension which) {
     return kFirstFreeDimension + static_cast<std::uint32_t>(depth) * kBounceDimensions + which;
 }

@@ -56,20 +56,20 @@ Rgb sampled_light(const World& world, const EyePath& path, const Vertex& vertex,
         const ChosenLight chosen = world.sample_light(choice, vertex.position, u_light);
         if (is_black(chosen.sample.radiance)) continue;
         const BsdfValue value = vertex.evaluate(chosen.sample.wi);
-        light +=
-            light_contribution(world, path, vertex, chosen.sample, value,
-                               light_sample_scale(chosen, value.pdf_solid_angle), shadow_alpha_key(u.alpha_key, round));
+        light += light_contribution(world, vertex, path.throughput * vertex.wavelength.weight, chosen.sample,
+                                    value.f_cos, light_sample_scale(chosen, value.pdf_solid_angle), path.ray.time,
+                                    shadow_alpha_key(u.alpha_key, round));
     }
     return light;
 }
 
-Rgb light_contribution(const World& world, const EyePath& path, const Vertex& vertex, const LightSample& light,
-                       const BsdfValue& value, float scale, std::uint32_t alpha_key) {
-    const Rgb contribution = path.throughput * vertex.wavelength.weight * value.f_cos * light.radiance * scale *
+Rgb light_contribution(const World& world, const Vertex& vertex, const Rgb& throughput, const LightSample& light,
+                       const Rgb& f_cos, float scale, float time, std::uint32_t alpha_key) {
+    const Rgb contribution = throughput * f_cos * light.radiance * scale *
                              transmittance(world, vertex.interior_towards(light.wi), light.distance);
     if (is_black(contribution)) return {};
     Ray ray = shadow_ray(vertex.origin_towards(light.wi), light);
-    ray.time = path.ray.time;
+    ray.time = time;
     ray.alpha_key = alpha_key;
     return contribution * visibility(world, ray);
 }

@@ -26,10 +26,11 @@ namespace etendue {
 [[nodiscard]] Rgb sampled_light(const World& world, const EyePath& path, const Vertex& vertex,
                                 const SampleNumbers& numbers, const VertexNumbers& u, std::uint32_t samples);
 
-/// Returns what `vertex` scatters of a light sample towards the eye, if nothing is in the way. `value` is what it
-/// scatters along the sample's direction, `scale` the sample's weight over its density; the shadow ray has `alpha_key`.
-[[nodiscard]] Rgb light_contribution(const World& world, const EyePath& path, const Vertex& vertex,
-                                     const LightSample& light, const BsdfValue& value, float scale,
+/// Returns what `vertex` scatters of a light sample towards where its path comes from, of which it has the
+/// `throughput`. `f_cos` is what it scatters along the sample's direction, `scale` the sample's weight over its
+/// density; the shadow ray has `time` and `alpha_key`.
+[[nodiscard]] Rgb light_contribution(const World& world, const Vertex& vertex, const Rgb& throughput,
+                                     const LightSample& light, const Rgb& f_cos, float scale, float time,
                                      std::uint32_t alpha_key);
 
 }  // namespace etendue

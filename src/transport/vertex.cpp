@@ -9,14 +9,30 @@ bool Vertex::has_non_delta() const {
     return kind == Kind::Medium || (kind == Kind::Surface && etendue::has_non_delta(bsdf));
 }
 
-BsdfValue Vertex::evaluate(const Vec3f& wi) const {
-    if (kind == Kind::Surface) return scattering().evaluate(wi, TransportMode::Radiance);
+BsdfValue Vertex::evaluate(const Vec3f& wi, TransportMode mode) const {
+    if (kind == Kind::Surface) return scattering().evaluate(wi, mode);
     const float phase = medium->phase.pdf_solid_angle(wo, wi);
     return {Rgb(phase), phase};
 }
 
-BsdfSample Vertex::sample(float u_lobe, Vec2f u) const {
-    if (kind == Kind::Surface) return scattering().sample(u_lobe, u, TransportMode::Radiance);
+Scattering::TwoWayValue Vertex::evaluate_both_ways(const Vec3f& wi, TransportMode mode) const {
+    if (kind == Kind::Surface) return scattering().evaluate_both_ways(wi, mode);
+    // Forwards and backwards a phase function has one density.
+    const float phase = medium->phase.pdf_solid_angle(wo, wi);
+    return {Rgb(phase), phase, phase};
+}
+
+float Vertex::reverse_pdf(const Vec3f& wi, TransportMode mode) const {
+    return kind == Kind::Surface ? scattering().reverse_pdf_solid_angle(wi, mode)
+                                 : medium->phase.pdf_solid_angle(wo, wi);
+}
+
+float Vertex::cosine(const Vec3f& w) const {
+    return kind == Kind::Surface ? abs_dot(w, surface.geometric_normal) : 1.0f;
+}
+
+BsdfSample Vertex::sample(float u_lobe, Vec2f u, TransportMode mode) const {
+    if (kind == Kind::Surface) return scattering().sample(u_lobe, u, mode);
     BsdfSample sample;
     sample.wi = medium->phase.sample(wo, u);
     sample.pdf_solid_angle = medium->phase.pdf_solid_angle(wo, sample.wi);
@@ -46,6 +62,24 @@ LightReceiver light_receiver(const Vec3f& position, const Scattering& scattering
     receiver.glossy = gloss.share;
     receiver.alpha = gloss.alpha;
     return receiver;
+}
+
+std::optional<Vertex> medium_vertex(const World& world, const Ray& ray, const RayCone& cone, const Interior& interior,
+                                    const Hit& hit, Rgb& throughput, Vec2f u) {
+    const HomogeneousMedium* const medium = world.medium(interior);
+    if (medium == nullptr) return {};
+    const MediumSample sample = medium->sample(throughput, hit.t, u);
+    throughput *= sample.weight;
+    if (!sample.scatters) return {};
+    Vertex vertex;
+    vertex.kind = Vertex::Kind::Medium;
+    vertex.wo = -ray.direction;
+    vertex.position = ray.origin + ray.direction * sample.distance;
+    vertex.distance = sample.distance;
+    vertex.cone = cone.at(sample.distance);
+    vertex.interior = interior;
+    vertex.medium = medium;
+    return vertex;
 }
 
 Vertex surface_vertex(const World& world, const Ray& ray, const RayCone& cone, const Interior& interior, const Hit& hit,

@@ -46,9 +46,15 @@ struct Vertex {
     [[nodiscard]] bool has_non_delta() const;
     /// Returns the share of light from `wi` that leaves along `wo`: the BSDF times the cosine, or the phase function;
     /// and the density with which `sample` finds `wi`.
-    [[nodiscard]] BsdfValue evaluate(const Vec3f& wi) const;
+    [[nodiscard]] BsdfValue evaluate(const Vec3f& wi, TransportMode mode = TransportMode::Radiance) const;
+    /// Returns `evaluate` with the density of coming back, from `wi` to `wo`.
+    [[nodiscard]] Scattering::TwoWayValue evaluate_both_ways(const Vec3f& wi, TransportMode mode) const;
+    /// Returns the density, 1/sr, with which a path from the other end that comes from `wi` goes on to `wo`.
+    [[nodiscard]] float reverse_pdf(const Vec3f& wi, TransportMode mode) const;
+    /// Returns the cosine between `w` and the geometric normal; 1 in a medium.
+    [[nodiscard]] float cosine(const Vec3f& w) const;
     /// Samples a direction with `u_lobe` in [0, 1) and `u` in [0, 1)².
-    [[nodiscard]] BsdfSample sample(float u_lobe, Vec2f u) const;
+    [[nodiscard]] BsdfSample sample(float u_lobe, Vec2f u, TransportMode mode = TransportMode::Radiance) const;
     /// Returns where a ray along `wi` starts, clear of the surface.
     [[nodiscard]] Vec3f origin_towards(const Vec3f& wi) const;
     /// Returns the bodies that a ray along `wi` starts in.
@@ -59,6 +65,12 @@ struct Vertex {
 
 /// Returns what a light is chosen for at a surface at `position`.
 [[nodiscard]] LightReceiver light_receiver(const Vec3f& position, const Scattering& scattering);
+
+/// Returns where the medium that `ray` is in, with `cone` around it and from within `interior`, scatters it before it
+/// hits `hit` (valid); nothing if it gets through. Takes from `throughput` what is absorbed on the way. `u` in [0, 1)²
+/// draws how far it gets.
+[[nodiscard]] std::optional<Vertex> medium_vertex(const World& world, const Ray& ray, const RayCone& cone,
+                                                  const Interior& interior, const Hit& hit, Rgb& throughput, Vec2f u);
 
 /// Returns the surface that `ray`, with `cone` around it, has hit at `hit` (valid) from within `interior`. The path has
 /// taken the wavelength `nanometres`, 0 for all; if the surface has it take one, `u_wavelength` in [0, 1) says which.

@@ -59,23 +59,14 @@ Rgb visibility(const World& world, const Ray& ray) {
 
 Vertex next_vertex(const World& world, EyePath& path, const VertexNumbers& u) {
     const Hit hit = nearest_hit(world, path.ray);
-    Vertex vertex;
-    vertex.wo = -path.ray.direction;
-    // What leaves the scene was in no body, whatever holes in meshes made of its interior.
-    if (!hit.valid()) return vertex;
-    if (const HomogeneousMedium* const medium = world.medium(path.interior); medium != nullptr) {
-        const MediumSample sample = medium->sample(path.throughput, hit.t, u.medium);
-        path.throughput *= sample.weight;
-        if (sample.scatters) {
-            vertex.kind = Vertex::Kind::Medium;
-            vertex.position = path.ray.origin + path.ray.direction * sample.distance;
-            vertex.distance = sample.distance;
-            vertex.cone = path.cone.at(sample.distance);
-            vertex.interior = path.interior;
-            vertex.medium = medium;
-            return vertex;
-        }
+    if (!hit.valid()) {
+        // What leaves the scene was in no body, whatever holes in meshes made of its interior.
+        Vertex environment;
+        environment.wo = -path.ray.direction;
+        return environment;
     }
+    if (const auto vertex = medium_vertex(world, path.ray, path.cone, path.interior, hit, path.throughput, u.medium))
+        return *vertex;
     return surface_vertex(world, path.ray, path.cone, path.interior, hit, path.wavelength_nm, u.wavelength);
 }
 

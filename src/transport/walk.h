@@ -18,6 +18,7 @@ struct EyeSample {
     Ray ray;
     RayCone cone;
     SampleNumbers numbers;
+    Vec2f lens{0.0f, 0.0f};  ///< chose the point on the lens, in [0, 1)²
 };
 
 /// What a path remembers of its last vertex to weigh light that it meets by chance against the light samples that were

@@ -26,7 +26,8 @@ Rgb branch_direct_light(const World& world, const Branch& branch, const Vertex& 
     const SampleNumbers& numbers = branch.numbers;
     const std::uint32_t alpha_key = shadow_alpha_key(numbers.bits(kBranchAlpha), 0);
     const auto contribution = [&](const LightSample& light, float scale) {
-        return light_contribution(world, branch.path, vertex, light, vertex.evaluate(light.wi), scale, alpha_key);
+        return light_contribution(world, vertex, branch.path.throughput * vertex.wavelength.weight, light,
+                                  vertex.evaluate(light.wi).f_cos, scale, branch.path.ray.time, alpha_key);
     };
     Rgb found;
     if (world.has_sampled_lights()) {

@@ -1,7 +1,5 @@
 #include "transport/dimensions.h"
 
-#include "integrator/subpath/subpath_wave.h"
-
 #include <cstdint>
 #include <set>
 

@@ -12,9 +12,10 @@ namespace etendue::test {
 
 /// Which samples are compared.
 struct OracleRun {
-    std::string integrator = "path";  ///< or direct, naive, whitted
+    std::string integrator = "path";  ///< one that shows light
     PathLengths lengths{};
     std::uint32_t light_samples = 1;
+    Heuristic heuristic = Heuristic::Balance;
     SampleSequence sequence = SampleSequence::Sobol;
     int width = 24;  ///< pixels
     int height = 24;
@@ -26,7 +27,9 @@ struct OracleComparison {
     std::size_t samples = 0;
     std::size_t lit = 0;        ///< samples that find light
     std::size_t differing = 0;  ///< by more than rounding
-    std::string first;          ///< of these: where it is, and what both have found
+    std::size_t splats = 0;
+    std::size_t splats_alone = 0;  ///< that only one of the two has
+    std::string first;             ///< of these: where it is, and what both have found
 };
 std::ostream& operator<<(std::ostream& out, const OracleComparison& comparison);
 

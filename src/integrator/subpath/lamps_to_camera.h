@@ -32,7 +32,7 @@ class LampsToCamera {
             if (is_black(emitted.radiance)) continue;
             const float share = weigh(emission, view->camera, emitted.cosine);
             if (share == 0.0f) continue;
-            const Interior interior = world.has_bodies() ? world.light_interior(emission) : Interior();
+            const Interior interior = interior_at_light(world, emission);
             Ray ray = connecting_ray(emission.sample.origin(view->direction), view->camera.lens);
             ray.time = time;
             ray.alpha_key = job.connection_key(SubpathEnd::AtLight, 0, slot);
