@@ -18,7 +18,7 @@ struct BidirectionalOptions {
     double samples_per_light_path = 1.0;  ///< see MisContext
 };
 
-/// What a pair of subpaths finds.
+/// Holds the light that a pair of subpaths finds.
 struct BidirectionalLight {
     Rgb radiance;                    ///< of the sample, W/(m² sr)
     std::vector<FilmLight> on_film;  ///< of the light subpath alone; black contributions are left out

@@ -5,13 +5,13 @@
 
 namespace etendue {
 
-/// Share of light that arrives from `distance` metres away.
+/// Returns the share of light that arrives from `distance` metres away.
 [[nodiscard]] inline Rgb transmittance(const World& world, const Interior& interior, float distance) {
     const HomogeneousMedium* medium = world.medium(interior);
     return medium != nullptr ? medium->transmittance(distance) : Rgb(1.0f);
 }
 
-/// Where a direction leads from a boundary.
+/// Returns the bodies on the side of a boundary to which `direction` leads.
 [[nodiscard]] inline const Interior& beyond(const Crossing& crossing, const SurfacePoint& point,
                                             const Vec3f& direction) {
     return dot(direction, point.geometric_normal) > 0.0f ? crossing.outside : crossing.inside;

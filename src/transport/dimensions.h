@@ -29,7 +29,7 @@ enum BounceDimension : std::uint32_t {
     kBounceDimensions
 };
 
-/// Those that only scenes with bodies need, apart from the others, so that they do not change what these are.
+/// Pairs of dimensions that only scenes with bodies need, apart from the others: adding one changes none of these.
 enum BodyDimension : std::uint32_t {
     kMedium,  ///< x: how far, y: by which channel
     kWavelength,
@@ -47,7 +47,7 @@ enum BranchDimension : std::uint32_t {
     kBranchEnd
 };
 
-/// Where a subpath of bidirectional path tracing begins.
+/// Names the end from which a subpath of bidirectional path tracing begins.
 enum class SubpathEnd { AtEye, AtLight };
 
 /// Pairs of dimensions of each bounce of a subpath, scattering and connections.

@@ -18,7 +18,7 @@ struct FilmLight {
     Rgb value;               ///< of the integral over the film of area 1
 };
 
-/// How the camera sees a point.
+/// Says how the camera sees a point.
 struct LensView {
     CameraConnection camera;
     Vec3f direction{0.0f};  ///< unit, from the point to the lens

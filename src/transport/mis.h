@@ -56,7 +56,7 @@
 
 namespace etendue {
 
-/// What the weights of all paths of a render depend on.
+/// Holds what the weights of all paths of a render depend on.
 struct MisContext {
     const World& world;
     Raised raised{};
@@ -144,7 +144,7 @@ struct DepartingDensities {
             .cosine = static_cast<double>(cosine)};
 }
 
-/// The same by a delta, where one density is `reverse_ratio` times the other.
+/// Departs from a vertex by a delta, where one density is `reverse_ratio` times the other.
 [[nodiscard]] inline DepartingDensities depart_by_delta(const Raised& raised, const SubpathDensities& arrived,
                                                         float reverse_ratio, float cosine) {
     return {.d = arrived.b * raised(static_cast<double>(reverse_ratio)),

@@ -3,7 +3,7 @@
 
 namespace etendue {
 
-/// In edges: 1 is a light seen directly, 2 is direct light on a surface.
+/// Bounds the lengths of paths, in edges: 1 is a light seen directly, 2 is direct light on a surface.
 struct PathLengths {
     int max_depth = 32;
     int min_depth = 1;

@@ -9,7 +9,7 @@
 
 namespace etendue {
 
-/// Of a path and the strategy that has made it: sums of ratios over the strategies with fewer vertices from one end.
+/// Sums ratios of a path over the strategies with fewer vertices from one end than the one that has made it.
 /// A template of its lane type, see core/lane.h, double besides.
 template <typename T>
 struct BasicStrategySums {
@@ -21,8 +21,9 @@ struct BasicStrategySums {
 
 using StrategySums = BasicStrategySums<double>;
 
-/// Of a strategy that connects two vertices: `from_eye` is the density per area, 1/m², with which the eye's makes that
-/// of the light, `fewer_of_light` what SubpathDensities::fewer says of the latter, and the same the other way around.
+/// Returns the sums of a strategy that connects two vertices: `from_eye` is the density per area, 1/m², with which the
+/// eye's makes that of the light, `fewer_of_light` what SubpathDensities::fewer says of the latter, and the same the
+/// other way around.
 template <typename T>
 [[nodiscard]] inline BasicStrategySums<T> sums_of_connection(const Raised& raised, T from_eye, T fewer_of_light,
                                                              T from_light, T fewer_of_eye) {
@@ -47,7 +48,7 @@ struct LightPointPdfs {
     return {.fewer_from_eye = sampled * arrived.a + emitted * arrived.b * raised(static_cast<double>(emission_pdf))};
 }
 
-/// The same for a triangle that a ray along `direction` has met.
+/// Returns `sums_at_light` for a triangle that a ray along `direction` has met.
 [[nodiscard]] inline StrategySums sums_at_emitter(const MisContext& mis, const Vec3f& from, std::uint32_t light,
                                                   std::uint32_t triangle, const Vec3f& direction, float cos_light,
                                                   const SubpathDensities& arrived) {
@@ -66,8 +67,8 @@ struct LightPointPdfs {
                               arrived.a};
 }
 
-/// The same for the environment. The vertex is a direction: its density is per solid angle on both sides, and so is
-/// that of the light.
+/// Returns `sums_at_light` for the environment. The vertex is a direction: its density is per solid angle on both
+/// sides, and so is that of the light.
 [[nodiscard]] inline StrategySums sums_at_environment(const MisContext& mis, const Vec3f& from, const Vec3f& direction,
                                                       DepartingDensities departing) {
     const World& world = mis.world;

@@ -21,7 +21,7 @@ namespace etendue {
     return world.has_scattering_bodies() ? 1 : 2;
 }
 
-/// What both subpaths of a sample share.
+/// Holds what both subpaths of a sample share.
 struct SubpathSample {
     MisContext mis;
     const PathLengths& lengths;
@@ -52,7 +52,7 @@ struct Subpath {
     Ray ray;
     Interior interior;     ///< the bodies that the ray is in
     Rgb throughput{1.0f};  ///< without the weight of the wavelength
-    /// What Russian roulette multiplies the throughput by: eta² over the refractions of radiance, or one over what a
+    /// Multiplies the throughput for Russian roulette: eta² over the refractions of radiance, or one over what a
     /// light began with.
     float roulette_scale = 1.0f;
     Vec3f from{0.0f};  ///< the vertex before
@@ -77,7 +77,7 @@ struct SubpathVertex : Vertex {
     bool is_dispersed = false;
 };
 
-/// Told where the ray of a subpath has led, and with which densities if that is a surface.
+/// Hears where the ray of a subpath has led, and with which densities if that is a surface.
 using Arrival = std::function<void(const Subpath&, const Vertex&, const SubpathDensities&)>;
 
 /// Returns the subpath of the sample's camera ray.

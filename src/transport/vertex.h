@@ -12,7 +12,7 @@
 
 namespace etendue {
 
-/// Where a ray of a path has led.
+/// Says where a ray of a path has led.
 struct Vertex {
     enum class Kind {
         Environment,  ///< the ray leaves the scene

@@ -21,8 +21,8 @@ struct EyeSample {
     Vec2f lens{0.0f, 0.0f};  ///< chose the point on the lens, in [0, 1)²
 };
 
-/// What a path remembers of its last vertex to weigh light that it meets by chance against the light samples that were
-/// taken there.
+/// Remembers of a path's last vertex what it takes to weigh light that it meets by chance against the light samples
+/// that were taken there.
 struct LightSampleContext {
     LightReceiver receiver;
     std::uint32_t samples = 0;     ///< that were taken of the light; 0 if none of them can find what the ray meets

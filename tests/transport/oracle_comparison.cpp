@@ -26,7 +26,7 @@ constexpr float kRounding = 1e-4f;
 /// Radiance, W/(m² sr), below which samples count as black: scenes have some of 0.01 to 100.
 constexpr float kBlack = 1e-7f;
 
-/// What the samples of all pixels find that have one index.
+/// Holds what the samples of all pixels find that have one index.
 struct FoundLight {
     std::vector<Rgb> radiance;  ///< by pixel, row by row
     std::vector<Splat> splats;

@@ -10,7 +10,7 @@
 
 namespace etendue::test {
 
-/// Which samples are compared.
+/// Says which samples are compared.
 struct OracleRun {
     std::string integrator = "path";  ///< one that shows light
     PathLengths lengths{};

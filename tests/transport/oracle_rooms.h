@@ -5,7 +5,7 @@
 
 namespace etendue::test {
 
-/// What is around all things of a room.
+/// Names what is around all things of a room.
 enum class RoomAir {
     Vacuum,
     Fog,   ///< which scatters light
