@@ -4,6 +4,7 @@
 #include "core/ray.h"
 #include "integrator/aov/sample_light.h"
 #include "integrator/integrator.h"
+#include "transport/dimensions.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -12,16 +13,6 @@
 #include <vector>
 
 namespace etendue {
-
-/// Pairs of dimensions that camera rays use; integrators begin after them. The alpha key takes bits, which are
-/// unrelated to the pair of the same dimension: the time has that.
-enum CameraDimension : std::uint32_t {
-    kFilmDimension,
-    kLensDimension,
-    kCameraAlphaDimension,
-    kFirstFreeDimension,
-    kTimeDimension = kCameraAlphaDimension
-};
 
 /// One camera sample.
 struct CameraSample {

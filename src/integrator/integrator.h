@@ -8,10 +8,11 @@
 #include "film/pixel_filter.h"
 #include "integrator/aov/aov_set.h"
 #include "integrator/bright_sample.h"
-#include "integrator/heuristic.h"
 #include "integrator/ray_kind.h"
 #include "integrator/strategy.h"
 #include "sampling/sampler.h"
+#include "transport/heuristic.h"
+#include "transport/path_lengths.h"
 #include "world/world.h"
 
 #include <cstddef>
@@ -67,13 +68,6 @@ struct RenderCounters {
 
     void drop(const DroppedSample& sample);
     void add(const RenderCounters& other);
-};
-
-/// In edges: 1 is a light seen directly, 2 is direct light on a surface.
-struct PathLengths {
-    int max_depth = 32;
-    int min_depth = 1;
-    int roulette_depth = 3;
 };
 
 /// What can be asked of integrators; each takes what concerns it.

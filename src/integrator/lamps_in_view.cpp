@@ -3,7 +3,7 @@
 #include "core/vector_bytes.h"
 #include "integrator/profile/wave_profile.h"
 #include "integrator/ray_batch.h"
-#include "integrator/scattered_cone.h"
+#include "transport/scattered_cone.h"
 
 #include <algorithm>
 #include <array>
@@ -131,7 +131,8 @@ std::size_t LampsInView::bytes() const {
 
 SurfacePoint LampsInView::surface_point(const Ray& ray, const Hit& hit) const {
     const bool has_cone = filters_textures_ && world_->has_textures();
-    return world_->surface_point(hit, ray, has_cone ? camera_cone(*world_, *job_, ray) : RayCone{});
+    return world_->surface_point(hit, ray,
+                                 has_cone ? camera_cone(*world_, job_->full_width, job_->full_height, ray) : RayCone{});
 }
 
 bool LampsInView::has_sample(const Vec2i& pixel, std::uint32_t sample) const {

@@ -1,7 +1,7 @@
 #include "integrator/aov/first_hits.h"
 
 #include "integrator/aov/aov_set.h"
-#include "integrator/scattered_cone.h"
+#include "transport/scattered_cone.h"
 #include "world/scattering.h"
 
 #include <algorithm>
@@ -31,7 +31,8 @@ class FirstHit {
           hit_(hit),
           wo_(-ray.direction),
           ray_(ray),
-          point_(world.surface_point(hit, ray, world.has_textures() ? camera_cone(world, job, ray) : RayCone{})) {}
+          point_(world.surface_point(
+              hit, ray, world.has_textures() ? camera_cone(world, job.full_width, job.full_height, ray) : RayCone{})) {}
 
     void append(FirstHitValue value, std::vector<float>& to) {
         const auto put = [&](std::initializer_list<float> numbers) { to.insert(to.end(), numbers); };

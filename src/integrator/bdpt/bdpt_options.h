@@ -1,9 +1,9 @@
 // How bidirectional path tracing is asked for.
 #pragma once
 
-#include "integrator/heuristic.h"
 #include "integrator/integrator.h"
 #include "integrator/strategy.h"
+#include "transport/heuristic.h"
 
 #include <optional>
 #include <span>

@@ -2,7 +2,6 @@
 
 #include "integrator/aov/first_hits.h"
 #include "integrator/profile/wave_profile.h"
-#include "integrator/subpath/subpath_steps.h"
 
 #include <algorithm>
 #include <cassert>
@@ -84,7 +83,8 @@ void BdptWave::trace(const World& world, const TileJob& job, const BdptOptions& 
         if (context.wants(1) && context.wants({.s = 1, .t = 1}))
             lamps_to_camera_.connect(context, light_, camera_connections_,
                                      [&](const Emission& emission, const CameraConnection& camera, float cosine) {
-                                         return weight(options, sums_of_seen_light(context, emission, camera, cosine));
+                                         return weight(options,
+                                                       sums_of_seen_light(context.mis(), emission, camera, cosine));
                                      });
         find_candidates(context);
         stamp(job.profile, Stage::Mis);
@@ -127,9 +127,9 @@ void BdptWave::start(const World& world, const TileJob& job, const BdptOptions& 
             if (!is_wanted || light == kNone) return is_wanted ? 1.0f : 0.0f;
             const SubpathJob of_sample{world, job, options.lengths, Raised{options.heuristic}, {}, {}};
             const SubpathDensities arrived =
-                arrive_from_lens(of_sample, {}, world.connect_to_camera(point.position, sample.lens, ray.time),
+                arrive_from_lens(of_sample.mis(), {}, world.connect_to_camera(point.position, sample.lens, ray.time),
                                  static_cast<double>(abs_dot(ray.direction, point.geometric_normal)));
-            return weight(options, sums_at_seen_emitter(of_sample, light, arrived));
+            return weight(options, sums_at_seen_emitter(of_sample.mis(), light, arrived));
         });
 }
 
@@ -195,9 +195,9 @@ void BdptWave::on_emitter(const SubpathState& state, const SurfacePoint& point, 
     const std::uint32_t light = world.light_at(point);
     const float cos_light = -dot(direction, point.geometric_normal);
     if (state.index > kDirectlySeen && light != kNone)
-        sums = sums_at_emitter(*context_, state.from, light, point.triangle, direction, cos_light, arrived);
+        sums = sums_at_emitter(context_->mis(), state.from, light, point.triangle, direction, cos_light, arrived);
     else if (state.is_direct && light != kNone)
-        sums = sums_at_seen_emitter(*context_, light, arrived);
+        sums = sums_at_seen_emitter(context_->mis(), light, arrived);
     add(state, emitted, sums,
         {.light = light,
          .triangle = point.triangle,
@@ -224,7 +224,7 @@ void BdptWave::on_escape(const SubpathState& state, const Vec3f& direction) {
     }
     if (!world.has_environment() || state.edges < context_->lengths.min_depth) return;
     StrategySums sums;
-    if (!is_direct) sums = sums_at_environment(*context_, state.from, direction, state.departing);
+    if (!is_direct) sums = sums_at_environment(context_->mis(), state.from, direction, state.departing);
     add(state, world.environment_radiance(direction), sums,
         {.light = world.environment(), .direction = -direction, .is_reached_directly = state.is_direct},
         eye_.words().environment_source());

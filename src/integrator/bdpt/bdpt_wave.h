@@ -4,13 +4,13 @@
 #include "integrator/bdpt/bdpt_options.h"
 #include "integrator/bdpt/connection_lanes.h"
 #include "integrator/bdpt/reference_weights.h"
-#include "integrator/bdpt/strategy_sums.h"
 #include "integrator/connections.h"
 #include "integrator/lamps_in_view.h"
 #include "integrator/subpath/camera_splat.h"
 #include "integrator/subpath/connectible_vertices.h"
 #include "integrator/subpath/lamps_to_camera.h"
 #include "integrator/subpath/subpath_wave.h"
+#include "transport/strategy_sums.h"
 
 #include <array>
 #include <cstddef>

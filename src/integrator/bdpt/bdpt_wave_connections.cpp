@@ -1,7 +1,7 @@
 // All connections between the subpaths of a wave, the camera and lights.
 #include "integrator/bdpt/bdpt_wave.h"
-#include "integrator/connecting_ray.h"
 #include "integrator/profile/wave_profile.h"
+#include "transport/connecting_ray.h"
 
 #include <algorithm>
 #include <array>
@@ -88,7 +88,7 @@ void BdptWave::weigh(const Context& context, const ToLight& connection) {
     const ChosenLight& chosen = connection.chosen;
     const LightSample& light = chosen.sample;
     const Scattering::TwoWayValue& value = connection.scattered;
-    const float share = weight(context.options, sums_of_light_sample(context, vertex, chosen, value));
+    const float share = weight(context.options, sums_of_light_sample(context.mis(), vertex, chosen, value));
     if (share == 0.0f) return;
     const float density = light.is_delta ? chosen.probability : light.pdf_solid_angle;
     queue(context, *connection.vertex,
@@ -181,7 +181,8 @@ void BdptWave::weigh(const Context& context, const ToCamera& connection) {
     const PathVertex& vertex = light_.whole(*connection.vertex);
     const CameraView& view = connection.view;
     const Scattering::TwoWayValue& value = connection.scattered;
-    const float share = weight(context.options, sums_at_lens(context, vertex, view.direction, view.camera, value));
+    const float share =
+        weight(context.options, sums_at_lens(context.mis(), vertex, view.direction, view.camera, value));
     queue(context, *connection.vertex, view, connecting_ray(vertex.origin(view.direction), view.camera.lens),
           {vertex.throughput * value.f_cos * vertex.transmittance(view.direction, view.distance) *
                context.wavelength_weight(vertex.slot, vertex.is_dispersed) * (view.camera.importance_area * share),

@@ -1,5 +1,5 @@
 // The weights of all strategies of a given path, from their definition: every density of every vertex computed anew
-// (Veach 1997, section 10.2). Slow; what the recursion of subpath/subpath_densities.h must say, too.
+// (Veach 1997, section 10.2). Slow; what the recursion of transport/mis.h must say, too.
 #pragma once
 
 #include "integrator/subpath/subpath_wave.h"

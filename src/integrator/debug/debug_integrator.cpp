@@ -3,7 +3,7 @@
 #include "integrator/aov/first_hits.h"
 #include "integrator/camera_wave.h"
 #include "integrator/ray_batch.h"
-#include "integrator/scattered_cone.h"
+#include "transport/scattered_cone.h"
 #include "world/scattering.h"
 
 #include <algorithm>
@@ -57,7 +57,7 @@ void DebugIntegrator::render_tile(const World& world, const TileJob& job, Integr
 
 Rgb DebugIntegrator::value(const World& world, const TileJob& job, const Ray& ray, const Hit& hit,
                            SampleKey key) const {
-    const SurfacePoint point = world.surface_point(hit, ray, camera_cone(world, job, ray));
+    const SurfacePoint point = world.surface_point(hit, ray, camera_cone(world, job.full_width, job.full_height, ray));
     if (quantity_ == DebugQuantity::Normals) {
         const Vec3f n = point.shading.normal;
         return {0.5f * n.x + 0.5f, 0.5f * n.y + 0.5f, 0.5f * n.z + 0.5f};

@@ -1,9 +1,9 @@
 #include "integrator/path/block_lanes.h"
 
 #include "core/ray.h"
-#include "integrator/connecting_ray.h"
 #include "light/mesh_light.h"
 #include "sampling/mis.h"
+#include "transport/connecting_ray.h"
 #include "world/lane_scattering.h"
 
 #include <limits>

@@ -6,17 +6,9 @@
 #pragma once
 
 #include "integrator/integrator.h"
+#include "transport/path.h"
 
 namespace etendue {
-
-struct PathOptions {
-    PathLengths lengths;
-    bool sample_lights = true;
-    /// Next-event splitting: lights sampled at each vertex that the eye sees directly or in mirrors and smooth glass,
-    /// >= 1.
-    std::uint32_t light_samples = 1;
-    bool leaves_out_indirect = false;  ///< by its name, `direct`: it says so, whatever the lengths are
-};
 
 class PathIntegrator final : public Integrator {
   public:

@@ -1,10 +1,10 @@
 #include "integrator/path/path_wave.h"
 
 #include "integrator/aov/first_hits.h"
-#include "integrator/path/path_dimensions.h"
 #include "integrator/ray_batch.h"
-#include "integrator/scattered_cone.h"
-#include "integrator/walk.h"
+#include "transport/dimensions.h"
+#include "transport/roulette.h"
+#include "transport/scattered_cone.h"
 
 #include <algorithm>
 #include <span>
@@ -39,7 +39,8 @@ void PathWave::trace(const World& world, const TileJob& job, const PathOptions& 
     light_.reset(count, job, counters.brightest.threshold());
     paths_.begin(camera_rays, samples_);
     if (world.has_textures())
-        for (std::size_t i = 0; i < count; ++i) paths_.set_cone(i, camera_cone(world, job, camera_rays[i]));
+        for (std::size_t i = 0; i < count; ++i)
+            paths_.set_cone(i, camera_cone(world, job.full_width, job.full_height, camera_rays[i]));
     std::fill_n(alpha_.begin(), count, 1.0f);
     active_ = count;
     stamp(job.profile, Stage::Generate);
@@ -84,9 +85,7 @@ void PathWave::draw_numbers(const Context& context) {
 SampleKey PathWave::light_sample_key(const Context& context, std::size_t k, std::uint32_t round) const {
     const std::size_t i = first_ + k;
     const SampleKey key = paths_.key(i);
-    const std::uint32_t samples = light_samples(context, i, path_history::kOnlyDelta);
-    // Those that are split have a sequence of their own, with one point after the other for all samples of the pixel.
-    return samples > 1 ? SampleKey{hash_u32(key.pixel_seed), key.index * samples + round} : key;
+    return etendue::light_sample_key(key, light_samples(context, i, path_history::kOnlyDelta), round);
 }
 
 void PathWave::draw_light_numbers(const Context& context, std::uint32_t round) {
@@ -195,10 +194,7 @@ void PathWave::shade_block(const Context& context, std::size_t first, std::size_
 
 void PathWave::keep_survivors(const Context& context, std::size_t& kept) {
     const World& world = context.world;
-    // In bodies nothing but roulette bounds a walk: neither media nor hidden boundaries add edges.
-    const int spared = world.has_bodies() ? std::min(context.options.lengths.roulette_depth, kLongPath)
-                                          : context.options.lengths.roulette_depth;
-    const bool is_spared = context.depth < spared;
+    const bool is_spared = context.depth < first_roulette(world, context.options.lengths.roulette_depth);
     BlockSurvivors survivors(first_, kept);
     for (std::size_t l = 0; l < count_; l += Wide::kWidth) {
         const std::size_t i = first_ + l;

@@ -16,6 +16,7 @@
 #include "integrator/path/path_integrator.h"
 #include "integrator/path/textured_lanes.h"
 #include "integrator/profile/wave_profile.h"
+#include "transport/dimensions.h"
 #include "world/plain_lookups.h"
 #include "world/scattering.h"
 
@@ -202,8 +203,7 @@ class PathWave final : public IntegratorScratch {
     [[nodiscard]] std::uint32_t alpha_key(const Context& context, std::size_t k) const;
     /// Of the `round`-th light sample: another than those of the others and of the ray that goes on.
     [[nodiscard]] std::uint32_t shadow_alpha_key(const Context& context, std::size_t k, std::uint32_t round) const {
-        const std::uint32_t key = ~alpha_key(context, k);
-        return round == 0 ? key : hash_combine(key, round);
+        return etendue::shadow_alpha_key(alpha_key(context, k), round);
     }
 
     // By active path; paths that end are squeezed out after every bounce.

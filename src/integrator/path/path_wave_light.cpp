@@ -1,11 +1,12 @@
 // Light that paths meet, and light that is sampled for where they are.
 #include "bsdf/gloss.h"
 #include "core/in_place.h"
-#include "integrator/connecting_ray.h"
-#include "integrator/path/path_dimensions.h"
 #include "integrator/path/path_wave.h"
-#include "integrator/walk.h"
 #include "sampling/mis.h"
+#include "transport/bodies.h"
+#include "transport/connecting_ray.h"
+#include "transport/dimensions.h"
+#include "transport/direct_light.h"
 
 #include <algorithm>
 #include <array>
@@ -14,14 +15,6 @@
 namespace etendue {
 
 namespace {
-
-/// Weight of a light sample that the scattering at hand would have found with `pdf_solid_angle`.
-float light_sample_scale(const ChosenLight& chosen, float pdf_solid_angle) {
-    const LightSample& light = chosen.sample;
-    // A delta light can be found in no other way; its density is the choice's probability alone.
-    return light.is_delta ? 1.0f / chosen.probability
-                          : power_heuristic(light.pdf_solid_angle, pdf_solid_angle) / light.pdf_solid_angle;
-}
 
 /// Of light that a path meets.
 LightKind kind_of_met_light(std::uint32_t history) {
@@ -33,21 +26,13 @@ LightKind kind_of_met_light(std::uint32_t history) {
 
 LightReceiver PathWave::make_receiver(std::size_t k) const {
     const ShadedPath& path = block_[k];
-    LightReceiver receiver(lanes_.position[k]);
-    const auto face = [&](const Vec3f& normal, const Vec3f& wo) {
-        receiver.normal = normal;
-        receiver.wo = wo;
-    };
-    Gloss gloss;
-    if (path.is_wide) {
-        const Vec3f wo = lanes_.wo[k];
-        const Vec3f normal = lanes_.normal[k];
-        face(dot(lanes_.geometric_normal[k], wo) < 0.0f ? -normal : normal, wo);
-        if (path.glossy != nullptr) gloss = gloss_of(*path.glossy, abs_dot(receiver.normal, wo));
-    } else if (const Scattering& scattering = *singles_[k].scattering; only_reflects(scattering.bsdf())) {
-        face(scattering.normal(), scattering.wo());
-        gloss = gloss_of(scattering.bsdf(), scattering.wo_local().z);
-    }
+    if (!path.is_wide) return light_receiver(lanes_.position[k], *singles_[k].scattering);
+    const Vec3f wo = lanes_.wo[k];
+    const Vec3f normal = lanes_.normal[k];
+    LightReceiver receiver(lanes_.position[k], dot(lanes_.geometric_normal[k], wo) < 0.0f ? -normal : normal);
+    receiver.wo = wo;
+    if (path.glossy == nullptr) return receiver;
+    const Gloss gloss = gloss_of(*path.glossy, abs_dot(receiver.normal, wo));
     receiver.glossy = gloss.share;
     receiver.alpha = gloss.alpha;
     return receiver;

@@ -1,9 +1,10 @@
 // Where paths are, and where surfaces and media send them.
 #include "core/in_place.h"
-#include "integrator/path/path_dimensions.h"
 #include "integrator/path/path_wave.h"
-#include "integrator/scattered_cone.h"
-#include "integrator/walk.h"
+#include "transport/bodies.h"
+#include "transport/dimensions.h"
+#include "transport/dispersion.h"
+#include "transport/scattered_cone.h"
 
 #include <algorithm>
 #include <cmath>
@@ -282,17 +283,9 @@ bool PathWave::scatter_at_surface(const Context& context, std::size_t k) {
     if (words_.are_followed())
         follow(k, surface_event(scattering, sample.wi, sample.is_delta, TransportMode::Radiance,
                                 words_.label(world, point)));
-    const auto* mirror = path.chooses_wavelength && sample.is_delta && !sample.is_transmission
-                             ? std::get_if<SmoothDielectric>(&scattering.bsdf())
-                             : nullptr;
-    if (mirror != nullptr && mirror->fresnel.is_bare()) {
-        // All wavelengths go where a mirror sends them, each with its own share: the path need not choose.
-        throughput *= world.spectral_response().mean_over_chance(path.wavelength, [&](float nm) {
-            const float cos_o = scattering.wo_local().z;
-            const float ior = path.crossing->relative_ior(nm);
-            return mirror->fresnel(std::min(1.0f, std::abs(cos_o)), cos_o > 0.0f ? ior : 1.0f / ior, cos_o > 0.0f)
-                .reflection_share;
-        });
+    if (path.chooses_wavelength && mirrors_all_wavelengths(scattering, sample)) {
+        throughput *= world.spectral_response().mean_over_chance(
+            path.wavelength, [&](float nm) { return mirrored_share(scattering, path.crossing->relative_ior(nm)); });
     } else {
         throughput *= path.wavelength.weight;
         paths_.wavelength_nm.set(i, path.wavelength.nm);

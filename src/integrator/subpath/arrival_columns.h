@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/columns.h"
-#include "integrator/subpath/subpath_densities.h"
+#include "transport/mis.h"
 
 #include <array>
 #include <cstddef>

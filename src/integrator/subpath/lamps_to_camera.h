@@ -1,12 +1,12 @@
 // Where light subpaths begin, connected to the camera: lamps in view, found from their side.
 #pragma once
 
-#include "integrator/connecting_ray.h"
 #include "integrator/connections.h"
 #include "integrator/number_pairs.h"
 #include "integrator/subpath/camera_splat.h"
 #include "integrator/subpath/subpath_wave.h"
-#include "integrator/walk.h"
+#include "transport/bodies.h"
+#include "transport/connecting_ray.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -32,7 +32,7 @@ class LampsToCamera {
             if (is_black(emitted.radiance)) continue;
             const float share = weigh(emission, view->camera, emitted.cosine);
             if (share == 0.0f) continue;
-            const Interior interior = world.has_bodies() ? world.light_interior(emission) : Interior();
+            const Interior interior = interior_at_light(world, emission);
             Ray ray = connecting_ray(emission.sample.origin(view->direction), view->camera.lens);
             ray.time = time;
             ray.alpha_key = job.connection_key(SubpathEnd::AtLight, 0, slot);

@@ -6,8 +6,8 @@
 #include "core/rgb.h"
 #include "core/vec.h"
 #include "core/wide_rows.h"
-#include "integrator/connecting_ray.h"
 #include "sampling/warp.h"
+#include "transport/connecting_ray.h"
 
 #include <algorithm>
 #include <array>

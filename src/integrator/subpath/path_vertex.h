@@ -4,8 +4,8 @@
 #include "core/ray.h"
 #include "core/rgb.h"
 #include "integrator/aov/path_words.h"
-#include "integrator/subpath/subpath_densities.h"
 #include "medium/homogeneous_medium.h"
+#include "transport/mis.h"
 #include "world/scattering.h"
 
 #include <cassert>

@@ -2,34 +2,17 @@
 
 #include "core/in_place.h"
 #include "integrator/ray_batch.h"
-#include "integrator/subpath/subpath_steps.h"
-#include "integrator/walk.h"
+#include "transport/bodies.h"
+#include "transport/roulette.h"
+#include "transport/subpath.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace etendue {
 
-namespace {
-
-/// Pairs of dimensions of the beginning of a light subpath.
-enum EmissionDimension : std::uint32_t { kEmitterChoice, kTriangle, kPosition, kDirection, kEmissionDimensions };
-
-/// Far from those of eye paths.
-constexpr std::uint32_t kFirstLightDimension = 1u << 29;
-constexpr std::uint32_t kWavelengthDimension = 1u << 30;
-
-}  // namespace
-
-std::uint32_t subpath_dimension(SubpathEnd end, int bounce, BounceNumbers which) {
-    const std::uint32_t first =
-        end == SubpathEnd::AtEye ? kTimeDimension + 1 : kFirstLightDimension + kEmissionDimensions;
-    return first + static_cast<std::uint32_t>(bounce) * static_cast<std::uint32_t>(BounceNumbers::Count) +
-           static_cast<std::uint32_t>(which);
-}
-
 Wavelength SubpathJob::wavelength(std::uint32_t slot) const {
-    return world.spectral_response().sample(sample_2d(job.sequence, samples[slot].key, kWavelengthDimension).x);
+    return world.spectral_response().sample(sample_2d(job.sequence, samples[slot].key, kSubpathWavelengthDimension).x);
 }
 
 bool SubpathJob::needs(SubpathEnd end, BounceNumbers which) const {
@@ -52,7 +35,7 @@ std::uint32_t SubpathJob::connection_key(SubpathEnd end, int index, std::uint32_
 void SubpathWave::trace(const SubpathJob& job, int roulette_depth, LightFinder* finder, SampleLight& light,
                         RenderCounters& counters) {
     // In bodies nothing but roulette bounds a walk: neither media nor hidden boundaries add edges.
-    roulette_depth_ = job.world.has_bodies() ? std::min(roulette_depth, kLongPath) : roulette_depth;
+    roulette_depth_ = first_roulette(job.world, roulette_depth);
     const std::size_t count = job.samples.size();
     states_.assign(count, {});
     rays_.assign(job.camera_rays.begin(), job.camera_rays.end());
@@ -137,7 +120,7 @@ void SubpathWave::begin_at_lights(const SubpathJob& job) {
         state.from = sample.position;
         state.slot = static_cast<std::uint32_t>(i);
         if (words_.are_followed()) state.words = words_.begin_at_light(words_.light_source(world, emission.light));
-        state.departing = leave_light(job, emission);
+        state.departing = leave_light(job.mis(), emission);
         states_[kept] = state;
         rays_[kept] = emission.ray;
         rays_[kept].alpha_key = sample_bits(keys_[i], kFirstLightDimension);
@@ -275,9 +258,10 @@ SubpathDensities SubpathWave::arrive(const SubpathJob& job, std::size_t i, const
     if (state.index > 1)
         return state.departing.arrive(job.raised, static_cast<double>(length_squared(position - state.from)), cosine);
     if (end_ == SubpathEnd::AtLight)
-        return arrive_from_light(job, emissions_[state.slot], state.departing, position, cosine);
+        return arrive_from_light(job.mis(), emissions_[state.slot], state.departing, position, cosine);
     const Vec2f lens = job.samples[state.slot].lens;
-    return arrive_from_lens(job, state.departing, job.world.connect_to_camera(position, lens, rays_[i].time), cosine);
+    return arrive_from_lens(job.mis(), state.departing, job.world.connect_to_camera(position, lens, rays_[i].time),
+                            cosine);
 }
 
 void SubpathWave::sample_bsdfs(std::size_t first, std::size_t vertices) {
@@ -319,8 +303,8 @@ bool SubpathWave::scatter_at_plain(const SubpathJob& job, std::size_t i, const S
     if (!scatter(job, i, lanes_.position[lane], lanes_.next_weight[lane], false)) return false;
     SubpathState& state = states_[i];
     if (words_.are_followed()) follow_words(state, matte_event(vertices_[path.vertex].label));
-    state.departing = etendue::scatter(job.raised, path.arrived, lanes_.next_pdf[lane], lanes_.reverse_pdf[lane],
-                                       lanes_.next_cosine[lane]);
+    state.departing =
+        depart(job.raised, path.arrived, lanes_.next_pdf[lane], lanes_.reverse_pdf[lane], lanes_.next_cosine[lane]);
     rays_[i].origin = lanes_.next_origin[lane];
     rays_[i].direction = lanes_.next_direction[lane];
     return true;
@@ -348,9 +332,9 @@ bool SubpathWave::scatter_at_surface(const SubpathJob& job, std::size_t i, const
         follow_words(state, surface_event(scattering, sample.wi, sample.is_delta, mode(), vertex.label));
     if (end_ == SubpathEnd::AtEye && sample.is_transmission) state.roulette_scale *= sample.eta * sample.eta;
     const float cosine = abs_dot(sample.wi, point.geometric_normal);
-    state.departing = sample.is_delta ? scatter_by_delta(job.raised, path.arrived, vertex.delta_reverse_ratio, cosine)
-                                      : etendue::scatter(job.raised, path.arrived, sample.pdf_solid_angle,
-                                                         scattering.reverse_pdf_solid_angle(sample.wi, mode()), cosine);
+    state.departing = sample.is_delta ? depart_by_delta(job.raised, path.arrived, vertex.delta_reverse_ratio, cosine)
+                                      : depart(job.raised, path.arrived, sample.pdf_solid_angle,
+                                               scattering.reverse_pdf_solid_angle(sample.wi, mode()), cosine);
     ray.origin = offset_origin(point.position, point.geometric_normal, point.clearance, sample.wi);
     ray.direction = sample.wi;
     if (path.crossing) interiors_[i] = beyond(*path.crossing, point, sample.wi);
@@ -389,7 +373,7 @@ bool SubpathWave::scatter_in_medium(const SubpathJob& job, std::size_t i) {
     // Forwards and backwards a phase function has one density.
     const float phase = medium->phase.pdf_solid_angle(wo, ray.direction);
     state.from = vertex.position;
-    state.departing = etendue::scatter(job.raised, vertex.densities, phase, phase, 1.0f);
+    state.departing = depart(job.raised, vertex.densities, phase, phase, 1.0f);
     state.lights_directly = state.only_delta;
     state.only_delta = false;
     if (words_.are_followed()) follow_words(state, VertexEvent{});

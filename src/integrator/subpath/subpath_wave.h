@@ -10,6 +10,7 @@
 #include "integrator/subpath/arrival_columns.h"
 #include "integrator/subpath/matte_lanes.h"
 #include "integrator/subpath/path_vertex.h"
+#include "transport/dimensions.h"
 
 #include <array>
 #include <cstddef>
@@ -20,22 +21,6 @@
 #include <vector>
 
 namespace etendue {
-
-enum class SubpathEnd { AtEye, AtLight };
-
-/// Pairs of dimensions of each bounce of a subpath, scattering and connections.
-enum class BounceNumbers : std::uint32_t {
-    Scattering,
-    Choices,  ///< x: which lobe, y: whether the path ends
-    Medium,
-    Alpha,
-    LightChoice,  ///< of connections; of those to the camera, the lens
-    LightTriangle,
-    LightDirection,
-    Count
-};
-/// The dimension of bounce `bounce`, from 1 on; 0 is where a light subpath begins.
-[[nodiscard]] std::uint32_t subpath_dimension(SubpathEnd end, int bounce, BounceNumbers which);
 
 /// What one wave of subpaths is for.
 struct SubpathJob {
@@ -51,6 +36,8 @@ struct SubpathJob {
         return static_cast<double>(job.full_width) * static_cast<double>(job.full_height) /
                static_cast<double>(job.window.area());
     }
+    /// Returns what weights depend on.
+    [[nodiscard]] MisContext mis() const { return {world, raised, samples_per_light_path()}; }
     /// The wavelength of a sample's path, if it needs one: the same for both of its subpaths.
     [[nodiscard]] Wavelength wavelength(std::uint32_t slot) const;
     [[nodiscard]] Rgb wavelength_weight(std::uint32_t slot, bool is_dispersed) const {

@@ -1,7 +1,7 @@
 // Where subpaths leave their vertices.
-#include "integrator/subpath/subpath_steps.h"
 #include "integrator/subpath/subpath_wave.h"
-#include "integrator/walk.h"
+#include "transport/bodies.h"
+#include "transport/subpath.h"
 
 namespace etendue {
 

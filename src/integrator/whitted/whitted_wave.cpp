@@ -1,11 +1,13 @@
 #include "integrator/whitted/whitted_wave.h"
 
 #include "integrator/aov/first_hits.h"
-#include "integrator/connecting_ray.h"
 #include "integrator/ray_batch.h"
-#include "integrator/scattered_cone.h"
-#include "integrator/walk.h"
 #include "sampling/mis.h"
+#include "transport/bodies.h"
+#include "transport/connecting_ray.h"
+#include "transport/dispersion.h"
+#include "transport/roulette.h"
+#include "transport/scattered_cone.h"
 #include "world/scattering.h"
 
 #include <algorithm>
@@ -15,27 +17,6 @@
 namespace etendue {
 
 namespace {
-
-/// Pairs of dimensions of one branch; its seed sets it apart from the others.
-enum BranchDimension : std::uint32_t {
-    kBranchLightChoice = kFirstFreeDimension,
-    kBranchLightTriangle,
-    kBranchLightDirection,
-    kBranchEnvironmentDirection,
-    kBranchWavelength,
-    kBranchAlpha,
-    kBranchEnd
-};
-
-/// Branches that would contribute less live on with as much less chance, with this contribution: trees stay small, and
-/// what they show on average is what they would show in full.
-constexpr float kSmallestContribution = 1.0f / 1024.0f;
-
-/// Chance with which a branch is followed.
-float survival(const WhittedBranch& branch) {
-    const float contribution = max_component(branch.throughput) * branch.eta_scale;
-    return std::min(most_survival(branch.rays), contribution / kSmallestContribution);
-}
 
 /// Of light that a branch meets.
 LightKind kind_of(const WhittedBranch& branch) {
@@ -63,7 +44,7 @@ void WhittedWave::trace(const World& world, const TileJob& job, const PathLength
         branch.ray = rays_[i];
         branch.slot = static_cast<std::uint32_t>(i);
         branch.seed = samples_[i].key.pixel_seed;
-        if (world.has_textures()) branch.cone = camera_cone(world, job, branch.ray);
+        if (world.has_textures()) branch.cone = camera_cone(world, job.full_width, job.full_height, branch.ray);
         if (world.has_bodies()) branch.interior = world.camera_interior();
     }
     const Context context{world, job, lengths};
@@ -162,16 +143,9 @@ void WhittedWave::scatter(const Context& context, std::size_t i, const SurfacePo
         const bool passes = point.material->is_pane && delta.is_transmission;
         if (ends_here && !passes) continue;
         WhittedBranch next = grow(context, i, child++);
-        const auto* mirror =
-            chooses_wavelength && !delta.is_transmission ? std::get_if<SmoothDielectric>(&bsdf) : nullptr;
-        if (mirror != nullptr && mirror->fresnel.is_bare()) {
-            // All wavelengths go where a mirror sends them, each with its own share: the branch need not choose.
-            const float cos_o = scattering.wo_local().z;
-            next.throughput *= world.spectral_response().mean(wavelength, [&](float nm) {
-                const float ior = crossing->relative_ior(nm);
-                return mirror->fresnel(std::min(1.0f, std::abs(cos_o)), cos_o > 0.0f ? ior : 1.0f / ior, cos_o > 0.0f)
-                    .reflected.r;
-            });
+        if (chooses_wavelength && mirrors_all_wavelengths(scattering, delta)) {
+            next.throughput *= world.spectral_response().mean(
+                wavelength, [&](float nm) { return mirrored_share(scattering, crossing->relative_ior(nm)); });
         } else {
             next.throughput *= delta.weight * wavelength.weight;
             next.wavelength_nm = wavelength.nm;
@@ -190,7 +164,7 @@ void WhittedWave::scatter(const Context& context, std::size_t i, const SurfacePo
 
 WhittedBranch WhittedWave::grow(const Context& context, std::size_t i, std::uint32_t child) const {
     WhittedBranch next = batch_[i];
-    next.seed = hash_combine(hash_combine(batch_[i].seed, kBranchEnd), child);
+    next.seed = branch_seed(batch_[i].seed, child);
     ++next.rays;
     next.ray = {};
     next.ray.time = batch_[i].ray.time;
@@ -199,7 +173,7 @@ WhittedBranch WhittedWave::grow(const Context& context, std::size_t i, std::uint
 }
 
 void WhittedWave::push(WhittedBranch branch) {
-    const float chance = survival(branch);
+    const float chance = branch_survival(max_component(branch.throughput) * branch.eta_scale, branch.rays);
     if (chance < 1.0f) {
         const SampleKey key{branch.seed, samples_[branch.slot].key.index};
         if (to_unit_float(sample_bits(key, kBranchEnd)) >= chance) return;

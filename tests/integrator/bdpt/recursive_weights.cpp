@@ -1,7 +1,6 @@
 #include "integrator/bdpt/recursive_weights.h"
 
-#include "integrator/bdpt/strategy_sums.h"
-#include "integrator/subpath/subpath_steps.h"
+#include "transport/strategy_sums.h"
 
 #include <cmath>
 #include <cstddef>
@@ -88,10 +87,10 @@ class GivenPath {
         const bool is_its_way = is_from_light(i) == (mode == TransportMode::Importance);
         side.vertices[i] = vertex;
         side.values[i] = value;
-        side.departing[i] = is_delta(i) ? scatter_by_delta(job_.raised, vertex.densities,
-                                                           is_its_way ? ratio : 1.0f / ratio, vertex.cosine(w))
-                                        : scatter(job_.raised, vertex.densities, value.pdf_solid_angle,
-                                                  value.reverse_pdf_solid_angle, vertex.cosine(w));
+        side.departing[i] = is_delta(i) ? depart_by_delta(job_.raised, vertex.densities,
+                                                          is_its_way ? ratio : 1.0f / ratio, vertex.cosine(w))
+                                        : depart(job_.raised, vertex.densities, value.pdf_solid_angle,
+                                                 value.reverse_pdf_solid_angle, vertex.cosine(w));
     }
     void resize(Side& side) const {
         side.vertices.resize(path_.inner.size());
@@ -105,9 +104,9 @@ class GivenPath {
             PathVertex vertex = seen_from(i, to_light(i));
             const auto cosine = static_cast<double>(vertex.cosine(vertex.wo));
             const Emission emission = i == 0 ? this->emission() : Emission{};
-            DepartingDensities departing = i == 0 ? leave_light(job_, emission) : light_.departing[i - 1];
+            DepartingDensities departing = i == 0 ? leave_light(job_.mis(), emission) : light_.departing[i - 1];
             departing.is_connectible = departing.is_connectible && is_direct(i);
-            vertex.densities = i == 0 ? arrive_from_light(job_, emission, departing, vertex.position, cosine)
+            vertex.densities = i == 0 ? arrive_from_light(job_.mis(), emission, departing, vertex.position, cosine)
                                       : departing.arrive(job_.raised, squared_distance(i - 1), cosine);
             scatter_along(light_, i, vertex, to_eye(i), TransportMode::Importance);
         }
@@ -119,7 +118,7 @@ class GivenPath {
             const auto cosine = static_cast<double>(vertex.cosine(vertex.wo));
             DepartingDensities departing = i == last() ? DepartingDensities() : eye_.departing[i + 1];
             departing.is_connectible = departing.is_connectible && is_direct(i + 1);
-            vertex.densities = i == last() ? arrive_from_lens(job_, departing, path_.camera, cosine)
+            vertex.densities = i == last() ? arrive_from_lens(job_.mis(), departing, path_.camera, cosine)
                                            : departing.arrive(job_.raised, squared_distance(i), cosine);
             scatter_along(eye_, i, vertex, to_light(i), TransportMode::Radiance);
         }
@@ -175,18 +174,19 @@ class GivenPath {
         const Vec3f direction = -path_.end.direction;
         DepartingDensities departing = eye_.departing.front();
         departing.is_connectible = departing.is_connectible && is_direct(0);
-        if (at_infinity()) return sums_at_environment(job_, from, direction, departing).weight();
+        if (at_infinity()) return sums_at_environment(job_.mis(), from, direction, departing).weight();
         const SubpathDensities arrived =
             departing.arrive(job_.raised, static_cast<double>(length_squared(path_.end.position - from)),
                              std::abs(static_cast<double>(path_.end.cos_light)));
-        return sums_at_emitter(job_, from, path_.end.light, path_.end.triangle, direction, path_.end.cos_light, arrived)
+        return sums_at_emitter(job_.mis(), from, path_.end.light, path_.end.triangle, direction, path_.end.cos_light,
+                               arrived)
             .weight();
     }
     [[nodiscard]] double weight_of_light_sample() const {
         if (!job_.world.has_sampled_lights() || !scatters_freely(0) || !is_direct(0)) return 0.0;
         const ChosenLight light = chosen();
         if (!(light.probability > 0.0f)) return 0.0;
-        return sums_of_light_sample(job_, eye_.vertices.front(), light, eye_.values.front()).weight();
+        return sums_of_light_sample(job_.mis(), eye_.vertices.front(), light, eye_.values.front()).weight();
     }
     /// With vertices up to `i` from the light.
     [[nodiscard]] double weight_between(std::size_t i) const {
@@ -197,7 +197,8 @@ class GivenPath {
     }
     [[nodiscard]] double weight_at_lens() const {
         if (!scatters_freely(last()) || !is_direct(last() + 1)) return 0.0;
-        return sums_at_lens(job_, light_.vertices.back(), to_eye(last()), path_.camera, light_.values.back()).weight();
+        return sums_at_lens(job_.mis(), light_.vertices.back(), to_eye(last()), path_.camera, light_.values.back())
+            .weight();
     }
 
     const SubpathJob& job_;

@@ -1,8 +1,8 @@
 // The weights that bidirectional path tracing gives to paths, against their definition.
 #pragma once
 
-#include "integrator/heuristic.h"
 #include "integrator/integrator.h"
+#include "transport/heuristic.h"
 #include "world/world.h"
 
 #include <cstddef>

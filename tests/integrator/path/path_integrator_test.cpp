@@ -4,7 +4,7 @@
 
 #include "integrator/closed_form_scene.h"
 #include "integrator/render_tile.h"
-#include "integrator/walk.h"
+#include "transport/roulette.h"
 #include "world/test_scene.h"
 
 #include <array>

@@ -1,4 +1,4 @@
-#include "integrator/subpath/subpath_densities.h"
+#include "transport/mis.h"
 
 #include "integrator/subpath/arrival_columns.h"
 #include "support/random.h"

@@ -1,5 +1,6 @@
+#include "transport/connecting_ray.h"
+
 #include "core/wide.h"
-#include "integrator/connecting_ray.h"
 #include "support/lanes.h"
 
 #include <array>

@@ -50,9 +50,19 @@
 // belong to the geometric normals, and are 1 in media.
 #pragma once
 
-#include "integrator/heuristic.h"
+#include "camera/camera.h"
+#include "transport/heuristic.h"
+#include "world/world.h"
 
 namespace etendue {
+
+/// Holds what the weights of all paths of a render depend on.
+struct MisContext {
+    const World& world;
+    Raised raised{};
+    /// Camera samples per area of the film over light paths: what the density of the eye's first vertex is times.
+    double samples_per_light_path = 1.0;
+};
 
 /// a and b of a vertex, raised.
 struct SubpathDensities {
@@ -84,5 +94,62 @@ struct DepartingDensities {
         return {arrives && is_connectible ? area * inverse : 0.0, arrives ? back * d * inverse : 0.0};
     }
 };
+
+/// Returns the densities along the ray of `emission`.
+[[nodiscard]] inline DepartingDensities leave_light(const MisContext& mis, const Emission& emission) {
+    const EmissionSample& sample = emission.sample;
+    const bool at_infinity = mis.world.is_at_infinity(emission.light);
+    const auto position = static_cast<double>(sample.pdf_position_area);
+    const auto direction = static_cast<double>(sample.pdf_direction_solid_angle);
+    const auto choice = static_cast<double>(emission.probability);
+    return {.d = mis.world.can_be_hit(emission.light) ? 1.0 / mis.raised(choice * (at_infinity ? direction : position))
+                                                      : 0.0,
+            .pdf_forward = at_infinity ? position : direction,
+            .cosine = static_cast<double>(sample.cos_theta),
+            .is_from_infinity = at_infinity};
+}
+
+/// At the first vertex of a light subpath, at `position`, where its ray has the cosine `cos_arriving`.
+[[nodiscard]] inline SubpathDensities arrive_from_light(const MisContext& mis, const Emission& emission,
+                                                        const DepartingDensities& departing, const Vec3f& position,
+                                                        double cos_arriving) {
+    const EmissionSample& sample = emission.sample;
+    const auto squared_distance = static_cast<double>(length_squared(position - sample.position));
+    SubpathDensities arrived = departing.arrive(mis.raised, squared_distance, cos_arriving);
+    // A light that is sampled for this vertex is chosen in another way than this one was, and so are its triangles.
+    auto for_vertex = static_cast<double>(mis.world.light_probability(position, emission.light) *
+                                          mis.world.light_sample_gain(emission.light, sample.triangle, position));
+    auto for_emission = static_cast<double>(emission.probability);
+    if (emission.light == mis.world.environment()) {
+        for_vertex *= static_cast<double>(mis.world.environment_pdf_solid_angle(-sample.direction));
+        for_emission *= static_cast<double>(sample.pdf_direction_solid_angle);
+    }
+    arrived.a *= mis.raised(for_vertex / for_emission);
+    return arrived;
+}
+
+/// At the first vertex of an eye subpath: the lens and the film, by `camera`, say how densely camera rays fall there.
+[[nodiscard]] inline SubpathDensities arrive_from_lens(const MisContext& mis, DepartingDensities departing,
+                                                       const CameraConnection& camera, double cos_arriving) {
+    departing.pdf_forward = mis.samples_per_light_path * static_cast<double>(camera.importance_area);
+    departing.is_from_infinity = true;  // per area already
+    return departing.arrive(mis.raised, 1.0, cos_arriving);
+}
+
+/// On from a vertex, with the densities of the direction and of turning back, 1/sr, and its cosine.
+[[nodiscard]] inline DepartingDensities depart(const Raised& raised, const SubpathDensities& arrived, float pdf,
+                                               float reverse_pdf, float cosine) {
+    return {.d = arrived.fewer(raised, static_cast<double>(reverse_pdf)),
+            .pdf_forward = static_cast<double>(pdf),
+            .cosine = static_cast<double>(cosine)};
+}
+
+/// Departs from a vertex by a delta, where one density is `reverse_ratio` times the other.
+[[nodiscard]] inline DepartingDensities depart_by_delta(const Raised& raised, const SubpathDensities& arrived,
+                                                        float reverse_ratio, float cosine) {
+    return {.d = arrived.b * raised(static_cast<double>(reverse_ratio)),
+            .cosine = static_cast<double>(cosine),
+            .is_connectible = false};
+}
 
 }  // namespace etendue

@@ -3,14 +3,14 @@
 
 #include "bsdf/bsdf_sample.h"
 #include "core/ray_cone.h"
-#include "integrator/integrator.h"
+#include "world/world.h"
 
 namespace etendue {
 
-/// The cone of one pixel around the camera ray `ray`.
-[[nodiscard]] RayCone camera_cone(const World& world, const TileJob& job, const Ray& ray);
+/// Returns the cone of one pixel around the camera ray `ray`, of an image of `width` × `height` pixels.
+[[nodiscard]] RayCone camera_cone(const World& world, int width, int height, const Ray& ray);
 
-/// The cone that leaves the surface at `hit`, of `geometric_normal`, along `sample`, for one that arrives along
+/// Returns the cone that leaves the surface at `hit`, of `geometric_normal`, along `sample`, for one that arrives along
 /// `direction` with its width there. Mirrors and smooth refraction bend it by the curvature of the surface; lobes widen
 /// it as far as they are wide themselves.
 [[nodiscard]] inline RayCone scattered_cone(const World& world, const Hit& hit, const Vec3f& geometric_normal,

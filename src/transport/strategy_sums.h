@@ -1,14 +1,15 @@
-// What each kind of strategy compares itself with, from the recursion of subpath/subpath_densities.h.
+// What each kind of strategy compares itself with, from the recursion of mis.h.
 #pragma once
 
-#include "integrator/subpath/subpath_wave.h"
+#include "transport/mis.h"
+#include "world/scattering.h"
 
 #include <cmath>
 #include <limits>
 
 namespace etendue {
 
-/// Of a path and the strategy that has made it: sums of ratios over the strategies with fewer vertices from one end.
+/// Sums ratios of a path over the strategies with fewer vertices from one end than the one that has made it.
 /// A template of its lane type, see core/lane.h, double besides.
 template <typename T>
 struct BasicStrategySums {
@@ -20,8 +21,9 @@ struct BasicStrategySums {
 
 using StrategySums = BasicStrategySums<double>;
 
-/// Of a strategy that connects two vertices: `from_eye` is the density per area, 1/m², with which the eye's makes that
-/// of the light, `fewer_of_light` what SubpathDensities::fewer says of the latter, and the same the other way around.
+/// Returns the sums of a strategy that connects two vertices: `from_eye` is the density per area, 1/m², with which the
+/// eye's makes that of the light, `fewer_of_light` what SubpathDensities::fewer says of the latter, and the same the
+/// other way around.
 template <typename T>
 [[nodiscard]] inline BasicStrategySums<T> sums_of_connection(const Raised& raised, T from_eye, T fewer_of_light,
                                                              T from_light, T fewer_of_eye) {
@@ -36,54 +38,55 @@ struct LightPointPdfs {
 
 /// s = 0: an eye subpath has met a point of `light`, or at infinity a direction, coming from `from`. `pdfs` are of that
 /// point or direction, `emission_pdf` of the ray from there.
-[[nodiscard]] inline StrategySums sums_at_light(const SubpathJob& job, const Vec3f& from, std::uint32_t light,
+[[nodiscard]] inline StrategySums sums_at_light(const MisContext& mis, const Vec3f& from, std::uint32_t light,
                                                 const LightPointPdfs& pdfs, float emission_pdf,
                                                 const SubpathDensities& arrived) {
-    const World& world = job.world;
-    const Raised& raised = job.raised;
+    const World& world = mis.world;
+    const Raised& raised = mis.raised;
     const double sampled = raised(static_cast<double>(pdfs.sampled * world.light_probability(from, light)));
     const double emitted = raised(static_cast<double>(pdfs.emitted * world.emission_probability(light)));
     return {.fewer_from_eye = sampled * arrived.a + emitted * arrived.b * raised(static_cast<double>(emission_pdf))};
 }
 
-/// The same for a triangle that a ray along `direction` has met.
-[[nodiscard]] inline StrategySums sums_at_emitter(const SubpathJob& job, const Vec3f& from, std::uint32_t light,
+/// Returns `sums_at_light` for a triangle that a ray along `direction` has met.
+[[nodiscard]] inline StrategySums sums_at_emitter(const MisContext& mis, const Vec3f& from, std::uint32_t light,
                                                   std::uint32_t triangle, const Vec3f& direction, float cos_light,
                                                   const SubpathDensities& arrived) {
-    const float pdf_area = job.world.emitter_pdf_area(light);
+    const float pdf_area = mis.world.emitter_pdf_area(light);
     return sums_at_light(
-        job, from, light,
-        {.sampled = pdf_area * job.world.light_sample_gain(light, triangle, from), .emitted = pdf_area},
-        job.world.emission_pdf(light, -direction, cos_light), arrived);
+        mis, from, light,
+        {.sampled = pdf_area * mis.world.light_sample_gain(light, triangle, from), .emitted = pdf_area},
+        mis.world.emission_pdf(light, -direction, cos_light), arrived);
 }
 
 /// Sums for a lamp that a camera ray has met, which the strategy (1, 1) finds, too.
-[[nodiscard]] inline StrategySums sums_at_seen_emitter(const SubpathJob& job, std::uint32_t light,
+[[nodiscard]] inline StrategySums sums_at_seen_emitter(const MisContext& mis, std::uint32_t light,
                                                        const SubpathDensities& arrived) {
-    return {.fewer_from_eye = job.raised(static_cast<double>(job.world.emitter_pdf_area(light) *
-                                                             job.world.emission_probability(light))) *
+    return {.fewer_from_eye = mis.raised(static_cast<double>(mis.world.emitter_pdf_area(light) *
+                                                             mis.world.emission_probability(light))) *
                               arrived.a};
 }
 
-/// The same for the environment. The vertex is a direction: its density is per solid angle on both sides, and so is
-/// that of the light.
-[[nodiscard]] inline StrategySums sums_at_environment(const SubpathJob& job, const Vec3f& from, const Vec3f& direction,
+/// Returns `sums_at_light` for the environment. The vertex is a direction: its density is per solid angle on both
+/// sides, and so is that of the light.
+[[nodiscard]] inline StrategySums sums_at_environment(const MisContext& mis, const Vec3f& from, const Vec3f& direction,
                                                       DepartingDensities departing) {
-    const World& world = job.world;
+    const World& world = mis.world;
     departing.is_from_infinity = false;
-    return sums_at_light(job, from, world.environment(),
+    return sums_at_light(mis, from, world.environment(),
                          {.sampled = world.environment_pdf_solid_angle(direction),
                           .emitted = world.environment_emission_pdf_solid_angle(direction)},
                          world.emission_pdf(world.environment(), -direction, 1.0f),
-                         departing.arrive(job.raised, 1.0, 1.0));
+                         departing.arrive(mis.raised, 1.0, 1.0));
 }
 
 /// s = 1: `chosen` was sampled for the last vertex of an eye subpath, which scatters it by `value`.
-[[nodiscard]] inline StrategySums sums_of_light_sample(const SubpathJob& job, const PathVertex& vertex,
+template <typename AnyVertex>
+[[nodiscard]] inline StrategySums sums_of_light_sample(const MisContext& mis, const AnyVertex& vertex,
                                                        const ChosenLight& chosen,
                                                        const Scattering::TwoWayValue& value) {
-    const World& world = job.world;
-    const Raised& raised = job.raised;
+    const World& world = mis.world;
+    const Raised& raised = mis.raised;
     const LightSample& light = chosen.sample;
     const float arriving = world.emission_pdf(chosen.light, -light.wi, light.cos_light) * vertex.cosine(light.wi);
     const double from_light =
@@ -107,24 +110,26 @@ struct LightPointPdfs {
 }
 
 /// t = 1: the last vertex of a light subpath scatters along `direction`, by `value`, to the lens.
-[[nodiscard]] inline StrategySums sums_at_lens(const SubpathJob& job, const PathVertex& vertex, const Vec3f& direction,
+template <typename AnyVertex>
+[[nodiscard]] inline StrategySums sums_at_lens(const MisContext& mis, const AnyVertex& vertex, const Vec3f& direction,
                                                const CameraConnection& camera, const Scattering::TwoWayValue& value) {
     const double from_eye =
-        job.samples_per_light_path() * static_cast<double>(camera.importance_area * vertex.cosine(direction));
-    return {.fewer_from_light = job.raised(from_eye) *
-                                vertex.densities.fewer(job.raised, static_cast<double>(value.reverse_pdf_solid_angle))};
+        mis.samples_per_light_path * static_cast<double>(camera.importance_area * vertex.cosine(direction));
+    return {.fewer_from_light = mis.raised(from_eye) *
+                                vertex.densities.fewer(mis.raised, static_cast<double>(value.reverse_pdf_solid_angle))};
 }
 
 /// s = 1, t = 1: the point of a lamp at which `emission` begins is seen by `camera` with this cosine.
-[[nodiscard]] inline StrategySums sums_of_seen_light(const SubpathJob& job, const Emission& emission,
+[[nodiscard]] inline StrategySums sums_of_seen_light(const MisContext& mis, const Emission& emission,
                                                      const CameraConnection& camera, float cosine) {
-    const double from_eye = job.samples_per_light_path() * static_cast<double>(camera.importance_area * cosine);
+    const double from_eye = mis.samples_per_light_path * static_cast<double>(camera.importance_area * cosine);
     const auto from_light = static_cast<double>(emission.sample.pdf_position_area * emission.probability);
-    return {.fewer_from_light = job.raised(from_eye / from_light)};
+    return {.fewer_from_light = mis.raised(from_eye / from_light)};
 }
 
 /// s > 1, t > 1: the last vertices of both subpaths, `squared` m² apart, the direction from that of the eye being `w`.
-[[nodiscard]] inline StrategySums sums_between(const Raised& raised, const PathVertex& eye, const PathVertex& light,
+template <typename AnyVertex>
+[[nodiscard]] inline StrategySums sums_between(const Raised& raised, const AnyVertex& eye, const AnyVertex& light,
                                                const Vec3f& w, float squared, const Scattering::TwoWayValue& at_eye,
                                                const Scattering::TwoWayValue& at_light) {
     const double from_eye = static_cast<double>(at_eye.pdf_solid_angle * light.cosine(w) / squared);

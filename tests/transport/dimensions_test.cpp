@@ -1,6 +1,4 @@
-#include "integrator/path/path_dimensions.h"
-
-#include "integrator/subpath/subpath_wave.h"
+#include "transport/dimensions.h"
 
 #include <cstdint>
 #include <set>

@@ -1,0 +1,30 @@
+// Bidirectional path tracing (Veach 1997, chapter 10) for one sample: subpaths from the eye and from a light, connected
+// in every way and weighed by what other ways would have made of the same path. `integrator/bdpt/` computes the same
+// for many samples at once, from the same random numbers.
+#pragma once
+
+#include "core/rgb.h"
+#include "transport/heuristic.h"
+#include "transport/light.h"
+#include "transport/path_lengths.h"
+
+#include <vector>
+
+namespace etendue {
+
+struct BidirectionalOptions {
+    PathLengths lengths;
+    Heuristic heuristic = Heuristic::Balance;
+    double samples_per_light_path = 1.0;  ///< see MisContext
+};
+
+/// Holds the light that a pair of subpaths finds.
+struct BidirectionalLight {
+    Rgb radiance;                    ///< of the sample, W/(m² sr)
+    std::vector<FilmLight> on_film;  ///< of the light subpath alone; black contributions are left out
+};
+
+[[nodiscard]] BidirectionalLight bidirectional_light(const World& world, const EyeSample& sample,
+                                                     const BidirectionalOptions& options);
+
+}  // namespace etendue

@@ -1,0 +1,25 @@
+// What paths ask of the bodies that they go through.
+#pragma once
+
+#include "world/world.h"
+
+namespace etendue {
+
+/// Returns the share of light that arrives from `distance` metres away.
+[[nodiscard]] inline Rgb transmittance(const World& world, const Interior& interior, float distance) {
+    const HomogeneousMedium* medium = world.medium(interior);
+    return medium != nullptr ? medium->transmittance(distance) : Rgb(1.0f);
+}
+
+/// Returns the bodies on the side of a boundary to which `direction` leads.
+[[nodiscard]] inline const Interior& beyond(const Crossing& crossing, const SurfacePoint& point,
+                                            const Vec3f& direction) {
+    return dot(direction, point.geometric_normal) > 0.0f ? crossing.outside : crossing.inside;
+}
+
+/// Returns the bodies that a ray starts in that leaves a light with `emission`.
+[[nodiscard]] inline Interior interior_at_light(const World& world, const Emission& emission) {
+    return world.has_bodies() ? world.light_interior(emission) : Interior();
+}
+
+}  // namespace etendue

@@ -1,0 +1,116 @@
+// Which random numbers a path takes for what. The wide integrators and the scalar algorithms of this room take the same
+// ones.
+#pragma once
+
+#include "sampling/sampler.h"
+
+#include <cstdint>
+
+namespace etendue {
+
+/// Pairs of dimensions that camera rays use; integrators begin after them. The alpha key takes bits, which are
+/// unrelated to the pair of the same dimension: the time has that.
+enum CameraDimension : std::uint32_t {
+    kFilmDimension,
+    kLensDimension,
+    kCameraAlphaDimension,
+    kFirstFreeDimension,
+    kTimeDimension = kCameraAlphaDimension
+};
+
+/// Pairs of dimensions of one bounce.
+enum BounceDimension : std::uint32_t {
+    kLightChoice,
+    kLightTriangle,
+    kLightDirection,
+    kBsdfDirection,
+    kChoices,  ///< x: which lobe, y: whether the path ends
+    kAlpha,
+    kBounceDimensions
+};
+
+/// Pairs of dimensions that only scenes with bodies need, apart from the others: adding one changes none of these.
+enum BodyDimension : std::uint32_t {
+    kMedium,  ///< x: how far, y: by which channel
+    kWavelength,
+    kBodyDimensions
+};
+
+/// Pairs of dimensions of one branch of Whitted's trees; its seed sets it apart from the others.
+enum BranchDimension : std::uint32_t {
+    kBranchLightChoice = kFirstFreeDimension,
+    kBranchLightTriangle,
+    kBranchLightDirection,
+    kBranchEnvironmentDirection,
+    kBranchWavelength,
+    kBranchAlpha,
+    kBranchEnd
+};
+
+/// Names the end from which a subpath of bidirectional path tracing begins.
+enum class SubpathEnd { AtEye, AtLight };
+
+/// Pairs of dimensions of each bounce of a subpath, scattering and connections.
+enum class BounceNumbers : std::uint32_t {
+    Scattering,
+    Choices,  ///< x: which lobe, y: whether the path ends
+    Medium,
+    Alpha,
+    LightChoice,  ///< of connections; of those to the camera, the lens
+    LightTriangle,
+    LightDirection,
+    Count
+};
+
+/// Pairs of dimensions of the beginning of a light subpath, from kFirstLightDimension on.
+enum EmissionDimension : std::uint32_t { kEmitterChoice, kTriangle, kPosition, kDirection, kEmissionDimensions };
+
+/// The first dimension of light subpaths, far from those of eye paths.
+inline constexpr std::uint32_t kFirstLightDimension = 1u << 29;
+/// The dimension of the wavelength that both subpaths of a sample take in dispersive bodies.
+inline constexpr std::uint32_t kSubpathWavelengthDimension = 1u << 30;
+
+/// Returns the dimension of bounce `bounce` of a subpath, from 1 on; 0 is where a light subpath begins.
+[[nodiscard]] constexpr std::uint32_t subpath_dimension(SubpathEnd end, int bounce, BounceNumbers which) {
+    const std::uint32_t first =
+        end == SubpathEnd::AtEye ? kTimeDimension + 1 : kFirstLightDimension + kEmissionDimensions;
+    return first + static_cast<std::uint32_t>(bounce) * static_cast<std::uint32_t>(BounceNumbers::Count) +
+           static_cast<std::uint32_t>(which);
+}
+
+[[nodiscard]] constexpr std::uint32_t bounce_dimension(int depth, BounceDimension which) {
+    return kFirstFreeDimension + static_cast<std::uint32_t>(depth) * kBounceDimensions + which;
+}
+
+[[nodiscard]] constexpr std::uint32_t body_dimension(int depth, BodyDimension which) {
+    constexpr std::uint32_t kFirst = 1u << 30;
+    return kFirst + static_cast<std::uint32_t>(depth) * kBodyDimensions + which;
+}
+
+/// Returns the key of the `round`-th of `samples` light samples at a vertex of the sample with `key`. Those that are
+/// split have a sequence of their own, with one point after the other for all samples of the pixel.
+[[nodiscard]] constexpr SampleKey light_sample_key(SampleKey key, std::uint32_t samples, std::uint32_t round) {
+    return samples > 1 ? SampleKey{hash_u32(key.pixel_seed), key.index * samples + round} : key;
+}
+
+/// Returns the alpha key of the shadow ray of the `round`-th light sample, from that of the ray that goes on: it
+/// differs from this one and from those of all other rounds.
+[[nodiscard]] constexpr std::uint32_t shadow_alpha_key(std::uint32_t alpha_key, std::uint32_t round) {
+    return round == 0 ? ~alpha_key : hash_combine(~alpha_key, round);
+}
+
+/// Returns the seed of the `child`-th branch that grows from the one with `seed` in a tree of Whitted's.
+[[nodiscard]] constexpr std::uint32_t branch_seed(std::uint32_t seed, std::uint32_t child) {
+    return hash_combine(hash_combine(seed, kBranchEnd), child);
+}
+
+/// The random numbers of one sample.
+struct SampleNumbers {
+    SampleSequence sequence = SampleSequence::Sobol;
+    SampleKey key;
+
+    [[nodiscard]] Vec2f pair(std::uint32_t dimension) const { return sample_2d(sequence, key, dimension); }
+    [[nodiscard]] std::uint32_t bits(std::uint32_t dimension) const { return sample_bits(key, dimension); }
+};
+
+}  // namespace etendue

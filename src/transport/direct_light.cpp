@@ -1,0 +1,77 @@
+#include "transport/direct_light.h"
+
+#include "transport/bodies.h"
+#include "transport/connecting_ray.h"
+
+namespace etendue {
+
+namespace {
+
+/// Returns the weight of light that the path has met, and that a light sample at its last vertex finds with
+/// `light_pdf_solid_angle`.
+float met_light_weight(const LightSampleContext& last, float light_pdf_solid_angle) {
+    if (last.samples == 0) return 1.0f;
+    // How many samples of the light are expected, not how probable one is (Veach 1997, section 9.2.1).
+    return power_heuristic(last.pdf_solid_angle, light_pdf_solid_angle * static_cast<float>(last.samples));
+}
+
+Rgb met_environment(const World& world, const EyePath& path, const Vertex& vertex) {
+    if (!world.has_environment() || (path.rays == 1 && !world.environment_visible_to_camera())) return {};
+    const Vec3f direction = -vertex.wo;
+    const float light_pdf =
+        world.light_probability(path.last.receiver, world.environment()) * world.environment_pdf_solid_angle(direction);
+    return world.environment_radiance(direction) * met_light_weight(path.last, light_pdf);
+}
+
+Rgb met_emission(const World& world, const EyePath& path, const Vertex& vertex) {
+    const Rgb emitted = world.emission(vertex.surface, vertex.wo);
+    if (is_black(emitted)) return {};
+    const float light_pdf = world.emitter_pdf_solid_angle(path.last.receiver, vertex.surface, -vertex.wo,
+                                                          path.last.passed + vertex.distance);
+    return emitted * met_light_weight(path.last, light_pdf);
+}
+
+}  // namespace
+
+Rgb met_light(const World& world, const EyePath& path, const Vertex& vertex) {
+    Rgb light;
+    if (vertex.kind == Vertex::Kind::Environment) light += met_environment(world, path, vertex);
+    if (vertex.surface.material != nullptr && vertex.surface.material->emits)
+        light += met_emission(world, path, vertex);
+    // An unlit surface lights nothing.
+    if (vertex.kind == Vertex::Kind::Unlit && path.only_deltas) light += world.unlit_color(vertex.surface);
+    return path.throughput * light;
+}
+
+Rgb sampled_light(const World& world, const EyePath& path, const Vertex& vertex, const SampleNumbers& numbers,
+                  const VertexNumbers& u, std::uint32_t samples) {
+    const LightReceiver receiver = vertex.receiver();
+    Rgb light;
+    for (std::uint32_t round = 0; round < samples; ++round) {
+        const SampleNumbers own{numbers.sequence, light_sample_key(numbers.key, samples, round)};
+        const auto draw = [&](BounceDimension which) { return own.pair(bounce_dimension(path.rays, which)); };
+        const LightNumbers u_light{draw(kLightChoice), draw(kLightTriangle), draw(kLightDirection)};
+        LightTree::Choice choice = world.choose_light(receiver, u_light.light);
+        choice.probability *= static_cast<float>(samples);
+        const ChosenLight chosen = world.sample_light(choice, vertex.position, u_light);
+        if (is_black(chosen.sample.radiance)) continue;
+        const BsdfValue value = vertex.evaluate(chosen.sample.wi);
+        light += light_contribution(world, vertex, path.throughput * vertex.wavelength.weight, chosen.sample,
+                                    value.f_cos, light_sample_scale(chosen, value.pdf_solid_angle), path.ray.time,
+                                    shadow_alpha_key(u.alpha_key, round));
+    }
+    return light;
+}
+
+Rgb light_contribution(const World& world, const Vertex& vertex, const Rgb& throughput, const LightSample& light,
+                       const Rgb& f_cos, float scale, float time, std::uint32_t alpha_key) {
+    const Rgb contribution = throughput * f_cos * light.radiance * scale *
+                             transmittance(world, vertex.interior_towards(light.wi), light.distance);
+    if (is_black(contribution)) return {};
+    Ray ray = shadow_ray(vertex.origin_towards(light.wi), light);
+    ray.time = time;
+    ray.alpha_key = alpha_key;
+    return contribution * visibility(world, ray);
+}
+
+}  // namespace etendue

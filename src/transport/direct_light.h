@@ -1,0 +1,36 @@
+// Light that vertices receive from lights: met by chance, and sampled. Both estimate the same light and are combined by
+// multiple importance sampling (Veach 1997, chapter 9).
+#pragma once
+
+#include "core/rgb.h"
+#include "sampling/mis.h"
+#include "transport/walk.h"
+
+#include <cstdint>
+
+namespace etendue {
+
+/// Returns the weight of a light sample, over its density, that the scattering at hand would have found with
+/// `pdf_solid_angle`.
+[[nodiscard]] inline float light_sample_scale(const ChosenLight& chosen, float pdf_solid_angle) {
+    const LightSample& light = chosen.sample;
+    // A delta light can be found in no other way; its density is the choice's probability alone.
+    return light.is_delta ? 1.0f / chosen.probability
+                          : power_heuristic(light.pdf_solid_angle, pdf_solid_angle) / light.pdf_solid_angle;
+}
+
+/// Returns the light, on its way to the eye, that the path's ray has met at `vertex` by chance.
+[[nodiscard]] Rgb met_light(const World& world, const EyePath& path, const Vertex& vertex);
+
+/// Returns the light, on its way to the eye, that `samples` light samples find at `vertex`.
+[[nodiscard]] Rgb sampled_light(const World& world, const EyePath& path, const Vertex& vertex,
+                                const SampleNumbers& numbers, const VertexNumbers& u, std::uint32_t samples);
+
+/// Returns what `vertex` scatters of a light sample towards where its path comes from, of which it has the
+/// `throughput`. `f_cos` is what it scatters along the sample's direction, `scale` the sample's weight over its
+/// density; the shadow ray has `time` and `alpha_key`.
+[[nodiscard]] Rgb light_contribution(const World& world, const Vertex& vertex, const Rgb& throughput,
+                                     const LightSample& light, const Rgb& f_cos, float scale, float time,
+                                     std::uint32_t alpha_key);
+
+}  // namespace etendue

@@ -1,0 +1,32 @@
+// Mirrors of dispersive bodies. Where the index of refraction depends on the wavelength, a path of all wavelengths
+// draws one to go on with; but all go where a smooth surface mirrors them, each with its own share, and the path need
+// not choose.
+#pragma once
+
+#include "bsdf/bsdf.h"
+#include "world/scattering.h"
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+namespace etendue {
+
+/// True if `sample` of a dispersive surface goes where light of all wavelengths goes, and Fresnel's equations alone say
+/// how much of each.
+[[nodiscard]] inline bool mirrors_all_wavelengths(const Scattering& scattering, const BsdfSample& sample) {
+    const auto* const mirror = std::get_if<SmoothDielectric>(&scattering.bsdf());
+    return mirror != nullptr && sample.is_delta && !sample.is_transmission && mirror->fresnel.is_bare();
+}
+
+/// Returns the share of light, [0, 1], that such a surface mirrors at a wavelength at which its index inside over that
+/// outside is `relative_ior`.
+[[nodiscard]] inline float mirrored_share(const Scattering& scattering, float relative_ior) {
+    const float cos_o = scattering.wo_local().z;
+    const auto& mirror = std::get<SmoothDielectric>(scattering.bsdf());
+    return mirror
+        .fresnel(std::min(1.0f, std::abs(cos_o)), cos_o > 0.0f ? relative_ior : 1.0f / relative_ior, cos_o > 0.0f)
+        .reflection_share;
+}
+
+}  // namespace etendue

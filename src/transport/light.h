@@ -1,0 +1,47 @@
+// Light tracing: paths from the lights, all of whose vertices are shown to the camera (Dutré, Lafortune and Willems,
+// "Monte Carlo Light Tracing with Direct Computation of Pixel Intensities", Compugraphics 1993), for one sample.
+// `integrator/light/` computes the same for many samples at once, from the same random numbers.
+#pragma once
+
+#include "core/rgb.h"
+#include "transport/path_lengths.h"
+#include "transport/subpath.h"
+
+#include <optional>
+#include <vector>
+
+namespace etendue {
+
+/// Light that a path brings to a place on the film.
+struct FilmLight {
+    Vec2f film{0.0f, 0.0f};  ///< in [0, 1]², as CameraConnection::film
+    Rgb value;               ///< of the integral over the film of area 1
+};
+
+/// Says how the camera sees a point.
+struct LensView {
+    CameraConnection camera;
+    Vec3f direction{0.0f};  ///< unit, from the point to the lens
+    float distance = 0.0f;  ///< metres
+};
+
+/// Returns how the camera sees `position` through the lens point made from `lens` in [0, 1)²; nothing if the film does
+/// not show it.
+[[nodiscard]] std::optional<LensView> view_from_lens(const World& world, const Vec3f& position, Vec2f lens, float time);
+
+/// Returns what a light subpath brings to the film from where it begins, at a lamp in view, times `weigh(view, cosine)`
+/// with the cosine at the lamp.
+[[nodiscard]] std::optional<FilmLight> lamp_to_camera(
+    const SubpathSample& sample, const Emission& emission,
+    const std::function<float(const LensView& view, float cosine)>& weigh);
+
+/// Returns what `vertex` of a light subpath brings to the film, where `view` sees it and it scatters `scattered`, times
+/// `weight`.
+[[nodiscard]] FilmLight vertex_to_camera(const SubpathSample& sample, const SubpathVertex& vertex, const LensView& view,
+                                         const Rgb& scattered, float weight);
+
+/// Returns what the light path of `sample` brings to the film. Black contributions are left out.
+[[nodiscard]] std::vector<FilmLight> light_on_film(const World& world, const EyeSample& sample,
+                                                   const PathLengths& lengths);
+
+}  // namespace etendue

@@ -1,0 +1,42 @@
+#include "transport/path.h"
+
+#include "transport/direct_light.h"
+
+namespace etendue {
+
+namespace {
+
+/// Returns how many lights the path samples at `vertex`. Light that they send is on a path of one edge more, if the
+/// vertex is on a surface.
+std::uint32_t light_samples_at(const World& world, const EyePath& path, const Vertex& vertex,
+                               const PathOptions& options) {
+    const bool is_medium = vertex.kind == Vertex::Kind::Medium;
+    const int edges = path.edges + (is_medium ? 0 : 1);
+    const bool samples_lights = options.sample_lights && vertex.has_non_delta() &&
+                                (is_medium ? world.has_lights_in_media() : world.has_sampled_lights()) &&
+                                edges >= options.lengths.min_depth && edges <= options.lengths.max_depth;
+    if (!samples_lights) return 0;
+    return path.only_deltas ? options.light_samples : 1;
+}
+
+}  // namespace
+
+Rgb path_radiance(const World& world, const EyeSample& sample, const PathOptions& options) {
+    Rgb radiance;
+    EyePath path = begin_at_eye(world, sample);
+    for (;; ++path.rays) {
+        const VertexNumbers u(sample.numbers, path.rays);
+        const Vertex vertex = next_vertex(world, path, u);
+        if (path.edges >= options.lengths.min_depth) radiance += met_light(world, path, vertex);
+        if (vertex.kind == Vertex::Kind::Environment || vertex.kind == Vertex::Kind::Unlit) break;
+
+        const std::uint32_t light_samples = light_samples_at(world, path, vertex, options);
+        if (light_samples > 0) radiance += sampled_light(world, path, vertex, sample.numbers, u, light_samples);
+
+        if (!scatter(world, path, vertex, u, light_samples, options.lengths.max_depth)) break;
+        if (!survives_roulette(world, path, u.roulette, options.lengths.roulette_depth)) break;
+    }
+    return radiance;
+}
+
+}  // namespace etendue

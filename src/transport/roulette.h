@@ -1,0 +1,43 @@
+// Russian roulette: with which chance paths go on (Arvo and Kirk, "Particle Transport and Image Synthesis", SIGGRAPH
+// 1990).
+#pragma once
+
+#include "world/world.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace etendue {
+
+/// Rays after which a path counts as long.
+inline constexpr int kLongPath = 64;
+
+/// Most of the paths of `depth` rays that Russian roulette lets live. Lossless ones live on as long as paths usually
+/// get; between perfect mirrors they would do so until the longest path allowed.
+[[nodiscard]] inline float most_survival(int depth) {
+    return depth < kLongPath ? 1.0f : 0.95f;
+}
+
+/// Chance with which Russian roulette lets a path of `depth` edges from the eye live, of whose light the share
+/// `throughput` arrives. The root spares where all light has come a long way, and little of it arrives, what a chance
+/// in proportion would add to the noise; docs/integrators.md has the figures.
+template <typename T>
+[[nodiscard]] inline T eye_path_survival(const T& throughput, int depth) {
+    return min(T(most_survival(depth)), sqrt(throughput));
+}
+
+/// Returns the rays after which Russian roulette begins where `roulette_depth` is asked for. In bodies nothing else
+/// bounds a walk: neither media nor hidden boundaries add edges.
+[[nodiscard]] inline int first_roulette(const World& world, int roulette_depth) {
+    return world.has_bodies() ? std::min(roulette_depth, kLongPath) : roulette_depth;
+}
+
+/// Returns the chance with which a branch of Whitted's trees is followed that ends with ray number `rays` and
+/// contributes `contribution`. Small ones live on as rarely as they are small, with one and the same contribution:
+/// trees stay small, and what they show on average is what they would show in full.
+[[nodiscard]] inline float branch_survival(float contribution, int rays) {
+    constexpr float kSmallestContribution = 1.0f / 1024.0f;
+    return std::min(most_survival(rays), contribution / kSmallestContribution);
+}
+
+}  // namespace etendue

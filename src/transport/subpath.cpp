@@ -1,0 +1,162 @@
+#include "transport/subpath.h"
+
+#include "transport/bodies.h"
+#include "transport/roulette.h"
+
+#include <algorithm>
+
+namespace etendue {
+
+namespace {
+
+/// Returns the densities with which the subpath arrives at `position`, where its ray has this cosine.
+SubpathDensities densities_at(const SubpathSample& sample, const Subpath& subpath, const Vec3f& position,
+                              float cosine) {
+    const auto cos_arriving = static_cast<double>(cosine);
+    if (subpath.index > 1)
+        return subpath.departing.arrive(sample.mis.raised, static_cast<double>(length_squared(position - subpath.from)),
+                                        cos_arriving);
+    if (subpath.end == SubpathEnd::AtLight)
+        return arrive_from_light(sample.mis, *subpath.emission, subpath.departing, position, cos_arriving);
+    return arrive_from_lens(sample.mis, subpath.departing,
+                            sample.world().connect_to_camera(position, sample.eye.lens, subpath.ray.time),
+                            cos_arriving);
+}
+
+SubpathVertex make_vertex(const Subpath& subpath, const Vertex& vertex, const SubpathDensities& densities,
+                          int next_edges) {
+    return {vertex, subpath.throughput, densities, subpath.index, next_edges, subpath.is_dispersed};
+}
+
+/// Sends the subpath on from `vertex`, at which it has arrived with `densities`, along `sample`.
+void depart_from(const SubpathSample& context, Subpath& subpath, const Vertex& vertex,
+                 const SubpathDensities& densities, const BsdfSample& sample) {
+    const float cosine = vertex.cosine(sample.wi);
+    subpath.departing = sample.is_delta ? depart_by_delta(context.mis.raised, densities, sample.reverse_ratio, cosine)
+                                        : depart(context.mis.raised, densities, sample.pdf_solid_angle,
+                                                 vertex.reverse_pdf(sample.wi, subpath.mode()), cosine);
+    subpath.throughput *= sample.weight;
+    if (subpath.end == SubpathEnd::AtEye && sample.is_transmission) subpath.roulette_scale *= sample.eta * sample.eta;
+    subpath.only_deltas = subpath.only_deltas && sample.is_delta;
+    subpath.is_direct = true;
+    subpath.from = vertex.position;
+    ++subpath.index;
+    subpath.edges += vertex.kind == Vertex::Kind::Surface ? 1 : 0;
+    subpath.ray.origin = vertex.origin_towards(sample.wi);
+    subpath.ray.direction = sample.wi;
+    subpath.interior = vertex.interior_towards(sample.wi);
+}
+
+/// Goes straight on through the boundary of a body that another hides, or a pane.
+void pass_through(Subpath& subpath, const Vertex& vertex) {
+    subpath.ray.origin = vertex.origin_towards(subpath.ray.direction);
+    subpath.interior = vertex.interior_towards(subpath.ray.direction);
+}
+
+/// Goes on from a surface that the subpath has reached; false if it ends there.
+bool scatter_at_surface(const SubpathSample& sample, Subpath& subpath, const Vertex& vertex,
+                        const SubpathDensities& densities, int bounce, std::vector<SubpathVertex>& vertices) {
+    const bool is_pane = vertex.surface.material->is_pane;
+    bool ends_here = subpath.edges >= sample.lengths.max_depth;
+    if (ends_here && !is_pane) return false;
+    subpath.is_dispersed = subpath.is_dispersed || vertex.chooses_wavelength;
+    if (vertex.has_non_delta() && !ends_here)
+        vertices.push_back(make_vertex(subpath, vertex, densities, subpath.edges + 1));
+    // A light subpath needs one more edge to the camera, at least.
+    if (subpath.end == SubpathEnd::AtLight)
+        ends_here = ends_here || subpath.edges + edges_to_connect(sample.world()) > sample.lengths.max_depth;
+    const BsdfSample scattered =
+        vertex.sample(sample.pair(subpath.end, bounce, BounceNumbers::Choices).x,
+                      sample.pair(subpath.end, bounce, BounceNumbers::Scattering), subpath.mode());
+    if (is_black(scattered.weight)) return false;
+    if (is_pane && scattered.is_delta && scattered.is_transmission) {
+        subpath.throughput *= scattered.weight;
+        pass_through(subpath, vertex);
+        return true;
+    }
+    if (ends_here) return false;
+    depart_from(sample, subpath, vertex, densities, scattered);
+    return true;
+}
+
+bool survives_roulette(const SubpathSample& sample, Subpath& subpath, int bounce, int roulette_depth) {
+    if (bounce < first_roulette(sample.world(), roulette_depth)) return true;
+    const float share = max_component(subpath.throughput) * subpath.roulette_scale;
+    const float survival =
+        subpath.end == SubpathEnd::AtEye ? eye_path_survival(share, bounce) : std::min(most_survival(bounce), share);
+    subpath.throughput *= 1.0f / survival;
+    return sample.pair(subpath.end, bounce, BounceNumbers::Choices).y < survival;
+}
+
+}  // namespace
+
+Subpath begin_subpath_at_eye(const SubpathSample& sample) {
+    Subpath subpath;
+    subpath.ray = sample.eye.ray;
+    subpath.interior = sample.world().camera_interior();
+    subpath.from = sample.eye.ray.origin;
+    return subpath;
+}
+
+std::optional<Subpath> begin_subpath_at_light(const SubpathSample& sample) {
+    const World& world = sample.world();
+    if (!world.has_lights()) return {};
+    const auto draw = [&](EmissionDimension which) { return sample.eye.numbers.pair(kFirstLightDimension + which); };
+    Subpath subpath;
+    subpath.end = SubpathEnd::AtLight;
+    const Emission emission = world.sample_emission(
+        draw(kEmitterChoice), {draw(kTriangle), draw(kPosition), draw(kDirection)}, sample.eye.ray.time);
+    subpath.emission = emission;
+    subpath.ray = emission.ray;
+    subpath.ray.alpha_key = sample.eye.numbers.bits(kFirstLightDimension);
+    subpath.throughput = emission.weight;
+    subpath.roulette_scale = 1.0f / max_component(emission.weight);
+    subpath.from = emission.sample.position;
+    subpath.departing = leave_light(sample.mis, emission);
+    subpath.interior = interior_at_light(world, emission);
+    return subpath;
+}
+
+std::vector<SubpathVertex> follow_subpath(const SubpathSample& sample, Subpath subpath, int roulette_depth,
+                                          const Arrival& arrive) {
+    const World& world = sample.world();
+    std::vector<SubpathVertex> vertices;
+    for (int bounce = 1;; ++bounce) {
+        const Hit hit = nearest_hit(world, subpath.ray);
+        if (!hit.valid()) {
+            Vertex environment;
+            environment.wo = -subpath.ray.direction;
+            if (arrive) arrive(subpath, environment, {});
+            break;
+        }
+        const Vec2f u_medium = sample.pair(subpath.end, bounce, BounceNumbers::Medium);
+        if (const auto vertex =
+                medium_vertex(world, subpath.ray, RayCone{}, subpath.interior, hit, subpath.throughput, u_medium)) {
+            const SubpathDensities densities = densities_at(sample, subpath, vertex->position, 1.0f);
+            vertices.push_back(make_vertex(subpath, *vertex, densities, subpath.edges));
+            const Vec2f u = sample.pair(subpath.end, bounce, BounceNumbers::Scattering);
+            depart_from(sample, subpath, *vertex, densities, vertex->sample(0.0f, u, subpath.mode()));
+        } else {
+            const float nanometres = subpath.is_dispersed ? sample.wavelength().nm : 0.0f;
+            const Vertex surface = surface_vertex(world, subpath.ray, RayCone{}, subpath.interior, hit, nanometres,
+                                                  sample.eye.numbers.pair(kSubpathWavelengthDimension).x);
+            const float cosine = abs_dot(subpath.ray.direction, surface.surface.geometric_normal);
+            const SubpathDensities densities = densities_at(sample, subpath, surface.position, cosine);
+            if (arrive) arrive(subpath, surface, densities);
+            if (surface.kind == Vertex::Kind::Unlit) break;
+            if (surface.kind == Vertex::Kind::Boundary) {
+                // No connection passes a boundary.
+                subpath.departing.is_connectible = false;
+                subpath.is_direct = false;
+                pass_through(subpath, surface);
+            } else if (!scatter_at_surface(sample, subpath, surface, densities, bounce, vertices)) {
+                break;
+            }
+        }
+        subpath.ray.alpha_key = sample.eye.numbers.bits(subpath_dimension(subpath.end, bounce, BounceNumbers::Alpha));
+        if (!survives_roulette(sample, subpath, bounce, roulette_depth)) break;
+    }
+    return vertices;
+}
+
+}  // namespace etendue

@@ -1,0 +1,93 @@
+// Subpaths from the eye and from the lights, whose vertices bidirectional path tracing and light tracing connect.
+#pragma once
+
+#include "core/ray.h"
+#include "core/rgb.h"
+#include "transport/dimensions.h"
+#include "transport/mis.h"
+#include "transport/path_lengths.h"
+#include "transport/vertex.h"
+#include "transport/walk.h"
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace etendue {
+
+/// Edges of the shortest way from a light, or from a surface, to the camera by another vertex: where that scatters in a
+/// medium it adds none.
+[[nodiscard]] inline int edges_to_connect(const World& world) {
+    return world.has_scattering_bodies() ? 1 : 2;
+}
+
+/// Holds what both subpaths of a sample share.
+struct SubpathSample {
+    MisContext mis;
+    const PathLengths& lengths;
+    const EyeSample& eye;
+
+    [[nodiscard]] const World& world() const { return mis.world; }
+    /// Returns a pair of numbers for `bounce` of a subpath, 0 where it begins.
+    [[nodiscard]] Vec2f pair(SubpathEnd end, int bounce, BounceNumbers which) const {
+        return eye.numbers.pair(subpath_dimension(end, bounce, which));
+    }
+    /// Returns the key of rays that connect the vertex of this index.
+    [[nodiscard]] std::uint32_t connection_key(SubpathEnd end, int index) const {
+        return ~eye.numbers.bits(subpath_dimension(end, index, BounceNumbers::Alpha));
+    }
+    /// Returns the wavelength that the sample's path takes where a body disperses light.
+    [[nodiscard]] Wavelength wavelength() const {
+        return world().spectral_response().sample(eye.numbers.pair(kSubpathWavelengthDimension).x);
+    }
+    [[nodiscard]] Rgb wavelength_weight(bool is_dispersed) const {
+        return is_dispersed ? wavelength().weight : Rgb(1.0f);
+    }
+};
+
+/// A subpath under way, between two of its vertices.
+struct Subpath {
+    SubpathEnd end = SubpathEnd::AtEye;
+    std::optional<Emission> emission;  ///< with which a subpath from a light begins
+    Ray ray;
+    Interior interior;     ///< the bodies that the ray is in
+    Rgb throughput{1.0f};  ///< without the weight of the wavelength
+    /// Multiplies the throughput for Russian roulette: eta² over the refractions of radiance, or one over what a
+    /// light began with.
+    float roulette_scale = 1.0f;
+    Vec3f from{0.0f};  ///< the vertex before
+    DepartingDensities departing;
+    int index = 1;  ///< of the vertex to come
+    int edges = 1;  ///< of the path when its ray has hit; media, panes and hidden boundaries add none
+    bool is_dispersed = false;
+    bool only_deltas = true;
+    bool is_direct = true;  ///< no boundary that another body hides lies between `from` and where the ray is
+
+    [[nodiscard]] TransportMode mode() const {
+        return end == SubpathEnd::AtEye ? TransportMode::Radiance : TransportMode::Importance;
+    }
+};
+
+/// A vertex of a subpath that can be connected to others.
+struct SubpathVertex : Vertex {
+    Rgb throughput;              ///< of the subpath that arrives
+    SubpathDensities densities;  ///< with which it arrives
+    int index = 1;               ///< vertices before it
+    int next_edges = 1;          ///< of the path when a ray from here has hit
+    bool is_dispersed = false;
+};
+
+/// Hears where the ray of a subpath has led, and with which densities if that is a surface.
+using Arrival = std::function<void(const Subpath&, const Vertex&, const SubpathDensities&)>;
+
+/// Returns the subpath of the sample's camera ray.
+[[nodiscard]] Subpath begin_subpath_at_eye(const SubpathSample& sample);
+/// Returns a subpath from a light that was chosen by its power; nothing if that emits nothing.
+[[nodiscard]] std::optional<Subpath> begin_subpath_at_light(const SubpathSample& sample);
+
+/// Follows a subpath to its end. Russian roulette begins after `roulette_depth` rays. Returns its vertices that can be
+/// connected, the first one first.
+[[nodiscard]] std::vector<SubpathVertex> follow_subpath(const SubpathSample& sample, Subpath subpath,
+                                                        int roulette_depth, const Arrival& arrive = {});
+
+}  // namespace etendue

@@ -1,0 +1,121 @@
+#include "transport/walk.h"
+
+#include "transport/dispersion.h"
+#include "transport/roulette.h"
+#include "transport/scattered_cone.h"
+
+#include <span>
+
+namespace etendue {
+
+namespace {
+
+/// Goes straight on from `vertex`, which is none to the path: the boundary of a body that another hides, or a pane.
+void pass(EyePath& path, const Vertex& vertex, std::uint32_t alpha_key) {
+    path.ray.origin = vertex.origin_towards(path.ray.direction);
+    path.ray.alpha_key = alpha_key;
+    path.cone = vertex.cone;
+    path.interior = vertex.interior_towards(path.ray.direction);
+}
+
+/// Multiplies the throughput by what of the light of a path's wavelengths goes along `sample`.
+void scatter_wavelengths(const World& world, EyePath& path, const Vertex& vertex, const BsdfSample& sample) {
+    const Scattering scattering = vertex.scattering();
+    if (vertex.chooses_wavelength && mirrors_all_wavelengths(scattering, sample)) {
+        path.throughput *= world.spectral_response().mean_over_chance(
+            vertex.wavelength, [&](float nm) { return mirrored_share(scattering, vertex.crossing->relative_ior(nm)); });
+        return;
+    }
+    path.throughput *= vertex.wavelength.weight;
+    path.wavelength_nm = vertex.wavelength.nm;
+}
+
+}  // namespace
+
+VertexNumbers::VertexNumbers(const SampleNumbers& numbers, int depth)
+    : medium(numbers.pair(body_dimension(depth, kMedium))),
+      wavelength(numbers.pair(body_dimension(depth, kWavelength)).x),
+      lobe(numbers.pair(bounce_dimension(depth, kChoices)).x),
+      direction(numbers.pair(bounce_dimension(depth, kBsdfDirection))),
+      roulette(numbers.pair(bounce_dimension(depth, kChoices)).y),
+      alpha_key(numbers.bits(bounce_dimension(depth, kAlpha))) {}
+
+EyePath begin_at_eye(const World& world, const EyeSample& sample) {
+    return {.ray = sample.ray, .cone = sample.cone, .interior = world.camera_interior()};
+}
+
+Hit nearest_hit(const World& world, const Ray& ray) {
+    Hit hit;
+    world.intersect(std::span(&ray, 1), std::span(&hit, 1), Coherence::Incoherent);
+    return hit;
+}
+
+Rgb visibility(const World& world, const Ray& ray) {
+    std::uint8_t occluded = kFree;
+    world.occluded(std::span(&ray, 1), std::span(&occluded, 1));
+    if (occluded == kOccluded) return {};
+    return occluded == kPassesPanes ? world.pane_transmittance(ray) : Rgb(1.0f);
+}
+
+Vertex next_vertex(const World& world, EyePath& path, const VertexNumbers& u) {
+    const Hit hit = nearest_hit(world, path.ray);
+    if (!hit.valid()) {
+        // What leaves the scene was in no body, whatever holes in meshes made of its interior.
+        Vertex environment;
+        environment.wo = -path.ray.direction;
+        return environment;
+    }
+    if (const auto vertex = medium_vertex(world, path.ray, path.cone, path.interior, hit, path.throughput, u.medium))
+        return *vertex;
+    return surface_vertex(world, path.ray, path.cone, path.interior, hit, path.wavelength_nm, u.wavelength);
+}
+
+bool scatter(const World& world, EyePath& path, const Vertex& vertex, const VertexNumbers& u,
+             std::uint32_t light_samples, int max_depth) {
+    if (vertex.kind == Vertex::Kind::Boundary) {
+        // No light sample passes a boundary.
+        path.last.samples = 0;
+        pass(path, vertex, u.alpha_key);
+        return true;
+    }
+    const BsdfSample sample = vertex.sample(u.lobe, u.direction);
+    if (is_black(sample.weight)) return false;
+    const bool is_surface = vertex.kind == Vertex::Kind::Surface;
+    if (is_surface && vertex.surface.material->is_pane && sample.is_delta && sample.is_transmission) {
+        // Light samples pass panes.
+        path.throughput *= sample.weight;
+        path.last.passed += vertex.distance;
+        pass(path, vertex, u.alpha_key);
+        return true;
+    }
+    if (is_surface && path.edges >= max_depth) return false;
+    path.throughput *= sample.weight;
+    if (is_surface) scatter_wavelengths(world, path, vertex, sample);
+    path.edges += is_surface ? 1 : 0;
+    path.only_deltas = path.only_deltas && sample.is_delta;
+    path.last = {.receiver = vertex.receiver(),
+                 .samples = sample.is_delta ? 0 : light_samples,
+                 .pdf_solid_angle = sample.pdf_solid_angle};
+    leave(world, path, vertex, sample, u.alpha_key);
+    return true;
+}
+
+void leave(const World& world, EyePath& path, const Vertex& vertex, const BsdfSample& sample, std::uint32_t alpha_key) {
+    path.cone = vertex.kind == Vertex::Kind::Medium ? scatter_cone(vertex.cone, lobe_spread(sample.pdf_solid_angle))
+                                                    : scattered_cone(world, vertex.hit, vertex.surface.geometric_normal,
+                                                                     path.ray.direction, vertex.cone, sample);
+    path.ray.origin = vertex.origin_towards(sample.wi);
+    path.ray.direction = sample.wi;
+    path.ray.alpha_key = alpha_key;
+    path.interior = vertex.interior_towards(sample.wi);
+    if (sample.is_transmission) path.eta_scale *= sample.eta * sample.eta;
+}
+
+bool survives_roulette(const World& world, EyePath& path, float u, int roulette_depth) {
+    if (path.rays < first_roulette(world, roulette_depth)) return true;
+    const float survival = eye_path_survival(max_component(path.throughput) * path.eta_scale, path.rays);
+    path.throughput *= 1.0f / survival;
+    return u < survival;
+}
+
+}  // namespace etendue

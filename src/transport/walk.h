@@ -1,0 +1,83 @@
+// One step of a path, from vertex to vertex.
+#pragma once
+
+#include "core/ray.h"
+#include "core/ray_cone.h"
+#include "core/rgb.h"
+#include "light/light_receiver.h"
+#include "transport/dimensions.h"
+#include "transport/vertex.h"
+#include "world/world.h"
+
+#include <cstdint>
+
+namespace etendue {
+
+/// A sample of a pixel: its ray from the camera, with the cone of the pixel around it, and its random numbers.
+struct EyeSample {
+    Ray ray;
+    RayCone cone;
+    SampleNumbers numbers;
+    Vec2f lens{0.0f, 0.0f};  ///< chose the point on the lens, in [0, 1)²
+};
+
+/// Remembers of a path's last vertex what it takes to weigh light that it meets by chance against the light samples
+/// that were taken there.
+struct LightSampleContext {
+    LightReceiver receiver;
+    std::uint32_t samples = 0;     ///< that were taken of the light; 0 if none of them can find what the ray meets
+    float pdf_solid_angle = 0.0f;  ///< 1/sr, of the ray's direction; not meaningful if there are no `samples`
+    float passed = 0.0f;           ///< metres from the vertex to where the ray starts: behind panes, which are none
+};
+
+/// A path from the eye, between two of its vertices: the ray to the next one, and what has become of the light that
+/// comes back along it.
+struct EyePath {
+    Ray ray;
+    RayCone cone;                ///< around the ray
+    Interior interior;           ///< the bodies that the ray is in
+    Rgb throughput{1.0f};        ///< the share of its light that arrives at the eye, over the density of the path
+    float eta_scale = 1.0f;      ///< eta² over all refractions: what radiance takes from the throughput, unlike power
+    float wavelength_nm = 0.0f;  ///< nanometres once a dispersive body has refracted it, 0 for all wavelengths
+    int rays = 1;                ///< traced, this one included
+    int edges = 1;               ///< the same without those to media, panes and hidden boundaries
+    bool only_deltas = true;     ///< the eye sees what the ray meets directly, in mirrors and through smooth glass
+    LightSampleContext last{};
+};
+
+/// The random numbers of one vertex, but for those of light samples.
+struct VertexNumbers {
+    Vec2f medium;  ///< x: how far, y: by which channel
+    float wavelength;
+    float lobe;
+    Vec2f direction;
+    float roulette;
+    std::uint32_t alpha_key;  ///< of the ray that goes on
+
+    VertexNumbers(const SampleNumbers& numbers, int depth);
+};
+
+/// Returns the path of `sample` that has come nowhere yet.
+[[nodiscard]] EyePath begin_at_eye(const World& world, const EyeSample& sample);
+
+/// Returns the nearest surface along `ray`.
+[[nodiscard]] Hit nearest_hit(const World& world, const Ray& ray);
+/// Returns the share of light, [0, 1], that passes what lies within the length of `ray`.
+[[nodiscard]] Rgb visibility(const World& world, const Ray& ray);
+
+/// Follows the path's ray to where it leads. What a medium absorbs on the way is taken from the throughput.
+[[nodiscard]] Vertex next_vertex(const World& world, EyePath& path, const VertexNumbers& u);
+
+/// Has the path go on from `vertex`, at which it took `light_samples`; false if it ends there: light is absorbed, or
+/// the path would be longer than `max_depth` edges.
+[[nodiscard]] bool scatter(const World& world, EyePath& path, const Vertex& vertex, const VertexNumbers& u,
+                           std::uint32_t light_samples, int max_depth);
+
+/// Ends the path at random if little light comes along it, and has the others stand for it; false if it ends.
+[[nodiscard]] bool survives_roulette(const World& world, EyePath& path, float u, int roulette_depth);
+
+/// Sends the path on from `vertex` along `sample`, as one with as many edges and the same throughput: its ray, the cone
+/// around it and the bodies that it is in.
+void leave(const World& world, EyePath& path, const Vertex& vertex, const BsdfSample& sample, std::uint32_t alpha_key);
+
+}  // namespace etendue

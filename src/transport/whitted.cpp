@@ -1,0 +1,140 @@
+#include "transport/whitted.h"
+
+#include "sampling/hash.h"
+#include "sampling/mis.h"
+#include "transport/bodies.h"
+#include "transport/direct_light.h"
+#include "transport/dispersion.h"
+#include "transport/roulette.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace etendue {
+
+namespace {
+
+/// A branch of the tree of one sample. All branches have random numbers of their own.
+struct Branch {
+    EyePath path;
+    SampleNumbers numbers;
+};
+
+/// Returns light from one chosen light and from the environment. No ray looks for the environment beside these two, of
+/// which the first knows nothing of its dimmer parts.
+Rgb branch_direct_light(const World& world, const Branch& branch, const Vertex& vertex) {
+    const SampleNumbers& numbers = branch.numbers;
+    const std::uint32_t alpha_key = shadow_alpha_key(numbers.bits(kBranchAlpha), 0);
+    const auto contribution = [&](const LightSample& light, float scale) {
+        return light_contribution(world, vertex, branch.path.throughput * vertex.wavelength.weight, light,
+                                  vertex.evaluate(light.wi).f_cos, scale, branch.path.ray.time, alpha_key);
+    };
+    Rgb found;
+    if (world.has_sampled_lights()) {
+        const ChosenLight chosen =
+            world.sample_light(vertex.position, {numbers.pair(kBranchLightChoice), numbers.pair(kBranchLightTriangle),
+                                                 numbers.pair(kBranchLightDirection)});
+        const LightSample& light = chosen.sample;
+        const bool is_environment = chosen.light == world.environment();
+        if (!is_black(light.radiance))
+            found += contribution(
+                light, light_sample_scale(
+                           chosen, is_environment ? world.environment_emission_pdf_solid_angle(light.wi) : 0.0f));
+    }
+    if (!world.has_environment()) return found;
+    const LightSample light = world.sample_environment(vertex.position, numbers.pair(kBranchEnvironmentDirection));
+    if (is_black(light.radiance)) return found;
+    const float chosen_pdf = world.has_sampled_lights()
+                                 ? world.light_probability(vertex.position, world.environment()) *
+                                       world.environment_pdf_solid_angle(light.wi)
+                                 : 0.0f;
+    return found + contribution(light, light_sample_scale({light, 1.0f, world.environment()}, chosen_pdf));
+}
+
+/// Returns the branch that grows from `branch` as its child number `child`, without a way yet.
+Branch grow(const Branch& branch, std::uint32_t child) {
+    Branch next = branch;
+    next.numbers.key.pixel_seed = branch_seed(branch.numbers.key.pixel_seed, child);
+    ++next.path.rays;
+    return next;
+}
+
+Branch go_straight_on(const Branch& branch, const Vertex& vertex) {
+    Branch next = grow(branch, 0);
+    next.path.ray.origin = vertex.origin_towards(next.path.ray.direction);
+    next.path.ray.alpha_key = next.numbers.bits(kBranchAlpha);
+    next.path.cone = vertex.cone;
+    next.path.interior = vertex.interior_towards(next.path.ray.direction);
+    return next;
+}
+
+Branch follow(const World& world, const Branch& branch, const Vertex& vertex, const BsdfSample& delta,
+              std::uint32_t child) {
+    Branch next = grow(branch, child);
+    const Scattering scattering = vertex.scattering();
+    if (vertex.chooses_wavelength && mirrors_all_wavelengths(scattering, delta)) {
+        next.path.throughput *= world.spectral_response().mean(
+            vertex.wavelength, [&](float nm) { return mirrored_share(scattering, vertex.crossing->relative_ior(nm)); });
+    } else {
+        next.path.throughput *= delta.weight * vertex.wavelength.weight;
+        next.path.wavelength_nm = vertex.wavelength.nm;
+    }
+    leave(world, next.path, vertex, delta, next.numbers.bits(kBranchAlpha));
+    return next;
+}
+
+/// Returns what a branch of little light stands for, which is followed as rarely; nothing if it is not.
+std::optional<Branch> survivor(Branch branch) {
+    EyePath& path = branch.path;
+    const float chance = branch_survival(max_component(path.throughput) * path.eta_scale, path.rays);
+    if (chance >= 1.0f) return branch;
+    if (to_unit_float(branch.numbers.bits(kBranchEnd)) >= chance) return {};
+    path.throughput *= 1.0f / chance;
+    return branch;
+}
+
+/// Returns the light that comes to the eye along `branch` and all that grows from it.
+Rgb branch_radiance(const World& world, Branch branch, const PathLengths& lengths) {
+    EyePath& path = branch.path;
+    const Hit hit = nearest_hit(world, path.ray);
+    const bool is_wanted = path.edges >= lengths.min_depth;
+    if (!hit.valid()) {
+        Vertex environment;
+        environment.wo = -path.ray.direction;
+        return is_wanted ? met_light(world, path, environment) : Rgb();
+    }
+    // What scatters on the way is lost like what is absorbed.
+    path.throughput *= transmittance(world, path.interior, hit.t);
+    const Vertex vertex = surface_vertex(world, path.ray, path.cone, path.interior, hit, path.wavelength_nm,
+                                         branch.numbers.pair(kBranchWavelength).x);
+    Rgb radiance;
+    if (is_wanted) radiance += met_light(world, path, vertex);
+    const auto add = [&](const Branch& next) {
+        if (const std::optional<Branch> followed = survivor(next))
+            radiance += branch_radiance(world, *followed, lengths);
+    };
+    if (vertex.kind == Vertex::Kind::Boundary) add(go_straight_on(branch, vertex));
+    if (vertex.kind != Vertex::Kind::Surface) return radiance;
+
+    const bool ends_here = path.edges >= lengths.max_depth;
+    if (!ends_here && vertex.has_non_delta() && path.edges + 1 >= lengths.min_depth)
+        radiance += branch_direct_light(world, branch, vertex);
+    std::uint32_t child = 0;
+    for (const BsdfSample& delta : vertex.scattering().deltas()) {
+        // What goes straight through a pane has no vertex there.
+        const bool passes = vertex.surface.material->is_pane && delta.is_transmission;
+        if (ends_here && !passes) continue;
+        Branch next = follow(world, branch, vertex, delta, child++);
+        next.path.edges += passes ? 0 : 1;
+        add(next);
+    }
+    return radiance;
+}
+
+}  // namespace
+
+Rgb whitted_radiance(const World& world, const EyeSample& sample, const PathLengths& lengths) {
+    return branch_radiance(world, {begin_at_eye(world, sample), sample.numbers}, lengths);
+}
+
+}  // namespace etendue
