@@ -13,8 +13,8 @@ namespace etendue {
 
 /// How far a render is.
 struct Progress {
-    double fraction = 0.0;  ///< of all samples, [0, 1]
-    double seconds = 0.0;   ///< of rendering
+    double fraction = 0.0;  ///< share of all samples that are taken, [0, 1]
+    double seconds = 0.0;   ///< seconds of rendering
     std::uint64_t samples = 0;
     std::uint64_t rays = 0;
 };

@@ -16,9 +16,9 @@ struct Picture::State {
     ColorConfig colors;
     std::vector<std::filesystem::path> inputs;  ///< that the scene was read from
     std::vector<Message> messages;
-    std::vector<Layer> layers;  ///< of `image`
+    std::vector<Layer> layers;  ///< layers of `image`, as the caller sees them
 
-    /// Has `layers` show those of `image`.
+    /// Fills `layers` with those of `image`.
     void list_layers();
 };
 

@@ -68,7 +68,7 @@ bool is_interrupt(const ChildEnd& end) {
            end.exit_code == static_cast<int>(ExitCode::Terminated);
 }
 
-/// What the end of a child that was not done means.
+/// Says in `attempt` what the end of a child means that did not finish its image.
 void judge_failure(const ChildProcess& child, const BatchOptions& options, Attempt& attempt) {
     const ChildEnd& end = child.end();
     attempt.log.assign(child.last_messages().begin(), child.last_messages().end());

@@ -17,14 +17,14 @@ enum class AttemptEnd {
     Done,
     Failed,       ///< another attempt may do better
     Hopeless,     ///< it would fail in the same way again
-    Invalid,      ///< the same, and so would other images of the scene
+    Invalid,      ///< it would fail in the same way again, and so would other images of the scene
     Interrupted,  ///< by the user; what was rendered is kept
     LockLost,     ///< another process has taken the image over
 };
 
 struct Attempt {
     AttemptEnd end = AttemptEnd::Failed;
-    std::optional<int> exit_code{};  ///< of its process, if it had one that ended by itself
+    std::optional<int> exit_code{};  ///< exit code of its process, if it had one that ended by itself
     std::string signal{};            ///< "SIGSEGV", if that ended it
     std::string error{};             ///< unless it is done or interrupted; any number of lines
     bool was_said = false;           ///< `error` is what its process had said, and `on_message` was told
@@ -38,9 +38,9 @@ struct AttemptOptions {
     bool force = false;  ///< also if the image is up to date
 };
 
-/// What is called while an attempt goes on.
+/// Holds the functions that are called while an attempt goes on.
 struct AttemptCallbacks {
-    std::function<void(const std::string& line)> on_message;  ///< of the process
+    std::function<void(const std::string& line)> on_message;  ///< takes each message of the process
     std::function<void(const ChildProgress&)> on_progress;
     std::function<bool()> keep_alive;  ///< a few times a second; false if the attempt must end at once
 };

@@ -20,10 +20,10 @@ class BatchBooks {
     /// Writes report.json and index.html, unless the time that this takes would not be small against the time since it
     /// was last done: for many units it costs a part of the whole, and not more the more there are.
     void write_reports(const BatchReport& report);
-    /// The same in any case.
+    /// Writes report.json and index.html, however long that takes.
     void write_last_reports(const BatchReport& report);
 
-    /// False if something could not be written.
+    /// Returns false if something could not be written.
     [[nodiscard]] bool are_kept() const { return are_kept_; }
 
   private:

@@ -13,13 +13,13 @@
 
 namespace etendue {
 
-/// What `etendue render --progress-fd` writes, a line at a time.
+/// Holds what one line says that `etendue render --progress-fd` writes.
 struct ChildProgress {
     std::string phase{};    ///< "load", "resume", "build", "render" or "write"
-    double fraction = 0.0;  ///< of the samples, [0, 1]
-    double seconds = 0.0;   ///< of rendering
+    double fraction = 0.0;  ///< share of the samples that are taken, [0, 1]
+    double seconds = 0.0;   ///< seconds of rendering
 };
-/// Nothing if `line` is no such JSON.
+/// Reads a line of progress; none if `line` is no such JSON.
 [[nodiscard]] std::optional<ChildProgress> parse_progress(const std::string& line);
 
 /// The arguments of `etendue render` for one image, with all that the batch was told about how to render.

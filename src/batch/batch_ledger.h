@@ -31,16 +31,16 @@ struct LedgerEvent {
     int attempt = 0;                     ///< from 1; 0 if it means nothing
     std::string reason{};                ///< why a unit is started
     std::string taken_over_from{};       ///< "host:pid" of the dead process that had begun the unit
-    std::optional<int> exit_code{};      ///< of the process that ended
+    std::optional<int> exit_code{};      ///< exit code of the process that ended
     std::string signal{};                ///< "SIGSEGV", if one ended it
     std::string error{};                 ///< what went wrong
     std::vector<std::string> log{};      ///< last lines of that process, oldest first
-    std::optional<double> seconds{};     ///< that it took
+    std::optional<double> seconds{};     ///< seconds that it took
     bool again = false;                  ///< the same process tries again at once
-    std::optional<std::size_t> units{};  ///< of a batch: all, and at its end those that
-    std::size_t rendered = 0;            ///< it rendered
-    std::size_t failed = 0;              ///< failed
-    std::size_t not_tried = 0;           ///< were not tried, since their scene is invalid
+    std::optional<std::size_t> units{};  ///< units of a batch
+    std::size_t rendered = 0;            ///< units that a batch had rendered when it ended
+    std::size_t failed = 0;              ///< units that had failed when it ended
+    std::size_t not_tried = 0;           ///< units that were not tried, since their scene is invalid
 };
 
 /// "2026-11-22T14:03:07.123Z": now, in UTC.
@@ -62,13 +62,13 @@ class BatchLedger {
     std::filesystem::path path_;
 };
 
-/// What a ledger says about each unit in the end. Lines that are not whole, or no such JSON, are skipped.
+/// Tells what a ledger says about each unit in the end. Lines that are not whole, or no such JSON, are skipped.
 class LedgerHistory {
   public:
     struct Entry {
         LedgerEventKind kind = LedgerEventKind::UnitStarted;
-        std::string host{};              ///< of the batch process
-        std::optional<int> exit_code{};  ///< of the process that rendered it
+        std::string host{};              ///< host of the batch process
+        std::optional<int> exit_code{};  ///< exit code of the process that rendered it
         std::string error{};             ///< if it failed; its first line
         bool is_final = true;            ///< its process did not try again at once
         bool is_recent = false;          ///< appended after the first `read_new`
@@ -79,7 +79,7 @@ class LedgerHistory {
     /// Reads what was appended since the last time. A ledger that is missing or cannot be read is empty.
     void read_new();
 
-    /// The last that is known of `unit`; null if nothing is. Valid until the next `read_new`.
+    /// Returns the last that is known of `unit`; null if nothing is. Valid until the next `read_new`.
     [[nodiscard]] const Entry* find(const std::string& unit) const;
 
   private:

@@ -59,7 +59,7 @@ class Mutex {
 
     [[nodiscard]] const fs::path& path() const { return path_; }
 
-    /// What time it is for the file system, which is all that can be compared with the times of its files.
+    /// Returns what time it is for the file system: only that time can be compared with the times of its files.
     [[nodiscard]] timespec time_of_files() const {
         struct stat status {};
         if (!touch(file_) || ::fstat(file_.get(), &status) != 0) throw_errno("touch", path_, errno);
@@ -85,7 +85,8 @@ std::string to_json(const ProcessOwner& owner, const std::string& image) {
     return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-/// None if it cannot be read: whoever died while writing left it so, or another machine has not seen its content yet.
+/// Reads the owner in a lock's file; none if it cannot be read: whoever died while writing left it so, or another
+/// machine has not seen its content yet.
 std::optional<ProcessOwner> read_owner(const fs::path& file) {
     constexpr std::size_t kMostBytes = 1 << 16;
     std::string text(kMostBytes, '\0');
@@ -100,7 +101,7 @@ std::optional<ProcessOwner> read_owner(const fs::path& file) {
     }
 }
 
-/// True if it was touched not longer ago than that. While the mutex is held.
+/// Returns whether `file` was touched not longer ago than `dead_after`. To be called while the mutex is held.
 bool is_young(const fs::path& file, const Mutex& mutex, std::chrono::seconds dead_after) {
     // Opened, so that a network file system asks its server.
     const FileDescriptor opened(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
@@ -109,14 +110,14 @@ bool is_young(const fs::path& file, const Mutex& mutex, std::chrono::seconds dea
     return mutex.time_of_files().tv_sec - status.st_mtim.tv_sec <= dead_after.count();
 }
 
-/// True if the owner of the lock `file` is alive, as far as one can tell. While the mutex is held.
+/// Returns whether the owner of the lock `file` is alive, as far as one can tell. To be called while the mutex is held.
 bool is_held(const std::optional<ProcessOwner>& owner, const fs::path& file, const Mutex& mutex,
              std::chrono::seconds dead_after) {
     const Liveness known = owner ? liveness(*owner) : Liveness::Unknown;
     return known == Liveness::Unknown ? is_young(file, mutex, dead_after) : known == Liveness::Alive;
 }
 
-/// On the disk when it returns: another machine would otherwise see a file that says nothing.
+/// Creates a file that is on the disk when this returns: another machine would otherwise see a file that says nothing.
 FileDescriptor create(const fs::path& file, const std::string& text) {
     FileDescriptor created(::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
     if (!created.is_open()) throw_errno("write", file, errno);

@@ -23,23 +23,23 @@ struct LockTimes {
     std::chrono::seconds dead_after{150};
 };
 
-/// The right to make one image, until the end of its life.
+/// Holds the right to make one image, for as long as the object lives.
 class BatchLock {
   public:
     BatchLock(std::filesystem::path directory, std::filesystem::path file, FileDescriptor descriptor,
               std::optional<ProcessOwner> dead_owner, std::chrono::milliseconds between_touches);
-    /// Gives it up.
+    /// Gives the lock up.
     ~BatchLock();
     BatchLock(BatchLock&&) = default;
     BatchLock& operator=(BatchLock&&) = delete;
     BatchLock(const BatchLock&) = delete;
     BatchLock& operator=(const BatchLock&) = delete;
 
-    /// To be called several times a second, or as often as may be: touches the file when it is time. False if the lock
-    /// is lost: this process stood still for so long that another one has taken it for dead.
+    /// Keeps the lock: called several times a second, or as often as may be, it touches the file when it is time.
+    /// Returns false if the lock is lost: this process stood still for so long that another one has taken it for dead.
     [[nodiscard]] bool keep_alive();
 
-    /// Whom it was taken over from, if that one died.
+    /// Returns the owner that the lock was taken over from, if that owner died.
     [[nodiscard]] const std::optional<ProcessOwner>& dead_owner() const { return dead_owner_; }
 
   private:
@@ -54,7 +54,7 @@ class BatchLock {
     Clock::time_point touched_ = Clock::now();
 };
 
-/// What became of the wish for a lock: it, or whose it is.
+/// Holds what became of the wish for a lock: the lock, or whose it is.
 struct LockAttempt {
     std::optional<BatchLock> lock{};
     ProcessOwner holder{};
@@ -62,7 +62,7 @@ struct LockAttempt {
 
 class BatchLocks {
   public:
-    /// Those of the output directory `output`, which exists.
+    /// Gives out the locks of the output directory `output`, which exists.
     explicit BatchLocks(const std::filesystem::path& output, LockTimes times = {});
 
     /// Throws IoError if no locks can be had there, since nothing can be written or the file system has none.

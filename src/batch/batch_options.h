@@ -18,19 +18,19 @@ struct BatchOptions {
     std::string command{};             ///< the whole command line, as a shell reads it
 
     SettingsOverrides overrides{};
-    std::vector<GivenOption> given{};  ///< the same, as they were given: for other processes
+    std::vector<GivenOption> given{};  ///< options behind `overrides`, as they were given: for other processes
     bool all_variants = false;         ///< an image of each variant of a scene's materials
-    int threads = 0;                   ///< of each render; 0: one per processor
-    bool force = false;                ///< also what is up to date
+    int threads = 0;                   ///< threads of each render; 0: one per processor
+    bool force = false;                ///< images that are up to date are rendered, too
 
     bool dry_run = false;
     bool no_probe = false;
     bool in_process = false;
-    int retries = 1;                            ///< of one image, after the first attempt
+    int retries = 1;                            ///< retries of one image, after the first attempt
     double checkpoint_minutes = 5.0;            ///< 0: none
-    double stall_minutes = 30.0;                ///< without a sign of progress, until it is killed; 0: never
-    std::optional<std::uint64_t> max_memory{};  ///< of the process that renders an image, bytes
-    std::string max_memory_text{};              ///< as it was given
+    double stall_minutes = 30.0;                ///< minutes without a sign of progress, until it is killed; 0: never
+    std::optional<std::uint64_t> max_memory{};  ///< bytes that the process of one image may have
+    std::string max_memory_text{};              ///< max_memory as it was given
     bool quiet = false;
     bool json = false;
 };

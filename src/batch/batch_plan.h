@@ -29,7 +29,7 @@ struct PlannedUnit {
     BatchTask task;
     std::string reason{};                       ///< why it is stale; empty if it is up to date
     double done = 0.0;                          ///< part of its samples that a checkpoint holds, [0, 1]
-    std::optional<double> estimated_seconds{};  ///< of what is left; if it is stale and a probe was possible
+    std::optional<double> estimated_seconds{};  ///< seconds for what is left; if it is stale and a probe was possible
     FileStamp seen{};                           ///< the statistics beside the image, when they were looked at
 
     [[nodiscard]] bool is_stale() const { return !reason.empty(); }

@@ -9,48 +9,50 @@
 
 namespace etendue {
 
-/// How long the rest takes, from estimates that what has finished corrects.
+/// Estimates how long the rest of a batch takes; times of images that have finished correct the estimates.
 class TimeLeft {
   public:
-    /// An image that is to be made; none if nothing is known of it.
+    /// Adds an image that is to be made, with its estimate in seconds; none if nothing is known of it.
     void add(const std::optional<double>& estimate);
-    /// The next of them is begun: it is no more among those to come.
+    /// Begins the next image, which is no more among those to come.
     void begin(const std::optional<double>& estimate);
-    /// It took so many seconds; none if that says nothing of the others, as when it failed.
+    /// Ends the image that was begun, after so many seconds; none if that says nothing of the others, as when it
+    /// failed.
     void end(const std::optional<double>& seconds);
 
-    /// Seconds until all is done. `seconds` and `fraction` are of the image that was begun. None if nothing is known.
+    /// Returns the seconds until all is done, with `seconds` and `fraction` of the image that was begun; none if
+    /// nothing is known.
     [[nodiscard]] std::optional<double> left(double seconds, double fraction) const;
 
   private:
     [[nodiscard]] std::optional<double> expected(const std::optional<double>& estimate) const;
 
     double to_come_ = 0.0;             ///< sum of the estimates
-    std::size_t unknown_to_come_ = 0;  ///< images without one
+    std::size_t unknown_to_come_ = 0;  ///< images to come without an estimate
     bool has_current_ = false;
-    std::optional<double> current_{};  ///< estimate
-    double finished_estimates_ = 0.0;  ///< of those that have one
-    double finished_seconds_ = 0.0;    ///< of the same
+    std::optional<double> current_{};  ///< estimate of the image under way
+    double finished_estimates_ = 0.0;  ///< estimates of finished images that have one
+    double finished_seconds_ = 0.0;    ///< seconds of finished images that have an estimate
     double all_finished_seconds_ = 0.0;
     std::size_t finished_ = 0;
 };
 
-/// What the line shows.
+/// Holds what the line of progress shows.
 struct BatchProgressLine {
     std::size_t done = 0;
-    std::size_t failed = 0;  ///< of those
+    std::size_t failed = 0;  ///< images of `done` that failed
     std::size_t of = 0;
     std::string current{};  ///< name of the image under way, or what else is done
-    std::string state{};    ///< of it: "43%", "load"
+    std::string state{};    ///< state of that image: "43%", "load"
     double elapsed = 0.0;   ///< seconds of the batch
     std::optional<double> left{};
 };
-/// `width` characters at most; a name that is too long loses its beginning.
+/// Formats the line of progress in `width` characters at most; a name that is too long loses its beginning.
 [[nodiscard]] std::string format_line(const BatchProgressLine& line, int width);
 
 class BatchProgress {
   public:
-    /// Nothing is written if `quiet`.
+    /// Shows the progress of a batch on stderr; nothing is written if `quiet`.
     explicit BatchProgress(bool quiet);
     ~BatchProgress();
     BatchProgress(const BatchProgress&) = delete;
@@ -63,7 +65,7 @@ class BatchProgress {
     /// Writes a line that stays.
     void say(const std::string& text);
 
-    /// Seconds since the beginning.
+    /// Returns the seconds since the beginning.
     [[nodiscard]] double elapsed() const;
 
   private:

@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 
 using Clock = std::chrono::steady_clock;
 
-/// What is known of a unit before anything is done.
+/// Returns what is known of a unit before anything is done.
 BatchUnit planned_unit(const PlannedUnit& planned, const fs::path& output) {
     const ImageJob& job = planned.task.job;
     BatchUnit unit{.name = job.name,

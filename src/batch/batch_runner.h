@@ -31,25 +31,26 @@ class BatchRunner {
     void run();
 
     [[nodiscard]] const BatchReport& report() const { return report_; }
-    /// False if something could not be written into the ledger or the reports; it was said when it happened.
+    /// Returns false if something could not be written into the ledger or the reports; it was said when it happened.
     [[nodiscard]] bool has_kept_books() const { return books_.are_kept(); }
 
   private:
-    /// Of an image that is up to date: a render that was killed after its image was complete has left them.
+    /// Removes the checkpoints of an image that is up to date: a render that was killed after its image was complete
+    /// has left them.
     void remove_checkpoints(std::size_t index);
-    /// False if another process has the image now.
+    /// Works on an image; returns false if another process has the image now.
     bool work_on(std::size_t index);
-    /// Under its lock. False if the lock was lost.
+    /// Works on an image under its lock; returns false if the lock was lost.
     bool work_under(BatchLock& lock, std::size_t index);
-    /// True if another process has made the image, or failed to, since this one looked at it last.
+    /// Returns whether another process has made the image, or failed to, since this one looked at it last.
     bool was_made_elsewhere(std::size_t index, const BatchLock& lock);
-    /// Tries until it is made, or there is no more hope. False if the lock was lost.
+    /// Tries until the image is made, or there is no more hope; returns false if the lock was lost.
     bool make(std::size_t index, BatchLock& lock);
     Attempt attempt(std::size_t index, const AttemptOptions& how, BatchLock& lock);
-    /// What was said before is not said again.
+    /// Says why an attempt failed; what its process has said itself is not said again, unless `quiet`.
     [[nodiscard]] std::string failure_in_words(const Attempt& attempt) const;
     void begin_record(std::size_t index, const BatchLock& lock);
-    /// Of an image whose scene is invalid, as another one has shown.
+    /// Records that an image is not tried, since another image of its scene has shown that the scene is invalid.
     void give_up(std::size_t index);
     void end_record(std::size_t index, const Attempt& attempt, double seconds, bool again);
     void finish(std::size_t index, const Attempt& attempt, double seconds);
@@ -71,7 +72,7 @@ class BatchRunner {
     TimeLeft time_left_{};
     std::set<std::filesystem::path> invalid_scenes_{};
     std::size_t stale_ = 0;
-    std::size_t done_ = 0;  ///< of the stale ones
+    std::size_t done_ = 0;  ///< images of the stale ones that are done
     std::size_t failed_ = 0;
     std::size_t not_tried_ = 0;
     bool has_waited_ = false;

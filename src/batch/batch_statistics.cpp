@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// What stands at `pointer`, if it is a number.
+/// Returns the number at `pointer`; none if there is something else.
 template <typename Number>
 std::optional<Number> number_at(const Json& json, const char* pointer) {
     const Json::json_pointer place(pointer);

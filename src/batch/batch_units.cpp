@@ -67,8 +67,8 @@ std::string file_part(const std::string& variant) {
 
 struct ScenePart {
     std::optional<std::string> variant{};
-    std::string suffix{};  ///< of the name of its images
-    std::string label{};   ///< the same, for people
+    std::string suffix{};  ///< follows the scene's name in names of image files: ".red"
+    std::string label{};   ///< follows the scene's name in what people read: " variant red"
 };
 
 /// The variants of a scene, or the scene as it is.

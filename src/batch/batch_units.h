@@ -13,7 +13,7 @@ namespace etendue {
 
 struct BatchTask {
     ImageJob job;
-    std::filesystem::path render_output;  ///< what `etendue render` is told to write: without the frame's number
+    std::filesystem::path render_output;  ///< path that `etendue render` is told to write: without the frame's number
     std::string id;                       ///< path of the image below the output directory, without its extension
 };
 

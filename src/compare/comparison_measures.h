@@ -12,7 +12,7 @@
 
 namespace etendue {
 
-/// What is measured with.
+/// Holds what all measures need: colours, threads and the images that were kept.
 struct MeasureContext {
     const ColorConfig& colors;
     const ThreadPool& threads;

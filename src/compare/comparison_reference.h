@@ -12,15 +12,15 @@
 
 namespace etendue {
 
-/// What the images are compared with.
+/// Holds the image or images that the images of a comparison are compared with.
 class Reference {
   public:
-    /// An image that has nothing to do with those that are measured.
+    /// Holds one image that has nothing to do with those that are measured.
     Reference(ImageF image, ReferenceReport report);
-    /// A pooled one: for every round of renders an image that it had no part in.
+    /// Holds a pooled reference: for every round of renders an image that the round had no part in.
     Reference(std::vector<ImageF> of_rounds, ReferenceReport report);
 
-    /// For the render with number `round` of every variant.
+    /// Returns the reference for the render with number `round` of every variant.
     [[nodiscard]] const ImageF& of_round(std::size_t round) const;
     [[nodiscard]] const ReferenceReport& report() const { return report_; }
 
@@ -32,9 +32,9 @@ class Reference {
 /// The finished images of a variant.
 struct FinishedImages {
     std::vector<ImageF> of_seeds{};
-    ImageEstimate estimate{};         ///< of two seeds or more
+    ImageEstimate estimate{};         ///< estimate of two seeds or more
     std::optional<int> block_size{};  ///< smallest that can be tested; nothing if few pixels make up the whole image
-    double relative_variance = kUnknown;  ///< of one render
+    double relative_variance = kUnknown;  ///< relative variance of one render
 };
 
 [[nodiscard]] std::vector<FinishedImages> finished_images(std::span<const VariantRenders> renders,
@@ -45,21 +45,21 @@ struct FinishedImages {
 [[nodiscard]] std::vector<PairReport> compare_pairs(std::span<const Variant> variants,
                                                     std::span<const FinishedImages> images);
 
-/// The same estimate with its variance widened for splats that fall into several pixels of a block.
+/// Returns the estimate of `images` with its variance widened for splats that fall into several pixels of a block.
 [[nodiscard]] ImageEstimate widened_estimate(const FinishedImages& images, int block_size);
 
-/// The mean of all renders of the variants that show the same light and find all of it, of all rounds but one each
-/// time: weighted by one over their mean relative variance, or those without any alike and the others not at all. If
-/// there are several kinds of light, the one that most variants show. Nothing if fewer than two variants, or fewer than
-/// three rounds, are there to be pooled, or if those variants disagree or could not be tested. `notes` gets what is to
-/// be said of it.
+/// Pools a reference: the mean of all renders of the variants that show the same light and find all of it, of all
+/// rounds but one each time, weighted by one over their mean relative variance, or those without any alike and the
+/// others not at all. If there are several kinds of light, the one that most variants show. None if fewer than two
+/// variants, or fewer than three rounds, are there to be pooled, or if those variants disagree or could not be tested.
+/// `notes` gets what is to be said of the reference.
 [[nodiscard]] std::optional<Reference> pool_reference(std::span<const Variant> variants,
                                                       std::span<const FinishedImages> images,
                                                       std::span<const PairReport> pairs,
                                                       std::vector<std::string>& notes);
 
-/// What is to be said of a reference that `reference` renders, and `variants` are measured against: light that it does
-/// not find, or that they do not show; and whether it would make the same errors as they.
+/// Returns notes on a reference that `reference` renders, and `variants` are measured against: light that it does not
+/// find, or that they do not show; and whether it would make the same errors as they.
 [[nodiscard]] std::vector<std::string> reference_notes(const Variant& reference, std::span<const Variant> variants);
 
 }  // namespace etendue

@@ -83,7 +83,7 @@ class TimedRender {
     ProgressDisplay display_;
 };
 
-/// False if it is interrupted.
+/// Renders and keeps the images on the way; returns false if it is interrupted.
 bool keep_images(TimedRender& render, ImageStore& store, SeedRender& result) {
     std::uint32_t next = 1;
     const auto keep = [&] {

@@ -13,7 +13,7 @@
 
 namespace etendue {
 
-/// What each render takes: one of the two is set.
+/// Sets what each render takes: one of the two is set.
 struct RenderBudget {
     std::optional<double> seconds{};
     std::optional<std::uint32_t> spp{};
@@ -22,7 +22,7 @@ struct RenderBudget {
 /// An image on the way.
 struct Snapshot {
     std::uint32_t spp = 0;
-    double seconds = 0.0;  ///< of rendering alone
+    double seconds = 0.0;  ///< seconds of rendering alone
     double cpu_seconds = 0.0;
     std::size_t image = 0;  ///< in the store
 };

@@ -20,7 +20,7 @@ namespace etendue {
 
 namespace {
 
-/// They may be given to all variants alike.
+/// Lists options that may be given to all variants alike, but not to one of them.
 constexpr std::array kOptionsForAll{
     OptionOfRender{"--seed", "every variant gets seeds of its own; the first of all is --seed of 'compare'"},
     OptionOfRender{"--spp", "all variants render alike, for --seconds or with --spp of 'compare'"}};
@@ -35,7 +35,7 @@ constexpr std::array kOptionsOfRender{OptionOfRender{"--time", "here it is --sec
                                       OptionOfRender{"--half", "here no image file is written"},
                                       OptionOfRender{"--float", "here no image file is written"}};
 
-/// What of a scene decides which light there is, as text: neither how it is computed nor what memory that takes.
+/// Writes as text what of a scene decides which light there is: neither how it is computed nor what memory that takes.
 std::string light_text(SceneDesc scene) {
     scene.settings.integrator = {};
     scene.settings.spp = 1;
@@ -69,7 +69,7 @@ void require_comparable(const Variant& first, const Variant& other) {
                                                           first.name, other.name, different));
 }
 
-/// What depends on the settings alone.
+/// Completes a variant by what depends on its settings and its world alone.
 void complete(Variant& variant) {
     variant.sampling = make_render_options(variant.settings);
     variant.sampling.brightest = 0;

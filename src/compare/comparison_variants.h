@@ -36,18 +36,18 @@ struct VariantRequest {
 struct Variant {
     std::string name{};
     std::string options{};
-    std::vector<GivenOption> given{};             ///< of `render`: its own and those of all variants
+    std::vector<GivenOption> given{};             ///< options of `render`: its own and those of all variants
     std::vector<std::filesystem::path> inputs{};  ///< files that its scene was read from
     RenderSettings settings{};
     RenderOptions sampling{};
     std::unique_ptr<const Integrator> integrator{};
     std::shared_ptr<const World> world{};  ///< one for all variants whose scenes are the same
-    std::string light{};                   ///< what decides which light the scene has, as text
+    std::string light{};                   ///< text of what decides which light the scene has
     std::vector<std::string> cannot_find{};
 };
 
-/// Those that `compare` decides about itself: for how long it renders, which images and into what file. To a variant
-/// the seed and the number of samples cannot be given either.
+/// Lists the options of `render` that `compare` sets itself: for how long it renders, which images and into what file.
+/// A single variant cannot be given the seed and the number of samples either.
 [[nodiscard]] std::span<const OptionOfRender> options_compare_sets();
 
 /// `common` and then `options`. Throws CLI::ParseError for options that it does not know, and for those that

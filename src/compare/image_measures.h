@@ -18,21 +18,21 @@ namespace etendue {
 
 /// All names: those of metrics/error_metrics.h, "ldr-flip", "hdr-flip", and "flip" for the one of the two that fits.
 [[nodiscard]] std::vector<std::string> measure_names();
-/// Those that are taken if none is named.
+/// Returns the names of the measures that are taken if none is named.
 [[nodiscard]] std::vector<std::string> default_measures();
 /// `name` with "flip" made "ldr-flip" for images encoded for a display, else "hdr-flip".
 [[nodiscard]] std::string resolve_measure(std::string_view name, bool is_encoded);
 
 struct MeasureOptions {
     HdrFlipOptions flip{};              ///< LDR-FLIP takes its pixels per degree
-    std::optional<PixelRect> region{};  ///< of `MeasuredPair::pair.window`, in the full image's coordinates
+    std::optional<PixelRect> region{};  ///< part of `MeasuredPair::pair.window`, in the full image's coordinates
 };
 
 struct Measure {
     std::string name;
     double value = 0.0;                        ///< NaN if no pixel is left to measure
     std::string description;                   ///< the formula and its constants
-    std::optional<ExposureRange> exposures{};  ///< of hdr-flip
+    std::optional<ExposureRange> exposures{};  ///< exposures of hdr-flip
 };
 
 /// A pair, and what of it is not finite and was therefore set to black in both and left out of every measure.
@@ -48,7 +48,7 @@ class MeasuredPair {
     [[nodiscard]] std::size_t pixel_count() const;
     /// Pixels of the region that were left out.
     [[nodiscard]] std::size_t left_out_count() const;
-    /// Of the pixels of the window: those of the region that were not left out.
+    /// Selects, among the pixels of the window, those of the region that were not left out.
     [[nodiscard]] PixelSelection selection() const;
 
     /// Takes the measures in `names`, which are resolved, and keeps the map of the first: one channel, of the whole

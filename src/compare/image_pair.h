@@ -11,7 +11,7 @@
 
 namespace etendue {
 
-/// What is said about one of the files.
+/// Holds what is said about one of the compared files.
 struct ComparedFile {
     std::filesystem::path path;
     std::string format;  ///< "openexr", "png", …
@@ -22,7 +22,7 @@ struct ComparedFile {
     std::string color_space;
 };
 
-/// Both have 3 channels, R, G and B, and the size of `window`.
+/// Holds two images that can be compared: each has 3 channels, R, G and B, and the size of `window`.
 struct ImagePair {
     ComparedFile image_file;
     ComparedFile reference_file;
@@ -33,7 +33,7 @@ struct ImagePair {
     /// True for integers (PNG, JPEG, …): values are as they stand in the file, in [0, 1] and encoded for a display.
     /// False for floats (EXR, HDR): scene-linear.
     bool is_encoded = false;
-    std::string color_space;            ///< of both; empty if neither file says it
+    std::string color_space;            ///< colour space of both images; empty if neither file says it
     std::vector<std::string> warnings;  ///< what was assumed, one sentence each
 };
 

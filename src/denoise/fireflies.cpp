@@ -6,7 +6,7 @@ namespace etendue {
 
 namespace {
 
-/// Of the mean over the image, so that in the dark not every glimmer is a firefly.
+/// Adds this share of the image's mean to a pixel's surroundings, so that in the dark not every glimmer is a firefly.
 constexpr float kFloor = 0.5f;
 
 float sum_of(const Planes& planes, int x, int y) {

@@ -10,12 +10,12 @@ namespace etendue {
 
 /// How many times brighter than its surroundings in the other half a pixel must be to be a firefly.
 inline constexpr float kFireflyFactor = 50.0f;
-/// Of these surroundings: 7 × 7 pixels.
+/// Sets the surroundings that a firefly is compared with: this many pixels to each side, 7 × 7 in all.
 inline constexpr int kFireflyRadius = 3;
 
 struct Fireflies {
     std::size_t count = 0;     ///< values of a half that were replaced
-    double light_share = 0.0;  ///< of the light of the image that they took with them, in [0, 1]
+    double light_share = 0.0;  ///< share of the image's light that they took with them, in [0, 1]
 };
 
 /// Replaces each pixel of one half whose sum of channels is more than kFireflyFactor times that of the other half's

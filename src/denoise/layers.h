@@ -13,7 +13,7 @@ namespace etendue {
 /// The prefix of channels that hold the mean of about half of the samples.
 inline constexpr std::string_view kHalfPrefix = "half.";
 
-/// What a method needs to know of an image's noise.
+/// Says whether a method needs the halves of an image, to know its noise.
 enum class HalvesUse { Needed, None };
 
 /// Channels of one layer, as indices among those of the file, and those of its half in the same order, if it is needed.

@@ -13,31 +13,33 @@ namespace etendue {
 
 namespace {
 
-/// Of features before the regression, and of their mean before the last.
+/// Filter features: kFeatureFilter before the regression, kLastFeatureFilter their mean before the last one.
 constexpr NlMeansSettings kFeatureFilter{5, 3, 0.5f};
 constexpr NlMeansSettings kLastFeatureFilter{2, 3, 0.5f};
-/// Of the map of squared errors and of the choice between bandwidths.
+/// Filters the map of squared errors and the choice between bandwidths.
 constexpr NlMeansSettings kErrorFilter{9, 1, 1.0f};
 /// The bandwidths k that are tried everywhere, the narrowest first.
 constexpr std::array<float, 2> kBandwidths{0.5f, 1.0f};
-/// What is chosen among, pixel by pixel: an image filtered with each bandwidth, and the one that is not filtered.
+/// Counts what is chosen among, pixel by pixel: an image filtered with each bandwidth, and the one that is not
+/// filtered.
 constexpr std::size_t kCandidates = kBandwidths.size() + 1;
-/// Of the image's mean: in darker places, errors are not counted relative to the light that there is.
+/// Sets the least light that squared errors are relative to, as a share of the image's mean: in darker places, errors
+/// are not counted relative to the light that there is.
 constexpr float kRelativeErrorFloor = 0.1f;
 
 bool stopped(const NforSettings& settings) {
     return settings.stop != nullptr && *settings.stop;
 }
 
-/// Both halves denoised with one bandwidth.
+/// Holds both halves, denoised with one bandwidth.
 struct Filtered {
     Planes a;
     Planes b;
 };
 
-/// What weights come from: log(1 + |u| / m) with the sign of u, m the mean of |u| over the image; and the variance of
-/// that. In linear light the variance of one pixel that a lamp's edge crosses is so large that no wall beside it
-/// differs from the lamp; and the paper's images are of lower contrast than a lamp and its room.
+/// Returns what weights come from: log(1 + |u| / m) with the sign of u, m the mean of |u| over the image; and the
+/// variance of that. In linear light the variance of one pixel that a lamp's edge crosses is so large that no wall
+/// beside it differs from the lamp; and the paper's images are of lower contrast than a lamp and its room.
 Halves compressed(const Halves& light, float mean) {
     const auto compress = [mean](const Planes& planes) {
         return make_planes(planes.width(), planes.height(), planes.count(), [&](int plane, int x, int y) {
@@ -50,7 +52,7 @@ Halves compressed(const Halves& light, float mean) {
     return halves;
 }
 
-/// Of |u| over all pixels and planes; 1 if all are 0.
+/// Returns the mean of |u| over all pixels and planes; 1 if all are 0.
 float mean_of(const Planes& planes) {
     double sum = 0.0;
     for (int plane = 0; plane < planes.count(); ++plane)
@@ -91,10 +93,10 @@ Planes squared_error(const Halves& light, const Filtered& filtered) {
     });
 }
 
-/// What squared errors are multiplied by to be relative: 1 / Σ (v / ε + 1)², the sum over the channels. Without, the
-/// error of a lamp's edge, a million times that of a wall, would choose for all walls around. v is the lesser of the
-/// narrowest filter's light and the mean of 3 × 3 pixels of the input: where a filter has spread a lamp over its wall,
-/// its error counts as on a wall.
+/// Returns the factor that makes squared errors relative: 1 / Σ (v / ε + 1)², the sum over the channels. Without it,
+/// the error of a lamp's edge, a million times that of a wall, would choose for all walls around. v is the lesser of
+/// the narrowest filter's light and the mean of 3 × 3 pixels of the input: where a filter has spread a lamp over its
+/// wall, its error counts as on a wall.
 Planes error_scale(const Planes& input, const Planes& narrowest) {
     const Planes box = box_filtered(input, 1);
     const float floor = kRelativeErrorFloor * mean_of(input);
@@ -173,7 +175,7 @@ void clamp_below(Planes& planes, const Planes& input) {
     }
 }
 
-/// What a feature's deviations over the image are multiplied by to be 1 on average over its channels; 0 if there are
+/// Returns the factor that makes a feature's deviations over the image 1 on average over its channels; 0 if it has
 /// none.
 float scale_of(const Planes& planes) {
     const double pixels = double(planes.width()) * double(planes.height());

@@ -16,7 +16,7 @@
 namespace etendue {
 
 struct NforSettings {
-    int radius = 9;  ///< of the windows of the regression, in [1, kLargestWindowRadius]
+    int radius = 9;  ///< radius of the windows of the regression, in [1, kLargestWindowRadius]
     /// Once it is true, the work ends as soon as it can, and what is returned is worth nothing.
     const std::atomic<bool>* stop = nullptr;
 };

@@ -20,7 +20,7 @@ struct NlMeansSettings {
     float k = 1.0f;  ///< bandwidth, > 0: how far apart values may lie, in standard deviations of their difference
 };
 
-/// What weights are computed from: an image, and its variance times a factor. Borders are filled.
+/// Holds what weights are computed from: an image, and its variance times a factor. Borders are filled.
 struct NlMeansGuide {
     const Planes& image;
     const Planes& variance;
@@ -41,8 +41,8 @@ class WindowWeights {
     /// `tile` lies in the image and has sides of at most kDenoiseTileSide.
     void compute(const NlMeansGuide& guide, const PixelRect& tile);
 
-    /// Of the window around (x, y), a pixel of the tile: `rows()` rows of `row_stride()` weights, of which the first
-    /// `rows()` count and the others are 0.
+    /// Returns the weights of the window around (x, y), a pixel of the tile: `rows()` rows of `row_stride()` weights,
+    /// of which the first `rows()` count and the others are 0.
     [[nodiscard]] const float* window(int x, int y) const;
     [[nodiscard]] int rows() const { return 2 * settings_.radius + 1; }
     [[nodiscard]] int row_stride() const { return row_stride_; }
@@ -55,8 +55,8 @@ class WindowWeights {
     int row_stride_;
     PixelRect tile_;
     std::vector<float> weights_;
-    std::vector<float> distances_;  ///< of the tile and a patch's radius around it
-    std::vector<float> row_sums_;   ///< the same, each summed over a row of its patch
+    std::vector<float> distances_;  ///< d², summed over channels, of the tile and a patch's radius around it
+    std::vector<float> row_sums_;   ///< distances_ summed over rows of patches, for the columns of the tile
 };
 
 /// The tiles of an image of this size, row by row.

@@ -11,7 +11,7 @@ namespace etendue {
 
 namespace {
 
-/// False ends the work.
+/// Tells the library whether to go on; false ends its work.
 bool may_go_on(void* stop, double) {
     return !static_cast<const std::atomic<bool>*>(stop)->load(std::memory_order_relaxed);
 }

@@ -9,10 +9,10 @@
 
 namespace etendue {
 
-/// False in builds without the library, whose `denoise_oidn` throws.
+/// Returns false in builds without the library, whose `denoise_oidn` throws.
 [[nodiscard]] bool has_oidn();
 
-/// What the network is told besides the light: three channels each, noisy themselves, as large as the light.
+/// Holds what the network is told besides the light: three channels each, noisy themselves, as large as the light.
 struct OidnFeatures {
     ImageF albedo;  ///< without channels if there is none
     ImageF normal;  ///< in any space; only used beside an albedo, as the library asks
@@ -24,8 +24,8 @@ struct OidnSettings {
     const std::atomic<bool>* stop = nullptr;
 };
 
-/// The layer of light `light`, three channels of finite values without an upper bound, denoised by the filter "RT".
-/// None if it was stopped. Throws IoError with the library's reason.
+/// Returns the layer of light `light`, three channels of finite values without an upper bound, denoised by the filter
+/// "RT"; none if it was stopped. Throws IoError with the library's reason.
 [[nodiscard]] std::optional<ImageF> denoise_oidn(const ImageF& light, const OidnFeatures& features,
                                                  const OidnSettings& settings);
 

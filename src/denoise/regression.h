@@ -8,10 +8,10 @@
 
 namespace etendue {
 
-/// What the regression of one image is made from; borders are filled.
+/// Holds what the regression of one image is made from; borders are filled.
 struct RegressionInput {
-    const Planes& target;  ///< 3 planes: what is fitted
-    NlMeansGuide guide;  ///< what the weights come from: independent of `target` if the fit is not to follow its noise
+    const Planes& target;    ///< the image that is fitted, 3 planes
+    NlMeansGuide guide;      ///< makes the weights; independent of `target` if the fit is not to follow its noise
     const Planes& features;  ///< scaled to a deviation of about 1; at most kMostUnknowns - 3 planes
 };
 

@@ -14,7 +14,8 @@ inline constexpr int kFillRadius = 8;
 
 /// Replaces each pixel of which any value, in `whole` or in `one_half`, is not finite or beyond kLargestUsable: in both
 /// by the mean of the usable pixels of the smallest square around it that has any, up to kFillRadius; by zero beyond.
-/// Both have the same shape; borders are neither read nor filled. Returns how many pixels were replaced.
+/// `whole` and `one_half` have the same shape; their borders are neither read nor filled. Returns how many pixels were
+/// replaced.
 std::size_t fill_unusable(Planes& whole, Planes& one_half);
 
 }  // namespace etendue

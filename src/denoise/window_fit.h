@@ -34,7 +34,7 @@ class WindowFit {
 
     int radius_;
     int row_stride_;
-    int size_;  ///< of all rows, rounded up
+    int size_;  ///< weights of all rows together, rounded up
     int unknowns_;
     int x_ = 0;
     int y_ = 0;

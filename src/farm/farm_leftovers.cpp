@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What is there of an image, as far as it is of use.
+/// Judges which files that are there of an image are of use.
 class LeftoverJudge {
   public:
     LeftoverJudge(const FarmImage& image, const fs::path& folder, const WantedImage& wanted)

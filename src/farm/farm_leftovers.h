@@ -12,12 +12,12 @@
 
 namespace etendue {
 
-/// What is to be made. That of nothing is the image of no file.
+/// Describes the image that is to be made; a default one matches no file.
 struct WantedImage {
     RenderIdentity identity{};
     RenderSettings settings{};
     bool has_halves = false;      ///< layers ask for every other pass
-    std::string settings_hash{};  ///< what else is to be said of the image
+    std::string settings_hash{};  ///< hash of the settings, as statistics of finished parts have it
 };
 
 struct FarmLeftovers {

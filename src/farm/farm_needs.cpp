@@ -48,12 +48,15 @@ RenderProbe probe_scene(const ImageJob& first_image, const std::vector<GivenOpti
 
 namespace {
 
-/// Bytes a pixel that writing an image takes beside its film: 124 less 48 were measured, from 500 x 500 to 2500 x 2500.
+/// Estimates the bytes a pixel that writing an image takes beside its film: 124 less 48 were measured, from 500 x 500
+/// to 2500 x 2500.
 constexpr double kWritingBytes = 80.0;
-/// The same of each channel of a layer, which is resolved, put beside the others, and made ready for the file.
+/// Estimates the bytes a pixel that writing takes for each channel of a layer, which is resolved, put beside the
+/// others, and made ready for the file.
 constexpr double kLayerWritingBytes = 3.0 * sizeof(float);
 
-/// The same of the depths of a pixel, at most: resolved, put beside the others, and made ready for the file.
+/// Bounds the bytes a pixel that writing takes for its depths, which are resolved, put beside the others, and made
+/// ready for the file.
 constexpr double kDeepWritingBytes = 3.0 * sizeof(DeepSample) * DeepBuffer::kMostBins;
 
 double writing_bytes(const FilmSize& size) {
@@ -62,7 +65,8 @@ double writing_bytes(const FilmSize& size) {
            (kWritingBytes + kLayerWritingBytes * layers + (size.layers.is_deep ? kDeepWritingBytes : 0.0));
 }
 
-/// What schedulers take: far more than a year, and the safety that each has.
+/// Multiplies estimates by the factors of safety, within limits that schedulers take: the longest time is far more than
+/// a year.
 TaskNeeds with_safety(double seconds, double bytes) {
     const double minutes = std::min(kTimeSafety * seconds / 60.0, 1e6);
     const double mebibytes = std::min(kMemorySafety * bytes / (1 << 20), 1e9);

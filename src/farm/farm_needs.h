@@ -12,13 +12,13 @@
 
 namespace etendue {
 
-/// What `etendue render --probe` has measured of one image.
+/// Holds what `etendue render --probe` has measured of one image.
 struct RenderProbe {
-    double start_seconds = 0.0;   ///< to load the scene and to build what rays are traced in
-    double render_seconds = 0.0;  ///< to render all samples with `threads` threads
+    double start_seconds = 0.0;   ///< seconds to load the scene and to build what rays are traced in
+    double render_seconds = 0.0;  ///< seconds to render all samples with `threads` threads
     std::uint64_t peak_memory_bytes = 0;
     int threads = 1;
-    std::uint64_t deep_bytes = 0;  ///< of this memory, that of depths, which the first samples have not filled
+    std::uint64_t deep_bytes = 0;  ///< part of peak_memory_bytes for depths, which the first samples have not filled
 };
 
 /// Times as much as the probe tells: nodes may be slower than the machine that was probed on, other frames may need
@@ -38,23 +38,23 @@ inline constexpr int kLeastMebibytes = 512;
 
 /// How large an image is in memory and in files.
 struct FilmSize {
-    std::uint64_t pixels = 0;        ///< that are rendered
-    std::uint64_t splat_pixels = 0;  ///< that splats are kept for; 0 without splats
+    std::uint64_t pixels = 0;        ///< pixels that are rendered
+    std::uint64_t splat_pixels = 0;  ///< pixels that splats are kept for; 0 without splats
     bool has_second_film = false;    ///< for an estimate of the error, or for denoising
     LayerLayout layers{};
-    std::size_t channels = 4;  ///< of the image that is written
+    std::size_t channels = 4;  ///< channels of the image that is written
 
-    /// Of the sums of the film.
+    /// Returns the bytes of the film's sums.
     [[nodiscard]] std::uint64_t bytes() const { return bytes_with(layers); }
-    /// Of those of the second film, which has no mattes and depths; 0 if there is none.
+    /// Returns the bytes of the sums of the second film, which has no mattes and depths; 0 if there is none.
     [[nodiscard]] std::uint64_t second_bytes() const {
         return has_second_film ? bytes_with(layers.without_lists()) : 0;
     }
-    /// What depths may take of that, at most.
+    /// Returns the most bytes that depths may take of the film.
     [[nodiscard]] std::uint64_t deep_bytes() const {
         return layers.is_deep ? DeepBuffer::most_bytes(splat_pixels > 0) * pixels : 0;
     }
-    /// Of all films of a merge, whose second one has room for the same as the first.
+    /// Returns the bytes of all films of a merge, whose second one has room for the same as the first.
     [[nodiscard]] std::uint64_t merge_bytes() const { return (has_second_film ? 2 : 1) * bytes(); }
 
   private:
@@ -64,15 +64,16 @@ struct FilmSize {
                sizeof(SplatSum) * splat_layers * splat_pixels;
     }
 };
-/// Of the image of `scene`. Throws as make_aov_plan does.
+/// Returns the size of the image of `scene`. Throws as make_aov_plan does.
 [[nodiscard]] FilmSize film_size_of(const SceneDesc& scene);
 
-/// For a task with `threads` threads that takes `share` of the samples of an image, (0, 1]. A probe neither writes an
-/// image nor keeps a second film, and its depths may become many more: that comes on top of its memory.
+/// Returns the needs of a task with `threads` threads that takes `share` of the samples of an image, (0, 1]. A probe
+/// neither writes an image nor keeps a second film, and its depths may become many more: that comes on top of its
+/// memory.
 [[nodiscard]] TaskNeeds needs_of(const RenderProbe& probe, const FilmSize& size, double share, int threads);
 
-/// For the task that merges `parts` parts of an image: in memory are the sums, a part, and as much for reading it; the
-/// time is that of the model in docs/farm.md, three times, as for renders.
+/// Returns the needs of the task that merges `parts` parts of an image: in memory are the sums, a part, and as much for
+/// reading it; the time is that of the model in docs/farm.md, three times, as for renders.
 [[nodiscard]] TaskNeeds merge_needs_of(const FilmSize& size, std::size_t parts);
 
 }  // namespace etendue

@@ -16,7 +16,7 @@ namespace {
 /// How the tasks of an image depend on each other.
 enum class Shape { Whole, Split, Mended };
 
-/// Of an image of which some parts are there already the others are mended.
+/// Returns the shape of an image's tasks: if some of its parts are there already, the others are mended.
 Shape shape_of(const FarmImage& image) {
     if (image.ranges.empty()) return Shape::Whole;
     return image.missing.size() == image.ranges.size() ? Shape::Split : Shape::Mended;
@@ -87,7 +87,7 @@ class TaskPlanner {
         for (const std::size_t i : images)
             add_task(array, i, merge_command(images_[i], options_), images_[i].job.output);
     }
-    /// What is enough for all of them.
+    /// Returns needs that are enough for all of these images.
     [[nodiscard]] TaskNeeds needs_of(std::span<const std::size_t> images,
                                      TaskNeeds FarmImage::*of = &FarmImage::needs) const {
         TaskNeeds needs;

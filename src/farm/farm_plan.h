@@ -18,7 +18,7 @@
 
 namespace etendue {
 
-/// What a task may use at most; the scheduler ends those that use more.
+/// Holds what a task may use at most; the scheduler ends tasks that use more.
 struct TaskNeeds {
     int minutes = 0;
     int mebibytes = 0;
@@ -29,24 +29,24 @@ struct TaskNeeds {
 /// An image that is to be made. All paths are absolute.
 struct FarmImage {
     ImageJob job;
-    std::filesystem::path render_output;  ///< what `etendue render` is told to write: without the frame's number
-    std::vector<SampleRange> ranges;      ///< of its parts, two at least; empty if it is rendered in one piece
-    std::vector<SampleRange> missing;     ///< of the parts that are not there yet
-    TaskNeeds needs;                      ///< of each of its tasks that render
-    TaskNeeds merge_needs{};              ///< of the one that merges its parts
+    std::filesystem::path render_output;  ///< path that `etendue render` is told to write: without the frame's number
+    std::vector<SampleRange> ranges;      ///< ranges of its parts, two at least; empty if it is rendered in one piece
+    std::vector<SampleRange> missing;     ///< ranges of the parts that are not there yet
+    TaskNeeds needs;                      ///< needs of each of its tasks that render
+    TaskNeeds merge_needs{};              ///< needs of the task that merges its parts
     std::string texture_memory{};         ///< --texture-memory of its renders; empty if the scene or the options say
 };
 
 struct FarmOptions {
     std::filesystem::path program;     ///< etendue, as the nodes find it
     std::filesystem::path output;      ///< the directory of all images
-    std::vector<GivenOption> options;  ///< of each render
+    std::vector<GivenOption> options;  ///< options of each render
     double checkpoint_minutes = 5.0;
-    int threads = 4;  ///< of each task
+    int threads = 4;  ///< threads of each task
     PixelDepth depth = PixelDepth::Half;
 };
 
-/// What an array waits for before its tasks begin.
+/// Says what an array waits for before its tasks begin.
 enum class ArrayWait {
     No,
     SameTask,  ///< each task for those of the same index in other arrays to succeed
@@ -70,10 +70,10 @@ struct TaskPlace {
 
 struct FarmPlan {
     std::vector<JobArray> arrays;
-    std::vector<std::vector<TaskPlace>> places;  ///< of the tasks of each image, the one that makes it last
+    std::vector<std::vector<TaskPlace>> places;  ///< places of the tasks of each image, the one that makes it last
 };
 
-/// The plan for `images`, with `max_array_size` tasks in an array at most.
+/// Plans the tasks that make `images`, with `max_array_size` tasks in an array at most.
 [[nodiscard]] FarmPlan plan_farm(std::span<const FarmImage> images, const FarmOptions& options,
                                  std::size_t max_array_size);
 

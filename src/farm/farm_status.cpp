@@ -25,7 +25,7 @@ constexpr std::array<FarmState, 4> kStates{FarmState::Done, FarmState::Running, 
 /// Lines of a log that are shown.
 constexpr std::size_t kLogLines = 5;
 
-/// By the name of their job and their index.
+/// Holds tasks by the name of their job and their index.
 using TaskMap = std::map<std::pair<std::string, std::size_t>, SlurmTask>;
 
 TaskMap list_tasks(std::span<const Submission> submissions, const TaskLister& list) {
@@ -40,7 +40,7 @@ TaskMap list_tasks(std::span<const Submission> submissions, const TaskLister& li
     return tasks;
 }
 
-/// The first task whose file is not there, or the last one: the one to blame.
+/// Returns the first task whose file is not there, or the last one: the one to blame.
 const SubmittedTask& missing_task(const SubmittedImage& image) {
     std::error_code ignored;
     const auto missing =

@@ -25,7 +25,7 @@ struct FarmImageStatus {
     SubmittedImage image;
     FarmState state = FarmState::Failed;
     std::size_t tasks_done = 0;
-    std::string job;            ///< of a task that waits or runs, its name for the scheduler
+    std::string job;            ///< the scheduler's name of a task that waits or runs
     std::string error;          ///< if it failed
     std::filesystem::path log;  ///< if it failed, and if there is one
 };
@@ -33,8 +33,8 @@ struct FarmImageStatus {
 /// All tasks of a user that wait or run.
 using TaskLister = std::function<std::vector<SlurmTask>(const std::string& user)>;
 
-/// Of every image that was ever submitted to `output`, by its last submission, sorted by file name. The scheduler is
-/// asked first: what ends meanwhile still counts as running, never as failed. Throws what `list` and
+/// Returns the status of every image that was ever submitted to `output`, by its last submission, sorted by file name.
+/// The scheduler is asked first: what ends meanwhile still counts as running, never as failed. Throws what `list` and
 /// `read_submissions` throw.
 [[nodiscard]] std::vector<FarmImageStatus> farm_status(const std::filesystem::path& output, const TaskLister& list);
 

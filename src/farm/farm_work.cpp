@@ -54,7 +54,7 @@ WantedImage wanted_image(const ImageJob& job, const SettingsOverrides& overrides
     return wanted;
 }
 
-/// What the images of one scene have in common.
+/// Holds what the images of one scene have in common.
 struct SceneNeeds {
     std::vector<SampleRange> ranges;
     TaskNeeds needs;

@@ -16,12 +16,12 @@ namespace etendue {
 struct FarmRequest {
     SettingsOverrides overrides;
     FarmOptions farm;
-    std::uint32_t parts = 1;                     ///< of each image
-    std::optional<int> task_minutes;             ///< in place of what a probe says
-    std::optional<std::uint64_t> task_memory{};  ///< bytes, the same
-    bool force = false;                          ///< also what is up to date
-    /// For scenes that do not say: each node's own default would be another one, and parts of textures that some nodes
-    /// hold in memory and others in a cache do not belong together.
+    std::uint32_t parts = 1;                     ///< parts of each image
+    std::optional<int> task_minutes;             ///< minutes of a task, in place of what a probe says
+    std::optional<std::uint64_t> task_memory{};  ///< bytes of a task, in place of what a probe says
+    bool force = false;                          ///< images that are up to date are made, too
+    /// Sets the texture memory of scenes that do not say: each node's own default would be another one, and parts of
+    /// textures that some nodes hold in memory and others in a cache do not belong together.
     std::string texture_memory{};
 };
 

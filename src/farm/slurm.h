@@ -13,7 +13,7 @@ namespace etendue {
 struct SlurmTask {
     std::string job_name;
     std::size_t index = 0;  ///< in its array
-    std::string state;      ///< as Slurm calls it: "PENDING", "RUNNING", ...
+    std::string state;      ///< state in Slurm's words: "PENDING", "RUNNING", ...
     std::string reason;     ///< why it waits
 };
 
@@ -34,7 +34,7 @@ void slurm_cancel(std::span<const std::string> jobs);
 /// All tasks of job arrays of the user `user` that wait or run. Throws IoError if they cannot be listed.
 [[nodiscard]] std::vector<SlurmTask> slurm_tasks(const std::string& user);
 
-/// What `squeue` prints, in the form that `slurm_tasks` asks for, as tasks; lines of other jobs are passed over.
+/// Reads what `squeue` prints in the form that `slurm_tasks` asks for, as tasks; lines of other jobs are passed over.
 [[nodiscard]] std::vector<SlurmTask> parse_squeue(const std::string& text);
 
 }  // namespace etendue

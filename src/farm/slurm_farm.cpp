@@ -32,7 +32,7 @@ void make_folder(const fs::path& folder) {
     if (error) throw IoError(fmt::format("cannot make the directory {}: {}", folder.string(), error.message()));
 }
 
-/// For each array whether another one waits for it.
+/// Returns for each array whether another one waits for it.
 std::vector<bool> waited_for(const FarmPlan& plan) {
     std::vector<bool> result(plan.arrays.size(), false);
     for (const JobArray& array : plan.arrays)

@@ -10,7 +10,7 @@
 
 namespace etendue {
 
-/// What all arrays of a submission have in common.
+/// Holds what all arrays of a submission have in common.
 struct SlurmOptions {
     int threads = 1;                   ///< processors of each task
     std::size_t max_running = 0;       ///< tasks of an array at once; 0 for no limit

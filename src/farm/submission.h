@@ -35,36 +35,36 @@ struct SubmittedImage {
 
 struct Submission {
     std::filesystem::path directory;
-    std::string user;  ///< the one whose jobs they are
+    std::string user;  ///< user whose jobs they are
     std::vector<SubmittedImage> images;
 
-    /// Its name for the scheduler's jobs: "etendue-ID".
+    /// Returns the submission's name for the scheduler's jobs: "etendue-ID".
     [[nodiscard]] std::string job_prefix() const;
-    /// The name of the job of one of its arrays.
+    /// Returns the name of the job of one of the submission's arrays.
     [[nodiscard]] std::string job_name(const std::string& array) const { return job_prefix() + "-" + array; }
-    /// The file that is as old as the submission: what is newer was made since.
+    /// Returns the file that is as old as the submission: what is newer was made since.
     [[nodiscard]] std::filesystem::path file() const { return directory / "submission.json"; }
 };
 
 /// Makes a directory of its own for a new submission below the output directory. Throws IoError.
 [[nodiscard]] std::filesystem::path make_submission_directory(const std::filesystem::path& output);
 
-/// Writes everything but the jobs. Throws IoError.
+/// Writes everything of a submission but its jobs. Throws IoError.
 void write_submission(const Submission& submission, const FarmPlan& plan, const SlurmOptions& options);
 
-/// Adds to the jobs. Throws IoError.
+/// Adds a job to those of a submission. Throws IoError.
 void record_job(const Submission& submission, const std::string& job);
 
-/// All submissions of the output directory, oldest first. Throws IoError if one cannot be read.
+/// Returns all submissions of the output directory, oldest first. Throws IoError if one cannot be read.
 [[nodiscard]] std::vector<Submission> read_submissions(const std::filesystem::path& output);
 
 /// Removes the directories of earlier submissions whose images are all in `last`: their logs tell nothing any more.
 void remove_superseded(std::span<const Submission> earlier, const Submission& last);
 
-/// The directory of submissions, parts and logs in the output directory.
+/// Returns the directory of submissions, parts and logs in the output directory.
 [[nodiscard]] std::filesystem::path farm_directory(const std::filesystem::path& output);
 
-/// True if `text` can be written down there: it is UTF-8.
+/// Returns whether `text` can be written into a submission: it must be UTF-8.
 [[nodiscard]] bool can_be_recorded(const std::string& text);
 
 }  // namespace etendue

@@ -11,7 +11,7 @@ namespace etendue {
 
 /// A format that can be decoded. To add another, add its row in encoded_format.cpp.
 struct EncodedFormat {
-    std::string_view name;   ///< as in ImageInfo::format
+    std::string_view name;   ///< name of the format, as in ImageInfo::format
     std::string_view magic;  ///< the bytes that every such file starts with
     /// Most bytes of decoded pixels that one encoded byte can stand for; a header that claims more is a lie.
     std::int64_t max_expansion;

@@ -53,7 +53,7 @@ class HeaderReader {
     std::uint64_t size_;
     std::uint64_t offset_ = 0;
     std::array<std::uint8_t, 4096> block_{};
-    std::uint64_t begin_ = 0;  ///< of the block
+    std::uint64_t begin_ = 0;  ///< place of the block in the file, bytes
     std::size_t filled_ = 0;
 };
 

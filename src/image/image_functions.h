@@ -17,13 +17,14 @@
 
 namespace etendue {
 
-/// Each does what the function of this room does that has its name, or is said here. All throw IoError.
+/// Holds the functions that the image module exports: each does what the function of this room with its name does, or
+/// what is said here. All throw IoError.
 struct ImageFunctions {
     ImageInfo (*read_image_info)(const EncodedImage& image);
     ImageF (*read_image_float)(const EncodedImage& image);
     Image8 (*read_image_8bit)(const EncodedImage& image);
     std::vector<NativeImage> (*read_image_levels)(const EncodedImage& image);
-    /// What lies in memory must outlive the result.
+    /// Opens an image to be read in pieces; bytes in memory must outlive the result.
     std::unique_ptr<ImagePieces> (*open_pieces)(const EncodedImage& image);
     LayeredImage (*read_layers)(const EncodedImage& image);
     ImageF (*read_layer)(const EncodedImage& image, const ImageLayer& layer);
@@ -40,7 +41,7 @@ struct ImageFunctions {
 /// The name under which the module exports them.
 inline constexpr const char* kImageFunctionsSymbol = "etendue_image_functions";
 
-/// Those of the module, which the first call loads. Throws as `image_module_symbol` does.
+/// Returns the functions of the image module, which the first call loads. Throws as `image_module_symbol` does.
 [[nodiscard]] const ImageFunctions& image_functions();
 
 [[nodiscard]] constexpr bool is_integer(PixelDepth depth) {

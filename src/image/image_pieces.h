@@ -7,7 +7,7 @@
 
 namespace etendue {
 
-/// As ImageReader, which says what the functions do.
+/// Reads an open image in pieces; its functions do what those of ImageReader do.
 class ImagePieces {
   public:
     virtual ~ImagePieces() = default;

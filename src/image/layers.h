@@ -18,14 +18,14 @@ enum class LayerKind {
 };
 
 struct ImageLayer {
-    /// What stands before the last dot of its channels' names ("diffuse.R"), or the whole name of a channel without one
-    /// or without fellows; empty for plain R, G, B and A of a file that has one part. In a file of several, the part's
-    /// name comes before it, or is all there is. No two layers of a file have the same.
+    /// Names the layer: the part of its channels' names before the last dot ("diffuse.R"), or the whole name of a
+    /// channel without one or without fellows; empty for plain R, G, B and A of a file that has one part. In a file of
+    /// several, the part's name comes before it, or is all there is. No two layers of a file have the same.
     std::string name;
     LayerKind kind = LayerKind::Single;
     int part = 0;
     std::vector<std::string> channels{};  ///< whole names, in the order of `kind`
-    std::vector<int> indices{};           ///< of the channels in the part
+    std::vector<int> indices{};           ///< indices of the channels in the part
     bool is_integer = false;              ///< counts, such as ids, rather than floats
     std::string problem{};                ///< why it cannot be read; empty if it can
 };

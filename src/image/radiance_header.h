@@ -19,7 +19,7 @@ struct RadianceHeader {
     bool from_bottom = false;  ///< y grows with the order of the pixels
     bool from_right = false;   ///< x falls with the order of the pixels
     bool is_xyz = false;       ///< colours are CIE XYZ, Y in cd/m²
-    Rgb exposure{1.0f};        ///< what radiance was multiplied with
+    Rgb exposure{1.0f};        ///< factor that radiance was multiplied with
     std::size_t size = 0;      ///< bytes before the first scanline
     bool is_plain = false;     ///< the image library reads it as it is meant
 

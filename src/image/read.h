@@ -28,19 +28,19 @@ struct ImageLevel {
     int height = 0;
 };
 
-/// What an image's header says; nothing is decoded.
+/// Holds what an image's header says; nothing is decoded.
 struct ImageInfo {
     int width = 0;
     int height = 0;
-    int channels = 0;          ///< in the file
-    int decoded_channels = 0;  ///< that decoding gives, 1 to 4
+    int channels = 0;          ///< channels in the file
+    int decoded_channels = 0;  ///< channels that decoding gives, 1 to 4
     int bits_per_channel = 0;
     bool is_float = false;
     TexelDepth depth = TexelDepth::UInt8;
     std::string format;  ///< "png", "jpeg", "openexr", …
 
-    /// What the file, or the library for its format, calls the colour space ("ACEScg", "sRGB"; "Linear" where an EXR
-    /// does not say). Nothing is converted by it.
+    /// Names the colour space as the file, or the library for its format, calls it ("ACEScg", "sRGB"; "Linear" where an
+    /// EXR does not say). Nothing is converted by it.
     std::string color_space;
     /// CIE xy of red, green, blue and white, if the file has EXR's attribute of that name.
     std::optional<std::array<float, 8>> chromaticities;

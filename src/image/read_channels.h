@@ -12,11 +12,11 @@ namespace etendue {
 struct ChannelImage {
     ImageF pixels;                           ///< all channels
     std::vector<std::string> channel_names;  ///< one for each, unlike all others; layers are written "layer.R"
-    std::vector<PixelDepth> depths;          ///< Half or Float, of each
-    PixelRect data_window;                   ///< as in ImageInfo
+    std::vector<PixelDepth> depths;          ///< depth of each channel, Half or Float
+    PixelRect data_window;                   ///< where the pixels lie, as in ImageInfo
     PixelRect display_window;
-    /// What `write_image` can write again: numbers, texts, matrices and eight floats of chromaticities, but not what
-    /// says how the file is stored.
+    /// Holds the attributes that `write_image` can write again: numbers, texts, matrices and eight floats of
+    /// chromaticities, but not those that say how the file is stored.
     std::vector<ImageAttribute> attributes;
 
     /// The attribute of that name, or nothing.

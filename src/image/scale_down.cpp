@@ -59,7 +59,7 @@ class BoxAverage {
     int columns_;
     int rows_;
     ImageF small_;
-    std::vector<double> sums_;  ///< of the row of the small image that is under way
+    std::vector<double> sums_;  ///< sums of the row of the small image that is under way
     int y_ = 0;
     int taken_ = 0;
 };

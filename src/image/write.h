@@ -61,9 +61,9 @@ void write_image_parts(const std::filesystem::path& path, std::span<const ImageP
 struct DeepImageView {
     int width = 0;
     int height = 0;
-    std::span<const std::uint32_t> counts{};  ///< of each pixel, row by row
+    std::span<const std::uint32_t> counts{};  ///< number of depths of each pixel, row by row
     std::span<const float> colors{};          ///< R, G, B and A of each depth, from front to back
-    std::span<const float> depths{};          ///< Z and ZBack of each
+    std::span<const float> depths{};          ///< Z and ZBack of each depth
 };
 
 /// Writes a deep EXR of scanlines in the same way, whatever the options' depth in 32-bit floats.

@@ -34,7 +34,7 @@ std::vector<PixelRect> regions(const ImageF& image, int block_size) {
 
 struct Moments {
     double mean = 0.0;
-    double variance = 0.0;  ///< of `mean`
+    double variance = 0.0;  ///< variance of `mean`
 };
 
 Moments moments(const ImageEstimate& image, const PixelRect& region, int channel) {
@@ -58,7 +58,7 @@ double mean_of(const ImageF& image, const PixelRect& region, int channel) {
     return sum / static_cast<double>(region.area());
 }
 
-/// Of the mean of the region's means in all renders, from how much these differ.
+/// Returns the variance of the mean of the region's means in all renders, from how much these differ.
 double variance_of_means(std::span<const ImageF> renders, const PixelRect& region, int channel) {
     const auto count = static_cast<double>(renders.size());
     double sum = 0.0;
@@ -71,14 +71,14 @@ double variance_of_means(std::span<const ImageF> renders, const PixelRect& regio
     return squares / (count - 1.0) / count;
 }
 
-/// How many equal numbers above zero would have the same sum and the same sum of squares (Kish 1965).
+/// Counts how many equal numbers above zero would have the same sum and the same sum of squares (Kish 1965).
 class EffectiveCount {
   public:
     void add(double value) {
         sum_ += value;
         squares_ += value * value;
     }
-    /// True of zeros only, too.
+    /// Returns whether the numbers count as at least `count`; true of zeros only, too.
     [[nodiscard]] bool is_at_least(double count) const { return sum_ * sum_ >= count * squares_; }
 
   private:
@@ -86,7 +86,8 @@ class EffectiveCount {
     double squares_ = 0.0;
 };
 
-/// False if few of the values of a region make up its mean; or, unless it is `whole`, the variance of that.
+/// Returns false if few of the values of a region make up its mean; or, unless the region `is_whole`, the variance of
+/// that.
 bool has_many_values(std::span<const ImageF> renders, const PixelRect& region, int channel, bool is_whole) {
     constexpr double kMany = 100.0;
     constexpr double kMost = 0.25;  // of all

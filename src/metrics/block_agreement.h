@@ -57,7 +57,7 @@ void pool_variance(ImageEstimate& estimate, int block_size);
 
 /// A block, or the whole image, and how it differs.
 struct BlockDifference {
-    int x = 0;  ///< of the first pixel
+    int x = 0;  ///< column of the block's first pixel
     int y = 0;
     int width = 0;
     int height = 0;
@@ -71,18 +71,18 @@ struct BlockDifference {
 struct BlockAgreement {
     bool blocks_agree = false;
     bool means_agree = false;
-    double p_value = 1.0;   ///< of the worst block, corrected for the number of blocks and channels (Sidak 1967)
+    double p_value = 1.0;   ///< p-value of the worst block, corrected for the number of tests (Sidak 1967)
     std::size_t tests = 0;  ///< blocks and the whole image, times channels
     BlockDifference worst;
     /// Largest relative difference of the images' means over the channels.
     double mean_difference = 0.0;
-    /// What the test can see: its standard errors, relative to what they are of. Of the images' means the largest over
-    /// the channels, of the blocks and their channels the median.
+    /// Hold the relative standard errors of the test, which say how small a difference it sees: `mean_error` the
+    /// largest over the channels of the images' means, `block_error` the median over blocks and channels.
     double mean_error = 0.0;
     double block_error = 0.0;
 
     [[nodiscard]] bool agree() const { return blocks_agree && means_agree; }
-    /// For a failure message.
+    /// Describes the result for a failure message.
     [[nodiscard]] std::string str() const;
 };
 

@@ -17,7 +17,7 @@ struct DisplayColor {
     friend bool operator==(const DisplayColor&, const DisplayColor&) = default;
 };
 
-/// What pixels are painted in that were left out of the measure: a green that the map has nowhere.
+/// Paints the pixels that were left out of the measure: a green that the map has nowhere.
 inline constexpr DisplayColor kLeftOutColor{0, 200, 80};
 
 /// The colour of `value` in [0, 1] (clamped; NaN as 0) in the map "magma" by N. Smith and S. van der Walt (2015, CC0),

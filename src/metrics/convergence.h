@@ -22,9 +22,9 @@ struct WorkToReach {
     bool extrapolated = false;  ///< beyond the last point, along the fitted slope
 };
 
-/// Where the straight lines between the logarithms of `points`, in the order of their work, first come down to `error`
-/// > 0; the first point if it is there already. Beyond the last point along the slope of all of them, if that falls.
-/// Nothing if it is never reached, or there are no points.
+/// Returns the work at which the straight lines between the logarithms of `points`, in the order of their work, first
+/// come down to `error` > 0; the first point's if it is there already. Beyond the last point, the work lies along the
+/// slope of all points, if that falls. None if the error is never reached, or there are no points.
 [[nodiscard]] std::optional<WorkToReach> work_to_reach(std::span<const ErrorAfter> points, double error);
 
 }  // namespace etendue

@@ -24,14 +24,14 @@ enum class ErrorMetric { RelMse, RelMseTrimmed, Mse, Mae, Smape };
 inline constexpr std::array kErrorMetrics{ErrorMetric::RelMse, ErrorMetric::RelMseTrimmed, ErrorMetric::Mse,
                                           ErrorMetric::Mae, ErrorMetric::Smape};
 
-/// As it is written in reports and on the command line: "relmse", "relmse-trimmed", "mse", "mae", "smape".
+/// Returns the name of a metric in reports and on the command line: "relmse", "relmse-trimmed", "mse", "mae", "smape".
 [[nodiscard]] std::string_view name_of(ErrorMetric metric);
-/// In plain characters, with the numbers that stand in it: "mean (v - r)^2 / (r^2 + 0.01)".
+/// Returns the formula of a metric in plain characters, with its constants: "mean (v - r)^2 / (r^2 + 0.01)".
 [[nodiscard]] std::string formula_of(ErrorMetric metric);
 
 struct ErrorMetrics {
     double rel_mse = 0.0;          ///< mean (v - r)² / (r² + epsilon)
-    double rel_mse_trimmed = 0.0;  ///< the same without the largest 0.1% of the terms (rounded down to whole terms)
+    double rel_mse_trimmed = 0.0;  ///< relMSE without the largest 0.1% of its terms (rounded down to whole terms)
     double mse = 0.0;              ///< mean (v - r)²
     double mae = 0.0;              ///< mean |v - r|
     double smape = 0.0;            ///< mean |v - r| / (|v| + |r| + epsilon)

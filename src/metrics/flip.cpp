@@ -22,7 +22,7 @@ namespace {
 /// Rows that one task filters. It also reads as many rows above and below as the filters reach.
 constexpr int kStripRows = 48;
 
-/// Both images' filters, and the colours' errors.
+/// Holds the filters of both images and the errors of colours, for one number of pixels per degree.
 struct Model {
     explicit Model(double pixels_per_degree)
         : contrast(contrast_filters(pixels_per_degree)),
@@ -111,7 +111,7 @@ void filter_column(std::span<const float> weights, const Plane& plane, std::size
     }
 }
 
-/// What an image looks like in one row.
+/// Holds what the eye sees in one row of an image.
 struct SeenRow {
     void resize(std::size_t width) {
         color.resize(width);
@@ -220,7 +220,7 @@ void FilteredStrip::see(const Model& model, std::size_t row, SeenRow& seen) {
     }
 }
 
-/// What a thread works with.
+/// Holds the memory that one thread works with.
 struct Scratch {
     FilteredStrip image_strip;
     FilteredStrip reference_strip;

@@ -62,7 +62,7 @@ struct HdrFlip {
 struct HdrFlipOptions {
     double pixels_per_degree = kFlipPixelsPerDegree;
     std::optional<float> start_exposure{};  ///< stops; chosen by `exposures_for` if unset
-    std::optional<float> stop_exposure{};   ///< the same
+    std::optional<float> stop_exposure{};   ///< stops; chosen by `exposures_for` if unset
 };
 
 /// The tone mapper between exposure and display: ACES as fitted by K. Narkowicz 2015, with the exposure of 0.6 that the
@@ -74,9 +74,9 @@ inline constexpr std::string_view kFlipToneMapper = "ACES (Narkowicz 2015)";
 [[nodiscard]] HdrFlip hdr_flip(const ImageF& image, const ImageF& reference, const HdrFlipOptions& options,
                                const ThreadPool& threads);
 
-/// What a report says beside LDR-FLIP's value.
+/// Describes LDR-FLIP and its constants for a report.
 [[nodiscard]] std::string describe_ldr_flip(double pixels_per_degree);
-/// The same for HDR-FLIP.
+/// Describes HDR-FLIP, its constants and its exposures for a report.
 [[nodiscard]] std::string describe_hdr_flip(double pixels_per_degree, const ExposureRange& exposures);
 
 }  // namespace etendue

@@ -63,7 +63,7 @@ struct HuntLab {
             0.055639423f * x - 0.204011202f * y + 1.057148933f * z};
 }
 
-/// Of a colour in [0, 1].
+/// Converts a linear colour in [0, 1] to CIELAB with Hunt's adjustment: chroma times 0.01 of the lightness.
 [[nodiscard]] inline HuntLab hunt_lab(const Rgb& linear) {
     // CIE 15:2004, equations 8.3 to 8.8.
     constexpr float kDelta = 6.0f / 29.0f;

@@ -10,9 +10,9 @@ namespace etendue {
 /// Weights of an odd number of neighbours along a row or column, the pixel itself in the middle.
 using FilterWeights = std::vector<float>;
 
-/// What the eye resolves: Fourier transforms of contrast sensitivity functions, as sums of Gaussians
-/// a sqrt(pi / b) exp(-pi^2 d^2 / b) of the distance d in degrees. Each is normalised to a sum of 1 over the square of
-/// pixels within `radius`, which is three standard deviations of the widest.
+/// Holds the filters of what the eye resolves: Fourier transforms of contrast sensitivity functions, as sums of
+/// Gaussians a sqrt(pi / b) exp(-pi^2 d^2 / b) of the distance d in degrees. Each is normalised to a sum of 1 over the
+/// square of pixels within `radius`, which is three standard deviations of the widest.
 struct ContrastFilters {
     int radius = 0;             ///< pixels
     FilterWeights luminance;    ///< sums to 1
@@ -24,13 +24,13 @@ struct ContrastFilters {
 /// `pixels_per_degree` > 0.
 [[nodiscard]] ContrastFilters contrast_filters(double pixels_per_degree);
 
-/// What finds edges and points: derivatives of a Gaussian across, a Gaussian along. The standard
+/// Holds the filters that find edges and points: derivatives of a Gaussian across, a Gaussian along. The standard
 /// deviation is half of the width w = 0.082 degrees of an edge that the eye sees as one.
 struct FeatureFilters {
     int radius = 0;          ///< pixels, three standard deviations
     FilterWeights gaussian;  ///< sums to 1
     FilterWeights edge;      ///< first derivative; its positive weights sum to 1, its negative ones to -1
-    FilterWeights point;     ///< second derivative; the same
+    FilterWeights point;     ///< second derivative; its positive weights sum to 1, its negative ones to -1
 };
 
 /// `pixels_per_degree` > 0.

@@ -14,7 +14,7 @@ namespace etendue {
 
 /// The pixels of an image with a channel that is NaN or infinite.
 struct NotFinite {
-    /// As many as `first` holds at most.
+    /// Limits the number of pixels that `first` holds.
     static constexpr std::size_t kMostFirst = 8;
 
     std::size_t nan = 0;       ///< pixels with NaN in a channel

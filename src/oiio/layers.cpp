@@ -114,7 +114,7 @@ std::string problem_of(const OpenImage& image) {
     }
 }
 
-/// What is read of one part.
+/// Adds what is read of one part to `result`: its header, its layers and the names of its Cryptomattes.
 void add_part(const OpenImage& image, LayeredImage& result) {
     result.parts.push_back(describe(image));
     for (const OIIO::ParamValue& attribute : image.spec.extra_attribs) {

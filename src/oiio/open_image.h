@@ -17,30 +17,30 @@ namespace etendue::oiio {
 struct OpenImage {
     std::unique_ptr<OIIO::Filesystem::IOMemReader> memory;  // outlives `input`, which reads through it
     std::unique_ptr<OIIO::ImageInput> input;
-    OIIO::ImageSpec spec;  ///< of `part`
+    OIIO::ImageSpec spec;  ///< the header of `part`, as the library has it
     EncodedFormat format;
     std::int64_t encoded_size = 0;  ///< bytes
-    int part = 0;                   ///< of a multi-part file, the one that is read
-    /// Those to read, in order: R, G, B and A by name where the file has them (EXR stores channels alphabetically, and
-    /// other layers may stand between), else the first four.
+    int part = 0;                   ///< the part of a multi-part file that is read
+    /// Lists the channels to read, in order: R, G, B and A by name where the file has them (EXR stores channels
+    /// alphabetically, and other layers may stand between), else the first four.
     std::vector<int> channels;
 };
 
-/// One part of a file; bytes in memory must outlive the result. Throws IoError as `read_image_info` does.
+/// Opens one part of a file; bytes in memory must outlive the result. Throws IoError as `read_image_info` does.
 [[nodiscard]] OpenImage open_image(const EncodedImage& encoded, int part = 0);
 
-/// The same of the first part, whose header may claim anything.
+/// Opens the first part of a file, whose header may claim anything; bytes in memory must outlive the result.
 [[nodiscard]] OpenImage open_unchecked(const EncodedImage& encoded);
 /// Goes on with another part, whose header may claim anything. Returns false if there is none.
 [[nodiscard]] bool seek_part(OpenImage& image, int part);
 /// Throws IoError if what the header claims is not accepted.
 void require_acceptable(const OpenImage& image);
 
-/// What the header of `image` says.
+/// Returns what the header of `image` says.
 [[nodiscard]] ImageInfo describe(const OpenImage& image);
 
-/// Of the image and, where the file has them, of its mip levels, as far as each is half the one before (rounded down,
-/// at least 1).
+/// Returns the sizes of the image and, where the file has them, of its mip levels, as far as each is half the one
+/// before (rounded down, at least 1).
 [[nodiscard]] std::vector<ImageLevel> levels_of(OpenImage& image);
 
 /// Makes `level`, which is `size` large, the one that is read next. Throws IoError if the file says otherwise now that
@@ -60,7 +60,7 @@ struct ChannelRange {
     [[nodiscard]] std::size_t size() const { return static_cast<std::size_t>(last - first); }
 };
 [[nodiscard]] ChannelRange channel_range(const OpenImage& image);
-/// True if that range is the selected channels in their order, so that nothing has to be picked.
+/// Returns whether `channel_range` is the selected channels in their order, so that nothing has to be picked.
 [[nodiscard]] bool channels_in_order(const OpenImage& image);
 
 /// Throws IoError with the library's reason.

@@ -58,15 +58,16 @@ class DecodedPieces final : public ImagePieces {
     }
 
   private:
-    /// What has failed once may have been closed by the library, which would not look before it reads on.
+    /// Throws IoError if reading has failed before: the library may have closed the file, and would not look before it
+    /// reads on.
     void require_whole() const {
         if (is_broken_) throw IoError("the pixels are broken");
     }
-    /// Of formats that are decoded from the first row on, the library opens the file again for a row before the last
-    /// one read, without what was asked of it and not at all in memory.
+    /// Returns whether rows may be read in any order. For a row before the last one read, the library opens formats
+    /// that are decoded from the first row on again, without what was asked of it and not at all in memory.
     [[nodiscard]] bool reads_in_any_order() const { return image_.format.name == "openexr"; }
     void reopen() { const OpenImage former = std::exchange(image_, open_image(encoded_)); }
-    /// Where `pixel_count` pixels are to be read to: `values` itself if the channels stand right in the file.
+    /// Returns where `pixel_count` pixels are to be read to: `values` itself if the channels stand right in the file.
     float* target_of(std::size_t pixel_count, std::span<float> values) {
         if (channels_in_order(image_)) return values.data();
         stored_.resize(pixel_count * channel_range(image_).size());

@@ -19,7 +19,7 @@ class SourceInput final : public OIIO::ImageInput {
     /// Name of the attribute that passes the pointer to the OpenPieces through the cache to `open`.
     static constexpr const char* kOpenAttribute = "etendue:open";
 
-    /// For OpenImageIO, which owns the result.
+    /// Makes an input for OpenImageIO, which owns the result.
     [[nodiscard]] static OIIO::ImageInput* create() { return new SourceInput; }
 
     [[nodiscard]] const char* format_name() const override { return "etendue"; }

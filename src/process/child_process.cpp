@@ -33,7 +33,7 @@ Pipe pipe_for(const std::filesystem::path& program) {
     return pipe;
 }
 
-/// What the child needs on its way from fork to exec.
+/// Holds what the child needs on its way from fork to exec.
 struct Start {
     const char* program;
     char* const* arguments;

@@ -19,9 +19,9 @@
 namespace etendue {
 
 struct ChildOptions {
-    /// By default the file that runs here, even if another has taken its name since.
+    /// Names the program; by default it is the file that runs here, even if another has taken its name since.
     std::filesystem::path program = "/proc/self/exe";
-    std::string name = "etendue";          ///< that the child is told to have
+    std::string name = "etendue";          ///< name that the child is told to have
     std::vector<std::string> arguments{};  ///< without that name
     /// Bytes that the child may have of memory of its own to write to: the heap, buffers and the stacks of threads. It
     /// is RLIMIT_DATA, since the address space (RLIMIT_AS) also counts what is only reserved or mapped from files,
@@ -32,13 +32,13 @@ struct ChildOptions {
     std::size_t most_output = std::size_t{1} << 20;
 };
 
-/// How a child has ended.
+/// Says how a child has ended.
 struct ChildEnd {
     int exit_code = 0;  ///< if no signal ended it
     int signal = 0;     ///< 0 if it ended by itself
 };
 
-/// "SIGSEGV".
+/// Returns the name of a signal: "SIGSEGV".
 [[nodiscard]] std::string signal_name(int signal);
 
 /// The child reads nothing (/dev/null), and has a process group of its own: Ctrl-C in a terminal reaches only the
@@ -54,9 +54,9 @@ class ChildProcess {
 
     using LineCallback = LineSplitter::Callback;
 
-    /// Starts it. Throws IoError if that is not possible.
+    /// Starts the child. Throws IoError if that is not possible.
     explicit ChildProcess(const ChildOptions& options);
-    /// Kills it if it still runs.
+    /// Kills the child if it still runs.
     ~ChildProcess();
     ChildProcess(const ChildProcess&) = delete;
     ChildProcess& operator=(const ChildProcess&) = delete;

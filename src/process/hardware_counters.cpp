@@ -19,7 +19,7 @@ namespace {
 
 struct Event {
     std::string_view name;
-    std::uint64_t config;  ///< of PERF_TYPE_HARDWARE
+    std::uint64_t config;  ///< number of the event in PERF_TYPE_HARDWARE
 };
 
 constexpr std::array kEvents{

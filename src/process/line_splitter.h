@@ -12,12 +12,12 @@ class LineSplitter {
   public:
     using Callback = std::function<void(const std::string& line)>;
 
-    /// What a line has beyond `longest` bytes is left out.
+    /// Splits text into lines; bytes of a line beyond `longest` are left out.
     explicit LineSplitter(std::size_t longest) : longest_(longest) {}
 
     /// Calls `take` with every line that is complete now, without its newline.
     void add(std::string_view text, const Callback& take);
-    /// The same with what stands behind the last newline, if anything does.
+    /// Calls `take` with the text behind the last newline, if there is any.
     void finish(const Callback& take);
 
   private:

@@ -5,13 +5,13 @@
 
 namespace etendue {
 
-/// Its ends; programs that are started inherit neither.
+/// Holds the ends of a pipe; programs that are started inherit neither.
 struct Pipe {
     FileDescriptor reader;
     FileDescriptor writer;
 };
 
-/// Both ends are closed, with the reason in errno, if the system makes no more.
+/// Makes a pipe; if the system makes no more, both ends are closed, with the reason in errno.
 [[nodiscard]] Pipe make_pipe();
 
 }  // namespace etendue

@@ -10,14 +10,14 @@ struct ProcessOwner {
     std::string host{};            ///< its name, for people
     std::string machine{};         ///< this start of the system and, in containers, this set of process ids
     std::int64_t pid = 0;          ///< is used again, hence:
-    std::uint64_t start_time = 0;  ///< of the process, in clock ticks since the system started
+    std::uint64_t start_time = 0;  ///< start of the process, in clock ticks since the system started
 
     friend bool operator==(const ProcessOwner&, const ProcessOwner&) = default;
-    /// "host:pid".
+    /// Names the process for people: "host:pid".
     [[nodiscard]] std::string str() const;
 };
 
-/// The process that asks.
+/// Returns the owner that stands for the process that asks.
 [[nodiscard]] ProcessOwner this_process();
 
 enum class Liveness {

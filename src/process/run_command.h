@@ -8,8 +8,8 @@ namespace etendue {
 
 struct CommandResult {
     int exit_code = 0;  ///< 128 + signal if a signal ended it
-    std::string out;    ///< what it wrote to stdout
-    std::string err;    ///< and to stderr
+    std::string out;    ///< text that the command wrote to stdout
+    std::string err;    ///< text that the command wrote to stderr
 };
 
 /// Runs words[0], looked up in PATH, with the other words as its arguments, without a shell and with an empty stdin.

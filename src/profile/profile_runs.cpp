@@ -23,7 +23,7 @@ namespace etendue {
 
 namespace {
 
-/// Of each kind, by all threads together: a quarter of a million, 9 MB.
+/// Limits the rays of each kind that all threads record together: a quarter of a million, 9 MB.
 constexpr std::size_t kRecordedRays = std::size_t{1} << 18;
 constexpr int kReplays = 3;
 /// Samples of a pixel whose rays are counted one by one for the map of costs.
@@ -252,7 +252,8 @@ class RunMeasurement {
         report.packet16 = recorded / median(seconds[2]);
     }
 
-    /// Of the run on most threads; the rays are counted by a render of their own, which layers make slower.
+    /// Makes the map of costs of `integrator`, from its run on most threads; the rays are counted by a render of their
+    /// own, which layers make slower. Returns false if it was interrupted.
     bool map_costs(const std::string& integrator) {
         const auto setup = std::ranges::max_element(
             setups_, {}, [&](const Setup& s) { return s.run.integrator == integrator ? s.run.threads : 0; });
@@ -286,7 +287,7 @@ class RunMeasurement {
         return true;
     }
 
-    /// By pairs of repetitions that took turns.
+    /// Compares runs with those on one thread, by pairs of repetitions that took turns.
     void compare_threads() {
         for (Setup& setup : setups_) {
             const auto alone = std::ranges::find_if(setups_, [&](const Setup& other) {

@@ -17,26 +17,26 @@ namespace etendue {
 
 struct ProfileRequest {
     std::vector<std::string> integrators{};
-    std::vector<int> threads{};          ///< of each integrator's runs
-    double seconds = 1.0;                ///< of each repetition, about
-    std::optional<std::uint32_t> spp{};  ///< in place of them
+    std::vector<int> threads{};          ///< numbers of threads, one for each run of an integrator
+    double seconds = 1.0;                ///< seconds of each repetition, about
+    std::optional<std::uint32_t> spp{};  ///< samples per pixel of each repetition, in place of `seconds`
     int repetitions = 1;
     bool quiet = false;
 };
 
-/// What a pixel has cost, of one integrator.
+/// Holds what each pixel has cost one integrator.
 struct CostMap {
     std::string integrator{};
-    std::vector<float> rays{};     ///< of a sample, pixel by pixel of the window
-    std::vector<float> seconds{};  ///< of a sample: those of the pixel's tile, shared out by rays
+    std::vector<float> rays{};     ///< rays of a sample, pixel by pixel of the window
+    std::vector<float> seconds{};  ///< seconds of a sample: those of the pixel's tile, shared out by rays
 };
 
 struct ProfileRuns {
     std::vector<ProfileRun> runs{};       ///< by integrator, then by threads
-    std::vector<CostMap> costs{};         ///< of each integrator
-    std::size_t film_bytes = 0;           ///< of the largest
-    std::size_t wave_bytes = 0;           ///< of all threads that had a tile, of the largest
-    std::size_t tile_bytes = 0;           ///< the same, with the splats that wait
+    std::vector<CostMap> costs{};         ///< a map of each integrator
+    std::size_t film_bytes = 0;           ///< bytes of the largest film
+    std::size_t wave_bytes = 0;           ///< bytes that threads keep between tiles, in the run that keeps most
+    std::size_t tile_bytes = 0;           ///< bytes of tiles under way and splats that wait, in the run with most
     std::uint64_t peak_memory_bytes = 0;  ///< before anything was recorded
     bool interrupted = false;             ///< there may be fewer repetitions then, or none
 };

@@ -22,9 +22,9 @@ struct Allocation {
     std::span<const float> variance;         ///< relative, that one sample is expected to have
     std::span<const std::uint32_t> samples;  ///< taken
     double eye_error = 0.0;                  ///< measured: mean of the squared relative error that eye samples leave
-    double light_error = 0.0;                ///< the same of light paths, of which there is one for each sample
-    double target = 0.0;                     ///< of both together, > 0, less than they are
-    std::uint32_t most = 0;                  ///< samples of a pixel
+    double light_error = 0.0;  ///< measured: squared relative error that light paths leave, one per sample
+    double target = 0.0;       ///< wanted: eye_error + light_error in the end; > 0, less than their sum now
+    std::uint32_t most = 0;    ///< samples that a pixel may have at most
 };
 
 /// No pixel's goal is less than this part of the mean, so that what no sample has found yet can be found. It costs as
@@ -40,9 +40,9 @@ inline constexpr double kLeastShare = 0.125;
 [[nodiscard]] std::vector<float> sample_goals(const Allocation& allocation);
 
 struct AdaptivePass {
-    std::vector<std::uint8_t> is_active;  ///< of the window, row by row; empty if no pixel can get more samples
-    std::uint32_t active = 0;             ///< number of them
-    std::uint32_t count = 0;              ///< samples of each of them
+    std::vector<std::uint8_t> is_active;  ///< 1 for active pixels of the window, row by row; empty if none can get more
+    std::uint32_t active = 0;             ///< number of active pixels
+    std::uint32_t count = 0;              ///< samples that each active pixel gets
 };
 
 /// The next pass of `state`, between passes, whose error `errors` says and is to be `relative_error` with `most`

@@ -9,21 +9,22 @@ namespace etendue {
 
 namespace {
 
-/// How far a contribution is from the one that is looked for, relative to that.
+/// Returns how far a contribution is from `sample`, relative to the brightness of `sample`.
 double distance(const SpelledContribution& contribution, const BrightSample& sample) {
     const Rgb difference = contribution.value - sample.value;
     const float most = std::max({std::abs(difference.r), std::abs(difference.g), std::abs(difference.b)});
     return static_cast<double>(most / sample.brightness());
 }
 
-/// True if what falls on `position` is of the pixel of `sample`, or of one beside the image that its filter shows.
+/// Returns whether light that falls on `position` is of the pixel of `sample`, or of one beside the image that its
+/// filter shows.
 bool is_in_pixel(const Vec2f& position, const BrightSample& sample) {
     constexpr float kFilterReach = 8.0f;  // pixels
     return std::abs(position.x - static_cast<float>(sample.x)) < kFilterReach &&
            std::abs(position.y - static_cast<float>(sample.y)) < kFilterReach;
 }
 
-/// Words that do not fit end in ".*", and match the path as well.
+/// Writes the word of `path` into `sample`; a word that does not fit ends in ".*", and matches the path as well.
 void write_path(const SpelledPath& path, BrightSample& sample) {
     std::string word = path.word;
     if (word.size() >= BrightSample::kWordSize) {

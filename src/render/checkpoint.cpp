@@ -275,8 +275,8 @@ bool is_consistent(const AdaptiveState& adaptive, const RenderState& state) {
            std::ranges::all_of(adaptive.is_active, [](auto is_active) { return is_active <= 1; });
 }
 
-/// What no render leaves behind, so that nobody need expect it. Numbers and windows may be any: only the hash is known
-/// to be right, and whoever writes a file can make one.
+/// Returns false for states that no render leaves behind, so that nobody need expect them. Only the hash of a file is
+/// known to be right, and whoever writes a file can make one: its numbers and windows may be any.
 bool is_consistent(const RenderState& state) {
     constexpr std::uint64_t kMostSamples = std::numeric_limits<std::uint32_t>::max();
     const Film& film = state.film;

@@ -20,14 +20,14 @@ namespace etendue {
 /// All that the sums of a render depend on, by name: those of two renders can be told apart, and the difference named.
 using RenderIdentity = std::map<std::string, std::string>;
 
-/// What differs between `kept` and `wanted`, a line for each name with the value that either has and where; empty if
-/// nothing does.
+/// Lists the differences between `kept` and `wanted`, a line for each name with the value that either has and where;
+/// empty if there are none.
 [[nodiscard]] std::string difference(const RenderIdentity& kept, const RenderIdentity& wanted,
                                      const std::string& kept_place = "there", const std::string& wanted_place = "here");
 
 struct Checkpoint {
     RenderIdentity identity;
-    std::string description;  ///< what else is to be known about the image; any text
+    std::string description;  ///< any text about the image that is no part of its identity
     RenderState state;
 };
 
@@ -35,7 +35,7 @@ struct Checkpoint {
 void write_checkpoint(const std::filesystem::path& path, const RenderIdentity& identity, const std::string& description,
                       const RenderState& state);
 
-/// What a file holds is no checkpoint, or not a whole one: reading it again is of no use.
+/// Says that a file holds no checkpoint, or not a whole one: reading the file again is of no use.
 class DamagedCheckpoint : public IoError {
   public:
     using IoError::IoError;

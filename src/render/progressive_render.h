@@ -19,13 +19,13 @@ namespace etendue {
 
 class RenderProfile;
 
-/// What samples are taken, and of which pixels.
+/// Says which samples are taken, and of which pixels.
 struct SamplingOptions {
     int full_width = 1024;
     int full_height = 576;
     PixelRect window{0, 0, 1024, 576};  ///< inside the full image, not empty
-    /// What the window is a part of that other renders have the rest of: splats are kept for all of it. Empty for the
-    /// window itself.
+    /// Names the rectangle that `window` is a part of, of which other renders have the rest: splats are kept for all of
+    /// it. Empty for `window` itself.
     PixelRect splat_window{};
     std::uint32_t seed = 0;
     SampleSequence sequence = SampleSequence::Sobol;
@@ -33,14 +33,15 @@ struct SamplingOptions {
     /// Not 0: tiles are taken in an order shuffled by this number. The image does not depend on it; tests show that.
     std::uint32_t tile_order_seed = 0;
     std::shared_ptr<const AovSet> aovs{};                           ///< layers to keep besides the image; null for none
-    float clamp_indirect = std::numeric_limits<float>::infinity();  ///< as in TileJob
-    RenderProfile* profile = nullptr;  ///< for as many threads as render; null if nobody asks
+    float clamp_indirect = std::numeric_limits<float>::infinity();  ///< as TileJob has it; infinity: no limit
+    RenderProfile* profile = nullptr;                               ///< has a slot per thread; null if nobody asks
     std::size_t brightest = 0;  ///< how many of the brightest contributions to remember, [0, BrightestSamples::kMost]
 };
 
-/// A film without samples for such a render.
+/// Makes the film of a render with these options, without samples.
 [[nodiscard]] Film make_film(const SamplingOptions& options);
-/// The same for every other pass: without mattes and depths, of which half of the samples are compared with nothing.
+/// Makes the film of every other pass of such a render, without samples, mattes and depths: half of the samples of
+/// mattes and depths are compared with nothing.
 [[nodiscard]] Film make_second_film(const SamplingOptions& options);
 
 /// Called from rendering threads whenever a tile is done, with what it took.
@@ -49,10 +50,10 @@ using TileCallback = std::function<void(std::uint64_t samples, std::uint64_t ray
 /// Asked from rendering threads whether to stop for now.
 using StopPredicate = std::function<bool()>;
 
-/// Of a render whose pixels need not have equally many samples. All of the window, row by row.
+/// Holds the samples of a render whose pixels need not have equally many; arrays are of the window, row by row.
 struct AdaptiveState {
-    std::uint32_t passes = 0;               ///< finished ones that were adaptive
-    std::vector<std::uint32_t> samples{};   ///< that each pixel has from finished passes; empty: all have spp_done
+    std::uint32_t passes = 0;               ///< finished passes that were adaptive
+    std::vector<std::uint32_t> samples{};   ///< samples of each pixel in finished passes; empty: spp_done
     std::vector<std::uint8_t> is_active{};  ///< 1 for the pixels of the pass under way; empty: all of them, or no pass
 
     [[nodiscard]] bool is_uniform() const { return samples.empty(); }
@@ -64,13 +65,13 @@ struct RenderState {
     std::uint32_t first_sample = 0;          ///< index of the first sample of every pixel
     std::uint32_t spp_done = 0;              ///< samples that every pixel has; some have more in an adaptive render
     std::uint32_t pass_size = 0;             ///< samples of the pass that was stopped; 0 if none was
-    std::vector<std::uint8_t> tiles_done{};  ///< of that pass: 1 for those that have its samples
+    std::vector<std::uint8_t> tiles_done{};  ///< 1 for tiles that have the samples of the stopped pass
     RenderCounters counters{};
-    double wall_seconds = 0.0;  ///< of rendering
-    double cpu_seconds = 0.0;   ///< the same, of all threads
-    /// What every other pass gave, to be compared with the whole; kept if it is there from the beginning.
+    double wall_seconds = 0.0;  ///< seconds of rendering
+    double cpu_seconds = 0.0;   ///< processor seconds of rendering, of all threads
+    /// Holds the film of every other pass, to be compared with the whole; none unless it was there from the beginning.
     std::optional<Film> every_other_pass{};
-    std::uint32_t every_other_spp = 0;  ///< samples per pixel in it, of those that all pixels got alike
+    std::uint32_t every_other_spp = 0;  ///< samples per pixel in every_other_pass that all pixels got alike
     AdaptiveState adaptive{};
 
     /// Index of the next sample of every pixel.
@@ -93,29 +94,31 @@ class ProgressiveRender {
     /// `count`.
     bool add_samples(std::uint32_t count, const StopPredicate& stop, const TileCallback& tile_done = {});
 
-    /// The same for those pixels alone that are active: 1 for them, of the window, row by row; at least one. Every
-    /// pixel's samples are the first of its own sequence, however many others have. Of every other pass, each pixel's
-    /// own is kept apart, and every other light image. Tiles without active pixels cost nothing.
+    /// Takes the next `count` samples as `add_samples` does, of active pixels only: `is_active` has 1 for them, for all
+    /// of the window, row by row, at least one. Each pixel's samples are the first of its own sequence, however many
+    /// others have. The second film gets a pixel's pass if it has less than half of the pixel's samples, and every
+    /// other light image. Tiles without active pixels cost nothing.
     bool add_samples_to(std::vector<std::uint8_t> is_active, std::uint32_t count, const StopPredicate& stop,
                         const TileCallback& tile_done = {});
 
-    /// Of a pass that was stopped, what its complete tiles have is in the film.
+    /// Returns the state; the film holds those samples of a stopped pass that complete tiles have.
     [[nodiscard]] const RenderState& state() const { return state_; }
-    /// That all threads keep between tiles, without the tiles themselves; of those that have had one.
+    /// Returns the bytes that all threads keep between tiles, without the tiles themselves; threads that had no tile
+    /// keep none.
     [[nodiscard]] std::size_t scratch_bytes() const;
-    /// Tiles under way, and splats that wait to be added; without layers.
+    /// Returns the bytes of tiles under way and of splats that wait to be added, without layers.
     [[nodiscard]] std::size_t tile_bytes() const;
     /// Moves the state out; nothing else may be called then.
     [[nodiscard]] RenderState take_state() { return std::move(state_); }
 
   private:
-    /// What one thread keeps between tiles.
+    /// Holds what one thread keeps between tiles.
     struct Worker {
         std::unique_ptr<IntegratorScratch> scratch;  ///< made with its first tile
         TileBuffer tile;
         RenderCounters counters;
-        std::vector<PixelJob> pixels;                   ///< of the tile, if only some are active
-        std::vector<std::uint32_t> every_other_pixels;  ///< of these, those whose pass is kept apart
+        std::vector<PixelJob> pixels;                   ///< active pixels of the tile, if only some are
+        std::vector<std::uint32_t> every_other_pixels;  ///< pixels of the tile that the second film gets too
     };
 
     /// Tiles whose splats are added together: few enough for the render to stop within seconds. The image does not
@@ -140,8 +143,8 @@ class ProgressiveRender {
     RenderState state_;
     std::vector<PixelRect> tiles_;
     std::vector<Worker> workers_;
-    std::vector<std::vector<Splat>> splats_;  ///< of each tile of a group
-    double seconds_per_tile_ = 0.0;           ///< of the last group; 0: not known
+    std::vector<std::vector<Splat>> splats_;  ///< splats of each tile of a group
+    double seconds_per_tile_ = 0.0;           ///< seconds per tile of the last group; 0: not known
 };
 
 }  // namespace etendue

@@ -87,11 +87,11 @@ std::uint32_t fitting(std::uint32_t wanted, std::size_t pixels, const RenderStat
                     now.wall_seconds, options.time_limit_seconds);
 }
 
-/// What to do between passes.
+/// Holds the next thing to do between passes: a pass, or the end of the render.
 struct NextStep {
-    std::optional<HaltReason> halt{};       ///< nothing more
-    std::uint32_t count = 0;                ///< samples
-    std::vector<std::uint8_t> is_active{};  ///< of these pixels; empty for all
+    std::optional<HaltReason> halt{};       ///< why no other pass begins; none if one does
+    std::uint32_t count = 0;                ///< samples per pixel of the next pass
+    std::vector<std::uint8_t> is_active{};  ///< 1 for pixels that take part in the next pass; empty for all
 };
 
 NextStep next_step(const RenderState& now, const RenderOptions& options) {

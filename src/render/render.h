@@ -28,8 +28,8 @@ struct RenderOptions : SamplingOptions {
 
 /// How far a render is.
 struct RenderProgress {
-    double fraction = 0.0;  ///< of all samples, [0, 1]
-    double seconds = 0.0;   ///< of rendering
+    double fraction = 0.0;  ///< share of all samples that are taken, [0, 1]
+    double seconds = 0.0;   ///< seconds of rendering
     std::uint64_t samples = 0;
     std::uint64_t rays = 0;
 };
@@ -53,7 +53,7 @@ struct RenderResult : RenderState {
     HaltReason halt_reason = HaltReason::SamplesDone;
 };
 
-/// What to do now and then in the middle of a render, such as writing a checkpoint.
+/// Holds what is done now and then in the middle of a render, such as writing a checkpoint.
 struct RenderPause {
     StopPredicate is_due;                         ///< false for a while after `act`
     std::function<void(const RenderState&)> act;  ///< nothing is rendered meanwhile
@@ -70,7 +70,8 @@ struct RenderPause {
                                   const ThreadPool& threads, const std::atomic<bool>& stop,
                                   const ProgressCallback& progress, const RenderPause& pause, RenderState state);
 
-/// The same from the beginning and without pauses.
+/// Renders `world` from the first sample, without pauses. `stop` and `progress` are used as in the overload that begins
+/// with a `RenderState`.
 [[nodiscard]] RenderResult render(const World& world, const Integrator& integrator, const RenderOptions& options,
                                   const ThreadPool& threads, const std::atomic<bool>& stop,
                                   const ProgressCallback& progress);

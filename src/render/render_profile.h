@@ -15,7 +15,7 @@ namespace etendue {
 /// A tile of one pass.
 struct TileTime {
     PixelRect rect;
-    int slot = 0;  ///< of the thread
+    int slot = 0;  ///< slot of the thread that rendered the tile
     std::uint32_t first_sample = 0;
     std::uint64_t samples = 0;
     double start = 0.0;  ///< seconds since the profile began
@@ -27,19 +27,19 @@ class RenderProfile {
     /// `recorded_rays` is about how many rays of each kind a thread keeps.
     RenderProfile(int threads, std::size_t recorded_rays);
 
-    /// Of the thread with this slot.
+    /// Returns the wave profile of the thread with this slot.
     [[nodiscard]] WaveProfile& wave(int slot) { return workers_[static_cast<std::size_t>(slot)].wave; }
     /// Seconds since the profile began.
     [[nodiscard]] double now() const;
-    /// A tile that the thread with its slot has rendered.
+    /// Adds a tile that the thread with its slot has rendered.
     void add_tile(const TileTime& tile) { workers_[static_cast<std::size_t>(tile.slot)].tiles.push_back(tile); }
-    /// Seconds, of all threads together, in which splats were put on the film.
+    /// Adds seconds, summed over all threads, in which splats were put on the film.
     void add_splatting(double seconds) { splat_seconds_ += seconds; }
 
-    /// What all threads have done.
+    /// Returns the sum of the wave profiles of all threads.
     [[nodiscard]] WaveProfile total() const;
     [[nodiscard]] double splat_seconds() const { return splat_seconds_; }
-    /// In the order in which they began.
+    /// Returns the tiles of all threads, in the order in which they began.
     [[nodiscard]] std::vector<TileTime> tiles() const;
 
   private:

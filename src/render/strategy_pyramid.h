@@ -17,7 +17,7 @@ namespace etendue {
 
 struct StrategyImage {
     Strategy strategy;
-    ImageF rgba;  ///< of the window
+    ImageF rgba;  ///< red, green, blue and alpha of the render's window
 };
 
 /// Renders each of `strategies` by itself, with the same random numbers: weighted ones add up to the image of `bdpt`.

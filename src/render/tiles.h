@@ -32,8 +32,8 @@ inline constexpr std::uint32_t kLargestPass = 16;
 /// True for every other pass, by the sample that it begins with.
 [[nodiscard]] bool is_odd_pass(std::uint32_t first);
 
-/// As many of the `wanted` samples as fit before `seconds_limit`, at the pace of the first `done` ones, which took
-/// `seconds`; at least 1.
+/// Returns how many of the `wanted` samples fit before `seconds_limit`, at the pace of the first `done` ones, which
+/// took `seconds`; at least 1.
 [[nodiscard]] std::uint32_t fit_pass(std::uint32_t wanted, std::uint32_t done, double seconds, double seconds_limit);
 
 }  // namespace etendue

@@ -37,13 +37,13 @@ struct BatchUnit {
     std::string name{};  ///< unlike all others
     std::string scene{};
     std::optional<int> frame{};
-    std::string variant{};  ///< of the scene's materials; empty if none was asked for
+    std::string variant{};  ///< variant of the scene's materials; empty if none was asked for
     std::string image{};    ///< the EXR, relative to the output directory; NAME.png beside it is looked at
     UnitOutcome outcome = UnitOutcome::NotStarted;
     std::string reason{};            ///< why it was stale: "settings changed"; empty if it was not
     std::string error{};             ///< one message of any number of lines, if it failed
-    std::string signal{};            ///< that ended its process: "SIGSEGV"; empty if none did
-    int attempts = 0;                ///< that this batch made
+    std::string signal{};            ///< signal that ended its process: "SIGSEGV"; empty if none did
+    int attempts = 0;                ///< attempts that this batch made
     std::string host{};              ///< where it was rendered, or is
     std::vector<std::string> log{};  ///< its last lines, oldest first; a few dozen at most
 
@@ -53,14 +53,14 @@ struct BatchUnit {
     std::string integrator{};
     std::string halt_reason{};
     std::optional<UnitSeconds> seconds{};
-    std::optional<double> estimated_seconds{};  ///< as the plan said
+    std::optional<double> estimated_seconds{};  ///< seconds that the plan expected
     std::optional<double> rays_per_second{};
     std::optional<std::uint64_t> rays{};
     std::optional<std::uint64_t> peak_memory_bytes{};
 };
 
 struct BatchReport {
-    std::string title{};             ///< what the page is called: the last name of the output directory
+    std::string title{};             ///< title of the page: the last name of the output directory
     std::string output_directory{};  ///< absolute
     std::string program{};           ///< name and version
     std::string command{};
@@ -89,19 +89,19 @@ struct BatchTotals {
 
 [[nodiscard]] BatchTotals totals(const BatchReport& report);
 
-/// As it stands in JSON and on the page: "up to date".
+/// Returns the name of an outcome in JSON and on the page: "up to date".
 [[nodiscard]] const char* outcome_name(UnitOutcome outcome);
 
 /// Whether the unit's image shows what was asked for, finished or not: another may lie there from before.
 [[nodiscard]] bool has_image(UnitOutcome outcome);
 
-/// docs/batch-report.md describes it.
+/// Returns the report as JSON, as docs/batch-report.md describes it.
 [[nodiscard]] std::string to_json(const BatchReport& report);
 
 struct Thumbnails {
     /// Small encoded images of the units, PNG or JPEG, in their order; empty where there is none.
     std::vector<std::vector<unsigned char>> files{};
-    std::string note{};  ///< what a reader is to know of them; may be empty
+    std::string note{};  ///< text about the thumbnails for a reader; may be empty
 };
 
 /// One HTML file, to stand in the output directory, that shows the report and needs nothing else; links lead to the

@@ -55,21 +55,21 @@ struct ConvergenceSlope {
 
 struct VariantReport {
     std::string name{};
-    std::string options{};                   ///< that make it what it is
-    std::string command{};                   ///< that renders its first image
-    std::string command_note{};              ///< how what it renders differs from that; empty if it does not
-    std::vector<std::uint32_t> seeds{};      ///< of its renders, in their order
+    std::string options{};               ///< options that make the variant what it is
+    std::string command{};               ///< command that renders the variant's first image
+    std::string command_note{};          ///< how the render of `command` differs from that image; empty if it does not
+    std::vector<std::uint32_t> seeds{};  ///< seeds of the variant's renders, in their order
     std::vector<std::string> cannot_find{};  ///< sentences
     std::uint32_t spp = 0;
     SeedValues seconds{};
     SeedValues cpu_seconds{};
     double samples_per_cpu_second = 0.0;
-    std::uint64_t rays = 0;  ///< of one render, on average
+    std::uint64_t rays = 0;  ///< rays of one render, on average
     double rays_per_second = 0.0;
     std::array<double, 3> mean{};  ///< R, G, B of all renders
     std::uint64_t dropped_samples = 0;
-    ErrorsByMetric errors{};       ///< of the last images; empty without a reference
-    double variance = kUnknown;    ///< of one render, as relative_variance of metrics/ defines it
+    ErrorsByMetric errors{};       ///< errors of the last images; empty without a reference
+    double variance = kUnknown;    ///< variance of one render, as relative_variance of metrics/ defines it
     double efficiency = kUnknown;  ///< 1 / (variance × seconds)
     std::vector<ConvergenceStep> convergence{};
     std::map<std::string, ConvergenceSlope> slopes{};  ///< by metric
@@ -99,7 +99,7 @@ struct RegionVariant {
     std::string name{};
     std::array<double, 3> mean{};
     SeedValues luminance{};   ///< mean of the region: of renders alone, so that variants are independent
-    SeedValues mean_error{};  ///< of that against the reference, relative
+    SeedValues mean_error{};  ///< error of `luminance` against the reference, relative
     ErrorsByMetric errors{};
     double rel_mse_seconds = kUnknown;
 };
@@ -129,11 +129,11 @@ struct StrategiesReport {
 struct ReferenceReport {
     std::string kind{};                       ///< "file", "integrator", "pooled", or "none"
     std::string text{};                       ///< a sentence
-    std::map<std::string, double> weights{};  ///< of variants in a pooled one
-    double noise_rel_mse = kUnknown;          ///< what of the measured relMSE is the reference's own noise
+    std::map<std::string, double> weights{};  ///< weights of variants in a pooled reference
+    double noise_rel_mse = kUnknown;          ///< part of the measured relMSE that is the reference's own noise
 };
 
-/// What the first and the last colour of a kind of maps stand for.
+/// Holds the values that the first and the last colour of a kind of maps stand for.
 struct MapScale {
     double low = 0.0;
     double high = 1.0;
@@ -145,7 +145,7 @@ struct ComparisonReport {
     std::string command{};
     std::string scene{};
     std::string scene_path{};
-    int width = 0;  ///< of the whole image
+    int width = 0;  ///< pixels of the whole image
     int height = 0;
     std::optional<PixelRect> crop{};
     std::string working_space{};
@@ -156,8 +156,8 @@ struct ComparisonReport {
     int threads = 0;
     std::string isa{};
     std::map<std::string, std::string> libraries{};
-    std::optional<double> seconds{};     ///< of each render, if times are equal
-    std::optional<std::uint32_t> spp{};  ///< if samples are
+    std::optional<double> seconds{};     ///< seconds of each render, if times are equal
+    std::optional<std::uint32_t> spp{};  ///< samples per pixel of each render, if these are equal
     int seeds = 0;
     std::uint32_t first_seed = 0;
     ReferenceReport reference;

@@ -21,7 +21,7 @@ std::string digits(double value) {
     return fmt::format("{:.{}f}", value, size < 9.995 ? 2 : size < 99.95 ? 1 : 0);
 }
 
-/// In the first of `units`, from the largest down, that `value` is at least one of; else in the last.
+/// Writes `value` in the first of `units`, from the largest down, that `value` is at least one of; else in the last.
 std::string in_units(double value, std::span<const Unit> units) {
     if (!std::isfinite(value)) return "-";
     const Unit* chosen = &units.back();

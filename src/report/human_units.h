@@ -14,7 +14,7 @@ namespace etendue {
 /// "1.50 GiB".
 [[nodiscard]] std::string human_bytes(double value);
 
-/// Of a share in [0, 1]: "37.2%".
+/// Writes a share in [0, 1] as a percentage: "37.2%".
 [[nodiscard]] std::string human_percent(double share);
 
 }  // namespace etendue

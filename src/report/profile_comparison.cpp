@@ -117,7 +117,7 @@ std::vector<std::string> circumstances(const ProfileReport& before, const Profil
     return notes;
 }
 
-/// Of a run or of a comparison of two.
+/// Names a run, or a comparison of two runs: "path on 2 threads".
 std::string run_name(const auto& run) {
     return fmt::format("{} on {} thread{}", run.integrator, run.threads, run.threads == 1 ? "" : "s");
 }

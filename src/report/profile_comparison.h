@@ -15,7 +15,7 @@ using ProfileBaseline = ProfileReport;
 
 struct ProfileComparisonOptions {
     double tolerance = 0.02;   ///< >= 0; how much slower counts as none, relative
-    double confidence = 0.95;  ///< of the interval of each ratio, in (0, 1)
+    double confidence = 0.95;  ///< confidence of the interval of each ratio, in (0, 1)
 };
 
 enum class ProfileVerdict {
@@ -25,7 +25,7 @@ enum class ProfileVerdict {
     NotKnown,      ///< a side has fewer than two repetitions
 };
 
-/// As it stands in JSON and in tables: "no significant difference".
+/// Returns the name of a verdict in JSON and in tables: "no significant difference".
 [[nodiscard]] const char* verdict_name(ProfileVerdict verdict);
 
 /// A figure before and now, which nothing is concluded from.
@@ -60,9 +60,9 @@ struct ProfileComparison {
     std::vector<ComparedRun> runs{};
     std::vector<ComparedFigure> figures{};  ///< load, BVH, memory
 
-    /// Of those that have become slower, "path on 2 threads".
+    /// Names the runs that have become slower: "path on 2 threads".
     [[nodiscard]] std::vector<std::string> slower_runs() const;
-    /// True if any run has.
+    /// Returns whether any run has become slower.
     [[nodiscard]] bool has_regression() const;
 };
 
@@ -78,8 +78,8 @@ struct ProfileComparison {
 
 /// Compares runs of the same integrator on the same number of threads. Differences that are no refusal are notes.
 ///
-/// Of a run the logarithms of the seconds per sample of all repetitions are compared: m₁ and m₂ their means, s₁² and
-/// s₂² their variances, n₁ and n₂ their numbers. With e² = s₁²/n₁ + s₂²/n₂ the interval of the ratio is
+/// For each run, the logarithms of the seconds per sample of all repetitions are compared: m₁ and m₂ are their means,
+/// s₁² and s₂² their variances, n₁ and n₂ their numbers. With e² = s₁²/n₁ + s₂²/n₂ the interval of the ratio is
 ///     exp(m₂ − m₁ ± t e),
 /// t the two-sided quantile of Student's distribution with e⁴ / ((s₁²/n₁)²/(n₁−1) + (s₂²/n₂)²/(n₂−1)) degrees of
 /// freedom (B. L. Welch, "The generalization of 'Student's' problem when several different population variances are

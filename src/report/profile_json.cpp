@@ -24,7 +24,8 @@ bool fits_a_line(const Json& json) {
     return std::none_of(json.begin(), json.end(), [](const Json& member) { return member.is_structured(); });
 }
 
-/// What has no parts of its own stands on one line: a run has thousands of tiles of eight numbers each.
+/// Appends `json` to `text`, with each part that has no parts of its own on one line: a run has thousands of tiles of
+/// eight numbers each.
 void write(std::string& text, const Json& json, std::size_t indent) {
     if (!json.is_structured() || fits_a_line(json)) {
         text += text_of(json);
@@ -63,7 +64,7 @@ Json named(const std::vector<NamedValue>& values, const char* unit) {
     return json;
 }
 
-/// The same of numbers that are whole.
+/// Lists names and whole numbers, as `named` does for numbers of any kind.
 Json counted(const std::vector<NamedValue>& values, const char* unit) {
     Json json = named(values, unit);
     for (Json& value : json)

@@ -42,7 +42,7 @@ class Document {
         return json.size();
     }
 
-    /// Finite and in [least, kMostSeconds].
+    /// Reads a finite number in [least, kMostSeconds].
     double number(const std::string& pointer, double least = 0.0) const {
         const nlohmann::json& json = at(pointer);
         if (!json.is_number()) fail(pointer, "must be a number");
@@ -52,7 +52,7 @@ class Document {
         return value;
     }
 
-    /// The same, or NaN for null.
+    /// Reads a number as `number` does, or null as NaN.
     double known_number(const std::string& pointer) const {
         return at(pointer).is_null() ? std::numeric_limits<double>::quiet_NaN() : number(pointer);
     }

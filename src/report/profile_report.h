@@ -28,13 +28,13 @@ struct NamedValue {
 struct RayKindReport {
     std::string kind{};
     std::uint64_t rays = 0;      ///< counted where they are traced
-    double seconds = 0.0;        ///< of all threads, that the renderer spent tracing them
-    std::uint64_t recorded = 0;  ///< of them, those that bare Embree traced again
+    double seconds = 0.0;        ///< seconds of all threads in which the renderer traced these rays
+    std::uint64_t recorded = 0;  ///< rays of these that bare Embree traced again
     /// Rays per second of one thread that traces the recorded rays again and does nothing else, 0 if none were.
     double single = 0.0;  ///< rtcIntersect1 or rtcOccluded1
     double packet8 = 0.0;
     double packet16 = 0.0;
-    double hit_share = std::numeric_limits<double>::quiet_NaN();  ///< of the rays, those that met something, [0, 1]
+    double hit_share = std::numeric_limits<double>::quiet_NaN();  ///< share of the rays that met something, [0, 1]
 };
 
 /// A tile of one pass.
@@ -60,7 +60,7 @@ struct LongPathReport {
     int vertices = 0;
 };
 
-/// What the processor counted while the render ran; empty where the kernel does not allow it.
+/// Holds what the processor counted while the render ran; empty where the kernel does not allow it.
 struct HardwareCounters {
     std::vector<NamedValue> values{};  ///< "cycles", "instructions", "cache-misses", …
     std::string unavailable{};         ///< a sentence; empty if there are values
@@ -71,21 +71,21 @@ struct ProfileRun {
     std::string integrator{};
     int threads = 1;
     std::uint32_t spp = 0;
-    std::vector<double> seconds{};      ///< of each repetition without any instrument, all of the same samples
-    std::vector<double> cpu_seconds{};  ///< the same, of all threads
-    double instrumented_seconds = 0.0;  ///< of the repetition in which stages were timed and rays recorded
-    std::uint64_t samples = 0;          ///< of one repetition
+    std::vector<double> seconds{};      ///< seconds of each repetition without instruments, all of the same samples
+    std::vector<double> cpu_seconds{};  ///< processor seconds of all threads, repetition by repetition
+    double instrumented_seconds = 0.0;  ///< seconds of the repetition in which stages were timed and rays recorded
+    std::uint64_t samples = 0;          ///< samples of one repetition
     std::uint64_t rays = 0;
-    std::vector<RayKindReport> kinds{};  ///< those that the integrator traces
+    std::vector<RayKindReport> kinds{};  ///< kinds of rays that the integrator traces
     std::vector<NamedValue> stages{};    ///< seconds of all threads, in the order of the wave; "other" is the last
-    double timing_share = 0.0;           ///< of the threads' time that the time stamps themselves took, [0, 1]
+    double timing_share = 0.0;           ///< share of the threads' time that time stamps themselves took, [0, 1]
     /// Time that bare Embree takes for exactly these rays over the time that the render took, medians of the
     /// repetitions: as single rays, and in the form that is fastest for each kind.
     double efficiency_single = std::numeric_limits<double>::quiet_NaN();
     double efficiency_best = std::numeric_limits<double>::quiet_NaN();
     double parallel_efficiency = std::numeric_limits<double>::quiet_NaN();  ///< speed over threads × that of one thread
     double load_imbalance = 0.0;      ///< longest time that a thread rendered over the mean of all, minus 1
-    std::vector<TileReport> tiles{};  ///< of the instrumented repetition
+    std::vector<TileReport> tiles{};  ///< tiles of the instrumented repetition
     PathsReport eye_paths{};
     PathsReport light_paths{};              ///< light subpaths; empty if the integrator has none
     std::vector<LongPathReport> longest{};  ///< eye paths
@@ -103,13 +103,13 @@ struct ProfileRun {
 struct BvhReport {
     double build_seconds = 0.0;
     std::uint64_t triangles = 0;            ///< stored
-    std::uint64_t instanced_triangles = 0;  ///< as seen
+    std::uint64_t instanced_triangles = 0;  ///< triangles as seen, shared meshes as often as they are placed
     std::uint64_t instances = 0;
     std::uint64_t bytes = 0;
     std::string quality{};  ///< "medium, robust"
 };
 
-/// Of profile.json: changes when the meaning of a key does.
+/// Numbers the format of profile.json; it changes when the meaning of a key does.
 inline constexpr int kProfileFormat = 2;
 
 struct ProfileReport {
@@ -122,8 +122,8 @@ struct ProfileReport {
     int height = 0;
     int max_depth = 0;
     std::uint32_t seed = 0;
-    std::map<std::string, std::string> settings{};  ///< what else decides how much work a sample is, by names
-    std::string processor{};                        ///< its model
+    std::map<std::string, std::string> settings{};  ///< other settings that decide how much work a sample is, by name
+    std::string processor{};                        ///< model of the processor
     int processors = 0;
     int memory_nodes = 1;  ///< parts of the machine with memory of their own, of which the process has processors
     std::string isa{};

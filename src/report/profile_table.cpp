@@ -20,7 +20,7 @@ constexpr int kBar = 40;  // characters that a stage takes that takes all the ti
 constexpr std::size_t kTilesInTable = 3;
 constexpr std::size_t kLongestPaths = 3;
 
-/// Of `share` in [0, 1]; all are of one width, as columns are flush right.
+/// Draws `share`, clamped to [0, 1], as a bar of '#'; all bars have one width, as columns are flush right.
 std::string bar(double share) {
     const long length = std::isfinite(share) ? std::lround(kBar * std::clamp(share, 0.0, 1.0)) : 0;
     return fmt::format("{:<{}}", std::string(static_cast<std::size_t>(length), '#'), kBar);

@@ -25,7 +25,7 @@ class FakeSlurm {
     void refuse_after(int jobs) const;
     /// While sbatch takes the job of this number, the user presses Ctrl-C: whoever called it gets SIGINT.
     void interrupt_after(int jobs) const;
-    /// What squeue prints.
+    /// Sets the lines that squeue prints.
     void set_queue(const std::string& lines) const;
     /// The words of each call of a program, oldest first.
     [[nodiscard]] std::vector<std::vector<std::string>> calls(const std::string& program) const;

@@ -25,9 +25,9 @@ enum class Request : int {
 /// files for stdout and stderr, the words of the command, the variables of the environment.
 struct RequestHead {
     Request request = Request::Start;
-    pid_t pid = 0;      ///< of the copy, unless it is to be started
-    int words = 0;      ///< of the command
-    int variables = 0;  ///< of the environment
+    pid_t pid = 0;      ///< process id of the copy, unless it is to be started
+    int words = 0;      ///< number of the command's words
+    int variables = 0;  ///< number of the environment's variables
 };
 
 }  // namespace etendue::test

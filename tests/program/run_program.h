@@ -37,7 +37,7 @@ class RunningProgram {
     void send(int signal) const;
     /// True once it has ended, and stays there for `wait`.
     [[nodiscard]] bool has_ended() const;
-    /// What it has written to stderr so far.
+    /// Returns what the program has written to stderr so far.
     [[nodiscard]] std::string messages() const;
     /// Waits for its end; once.
     [[nodiscard]] ProgramResult wait();

@@ -26,7 +26,7 @@ struct ExrAttribute {
 
 class AcesContainerCheck {
   public:
-    /// What is wrong with the file, a line each; empty if it satisfies all constraints.
+    /// Lists what is wrong with the file, a line each; empty if it satisfies all constraints.
     [[nodiscard]] static std::vector<std::string> violations(std::span<const std::byte> file) {
         AcesContainerCheck check(file);
         check.run();

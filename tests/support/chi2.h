@@ -52,13 +52,13 @@ struct SamplerOptions {
     std::size_t pilot_samples = 4096;
     std::uint32_t seed = 1;
     int cells_log2 = 6;       ///< 2^n cells
-    double tolerance = 2e-6;  ///< of the integral over one of some thousand pieces
+    double tolerance = 2e-6;  ///< largest error of the integral over one of some thousand pieces
     int least_levels = 0;     ///< how often pieces are quartered in any case: more where the density jumps
 };
 
 struct SamplerCheck {
     Chi2Result chi2;
-    double pdf_integral = 0.0;  ///< of the stated density over the domain
+    double pdf_integral = 0.0;  ///< integral of the stated density over the domain
     double hit_share = 0.0;     ///< share of samples that were neither rejected nor a delta
     double hit_error = 0.0;     ///< standard error of `hit_share`
 };

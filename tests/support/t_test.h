@@ -8,7 +8,7 @@ namespace etendue::test {
 
 struct TTestResult {
     double mean = 0.0;
-    double standard_error = 0.0;  ///< of the mean
+    double standard_error = 0.0;  ///< standard error of the mean
     double t = 0.0;
     double p_value = 1.0;  ///< probability of a larger |t| if the mean is the expected one
 
