@@ -8,11 +8,11 @@
 namespace etendue {
 
 extern "C" {
-/// By tools/gen/make_ggx_albedo.cpp.
+/// Holds the tables that tools/gen/make_ggx_albedo.cpp computes.
 extern const ggx_albedo_layout::Tables etendue_ggx_albedo;
-/// By tools/gen/make_ggx_anisotropic_albedo.cpp.
+/// Holds the tables that tools/gen/make_ggx_anisotropic_albedo.cpp computes.
 extern const ggx_anisotropic_layout::Tables etendue_ggx_anisotropic_albedo;
-/// By tools/gen/make_sheen_albedo.cpp.
+/// Holds the tables that tools/gen/make_sheen_albedo.cpp computes.
 extern const sheen_albedo_layout::Tables etendue_sheen_albedo;
 }
 

@@ -7,7 +7,7 @@
 
 namespace etendue {
 
-/// What the walk carries. Refraction scales radiance by the squared ratio of the indices but leaves particles that
+/// Names what a walk carries. Refraction scales radiance by the squared ratio of the indices but leaves particles that
 /// carry importance alone (Veach 1997, section 5.2).
 enum class TransportMode {
     Radiance,    ///< walks from the eye: the weight is f(wi -> wo)
@@ -42,7 +42,7 @@ struct BasicBsdfSample {
     Imath::Vec3<T> wi{T(0.0f)};
     BasicRgb<T> weight;       ///< f |cos theta_i| / pdf; for a delta part, its albedo over its probability
     T pdf_solid_angle{0.0f};  ///< of all non-delta parts together; not meaningful if `is_delta`
-    bool is_delta = false;    ///< as all lanes are
+    bool is_delta = false;    ///< true of all lanes or of none
     bool is_transmission = false;
     T eta{1.0f};  ///< index on wi's side over the index on wo's side, for Russian roulette
     /// The density of a delta's way back, from wi, over that of this way. Lobes count the probabilities of choosing it;

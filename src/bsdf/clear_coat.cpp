@@ -11,7 +11,7 @@ namespace etendue {
 
 namespace {
 
-constexpr float kF0 = 0.04f;  ///< of the index 1.5
+constexpr float kF0 = 0.04f;  ///< reflectance at normal incidence for the index 1.5
 
 float fresnel(float cos_theta) {
     return fresnel_schlick(Rgb(kF0), cos_theta).r;

@@ -17,14 +17,15 @@ struct ClearCoat {
 
     [[nodiscard]] bool exists() const { return strength > 0.0f; }
     [[nodiscard]] bool is_smooth() const;
-    /// Without the delta.
+    /// Evaluates the coat without the delta of a smooth one.
     [[nodiscard]] BsdfValue evaluate(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const;
     /// A direction with the density of `evaluate`, or the mirror's for a smooth coat. It may lie below the surface.
     [[nodiscard]] Vec3f sample(const Vec3f& wo, float u_lobe, Vec2f u) const;
     /// Reflected share of a smooth coat.
     [[nodiscard]] float smooth_reflectance(const Vec3f& wo) const;
 
-    /// What the coat leaves of light with cosine `cos_coat` to its own normal to the layer below: 1 - albedo, [0, 1].
+    /// Returns the share of light with cosine `cos_coat` to the coat's own normal that the coat leaves to the layer
+    /// below: 1 - albedo, [0, 1].
     [[nodiscard]] float passed(float cos_coat) const;
 };
 

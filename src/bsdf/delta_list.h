@@ -15,7 +15,7 @@ class DeltaList {
     /// A coat's mirror, and of a body what its interface reflects, lets through and gets back, and its opaque share.
     static constexpr std::size_t kCapacity = 6;
 
-    /// Those along one direction, up to rounding, become one.
+    /// Adds `delta` unless it is black; deltas along one direction, up to rounding, become one.
     void add(const BsdfSample& delta) {
         if (is_black(delta.weight)) return;
         for (BsdfSample& known : std::span(deltas_).first(count_))

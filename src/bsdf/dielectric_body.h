@@ -25,7 +25,7 @@ struct DielectricBody {
     [[nodiscard]] BsdfParts evaluate_parts(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const;
     [[nodiscard]] BsdfValue evaluate(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const;
     [[nodiscard]] BsdfSample sample(const Vec3f& wo, float u_lobe, Vec2f u, TransportMode mode) const;
-    /// As radiance.
+    /// Adds the deltas that light seen along `wo` may have taken, weighted as radiance.
     void add_deltas(const Vec3f& wo, DeltaList& deltas) const;
     [[nodiscard]] bool has_non_delta() const;
 };

@@ -18,7 +18,7 @@ struct BasicFacetFresnel {
 
     Color f0{T(0.04f)};  ///< at normal incidence, [0, f90]
     T f90{1.0f};         ///< at grazing incidence, [0, 1]
-    ThinFilm film{};     ///< of single lanes only
+    ThinFilm film{};     ///< only single lanes have one
 
     [[nodiscard]] bool has_film() const { return kIsSingle<T> && film.exists(); }
 

@@ -69,7 +69,7 @@ template <typename T>
     return lerp(f0, BasicRgb<T>(f90), pow5(clamp(1.0f - cos_i, T(0.0f), T(1.0f))));
 }
 
-/// Its mean over the hemisphere, weighted by the cosine.
+/// Returns the mean of `fresnel_schlick` over the hemisphere, weighted by the cosine.
 template <typename T>
 [[nodiscard]] inline BasicRgb<T> fresnel_schlick_average(const BasicRgb<T>& f0, std::type_identity_t<T> f90 = T(1.0f)) {
     return lerp(f0, BasicRgb<T>(f90), T(1.0f / 21.0f));

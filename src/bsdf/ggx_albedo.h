@@ -7,7 +7,8 @@
 
 namespace etendue {
 
-/// Of a reflecting GGX surface. With Schlick's Fresnel term the albedo is f0 · single + (1 - f0) · schlick.
+/// Holds the albedo of a reflecting GGX surface in two parts: with Schlick's Fresnel term it is f0 · single + (1 - f0)
+/// · schlick.
 template <typename T>
 struct BasicGgxAlbedo {
     T single;   ///< with reflectance 1
@@ -17,11 +18,11 @@ using GgxAlbedo = BasicGgxAlbedo<float>;
 
 // Of float and Wide.
 
-/// `cos_theta` in [0, 1], `alpha` in [0, 1].
+/// Returns the albedo for light seen at an angle with `cos_theta` in [0, 1]; `alpha` in [0, 1].
 template <typename T>
 [[nodiscard]] BasicGgxAlbedo<T> ggx_albedo(T cos_theta, T alpha);
 
-/// The same averaged over a cosine-weighted hemisphere.
+/// Returns the albedo averaged over a cosine-weighted hemisphere; `alpha` in [0, 1].
 template <typename T>
 [[nodiscard]] BasicGgxAlbedo<T> ggx_albedo_average(T alpha);
 

@@ -22,12 +22,13 @@ using namespace ggx_albedo_indices;
 
 inline constexpr int kCosines = 48;
 inline constexpr int kAlphas = 38;       ///< alpha = t², t in [0, 1]: uniform in perceptual roughness
-inline constexpr int kShareAlphas = 64;  ///< the same for Schlick's share, which grazing angles bend more
-/// The same for the averages. They are not piecewise linear in t, but have kinks at the nodes of the albedos.
+inline constexpr int kShareAlphas = 64;  ///< nodes of alpha for Schlick's share, which grazing angles bend more
+/// Is the number of nodes of alpha for the averages, which are not piecewise linear in t, but have kinks at the nodes
+/// of the albedos.
 inline constexpr int kAverageAlphas = 10 * (kAlphas - 1) + 1;
 inline constexpr int kEtasOutside = 30;   ///< from eta = 1 to 9
 inline constexpr int kEtasInside = 48;    ///< from eta = 1 to 1/9
-inline constexpr int kCriticalNode = 18;  ///< of the inside's
+inline constexpr int kCriticalNode = 18;  ///< node of the critical index among those inside
 inline constexpr int kAverageEtas = 64;   ///< for each side
 
 using Slice = std::array<std::array<float, kCosines>, kAlphas>;  ///< [alpha][cosine]
@@ -35,7 +36,7 @@ using ShareSlice = std::array<std::array<float, kCosines>, kShareAlphas>;
 using Averages = std::array<float, kAverageAlphas>;
 
 inline constexpr float kSmallestAlpha = 1e-4f;
-inline constexpr float kAverageScale = 0.003f;  ///< of the averages' indices
+inline constexpr float kAverageScale = 0.003f;  ///< scale of the averages' indices
 
 /// Position of `node` out of `count` in [0, 1].
 [[nodiscard]] inline float fraction(int node, int count) {
@@ -110,7 +111,7 @@ template <typename T>
     return kCriticalNode + (kEtasInside - 1 - kCriticalNode) * log_fraction(root, level, kLargestRoot, scale);
 }
 
-/// For either side.
+/// Returns the index of a node of the averages, for either side.
 [[nodiscard]] inline float average_eta(int node) {
     return eta_of(at_log_fraction(fraction(node, kAverageEtas), 0.0f, kLargestRoot, kAverageScale));
 }

@@ -8,10 +8,11 @@
 
 namespace etendue {
 
-/// `w` unit with w.z >= 0; alphas along x and y in [kSmoothAlpha, 1].
+/// Returns the albedo of a GGX surface for light seen along the unit vector `w`, w.z >= 0; alphas along x and y in
+/// [kSmoothAlpha, 1].
 [[nodiscard]] GgxAlbedo ggx_anisotropic_albedo(const Vec3f& w, float alpha_x, float alpha_y);
 
-/// The same averaged over a cosine-weighted hemisphere.
+/// Returns the albedo averaged over a cosine-weighted hemisphere; alphas in [kSmoothAlpha, 1].
 [[nodiscard]] GgxAlbedo ggx_anisotropic_albedo_average(float alpha_x, float alpha_y);
 
 /// One less the reflected plus transmitted share of a rough dielectric interface, seen from the side on which the

@@ -132,7 +132,7 @@ inline constexpr float kEvenSpread = 0.13f;  ///< the smaller, the closer are th
             0.3f * (std::sqrt(std::sqrt(cos_theta)) + 1.0f - std::sqrt(std::max(0.0f, 1.0f - cos_theta)))) *
            (kCosines - 1);
 }
-/// Its inverse at a node.
+/// Returns the cosine at a node: the inverse of `cosine_coordinate`.
 [[nodiscard]] inline float cosine(int node, float along) {
     return at_coordinate(static_cast<float>(node), 0.0f,
                          [along](float cos_theta) { return cosine_coordinate(cos_theta, along); });
@@ -152,11 +152,12 @@ inline constexpr float kEvenSpread = 0.13f;  ///< the smaller, the closer are th
 // Up to either bend the steps shrink as a root does, and from the last one on they grow as a square does, and more.
 inline constexpr float kEvenToFirst = 5.0f;
 inline constexpr float kEvenToLast = 1.2f;
-/// Both in [0, 1]; the inverse of each other. The larger `even`, the more like a root at 1; even for 0.
+/// Maps [0, 1] onto itself: evenly for `even` 0, and the more like a root at 1 the larger `even` is.
 [[nodiscard]] inline float shrink(float t, float even) {
     const float rest = 1.0f - t;
     return 1.0f - std::sqrt(std::max(0.0f, rest * (rest + even) / (1.0f + even)));
 }
+/// Maps [0, 1] onto itself as the inverse of `shrink`.
 [[nodiscard]] inline float unshrink(float t, float even) {
     const float rest = 1.0f - t;
     return 1.0f - 0.5f * (std::sqrt(even * even + 4.0f * (1.0f + even) * rest * rest) - even);
@@ -166,7 +167,7 @@ inline constexpr float kEvenToLast = 1.2f;
 struct Bends {
     float first;
     float last;
-    float even_to_last;  ///< of `shrink`, between the two
+    float even_to_last;  ///< the `even` of `shrink` between the two
 };
 /// Upright facets face along the wide alpha, and grooves run along the narrow one. The steps shrink towards the last
 /// bend the less, the fewer facets are upright: nearly level ones bend nothing there.
@@ -230,7 +231,7 @@ struct Cubic {
     std::size_t first;
     std::array<float, 4> weights;
 };
-/// Within the nodes from `low` to `high`.
+/// Returns the cubic at `coordinate` within the nodes from `low` to `high`.
 [[nodiscard]] inline Cubic cubic(float coordinate, int low, int high) {
     const float clamped = std::clamp(coordinate, static_cast<float>(low), static_cast<float>(high));
     const int first = std::clamp(static_cast<int>(clamped) - 1, low, high - 3);
@@ -279,7 +280,8 @@ struct Position {
                  kEtasInside - 1);
 }
 
-/// In [0, 1] up to overshoot. `weights` are those of the indices from node `first_eta` on.
+/// Returns the interpolated root, in [0, 1] up to overshoot. `weights` are those of the indices from node `first_eta`
+/// on.
 template <std::size_t Etas, std::size_t Rows>
 [[nodiscard]] float interpolate(const Table<Etas>& table, const Position& p, std::size_t first_eta,
                                 const std::array<float, Rows>& weights) {
@@ -303,7 +305,7 @@ template <std::size_t Etas, std::size_t Rows>
 [[nodiscard]] inline float interpolate(const Table<1>& table, const Position& p) {
     return interpolate(table, p, 0, std::array{1.0f});
 }
-/// What is missing, from its tabulated root: never all, though edge-on it comes so close that cubics overshoot.
+/// Returns what is missing, from its tabulated root: never all, though edge-on it comes so close that cubics overshoot.
 [[nodiscard]] inline float missing_from_root(float root) {
     const float clamped = std::clamp(root, 0.0f, 0.9999f);
     return clamped * clamped;

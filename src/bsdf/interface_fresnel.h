@@ -15,8 +15,8 @@
 namespace etendue {
 
 struct InterfaceFresnel {
-    Rgb tint{1.0f};       ///< of the reflectance at normal incidence, >= 0
-    float weight = 1.0f;  ///< of the reflectance, [0, 1]
+    Rgb tint{1.0f};       ///< factor of the reflectance at normal incidence, >= 0
+    float weight = 1.0f;  ///< factor of the reflectance, [0, 1]
     ThinFilm film{};
 
     struct Split {
@@ -39,11 +39,11 @@ struct InterfaceFresnel {
         return {reflected, transmitted, chance + transmitted > 0.0f ? chance / (chance + transmitted) : 1.0f};
     }
 
-    /// True if it is that of the indices alone.
+    /// True if the reflectance is that of the indices alone.
     [[nodiscard]] bool is_bare() const { return !film.exists() && weight == 1.0f && tint == Rgb(1.0f); }
 
   private:
-    /// The same from both sides.
+    /// Returns the reflectance at normal incidence, which is the same from both sides.
     [[nodiscard]] static float normal_reflectance(float eta) {
         const float root = (eta - 1.0f) / (eta + 1.0f);
         return root * root;

@@ -56,7 +56,7 @@ class InnerSide {
     }
     [[nodiscard]] Vec3f sample_rough(const Vec3f& wo, Vec2f u) const { return rough()->sample_returned(wo, u); }
 
-    /// The density without that probability.
+    /// Evaluates what rough interfaces send back; the density is without the probability of `choice`.
     [[nodiscard]] BsdfValue evaluate(const Vec3f& wo, const Vec3f& wi) const {
         if (!is_seen_from(wo) || wi.z >= 0.0f || rough() == nullptr) return {};
         const RoughDielectric::Returned returned = rough()->evaluate_returned(wo, wi);
@@ -65,7 +65,8 @@ class InnerSide {
         return {Rgb(value * body_->interface_share), returned.pdf_solid_angle};
     }
 
-    /// What becomes of a sample that would leave a smooth interface.
+    /// Returns what becomes of a sample that would leave a smooth interface: it passes the layers, or goes back inside
+    /// as in a mirror.
     [[nodiscard]] BsdfSample leave_or_return(const Vec3f& wo, const BsdfSample& leaving, float u) const {
         const float passed = Layers::passed(surface_, leaving.wi);
         if (u < passed) {
@@ -98,7 +99,8 @@ class InnerSide {
 
     [[nodiscard]] const RoughDielectric* rough() const { return std::get_if<RoughDielectric>(&body_->interface); }
 
-    /// Of light that would leave along `out_o`, or along `out_i` were it seen from its other end.
+    /// Returns the share that the layers keep of light that would leave along `out_o`, or along `out_i` were it seen
+    /// from its other end: the smaller of the two.
     [[nodiscard]] float kept(const Vec3f& out_o, const Vec3f& out_i) const {
         return 1.0f - std::max(Layers::passed(surface_, out_o), Layers::passed(surface_, out_i));
     }

@@ -31,7 +31,7 @@ struct LayeredSurface {
     ClearCoat coat{};
     float passed_average = 1.0f;        ///< t_avg, of what the base's own specular layer lets through too
     float passed_average_plain = 1.0f;  ///< t_avg of the layers alone
-    float diffuseness = 0.0f;           ///< of what the base does around a direction: its alpha, [0, 1]
+    float diffuseness = 0.0f;           ///< how far the base scatters around a direction: its alpha, [0, 1]
 
     /// Prepares the average above.
     [[nodiscard]] static LayeredSurface make(const std::variant<MetallicRoughness, DielectricBody>& base,
@@ -41,11 +41,11 @@ struct LayeredSurface {
     [[nodiscard]] BsdfParts evaluate_parts(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const;
     [[nodiscard]] BsdfValue evaluate(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const;
     [[nodiscard]] BsdfSample sample(const Vec3f& wo, float u_lobe, Vec2f u, TransportMode mode) const;
-    /// As radiance.
+    /// Adds the deltas that light seen along `wo` may have taken, weighted as radiance.
     void add_deltas(const Vec3f& wo, DeltaList& deltas) const;
     [[nodiscard]] bool has_non_delta() const;
-    /// The same for a thin sheet that is seen from its other side, in the frame turned about y: the coat's normal is
-    /// the opposite one there.
+    /// Returns the surface of a thin sheet as it is seen from its other side, in the frame turned about y: the coat's
+    /// normal is the opposite one there.
     [[nodiscard]] LayeredSurface from_behind() const {
         LayeredSurface turned = *this;
         turned.coat.normal.y = -coat.normal.y;

@@ -37,8 +37,8 @@ struct MetallicRoughness {
     float metallic = 1.0f;  ///< [0, 1]
     float alpha_x = 1.0f;   ///< roughness² along x, [0, 1]
     float alpha_y = 1.0f;
-    Rgb f0{0.04f};              ///< of the dielectric, [0, f90]
-    float f90 = 1.0f;           ///< of the dielectric, [0, 1]
+    Rgb f0{0.04f};              ///< reflectance of the dielectric at normal incidence, [0, f90]
+    float f90 = 1.0f;           ///< reflectance of the dielectric at grazing incidence, [0, 1]
     float transmission = 0.0f;  ///< [0, 1]
     float diffuse_transmission = 0.0f;
     Rgb diffuse_transmission_color{1.0f};
@@ -60,7 +60,7 @@ struct MetallicRoughness {
 
     [[nodiscard]] BsdfValue evaluate(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const;
     [[nodiscard]] BsdfSample sample(const Vec3f& wo, float u_lobe, Vec2f u, TransportMode mode) const;
-    /// As radiance.
+    /// Adds the deltas that light seen along `wo` may have taken, weighted as radiance.
     void add_deltas(const Vec3f& wo, DeltaList& deltas) const;
     [[nodiscard]] bool has_non_delta() const;
 };

@@ -19,20 +19,20 @@ struct MetallicRoughnessLayers {
     using Vec = Imath::Vec3<T>;
     using Facets = BasicFacetFresnel<T>;
 
-    /// What lies under the specular layer, as albedos.
+    /// Holds the albedos of what lies under the specular layer.
     struct Below {
         Color diffuse;
-        Color diffuse_transmitted{};  ///< what leaves on the other side
+        Color diffuse_transmitted{};  ///< diffuse light that leaves on the other side
         Color transmitted{};          ///< through the sheet, mirrored
     };
 
     BasicGgxReflection<T> reflection;
-    bool smooth;  ///< as all lanes are
+    bool smooth;  ///< true of all lanes or of none
     Facets dielectric;
     Facets metal;
     T metallic;
     Below below;
-    Facets mixed;  ///< of the two, without film
+    Facets mixed;  ///< Fresnel term of both materials together, without film
     Color multiple_fresnel;
     T coupling;             ///< (1 - E_d(o)) of the dielectric's specular layer
     T coupling_average;     ///< 1 - E_d averaged
@@ -68,13 +68,13 @@ struct MetallicRoughnessLayers {
         choose_probabilities();
     }
 
-    /// Of both materials together.
+    /// Returns the Fresnel reflectance of both materials together.
     [[nodiscard]] Color fresnel(T cosine) const {
         if (!dielectric.has_film()) return mixed(cosine);
         return lerp(dielectric(cosine), metal(cosine), metallic);
     }
 
-    /// Of the dielectric's layer at one facet.
+    /// Returns the reflectance of the dielectric's layer at one facet, in its brightest channel.
     [[nodiscard]] T layer_fresnel(T cosine) const { return max_component(dielectric(cosine)); }
 
     /// Share of light with cosine `cosine` that the dielectric's specular layer lets through.

@@ -24,7 +24,7 @@ float missing_of(const Ggx& ggx, const Vec3f& w, float eta) {
                               : ggx_anisotropic_dielectric_missing(above, ggx.alpha_x, ggx.alpha_y, eta);
 }
 
-/// The same averaged over the hemisphere.
+/// Returns 1 - E averaged over the hemisphere on the side whose other side has the relative index `eta`.
 float missing_average_of(const Ggx& ggx, float eta) {
     return ggx.is_isotropic() ? 1.0f - ggx_dielectric_albedo_average(ggx.alpha_x, eta)
                               : ggx_anisotropic_dielectric_missing_average(ggx.alpha_x, ggx.alpha_y, eta);
@@ -63,7 +63,7 @@ float multiple_shape(const Side& side, float eta, float missing_average, const V
     return missing_of(side.ggx, w, eta) / missing_average * std::abs(w.z) * kInvPi;
 }
 
-/// Both in particle (importance) mode; wo.z > 0, wi.z > 0.
+/// Evaluates reflection in particle (importance) mode; wo.z > 0, wi.z > 0.
 BsdfValue evaluate_reflection(const Side& side, const Vec3f& wo, const Vec3f& wi) {
     const Vec3f h = normalize(wo + wi);
     const InterfaceFresnel::Split split = side.split(std::min(1.0f, dot(wo, h)));
@@ -76,7 +76,7 @@ BsdfValue evaluate_reflection(const Side& side, const Vec3f& wo, const Vec3f& wi
     return {split.reflected * (d * side.ggx.g2(wo, wi) / (4.0f * wo.z)) + Rgb(multiple), pdf};
 }
 
-/// wo.z > 0, wi.z < 0.
+/// Evaluates transmission in particle (importance) mode; wo.z > 0, wi.z < 0.
 BsdfValue evaluate_transmission(const Side& side, const Vec3f& wo, const Vec3f& wi) {
     const float multiple = side.multiple_transmitted * side.missing *
                            multiple_shape(side, 1.0f / side.eta, side.missing_average(!side.outside), wi);

@@ -39,9 +39,9 @@ struct RoughDielectric {
     [[nodiscard]] BsdfSample sample(const Vec3f& wo, float u_lobe, Vec2f u, TransportMode mode) const;
     [[nodiscard]] bool has_non_delta() const { return true; }
 
-    /// What would leave a body if a layer on its outside did not send it back: `single` at the facet that mirrors wo to
-    /// wi, where it would go on along `out_o`, or along `out_i` were it wi that arrives; `multiple` in all directions.
-    /// Both are f |cos theta_i| of light that is sent back whole. wo.z < 0, wi.z < 0.
+    /// Holds what would leave a body if a layer on its outside did not send it back, as f |cos theta_i| of light that
+    /// is sent back whole; wo.z < 0, wi.z < 0. `single` is from the facet that mirrors wo to wi, where light would go
+    /// on along `out_o`, or along `out_i` were it wi that arrives; `multiple` leaves in all directions.
     struct Returned {
         float single;
         float multiple;

@@ -18,7 +18,8 @@ struct Sheen {
     [[nodiscard]] BsdfValue evaluate(const Vec3f& wo, const Vec3f& wi) const;
     [[nodiscard]] static Vec3f sample(Vec2f u);
 
-    /// What the fibres leave to the layer below, by the brightest channel: 1 - albedo, [0, 1].
+    /// Returns the share of light that the fibres leave to the layer below, by the brightest channel: 1 - albedo, [0,
+    /// 1].
     [[nodiscard]] float passed(float cos_theta) const;
 };
 

@@ -14,7 +14,7 @@ struct SmoothConductor {
 
     [[nodiscard]] BsdfValue evaluate(const Vec3f&, const Vec3f&, TransportMode) const { return {}; }
     [[nodiscard]] BsdfSample sample(const Vec3f& wo, float u_lobe, Vec2f u, TransportMode mode) const;
-    /// As radiance.
+    /// Adds the delta that light seen along `wo` may have taken, weighted as radiance.
     void add_deltas(const Vec3f& wo, DeltaList& deltas) const;
     [[nodiscard]] bool has_non_delta() const { return false; }
 };

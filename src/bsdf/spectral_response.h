@@ -39,8 +39,9 @@ class SpectralResponse {
         return color / static_cast<float>(kStrata);
     }
 
-    /// The same over the chance with which `share` is met by one of the 16, whichever was drawn: what a path weighs
-    /// that met it by the wavelength `drawn` and goes on as one of all wavelengths.
+    /// Returns the mean colour of `share` at the 16 wavelengths of `mean`, over the chance with which `share` is met by
+    /// one of them, whichever was drawn: what a path weighs that met `share` by the wavelength `drawn` and goes on as
+    /// one of all wavelengths.
     template <typename Share>
     [[nodiscard]] Rgb mean_over_chance(const Wavelength& drawn, const Share& share) const {
         Rgb color;

@@ -47,7 +47,7 @@ Rgb sensitivity(const XyzToWorking& to_working, float path_nm, float shift) {
     return {row(to_working[0]), row(to_working[1]), row(to_working[2])};
 }
 
-/// What the reflectance at the film's lower face is, and the phase that it shifts.
+/// Holds the reflectance at the film's lower face, and the phase that the face shifts, radians.
 struct LowerFace {
     float reflectance;
     float phase;

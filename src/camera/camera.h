@@ -22,8 +22,8 @@ struct CameraPose {
     Vec3f up{0.0f, 1.0f, 0.0f};
     Vec3f forward{0.0f, 0.0f, -1.0f};
 
-    /// From a camera-to-world matrix of glTF's kind (looking along local -Z, +Y up); its scale is ignored, as the
-    /// specification asks.
+    /// Makes a pose from a camera-to-world matrix of glTF's kind (looking along local -Z, +Y up); its scale is ignored,
+    /// as the specification asks.
     [[nodiscard]] static CameraPose from_matrix(const Mat4f& to_world);
     [[nodiscard]] Vec3f to_world(const Vec3f& local) const {
         return right * local.x + up * local.y - forward * local.z;
@@ -62,7 +62,7 @@ struct ThinLensCamera {
     [[nodiscard]] CameraConnection connect(const Vec3f& point, Vec2f lens) const;
     /// Density per solid angle of the directions through the centre of the lens.
     [[nodiscard]] float pdf_solid_angle(const Vec3f& direction) const;
-    /// The pinhole's: what the lens blurs, its samples blur.
+    /// Returns the cone of the pinhole: what the lens blurs, its samples blur.
     [[nodiscard]] RayCone pixel_cone(const Vec3f& direction, float pixel_area) const;
 };
 
@@ -87,7 +87,7 @@ using Camera = std::variant<PinholeCamera, ThinLensCamera, OrthographicCamera>;
 
 /// The ray through film point `film`, for a lens point made from `lens` in [0, 1)². Its direction is unit length.
 [[nodiscard]] Ray generate_ray(const Camera& camera, Vec2f film, Vec2f lens);
-/// The same for many; all spans have one length.
+/// Generates a ray for each of many film and lens points, as `generate_ray` does; all spans have one length.
 void generate_rays(const Camera& camera, std::span<const Vec2f> film, std::span<const Vec2f> lens, std::span<Ray> rays);
 
 /// The inverse of `generate_ray`: how `point` is seen through the lens point made from `lens` in [0, 1)². Averaged over

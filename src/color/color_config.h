@@ -31,7 +31,7 @@ class ColorTransform {
     ColorTransform& operator=(const ColorTransform&);
 
     [[nodiscard]] Rgb operator()(const Rgb& c) const;
-    /// In place on pixels of `channels` (3 or 4) interleaved floats; alpha is left alone.
+    /// Converts pixels of `channels` (3 or 4) interleaved floats in place; alpha is left alone.
     void apply(std::span<float> pixels, int channels) const;
 
   private:
@@ -50,8 +50,8 @@ class ColorConfig {
   public:
     /// Path of the config that $OCIO names; empty if it is unset or empty.
     [[nodiscard]] static std::filesystem::path environment_path();
-    /// That config, else the project's own, which is built into the program. Throws SceneError if it cannot be read, if
-    /// it refers to itself, or if one of its tables is no regular file.
+    /// Reads the config that $OCIO names, else the project's own, which is built into the program. Throws SceneError if
+    /// the config cannot be read, refers to itself, or has a table that is no regular file.
     [[nodiscard]] static ColorConfig from_environment();
     /// Lists the config that $OCIO names and the tables that it reads; none if $OCIO is unset or empty. Throws
     /// SceneError.
@@ -77,16 +77,17 @@ class ColorConfig {
 
     /// Throws SceneError if a name is unknown.
     [[nodiscard]] ColorTransform transform(const std::string& from, const std::string& to) const;
-    /// The same for two scene-linear spaces, as a matrix. Throws SceneError if either is not linear.
+    /// Returns the conversion between two scene-linear spaces as a matrix. Throws SceneError if a name is unknown or a
+    /// space is not linear.
     [[nodiscard]] ColorMatrix matrix(const std::string& from, const std::string& to) const;
     /// Names of the looks: what is done to scene light before the view, such as a grade.
     [[nodiscard]] std::vector<std::string> looks() const;
     /// The looks that a view applies itself, as the config lists them; empty if it applies none.
     [[nodiscard]] std::string looks_of_view(const std::string& display, const std::string& view) const;
-    /// From `working` to encoded display values; `exposure` in stops is applied first, in `working`. `look` is applied
-    /// to the light before the view and takes the place of the view's own looks: a name, several with commas between
-    /// them (a minus before a name undoes it), `kNoLook` for none at all, or empty for the view's own. Throws
-    /// SceneError if a name is unknown.
+    /// Returns the conversion from `working` to encoded display values; `exposure` in stops is applied first, in
+    /// `working`. `look` is applied to the light before the view and takes the place of the view's own looks: a name,
+    /// several with commas between them (a minus before a name undoes it), `kNoLook` for none at all, or empty for the
+    /// view's own. Throws SceneError if a name is unknown.
     [[nodiscard]] ColorTransform display_transform(const std::string& working, const std::string& display,
                                                    const std::string& view, float exposure,
                                                    const std::string& look = {}) const;
@@ -94,9 +95,9 @@ class ColorConfig {
     void require_look(const std::string& look) const;
     /// Name of the space with the primaries and the white of ACES2065-1 (SMPTE ST 2065-1); empty if there is none.
     [[nodiscard]] std::string aces_space() const;
-    /// Of a scene-linear space: the published ones with the space's own white if its conversion to ACES2065-1 (adapted
-    /// by Bradford) is that of a known set of primaries, else those after adaptation to D65. Throws SceneError if the
-    /// space is not linear or the config has no ACES2065-1.
+    /// Returns the chromaticities of a scene-linear space: the published ones with the space's own white if its
+    /// conversion to ACES2065-1 (adapted by Bradford) is that of a known set of primaries, else those after adaptation
+    /// to D65. Throws SceneError if the space is not linear or the config has no ACES2065-1.
     [[nodiscard]] Chromaticities chromaticities(const std::string& space) const;
     /// Weights of R, G and B of a scene-linear space in CIE luminance Y, from its chromaticities; the config's own luma
     /// weights where those are unknown. Throws SceneError if the space is not linear.

@@ -25,7 +25,7 @@ using Matrix3d = std::array<double, 9>;
 /// annex E), which ACES uses.
 [[nodiscard]] Matrix3d bradford_adaptation(const std::array<float, 2>& from, const std::array<float, 2>& to);
 
-/// From one RGB space to another, whites adapted by Bradford.
+/// Returns the matrix from one RGB space to another, whites adapted by Bradford.
 [[nodiscard]] Matrix3d rgb_to_rgb(const Chromaticities& from, const Chromaticities& to);
 
 /// A space whose primaries somebody has published.

@@ -27,7 +27,7 @@ struct Bounds {
     }
 };
 
-/// True if they have a point in common.
+/// True if `a` and `b` have a point in common.
 [[nodiscard]] inline bool overlap(const Bounds& a, const Bounds& b) {
     return a.min.x <= b.max.x && a.max.x >= b.min.x && a.min.y <= b.max.y && a.max.y >= b.min.y && a.min.z <= b.max.z &&
            a.max.z >= b.min.z;

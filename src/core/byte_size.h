@@ -8,7 +8,7 @@
 
 namespace etendue {
 
-/// What a byte size must look like, for messages.
+/// Says what a byte size looks like, for messages.
 inline constexpr std::string_view kByteSizeForm =
     "a number of up to six digits with K, M, G or T behind it, such as 8G";
 
@@ -16,7 +16,8 @@ inline constexpr std::string_view kByteSizeForm =
 /// form.
 [[nodiscard]] std::optional<std::uint64_t> parse_byte_size(std::string_view text);
 
-/// As parse_byte_size reads it, in whole mebibytes, or gibibytes where there are too many of those; rounded down.
+/// Writes `bytes` as parse_byte_size reads them, rounded down: in whole mebibytes, or in whole gibibytes where the
+/// number of mebibytes has more than six digits.
 [[nodiscard]] std::string to_byte_size(std::uint64_t bytes);
 
 /// Memory of the machine, bytes.

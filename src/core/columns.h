@@ -16,17 +16,17 @@
 
 namespace etendue {
 
-/// Paths of a block.
+/// Is the number of paths of a block.
 inline constexpr std::size_t kBlockLanes = 64;
 static_assert(kBlockLanes % Wide::kWidth == 0);
 
-/// A number of each of `kSize` paths.
+/// Holds one number for each of `kSize` paths.
 template <std::size_t kSize>
 class BasicColumn {
   public:
     [[nodiscard]] float operator[](std::size_t lane) const { return values_[lane]; }
     void set(std::size_t lane, float value) { values_[lane] = value; }
-    /// Of `Wide::kWidth` paths from `first` on.
+    /// Loads the numbers of `Wide::kWidth` paths from path `first` on, which is a multiple of that width.
     [[nodiscard]] Wide load(std::size_t first) const { return Wide::load(&values_[first]); }
     void store(std::size_t first, Wide values) { values.store(&values_[first]); }
     [[nodiscard]] Wide load_unaligned(std::size_t first) const { return Wide::load_unaligned(&values_[first]); }
@@ -38,7 +38,7 @@ class BasicColumn {
     alignas(Wide::kAlignment) std::array<float, kSize> values_{};
 };
 
-/// 32 bits of each.
+/// Holds 32 bits for each of `kSize` paths.
 template <std::size_t kSize>
 class BasicBitColumn {
   public:

@@ -22,7 +22,7 @@ class ContentHash {
     ContentHash& operator=(const ContentHash&) = delete;
 
     void add(std::span<const std::byte> bytes);
-    /// Of all bytes so far.
+    /// Returns the digest of all bytes that have been added so far.
     [[nodiscard]] Digest digest() const;
 
   private:
@@ -30,10 +30,10 @@ class ContentHash {
     std::unique_ptr<State> state_;
 };
 
-/// 32 hexadecimal digits.
+/// Returns `digest` as 32 hexadecimal digits.
 [[nodiscard]] std::string hex(const ContentHash::Digest& digest);
 
-/// Of what `path` holds. Throws IoError if it cannot be read.
+/// Returns the digest of the bytes of the file `path`. Throws IoError if the file cannot be read.
 [[nodiscard]] ContentHash::Digest hash_file(const std::filesystem::path& path);
 
 }  // namespace etendue

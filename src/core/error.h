@@ -83,7 +83,8 @@ class ReplacedInput : public IoError {
     using IoError::IoError;
 };
 
-/// What to write instead of `name`: "did you mean 'x'?" if one of `known` is near enough, else the first of them.
+/// Suggests what to write instead of `name`: "did you mean 'x'?" if one of `known` is near enough, else a list of the
+/// first 20 of `known`.
 [[nodiscard]] std::string name_hint(std::string_view name, std::span<const std::string_view> known);
 
 /// The member of `known` nearest to `name` in edit distance if it is near enough to suggest, else an empty string.

@@ -8,7 +8,8 @@
 
 namespace etendue {
 
-/// What `make` returns, for a constructor, such as that of std::optional::emplace: no copy is made of it.
+/// Stands for the value that `make` returns, as the argument of a constructor, such as that of std::optional::emplace:
+/// the value is made in its place and never copied.
 template <typename Make>
 struct InPlace {
     Make make;

@@ -31,7 +31,8 @@ inline constexpr bool kIsSingle = std::is_same_v<T, float>;
     return condition ? if_true : if_false;
 }
 
-/// The same of what is costly: of single numbers only the one that is asked for is evaluated.
+/// Returns `if_true()` or `if_false()`, lane by lane as `condition` says, where these are costly: for single numbers
+/// only the one that is asked for is evaluated.
 template <typename IfTrue, typename IfFalse>
 [[nodiscard]] constexpr auto choose(bool condition, const IfTrue& if_true, const IfFalse& if_false) {
     return condition ? if_true() : if_false();
@@ -47,7 +48,7 @@ template <typename IfTrue, typename IfFalse>
     return table[static_cast<std::size_t>(index)];
 }
 
-/// What comparisons of lanes give: bool for float.
+/// Names the type that comparisons of lanes of type `T` give: bool for float.
 template <typename T>
 using MaskOf = decltype(std::declval<T>() < std::declval<T>());
 

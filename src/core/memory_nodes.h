@@ -17,8 +17,8 @@ class ProcessorSet {
 
     ProcessorSet() = default;
 
-    /// Those that the calling thread may run on, as taskset, cpusets and batch systems set them; none where the system
-    /// does not tell.
+    /// Returns the processors that the calling thread may run on, as taskset, cpusets and batch systems set them; none
+    /// where the system does not tell.
     static ProcessorSet of_this_thread();
 
     void add(int processor);
@@ -26,7 +26,7 @@ class ProcessorSet {
     [[nodiscard]] int size() const;
     [[nodiscard]] ProcessorSet common_with(const ProcessorSet& other) const;
 
-    /// From now on the calling thread runs on these only. False, and nothing changes, where the system refuses.
+    /// Binds the calling thread to these processors. False, and nothing changes, where the system refuses.
     bool bind_this_thread() const;  // NOLINT(modernize-use-nodiscard): a thread that stays free renders the same
 
     bool operator==(const ProcessorSet&) const = default;

@@ -7,7 +7,7 @@ namespace etendue {
 
 namespace {
 
-/// Up to four bytes, the first the lowest, whatever the machine's order.
+/// Reads up to four bytes, the first the lowest, whatever the machine's order.
 std::uint32_t little_endian(std::string_view bytes) {
     std::uint32_t word = 0;
     for (std::size_t i = bytes.size(); i > 0; --i) word = (word << 8) | static_cast<unsigned char>(bytes[i - 1]);

@@ -7,7 +7,7 @@
 
 namespace etendue {
 
-/// Of the bytes of `text`.
+/// Returns the hash of the bytes of `text`, begun with `seed`.
 [[nodiscard]] std::uint32_t murmur_hash3_32(std::string_view text, std::uint32_t seed = 0);
 
 }  // namespace etendue

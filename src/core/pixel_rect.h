@@ -18,7 +18,7 @@ struct PixelRect {
     [[nodiscard]] std::size_t area() const {
         return static_cast<std::size_t>(width()) * static_cast<std::size_t>(height());
     }
-    /// True if no pixel lies in it.
+    /// True if no pixel lies in the rectangle.
     [[nodiscard]] bool empty() const { return x1 <= x0 || y1 <= y0; }
     friend bool operator==(const PixelRect&, const PixelRect&) = default;
 };

@@ -32,7 +32,8 @@ template <typename T = float>
     return extent * T(kPositionError);
 }
 
-/// The same after the transform `m` from mesh to world space; `extent` is in mesh space.
+/// Returns the error per axis, metres, of points that the transform `m` takes from mesh to world space, between
+/// vertices whose coordinates in mesh space are at most `extent` from zero.
 [[nodiscard]] inline Vec3f position_error(const Vec3f& extent, const Mat4f& m) {
     Vec3f error;
     for (int i = 0; i < 3; ++i) {

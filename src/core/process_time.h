@@ -8,7 +8,7 @@ namespace etendue {
 /// Seconds of processor time that this process has used, all threads together.
 [[nodiscard]] double process_cpu_seconds();
 
-/// The same of the thread that asks.
+/// Returns the seconds of processor time that the calling thread has used.
 [[nodiscard]] double thread_cpu_seconds();
 
 /// Seconds on the clock since this process began, to a hundredth; 0 where the system does not tell.

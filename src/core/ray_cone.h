@@ -8,14 +8,15 @@
 
 namespace etendue {
 
-/// Both may be negative: a concave mirror makes cones that narrow, and widen again behind the point where they cross.
+/// Describes the cone around a ray; its width and its spread may be negative, as a concave mirror makes cones that
+/// narrow, and widen again behind the point where they cross.
 struct RayCone {
     float width = 0.0f;   ///< diameter at the ray's origin, metres
     float spread = 0.0f;  ///< by which the diameter grows per metre: the full angle, radians
 
-    /// Diameter, with its sign, at distance `t` metres.
+    /// Returns the cone's diameter, with its sign, at distance `t` metres.
     [[nodiscard]] float width_at(float t) const { return width + spread * t; }
-    /// The same cone, from distance `t` on.
+    /// Returns the cone from distance `t` metres on: as wide as this cone is there, with the same spread.
     [[nodiscard]] RayCone at(float t) const { return {width_at(t), spread}; }
 };
 
@@ -45,8 +46,9 @@ inline constexpr float kConeLobeShare = 1.0f / 64.0f;
     return {cone.width, std::clamp(cone.spread + 2.0f * curvature * cone.width, -kMaxConeSpread, kMaxConeSpread)};
 }
 
-/// The same for refraction, with `eta` the index behind the surface over the one before it: the angle to the normal is
-/// divided by it.
+/// Returns the cone behind a surface of `curvature` (1/m, positive where it is convex towards the arriving ray),
+/// refracted in paraxial approximation: the angle to the normal is divided by `eta`, the index behind the surface over
+/// the one before it. `cone` is the one that arrives, its width the one at the surface.
 [[nodiscard]] inline RayCone refract_cone(const RayCone& cone, float curvature, float eta) {
     const float tilt = curvature * cone.width;
     return {cone.width, std::clamp((cone.spread + tilt) / eta - tilt, -kMaxConeSpread, kMaxConeSpread)};

@@ -69,7 +69,7 @@ template <typename T = float>
     return {std::max(0.0f, c.r), std::max(0.0f, c.g), std::max(0.0f, c.b)};
 }
 
-/// Each channel in [0, 1]; what is no number is 0.
+/// Clamps each channel to [0, 1]; what is no number becomes 0.
 [[nodiscard]] constexpr Rgb clamp_unit(const Rgb& c) {
     const auto channel = [](float v) { return v > 0.0f ? std::min(v, 1.0f) : 0.0f; };
     return {channel(c.r), channel(c.g), channel(c.b)};

@@ -10,7 +10,7 @@ namespace etendue {
 /// bytes; none if it is unset or empty. Throws std::invalid_argument if it is no such number.
 [[nodiscard]] std::optional<std::time_t> source_date();
 
-/// That time, or now.
+/// Returns the time of `source_date`, or the present one where that is none.
 [[nodiscard]] std::time_t creation_time();
 
 }  // namespace etendue

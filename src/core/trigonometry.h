@@ -14,7 +14,8 @@ struct BasicSinCos {
 };
 using SinCos = BasicSinCos<float>;
 
-/// Of an angle in [-pi/4, pi/4] radians; error below 1e-7 (Taylor series, the next term is 2e-9).
+/// Returns the sine and the cosine of an angle of `x` radians in [-pi/4, pi/4]; error below 1e-7 (Taylor series, the
+/// next term is 2e-9).
 template <typename T>
 [[nodiscard]] inline BasicSinCos<T> sin_cos_octant(T x) {
     const T x2 = x * x;
@@ -24,7 +25,7 @@ template <typename T>
     return {s, c};
 }
 
-/// Of `turns` · 2 pi radians, `turns` in [0, 1].
+/// Returns the sine and the cosine of `turns` · 2 pi radians, `turns` in [0, 1].
 template <typename T>
 [[nodiscard]] inline BasicSinCos<T> sin_cos_turns(T turns) {
     const T quarters = turns * 4.0f;

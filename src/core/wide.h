@@ -30,7 +30,7 @@ namespace etendue {
 /// Highway's functions for the instructions that a source is compiled for.
 namespace lanes = hwy::HWY_NAMESPACE;
 
-/// What comparisons of `Wide` give, a bool for each lane. `&&` and `||` evaluate both sides.
+/// Holds what comparisons of `Wide` give, a bool for each lane. `&&` and `||` evaluate both sides.
 class WideMask {
   public:
     using Tag = lanes::ScalableTag<float>;
@@ -50,11 +50,11 @@ class WideMask {
     [[nodiscard]] friend WideMask operator||(WideMask a, WideMask b) { return WideMask(lanes::Or(a.mask_, b.mask_)); }
     [[nodiscard]] friend WideMask operator!(WideMask a) { return WideMask(lanes::Not(a.mask_)); }
 
-    /// True in the first `count` of them.
+    /// Returns a mask that is true in its first `count` lanes.
     [[nodiscard]] static WideMask first(std::size_t count) { return WideMask(lanes::FirstN(Tag(), count)); }
-    /// True if it is in any lane.
+    /// Returns whether the mask is true in any lane.
     [[nodiscard]] friend bool any(WideMask a) { return !lanes::AllFalse(Tag(), a.mask_); }
-    /// In how many lanes it is true.
+    /// Returns in how many lanes the mask is true.
     [[nodiscard]] friend std::size_t count(WideMask a) { return lanes::CountTrue(Tag(), a.mask_); }
 
   private:
@@ -74,16 +74,16 @@ class Wide {
     static constexpr std::size_t kMostLanes = kAlignment / sizeof(float);
 
     Wide() = default;
-    /// The same number in every lane.
+    /// Puts `value` into every lane.
     Wide(float value) : lanes_(lanes::Set(Tag(), value)) {}  // NOLINT(google-explicit-constructor): mixes as float does
     explicit Wide(Simd lanes) : lanes_(lanes) {}
 
-    /// `kWidth` floats from an aligned address.
+    /// Loads `kWidth` floats from an aligned address.
     [[nodiscard]] static Wide load(const float* from) { return Wide(lanes::Load(Tag(), from)); }
-    /// From any address.
+    /// Loads `kWidth` floats from any address.
     [[nodiscard]] static Wide load_unaligned(const float* from) { return Wide(lanes::LoadU(Tag(), from)); }
     void store(float* to) const { lanes::Store(lanes_, Tag(), to); }
-    /// To any address.
+    /// Stores `kWidth` floats to any address.
     void store_unaligned(float* to) const { lanes::StoreU(lanes_, Tag(), to); }
     [[nodiscard]] float operator[](std::size_t lane) const { return lanes::ExtractLane(lanes_, lane); }
     void set(std::size_t lane, float value) { lanes_ = lanes::InsertLane(lanes_, lane, value); }
@@ -134,7 +134,7 @@ class Wide {
     return Wide(lanes::Compress(a.simd(), kept.simd()));
 }
 
-/// The way back: the first lanes of `a` where lanes are `kept`, `otherwise` in the others.
+/// Undoes `compress`: puts the first lanes of `a` into the lanes that are `kept`, and `otherwise` into the others.
 [[nodiscard]] inline Wide expand(Wide a, WideMask kept, Wide otherwise) {
 #if HWY_TARGET <= HWY_AVX3  // Highway has no such function before version 1.0.4
     return Wide(Wide::Simd{_mm512_mask_expand_ps(otherwise.simd().raw, kept.simd().raw, a.simd().raw)});
@@ -194,14 +194,14 @@ class WideBinary {
 
 inline constexpr float kLn2 = 0.693147180559945309f;
 
-/// Of denormal numbers as of zero, as is that to the base 2.
+/// Returns the natural logarithm of each lane; denormal numbers count as zero, in `log2` too.
 [[nodiscard]] inline Wide log(Wide a) {
     return WideBinary(a).logarithm(kLn2, 1.0f);
 }
 [[nodiscard]] inline Wide log2(Wide a) {
     return WideBinary(a).logarithm(1.0f, 1.0f / kLn2);
 }
-/// Beyond 87 as at 87.
+/// Returns e^a - 1 of each lane; numbers outside of [-87, 87] count as the nearer end.
 [[nodiscard]] inline Wide expm1(Wide a) {
     // e^a = 2^n e^r with |r| at most half of ln 2; taken off in two parts, of which the first is exact, n leaves r all
     // its digits.
@@ -218,8 +218,9 @@ inline constexpr float kLn2 = 0.693147180559945309f;
     return power * (series * r) + (power - 1.0f);
 }
 
-/// As of single numbers, but both are evaluated whatever the lanes ask for: with a shortcut where all agree, the
-/// compiler could contract what follows in two ways, and a lane's last bits would depend on the lanes beside it.
+/// Evaluates both `if_true()` and `if_false()`, whatever the lanes ask for, and takes from them lane by lane as
+/// `condition` says: with a shortcut where all lanes agree, the compiler could contract what follows in two ways, and a
+/// lane's last bits would depend on the lanes beside it.
 template <typename IfTrue, typename IfFalse>
 [[nodiscard]] auto choose(WideMask condition, const IfTrue& if_true, const IfFalse& if_false) {
     return select(condition, if_true(), if_false());

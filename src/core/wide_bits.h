@@ -13,20 +13,20 @@ class WideBits {
     using Tag = lanes::RebindToUnsigned<Wide::Tag>;
     using Simd = lanes::Vec<Tag>;
 
-    /// The same bits in every lane.
+    /// Puts `bits` into every lane.
     WideBits(std::uint32_t bits)
         : lanes_(lanes::Set(Tag(), bits)) {}  // NOLINT(google-explicit-constructor): as of Wide
     explicit WideBits(Simd lanes) : lanes_(lanes) {}
 
-    /// `Wide::kWidth` numbers from any address.
+    /// Loads `Wide::kWidth` numbers from any address.
     [[nodiscard]] static WideBits load(const std::uint32_t* from) { return WideBits(lanes::LoadU(Tag(), from)); }
 
-    /// To any address.
+    /// Stores `Wide::kWidth` numbers to any address.
     void store_unaligned(std::uint32_t* to) const { lanes::StoreU(lanes_, Tag(), to); }
 
-    /// Only to be moved: what they stand for as floats is of no meaning.
+    /// Returns the bits as floats that are only to be moved: what they stand for is of no meaning.
     [[nodiscard]] Wide as_floats() const { return Wide(lanes::BitCast(Wide::Tag(), lanes_)); }
-    /// The way back.
+    /// Returns the bits of `floats`.
     [[nodiscard]] static WideBits of(Wide floats) { return WideBits(lanes::BitCast(Tag(), floats.simd())); }
 
     WideBits& operator^=(WideBits o) { return *this = *this ^ o; }
@@ -51,7 +51,7 @@ class WideBits {
     [[nodiscard]] friend WideBits select(WideMask condition, WideBits if_true, WideBits if_false) {
         return of(select(condition, if_true.as_floats(), if_false.as_floats()));
     }
-    /// As that of `Wide`.
+    /// Returns the lanes of `a` that are `kept`, one after the other; those behind them are of no meaning.
     [[nodiscard]] friend WideBits compress(WideBits a, WideMask kept) { return of(compress(a.as_floats(), kept)); }
 
     /// The upper 24 bits as floats in [0, 1).

@@ -13,7 +13,7 @@ namespace etendue {
 inline constexpr std::size_t kRowFloats = 16;
 static_assert(kRowFloats % Wide::kWidth == 0);
 
-/// Of all rows, number after number.
+/// Holds a row of memory in each lane: element i has number i of every row.
 using WideRow = std::array<Wide, kRowFloats>;
 
 /// Rows that become columns: lane j of row i and lane i of row j change places.
@@ -30,7 +30,7 @@ class WideSquare {
   private:
     static constexpr std::size_t kHalf = Wide::kWidth / 2;
 
-    /// Of the lanes of `a` and `b` from `kFirst` on, one after the other.
+    /// Returns lanes of `a` and `b` in turns, from lane `kFirst` of either on.
     template <std::size_t kFirst, std::size_t... kLane>
     [[nodiscard]] static Wide interleaved(Wide a, Wide b, std::index_sequence<kLane...>) {
         return Wide(Wide::Simd{__builtin_shufflevector(
@@ -47,7 +47,7 @@ class WideSquare {
     }
 };
 
-/// From addresses that are aligned to `kRowFloats` floats.
+/// Loads a row from each address; addresses are aligned to `kRowFloats` floats.
 [[nodiscard]] inline WideRow load_rows(const std::array<const float*, Wide::kWidth>& from) {
     WideRow row;
     for (std::size_t part = 0; part < kRowFloats; part += Wide::kWidth) {
@@ -59,7 +59,7 @@ class WideSquare {
     return row;
 }
 
-/// To addresses that are aligned so.
+/// Stores a row to each address; addresses are aligned to `kRowFloats` floats.
 inline void store_rows(const WideRow& row, const std::array<float*, Wide::kWidth>& to) {
     for (std::size_t part = 0; part < kRowFloats; part += Wide::kWidth) {
         WideSquare square;

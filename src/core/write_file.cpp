@@ -114,7 +114,8 @@ int open_unowned(const std::filesystem::path& path, bool may_be_old) {
     return -1;
 }
 
-/// The same of a file that need not exist. It belongs to who has made it, with a lock or without.
+/// Creates the file `path` and returns it open, or opens as open_unowned does one that is there already, else returns
+/// -1. A new file belongs to the process that has made it, with a lock or without.
 int create_unowned(const std::filesystem::path& path) {
     const int fd = ::open(path.c_str(), kOpenFlags | O_CREAT | O_EXCL, 0666);
     if (fd < 0 && errno == EEXIST) {
@@ -130,7 +131,7 @@ int create_unowned(const std::filesystem::path& path) {
     return -1;
 }
 
-/// Of one target at a time.
+/// Limits how many processes can write one target at a time.
 constexpr int kMostWriters = 1000;
 
 /// Nobody else's, and under a name beside `target`. Throws IoError.

@@ -22,8 +22,9 @@ using ByteSink = std::function<void(std::span<const std::byte>)>;
 /// that, and used again by the next writer of the same file. On file systems without locks it is known by its age.
 void write_file(const std::filesystem::path& path, const std::function<void(const ByteSink&)>& produce);
 
-/// The same of bytes that are there already.
+/// Writes `bytes`, which are in memory already, to the file `path` as `write_file` does.
 void write_bytes(const std::filesystem::path& path, std::span<const std::byte> bytes);
+/// Writes `text` to the file `path` as `write_file` does.
 void write_text(const std::filesystem::path& path, const std::string& text);
 
 /// Removes what killed writers of `path` on this host have left, for when it will not be written again. Without locks,

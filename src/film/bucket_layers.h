@@ -11,10 +11,10 @@ namespace etendue {
 struct BucketLayers {
     std::size_t count = 0;        ///< 0: there are none
     std::size_t first_light = 0;  ///< the light layer of the first bucket; the others follow
-    std::size_t first_value = 0;  ///< of the averaged values: the weights of the buckets, then their samples
+    std::size_t first_value = 0;  ///< the first averaged value: the buckets' weights, then their samples
 
     [[nodiscard]] std::size_t of(std::uint32_t sample) const { return sample % count; }
-    /// How many averaged values they take.
+    /// Returns how many averaged values the buckets take.
     [[nodiscard]] std::size_t value_count() const { return 2 * count; }
 };
 

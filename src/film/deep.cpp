@@ -81,7 +81,7 @@ void insert_and_merge_nearest(Bins& bins, const BinRange& range, std::size_t at,
     insert(bins, nearest < at ? at - 1 : at, bin);
 }
 
-/// What a file holds, before what lies in front is taken into account.
+/// Holds a deep sample as a file does, before what lies in front is taken into account.
 struct Part {
     double r, g, b, alpha;
     float front, back;

@@ -14,7 +14,7 @@ namespace etendue {
 /// infinitely far.
 inline constexpr float kDeepBackground = 1e10f;
 
-/// What lies between two depths of a pixel, metres along the viewing direction, negative of splats. 64 bytes.
+/// Holds what lies between two depths of a pixel, metres along the viewing direction, negative of splats. 64 bytes.
 struct DeepBin {
     float front = 0.0f;
     float back = 0.0f;
@@ -50,9 +50,9 @@ class DeepBuffer {
         for (const DeepBin& bin : other.pixels_[other_pixel]) add(pixel, bin);
     }
     [[nodiscard]] std::span<const DeepBin> bins(std::size_t pixel) const { return pixels_[pixel]; }
-    /// Of all pixels, what they take in memory now.
+    /// Returns the bytes that all pixels take in memory now.
     [[nodiscard]] std::uint64_t bytes() const;
-    /// Of a pixel, at most; `with_splats` if it gets such.
+    /// Returns the bytes that a pixel takes at most; `with_splats` if it gets splats.
     [[nodiscard]] static constexpr std::size_t most_bytes(bool with_splats) {
         return sizeof(std::vector<DeepBin>) + (with_splats ? 2 : 1) * kMostBins * sizeof(DeepBin);
     }

@@ -32,8 +32,8 @@ inline constexpr double kDarkShare = 0.5;
 /// pixel's mean is 3 (scale / n)². That is what counts in place of nothing. An image that is black so far has no scale:
 /// its squared relative error is taken to be 1 / n.
 struct ErrorEstimate {
-    std::vector<float> eye;  ///< of each pixel, row by row: what its own samples bring
-    double eye_mean = 0.0;   ///< of these
+    std::vector<float> eye;  ///< error of each pixel, row by row: what its own samples bring
+    double eye_mean = 0.0;   ///< mean of `eye`
     /// Mean over the pixels of what light paths bring. If nothing else does, pixels without a difference count here.
     double light = 0.0;
 

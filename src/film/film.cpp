@@ -12,9 +12,9 @@ namespace etendue {
 
 namespace {
 
-/// What to multiply the sums of a pixel by. Dividing by the weights keeps even regions even. Where a filter with
-/// negative parts has by chance left little weight (a few samples), their number, which is the weight's mean, stands
-/// in.
+/// Returns what to multiply the sums of a pixel by. Dividing by the weights keeps even regions even. Where a filter
+/// with negative parts has by chance left little weight (a few samples), their number, which is the weight's mean,
+/// stands in.
 double scale_of(const PixelSum& p) {
     const auto count = static_cast<double>(p.samples);
     const double weight = p.weight > 0.5 * count ? p.weight : count;

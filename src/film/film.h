@@ -60,14 +60,14 @@ class TileBuffer {
     /// Pixel `index` of the rectangle, row by row.
     [[nodiscard]] PixelSum& pixel(std::size_t index) { return pixels_[index]; }
     [[nodiscard]] const PixelSum& pixel(std::size_t index) const { return pixels_[index]; }
-    /// Of the same pixels.
+    /// Returns the layers of the rectangle's pixels.
     [[nodiscard]] LayerBuffer& layers() { return layers_; }
     [[nodiscard]] const LayerBuffer& layers() const { return layers_; }
-    /// Light for any pixel of the image, of integrators that make such.
+    /// Returns the light for any pixel of the image, of integrators that make such.
     [[nodiscard]] std::vector<Splat>& splats() { return splats_; }
-    /// Without layers.
+    /// Returns the bytes held, without those of layers.
     [[nodiscard]] std::size_t bytes() const { return vector_bytes(pixels_, splats_); }
-    /// Of the samples of a wave, what their camera rays have met; of layers that tell of it.
+    /// Returns what the camera rays of a wave's samples have met; for layers that tell of it.
     [[nodiscard]] WaveHits& wave_hits() { return wave_hits_; }
 
   private:
@@ -101,9 +101,10 @@ class Film {
     /// Either may be without mattes and depths.
     void add(const Film& other);
 
-    /// What `part` might be if it held half of the samples and light paths of this film, of every pixel, in place of
-    /// the share of each that it does hold: off from the image by sqrt(s / (1 - s)) times what it is off, so that it
-    /// and the other half differ as two halves of as many samples do. What cannot be averaged is that of `part`.
+    /// Returns what `part` might be if it held half of the samples and light paths of this film, of every pixel, in
+    /// place of the share of each that it does hold: off from the image by sqrt(s / (1 - s)) times what it is off, so
+    /// that it and the other half differ as two halves of as many samples do. What cannot be averaged is that of
+    /// `part`.
     [[nodiscard]] Film as_half(const Film& part) const;
 
     /// All that it holds: of the window, row by row, and the splats, if there have been any.
@@ -127,14 +128,15 @@ class Film {
     /// Means of red, green and blue of the same pixel: of what its own samples brought, and of what light paths did.
     [[nodiscard]] std::array<double, 3> eye_mean(int x, int y) const;
     [[nodiscard]] std::array<double, 3> light_mean(int x, int y) const;
-    /// Light paths that it has splats of; 0 if it has none.
+    /// Returns the number of light paths that the film has splats of; 0 if it has none.
     [[nodiscard]] std::uint64_t light_paths() const { return splats_ ? splats_->light_paths() : 0; }
 
-    /// Of the window, row by row: means of the light layer of this index, three floats a pixel, with its splats.
+    /// Returns the means of the light layer of this index with its splats, of the window row by row, three floats a
+    /// pixel.
     [[nodiscard]] std::vector<float> resolve_light(std::size_t layer) const;
     /// Means of the values [first, first + count), as many floats a pixel.
     [[nodiscard]] std::vector<float> resolve_values(std::size_t first, std::size_t count) const;
-    /// Of the nearest samples, the numbers [first, first + count); `background` where nothing was hit.
+    /// Returns the numbers [first, first + count) of each pixel's nearest sample; `background` where nothing was hit.
     [[nodiscard]] std::vector<float> resolve_nearest(std::size_t first, std::size_t count, float background) const;
     /// Estimate of the variance of each pixel's mean, red, green and blue, from the squares of what its samples and
     /// splats brought: as if all were independent, which samples that fill each other's gaps are better than. Zero with
@@ -143,17 +145,17 @@ class Film {
     /// Rays per sample. The film must have ray counts.
     [[nodiscard]] std::vector<float> resolve_ray_counts() const;
     [[nodiscard]] std::vector<float> resolve_sample_counts() const;
-    /// Of each pixel of the window, row by row, its samples from front to back. The film must be deep.
+    /// Returns the samples of each pixel of the window, row by row, from front to back. The film must be deep.
     [[nodiscard]] std::vector<std::vector<DeepSample>> resolve_deep() const;
-    /// Of the matte of this index, the heaviest `ranks` ids of each pixel with their coverage, the share of the pixel's
-    /// weight: two floats a rank, the first of which has the id as its bits; zeros where there are fewer.
+    /// Returns the heaviest `ranks` ids of each pixel in the matte of this index with their coverage, the share of the
+    /// pixel's weight: two floats a rank, the first of which has the id as its bits; zeros where there are fewer.
     [[nodiscard]] std::vector<float> resolve_matte(std::size_t matte, std::size_t ranks) const;
 
   private:
     /// The splats of the image by their depths.
     void add_deep_splats(std::span<const std::vector<Splat>> lists, const PixelFilter& filter,
                          const ThreadPool& threads);
-    /// Of the pixel in column `x` and row `y` of the full image.
+    /// Returns the index of the pixel in column `x` and row `y` of the full image.
     [[nodiscard]] std::size_t index(int x, int y) const;
     /// Means of the layers' sums [first, first + count).
     [[nodiscard]] std::vector<float> resolve_sums(std::size_t first, std::size_t count) const;

@@ -19,7 +19,7 @@ struct LayerLayout {
     std::size_t light = 0;        ///< radiance of some of the paths, three sums each; splats fall into these, too
     std::size_t values = 0;       ///< numbers that are averaged
     std::size_t nearest = 0;      ///< numbers of the nearest sample
-    bool has_moments = false;     ///< what the variance of radiance is made of: see LayerBuffer::add_moments
+    bool has_moments = false;     ///< sums for the variance of radiance: see LayerBuffer::add_moments
     bool has_ray_counts = false;  ///< rays that the samples of the pixel took
     std::size_t mattes = 0;       ///< lists of ids, of Cryptomatte
     std::size_t matte_slots = 0;  ///< ids in each of them, at most
@@ -39,7 +39,7 @@ struct LayerLayout {
                mattes * matte_slots * (sizeof(std::uint32_t) + sizeof(double)) +
                (is_deep ? DeepBuffer::most_bytes(with_splats) : 0);
     }
-    /// Without what is no mean, so that half of the samples have nothing to say of it.
+    /// Returns the layout without what is no mean, so that half of the samples have nothing to say of it.
     [[nodiscard]] LayerLayout without_lists() const {
         LayerLayout layout = *this;
         layout.mattes = 0;

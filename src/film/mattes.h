@@ -27,7 +27,7 @@ class MatteBuffer {
         ids_.assign(pixels * mattes * slots, kNoId);
         weights_.assign(pixels * mattes * slots, 0.0);
     }
-    /// Of samples that met nothing; they are not kept.
+    /// Stands for samples that met nothing; they are not kept.
     static constexpr std::uint32_t kNoId = 0;
 
     /// Adds `weight`, which may be negative, to that of `id`.

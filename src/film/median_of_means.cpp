@@ -7,8 +7,8 @@ namespace etendue {
 
 namespace {
 
-/// What to multiply the sums of a bucket by: as Film does with those of a pixel, the samples' number stands in where a
-/// filter with negative parts has left little weight.
+/// Returns what to multiply the sums of a bucket by: as Film does with those of a pixel, the samples' number stands in
+/// where a filter with negative parts has left little weight.
 double bucket_scale(double weight, double samples) {
     const double divisor = weight > 0.5 * samples ? weight : samples;
     return divisor > 0.0 ? 1.0 / divisor : 0.0;

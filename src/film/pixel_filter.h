@@ -79,7 +79,7 @@ class PixelFilter {
     float steps_per_pixel_ = 1.0f;
     float weight_ = 1.0f;           ///< ∫ |filter| / ∫ filter
     float positive_radius_ = 0.0f;  ///< beyond it the filter is negative
-    std::vector<float> edges_;      ///< of the cells, kCells + 1 offsets
+    std::vector<float> edges_;      ///< edges of the cells, kCells + 1 offsets
     std::vector<float> values_;     ///< at equal steps from the centre to the radius, kValues + 1
 };
 

@@ -41,7 +41,7 @@ class SplatBands {
     std::span<const std::vector<Splat>> lists_;
     PixelRect window_;
     std::vector<int> edges_;                          ///< rows of the full image; one more than bands
-    std::vector<std::vector<std::uint32_t>> splats_;  ///< of each list and band, as indices in the list
+    std::vector<std::vector<std::uint32_t>> splats_;  ///< by list and band, as indices in the list
 };
 
 }  // namespace etendue

@@ -21,8 +21,8 @@ namespace etendue {
 /// Light at a place on the film.
 struct Splat {
     Vec2f position;           ///< pixels of the full image, x right and y down from its corner
-    Rgb value;                ///< of the integral over the film of area 1
-    std::uint32_t layer = 0;  ///< of SplatFilm: the image, or one of the film's light layers
+    Rgb value;                ///< what the splat adds to the integral over the film of area 1
+    std::uint32_t layer = 0;  ///< layer of SplatFilm: the image, or one of the film's light layers
     float depth = 0.0f;       ///< metres along the viewing direction, of what it shows; of deep images only
 };
 
@@ -54,7 +54,8 @@ class SplatFilm {
     static constexpr std::size_t kBeauty = 0;
     static constexpr std::size_t kFirstLayer = 1;
 
-    /// With moments it keeps the sums of the squares of what the splats of the image bring, in one more layer.
+    /// Makes a film without splats; with moments it keeps the sums of the squares of what the splats of the image
+    /// bring, in one more layer.
     SplatFilm(int full_width, int full_height, const PixelRect& window, const PixelFilter& filter,
               std::size_t light_layers = 0, bool has_moments = false);
 
@@ -65,7 +66,7 @@ class SplatFilm {
     /// Adds the sums of `other`, which has the same window and layers.
     void add(const SplatFilm& other);
 
-    /// Half of the light paths: the mean of these and `stretch` times what that of `part` is off from it.
+    /// Returns half of the light paths: their mean, and `stretch` times what the mean of `part` is off from it.
     [[nodiscard]] SplatFilm as_half(const SplatFilm& part, double stretch) const;
 
     /// Adds a layer to that of a `Film` whose `window` lies in this one's, `channels` floats a pixel, of which the
@@ -73,7 +74,7 @@ class SplatFilm {
     void add_to(std::span<float> image, std::size_t channels, const PixelRect& window, std::size_t layer) const {
         add_to(image, channels, window, layer, static_cast<double>(light_paths_));
     }
-    /// The same of a layer that `light_paths` of all paths have splats in.
+    /// Adds a layer that `light_paths` of all paths have splats in to that of a `Film`, as `add_to` does for all paths.
     void add_to(std::span<float> image, std::size_t channels, const PixelRect& window, std::size_t layer,
                 double light_paths) const;
     /// Adds an estimate of the variance of the image to that of such a film, three floats a pixel: as if each light
@@ -81,12 +82,12 @@ class SplatFilm {
     void add_variance_to(std::span<float> variance, const PixelRect& window) const;
 
     [[nodiscard]] const PixelFilter& filter() const { return filter_; }
-    /// What the sums are to be multiplied by.
+    /// Returns what the sums are to be multiplied by.
     [[nodiscard]] double scale() const { return scale(static_cast<double>(light_paths_)); }
     /// Layer by layer, each of the window, row by row.
     [[nodiscard]] std::span<const SplatSum> sums() const { return pixels_; }
     [[nodiscard]] std::uint64_t light_paths() const { return light_paths_; }
-    /// Of the image, red, green and blue, in column `x` and row `y` of the full image.
+    /// Returns the image's red, green and blue in column `x` and row `y` of the full image.
     [[nodiscard]] std::array<double, 3> mean(int x, int y) const;
     /// Puts back what `sums` and `light_paths` of such a film have given.
     void restore(std::vector<SplatSum> sums, std::uint64_t light_paths);
@@ -94,7 +95,7 @@ class SplatFilm {
   private:
     /// Adds what falls on rows [y0, y1) of the full image.
     void add_splat(const Splat& splat, int y0, int y1, std::vector<float>& along_x);
-    /// Of a pixel in the window, in column `x` and row `y` of the full image.
+    /// Returns the index, in `layer`, of the pixel of the window in column `x` and row `y` of the full image.
     [[nodiscard]] std::size_t index(int x, int y, std::size_t layer) const;
     [[nodiscard]] double scale(double light_paths) const;
 

@@ -11,8 +11,8 @@
 
 namespace etendue {
 
-/// Of each sample of a wave: the depth, the numbers and the ids of the surface that it has met first. A sample whose
-/// light is dropped must leave nothing in any layer, or its coverage would count where its alpha does not.
+/// Holds, for each sample of a wave, the depth, the numbers and the ids of the surface that it has met first. A sample
+/// whose light is dropped must leave nothing in any layer, or its coverage would count where its alpha does not.
 class WaveHits {
     [[nodiscard]] static auto of(auto& all, std::size_t sample, std::size_t count) {
         return std::span(all).subspan(sample * count, count);
@@ -36,12 +36,12 @@ class WaveHits {
     [[nodiscard]] bool has_hit(std::size_t sample) const {
         return distances_[sample] < std::numeric_limits<float>::infinity();
     }
-    /// Metres along the viewing direction; of deep images only.
+    /// Returns the depth of what a sample has met, metres along the viewing direction; of deep images only.
     [[nodiscard]] float& depth(std::size_t sample) { return depths_[sample]; }
     [[nodiscard]] float depth(std::size_t sample) const { return depths_[sample]; }
-    /// The averaged numbers, then those of the nearest.
+    /// Returns a sample's averaged numbers, then those of the nearest.
     [[nodiscard]] std::span<float> values(std::size_t sample) { return of(values_, sample, averaged_ + nearest_); }
-    /// One of each matte.
+    /// Returns a sample's ids, one of each matte.
     [[nodiscard]] std::span<std::uint32_t> ids(std::size_t sample) { return of(ids_, sample, mattes_); }
 
     /// Adds what `sample` has met, with the weight of its radiance, to a pixel of `layers`, all but its depth.

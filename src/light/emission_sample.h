@@ -30,7 +30,8 @@ struct EmissionSample {
     Rgb radiance;
     /// Cosine between the direction and the normal of the light's surface; 1 for lights without one.
     float cos_theta = 1.0f;
-    /// Of the origin: on the surface, or on the disk across the direction for lights at infinity, 1/m²; 1 at a point.
+    /// Is the density of the origin: on the surface, or on the disk across the direction for lights at infinity, 1/m²;
+    /// 1 at a point.
     float pdf_position_area = 1.0f;
     float pdf_direction_solid_angle = 1.0f;  ///< 1/sr; 1 for directional lights
     std::uint32_t triangle = 0;              ///< mesh lights: which triangle was chosen

@@ -61,7 +61,8 @@ std::vector<float> mean_of_cells(const ImageF& image) {
     return means;
 }
 
-/// In proportion to the mean of each cell and to what of it is above that of the sphere, both times its solid angle.
+/// Makes densities in proportion to the mean of each cell and to what of it is above that of the sphere, both times its
+/// solid angle.
 ImageEnvironment::Densities make_densities(const ImageF& image) {
     std::vector<float> cells = mean_of_cells(image);
     std::vector<float> sines;

@@ -24,13 +24,13 @@ namespace etendue {
 /// The direction, before any rotation, at `position` in [0, 1]² of an image, v down from its top row.
 [[nodiscard]] Vec3f latitude_longitude_direction(Vec2f position);
 
-/// What a ray meets that leaves the scene.
+/// Holds what a ray meets that leaves the scene.
 struct EnvironmentRadiance {
     Rgb radiance;
     float pdf_solid_angle = 0.0f;  ///< with which `sample_compensated` picks the ray's direction
 };
 
-/// The same radiance from everywhere.
+/// Shines with the same radiance from everywhere.
 struct ConstantEnvironment {
     Rgb value{1.0f};
 
@@ -59,10 +59,11 @@ class ImageEnvironment {
     [[nodiscard]] float pdf_solid_angle(const Vec3f& direction) const;
     [[nodiscard]] float power(float scene_radius) const;
     [[nodiscard]] LightSample sample_compensated(const Vec3f& point, Vec2f u) const;
-    /// As many at once as there are `samples`.
+    /// Takes as many compensated samples at once as there are `samples`, one for each of the numbers `u`.
     void sample_compensated(std::span<const Vec2f> u, std::span<LightSample> samples) const;
     [[nodiscard]] float compensated_pdf_solid_angle(const Vec3f& direction) const;
-    /// Along as many `directions`: what each reads is on its way while the others are looked at.
+    /// Fills `seen` with what a ray meets along each of as many `directions`: what each reads is on its way while the
+    /// others are looked at.
     void look(std::span<const Vec3f> directions, std::span<EnvironmentRadiance> seen) const;
     [[nodiscard]] float compensated_power(float scene_radius) const;
     [[nodiscard]] std::size_t bytes() const {
@@ -77,7 +78,7 @@ class ImageEnvironment {
     [[nodiscard]] LightSample sample_at(const Distribution2D::Sample& position) const;
     /// `position` is where `direction` is in the image.
     [[nodiscard]] static float density_of(const Distribution2D& distribution, const Vec3f& direction, Vec2f position);
-    /// Of the function that a distribution is made from, over the sphere.
+    /// Returns the mean over the sphere of the function that `distribution` is made from.
     [[nodiscard]] double sphere_mean(const Distribution2D& distribution) const;
     [[nodiscard]] Vec2f to_image(const Vec3f& direction) const;
     [[nodiscard]] Vec3f from_image(Vec2f position) const;

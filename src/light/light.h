@@ -23,42 +23,45 @@ using Light = std::variant<PointLight, SpotLight, ProfileLight, DirectionalLight
 
 /// Light at `point` from a direction chosen with `u`; of a mesh, `u_triangle` chooses the triangle. Both in [0, 1)².
 [[nodiscard]] LightSample sample_light(const Light& light, const Vec3f& point, Vec2f u_triangle, Vec2f u);
-/// The same, but of an environment only what `compensated_environment_pdf_solid_angle` says: the samples of the BSDF,
-/// combined with these by multiple importance sampling, find the rest (light/environment_light.h).
+/// Samples light at `point` as `sample_light` does, but of an environment only what
+/// `compensated_environment_pdf_solid_angle` says: the samples of the BSDF, combined with these by multiple importance
+/// sampling, find the rest (light/environment_light.h).
 [[nodiscard]] LightSample sample_light_compensated(const Light& light, const Vec3f& point, Vec2f u_triangle, Vec2f u);
-/// The same of an environment, as many at once as there are `samples`.
+/// Samples an environment as `sample_light_compensated` does, as many times at once as there are `samples`.
 void sample_environment_compensated(const Light& light, std::span<const Vec2f> u, std::span<LightSample> samples);
 
 /// A ray that leaves the light, for subpaths that begin there. Black where the light emits nothing.
 [[nodiscard]] EmissionSample sample_emission(const Light& light, const EmissionNumbers& u, const SceneSphere& scene);
 
-/// Of what `sample_emission` samples, once the point of the light is given, or at infinity the direction: the density
-/// of the ray's `direction`, 1/sr, or at infinity of the place where it passes, 1/m² across it. `cos_light`: between
-/// the direction and the geometric normal of a mesh light's front.
+/// Returns the density with which `sample_emission` picks the ray's `direction` once the point of the light is given,
+/// 1/sr, or at infinity the place where the ray passes once the direction is given, 1/m² across it. `cos_light`:
+/// between the direction and the geometric normal of a mesh light's front.
 [[nodiscard]] float emission_pdf(const Light& light, const Vec3f& direction, float cos_light, const SceneSphere& scene);
-/// True if it has no extent, in space or in direction, so that no ray meets it by chance.
+/// Returns whether the light has no extent, in space or in direction, so that no ray meets it by chance.
 [[nodiscard]] bool is_delta_light(const Light& light);
-/// Bytes that it holds beside itself: triangles, images and tables.
+/// Returns the bytes that the light holds beside itself: triangles, images and tables.
 [[nodiscard]] std::size_t light_bytes(const Light& light);
-/// True if it shines from infinitely far away.
+/// Returns whether the light shines from infinitely far away.
 [[nodiscard]] bool is_at_infinity(const Light& light);
 
 /// Emitted power in watts, mean of the channels; lights at infinity count what crosses a disk of `scene_radius` metres.
 [[nodiscard]] float light_power(const Light& light, float scene_radius);
-/// The same, but of an environment only what is brighter than its mean: what `sample_light_compensated` is for.
+/// Returns the emitted power in watts as `light_power` does, but of an environment only what is brighter than its mean:
+/// what `sample_light_compensated` is for.
 [[nodiscard]] float compensated_power(const Light& light, float scene_radius);
 
-/// Where it is and where it shines, unless at infinity.
+/// Returns where the light is and where it shines; none for lights at infinity.
 [[nodiscard]] std::optional<LightBounds> light_bounds(const Light& light);
 
 /// Radiance from infinity along `-direction`; zero for lights that are no environment.
 [[nodiscard]] Rgb environment_radiance(const Light& light, const Vec3f& direction);
 /// Density with which `sample_light` picks `direction`; zero for lights that are no environment.
 [[nodiscard]] float environment_pdf_solid_angle(const Light& light, const Vec3f& direction);
-/// The same of `sample_light_compensated`.
+/// Returns the density with which `sample_light_compensated` picks `direction`, 1/sr; zero for lights that are no
+/// environment.
 [[nodiscard]] float compensated_environment_pdf_solid_angle(const Light& light, const Vec3f& direction);
 
-/// Both along as many `directions` at once.
+/// Fills `seen` with the radiance and the density of `sample_light_compensated` along as many `directions` at once.
 void look_at_environment(const Light& light, std::span<const Vec3f> directions, std::span<EnvironmentRadiance> seen);
 
 /// Chooses a light by its power, and one time in ten any: a lamp beside the sun must be found too, and the light of one
@@ -68,7 +71,7 @@ class LightSelector {
     LightSelector() = default;
     LightSelector(std::span<const Light> lights, float scene_radius);
 
-    /// `u` in [0, 1)². Must not be empty.
+    /// Chooses a light with `u` in [0, 1)². The selector must not be empty.
     [[nodiscard]] AliasTable::Choice sample(Vec2f u) const { return table_.sample(u); }
     [[nodiscard]] float probability(std::size_t light) const { return table_.probability(light); }
     [[nodiscard]] bool empty() const { return table_.empty(); }

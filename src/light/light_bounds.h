@@ -31,9 +31,9 @@ struct LightBounds {
     Bounds box;
     EmissionCone cone;
     double power = 0.0;     ///< watts, mean of the channels
-    std::size_t count = 1;  ///< of lights
+    std::size_t count = 1;  ///< how many lights
 
-    /// Of both.
+    /// Returns the bounds of both lights together.
     [[nodiscard]] LightBounds united(const LightBounds& other) const;
 };
 

@@ -10,11 +10,11 @@ namespace etendue {
 
 namespace {
 
-/// Of the cosine: what bounds and rounding exclude keeps this share of its importance.
+/// Is the least value of a cosine: what bounds and rounding exclude keeps this share of its importance.
 constexpr float kFloor = 1e-3f;
-/// Of what a matte surface receives: this share by the bound, the rest by the mean.
+/// Is the share of what a matte surface receives that goes by the bound; the rest goes by the mean.
 constexpr float kByBound = 0.1f;
-/// Of wo, where a lobe grows without bound as it grazes.
+/// Is the least cosine of wo, where a lobe grows without bound as it grazes.
 constexpr float kLeastCosine = 0.1f;
 /// m², whose power of 3/2 floats still hold.
 constexpr float kLeastSoftened = 1e-20f;
@@ -27,10 +27,10 @@ Imath::Vec3<Wide> in_all_lanes(const Vec3f& v) {
 struct Sight {
     Wide by_distance;           ///< 1/m², of the nearest and the farthest point of each box
     Imath::Vec3<Wide> to_node;  ///< to the middle of the box, metres
-    Wide squared;               ///< of that, m²
-    Wide inverse_distance;      ///< of that, 1/m
-    Wide squared_radius;        ///< of the sphere around the box, m²
-    Wide cos_b, squared_sin_b;  ///< of half the angle that the sphere is seen under
+    Wide squared;               ///< squared length of `to_node`, m²
+    Wide inverse_distance;      ///< one over the length of `to_node`, 1/m
+    Wide squared_radius;        ///< squared radius of the sphere around the box, m²
+    Wide cos_b, squared_sin_b;  ///< of half the angle that this sphere is seen under
     WideMask is_inside;         ///< the point lies in the sphere
     Wide emitted;               ///< the cosine at the lamps, at most
 };

@@ -16,20 +16,20 @@ namespace etendue {
 /// Where the lights of a node are and which way they shine.
 template <typename T>
 struct BasicLightNode {
-    Imath::Vec3<T> low{T(0.0f)}, high{T(0.0f)};  ///< of its box, metres
+    Imath::Vec3<T> low{T(0.0f)}, high{T(0.0f)};  ///< corners of the node's box, metres
     Imath::Vec3<T> axis{T(0.0f)};                ///< unit, of the cone around their normals
     T squared_spacing = 0.0f;                    ///< m², how near the nearest light is at least
     T intensity = 0.0f;                          ///< along the axis, in any unit; 0 where there is no node
-    T cos_o = 0.0f, sin_o = 0.0f, cos_e = 0.0f;  ///< of theta_o and theta_e
+    T cos_o = 0.0f, sin_o = 0.0f, cos_e = 0.0f;  ///< of the angles theta_o and theta_e (light_tree.h)
     T two_sided = 0.0f;                          ///< 1, or 0
 };
 
 using LightNode = BasicLightNode<float>;
 
 struct LightNodeLanes : BasicLightNode<Wide> {
-    /// None in any lane.
+    /// Leaves every lane without a node.
     LightNodeLanes() = default;
-    /// One in all lanes.
+    /// Puts `node` into all lanes.
     explicit LightNodeLanes(const LightNode& node);
 };
 
@@ -39,7 +39,7 @@ class LightNodeColumns {
     static constexpr std::size_t kSize = 16;
 
     void set(std::size_t index, const LightNode& node);
-    /// `Wide::kWidth` of them from `first` on, a multiple of that.
+    /// Loads `Wide::kWidth` nodes from `first` on, a multiple of that width.
     [[nodiscard]] LightNodeLanes load(std::size_t first) const;
 
   private:
@@ -52,9 +52,10 @@ struct LightReceiverLanes {
     bool any_normal = false;
     bool any_glossy = false;
 
-    /// One in all lanes.
+    /// Puts `receiver` into all lanes.
     explicit LightReceiverLanes(const LightReceiver& receiver);
-    /// As many as there are lanes; lanes that are left over are the same as the last. At least one.
+    /// Puts a receiver into each lane, of at least one of `receivers`; lanes that are left over are the same as the
+    /// last.
     explicit LightReceiverLanes(std::span<const LightReceiver> receivers);
 };
 

@@ -14,7 +14,7 @@ namespace etendue {
 
 namespace {
 
-/// Of choices among lamps that are uniform.
+/// Is the share of choices among lamps that is uniform.
 constexpr double kAny = 0.03;
 constexpr double kLeastOfASide = 0.1;
 /// 1/m², of all children of a node where floats do not tell them apart: all are as good, and as little.
@@ -43,18 +43,19 @@ struct LightTree::NodeImportances {
 
     [[nodiscard]] static constexpr std::size_t children() { return kChildren; }
     [[nodiscard]] double of(std::size_t child) const { return static_cast<double>(each[child]); }
-    /// Of the children up to this one.
+    /// Returns the sum of the importances of the children up to this one.
     [[nodiscard]] double end(std::size_t child) const { return ends[child]; }
     [[nodiscard]] double sum() const { return ends.back(); }  ///< more than zero
 };
 
-/// Those of the root, which all look at: child after child, receivers side by side.
+/// Holds the importances of the root's children, which all receivers look at: child after child, receivers side by
+/// side.
 struct LightTree::RootImportances {
     alignas(Wide::kAlignment) std::array<std::array<float, kTogether>, kChildren> each;
     std::array<std::array<double, kTogether>, kChildren> ends;
-    std::size_t count;  ///< of children
+    std::size_t count;  ///< how many children
 
-    /// As `NodeImportances`.
+    /// Shows the importances for one receiver as `NodeImportances` does.
     struct OfReceiver {
         const RootImportances& all;
         std::size_t receiver;

@@ -70,14 +70,15 @@ class LightTree {
         std::uint32_t light;
         float probability;
     };
-    /// A light for `receiver`; `u` in [0, 1)², both of whose numbers are used as the digits of one. Must not be empty.
+    /// Chooses a light for `receiver` with `u` in [0, 1)², both of whose numbers are used as the digits of one. The
+    /// tree must not be empty.
     [[nodiscard]] Choice sample(const LightReceiver& receiver, Vec2f u) const;
-    /// The same for many, each to the bit as by itself; nodes are fetched ahead, so that walks need not wait for
-    /// memory.
+    /// Chooses a light for each of many receivers, each to the bit as by itself; nodes are fetched ahead, so that walks
+    /// need not wait for memory.
     void sample(std::span<const LightReceiver> receivers, std::span<const Vec2f> u, std::span<Choice> choices) const;
-    /// With what probability `sample` chooses the light of this index; to the bit what `sample` says.
+    /// Returns the probability with which `sample` chooses the light of this index; to the bit what `sample` says.
     [[nodiscard]] float probability(const LightReceiver& receiver, std::size_t light) const;
-    /// False if there is but one that it can choose, whatever the numbers are.
+    /// False if there is but one light that the tree can choose, whatever the numbers are.
     [[nodiscard]] bool has_choice() const { return single_ == kNone; }
     /// False if every receiver has the same probabilities.
     [[nodiscard]] bool depends_on_receiver() const { return single_ == kNone && !near_.empty(); }
@@ -93,12 +94,12 @@ class LightTree {
     static constexpr int kBitsOfALevel = 4;
     static_assert(kChildren == 1u << kBitsOfALevel);
     struct alignas(64) Node {
-        /// Its children, of which the strongest has an intensity of one.
+        /// Holds the node's children, of which the strongest has an intensity of one.
         LightNodeColumns children{};
         std::array<std::uint32_t, kChildren> next{};  ///< a node, a light with `kLeaf`, or kNone
     };
     static_assert(kChildren == LightNodeColumns::kSize && sizeof(Node) == 1024);
-    /// Where a light is found.
+    /// Says where a light is found.
     struct Place {
         std::uint64_t trail = 0;      ///< from the lowest bits on: which child the way from the root takes
         std::uint32_t index = kNone;  ///< in `far_`, if it is at infinity; kNone if it has no power
@@ -107,13 +108,13 @@ class LightTree {
 
     /// A choice on its way through the tree.
     struct Walk {
-        double rest = 0.0;       ///< of the random number, [0, 1)
+        double rest = 0.0;       ///< what is left of the random number, [0, 1)
         double far = 0.0;        ///< probability of the lights at infinity
         double by_tree = 1.0;    ///< probability of the children so far
         std::uint32_t node = 0;  ///< where it is
         Choice choice{};         ///< where it has ended
 
-        /// True, as it has.
+        /// Ends the walk at `chosen`, and returns true.
         bool end_at(const Choice& chosen) {
             choice = chosen;
             return true;
@@ -133,32 +134,35 @@ class LightTree {
     /// Makes the node of these lights at this level from the root, in `nodes_[node]`. Returns the intensity of its
     /// strongest child, W/sr.
     double build(std::uint32_t node, std::span<Leaf> leaves, std::uint64_t trail, int level);
-    /// Both go one step on, and return true if that is the last.
+    /// Takes the first step of a walk, and returns true if that is the last.
     template <typename Importances>
     bool begin(Walk& walk, const LightReceiver& receiver, Vec2f u, const Importances& importances) const;
+    /// Takes the next step of a walk down from `node`, and returns true if that is the last.
     template <typename Importances>
     bool descend(Walk& walk, const Node& node, const Importances& importances) const;
     static void fetch(const Node& node);
-    /// What each child of `node` may bring to `receiver` (in all lanes), in units of the node's strongest.
+    /// Returns what each child of `node` may bring to `receiver` (in all lanes), in units of the node's strongest.
     [[nodiscard]] static NodeImportances weigh(const Node& node, const LightReceiverLanes& receiver);
-    /// The same of the root for one receiver to `kTogether`.
+    /// Computes what each child of the root may bring to each of one receiver to `kTogether`, in units of the root's
+    /// strongest.
     void weigh_root(std::span<const LightReceiver> receivers, RootImportances& importances) const;
-    /// Of taking one at infinity, where there are others; 0 if there are none. `near` is the sum of what the root's
-    /// children may bring.
+    /// Returns the probability of taking a light at infinity, where there are others; 0 if there are none. `near` is
+    /// the sum of what the root's children may bring.
     [[nodiscard]] double far_share(double near) const;
-    /// One at infinity if the probability of that is `share`, by a number in [0, 1), and the probability of this one.
+    /// Chooses a light at infinity by a number in [0, 1), and returns its probability, where that of any at infinity is
+    /// `share`.
     [[nodiscard]] Choice far_choice(double share, double u) const;
     [[nodiscard]] float far_probability(double share, std::size_t index) const;
-    /// The probability of a child.
+    /// Returns the probability of a child.
     template <typename Importances>
     [[nodiscard]] static double share(const Importances& importances, std::size_t child);
-    /// The probability of a near light to which `by_tree` is that of the walk.
+    /// Returns the probability of a near light, where that of the walk to it is `by_tree`.
     [[nodiscard]] float near_probability(double far_share, double by_tree) const;
 
     std::vector<Node> nodes_;          ///< the first is the root
     std::vector<LightNode> at_root_;   ///< its children once more, one by one
-    double root_intensity_ = 0.0;      ///< of the strongest of its children, W/sr
-    std::vector<Place> places_;        ///< of each light
+    double root_intensity_ = 0.0;      ///< intensity of the root's strongest child, W/sr
+    std::vector<Place> places_;        ///< where each light is found
     std::vector<std::uint32_t> near_;  ///< lights with power that are in the tree
     std::vector<std::uint32_t> far_;   ///< and those at infinity
     std::vector<double> far_ends_;     ///< sums of the probabilities of `far_`

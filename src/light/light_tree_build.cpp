@@ -14,9 +14,10 @@ namespace etendue {
 
 namespace {
 
-/// Of choices among lights at infinity that are uniform.
+/// Is the share of choices among lights at infinity that is uniform.
 constexpr double kAnyFar = 0.1;
-/// Of the squared diagonal of a box over the number of its lamps: how near the nearest is taken to be.
+/// Is the share of a box's squared diagonal over the number of its lamps that is taken for the square of how near the
+/// nearest is.
 constexpr float kNear = 0.02f;
 constexpr int kBins = 12;
 /// Below so many levels lights are split in halves: as many levels more hold all that have an index.
@@ -37,7 +38,7 @@ double intensity(const LightBounds& bounds) {
     return bounds.power / bounds.cone.measure();
 }
 
-/// What importances need of these lights; the intensity in `unit`.
+/// Returns what importances need of the lights within `bounds`, with the intensity in units of `unit`.
 LightNode light_node(const LightBounds& bounds, double unit) {
     const EmissionCone& cone = bounds.cone;
     return {.low = bounds.box.min,

@@ -54,7 +54,7 @@ struct LightTriangleFront {
         const T cosine = max(cos_light, -cos_light * back);
         return select(cosine > T(0.0f), distance * distance / (area * cosine), T(0.0f));
     }
-    /// Of rays that leave the light from a given point, 1/sr.
+    /// Returns the density of rays that leave the light from a given point, 1/sr.
     [[nodiscard]] T emission_pdf_solid_angle(T cos_light) const {
         // Of rays from two sides half leave each.
         const T cosine = max(cos_light, -cos_light * back) * (1.0f - 0.5f * back);
@@ -85,19 +85,19 @@ class MeshLight {
     MeshLight(const std::vector<LightTriangle>& triangles, Rgb radiance, Rgb mean_radiance, bool two_sided,
               bool mirrored, bool is_uniform, const Vec3f& position_error);
 
-    /// `u_triangle` chooses the triangle, `u` the point in it; both in [0, 1)².
+    /// Samples light at `point`: `u_triangle` chooses the triangle, `u` the point in it; both in [0, 1)².
     [[nodiscard]] LightSample sample(const Vec3f& point, Vec2f u_triangle, Vec2f u) const;
     struct TriangleChoice {
         std::uint32_t triangle;
-        float gain;  ///< of its density, as below
+        float gain;  ///< factor of the triangle's density, as `gain()` says
     };
     /// The triangle that `sample` chooses for `point` with `u_triangle`.
     [[nodiscard]] TriangleChoice choose_triangle(const Vec3f& point, Vec2f u_triangle) const {
         return choose_of_pair(by_area_.sample(u_triangle).index, point);
     }
-    /// The same of many lights, each for its point with its numbers, of which there have to be as many; choices of
-    /// those that are null stay as they are. What a step reads has been fetched in the one before: tables and triangles
-    /// of large lights are far apart in memory.
+    /// Chooses a triangle as `choose_triangle` does for each of many lights, with its point and its numbers, of which
+    /// there have to be as many; choices of those that are null stay as they are. What a step reads has been fetched in
+    /// the one before: tables and triangles of large lights are far apart in memory.
     static void choose_triangles(std::span<const MeshLight* const> lights, std::span<const Vec3f> points,
                                  std::span<const Vec2f> u_triangle, std::span<TriangleChoice> choices);
     /// Density of the samples for `point` on this triangle over that by area. `point` has to be the very one, not one
@@ -117,9 +117,9 @@ class MeshLight {
     }
     /// The first five of `front` where they stand, number after number: a row of core/wide_rows.h.
     [[nodiscard]] const float* row(std::uint32_t triangle) const { return &faces_[triangle].p0.x; }
-    /// As in LightTriangleFront.
+    /// Returns the share of the front's radiance that the back emits: 1 if two-sided, else 0.
     [[nodiscard]] float back() const { return two_sided_ ? 1.0f : 0.0f; }
-    /// Of the front.
+    /// Returns the radiance of the front, W/(m² sr).
     [[nodiscard]] const Rgb& radiance() const { return radiance_; }
     /// Density of `sample` for a hit of this triangle at `distance` from `point`, where `cos_light` is the cosine
     /// between the geometric normal and the direction back to the point: the gain of d² / (A |cos|). 0 for the back of
@@ -130,7 +130,7 @@ class MeshLight {
     [[nodiscard]] EmissionSample sample_emission(const EmissionNumbers& u, const SceneSphere& scene) const;
     [[nodiscard]] float emission_pdf(const Vec3f& direction, float cos_light, const SceneSphere& scene) const;
     [[nodiscard]] float power(float scene_radius) const;
-    /// As if every point of it shone as much as any other.
+    /// Returns bounds as if every point of the mesh shone as much as any other.
     [[nodiscard]] LightBounds bounds() const;
 
     [[nodiscard]] float area() const { return area_; }
@@ -146,7 +146,7 @@ class MeshLight {
         Vec3f normal{0.0f};          ///< unit
         float clearance = 0.0f;      ///< metres, as in SurfacePoint
         std::uint32_t opposite = 0;  ///< the triangle that faces the other way; itself if it has none
-        float gain = 1.0f;           ///< of the density where of the two only this one faces a point
+        float gain = 1.0f;           ///< factor of the density where only this one of the two faces a point
 
         /// Written so that compilers contract nothing: all who ask about a point get the same answer.
         [[nodiscard]] bool is_seen_from(const Vec3f& point) const {
@@ -158,7 +158,7 @@ class MeshLight {
     static_assert(sizeof(Face) == 64);
 
     void pair_opposites(std::span<const double> areas);
-    /// This triangle or its opposite, whichever faces the point alone.
+    /// Chooses of this triangle and its opposite the one that alone faces the point; else the triangle itself.
     [[nodiscard]] TriangleChoice choose_of_pair(std::uint32_t triangle, const Vec3f& point) const {
         const std::uint32_t other = faces_[triangle].opposite;
         if (other == triangle) return {triangle, 1.0f};
@@ -168,7 +168,7 @@ class MeshLight {
         return {chosen, faces_[chosen].gain};
     }
 
-    /// What all triangles have in common.
+    /// Returns what the fronts of all triangles have in common: the area and the share of the back.
     [[nodiscard]] LightTriangleFront<float> any_front() const {
         LightTriangleFront<float> any{};
         any.area = area_;

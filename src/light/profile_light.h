@@ -20,14 +20,14 @@ struct ProfileLight {
     [[nodiscard]] LightSample sample(const Vec3f& point, Vec2f u) const;
     [[nodiscard]] EmissionSample sample_emission(const EmissionNumbers& u, const SceneSphere& scene) const;
     [[nodiscard]] float emission_pdf(const Vec3f& direction, float cos_light, const SceneSphere& scene) const;
-    /// By a rule of 1,024 points over the vertical angle: near enough for a choice, and exact to some 1e-5 for profiles
-    /// as they are measured.
+    /// Returns the power by a rule of 1,024 points over the vertical angle: near enough for a choice, and exact to some
+    /// 1e-5 for profiles as they are measured.
     [[nodiscard]] float power(float scene_radius) const;
     /// All directions within the cone into which there is any light count alike.
     [[nodiscard]] LightBounds bounds() const;
 
   private:
-    /// Of the cone into which the profile, and the spot, have any light.
+    /// Returns the cosine of the half angle of the cone into which the profile, and the spot, have any light.
     [[nodiscard]] float cos_emission() const;
 };
 

@@ -47,21 +47,21 @@ struct DirectionalLight {
     [[nodiscard]] float power(float scene_radius) const;
 };
 
-/// Of a light at `position` that shines as `cone` and `power` say.
+/// Returns the bounds of a light at `position` that shines as `cone` and `power` say.
 [[nodiscard]] LightBounds bounds_of_point(const Vec3f& position, const EmissionCone& cone, float power);
 
-/// The part of an emission sample that all lights at a point share: a direction within the cone around the unit `axis`
-/// whose half angle has the cosine `cos_max`, uniformly; without the radiance.
+/// Samples what all lights at a point share of an emission: a direction within the cone around the unit `axis` whose
+/// half angle has the cosine `cos_max`, uniformly; without the radiance.
 [[nodiscard]] EmissionSample sample_emission_in_cone(const Vec3f& position, const Vec3f& axis, float cos_max, Vec2f u);
 
-/// Density of its direction, 1/sr.
+/// Returns the density with which `sample_emission_in_cone` picks `direction`, 1/sr.
 [[nodiscard]] float emission_in_cone_pdf_solid_angle(const Vec3f& direction, const Vec3f& axis, float cos_max);
 
-/// That of all lights that lie in one direction, infinitely far away: a point on a disk as large as the scene, across
-/// the unit `direction` in which light goes.
+/// Samples what all lights in one direction, infinitely far away, share of an emission: a point on a disk as large as
+/// the scene, across the unit `direction` in which light goes.
 [[nodiscard]] EmissionSample sample_emission_from_afar(const Vec3f& direction, const SceneSphere& scene, Vec2f u);
 
-/// Density of that point, 1/m² across the direction.
+/// Returns the density with which `sample_emission_from_afar` picks a point, 1/m² across the direction.
 [[nodiscard]] float emission_from_afar_pdf_area(const SceneSphere& scene);
 
 }  // namespace etendue

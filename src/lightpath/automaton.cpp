@@ -34,7 +34,7 @@ void for_each_common(const PositionSet& a, const PositionSet& b, const Visit& vi
             visit(64 * i + static_cast<std::size_t>(std::countr_zero(left)));
 }
 
-/// What one step in the graph leads to.
+/// Holds the positions that one step in the graph leads to, for every position and every symbol.
 struct Steps {
     std::vector<PositionSet> following;  ///< by position
     std::vector<PositionSet> preceding;  ///< by position

@@ -40,13 +40,14 @@ class PathAutomaton {
 
     [[nodiscard]] std::size_t expression_count() const { return expression_count_; }
 
-    /// Of the material or light with this index among the names: what the functions below call `label`.
+    /// Returns the label of the material with this index among the names: what the functions below call `label`.
     [[nodiscard]] std::uint16_t material_label(std::size_t index) const { return materials_.of(index); }
+    /// Returns the label of the light with this index among the names.
     [[nodiscard]] std::uint16_t light_label(std::size_t index) const { return lights_.of(index); }
     /// Names that expressions ask for and nothing in the scene has.
     [[nodiscard]] std::vector<std::string> unmatched_names() const;
 
-    /// Of a path from the eye that has left the camera.
+    /// Returns the state of a path from the eye that has left the camera.
     [[nodiscard]] State eye_start() const { return eye_start_; }
     [[nodiscard]] State eye_scatter(State state, ScatterEvent event, std::uint16_t label) const {
         return eye_.next(state, scatter_symbol(event, label));
@@ -56,7 +57,7 @@ class PathAutomaton {
         return whole_[eye_.next(state, source_symbol(event, label))];
     }
 
-    /// Of a path from a light.
+    /// Returns the state of a path from a light that has begun with this event at a light of this label.
     [[nodiscard]] State light_start(SourceEvent event, std::uint16_t label) const {
         return light_.next(light_end_, source_symbol(event, label));
     }
@@ -85,7 +86,7 @@ class PathAutomaton {
     [[nodiscard]] std::size_t source_symbol(SourceEvent event, std::uint16_t label) const {
         return first_source_ + static_cast<std::size_t>(event) * lights_.count() + label;
     }
-    /// By symbol: whether it is in the set.
+    /// Returns for each symbol whether it is in `set`.
     [[nodiscard]] std::vector<bool> symbols_of(const EventSet& set) const;
 
     std::size_t expression_count_;
@@ -96,7 +97,7 @@ class PathAutomaton {
     Table eye_;
     Table light_;
     State eye_start_ = 0;
-    State light_end_ = 0;                ///< of no event yet
+    State light_end_ = 0;                ///< state of a path from a light before its first event
     std::vector<ExpressionMask> whole_;  ///< by state of the eye: of paths that are complete
     std::vector<ExpressionMask> join_;   ///< by state of the eye, by state of the light
 };

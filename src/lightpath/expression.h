@@ -24,7 +24,7 @@
 
 namespace etendue {
 
-/// What is wrong with an expression, and where.
+/// Says what is wrong with an expression, and where.
 class ExpressionError : public std::runtime_error {
   public:
     /// `offset` in characters from the beginning of the expression.

@@ -18,7 +18,7 @@ class LabelClasses {
   public:
     LabelClasses(std::vector<std::string> patterns, std::span<const std::string> names);
 
-    /// Of the name with this index.
+    /// Returns the class of the name with this index.
     [[nodiscard]] std::uint16_t of(std::size_t name) const { return classes_[name]; }
     [[nodiscard]] std::size_t count() const { return matched_.size(); }
     /// True if the names of class `label` match `pattern`, one of those that this was made with; the empty one is any.

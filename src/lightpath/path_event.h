@@ -10,8 +10,8 @@
 
 namespace etendue {
 
-/// What a vertex does to light. Diffuse: to all sides; glossy: around a direction; singular: into single directions.
-/// Volume: what a medium scatters.
+/// Names what a vertex does to light. Diffuse: to all sides; glossy: around a direction; singular: into single
+/// directions. Volume: what a medium scatters.
 enum class ScatterEvent : std::uint8_t {
     ReflectDiffuse,
     ReflectGlossy,
@@ -23,7 +23,7 @@ enum class ScatterEvent : std::uint8_t {
 };
 inline constexpr std::size_t kScatterEvents = 7;
 
-/// What light comes from.
+/// Names what light comes from.
 enum class SourceEvent : std::uint8_t {
     Surface,      ///< one that emits
     Lamp,         ///< without a surface: point, spot, directional

@@ -8,7 +8,7 @@ namespace etendue {
 
 namespace {
 
-/// Of a part of an expression: where paths through it can begin and end.
+/// Holds the positions at which paths through a part of an expression can begin and end.
 struct Ends {
     bool is_nullable = false;  ///< the part may be empty
     std::vector<std::size_t> first;
@@ -87,7 +87,7 @@ class Builder {
         return {};
     }
 
-    /// One part after another.
+    /// Connects one part to the one that follows it.
     Ends follow(const Ends& before, const Ends& after) {
         connect(before.last, after.first);
         Ends both{before.is_nullable && after.is_nullable, before.first, after.last};

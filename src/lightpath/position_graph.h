@@ -24,7 +24,7 @@ struct PositionGraph {
         bool may_end = false;                ///< a path may end here
     };
     std::vector<Position> positions;
-    std::vector<std::size_t> beginnings;  ///< of each expression
+    std::vector<std::size_t> beginnings;  ///< the position at which each expression begins
 };
 
 /// `expressions` must outlive the graph. Throws ExpressionError (with offset 0) if an expression neither begins with

@@ -12,9 +12,9 @@ struct UsualExpression {
     std::string_view summary;
 };
 
-/// Those that take each path exactly once, so that their layers add up to the image.
+/// Returns the usual expressions that take each path exactly once, so that their layers add up to the image.
 [[nodiscard]] std::span<const UsualExpression> partition_expressions();
-/// Those above, and others.
+/// Returns all usual expressions, those of `partition_expressions` first.
 [[nodiscard]] std::span<const UsualExpression> usual_expressions();
 
 }  // namespace etendue

@@ -42,7 +42,7 @@ class Distribution1D {
   private:
     /// The interval that `u` falls into: as many values of cdf_ but the first are at most u, other than the last.
     [[nodiscard]] std::size_t find(float u) const;
-    /// Of the entry of the guide that `find` begins with.
+    /// Returns the index of the entry of the guide with which `find` begins for `u`.
     [[nodiscard]] std::size_t start_of(float u) const;
 
     /// size() + 1 values from 0 to 1, and as many behind them as are compared at once.
@@ -65,7 +65,8 @@ class Distribution2D {
         float pdf;
     };
     [[nodiscard]] Sample sample(Vec2f u) const;
-    /// The same of as many as there are `samples`: what each reads is on its way while the others are looked at.
+    /// Samples the density with each of the numbers `u`, as many as there are `samples`: what each look-up reads is on
+    /// its way while the others are looked at.
     void sample(std::span<const Vec2f> u, std::span<Sample> samples) const;
     [[nodiscard]] float pdf(Vec2f position) const;
     /// Has most of what `pdf` reads fetched from memory.

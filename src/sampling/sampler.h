@@ -33,8 +33,8 @@ struct SampleKey {
     return {to_unit_float(x), to_unit_float(hash_u32(x ^ 0x9e3779b9u))};
 }
 
-/// The same for many samples at once: `x[i]`, `y[i]` are those of the key (`pixel_seeds[i]`, `indices[i]`). All spans
-/// have one length. Several times as fast as one call per sample.
+/// Gives two numbers in [0, 1)² to each of many samples at once: `x[i]`, `y[i]` are those of `dimension` and the key
+/// (`pixel_seeds[i]`, `indices[i]`). All spans have one length. Several times as fast as one call per sample.
 void sample_2d(SampleSequence sequence, std::span<const std::uint32_t> pixel_seeds,
                std::span<const std::uint32_t> indices, std::uint32_t dimension, std::span<float> x, std::span<float> y);
 

@@ -60,7 +60,7 @@ template <HashBits Bits>
     return {reverse_bits(x), reverse_bits(y)};
 }
 
-/// The same in [0, 1)².
+/// Returns point `index` of a (0,2)-sequence in [0, 1)², scrambled and shuffled by `seed`.
 [[nodiscard]] inline Vec2f owen_sobol_2d(std::uint32_t index, std::uint32_t seed) {
     const PointBits<std::uint32_t> point = owen_sobol_bits(index, seed);
     return {to_unit_float(point.x), to_unit_float(point.y)};

@@ -16,7 +16,7 @@ namespace etendue {
 
 inline constexpr float kOneMinusEpsilon = 0x1.fffffep-1f;
 
-/// To the unit disk, concentric.
+/// Maps the unit square to the unit disk, concentrically.
 template <typename T = float>
 [[nodiscard]] inline Imath::Vec2<T> square_to_disk(const Imath::Vec2<T>& u) {
     const T a = 2.0f * u.x - 1.0f;
@@ -52,7 +52,7 @@ template <typename T = float>
     return {(a + 1.0f) * 0.5f, (b + 1.0f) * 0.5f};
 }
 
-/// To the hemisphere around +z, density proportional to the cosine.
+/// Maps the unit square to the hemisphere around +z, with a density proportional to the cosine.
 template <typename T = float>
 [[nodiscard]] inline Imath::Vec3<T> square_to_cosine_hemisphere(const Imath::Vec2<T>& u) {
     const Imath::Vec2<T> d = square_to_disk(u);
@@ -66,7 +66,7 @@ template <typename T = float>
     return disk_to_square({w.x, w.y});
 }
 
-/// To the unit sphere, uniformly.
+/// Maps the unit square to the unit sphere, uniformly.
 [[nodiscard]] inline Vec3f square_to_sphere(Vec2f u) {
     const float z = 1.0f - 2.0f * u.y;
     const float r = std::sqrt(std::max(0.0f, 1.0f - z * z));
@@ -81,7 +81,7 @@ template <typename T = float>
     return {phi < 0.0f ? phi + 1.0f : phi, (1.0f - w.z) * 0.5f};
 }
 
-/// To the hemisphere around +z, uniformly.
+/// Maps the unit square to the hemisphere around +z, uniformly.
 [[nodiscard]] inline Vec3f square_to_hemisphere(Vec2f u) {
     const float z = 1.0f - u.y;
     const float r = std::sqrt(std::max(0.0f, 1.0f - z * z));
@@ -95,7 +95,7 @@ template <typename T = float>
     return {sphere_to_square(w).x, 1.0f - w.z};
 }
 
-/// To the cone of directions around +z whose half angle has the cosine `cos_max` (< 1), uniformly.
+/// Maps the unit square to the cone of directions around +z whose half angle has the cosine `cos_max` (< 1), uniformly.
 [[nodiscard]] inline Vec3f square_to_cone(Vec2f u, float cos_max) {
     const float one_minus_z = u.y * (1.0f - cos_max);
     const float r = std::sqrt(std::max(0.0f, one_minus_z * (2.0f - one_minus_z)));
@@ -109,8 +109,8 @@ template <typename T = float>
     return {sphere_to_square(w).x, (1.0f - w.z) / (1.0f - cos_max)};
 }
 
-/// To a triangle, uniformly: the barycentric coordinates of its second and third vertex. Low-distortion map without a
-/// square root (Heitz, "A Low-Distortion Map Between Triangle and Square", 2019).
+/// Maps the unit square to a triangle, uniformly: to the barycentric coordinates of its second and third vertex.
+/// Low-distortion map without a square root (Heitz, "A Low-Distortion Map Between Triangle and Square", 2019).
 template <typename T = float>
 [[nodiscard]] inline Imath::Vec2<T> square_to_triangle(const Imath::Vec2<T>& u) {
     // Half of the smaller number stays, and goes from the larger.

@@ -68,7 +68,7 @@ std::vector<Coverage> coverages(int size, int half_size) {
     return result;
 }
 
-/// Half the image in linear light. `fetch(x, y, c)` is linear.
+/// Returns the image at half its size in linear light. `fetch(x, y, c)` is linear.
 template <typename Fetch>
 ImageF halve(int width, int height, int channels, const Fetch& fetch) {
     ImageF half(std::max(1, width / 2), std::max(1, height / 2), channels);

@@ -58,7 +58,7 @@ class MipChain {
         int height;
     };
     [[nodiscard]] bool is_8bit() const { return std::holds_alternative<std::vector<std::uint8_t>>(values_); }
-    /// Of a chain that is_8bit.
+    /// Returns the level of this index of a chain that is_8bit.
     [[nodiscard]] Level8 level8(int index) const {
         const Level& level = levels_[static_cast<std::size_t>(index)];
         return {std::get<std::vector<std::uint8_t>>(values_).data() + level.first * static_cast<std::size_t>(channels_),
@@ -66,7 +66,7 @@ class MipChain {
     }
     [[nodiscard]] int level_count() const { return static_cast<int>(levels_.size()); }
     [[nodiscard]] int channels() const { return channels_; }
-    /// Of colour in 8 bits.
+    /// Returns the linear values of a chain's integers of 8 bits.
     [[nodiscard]] const Decoding8& decoding8() const { return *decoding8_; }
 
     [[nodiscard]] int width() const { return levels_.front().width; }
@@ -102,7 +102,7 @@ class MipChain {
 
     int channels_ = 0;
     Encoding encoding_ = Encoding::Linear;
-    const Decoding8* decoding8_ = nullptr;  ///< of colour in 8 bits
+    const Decoding8* decoding8_ = nullptr;  ///< linear values of 8-bit colour
     std::vector<Level> levels_;
     Values values_;
     std::vector<Float16> slope_covariances_;  ///< xx, xy and yy of each texel from the first mip level on

@@ -33,7 +33,7 @@ class SlopePieces final : public ImagePieces {
     ImageInfo info_;
     ImageLevel level_;
     SlopeRows slopes_;
-    int first_row_ = 0;          ///< of the map's rows that `texels_` hold
+    int first_row_ = 0;          ///< the first of the map's rows that `texels_` hold
     int end_row_ = 0;            ///< the first that they do not hold
     std::vector<float> texels_;  ///< row by row: one, or as many as a tile of the map is high
     std::vector<float> tile_;

@@ -65,7 +65,7 @@ class SlopeRows {
 
     int width_;
     int height_;
-    float offset_;  ///< of the points from the texel's centre, texels
+    float offset_;  ///< how far the points lie from the texel's centre, texels
     std::array<std::vector<Vec2f>, kHeld> rows_;
     std::array<int, kHeld> held_{};
 };

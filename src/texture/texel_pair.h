@@ -14,7 +14,7 @@ template <typename T>
 struct TexelPair {
     T first;
     T second;
-    T fraction;  ///< of the way from the centre of the first to that of the second, [0, 1]
+    T fraction;  ///< share of the way from the first's centre to the second's, [0, 1]
 };
 
 /// How a coordinate goes on beyond [0, 1]: one of `Wrap`, lane by lane.
@@ -24,7 +24,8 @@ struct WrapMode {
     MaskOf<T> mirrors;  ///< if it does not clamp
 };
 
-/// For `coordinate` in a row of `size` texels, whose centres lie at half-integers. What is not finite is read as 0.
+/// Returns the texels around `coordinate` in a row of `size` texels, whose centres lie at half-integers. What is not
+/// finite is read as 0.
 template <typename T>
 [[nodiscard]] inline TexelPair<T> texel_pair(T coordinate, T size, const WrapMode<T>& wrap) {
     // Wraps repeat after two images at the latest.

@@ -41,13 +41,13 @@ class Texture {
     /// Mean of rgb and of alpha over the image, linear.
     [[nodiscard]] Texel mean() const;
 
-    /// Its texels, if they are 8 bits each in memory and read between texels and between levels; else null.
+    /// Returns the texels if they are 8 bits each in memory and read between texels and between levels; else null.
     [[nodiscard]] const MipChain* usual_texels() const;
     [[nodiscard]] const TextureOptions& options() const { return options_; }
 
     [[nodiscard]] int width() const;
     [[nodiscard]] int height() const;
-    /// Held by the texture itself; none if its texels come through a cache.
+    /// Returns the bytes held by the texture itself; none if its texels come through a cache.
     [[nodiscard]] std::size_t bytes() const;
 
   private:

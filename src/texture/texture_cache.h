@@ -27,12 +27,13 @@ class TextureCache;
 /// An image whose texels come through a cache, which must outlive it.
 class CachedImage {
   public:
-    /// As MipChain's, but where a file's pixels prove broken: there it is zero, and the cache counts it.
+    /// Returns the filtered texel at `uv` as MipChain does; where a file's pixels prove broken it is zero, and the
+    /// cache counts it.
     [[nodiscard]] Texel sample(Vec2f uv, float level, bool nearest, const TextureOptions& options) const;
     /// Returns the slopes of an image that was added as a normal map, as MipChain does.
     [[nodiscard]] SlopeDistribution sample_slopes(Vec2f uv, float level, bool nearest,
                                                   const TextureOptions& options) const;
-    /// Of the image's coarsest mip level: near the mean over all texels.
+    /// Returns the texel of the image's coarsest mip level: near the mean over all texels.
     [[nodiscard]] Texel mean() const;
 
     [[nodiscard]] int width() const { return texels_.width; }
@@ -67,7 +68,7 @@ class TextureCache {
     [[nodiscard]] CachedImage add_normal_map(const Source& source, bool interpolated);
 
     [[nodiscard]] std::uint64_t budget() const;
-    /// Decoded tiles that are held now.
+    /// Returns the bytes of the decoded tiles that are held now.
     [[nodiscard]] std::uint64_t bytes() const;
     /// Look-ups that met broken pixels, and what the first of them was told.
     [[nodiscard]] std::uint64_t failed_lookups() const;

@@ -15,20 +15,20 @@
 
 namespace etendue {
 
-/// The same as `Texture::lookup` but for roundings. What is computed many at a time are textures of 8 bits in memory
-/// that are read in the usual way, between texels and between levels; others are looked up one by one. Which is which
-/// depends on the texture alone.
+/// Does many look-ups at once, each as `Texture::lookup` does but for roundings. What is computed many at a time
+/// are textures of 8 bits in memory that are read in the usual way, between texels and between levels; others are
+/// looked up one by one. Which is which depends on the texture alone.
 class TextureLookups {
   public:
     /// Forgets all look-ups.
     void clear();
-    /// One more, whose result has the next index. `texture` must outlive it.
+    /// Adds a look-up, whose result has the next index. `texture` must outlive it.
     void add(const Texture& texture, Vec2f uv, const TextureFootprint& footprint);
     /// Computes what has been added.
     void finish();
-    /// Of look-up `i`, if none has been added since `finish`: linear, in the image's own primaries.
+    /// Returns the result of look-up `i`, if none has been added since `finish`: linear, in the image's own primaries.
     [[nodiscard]] const Rgb& operator[](std::size_t i) const { return results_[i]; }
-    /// Held besides the object itself.
+    /// Returns the bytes held besides the object itself.
     [[nodiscard]] std::size_t bytes() const { return vector_bytes(results_); }
 
   private:

@@ -12,7 +12,7 @@ enum class Encoding {
     Srgb,    ///< colour under the sRGB curve (IEC 61966-2-1); alpha is linear
 };
 
-/// What happens between the levels of a mip chain where the texture is minified.
+/// Says what happens between the levels of a mip chain where the texture is minified.
 enum class MipFilter {
     None,     ///< the image itself is read, at one point: aliases unless there are many samples
     Nearest,  ///< the level nearest to the footprint
@@ -24,7 +24,7 @@ struct TextureOptions {
     Wrap wrap_v = Wrap::Repeat;
     Encoding encoding = Encoding::Linear;
     bool nearest = false;           ///< no interpolation between texels where the texture is magnified
-    bool nearest_minified = false;  ///< the same where it is minified, within a level
+    bool nearest_minified = false;  ///< no interpolation between texels of a level where it is minified
     MipFilter mip_filter = MipFilter::Linear;
 };
 
@@ -44,7 +44,7 @@ struct Texel {
     return {a.rgb * s, a.alpha * s};
 }
 
-/// One channel reads as grey, two as grey and alpha. `c` has at least `channels` values.
+/// Makes a texel from values: one channel reads as grey, two as grey and alpha. `c` has at least `channels` values.
 [[nodiscard]] inline Texel make_texel(int channels, const float* c) {
     switch (channels) {
         case 1:

@@ -28,7 +28,7 @@ struct TileImage {
 struct TileLookup {
     float u = 0.0f;
     float v = 0.0f;
-    float width = 0.0f;  ///< of the filter, in texture coordinates
+    float width = 0.0f;  ///< width of the filter, in texture coordinates
     Wrap wrap_u = Wrap::Repeat;
     Wrap wrap_v = Wrap::Repeat;
     bool nearest = false;  ///< else bilinear, and linear between levels
@@ -38,14 +38,14 @@ class TileCache {
   public:
     virtual ~TileCache() = default;
 
-    /// As TextureCache::add.
+    /// Opens an image for look-ups, as TextureCache::add does.
     [[nodiscard]] virtual TileImage add(OpenPieces open) = 0;
     /// Writes as many values as the image has channels; false, with an `error`, if its pixels are broken. On any number
     /// of threads.
     virtual bool look_up(const TileImage& image, const TileLookup& lookup, float* values) const = 0;
-    /// What this thread was told last; taken away by being read.
+    /// Returns the last error that this thread was told, and forgets it.
     [[nodiscard]] virtual std::string error() const = 0;
-    /// Of the tiles that are held now.
+    /// Returns the bytes of the tiles that are held now.
     [[nodiscard]] virtual std::uint64_t bytes() const = 0;
 };
 

@@ -8,7 +8,7 @@
 
 namespace etendue {
 
-/// Of a material.
+/// Describes what fills the closed surfaces of a material.
 struct Filling {
     HomogeneousMedium medium{};
     float ior = 1.0f;         ///< at 587.6 nm, against vacuum

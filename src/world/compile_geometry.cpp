@@ -132,7 +132,7 @@ std::vector<bool> meshes_to_copy(const SceneDesc& scene, std::span<const std::ui
     for (const InstanceDesc& desc : scene.instances)
         if (!desc.motion.empty()) moves[static_cast<std::size_t>(desc.mesh.index)] = true;
     struct Candidate {
-        std::size_t triangles;  ///< of all copies
+        std::size_t triangles;  ///< triangles of all copies together
         std::size_t mesh;
     };
     std::vector<Candidate> candidates;

@@ -35,7 +35,7 @@ class TextureCompiler {
     /// memory.
     [[nodiscard]] std::vector<std::size_t> finish(std::uint64_t budget, const ThreadPool& threads, WorldData& data,
                                                   ProblemList& problems);
-    /// What the textures asked for take in memory. Throws SceneError if an image cannot be read.
+    /// Returns the bytes that the textures asked for take in memory. Throws SceneError if an image cannot be read.
     [[nodiscard]] std::uint64_t bytes_in_memory() const;
 
   private:
@@ -67,7 +67,7 @@ class TextureCompiler {
 /// Materials and what fills their bodies, in place of those that are there. Needs the working space in `data`.
 void compile_materials(const SceneDesc& scene, TextureCompiler& textures, WorldData& data);
 
-/// What fills the closed surfaces of a material, if it has such.
+/// Returns what fills the closed surfaces of a material, if it has such.
 [[nodiscard]] std::optional<Filling> compile_filling(const MaterialDesc& desc, const ColorMatrix& from_rec709);
 
 /// Moves the meshes of `scene` into `data`: bakes those that are placed once and stay there, and copies of small ones

@@ -150,7 +150,7 @@ class TouchFinder {
         return true;
     }
 
-    /// By a few times what rounding may move anything in it.
+    /// Grows a box by a few times what rounding may move anything in it.
     static void grow(Bounds& bounds) {
         const Vec3f extent = max_components(abs_components(bounds.min), abs_components(bounds.max));
         const float most = 16.0f * clearance(Vec3f(1.0f), position_error(extent));

@@ -41,7 +41,7 @@ struct Touch {
 };
 
 struct Touches {
-    /// By the slots, of which the first is the lower, or the same.
+    /// Holds touches by pairs of slots, of which the first is the lower, or the same.
     std::map<std::pair<std::uint32_t, std::uint32_t>, Touch> pairs;
     /// False if there was more to look at than is sensible: what is not listed may touch, too.
     bool is_complete = true;

@@ -80,7 +80,7 @@ struct TrianglePlane {
 
 /// True if no light passes such a surface, but for what its opacity lets through.
 [[nodiscard]] bool stops_light(const Material& material);
-/// True if it is a thin sheet that light passes.
+/// True if `material` is that of a thin sheet that light passes.
 [[nodiscard]] bool is_sheet(const Material& material);
 
 /// Where a surface touches others.
@@ -88,8 +88,8 @@ struct ContactSlot {
     static constexpr std::size_t kMostRegions = 16;
 
     float reach = 0.0f;           ///< metres within which others lie; 0 if none do
-    std::vector<Bounds> regions;  ///< what they touch lies in these
-    bool is_anywhere = false;     ///< as where things move: what it touches may lie in any place
+    std::vector<Bounds> regions;  ///< boxes in which what the surface touches lies
+    bool is_anywhere = false;     ///< what it touches may lie in any place, as where things move
 
     /// Adds a place; boxes that are more than there may be become one.
     void add(const Bounds& place);

@@ -24,7 +24,7 @@ struct CollectedHits {
     std::size_t count = 0;
 };
 
-/// What a filter function needs beside the hit: the scene, and the alpha keys of the batch, in its rays or their
+/// Holds what a filter function needs beside the hit: the scene, and the alpha keys of the batch, in its rays or their
 /// column.
 struct QueryContext {
     embree::Context base;  // first, so that Embree's pointer to it is a pointer to this
@@ -43,14 +43,14 @@ struct QueryContext {
         embree::init_context(base, coherent);
     }
 
-    /// Of the ray with that index in its batch.
+    /// Returns the alpha key of the ray with the index `id` in its batch.
     [[nodiscard]] std::uint32_t alpha_key(unsigned int id) const {
         return rays != nullptr ? rays[id].alpha_key : alpha_keys[id];
     }
 };
 static_assert(std::is_standard_layout_v<QueryContext>);
 
-/// `id` is the ray's index in its batch.
+/// Makes Embree's ray; `id` is the ray's index in its batch.
 [[nodiscard]] inline RTCRay make_ray(const Ray& ray, unsigned int id) {
     RTCRay r{};
     r.org_x = ray.origin.x;
@@ -66,7 +66,7 @@ static_assert(std::is_standard_layout_v<QueryContext>);
     return r;
 }
 
-/// The same with a hit that is none yet.
+/// Makes Embree's ray with a hit that is none yet; `id` is the ray's index in its batch.
 [[nodiscard]] inline RTCRayHit make_ray_hit(const Ray& ray, unsigned int id) {
     RTCRayHit query;
     query.ray = make_ray(ray, id);
@@ -95,7 +95,7 @@ struct PacketMask {
     alignas(64) int valid[Width];
 };
 
-/// What a packet takes from rays `first` … of a batch, `count` of which are in it.
+/// Copies into a packet what it takes from rays `first` … of a batch, `count` of which are in it.
 template <std::size_t Width>
 void fill_rays(std::span<const Ray> rays, std::size_t first, std::size_t count, typename Packet<Width>::Rays& packet) {
     for (std::size_t lane = 0; lane < Width; ++lane) {
@@ -141,7 +141,8 @@ void fill_packet(const Batch& rays, std::size_t first, typename Packet<Width>::R
     }
 }
 
-/// The same with hits that are none yet.
+/// Makes rays `first` … of the batch, of which there is at least one, a packet with hits that are none yet; lanes
+/// beyond the end are invalid.
 template <std::size_t Width, typename Batch>
 void fill_packet(const Batch& rays, std::size_t first, typename Packet<Width>::RayHits& packet,
                  PacketMask<Width>& mask) {

@@ -23,7 +23,7 @@ struct QueryContext;
 
 /// Which hits of a geometry Embree has to ask about.
 struct HitFilter {
-    bool by_opacity = false;      ///< those of its partly transparent places
+    bool by_opacity = false;      ///< hits on its partly transparent places
     bool passes_shadows = false;  ///< shadow rays pass it, and say that they did
 };
 
@@ -79,7 +79,7 @@ class EmbreeScene {
     /// True if anything moves while the shutter is open.
     [[nodiscard]] bool has_motion() const { return has_motion_; }
 
-    /// What one top-level entry of Embree stands for.
+    /// Says what one top-level entry of Embree stands for.
     struct TopLevelEntry {
         std::uint32_t instance;
         std::uint32_t geometry;  ///< of baked geometry itself, or the first of an instanced mesh

@@ -69,7 +69,7 @@ ThinFilm evaluate_film(const WorldData& data, const GltfLayers& layers, const Su
             .xyz_to_working = &data.xyz_to_working};
 }
 
-/// What the extensions add to the base.
+/// Adds to `lobe` what the extensions say of the base.
 void evaluate_base_layers(const WorldData& data, const GltfLayers& layers, const SurfacePoint& point,
                           MetallicRoughness& lobe) {
     lobe.film = evaluate_film(data, layers, point);

@@ -18,7 +18,7 @@ class Interior {
     static constexpr std::uint32_t kCapacity = 7;
 
     void enter(std::uint32_t body);
-    /// One that it is not in is ignored, as meshes with holes make it happen.
+    /// Takes a body out of the set; one that is not in the set is ignored, as meshes with holes make it happen.
     void leave(std::uint32_t body);
     [[nodiscard]] bool is_empty() const { return count_ == 0; }
     /// The body that fills the space, kNone in the open.

@@ -17,7 +17,7 @@ template <typename T>
            values[triangle[2]] * barycentric.y;
 }
 
-/// (0, 0) where the mesh has no such coordinates.
+/// Interpolates texture coordinates; (0, 0) where the mesh has no such coordinates.
 [[nodiscard]] inline Vec2f interpolate_uv(const std::vector<Vec2f>& uv, const std::array<std::uint32_t, 3>& triangle,
                                           Vec2f barycentric) {
     return uv.empty() ? Vec2f(0.0f, 0.0f) : interpolate(uv, triangle, barycentric);

@@ -22,7 +22,7 @@ struct TextureSlot {
     [[nodiscard]] bool valid() const { return texture >= 0; }
 };
 
-/// Of glTF's material, what its extensions add. Factors and textures as in scene/material_desc.h.
+/// Holds what the extensions of glTF's material add. Factors and textures as in scene/material_desc.h.
 struct GltfLayers {
     float diffuse_roughness = 0.0f;
     TextureSlot diffuse_roughness_texture;
@@ -90,7 +90,8 @@ enum class AlphaTest { Opaque, Mask, Blend };
 struct Material {
     /// Either a lobe that is the same everywhere, or the model to evaluate.
     std::variant<Bsdf, GltfModel> model;
-    /// What the model evaluates to with vacuum around it, if that is the same at every point. The World finds out.
+    /// Holds what the model evaluates to with vacuum around it, if that is the same at every point; the World finds
+    /// out.
     std::optional<Bsdf> uniform;
 
     Rgb emission;  ///< radiance in W/(m² sr): working space, or linear Rec.709 if there is a texture

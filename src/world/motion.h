@@ -13,7 +13,7 @@ namespace etendue {
 /// Between which two of some equally spaced steps a time lies.
 struct MotionSegment {
     std::size_t first = 0;  ///< the other step is the next
-    float t = 0.0f;         ///< of the way between them, [0, 1]
+    float t = 0.0f;         ///< share of the way between them, [0, 1]
 };
 
 /// `steps` is at least 2.

@@ -18,7 +18,8 @@ struct OrientedSurface {
     Vec wo_local;
     LeaningNormal<T> leaning;  ///< how the geometric normal lies in the frame
 
-    /// Both normals on the front side. `turns`: what faces away from `wo` is turned to it.
+    /// Places `front` and `front_normal`, which are on the front side, for light seen along `towards`. `turns`: what
+    /// faces away from `towards` is turned to it.
     OrientedSurface(const BasicFrame<T>& front, const Vec& front_normal, const Vec& towards, bool turns)
         : frame(front), geometric_normal(front_normal), wo(towards) {
         if (turns) {

@@ -19,7 +19,7 @@ class PlainLookups {
         texels_.add(texture, uv, footprint);
     }
     void finish() { texels_.finish(); }
-    /// Of the look-ups in their order, the next.
+    /// Returns the next of the results, which are in the order of the look-ups.
     [[nodiscard]] const Rgb& take() { return texels_[next_++]; }
     [[nodiscard]] std::size_t bytes() const { return texels_.bytes(); }
 

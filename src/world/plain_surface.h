@@ -10,15 +10,15 @@ namespace etendue {
 
 struct WorldData;
 
-/// What most surfaces are: placed once or copied, and still. They do not emit light, bound no body, and have no relief;
-/// they are matte, or plain metallic-roughness (MetallicRoughness::is_plain) without vertex colours, whose base colour,
-/// metalness and roughness may come from textures that share a set of coordinates.
+/// Describes what most surfaces are: placed once or copied, and still. They do not emit light, bound no body, and have
+/// no relief; they are matte, or plain metallic-roughness (MetallicRoughness::is_plain) without vertex colours, whose
+/// base colour, metalness and roughness may come from textures that share a set of coordinates.
 struct PlainSurface {
     const Bsdf* matte = nullptr;          ///< its Diffuse lobe, or null
-    Rgb albedo{};                         ///< of that lobe
+    Rgb albedo{};                         ///< albedo of the Diffuse lobe
     MetallicRoughness glossy{};           ///< if it is not matte: its lobe, but for what textures change
-    const GltfModel* textured = nullptr;  ///< what they change, or null
-    int texcoord = 0;                     ///< their set of coordinates
+    const GltfModel* textured = nullptr;  ///< the model whose textures change the lobe, or null
+    int texcoord = 0;                     ///< the set of coordinates that these textures share
 
     /// The lobe of one that is neither matte nor textured, else null.
     [[nodiscard]] const MetallicRoughness* untextured_lobe() const {
@@ -31,7 +31,7 @@ struct PlainSurface {
 };
 
 struct PlainSurfaces {
-    std::vector<PlainSurface> of_material;         ///< of each material, whether or not it is one
+    std::vector<PlainSurface> of_material;         ///< one for each material, whether or not it is plain
     std::vector<const PlainSurface*> of_geometry;  ///< null where it is none
 };
 

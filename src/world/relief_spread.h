@@ -32,8 +32,8 @@ struct RoughnessAxes {
     Vec2f added_variance;  ///< of slopes along `direction` and across it, >= 0: what widens the alphas along x and y
 };
 
-/// For the alphas `alpha`, of which that along x is no less, and slopes that vary by `covariance` beside (widening.h).
-/// The variances are those that turn `alpha.x` and `alpha.y` into the alphas along the new axes.
+/// Returns the axes for the alphas `alpha`, of which that along x is no less, and slopes that vary by `covariance`
+/// beside (widening.h). The variances are those that turn `alpha.x` and `alpha.y` into the alphas along the new axes.
 [[nodiscard]] inline RoughnessAxes roughness_axes(Vec2f alpha, const SlopeCovariance& covariance) {
     const Vec2f own(0.5f * alpha.x * alpha.x, 0.5f * alpha.y * alpha.y);
     // Eigenvalues and the eigenvector of the larger one of the sum, a symmetric matrix.

@@ -17,12 +17,12 @@ namespace etendue {
 
 class Scattering {
   public:
-    /// `bsdf` must outlive it. `geometric_normal` and `frame.normal` on the front side. Lobes that do not tell sides
-    /// apart are turned to face `wo`.
+    /// Places `bsdf`, which must outlive the Scattering, on a surface whose `geometric_normal` and `frame.normal` are
+    /// on the front side. Lobes that do not tell sides apart are turned to face `wo`.
     Scattering(const Bsdf& bsdf, const Frame& frame, const Vec3f& geometric_normal, const Vec3f& wo)
         : Scattering(bsdf, OrientedSurface<float>(frame, geometric_normal, wo, !is_two_sided_interface(bsdf))) {}
 
-    /// `surface` is what the constructor above would make of the same.
+    /// Places `bsdf` on a surface that is oriented as the other constructor would orient it.
     Scattering(const Bsdf& bsdf, const OrientedSurface<float>& surface)
         : bsdf_(&bsdf),
           surface_(surface),
@@ -62,14 +62,14 @@ class Scattering {
         return !only_reflects(*bsdf_) || dot(towards, surface_.geometric_normal) > 0.0f;
     }
 
-    /// The same surface for a walk that arrives from `w`. (Of thin sheets under a coat with a normal of its own,
+    /// Returns this surface for a walk that arrives from `w`. (Of thin sheets under a coat with a normal of its own,
     /// World::bsdf makes another lobe for the other side.)
     [[nodiscard]] Scattering seen_from(const Vec3f& w) const {
         return {*bsdf_, surface_.frame, surface_.geometric_normal, w};
     }
 
     [[nodiscard]] bool has_non_delta() const { return etendue::has_non_delta(*bsdf_); }
-    /// Of shading; of lobes that do not tell sides apart it is on the side of wo.
+    /// Returns the shading normal; of lobes that do not tell sides apart it is on the side of wo.
     [[nodiscard]] const Vec3f& normal() const { return surface_.frame.normal; }
     [[nodiscard]] const Vec3f& geometric_normal() const { return surface_.geometric_normal; }
     [[nodiscard]] const Bsdf& bsdf() const { return *bsdf_; }

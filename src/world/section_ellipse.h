@@ -7,7 +7,8 @@
 
 namespace etendue {
 
-/// Two conjugate diameters of it, metres: along the ray and across it. A template of its lane type, see core/lane.h.
+/// Two conjugate diameters of the ellipse in which a cone meets a plane, metres: along the ray and across it. A
+/// template of its lane type, see core/lane.h.
 template <typename T>
 struct SectionEllipse {
     using Vec = Imath::Vec3<T>;
@@ -15,8 +16,8 @@ struct SectionEllipse {
     Vec along;
     Vec across;
 
-    /// Of a cone that is `width` metres wide where it meets a plane with the unit normal `normal` along `direction`
-    /// (Akenine-Möller et al. 2021, section 3.2).
+    /// Makes the section of a cone that is `width` metres wide where it meets a plane with the unit normal `normal`
+    /// along `direction` (Akenine-Möller et al. 2021, section 3.2).
     SectionEllipse(const Vec& direction, T width, const Vec& normal) {
         // At smaller cosines the ellipse is longer than anything that is filtered well.
         constexpr float kMinCosine = 1e-3f;
@@ -31,7 +32,7 @@ struct SectionEllipse {
     }
 };
 
-/// The same in texture coordinates.
+/// Holds the section of a cone with a triangle's plane in texture coordinates.
 template <typename T>
 struct TextureEllipse {
     Imath::Vec2<T> along;

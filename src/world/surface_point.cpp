@@ -67,7 +67,7 @@ void apply_base_spread(const WorldData& data, const Material& material, const Fr
     point.slope_variance = axes.added_variance;
 }
 
-/// What the material's maps make of the interpolated frame. The base's relief does not show in a coat over it.
+/// Makes of the interpolated frame what the material's maps say. The base's relief does not show in a coat over it.
 void apply_relief(const WorldData& data, const Material& material, float bitangent_sign, SurfacePoint& point) {
     const Frame interpolated = point.shading;
     if (material.normal_texture.valid())

@@ -22,9 +22,9 @@ struct SurfacePoint {
     /// Variance of slopes about `shading` that the footprint averages, along the frame's x and y: what a normal map's
     /// relief adds to the roughness of what lies under the coat.
     Vec2f slope_variance{0.0f, 0.0f};
-    float coat_slope_variance = 0.0f;  ///< the same about `coat_normal`, the mean of all directions
+    float coat_slope_variance = 0.0f;  ///< variance of slopes about `coat_normal`, the mean of all directions
     Vec2f uv[2]{{0.0f, 0.0f}, {0.0f, 0.0f}};
-    TextureFootprint footprint[2];        ///< what a look-up at each `uv` stands for
+    TextureFootprint footprint[2];        ///< the part of a texture that a look-up at each `uv` stands for
     Vec4f color{1.0f, 1.0f, 1.0f, 1.0f};  ///< vertex colour, linear Rec.709
     const Material* material = nullptr;
     std::uint32_t instance = 0;

@@ -30,7 +30,7 @@ float opacity_callback(const void* data, std::uint32_t geometry, std::uint32_t t
     return evaluate_opacity(*static_cast<const WorldData*>(data), geometry, triangle, barycentric);
 }
 
-/// Of the time that the shutter is open.
+/// Is the middle of the time, [0, 1], in which the shutter is open.
 constexpr float kMiddle = 0.5f;
 
 float radius_of(const Bounds& bounds) {

@@ -43,12 +43,12 @@ struct Hit {
     std::uint32_t geometry : 31 = 0;
     std::uint32_t in_contact : 1 = 0;  ///< there are other surfaces in this place (world/contacts.h)
     std::uint32_t instance = kNone;    ///< kNone if nothing was hit
-    float time = 0.0f;                 ///< of the ray: things that move are hit where they were then
+    float time = 0.0f;                 ///< the time of the ray: what moves is hit where it was then
 
     [[nodiscard]] bool valid() const { return instance != kNone; }
 };
 
-/// What is known about the rays of a batch; decides how they are traced, not what they hit.
+/// Says what is known about the rays of a batch; decides how they are traced, not what they hit.
 enum class Coherence {
     Coherent,    ///< neighbours have similar origins and directions: camera rays
     Incoherent,  ///< anything else
@@ -60,7 +60,7 @@ inline constexpr std::uint8_t kFree = 0, kOccluded = 1, kPassesPanes = 2;
 /// How a batch goes through Embree. The default is what measured best for its coherence; benchmarks compare.
 enum class QueryForm { Best, Single, Packet8, Packet16 };
 
-/// A step of compiling, and how long it took.
+/// Names a step of compiling, and says how long it took.
 struct CompilePhase {
     std::string_view name;
     double seconds = 0.0;
@@ -69,7 +69,7 @@ struct CompilePhase {
 /// Counts and sizes for reports.
 struct WorldStatistics {
     std::size_t triangles = 0;            ///< stored, each shared mesh once
-    std::size_t instanced_triangles = 0;  ///< as seen, shared meshes as often as they are placed
+    std::size_t instanced_triangles = 0;  ///< counted as seen, shared meshes as often as they are placed
     std::size_t instances = 0;
     std::size_t lights = 0;
     std::string isa;  ///< the widest instruction set that rays are traced with here
@@ -90,7 +90,7 @@ struct WorldStatistics {
     std::string first_texture_failure;
 };
 
-/// What a light is: a surface, one of the scene's lights without one, or neither, the environment.
+/// Says what a light is: a surface, one of the scene's lights without one, or neither, the environment.
 struct Emitter {
     std::uint32_t instance = kNone;
     std::uint32_t geometry = kNone;
@@ -107,7 +107,7 @@ struct WorldData {
     std::vector<Texture> textures;
     std::size_t missing_textures = 0;  ///< images that materials do without
     std::vector<Light> lights;
-    std::vector<Emitter> emitter_of_light;     ///< of each light
+    std::vector<Emitter> emitter_of_light;     ///< what each light is
     std::vector<std::uint32_t> light_of_slot;  ///< light index of (instance, geometry), kNone if it is not sampled
     bool has_unsampled_emitters = false;       ///< some surface that emits is none of `lights`
     std::uint32_t environment = kNone;         ///< index into `lights`
@@ -159,7 +159,7 @@ struct SurfaceEmission {
     float cosine = 0.0f;  ///< between the direction and the surface's normal, >= 0
 };
 
-/// What a light sample is made from, each in [0, 1)².
+/// Holds the random numbers that a light sample is made from, each in [0, 1)².
 struct LightNumbers {
     Vec2f light;      ///< which light
     Vec2f triangle;   ///< of a mesh light, which triangle
@@ -172,7 +172,8 @@ struct HitTriangle {
     Vec3f shading_normal;
 };
 
-/// The texture coordinates of its first vertex, and their differences to those of the others; zero where it has none.
+/// Holds the texture coordinates of a triangle's first vertex, and their differences to those of the others; zero where
+/// the triangle has none.
 struct HitCoordinates {
     Vec2f uv0{0.0f, 0.0f}, edge1{0.0f, 0.0f}, edge2{0.0f, 0.0f};
 };
@@ -225,7 +226,7 @@ class World {
         return {p0, geometry.positions[triangle[1]] - p0, geometry.positions[triangle[2]] - p0,
                 geometry.normals.empty() ? Vec3f(0.0f) : interpolate(geometry.normals, triangle, {hit.u, hit.v})};
     }
-    /// Those of the set that the textures of `surface` follow.
+    /// Returns the texture coordinates of the triangle that was hit, of the set that the textures of `surface` follow.
     [[nodiscard]] HitCoordinates hit_coordinates(const Hit& hit, const PlainSurface& surface) const;
     /// Has the triangles of a few `hits`, some of which may be no hits, fetched from memory at once, where there are so
     /// many in the scene that they are in no cache. Whoever looks at them next would else wait for each by itself.
@@ -241,8 +242,8 @@ class World {
                      PlainLookups& lookups) const;
     /// The lobe that they make, for one surface after the other in the order in which they were added.
     [[nodiscard]] MetallicRoughness lobe(const PlainSurface& surface, PlainLookups& lookups) const;
-    /// Of the surface at `hit` (valid), 1/m, positive where its front is convex; for `RayCone`s that are mirrored
-    /// there.
+    /// Returns the mean curvature of the surface at `hit` (valid), 1/m, positive where its front is convex; for
+    /// `RayCone`s that are mirrored there.
     [[nodiscard]] float mean_curvature(const Hit& hit) const;
     /// False if nothing is textured, so that rays need no cones.
     [[nodiscard]] bool has_textures() const { return !data_->textures.empty(); }
@@ -256,7 +257,7 @@ class World {
 
     /// False if there is nothing that light can be in.
     [[nodiscard]] bool has_bodies() const { return !data_->filling_of_body.empty(); }
-    /// True if light scatters in some of them.
+    /// True if light scatters in some bodies.
     [[nodiscard]] bool has_scattering_bodies() const { return has_scattering_bodies_; }
     /// True if some light, at least a part of it, lies in a medium that scatters.
     [[nodiscard]] bool has_lights_in_media() const { return has_lights_in_media_; }
@@ -268,13 +269,14 @@ class World {
     /// `point` becomes the surface that bounds what fills the space.
     [[nodiscard]] Crossing contact_crossing(SurfacePoint& point, const Interior& current, const Hit& hit,
                                             const Ray& ray, const RayCone& cone) const;
-    /// What fills the space, null in vacuum.
+    /// Returns the medium of the body that fills the space within `interior`, null in vacuum and where that body's
+    /// medium is empty.
     [[nodiscard]] const HomogeneousMedium* medium(const Interior& interior) const {
         return interior.is_empty() ? nullptr : medium_within(interior);
     }
     /// The bodies that `point` is in in the middle of the shutter, found by a ray through all that lies above it.
     [[nodiscard]] Interior interior_at(const Vec3f& point) const;
-    /// Those that the camera is in.
+    /// Returns the bodies that the camera is in.
     [[nodiscard]] const Interior& camera_interior() const { return camera_interior_; }
     /// How the working space sees single wavelengths.
     [[nodiscard]] const SpectralResponse& spectral_response() const { return data_->response; }
@@ -292,7 +294,7 @@ class World {
     [[nodiscard]] bool has_unlit_surfaces() const { return has_unlit_surfaces_; }
     /// True if some surface emits light.
     [[nodiscard]] bool has_emitting_surfaces() const { return has_emitting_surfaces_; }
-    /// False if no camera ray through the part of the film from `least` to `most` can meet such a surface.
+    /// False if no camera ray through the part of the film from `least` to `most` can meet a surface that emits light.
     [[nodiscard]] bool may_show_lamps(Vec2f least, Vec2f most) const;
     /// True if some surface that emits is met by chance only: it moves while the shutter is open, or is beyond the most
     /// triangles that are sampled.
@@ -307,17 +309,18 @@ class World {
     }
     /// False if `choose_light` needs no numbers, as there is but one light.
     [[nodiscard]] bool chooses_lights() const { return tree_.has_choice(); }
-    /// The same of `sample_emission`.
+    /// False if `sample_emission` has no choice, as there is at most one light.
     [[nodiscard]] bool chooses_emitters() const { return selector_.size() > 1; }
     /// True if the choice of a light, or of a triangle of one, depends on what it is for.
     [[nodiscard]] bool chooses_lights_by_receiver() const { return chooses_lights_by_receiver_; }
-    /// Its two halves: the choice, and light from what was chosen.
+    /// Chooses a light for `receiver` by the light tree: the first half of `sample_light`.
     [[nodiscard]] LightTree::Choice choose_light(const LightReceiver& receiver, Vec2f u) const {
         return tree_.sample(receiver, u);
     }
-    /// The first for many, whose lights are fetched from memory besides.
+    /// Chooses a light for each of many receivers, and fetches these lights from memory besides.
     void choose_lights(std::span<const LightReceiver> receivers, std::span<const Vec2f> u,
                        std::span<LightTree::Choice> choices) const;
+    /// Samples light from what was chosen: the second half of `sample_light`.
     [[nodiscard]] ChosenLight sample_light(const LightTree::Choice& choice, const Vec3f& point,
                                            const LightNumbers& u) const;
     /// The mesh light of this index if it shines evenly, else null.
@@ -325,16 +328,16 @@ class World {
         const MeshLight* mesh = std::get_if<MeshLight>(&data_->lights[light]);
         return mesh != nullptr && mesh->is_uniform() ? mesh : nullptr;
     }
-    /// What the second one finds of the environment, which there has to be, as many at once as there are `samples`;
-    /// their densities are without the choice.
+    /// Samples the environment, which there has to be, as `sample_light` does once the environment is chosen, as many
+    /// times at once as there are `samples`; their densities are without the choice.
     void sample_environment_light(std::span<const Vec2f> u, std::span<LightSample> samples) const;
     /// Probability with which `sample_light` chooses the light of this index for `receiver`.
     [[nodiscard]] float light_probability(const LightReceiver& receiver, std::uint32_t light) const {
         return tree_.probability(receiver, light);
     }
-    /// Probability with which `sample_emission` chooses it.
+    /// Probability with which `sample_emission` chooses the light of this index.
     [[nodiscard]] float emission_probability(std::uint32_t light) const { return selector_.probability(light); }
-    /// A ray that leaves a light, chosen by power with `u_light` in [0, 1)²; it has that time.
+    /// Samples a ray that leaves a light, chosen by power with `u_light` in [0, 1)²; the ray has the given time.
     [[nodiscard]] Emission sample_emission(Vec2f u_light, const EmissionNumbers& u, float time) const;
     /// Evaluates the light that leaves the starting point of `emission` along `direction`; black without a surface.
     [[nodiscard]] SurfaceEmission surface_emission(const Emission& emission, const Vec3f& direction) const;
@@ -343,19 +346,19 @@ class World {
     [[nodiscard]] bool is_at_infinity(std::uint32_t light) const {
         return etendue::is_at_infinity(data_->lights[light]);
     }
-    /// Of the rays of `sample_emission` from a given point of the light of this index, or at infinity in a given
-    /// direction: the density of `direction`, 1/sr, or at infinity of where they pass, 1/m² across it. `cos_light` is
-    /// the cosine between the direction and the normal of the light's front.
+    /// Returns the density of `direction` for rays of `sample_emission` from a given point of the light of this index,
+    /// 1/sr, or for a light at infinity, whose direction is given, that of where they pass, 1/m² across it. `cos_light`
+    /// is the cosine between the direction and the normal of the light's front.
     [[nodiscard]] float emission_pdf(std::uint32_t light, const Vec3f& direction, float cos_light) const {
         return etendue::emission_pdf(data_->lights[light], direction, cos_light, scene_sphere());
     }
-    /// What the light of this index is.
+    /// Says what the light of this index is.
     [[nodiscard]] const Emitter& emitter(std::uint32_t light) const { return data_->emitter_of_light[light]; }
     /// Index of the material of `point`, as in the description.
     [[nodiscard]] std::uint32_t material_index(const SurfacePoint& point) const {
         return static_cast<std::uint32_t>(point.material - data_->materials.data());
     }
-    /// The same of the surface at `hit` (valid).
+    /// Index of the material of the surface at `hit` (valid), as in the description.
     [[nodiscard]] std::uint32_t material_index(const Hit& hit) const {
         return data_->geometries[hit.geometry].material;
     }
@@ -387,18 +390,20 @@ class World {
     /// Density with which `sample_light` picks `direction`, without the choice of the environment; zero where that is
     /// dimmer than its mean.
     [[nodiscard]] float environment_pdf_solid_angle(const Vec3f& direction) const;
-    /// Both along as many `directions` at once, of the environment, which there has to be.
+    /// Fills `seen` with the environment's radiance and the density of `sample_environment_light` along as many
+    /// `directions` at once; there has to be an environment.
     void look_at_environment(std::span<const Vec3f> directions, std::span<EnvironmentRadiance> seen) const;
-    /// The same of `sample_emission` and `sample_environment`; zero only where the environment is black.
+    /// Density with which `sample_emission` and `sample_environment` pick `direction`, without the choice of the
+    /// environment; zero only where the environment is black.
     [[nodiscard]] float environment_emission_pdf_solid_angle(const Vec3f& direction) const;
     /// Light arriving at `point` from all of the environment, where nothing but light samples looks for it. `u` in
     /// [0, 1)².
     [[nodiscard]] LightSample sample_environment(const Vec3f& point, Vec2f u) const;
     [[nodiscard]] bool environment_visible_to_camera() const { return data_->environment_visible; }
 
-    /// SceneDesc::origin.
+    /// Returns SceneDesc::origin.
     [[nodiscard]] const Vec3d& origin() const { return data_->origin; }
-    /// In the middle of the shutter.
+    /// Returns the camera as it is in the middle of the shutter.
     [[nodiscard]] const Camera& camera() const { return data_->camera; }
     /// False if numbers for a point on the lens mean nothing.
     [[nodiscard]] bool has_lens() const { return std::holds_alternative<ThinLensCamera>(data_->camera); }
@@ -407,11 +412,12 @@ class World {
     /// The ray of the camera as it is at `time`, through film point `film` and the lens point made from `lens`, all in
     /// [0, 1); the ray has that time.
     [[nodiscard]] Ray generate_ray(Vec2f film, Vec2f lens, float time) const;
-    /// The same for many; all spans have one length.
+    /// Generates a ray for each of many film points, lens points and times, as `generate_ray` does; all spans have one
+    /// length.
     void generate_rays(std::span<const Vec2f> film, std::span<const Vec2f> lens, std::span<const float> times,
                        std::span<Ray> rays) const;
     [[nodiscard]] const Bounds& bounds() const { return data_->bounds; }
-    /// Of a sphere around all geometry, metres; 1 for an empty world.
+    /// Returns the radius of a sphere around all geometry, metres; 1 for an empty world.
     [[nodiscard]] float bounding_radius() const;
     [[nodiscard]] WorldStatistics statistics() const;
 
@@ -435,14 +441,14 @@ class World {
                                     const Vec3f& direction) const;
     [[nodiscard]] Camera camera_at(float time) const;
     void fetch_far_triangles(std::span<const Hit> hits) const;
-    /// Of an interior that is not empty.
+    /// Returns the medium within an interior that is not empty, null if the body that fills it has none.
     [[nodiscard]] const HomogeneousMedium* medium_within(const Interior& interior) const;
     [[nodiscard]] SceneSphere scene_sphere() const { return {data_->bounds.center(), bounding_radius()}; }
 
     // On the heap, so that Embree's callbacks keep their pointer to it when a World is moved.
     std::unique_ptr<WorldData> data_;
-    LightSelector selector_;  ///< of emission
-    LightTree tree_;          ///< of light for a point
+    LightSelector selector_;  ///< chooses lights for emission
+    LightTree tree_;          ///< chooses lights for a point
     bool chooses_lights_by_receiver_ = false;
     bool has_far_triangles_ = false;
     bool has_motion_ = false;
@@ -459,7 +465,7 @@ class World {
     std::vector<Interior> light_interiors_;  ///< of each light; only if there are bodies
 };
 
-/// Of the ray tracing library.
+/// Returns the version of the ray tracing library.
 [[nodiscard]] std::string ray_tracer_version();
 
 }  // namespace etendue
