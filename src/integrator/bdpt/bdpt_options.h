@@ -6,21 +6,18 @@
 #include "transport/heuristic.h"
 
 #include <optional>
-#include <span>
 
 namespace etendue {
 
 struct CompletePath;
 struct SubpathJob;
 
-/// Sees the weight of every path that is made: for tests.
+/// Sees the weight of every path that is made: tests compare it with the definition.
 class WeightObserver {
   public:
     virtual ~WeightObserver() = default;
-    /// `weight` is that of the path's strategy by the recursion; `reference` are those of all strategies that could
-    /// have made it, s = 0, 1, ..., by their definition. Called from the threads that render.
-    virtual void on_weight(const SubpathJob& job, const CompletePath& path, double weight,
-                           std::span<const double> reference) = 0;
+    /// Sees `path`, whose strategy has this `weight` by the recursion. Called from the threads that render.
+    virtual void on_weight(const SubpathJob& job, const CompletePath& path, double weight) = 0;
 };
 
 struct BdptOptions {

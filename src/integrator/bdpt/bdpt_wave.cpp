@@ -4,7 +4,6 @@
 #include "integrator/profile/wave_profile.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 namespace etendue {
@@ -13,24 +12,6 @@ namespace {
 
 /// Index of the vertex at which a camera ray ends.
 constexpr int kDirectlySeen = 1;
-
-/// False if single precision may have cost the reference, which has nothing but positions, more than a few per cent:
-/// where edges are short, as they are in dense media, or graze a surface.
-[[maybe_unused]] bool is_told_by_positions(const CompletePath& path) {
-    constexpr float kShortest = 0.01f;  // of how far the vertices are from the origin
-    constexpr float kSmallestCosine = 0.05f;
-    for (std::size_t i = 0; i < path.inner.size(); ++i) {
-        const PathVertex& vertex = *path.inner[i];
-        const Vec3f next = i + 1 < path.inner.size() ? path.inner[i + 1]->position : path.camera.lens;
-        const Vec3f edge = next - vertex.position;
-        const float distance = length(edge);
-        const float scale = std::max(length(vertex.position), length(next));
-        if (!vertex.is_on_surface() || !(distance > kShortest * scale)) return false;
-        if (vertex.cosine(edge / distance) < kSmallestCosine || vertex.cosine(vertex.wo) < kSmallestCosine)
-            return false;
-    }
-    return true;
-}
 
 /// The vertices of the subpath that ends in `last`, the last one first.
 void append_subpath(SubpathWave& wave, const PathVertex* last, std::vector<const PathVertex*>& path) {
@@ -133,20 +114,14 @@ void BdptWave::start(const World& world, const TileJob& job, const BdptOptions& 
         });
 }
 
-void BdptWave::check(const SubpathJob& job, const BdptOptions& options, std::size_t s, float weight,
-                     const PathLightEnd& end, const PathVertex* light, const PathVertex* eye,
-                     const CameraConnection& camera) {
+void BdptWave::show(const SubpathJob& job, const BdptOptions& options, std::size_t s, float weight,
+                    const PathLightEnd& end, const PathVertex* light, const PathVertex* eye,
+                    const CameraConnection& camera) {
     std::vector<const PathVertex*> path;
     append_subpath(light_, light, path);
     std::reverse(path.begin(), path.end());
     append_subpath(eye_, eye, path);
-    const CompletePath complete{end, path, s, camera};
-    const std::vector<double> reference = reference_weights(job, complete);
-    if (options.observer != nullptr) options.observer->on_weight(job, complete, static_cast<double>(weight), reference);
-    [[maybe_unused]] constexpr double kRounding = 0.05;
-    // Lamps beyond what floats hold have no weights, and their samples are dropped.
-    assert(!options.weighted || !is_told_by_positions(complete) || !std::isfinite(reference[s]) ||
-           std::abs(static_cast<double>(weight) - reference[s]) < kRounding);
+    options.observer->on_weight(job, {end, path, s, camera}, static_cast<double>(weight));
 }
 
 PathLightEnd BdptWave::light_end(std::uint32_t slot) const {
@@ -179,9 +154,9 @@ void BdptWave::add(const SubpathState& state, const Rgb& light, const StrategySu
     if (eye_.words().are_followed()) eye_.words().end_at_light(state.words, source, shares_);
     found_.add(state.slot, state.throughput * light * context.wavelength_weight(state.slot, state.is_dispersed) * share,
                kind_of_light_met_by(state), shares_);
-    if (context.checks(state.slot) && state.index > kDirectlySeen) {
+    if (context.options.observer != nullptr && state.index > kDirectlySeen) {
         const PathVertex& last = eye_.whole(state.last_vertex);
-        check(context, context.options, 0, share, end, nullptr, &last, camera_of(context, last));
+        show(context, context.options, 0, share, end, nullptr, &last, camera_of(context, last));
     }
 }
 

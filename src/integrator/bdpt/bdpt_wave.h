@@ -2,8 +2,8 @@
 #pragma once
 
 #include "integrator/bdpt/bdpt_options.h"
+#include "integrator/bdpt/complete_path.h"
 #include "integrator/bdpt/connection_lanes.h"
-#include "integrator/bdpt/reference_weights.h"
 #include "integrator/connections.h"
 #include "integrator/lamps_in_view.h"
 #include "integrator/subpath/camera_splat.h"
@@ -49,18 +49,7 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
         }
         [[nodiscard]] bool wants(int edges) const { return edges >= lengths.min_depth && edges <= lengths.max_depth; }
         [[nodiscard]] bool wants(const Strategy& strategy) const { return !options.only || *options.only == strategy; }
-        /// True if the weights of a sample's paths are to be compared with the reference: in debug builds those of one
-        /// sample in 64, because that takes longer than all the rest.
-        [[nodiscard]] bool checks([[maybe_unused]] std::uint32_t slot) const {
-#ifdef NDEBUG
-            return options.observer != nullptr;
-#else
-            return options.observer != nullptr || samples[slot].key.index % 64 == 0;
-#endif
-        }
-        [[nodiscard]] WeightRule rule() const {
-            return {raised, options.weighted};
-        }
+        [[nodiscard]] WeightRule rule() const { return {raised, options.weighted}; }
     };
 
     // s = 0: subpaths from the eye that meet a light.
@@ -69,9 +58,7 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
     void on_unlit(const SubpathState& state, const SurfacePoint& point, const Vec3f& direction) override;
     void on_escape(const SubpathState& state, const Vec3f& direction) override;
     void on_first_hits(std::span<const Ray> rays, std::span<const Hit> hits) override;
-    [[nodiscard]] bool knows_emission(const Hit& first_hit) const override {
-        return lamps_.finds(first_hit);
-    }
+    [[nodiscard]] bool knows_emission(const Hit& first_hit) const override { return lamps_.finds(first_hit); }
     void add(const SubpathState& state, const Rgb& light, const StrategySums& sums, const PathLightEnd& end,
              const AovSet::Source& source);
 
@@ -141,8 +128,8 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
     void weigh_wide_to_lights(const Context& context);
     void weigh_wide_to_camera(const Context& context);
     void weigh_wide_between(const Context& context);
-    /// False if there is nothing to say of the first `count` connections of a block but their rays and what they bring.
-    [[nodiscard]] bool asks_for_each(const Context& context, const ConnectionColumns& lanes, std::size_t count);
+    /// Returns false if there is nothing to say of connections but their rays and the light that they bring.
+    [[nodiscard]] bool asks_for_each(const Context& context);
     /// The first `count` of a block then.
     static void queue_wide(const ConnectionColumns& lanes, std::size_t count, Connections& connections);
     // Leaves the rays of connections, with what they bring, to `connections`.
@@ -157,10 +144,10 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
         return options.weighted ? static_cast<float>(sums.weight()) : 1.0f;
     }
 
-    /// Shows the weight of a path to the observer, and in debug builds compares it with the reference. The path leads
-    /// from `end` over the subpath that ends in `light` and back over that which ends in `eye`; either may be null.
-    void check(const SubpathJob& job, const BdptOptions& options, std::size_t s, float weight, const PathLightEnd& end,
-               const PathVertex* light, const PathVertex* eye, const CameraConnection& camera);
+    /// Shows the weight of a path to the observer. The path leads from `end` over the subpath that ends in `light` and
+    /// back over that which ends in `eye`; either may be null.
+    void show(const SubpathJob& job, const BdptOptions& options, std::size_t s, float weight, const PathLightEnd& end,
+              const PathVertex* light, const PathVertex* eye, const CameraConnection& camera);
     [[nodiscard]] PathLightEnd light_end(std::uint32_t slot) const;
     /// How the camera sees the first vertex of a sample's eye subpath.
     [[nodiscard]] CameraConnection camera_of(const SubpathJob& job, const PathVertex& eye) const;

@@ -106,8 +106,7 @@ void BdptWave::weigh(const Context& context, const ToLight& connection) {
 
 void BdptWave::weigh_wide_to_lights(const Context& context) {
     to_light_lanes_.connect(wide_to_lights_.size(), context.rule());
-    if (!asks_for_each(context, to_light_lanes_, wide_to_lights_.size()))
-        return queue_wide(to_light_lanes_, wide_to_lights_.size(), wide_light_connections_);
+    if (!asks_for_each(context)) return queue_wide(to_light_lanes_, wide_to_lights_.size(), wide_light_connections_);
     for (std::size_t lane = 0; lane < wide_to_lights_.size(); ++lane) {
         const auto& [vertex, light, triangle] = wide_to_lights_[lane];
         const Brought brought = to_light_lanes_.brought(lane);
@@ -135,9 +134,9 @@ void BdptWave::queue(const Context& context, const ConnectibleVertex& vertex, co
     }
     connections.to_sample(ray, vertex.slot, brought.light,
                           vertex.is_seen_directly ? LightKind::Direct : LightKind::Indirect, shares_);
-    if (context.checks(vertex.slot)) {
+    if (context.options.observer != nullptr) {
         const PathVertex& whole = eye_.whole(vertex);
-        check(context, context.options, 1, brought.weight, end, nullptr, &whole, camera_of(context, whole));
+        show(context, context.options, 1, brought.weight, end, nullptr, &whole, camera_of(context, whole));
     }
 }
 
@@ -193,7 +192,7 @@ void BdptWave::weigh(const Context& context, const ToCamera& connection) {
 void BdptWave::weigh_wide_to_camera(const Context& context) {
     to_camera_lanes_.connect(wide_to_cameras_.size(), context.rule(),
                              static_cast<float>(context.samples_per_light_path()));
-    if (!asks_for_each(context, to_camera_lanes_, wide_to_cameras_.size()))
+    if (!asks_for_each(context))
         return to_camera_lanes_.for_each_wide(
             wide_to_cameras_.size(), [&](const WideConnections& connections, WideMask which, std::size_t first) {
                 wide_camera_connections_.to_film(connections, which, [&](std::size_t lane) {
@@ -217,9 +216,9 @@ void BdptWave::queue(const Context& context, const ConnectibleVertex& vertex, co
         light_.words().end_at_camera(light_.words_after(light_.whole(vertex), view.direction), shares_);
     connections.to_film(ray, vertex.slot, {.position = view.pixel, .value = brought.light, .depth = view.depth},
                         vertex.index > 1 ? LightKind::Indirect : LightKind::Direct, shares_);
-    if (context.checks(vertex.slot))
-        check(context, context.options, static_cast<std::size_t>(vertex.index) + 1, brought.weight,
-              light_end(vertex.slot), &light_.whole(vertex), nullptr, view.camera);
+    if (context.options.observer != nullptr)
+        show(context, context.options, static_cast<std::size_t>(vertex.index) + 1, brought.weight,
+             light_end(vertex.slot), &light_.whole(vertex), nullptr, view.camera);
 }
 
 void BdptWave::connect_to_vertices(const Context& context, std::size_t first, std::size_t last) {
@@ -333,19 +332,16 @@ void BdptWave::weigh_wide_between(const Context& context) {
         between_lanes_.scale.set(lane, connection.scale);
     }
     between_lanes_.connect(count, context.rule());
-    if (!asks_for_each(context, between_lanes_, count))
-        return queue_wide(between_lanes_, count, wide_vertex_connections_);
+    if (!asks_for_each(context)) return queue_wide(between_lanes_, count, wide_vertex_connections_);
     for (std::size_t lane = 0; lane < count; ++lane)
         if (const Brought brought = between_lanes_.brought(lane); !is_black(brought.light))
             queue(context, *wide_between_[lane].eye, *wide_between_[lane].light, between_lanes_.ray(lane), brought,
                   wide_vertex_connections_);
 }
 
-bool BdptWave::asks_for_each(const Context& context, const ConnectionColumns& lanes, std::size_t count) {
-    if (eye_.words().are_followed() || context.world.has_motion() || context.world.has_transparency()) return true;
-    for (std::size_t lane = 0; lane < count; ++lane)
-        if (context.checks(lanes.slot[lane])) return true;
-    return false;
+bool BdptWave::asks_for_each(const Context& context) {
+    return eye_.words().are_followed() || context.world.has_motion() || context.world.has_transparency() ||
+           context.options.observer != nullptr;
 }
 
 void BdptWave::queue_wide(const ConnectionColumns& lanes, std::size_t count, Connections& connections) {
@@ -367,9 +363,9 @@ void BdptWave::queue(const Context& context, const ConnectibleVertex& eye, const
         eye_.words().join(eye_.words_after(at_eye, w), light_.words(), light_.words_after(at_light, -w), shares_);
     }
     connections.to_sample(ray, eye.slot, brought.light, LightKind::Indirect, shares_);
-    if (context.checks(eye.slot))
-        check(context, context.options, static_cast<std::size_t>(light.index) + 1, brought.weight,
-              light_end(light.slot), &light_.whole(light), &eye_.whole(eye), camera_of(context, eye_.whole(eye)));
+    if (context.options.observer != nullptr)
+        show(context, context.options, static_cast<std::size_t>(light.index) + 1, brought.weight, light_end(light.slot),
+             &light_.whole(light), &eye_.whole(eye), camera_of(context, eye_.whole(eye)));
 }
 
 }  // namespace etendue

@@ -138,8 +138,8 @@ TEST(CachedConnectionsOfThreads, AreTheSame) {
 /// Looks at which vertices make a path, and at its weight.
 class PathObserver final : public WeightObserver {
   public:
-    void on_weight(const SubpathJob&, const CompletePath& path, double weight,
-                   std::span<const double> reference) override {
+    void on_weight(const SubpathJob& job, const CompletePath& path, double weight) override {
+        const std::vector<double> reference = reference_weights(job, path);
         const auto is_of_first = [&](const PathVertex* vertex) { return vertex->slot == path.inner.front()->slot; };
         const auto is_dispersed = [](const PathVertex* vertex) { return vertex->is_dispersed; };
         const bool is_mixed = !std::ranges::all_of(path.inner, is_of_first);

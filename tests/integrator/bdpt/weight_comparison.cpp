@@ -53,8 +53,8 @@ class Comparison final : public WeightObserver {
   public:
     explicit Comparison(float short_edge) : short_edge_(short_edge) {}
 
-    void on_weight(const SubpathJob& job, const CompletePath& path, double weight,
-                   std::span<const double> reference) override {
+    void on_weight(const SubpathJob& job, const CompletePath& path, double weight) override {
+        const std::vector<double> reference = reference_weights(job, path);
         const std::vector<double> all = recursive_weights(job, path);
         const double sum = std::accumulate(all.begin(), all.end(), 0.0);
         double error = std::max(std::abs(weight - all[path.s]), std::abs(sum - 1.0));

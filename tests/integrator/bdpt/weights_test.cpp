@@ -52,7 +52,8 @@ class CropObserver final : public WeightObserver {
     CropObserver(const World& world, const TileJob& whole, const PathLengths& lengths)
         : whole_{world, whole, lengths, Raised{Heuristic::Balance}, {}, {}} {}
 
-    void on_weight(const SubpathJob&, const CompletePath& path, double, std::span<const double> in_crop) override {
+    void on_weight(const SubpathJob& job, const CompletePath& path, double) override {
+        const std::vector<double> in_crop = reference_weights(job, path);
         const std::vector<double> in_whole = reference_weights(whole_, path);
         const std::size_t last = in_crop.size() - 1;
         if (!(in_whole[last] > 1e-6)) return;

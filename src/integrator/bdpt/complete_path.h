@@ -1,5 +1,4 @@
-// The weights of all strategies of a given path, from their definition: every density of every vertex computed anew
-// (Veach 1997, section 10.2). Slow; what the recursion of transport/mis.h must say, too.
+// A path from a light to the lens, as a strategy of bidirectional path tracing has made it.
 #pragma once
 
 #include "integrator/subpath/subpath_wave.h"
@@ -7,11 +6,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 namespace etendue {
 
-/// The first vertex of a path.
+/// Describes the first vertex of a path, on its light.
 struct PathLightEnd {
     std::uint32_t light = kNone;      ///< kNone if it is not sampled
     std::uint32_t triangle = 0;       ///< of a mesh light
@@ -21,15 +19,12 @@ struct PathLightEnd {
     bool is_reached_directly = true;  ///< by an eye subpath, if that made the whole path
 };
 
-/// A path that the strategy with `s` vertices from the light has made.
+/// Describes a path that the strategy with `s` vertices from the light has made.
 struct CompletePath {
     PathLightEnd end;
     std::span<const PathVertex* const> inner;  ///< from the light to the lens, without the vertices there; not empty
     std::size_t s = 0;
     CameraConnection camera;  ///< how the camera sees the last of `inner`
 };
-
-/// Element i is the weight of the strategy with i vertices from the light; the last is that of t = 1.
-[[nodiscard]] std::vector<double> reference_weights(const SubpathJob& job, const CompletePath& path);
 
 }  // namespace etendue

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace etendue {
+namespace etendue::test {
 
 namespace {
 
@@ -160,4 +160,4 @@ std::vector<double> reference_weights(const SubpathJob& job, const CompletePath&
     return densities;
 }
 
-}  // namespace etendue
+}  // namespace etendue::test

@@ -1,0 +1,15 @@
+// The weights of all strategies of a given path, from their definition: every density of every vertex computed anew
+// (Veach 1997, section 10.2). Slow; what the recursion of transport/mis.h must say, too.
+#pragma once
+
+#include "integrator/bdpt/complete_path.h"
+
+#include <vector>
+
+namespace etendue::test {
+
+/// Returns the weights of all strategies that could have made `path`: element i is that of the strategy with i vertices
+/// from the light; the last is that of t = 1.
+[[nodiscard]] std::vector<double> reference_weights(const SubpathJob& job, const CompletePath& path);
+
+}  // namespace etendue::test
