@@ -24,10 +24,10 @@ struct BrightSample {
     std::int32_t sample_x = 0;  ///< pixel whose sample has made it: another one if it is a splat
     std::int32_t sample_y = 0;
     std::uint32_t sample = 0;    ///< index within that pixel
-    Rgb value{};                 ///< as a sample of the pixel has it
+    Rgb value{};                 ///< contribution, as a sample of the pixel has it
     std::uint16_t s = 0;         ///< vertices from the light, as in `Strategy`; both are 0 while it is not known
     std::uint16_t t = 0;         ///< vertices from the eye
-    std::uint16_t edges = 0;     ///< of the path; media add none
+    std::uint16_t edges = 0;     ///< edges of the path; media add none
     std::uint16_t is_splat = 0;  ///< 1 if it was connected to the camera
     std::array<char, kWordSize> word{};  ///< the path as an expression, from the eye to the light, zero-terminated
 
@@ -47,7 +47,7 @@ class BrightestSamples {
   public:
     static constexpr std::size_t kMost = 1024;
 
-    /// Keeps `capacity`; those below `floor` need not be offered.
+    /// Has the list keep `capacity` contributions; those less bright than `floor` need not be offered.
     void expect(std::size_t capacity, float floor) {
         capacity_ = capacity;
         floor_ = floor;
@@ -55,13 +55,13 @@ class BrightestSamples {
     void offer(const BrightSample& sample);
     void add(const BrightestSamples& other);
 
-    /// What is less bright than this has no place in the list; infinity if nothing has.
+    /// Returns the brightness below which nothing has a place in the list; infinity if nothing has one.
     [[nodiscard]] float threshold() const {
         if (capacity_ == 0) return std::numeric_limits<float>::infinity();
         return samples_.size() < capacity_ ? floor_ : samples_.back().brightness();
     }
     [[nodiscard]] std::size_t capacity() const { return capacity_; }
-    /// The brightest first.
+    /// Returns the contributions in the list, the brightest first.
     [[nodiscard]] std::span<const BrightSample> samples() const { return samples_; }
     [[nodiscard]] std::span<BrightSample> samples() { return samples_; }
     /// Puts back what `capacity` and `samples` have given.

@@ -13,7 +13,7 @@ class CameraNumbers {
   public:
     static constexpr std::size_t kCapacity = 64;
 
-    /// One pair of `dimension` for each of the samples, at most kCapacity.
+    /// Draws a pair of `dimension` for each of the samples, at most kCapacity.
     void draw(SampleSequence sequence, std::span<const CameraSample> samples, std::uint32_t dimension) {
         for (std::size_t i = 0; i < samples.size(); ++i) {
             pixel_seeds_[i] = samples[i].key.pixel_seed;
@@ -43,7 +43,8 @@ std::uint32_t pixel_in_order(const TileJob& job, std::uint32_t k) {
     return (top + in_band % rows) * width + in_band / rows;
 }
 
-/// At most CameraNumbers::kCapacity samples, whose keys are known, as are their pixels' `positions` in the full image.
+/// Makes the camera rays of at most CameraNumbers::kCapacity samples, whose keys are known, as are their pixels'
+/// `positions` in the full image.
 void generate_few(const World& world, const TileJob& job, std::span<CameraSample> samples,
                   std::span<const Vec2i> positions, std::span<Ray> rays) {
     const Vec2f to_film{1.0f / static_cast<float>(job.full_width), 1.0f / static_cast<float>(job.full_height)};
@@ -72,7 +73,7 @@ void generate_few(const World& world, const TileJob& job, std::span<CameraSample
         rays[i].alpha_key = sample_bits(samples[i].key, kCameraAlphaDimension);
 }
 
-/// What of `light` is bright enough for the list.
+/// Offers `counters` the contributions in `light` that are bright enough for the list of the brightest.
 void offer_brightest(const TileJob& job, std::span<const CameraSample> samples, const SampleLight& light,
                      RenderCounters& counters) {
     for (const BrightLight& bright : light.bright()) {

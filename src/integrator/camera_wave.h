@@ -18,7 +18,7 @@ namespace etendue {
 struct CameraSample {
     SampleKey key;
     std::uint32_t pixel = 0;  ///< index in the tile, row by row
-    float weight = 1.0f;      ///< of the pixel filter
+    float weight = 1.0f;      ///< weight by the pixel filter
     Vec2f lens{0.0f, 0.0f};   ///< chooses the point on the lens, in [0, 1)²
 };
 
@@ -32,18 +32,19 @@ enum class SampleOrder : std::uint8_t {
     SampleBySample
 };
 
-/// Of all the job's pixels together.
+/// Returns how many camera samples all pixels of the job have together.
 [[nodiscard]] inline std::size_t camera_sample_count(const TileJob& job) {
     return (job.pixels.empty() ? job.rect.area() : job.pixels.size()) * job.sample_count;
 }
 
-/// Where pixel `pixel` of the job's tile is in the full image.
+/// Returns where pixel `pixel` of the job's tile is in the full image.
 [[nodiscard]] inline Vec2i pixel_position(const TileJob& job, std::uint32_t pixel) {
     const auto width = static_cast<std::uint32_t>(job.rect.width());
     return {job.rect.x0 + static_cast<int>(pixel % width), job.rect.y0 + static_cast<int>(pixel / width)};
 }
 
-/// Which one it is. Its light path is that of the same pixel, wherever splats of it fall.
+/// Returns where `sample` is, for the report of a dropped one. A light path belongs to the pixel of its sample,
+/// wherever its splats fall.
 [[nodiscard]] inline DroppedSample located(const TileJob& job, const CameraSample& sample) {
     const Vec2i position = pixel_position(job, sample.pixel);
     return {position.x, position.y, sample.key.index};
@@ -53,7 +54,7 @@ enum class SampleOrder : std::uint8_t {
 void generate_camera_rays(const World& world, const TileJob& job, std::size_t first, std::span<CameraSample> samples,
                           std::span<Ray> rays, SampleOrder order = SampleOrder::PixelByPixel);
 
-/// Makes those of `samples`, whose keys are known, as are their pixels' `positions` in the full image.
+/// Makes the camera rays of `samples`, whose keys are known, as are their pixels' `positions` in the full image.
 void generate_camera_rays(const World& world, const TileJob& job, std::span<const Vec2i> positions,
                           std::span<CameraSample> samples, std::span<Ray> rays);
 

@@ -37,15 +37,18 @@ class Connections {
     /// `kind` is that of their rays.
     explicit Connections(RayKind kind) : kind_(kind) {}
 
-    /// To the light of sample `slot`. `shares` are those of expressions.
+    /// Has `contribution` go to the light of sample `slot` if nothing is in the way of `ray`; expressions have `shares`
+    /// of it.
     void to_sample(const Ray& ray, std::uint32_t slot, const Rgb& contribution, LightKind kind,
                    std::span<const ExpressionShare> shares);
-    /// The same of those that `which` says.
+    /// Has the contributions of the lanes in `which` go to the samples in their slots if nothing is in the way.
     void to_sample(const WideConnections& connections, WideMask which);
-    /// To the place on the film that `splat` says, by the light path of sample `slot`.
+    /// Has `splat`, which the light path of sample `slot` has made, go to the film if nothing is in the way of `ray`;
+    /// expressions have `shares` of it.
     void to_film(const Ray& ray, std::uint32_t slot, const Splat& splat, LightKind kind,
                  std::span<const ExpressionShare> shares);
-    /// The same of those that `which` says; `place_of` says it of a lane.
+    /// Has the contributions of the lanes in `which` go to the film if nothing is in the way, each to the place that
+    /// `place_of(lane)` returns.
     template <typename PlaceOf>
     void to_film(const WideConnections& connections, WideMask which, const PlaceOf& place_of) {
         to_sample(connections, which);
@@ -66,7 +69,7 @@ class Connections {
     static constexpr std::size_t kBatch = 8192;
     static_assert(Wide::kWidth <= RayColumns::kPacket);
 
-    /// Columns of floats.
+    /// Numbers the columns of floats.
     enum FloatColumn : std::size_t {
         kOriginX,
         kOriginY,
@@ -81,12 +84,12 @@ class Connections {
         kBlue,
         kFloatColumns
     };
-    /// Of bits.
+    /// Numbers the columns of bits.
     enum BitColumn : std::size_t {
         kAlphaKey,
         kSlot,
         kLightKind,
-        kEndOfShares,  ///< its shares are those from where the one before has ended
+        kEndOfShares,  ///< where a connection's shares end; they begin where those of the one before end
         kBitColumns
     };
     /// A number for each column: floats, then bits.

@@ -39,7 +39,7 @@ struct PixelJob {
 /// alone, each beginning with its own.
 struct TileJob {
     PixelRect rect;
-    PixelRect window;  ///< what splats may fall into; each of its pixels has a light path per sample
+    PixelRect window;  ///< pixels that splats may fall into; each has a light path per sample
     int full_width = 0;
     int full_height = 0;
     std::uint32_t first_sample = 0;
@@ -47,16 +47,16 @@ struct TileJob {
     std::uint32_t seed = 0;
     SampleSequence sequence = SampleSequence::Sobol;
     const PixelFilter* filter = nullptr;  ///< not null
-    const AovSet* aovs = nullptr;         ///< of the tile's layers; null if it has none
+    const AovSet* aovs = nullptr;         ///< what the tile's layers hold; null if it has none
     /// Most that the largest component of an indirect contribution may have, as a sample of a pixel has it; hues are
     /// kept. Direct is the light of paths C S* L and C S* . L: what the eye sees, mirrors and smooth glass apart, and
     /// what lights it without another bounce. All other light is indirect.
     float clamp_indirect = std::numeric_limits<float>::infinity();
     std::span<const PixelJob> pixels{};  ///< empty for all
-    WaveProfile* profile = nullptr;      ///< of the thread that renders; null if nobody asks
+    WaveProfile* profile = nullptr;      ///< profile of the thread that renders; null if nobody asks
 };
 
-/// What rendering counts. One per thread, added up at the end.
+/// Holds what one thread counts as it renders; those of all threads are added up at the end.
 struct RenderCounters {
     RaysByKind rays;
     std::uint64_t samples = 0;
@@ -70,11 +70,11 @@ struct RenderCounters {
     void add(const RenderCounters& other);
 };
 
-/// What can be asked of integrators; each takes what concerns it.
+/// Holds all that can be asked of integrators; each integrator takes the options that concern it.
 struct IntegratorOptions {
     PathLengths lengths{};
     std::uint32_t light_samples = 1;           ///< see PathOptions
-    Heuristic heuristic = Heuristic::Balance;  ///< of those that have strategies
+    Heuristic heuristic = Heuristic::Balance;  ///< weighs strategies, where an integrator has them
     std::optional<Strategy> strategy{};        ///< this one alone; it exists
     bool weighted = true;                      ///< false: the strategy is all there is, as if no other made its paths
     int cached_connections = 0;                ///< of bdpt: see BdptOptions
@@ -84,7 +84,7 @@ struct IntegratorOptions {
 class IntegratorScratch {
   public:
     virtual ~IntegratorScratch() = default;
-    /// That it holds.
+    /// Returns how many bytes of memory the scratch holds.
     [[nodiscard]] virtual std::size_t bytes() const = 0;
 };
 
@@ -94,10 +94,10 @@ class Integrator {
 
     [[nodiscard]] virtual std::unique_ptr<IntegratorScratch> make_scratch() const = 0;
 
-    /// What light of `world` this algorithm can never find, a sentence for each kind of path; empty if it finds all.
+    /// Returns a sentence for each kind of light in `world` that this algorithm can never find; none if it finds all.
     [[nodiscard]] virtual std::vector<std::string> unreachable_light(const World& world) const = 0;
 
-    /// What was asked of this algorithm and has no effect in `world`, a sentence for each option.
+    /// Returns a sentence for each option that was asked for and has no effect on this algorithm in the given world.
     [[nodiscard]] virtual std::vector<std::string> ineffective_options(const World&) const { return {}; }
 
     /// True if `render_tile` leaves splats, one light path for each of its samples.
@@ -109,7 +109,7 @@ class Integrator {
                              RenderCounters& counters) const = 0;
 };
 
-/// One line of the registry.
+/// Describes one integrator of the registry.
 struct IntegratorEntry {
     std::string_view name;
     std::string_view summary;  ///< for --help
@@ -123,10 +123,10 @@ struct IntegratorEntry {
 
 [[nodiscard]] std::span<const IntegratorEntry> integrator_registry();
 
-/// Null if there is no integrator of that name.
+/// Returns the integrator of that name in the registry; null if there is none.
 [[nodiscard]] const IntegratorEntry* find_integrator(std::string_view name);
 
-/// The same.
+/// Makes the integrator of that name; null if there is none.
 [[nodiscard]] std::unique_ptr<const Integrator> make_integrator(std::string_view name,
                                                                 const IntegratorOptions& options);
 

@@ -11,12 +11,13 @@
 
 namespace etendue {
 
-/// As in LightTriangleFront. What the triangle alone decides stays where it is, in a row, until it is computed with.
+/// Holds a LightTriangleFront for each path of a block. What the triangle alone decides stays where it is, in a row,
+/// until it is computed with.
 class LightFrontColumns {
   public:
     LightFrontColumns() { clear(); }
 
-    /// Until they are set, lanes have triangles of no meaning.
+    /// Gives all lanes triangles of no meaning, until they are set.
     void clear() { rows_.fill(kNoTriangle.data()); }
     void set(std::size_t lane, const MeshLight& light, const MeshLight::TriangleChoice& choice) {
         rows_[lane] = light.row(choice.triangle);

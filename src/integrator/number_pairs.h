@@ -37,7 +37,7 @@ class SampleKeys {
 
 class NumberPairs {
   public:
-    /// One pair of `dimension` for each key.
+    /// Draws a pair of `dimension` for each key.
     void draw(SampleSequence sequence, const SampleKeys& keys, std::uint32_t dimension) {
         draw(sequence, keys.pixel_seeds(), keys.indices(), dimension);
     }
@@ -47,7 +47,7 @@ class NumberPairs {
         const auto part = [&](auto& all) { return std::span(all).first(indices.size()); };
         sample_2d(sequence, pixel_seeds, indices, dimension, part(x_), part(y_));
     }
-    /// Of keys [first, end) only; the others keep theirs.
+    /// Draws a pair of `dimension` for keys [first, end) only; other keys keep their pairs.
     void draw(SampleSequence sequence, const SampleKeys& keys, std::uint32_t dimension, std::size_t first,
               std::size_t end) {
         const auto part = [&](auto all) { return all.subspan(first, end - first); };
@@ -58,13 +58,14 @@ class NumberPairs {
         x_.resize(whole(count));
         y_.resize(whole(count));
     }
-    /// What nothing asks for: zeros take less time.
+    /// Fills `count` pairs that nothing asks for with zeros, which takes less time than drawing.
     void draw_none(std::size_t count) {
         x_.assign(whole(count), 0.0f);
         y_.assign(whole(count), 0.0f);
     }
     [[nodiscard]] Vec2f operator[](std::size_t i) const { return {x_[i], y_[i]}; }
-    /// Of `Wide::kWidth` keys from `first`, a multiple of that, on; those behind the last are of no meaning.
+    /// Returns the pairs of `Wide::kWidth` keys from `first`, a multiple of that width, on; lanes behind the last key
+    /// mean nothing.
     [[nodiscard]] Imath::Vec2<Wide> load(std::size_t first) const {
         return {Wide::load_unaligned(&x_[first]), Wide::load_unaligned(&y_[first])};
     }

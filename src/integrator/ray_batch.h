@@ -9,7 +9,7 @@
 
 namespace etendue {
 
-/// The nearest surfaces along rays of one kind; `hits` is as long as `rays`.
+/// Finds the nearest surfaces along rays of one kind; `hits` is as long as `rays`.
 void intersect_batch(const World& world, const TileJob& job, RayKind kind, std::span<const Ray> rays,
                      std::span<Hit> hits, RenderCounters& counters);
 void intersect_batch(const World& world, const TileJob& job, RayKind kind, const RayColumns& rays, std::span<Hit> hits,

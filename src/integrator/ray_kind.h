@@ -22,7 +22,7 @@ enum class RayKind : std::uint8_t {
 
 inline constexpr std::size_t kRayKinds = static_cast<std::size_t>(RayKind::Count);
 
-/// As reports and statistics name them.
+/// Holds the names of the kinds of rays in reports and statistics, in the order of `RayKind`.
 inline constexpr std::array<std::string_view, kRayKinds> kRayKindNames{
     "camera", "bounce", "shadow", "light-subpath", "connection", "light-to-camera", "lamp-in-view"};
 

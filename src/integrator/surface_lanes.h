@@ -9,7 +9,7 @@
 namespace etendue {
 
 struct SurfaceLanes {
-    /// A triangle, as in HitTriangle.
+    /// Hold the triangle that was hit, as in HitTriangle.
     Vec3Columns p0, edge1, edge2;
     Vec3Columns triangle_normal;
     Vec2Columns u;  ///< barycentric coordinates of the hit
@@ -19,7 +19,7 @@ struct SurfaceLanes {
     Column clearance;
     Vec3Columns tangent, bitangent, normal;
 
-    /// What `set_up_points` needs of the path in `lane`.
+    /// Sets what `set_up_points` needs of the path in `lane`.
     void set_hit(std::size_t lane, const HitTriangle& triangle, Vec2f barycentric) {
         p0.set(lane, triangle.p0);
         edge1.set(lane, triangle.edge1);
@@ -27,7 +27,7 @@ struct SurfaceLanes {
         triangle_normal.set(lane, triangle.shading_normal);
         u.set(lane, barycentric);
     }
-    /// The points of lanes [0, count), rounded up.
+    /// Computes the points of lanes [0, count), rounded up.
     void set_up_points(std::size_t count);
 };
 

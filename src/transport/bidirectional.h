@@ -20,8 +20,8 @@ struct BidirectionalOptions {
 
 /// Holds the light that a pair of subpaths finds.
 struct BidirectionalLight {
-    Rgb radiance;                    ///< of the sample, W/(m² sr)
-    std::vector<FilmLight> on_film;  ///< of the light subpath alone; black contributions are left out
+    Rgb radiance;                    ///< W/(m² sr), radiance of the sample
+    std::vector<FilmLight> on_film;  ///< what the light subpath alone brings; nothing black
 };
 
 [[nodiscard]] BidirectionalLight bidirectional_light(const World& world, const EyeSample& sample,

@@ -9,13 +9,13 @@
 
 namespace etendue {
 
-/// A template of its lane type, see core/lane.h.
+/// Holds a ray between two points; a template of its lane type, see core/lane.h.
 template <typename T>
 struct Connection {
     Imath::Vec3<T> direction;  ///< unit; any if there is no distance
     T t_max;                   ///< metres
 
-    /// From `origin` to just before `end`; both are clear of their surfaces.
+    /// Leads from `origin` to just before `end`; both are clear of their surfaces.
     Connection(const Imath::Vec3<T>& origin, const Imath::Vec3<T>& end) : direction(end - origin) {
         // What rounding may add to the length; the end is clear of its surface by more than its own rounding.
         constexpr float kBeforeEnd = 1.0f - 8.0f * std::numeric_limits<float>::epsilon();
@@ -27,7 +27,7 @@ struct Connection {
     }
 };
 
-/// The ray of a `Connection`.
+/// Returns the ray of a `Connection` from `origin` to `end`.
 [[nodiscard]] inline Ray connecting_ray(const Vec3f& origin, const Vec3f& end) {
     const Connection<float> connection(origin, end);
     Ray ray;
@@ -37,7 +37,7 @@ struct Connection {
     return ray;
 }
 
-/// From a point to where the light was sampled; the end is clear of the surface there.
+/// Returns the ray from `origin` to where `light` was sampled; its end is clear of the surface there.
 [[nodiscard]] inline Ray shadow_ray(const Vec3f& origin, const LightSample& light) {
     if (!std::isinf(light.distance)) return connecting_ray(origin, light.end);
     Ray ray;

@@ -8,11 +8,11 @@ enum class Heuristic {
     Balance,  ///< exponent 1
 };
 
-/// A density, or a ratio of them, as the heuristic wants it.
+/// Raises a density, or a ratio of densities, to the exponent of the heuristic.
 struct Raised {
     Heuristic heuristic = Heuristic::Balance;
 
-    /// A template of its lane type, see core/lane.h, double besides.
+    /// Returns `ratio` raised to the heuristic's exponent; a template of its lane type, see core/lane.h, or of double.
     template <typename T>
     [[nodiscard]] T operator()(T ratio) const {
         return heuristic == Heuristic::Power ? ratio * ratio : ratio;

@@ -15,7 +15,7 @@ namespace etendue {
 /// Light that a path brings to a place on the film.
 struct FilmLight {
     Vec2f film{0.0f, 0.0f};  ///< in [0, 1]², as CameraConnection::film
-    Rgb value;               ///< of the integral over the film of area 1
+    Rgb value;               ///< share in the integral over the film of area 1
 };
 
 /// Says how the camera sees a point.

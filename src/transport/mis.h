@@ -60,30 +60,30 @@ namespace etendue {
 struct MisContext {
     const World& world;
     Raised raised{};
-    /// Camera samples per area of the film over light paths: what the density of the eye's first vertex is times.
+    /// Multiplies the density of the eye's first vertex: camera samples per area of the film over light paths.
     double samples_per_light_path = 1.0;
 };
 
-/// a and b of a vertex, raised.
+/// Holds a and b of a vertex, raised.
 struct SubpathDensities {
     double a = 0.0;
     double b = 0.0;
 
-    /// Sum over the strategies with fewer vertices on this side, but for the raised density per area with which the
-    /// other side makes this vertex. `turning_back` is q.
+    /// Returns the sum over the strategies with fewer vertices on this side, but for the raised density per area with
+    /// which the other side makes this vertex. `turning_back` is q.
     [[nodiscard]] double fewer(const Raised& raised, double turning_back) const { return a + b * raised(turning_back); }
 };
 
-/// From a vertex towards the next one.
+/// Holds the densities of a subpath on its way from a vertex towards the next one.
 struct DepartingDensities {
     double d = 0.0;              ///< D_i
-    double pdf_forward = 1.0;    ///< of the direction, 1/sr; of the point across it, 1/m², if it comes from infinity
+    double pdf_forward = 1.0;    ///< 1/sr, of the direction; 1/m², of the point across it, from infinity
     double cosine = 1.0;         ///< |cos theta_i|
     bool is_connectible = true;  ///< the edge can be that of a connection, as far as this vertex is concerned
     bool is_from_infinity = false;
 
-    /// At a vertex `squared_distance` m² away, >= 0, where the direction has the cosine `cos_arriving`. The distance
-    /// cancels in b, and divides nothing in a: media scatter light again after no distance at all.
+    /// Returns a and b at a vertex `squared_distance` m² away, >= 0, where the direction has the cosine `cos_arriving`.
+    /// The distance cancels in b, and divides nothing in a: media scatter light again after no distance at all.
     [[nodiscard]] SubpathDensities arrive(const Raised& raised, double squared_distance, double cos_arriving) const {
         const double across = pdf_forward * cos_arriving;
         // Without a branch, so that compilers do it for many at once.
@@ -109,7 +109,7 @@ struct DepartingDensities {
             .is_from_infinity = at_infinity};
 }
 
-/// At the first vertex of a light subpath, at `position`, where its ray has the cosine `cos_arriving`.
+/// Returns a and b at the first vertex of a light subpath, at `position`, where its ray has the cosine `cos_arriving`.
 [[nodiscard]] inline SubpathDensities arrive_from_light(const MisContext& mis, const Emission& emission,
                                                         const DepartingDensities& departing, const Vec3f& position,
                                                         double cos_arriving) {
@@ -128,7 +128,8 @@ struct DepartingDensities {
     return arrived;
 }
 
-/// At the first vertex of an eye subpath: the lens and the film, by `camera`, say how densely camera rays fall there.
+/// Returns a and b at the first vertex of an eye subpath; the lens and the film, by `camera`, say how densely camera
+/// rays fall there.
 [[nodiscard]] inline SubpathDensities arrive_from_lens(const MisContext& mis, DepartingDensities departing,
                                                        const CameraConnection& camera, double cos_arriving) {
     departing.pdf_forward = mis.samples_per_light_path * static_cast<double>(camera.importance_area);
@@ -136,7 +137,8 @@ struct DepartingDensities {
     return departing.arrive(mis.raised, 1.0, cos_arriving);
 }
 
-/// On from a vertex, with the densities of the direction and of turning back, 1/sr, and its cosine.
+/// Returns the densities on the way from a vertex to the next one. `pdf` is that of the direction, `reverse_pdf` that
+/// of turning back, both 1/sr; `cosine` is the direction's, absolute, to the geometric normal.
 [[nodiscard]] inline DepartingDensities depart(const Raised& raised, const SubpathDensities& arrived, float pdf,
                                                float reverse_pdf, float cosine) {
     return {.d = arrived.fewer(raised, static_cast<double>(reverse_pdf)),

@@ -15,8 +15,8 @@
 
 namespace etendue {
 
-/// Edges of the shortest way from a light, or from a surface, to the camera by another vertex: where that scatters in a
-/// medium it adds none.
+/// Returns how many edges the shortest way has from a light, or from a surface, to the camera by another vertex: a
+/// vertex in a medium adds none.
 [[nodiscard]] inline int edges_to_connect(const World& world) {
     return world.has_scattering_bodies() ? 1 : 2;
 }
@@ -57,8 +57,8 @@ struct Subpath {
     float roulette_scale = 1.0f;
     Vec3f from{0.0f};  ///< the vertex before
     DepartingDensities departing;
-    int index = 1;  ///< of the vertex to come
-    int edges = 1;  ///< of the path when its ray has hit; media, panes and hidden boundaries add none
+    int index = 1;  ///< index of the vertex to come
+    int edges = 1;  ///< edges of the path when its ray has hit; media, panes and hidden boundaries add none
     bool is_dispersed = false;
     bool only_deltas = true;
     bool is_direct = true;  ///< no boundary that another body hides lies between `from` and where the ray is
@@ -70,10 +70,10 @@ struct Subpath {
 
 /// A vertex of a subpath that can be connected to others.
 struct SubpathVertex : Vertex {
-    Rgb throughput;              ///< of the subpath that arrives
-    SubpathDensities densities;  ///< with which it arrives
+    Rgb throughput;              ///< throughput of the subpath as it arrives
+    SubpathDensities densities;  ///< densities with which the subpath arrives
     int index = 1;               ///< vertices before it
-    int next_edges = 1;          ///< of the path when a ray from here has hit
+    int next_edges = 1;          ///< edges of the path when a ray from here has hit
     bool is_dispersed = false;
 };
 

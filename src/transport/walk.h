@@ -40,7 +40,7 @@ struct EyePath {
     float eta_scale = 1.0f;      ///< eta² over all refractions: what radiance takes from the throughput, unlike power
     float wavelength_nm = 0.0f;  ///< nanometres once a dispersive body has refracted it, 0 for all wavelengths
     int rays = 1;                ///< traced, this one included
-    int edges = 1;               ///< the same without those to media, panes and hidden boundaries
+    int edges = 1;               ///< rays traced without those to media, panes and hidden boundaries
     bool only_deltas = true;     ///< the eye sees what the ray meets directly, in mirrors and through smooth glass
     LightSampleContext last{};
 };
@@ -52,7 +52,7 @@ struct VertexNumbers {
     float lobe;
     Vec2f direction;
     float roulette;
-    std::uint32_t alpha_key;  ///< of the ray that goes on
+    std::uint32_t alpha_key;  ///< alpha key of the ray that goes on
 
     VertexNumbers(const SampleNumbers& numbers, int depth);
 };

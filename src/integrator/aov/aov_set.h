@@ -24,22 +24,26 @@ struct MatteIds {
 
 struct AovSet {
     LayerLayout layout{};
-    /// Of the light layers: the first ones are those of its expressions. Null if there are none.
+    /// Reads the paths of the light layers, of which the first are those of its expressions. Null if there are none.
     std::shared_ptr<const PathAutomaton> automaton{};
-    /// The one after them: of what TileJob::clamp_indirect took away.
+    /// Numbers the light layer of what TileJob::clamp_indirect took away, which comes after those of expressions; none
+    /// if nobody asks.
     std::optional<std::size_t> removed_light{};
-    /// Those after that; their values are behind those of first hits.
+    /// Describes the layers of buckets, which come after all other light layers; their values are behind those of first
+    /// hits.
     BucketLayers buckets{};
-    /// Not null: paths are spelled out for it in place of being read by the automaton, and all contributions recorded.
-    /// There are no layers then, and one thread. Must outlive the render.
+    /// Has paths spelled out, in place of being read by the automaton, and all contributions recorded, if it is not
+    /// null. There are no layers then, and one thread. Must outlive the render.
     PathSpeller* speller = nullptr;
-    /// Whose names for lights are those of the lamps, of the instances and of the environment, in this order.
+    /// Counts the lamps: the automaton's names for lights are those of the lamps, of the instances and of the
+    /// environment, in this order.
     std::size_t lamp_count = 0;
     std::size_t instance_count = 0;
-    /// Of the first surface that the eye meets, in the order of their channels: averaged ones, and the nearest's.
+    /// Lists the values of the first surface that the eye meets which are averaged, in the order of their channels.
     std::vector<FirstHitValue> values{};
+    /// Lists the values of the first surface of a pixel's nearest sample, in the order of their channels.
     std::vector<FirstHitValue> nearest{};
-    std::vector<MatteIds> mattes{};  ///< as many as the layout has
+    std::vector<MatteIds> mattes{};  ///< one for each matte of the layout
 
     /// Puts buckets behind all layers that there are.
     void add_buckets(std::size_t count) {
@@ -63,7 +67,7 @@ struct AovSet {
     [[nodiscard]] Source environment_source() const {
         return {SourceEvent::Environment, light_label(lamp_count + instance_count)};
     }
-    /// Of the light of this index in `world`.
+    /// Returns how the automaton reads the light of this index in `world`.
     [[nodiscard]] Source source_of_light(const World& world, std::uint32_t light) const {
         const Emitter& emitter = world.emitter(light);
         if (emitter.instance != kNone) return source_of_instance(emitter.instance);

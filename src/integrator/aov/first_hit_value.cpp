@@ -6,7 +6,7 @@ namespace etendue {
 
 namespace {
 
-/// What compositing programs take for infinitely far, and filter without harm.
+/// Stands for infinitely far, metres: compositing programs take it so, and filter it without harm.
 constexpr float kFar = 1e10f;
 
 constexpr std::array kTable{

@@ -13,8 +13,8 @@ namespace etendue {
 enum class FirstHitValue {
     Depth,            ///< metres along the camera's viewing direction
     Position,         ///< world space, metres
-    Normal,           ///< of shading, world space, unit, towards the eye
-    GeometricNormal,  ///< the same of the triangle
+    Normal,           ///< shading normal, world space, unit, towards the eye
+    GeometricNormal,  ///< normal of the triangle, world space, unit, towards the eye
     Uv,               ///< the first set of texture coordinates
     Albedo,           ///< share of light that is scattered, diffuse and specular
     AlbedoDiffuse,
@@ -26,15 +26,15 @@ enum class FirstHitValue {
 
 struct FirstHitEntry {
     FirstHitValue value;
-    std::string_view name;      ///< of the AOV
+    std::string_view name;      ///< name of the AOV
     std::string_view channels;  ///< a letter each
-    bool is_nearest;            ///< of the nearest sample of a pixel; the others are averaged
+    bool is_nearest;            ///< true: the nearest sample's value; false: averaged
     bool is_float;              ///< too large or too fine for half floats
-    float background;           ///< where there is no surface, of the nearest's
+    float background;           ///< value where there is no surface, if `is_nearest`
     std::string_view summary;   ///< for --help
 };
 
-/// All of them, by the order of the enumeration.
+/// Returns all values of first hits, in the order of `FirstHitValue`.
 [[nodiscard]] std::span<const FirstHitEntry> first_hit_table();
 [[nodiscard]] const FirstHitEntry& first_hit_entry(FirstHitValue value);
 

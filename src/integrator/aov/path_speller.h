@@ -28,15 +28,15 @@ enum class LightKind : std::uint8_t {
 
 /// A path by the events that it consists of.
 struct SpelledPath {
-    /// From the eye to the light, such as "C D S S O", which is an expression that matches it. A vertex that may be
-    /// taken for several events is the one that scatters most.
+    /// Spells the path from the eye to the light, such as "C D S S O", as an expression that matches it. A vertex that
+    /// may be taken for several events is the one that scatters most.
     std::string word;
     int s = 0;  ///< vertices from the light, as in `Strategy`
     int t = 0;  ///< vertices from the eye
     int edges = 0;
 };
 
-/// What a path has brought to its sample, or as a splat.
+/// Holds what a path has brought to its sample, or to the film as a splat.
 struct SpelledContribution {
     std::optional<SpelledPath> path;  ///< none of integrators that do not tell paths apart
     Rgb value;                        ///< before any limit; of a splat, as a sample of the pixel has it
@@ -54,7 +54,8 @@ class PathSpeller {
     [[nodiscard]] Node begin_at_light(SourceEvent source);
     [[nodiscard]] Node scatter(Node before, ScatterEvent event);
 
-    /// Paths between the subpath from the eye that ends in `eye` and the light; by their number.
+    /// Returns the number of the path that the subpath from the eye, which ends in `eye`, makes with a light of kind
+    /// `source`.
     [[nodiscard]] std::size_t meet_light(Node eye, SourceEvent source, bool is_sampled);
     [[nodiscard]] std::size_t meet_camera(Node light);
     [[nodiscard]] std::size_t connect(Node eye, Node light);
@@ -69,7 +70,7 @@ class PathSpeller {
         char letter = ' ';
     };
     [[nodiscard]] Node append(Node before, char letter);
-    /// Of the subpath that ends in `node`, from its beginning.
+    /// Returns the letters of the subpath that ends in `node`, from its beginning.
     [[nodiscard]] std::string letters(Node node) const;
     [[nodiscard]] std::size_t keep(const std::string& letters, std::size_t s, std::size_t t);
 

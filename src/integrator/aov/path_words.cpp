@@ -8,12 +8,12 @@ void add_share(ExpressionMask expressions, const Rgb& share, std::vector<Express
     if (expressions != 0) shares.push_back({expressions, share});
 }
 
-/// What takes the larger share of the light.
+/// Returns which of the events of `event` takes the larger share of the light.
 ScatterEvent usual_event(const VertexEvent& event) {
     return average(event.share) >= 0.5f ? event.event : event.other;
 }
 
-/// A path that was spelled, in place of a mask.
+/// Appends the number of a path that was spelled to `shares`, in place of a mask.
 void add_spelled(std::size_t path, std::vector<ExpressionShare>& shares) {
     shares.push_back({ExpressionMask{path}, Rgb(1.0f)});
 }

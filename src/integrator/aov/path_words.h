@@ -17,19 +17,19 @@
 
 namespace etendue {
 
-/// What a vertex may be taken for: one event, or two with the shares of its light that are theirs.
+/// Says what a vertex may be taken for: one event, or two with the shares of its light that are theirs.
 struct VertexEvent {
     ScatterEvent event = ScatterEvent::Volume;
     ScatterEvent other = ScatterEvent::Volume;
-    Rgb share{1.0f};          ///< of `event`; what is left is of `other`
-    std::uint16_t label = 0;  ///< of the material
+    Rgb share{1.0f};          ///< share of `event`; what is left is of `other`
+    std::uint16_t label = 0;  ///< label of the material
 };
 
-/// At a surface whose material has `label`, towards `wi`.
+/// Returns what scattering towards `wi` at a surface whose material has `label` may be taken for.
 [[nodiscard]] VertexEvent surface_event(const Scattering& scattering, const Vec3f& wi, bool is_delta,
                                         TransportMode mode, std::uint16_t label);
 
-/// The same at a matte surface.
+/// Returns what scattering at a matte surface whose material has `label` is taken for: diffuse reflection.
 [[nodiscard]] inline VertexEvent matte_event(std::uint16_t label) {
     return {.event = ScatterEvent::ReflectDiffuse, .other = ScatterEvent::ReflectGlossy, .label = label};
 }
@@ -37,7 +37,7 @@ struct VertexEvent {
 /// A word that a path may be, by the automaton's state after it.
 struct WordShare {
     PathAutomaton::State state = 0;
-    Rgb share{1.0f};  ///< of the path's throughput
+    Rgb share{1.0f};  ///< share of the path's throughput
 };
 
 /// The words of a path or subpath, in `PathWords`.
@@ -65,7 +65,7 @@ class PathWords {
     }
     [[nodiscard]] bool are_followed() const { return are_followed_; }
 
-    /// How the automaton reads what paths meet; of no meaning if words are not followed.
+    /// Returns how the automaton reads the material at `point`; without meaning if words are not followed.
     [[nodiscard]] std::uint16_t label(const World& world, const SurfacePoint& point) const {
         return automaton_ != nullptr ? automaton_->material_label(world.material_index(point)) : std::uint16_t{0};
     }
@@ -86,23 +86,25 @@ class PathWords {
         return speller_ != nullptr ? WordRange{speller_->begin_at_light(source.event)}
                                    : begin(automaton_->light_start(source.event, source.label));
     }
-    /// The words after a vertex.
+    /// Returns the words of a path with the words `before` after a vertex that scatters as `event`.
     [[nodiscard]] WordRange scatter_from_eye(WordRange before, const VertexEvent& event);
     [[nodiscard]] WordRange scatter_from_light(WordRange before, const VertexEvent& event);
 
-    /// Expressions of a path from the eye with these words that meets a light. Put after those in `shares`.
+    /// Appends to `shares` the expressions of a path from the eye with the words in `range` that meets a light.
     void end_at_light(WordRange range, const AovSet::Source& source, std::vector<ExpressionShare>& shares) const;
-    /// The same if the light is sampled for a vertex that `event` says.
+    /// Appends to `shares` the expressions of a path from the eye whose last vertex, after the words `before`, scatters
+    /// as `event` and samples a light.
     void end_at_light(WordRange before, const VertexEvent& event, const AovSet::Source& source,
                       std::vector<ExpressionShare>& shares);
-    /// Of a path from the light that meets the camera.
+    /// Appends to `shares` the expressions of a path from a light, with the words in `range`, that meets the camera.
     void end_at_camera(WordRange range, std::vector<ExpressionShare>& shares) const;
-    /// Of a light that the camera sees.
+    /// Appends to `shares` the expressions of a light that the camera sees.
     void end_at_camera(const AovSet::Source& source, std::vector<ExpressionShare>& shares) const;
-    /// Of a connection between a vertex of these words and one of `light`, which are among `light_words`.
+    /// Appends to `shares` the expressions of a connection between a vertex with the words `eye` and one with the words
+    /// `light`, which are among `light_words`.
     void join(WordRange eye, const PathWords& light_words, WordRange light, std::vector<ExpressionShare>& shares) const;
 
-    /// Forgets the words after `range`, which were needed for one connection only.
+    /// Forgets all words but the first `size`: the others were needed for one connection only.
     void shrink_to(std::size_t size) { words_.resize(size); }
     [[nodiscard]] std::size_t size() const { return words_.size(); }
 

@@ -40,20 +40,20 @@ class SampleLight {
     void add_splat(std::uint32_t slot, std::uint32_t sample, const Splat& splat, LightKind kind,
                    std::span<const ExpressionShare> shares, std::vector<Splat>& splats);
 
-    /// A ray that was traced for the sample.
+    /// Counts a ray that was traced for the sample in `slot`.
     void count_ray(std::uint32_t slot) {
         if (!rays_.empty()) ++rays_[slot];
     }
     [[nodiscard]] bool counts_rays() const { return !rays_.empty(); }
 
     [[nodiscard]] const Rgb& radiance(std::size_t slot) const { return radiance_[slot]; }
-    /// Of expressions and of what a limit took away.
+    /// Returns the light layers of the sample in `slot`: those of expressions, then what a limit took away.
     [[nodiscard]] std::span<const Rgb> layers(std::size_t slot) const {
         return std::span(layers_).subspan(slot * layer_count_, layer_count_);
     }
     [[nodiscard]] std::uint32_t rays(std::size_t slot) const { return rays_.empty() ? 0 : rays_[slot]; }
     [[nodiscard]] std::size_t bytes() const { return vector_bytes(radiance_, layers_, rays_, bright_); }
-    /// What was put aside.
+    /// Returns the contributions that were put aside.
     [[nodiscard]] std::span<const BrightLight> bright() const { return bright_; }
 
   private:
@@ -66,7 +66,7 @@ class SampleLight {
         }
     }
     void add_watched(std::uint32_t slot, const Rgb& light, LightKind kind, std::span<const ExpressionShare> shares);
-    /// Shows a contribution to whom it concerns; what of it counts.
+    /// Shows a contribution to whom it concerns, and returns what of it counts.
     [[nodiscard]] Rgb watch(const BrightLight& light, LightKind kind, std::span<const ExpressionShare> shares);
 
     std::size_t layer_count_ = 0;

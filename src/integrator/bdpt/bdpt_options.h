@@ -25,7 +25,8 @@ struct BdptOptions {
     Heuristic heuristic = Heuristic::Balance;
     std::optional<Strategy> only{};  ///< this strategy alone
     bool weighted = true;            ///< false: it is all there is, as if no other could make its paths
-    /// Light vertices of the wave that an eye vertex is connected to; 0: those of its own sample's light subpath.
+    /// Counts the light vertices of the wave that an eye vertex is connected to; 0: the vertices of its own sample's
+    /// light subpath.
     int cached_connections = 0;
     WeightObserver* observer = nullptr;  ///< must outlive the integrator
 };

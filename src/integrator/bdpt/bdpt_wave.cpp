@@ -13,14 +13,14 @@ namespace {
 /// Index of the vertex at which a camera ray ends.
 constexpr int kDirectlySeen = 1;
 
-/// The vertices of the subpath that ends in `last`, the last one first.
+/// Appends to `path` the vertices of the subpath that ends in `last`, the last one first.
 void append_subpath(SubpathWave& wave, const PathVertex* last, std::vector<const PathVertex*>& path) {
     for (const PathVertex* v = last; v != nullptr;
          v = v->previous != PathVertex::kNoVertex ? &wave.whole(v->previous) : nullptr)
         path.push_back(v);
 }
 
-/// Of light that a subpath from the eye meets.
+/// Returns how light that a subpath from the eye meets comes to the eye.
 LightKind kind_of_light_met_by(const SubpathState& state) {
     if (state.index == kDirectlySeen) return LightKind::Seen;
     return state.lights_directly ? LightKind::Direct : LightKind::Indirect;

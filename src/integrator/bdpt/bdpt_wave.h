@@ -32,7 +32,7 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
 
     /// Starts a job, before its samples are traced.
     void start(const World& world, const TileJob& job, const BdptOptions& options);
-    /// Ends it after them.
+    /// Ends the job, after its samples are traced.
     void finish(TileBuffer& tile, RenderCounters& counters) { lamps_.finish(tile, counters); }
     /// Traces samples [first, first + count) of the job, count <= kCapacity.
     void trace(const World& world, const TileJob& job, const BdptOptions& options, std::size_t first, std::size_t count,
@@ -77,7 +77,7 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
         const ConnectibleVertex* eye = nullptr;
         const ConnectibleVertex* light = nullptr;
         Vec3f w{0.0f};         ///< unit, from `eye` to `light`
-        float squared = 0.0f;  ///< of the distance, m²
+        float squared = 0.0f;  ///< squared distance, m²
         float scale = 1.0f;    ///< how many connections this one stands for
         Scattering::TwoWayValue at_eye{};
         Scattering::TwoWayValue at_light{};
@@ -85,8 +85,8 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
     // Those of plain matte surfaces, whose lanes are computed at once.
     struct WideToLight {
         const ConnectibleVertex* vertex;
-        std::uint32_t light;     ///< that was chosen
-        std::uint32_t triangle;  ///< of it
+        std::uint32_t light;     ///< light that was chosen
+        std::uint32_t triangle;  ///< triangle of the light
     };
     struct WideToCamera {
         const ConnectibleVertex* vertex;
@@ -105,17 +105,17 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
         bool is_shared;
     };
 
-    /// s = 1 of eye vertices [first, last): to points on lights that are sampled for them.
+    /// Connects eye vertices [first, last) to points on lights that are sampled for them: s = 1.
     void connect_to_lights(const Context& context, std::size_t first, std::size_t last);
-    /// t = 1 of light vertices [first, last): to points on the lens that are sampled for them.
+    /// Connects light vertices [first, last) to points on the lens that are sampled for them: t = 1.
     void connect_to_camera(const Context& context, std::size_t first, std::size_t last);
-    /// s > 1, t > 1 of eye vertices [first, last).
+    /// Connects eye vertices [first, last) to light vertices: s > 1, t > 1.
     void connect_to_vertices(const Context& context, std::size_t first, std::size_t last);
     /// Brings the light vertices into an order in which those of a sample are side by side, and into the cache.
     void find_candidates(const Context& context);
-    /// All of the sample's own light subpath that the cache does not have.
+    /// Finds for `eye` all vertices of its sample's own light subpath that the cache does not have.
     void find_own(const Context& context, const ConnectibleVertex& eye);
-    /// `count` vertices drawn from the cache, in place of all that it has of an average light subpath.
+    /// Draws `count` vertices from the cache for `eye`, in place of all that the cache has of an average light subpath.
     void find_cached(const Context& context, const ConnectibleVertex& eye, int count);
     void find(const Context& context, const ConnectibleVertex& eye, const MatteEnd& eye_end,
               const ConnectibleVertex& light, float scale);
@@ -130,7 +130,7 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
     void weigh_wide_between(const Context& context);
     /// Returns false if there is nothing to say of connections but their rays and the light that they bring.
     [[nodiscard]] bool asks_for_each(const Context& context);
-    /// The first `count` of a block then.
+    /// Leaves the first `count` connections of a block, of which there is nothing else to say, to `connections`.
     static void queue_wide(const ConnectionColumns& lanes, std::size_t count, Connections& connections);
     // Leaves the rays of connections, with what they bring, to `connections`.
     void queue(const Context& context, const ConnectibleVertex& vertex, const PathLightEnd& end, Ray ray,
@@ -149,7 +149,7 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
     void show(const SubpathJob& job, const BdptOptions& options, std::size_t s, float weight, const PathLightEnd& end,
               const PathVertex* light, const PathVertex* eye, const CameraConnection& camera);
     [[nodiscard]] PathLightEnd light_end(std::uint32_t slot) const;
-    /// How the camera sees the first vertex of a sample's eye subpath.
+    /// Returns how the camera sees `eye`, the first vertex of a sample's eye subpath.
     [[nodiscard]] CameraConnection camera_of(const SubpathJob& job, const PathVertex& eye) const;
 
     std::vector<CameraSample> samples_;
@@ -157,7 +157,7 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
     SampleLight found_;
     LampsInView lamps_;
     std::vector<float> alpha_;
-    std::vector<ExpressionShare> shares_;  ///< of the path at hand
+    std::vector<ExpressionShare> shares_;  ///< shares of expressions in the light of the path at hand
     SubpathWave eye_{SubpathEnd::AtEye, true};
     SubpathWave light_{SubpathEnd::AtLight, true};
     LampsToCamera lamps_to_camera_;
@@ -165,7 +165,7 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
     VerticesToCamera to_camera_;
     std::vector<Candidate> own_;            ///< sample by sample, the last vertex first
     std::vector<std::uint32_t> own_begin_;  ///< by slot, and the end of the last
-    /// Those that eye vertices of any sample may be connected to, if options ask for that.
+    /// Holds the light vertices that eye vertices of any sample may be connected to, if options ask for that.
     std::vector<Candidate> cache_;
     // Of the block at hand.
     std::vector<ToLight> to_lights_;
@@ -187,9 +187,9 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
     Connections light_connections_{RayKind::Shadow}, wide_light_connections_{RayKind::Shadow};
     Connections camera_connections_{RayKind::LightToCamera}, wide_camera_connections_{RayKind::LightToCamera};
     Connections vertex_connections_{RayKind::Connection}, wide_vertex_connections_{RayKind::Connection};
-    const Context* context_ = nullptr;    ///< of the call of `trace` under way, for what eye subpaths find
-    TileBuffer* tile_ = nullptr;          ///< the same
-    RenderCounters* counters_ = nullptr;  ///< the same
+    const Context* context_ = nullptr;    ///< context of the call of `trace` under way
+    TileBuffer* tile_ = nullptr;          ///< tile of the call of `trace` under way
+    RenderCounters* counters_ = nullptr;  ///< counters of the call of `trace` under way
 };
 
 }  // namespace etendue

@@ -14,7 +14,8 @@ namespace etendue {
 
 namespace {
 
-/// Of the choice from the cache for the eye vertex of index 0; far from those of subpaths.
+/// Numbers the dimension of the choice from the cache for the eye vertex of index 0, far from the dimensions of
+/// subpaths.
 constexpr std::uint32_t kCacheDimension = 3u << 29;
 
 }  // namespace

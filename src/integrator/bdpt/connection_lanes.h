@@ -10,14 +10,14 @@
 
 namespace etendue {
 
-/// What a connection brings if nothing is in the way, and its weight, which that includes.
+/// Holds the light that a connection brings if nothing is in the way, and the weight that this light includes.
 struct Brought {
     Rgb light;
     float weight;
 };
 
 struct ConnectionColumns {
-    BitColumn slot;       ///< of the sample whose light it is
+    BitColumn slot;       ///< sample that gets the light
     BitColumn is_direct;  ///< 1 where that is direct light, else 0
 
     RgbColumns contribution;
@@ -65,7 +65,7 @@ struct ConnectionColumns {
 
 // Each computes lanes [0, count), rounded up, from what the caller has set.
 
-/// Of two subpaths; about 5 KiB. Ends stay where they are until rays are asked for.
+/// Connects vertices of two subpaths; about 5 KiB. Ends stay where they are until rays are asked for.
 struct BetweenLanes : ConnectionColumns {
     MatteEndsOfBlock eye, light;
     Column scale;  ///< how many connections one stands for
@@ -73,13 +73,13 @@ struct BetweenLanes : ConnectionColumns {
     void connect(std::size_t count, const WeightRule& rule);
 };
 
-/// To samples of even mesh lights; about 8 KiB.
+/// Connects eye vertices to samples of even mesh lights; about 8 KiB.
 struct ToLightLanes : ConnectionColumns {
     MatteEndsOfBlock eye;
     LightFrontColumns front;
     Vec2Columns u;  ///< for the point on the triangle
     RgbColumns radiance;
-    Column probability;   ///< of the choice of the light
+    Column probability;   ///< of choosing the light, for a sample
     Column choice_ratio;  ///< of light and triangle being chosen for an emission, over that for a sample
 
     // The sample.
@@ -89,7 +89,7 @@ struct ToLightLanes : ConnectionColumns {
     void connect(std::size_t count, const WeightRule& rule);
 };
 
-/// To the camera; about 5 KiB.
+/// Connects light vertices to the camera; about 5 KiB.
 struct ToCameraLanes : ConnectionColumns {
     MatteEndsOfBlock light;
     Vec3Columns lens, w;  ///< the point there, and the unit vector to it

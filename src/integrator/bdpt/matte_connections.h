@@ -16,7 +16,8 @@ struct WeightRule {
     Raised raised;
     bool weighted = true;  ///< if not, each counts in full
 
-    /// The densities, or ratios of them, are those of `sums_of_connection`.
+    /// Returns the weight of a connection, [0, 1], from the densities, or ratios of them, that `sums_of_connection`
+    /// takes.
     template <typename T>
     [[nodiscard]] T weight(T from_eye, T fewer_of_light, T from_light, T fewer_of_eye) const {
         if (!weighted) return T(1.0f);
@@ -28,7 +29,7 @@ struct WeightRule {
     }
 };
 
-/// A template of its lane type, see core/lane.h.
+/// Holds a connection with its weight and ray; a template of its lane type, see core/lane.h.
 template <typename T>
 struct MatteConnection {
     BasicRgb<T> contribution;  ///< if nothing is in the way; black where nothing would be scattered
@@ -36,7 +37,7 @@ struct MatteConnection {
     Connection<T> ray;         ///< from the origin of the end on the eye's side, otherwise from that of the light's
 };
 
-/// Of the ends of both subpaths, which stands for `scale` connections.
+/// Returns the connection of the ends of both subpaths, which stands for `scale` connections.
 template <typename T>
 [[nodiscard]] inline MatteConnection<T> connect(const WeightRule& rule, const BasicMatteEnd<T>& eye,
                                                 const BasicMatteEnd<T>& light, T scale) {
@@ -51,8 +52,8 @@ template <typename T>
             Connection<T>(eye.origin, light.origin)};
 }
 
-/// A sample of an evenly shining mesh light; `probability` is that of the choice of the light for `eye`,
-/// `choice_ratio` that of both light and triangle for an emission over that for `eye`.
+/// Returns the connection of `eye` to a sample of an evenly shining mesh light; `probability` is that of the choice of
+/// the light for `eye`, `choice_ratio` that of both light and triangle for an emission over that for `eye`.
 template <typename T>
 [[nodiscard]] inline MatteConnection<T> connect(const WeightRule& rule, const BasicMatteEnd<T>& eye,
                                                 const LightTriangleFront<T>& front, const LightTriangleSample<T>& light,
@@ -66,8 +67,8 @@ template <typename T>
             weight, Connection<T>(eye.origin, light.end)};
 }
 
-/// To the point `lens`, which lies along `w` and sees the end of a light subpath with `importance` per area, 1/m²;
-/// `samples_per_path` as in SubpathJob::samples_per_light_path.
+/// Returns the connection of `light` to the point `lens`, which lies along `w` and sees this end of a light subpath
+/// with `importance` per area, 1/m²; `samples_per_path` is SubpathJob::samples_per_light_path.
 template <typename T>
 [[nodiscard]] inline MatteConnection<T> connect(const WeightRule& rule, const BasicMatteEnd<T>& light,
                                                 const Imath::Vec3<T>& lens, const Imath::Vec3<T>& w, T importance,

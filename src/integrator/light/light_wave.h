@@ -28,10 +28,10 @@ class LightWave final : public IntegratorScratch {
 
     std::vector<CameraSample> samples_;
     std::vector<Ray> camera_rays_;
-    std::vector<Hit> hits_;  ///< of the camera rays, if layers ask for them
+    std::vector<Hit> hits_;  ///< hits of the camera rays, if layers ask for them
     std::vector<float> alpha_;
     SampleLight found_;                    ///< nothing but rays: all light falls on the film
-    std::vector<ExpressionShare> shares_;  ///< of the path at hand
+    std::vector<ExpressionShare> shares_;  ///< shares of expressions in the light of the path at hand
     SubpathWave subpaths_{SubpathEnd::AtLight, false};
     VerticesToCamera to_camera_;
     LampsToCamera lamps_;

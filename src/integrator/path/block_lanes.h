@@ -9,15 +9,15 @@
 
 namespace etendue {
 
-/// About 21 KiB, which stay in the first-level cache. `u` becomes the numbers for a point on the light that is sampled,
-/// then those for directions.
+/// Holds a block of paths between the stages of shading: about 21 KiB, which stay in the first-level cache. `u` becomes
+/// the numbers for a point on the light that is sampled, then those for directions.
 struct BlockLanes : SurfaceLanes {
     Vec3Columns wo;
     RgbColumns albedo;
 
     // The sample of a light.
     LightFrontColumns front;
-    Column light_probability;  ///< of the choice times the samples taken; 0 where `front` is not what is sampled
+    Column light_probability;  ///< of choosing the light, times samples; 0 where `front` is not sampled
     Vec3Columns light_wi, light_end;
     Column light_distance;
     Column light_pdf;        ///< the choice included; of a delta that alone; 0 if nothing arrives
@@ -40,7 +40,7 @@ struct BlockLanes : SurfaceLanes {
     Column is_wide;    ///< 1 where the path is scattered by the columns above, else 0
     Column goes_on;    ///< 1 where it does, else 0
 
-    /// Of a block of whose paths nothing is known yet.
+    /// Starts a block of whose paths nothing is known yet.
     void start() {
         front.clear();
         forget_light();
@@ -50,7 +50,7 @@ struct BlockLanes : SurfaceLanes {
             goes_on.store(l, Wide(0.0f));
         }
     }
-    /// No path has a sample of a light.
+    /// Leaves all paths without a sample of a light.
     void forget_light() {
         for (std::size_t l = 0; l < kBlockLanes; l += Wide::kWidth) {
             light_probability.store(l, Wide(0.0f));
@@ -61,15 +61,15 @@ struct BlockLanes : SurfaceLanes {
 
     // Each computes lanes [0, count), rounded up, from the columns that the one before and the caller have set.
 
-    /// Samples of mesh lights from `position`, the triangles and `u`.
+    /// Samples mesh lights from `position`, the triangles and `u`.
     void sample_mesh_lights(std::size_t count);
-    /// `f_cos` and `pdf` towards the light; `next_direction`, `next_weight` and `next_pdf` from `u`.
+    /// Computes `f_cos` and `pdf` towards the light, and `next_direction`, `next_weight` and `next_pdf` from `u`.
     void evaluate_matte(std::size_t count);
-    /// `next_origin`, from `next_direction`.
+    /// Computes `next_origin` from `next_direction`.
     void set_next_origins(std::size_t count);
-    /// `contribution`, whether it `arrives`, and its ray, of the paths from `first` of the wave on.
+    /// Computes `contribution`, whether it `arrives`, and its shadow ray, for the paths from `first` of the wave on.
     void weigh_light(std::size_t count, const PathColumns& paths, std::size_t first);
-    /// Takes those that are `is_wide` on, unless nothing was scattered.
+    /// Takes the paths on for which `is_wide` is 1, unless nothing was scattered.
     void scatter(std::size_t count, PathColumns& paths, std::size_t first);
 };
 

@@ -11,9 +11,9 @@
 
 namespace etendue {
 
-/// About 13 KiB.
+/// Holds the paths of a block that are on plain metallic-roughness surfaces, side by side: about 13 KiB.
 struct GlossyLanes {
-    /// With as much behind them as is written at once.
+    /// Makes room for a block's paths, and behind them for as much as is written at once.
     static constexpr std::size_t kSize = kBlockLanes + Wide::kWidth;
     using Column = BasicColumn<kSize>;
     using Vec2Columns = BasicVec2Columns<kSize>;
@@ -38,7 +38,7 @@ struct GlossyLanes {
     RgbColumns next_weight;
     Column next_pdf;
 
-    /// `lobe` is_plain.
+    /// Sets the lobe of `lane`, which must be plain.
     void set_lobe(std::size_t lane, const MetallicRoughness& lobe) {
         base.set(lane, lobe.base);
         f0.set(lane, lobe.f0);
@@ -50,9 +50,9 @@ struct GlossyLanes {
     /// Moves what is known of those paths [0, paths) of a block that are on gloss here, side by side. `choices` are
     /// their numbers for the choice of a lobe, x, `directions` for the direction.
     void take(const BlockLanes& lanes, std::size_t paths, const NumberPairs& choices, const NumberPairs& directions);
-    /// Lanes [0, count), rounded up.
+    /// Evaluates and samples the lobes of lanes [0, count), rounded up.
     void evaluate(std::size_t count);
-    /// Moves what has come of it back.
+    /// Moves values and samples back to the `paths` of `lanes` that are on gloss.
     void give(BlockLanes& lanes, std::size_t paths) const;
 };
 

@@ -9,15 +9,16 @@
 
 namespace etendue {
 
-/// Lanes in the order in which they were offered, each at most once.
+/// Lists lanes in the order in which they were offered, each at most once.
 class LaneList {
   public:
-    /// Not a byte: that may be a part of anything, and compilers would read the count anew after every one they write.
+    /// Numbers a lane. It is no byte: a byte may be a part of anything, and compilers would read the count anew after
+    /// every one they write.
     using Lane = std::uint16_t;
 
     void clear() { count_ = 0; }
     void add(std::size_t lane) { add_if(true, lane); }
-    /// Without a branch: which paths these are is chance, which no processor foretells.
+    /// Adds `lane` if `is_one`, without a branch: which paths these are is chance, which no processor foretells.
     void add_if(bool is_one, std::size_t lane) {
         lanes_[count_] = static_cast<Lane>(lane);
         count_ += is_one ? 1 : 0;

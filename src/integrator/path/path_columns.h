@@ -18,11 +18,12 @@ namespace path_history {
 
 /// The last scattering was a delta, or there was none: lights cannot be sampled for it.
 inline constexpr std::uint32_t kAfterDelta = 1u;
-/// Every scattering was: the eye sees this directly or in mirrors.
+/// Every scattering was a delta: the eye sees this directly or in mirrors.
 inline constexpr std::uint32_t kOnlyDelta = 2u;
-/// Every scattering but the last was: what the path meets lights what the eye sees so.
+/// Every scattering but the last was a delta: what the path meets lights what the eye sees directly or in mirrors.
 inline constexpr std::uint32_t kIsDirect = 4u;
-/// Of the path when its ray has hit; media and hidden boundaries add none.
+/// Adds one to the edges of the path when its ray has hit, which the bits above the flags count; media and hidden
+/// boundaries add none.
 inline constexpr std::uint32_t kOneEdge = 8u;
 inline constexpr std::uint32_t kFlags = kOneEdge - 1u;
 
@@ -31,7 +32,7 @@ inline constexpr std::uint32_t kAtEye = kOneEdge | kAfterDelta | kOnlyDelta | kI
 [[nodiscard]] constexpr int edges(std::uint32_t history) {
     return static_cast<int>(history / kOneEdge);
 }
-/// After a scattering that was no delta, `edges` edges on.
+/// Returns the history after a scattering that was no delta, `edges` edges on.
 template <typename Bits>
 [[nodiscard]] Bits after_lobe(Bits history, std::uint32_t edges) {
     return ((history & Bits(~kFlags)) + Bits(edges * kOneEdge)) | ((history & Bits(kOnlyDelta)) << 1);
@@ -43,32 +44,32 @@ template <typename Bits>
 
 }  // namespace path_history
 
-/// Which paths of a block go on, and where they are moved to, a `Wide` of them at a time.
+/// Says which paths of a block go on, and where they are moved to, a `Wide` of them at a time.
 class BlockSurvivors {
   public:
     /// Starts with the block of paths [first, first + count), whose first survivor becomes path `kept`.
     BlockSurvivors(std::size_t first, std::size_t kept) : first_(first), kept_(kept) {}
 
-    /// The next ones.
+    /// Adds the next `Wide` of paths, of which those in `goes_on` survive.
     void add(WideMask goes_on) {
         masks_[groups_] = goes_on;
         to_[groups_++] = kept_;
         kept_ += count(goes_on);
     }
-    /// Moves them; no path is moved behind where it was.
+    /// Moves what `column` holds of the survivors; no path is moved behind where it was.
     template <typename AnyColumn>
     void move(AnyColumn& column) const {
         for (std::size_t group = 0; group < groups_; ++group)
             column.store_unaligned(to_[group], compress(column.load(first_ + group * Wide::kWidth), masks_[group]));
     }
-    /// Calls `move(from, to)` for each in turn.
+    /// Calls `move(from, to)` for each survivor in turn.
     template <typename Move>
     void for_each(const Move& move) const {
         for (std::size_t group = 0; group < groups_; ++group)
             for (std::size_t lane = 0, to = to_[group]; lane < Wide::kWidth; ++lane)
                 if (masks_[group][lane]) move(first_ + group * Wide::kWidth + lane, to++);
     }
-    /// How many there are now in all.
+    /// Returns how many survivors there are now, those of former blocks included.
     [[nodiscard]] std::size_t kept() const { return kept_; }
 
   private:
@@ -85,7 +86,8 @@ struct PathColumns {
     /// Paths in a wave: enough to fill ray packets after many have ended, and few enough that they stay in an L2 cache
     /// of 1 MiB.
     static constexpr std::size_t kCapacity = 2048;
-    /// With as much behind them as a packet reads, which also keeps columns apart in the sets of a cache.
+    /// Makes room for the paths of a wave, and behind them for as much as a packet reads, which also keeps columns
+    /// apart in the sets of a cache.
     static constexpr std::size_t kSize = kCapacity + RayColumns::kPacket;
     static_assert(Wide::kWidth <= RayColumns::kPacket);
 
@@ -96,11 +98,11 @@ struct PathColumns {
     /// Product of eta² over the refractions so far: what radiance scaling took from the throughput and Russian roulette
     /// must not see.
     BasicColumn<kSize> eta_scale;
-    BasicColumn<kSize> pdf_solid_angle;  ///< of the ray's direction; not meaningful after a delta
+    BasicColumn<kSize> pdf_solid_angle;  ///< 1/sr, of the ray's direction; not meaningful after a delta
     BasicColumn<kSize> wavelength_nm;    ///< nanometres once a dispersive body has refracted it, 0 for all wavelengths
     BasicColumn<kSize> cone_width, cone_spread;  ///< around the ray; followed only where there are textures to filter
     BasicBitColumn<kSize> slot;                  ///< which camera sample
-    BasicBitColumn<kSize> pixel_seed, index;     ///< its SampleKey
+    BasicBitColumn<kSize> pixel_seed, index;     ///< SampleKey of the camera sample
     BasicBitColumn<kSize> history;               ///< see path_history
 
     [[nodiscard]] RayColumns rays(std::size_t count) const {
@@ -113,7 +115,7 @@ struct PathColumns {
         time.set(i, ray.time);
         alpha_key.set(i, ray.alpha_key);
     }
-    /// Paths of `rays` from the eye, those of `samples`, which have come nowhere yet.
+    /// Begins the paths of `samples`, which leave the eye along `rays` and have come nowhere yet.
     void begin(std::span<const Ray> rays, std::span<const CameraSample> samples) {
         for (std::size_t i = 0; i < rays.size(); ++i) {
             set_ray(i, rays[i]);
@@ -138,7 +140,7 @@ struct PathColumns {
     }
     void multiply_throughput(std::size_t i, const Rgb& by) { throughput.set(i, throughput[i] * by); }
     [[nodiscard]] bool is(std::uint32_t flag, std::size_t i) const { return (history[i] & flag) != 0; }
-    /// The same of a `Wide` of them.
+    /// Returns the lanes that have `flag` among the `Wide` of paths from `first` on.
     [[nodiscard]] WideMask are(std::uint32_t flag, std::size_t first) const {
         return (history.load(first) & WideBits(flag)) != WideBits(0u);
     }

@@ -28,20 +28,20 @@
 
 namespace etendue {
 
-/// A path whose ray has hit a surface, between the stages of its shading: what all of them ask.
+/// Holds what all stages of shading ask of a path whose ray has hit a surface.
 struct ShadedPath {
     const PlainSurface* plain = nullptr;        ///< see World::plain_surface
-    const MetallicRoughness* glossy = nullptr;  ///< its lobe, where that is evaluated for many at once
-    std::uint32_t light = kNone;                ///< that is sampled
+    const MetallicRoughness* glossy = nullptr;  ///< lobe of the path, where many are evaluated at once
+    std::uint32_t light = kNone;                ///< light that is sampled
     bool is_wide = false;                       ///< scattered by a lobe that is evaluated for many paths at once
 };
 
-/// The rest, which paths have that are shaded one by one: some 700 bytes, apart from what stays in the first-level
+/// Holds what else paths have that are shaded one by one: some 700 bytes, apart from what stays in the first-level
 /// cache.
 struct SingleShading {
     SurfacePoint point;  ///< of a plain surface its material only, where words are followed
     std::optional<Crossing> crossing;
-    Wavelength wavelength{};  ///< that it goes on with, and its weight
+    Wavelength wavelength{};  ///< wavelength with which the path goes on, and its weight
     bool chooses_wavelength = false;
     Bsdf storage;
     std::optional<Scattering> scattering;  ///< unless it is_wide; of glossy ones where words are followed
@@ -83,18 +83,19 @@ class PathWave final : public IntegratorScratch {
         int depth;  ///< rays that each path has traced; its edges, if the World has no bodies
     };
 
-    /// Random numbers of the block for this bounce, many at a time.
+    /// Draws the random numbers of the block for this bounce, many at a time.
     void draw_numbers(const Context& context);
-    /// Those of the `round`-th light sample of its paths.
+    /// Draws the random numbers for the `round`-th light sample of the block's paths.
     void draw_light_numbers(const Context& context, std::uint32_t round);
-    /// What the numbers of the `round`-th light sample of path `k` come from.
+    /// Returns the key from which the numbers of the `round`-th light sample of path `k` come.
     [[nodiscard]] SampleKey light_sample_key(const Context& context, std::size_t k, std::uint32_t round) const;
-    /// Light samples of path `i` of the wave: where it is, if nothing but deltas has scattered it yet (`kOnlyDelta`),
-    /// or where its ray comes from, if nothing had there (`kIsDirect`).
+    /// Returns how many light samples path `i` of the wave has: where it is, if nothing but deltas has scattered it yet
+    /// (`kOnlyDelta`), or where its ray comes from, if nothing else had there (`kIsDirect`).
     [[nodiscard]] std::uint32_t light_samples(const Context& context, std::size_t i, std::uint32_t first_vertex) const {
         return paths_.is(first_vertex, i) ? context.options.light_samples : 1u;
     }
-    /// `trace_shadow_rays` is called whenever there are enough for a batch.
+    /// Shades all paths, block by block, and calls `trace_shadow_rays` whenever there are enough shadow rays for a
+    /// batch.
     template <typename TraceShadowRays>
     void shade(const Context& context, const TraceShadowRays& trace_shadow_rays);
     /// Advances paths [first, first + count), count <= kBlock, stage by stage, and moves those that go on to where
@@ -103,42 +104,44 @@ class PathWave final : public IntegratorScratch {
     // Path `k` of the block is path `first_` + `k` of the wave, and has lane `k` of `lanes_`.
     /// Finds out where the paths are, and which of them are on surfaces that may scatter them.
     void set_up(const Context& context);
-    /// The same of path `k`, which is on a surface that is not plain; false if that ends it or lets it pass.
+    /// Finds out where path `k` is, which is on a surface that is not plain; false if the surface ends the path or lets
+    /// it pass.
     bool set_up_any(const Context& context, std::size_t k);
-    /// Points on plain surfaces, all at once.
+    /// Finds the points of the block's paths on plain surfaces, all at once.
     void set_up_plain(const Context& context);
-    /// Lobes of textured plain surfaces, all at once.
+    /// Looks up the lobes of textured plain surfaces, all at once.
     void look_up_textures(const Context& context);
     /// Has the path of a plain surface that mirrors after all go on as one of any other.
     void set_up_singly(const Context& context, std::size_t k);
-    /// Makes the lobes of all.
+    /// Makes the lobes of all paths that surfaces may scatter, and lists those that sample lights.
     void make_scattering(const Context& context);
-    /// Of path `k`, which is not on a plain surface, with all its textures.
+    /// Makes the lobe of path `k`, which is not on a plain surface, with all its textures.
     void make_scattering_singly(const Context& context, std::size_t k);
     void set_wide(std::size_t k, bool is_wide) {
         block_[k].is_wide = is_wide;
         lanes_.is_wide.set(k, is_wide ? 1.0f : 0.0f);
     }
-    /// What words ask of path `k`, whose lobe is plain.
+    /// Makes the Scattering of path `k`, whose lobe is plain, for words to ask.
     void make_wide_scattering(std::size_t k);
-    /// What light is chosen for at the surface of path `k`.
+    /// Returns what a light is chosen for at the surface of path `k`.
     [[nodiscard]] LightReceiver make_receiver(std::size_t k) const;
     // What is done `round` after round, for another light sample of paths each time.
     /// Samples a light for each of `paths`.
     void sample_lights(const Context& context, const LaneList& paths, std::uint32_t round);
-    /// A light sample of each of `paths`, on to its shadow ray. Lanes make what they know of the BSDF's sample besides.
+    /// Takes a light sample for each of `paths`, on to its shadow ray. Lanes also sample the BSDF.
     template <typename Stamp>
     void sample_direct_light(const Context& context, const LaneList& paths, std::uint32_t round, const Stamp& stamp);
-    /// All light samples of the block.
+    /// Takes all light samples of the block.
     template <typename Stamp>
     void split_direct_light(const Context& context, const Stamp& stamp);
     // The sample of path `k`, from the lanes or to them.
     void take_light_from_lanes(std::size_t k);
     void put_light_into_lanes(std::size_t k);
-    /// What the surface of path `k` scatters towards the light, and where else to.
+    /// Evaluates the BSDF of path `k`, which is not wide, towards its light sample.
     void evaluate_light(std::size_t k);
+    /// Samples the BSDF of path `k`, which is not wide.
     void sample_bsdf(std::size_t k);
-    // Both, of all that are scattered by lanes.
+    // Evaluation and sample, of all paths that lanes scatter.
     void evaluate_matte();
     void evaluate_glossy();
     /// Takes path `k` through the medium that its ray is in; true if it scatters there.
@@ -149,21 +152,21 @@ class PathWave final : public IntegratorScratch {
     void pass_pane(const Context& context, std::size_t k);
     /// Takes path `k` where the sample of its BSDF says; false if it ends.
     bool scatter_at_surface(const Context& context, std::size_t k);
-    /// The same for all paths that are_wide, at once.
+    /// Takes all paths that are wide where the samples of their BSDFs say, at once.
     void scatter_by_lanes(const Context& context);
-    /// What the surface of path `k`, which is_wide, does towards `wi`.
+    /// Returns what scattering towards `wi` by the surface of path `k`, which is wide, may be taken for.
     [[nodiscard]] VertexEvent wide_event(const Context& context, std::size_t k, const Vec3f& wi) const;
     /// Tells the profile, if there is one, how path `k` scattered.
     void count_sample(const Context& context, std::size_t k, const BsdfSample& sample) const;
-    /// The cone of path `k`, which has arrived as `arriving`, after `sample`, before its ray has been changed.
+    /// Bends the cone of path `k`, which has arrived as `arriving`, as `sample` does, before the path's ray is changed.
     void bend_cone(const World& world, std::size_t k, const RayCone& arriving, const Vec3f& geometric_normal,
                    const BsdfSample& sample);
-    /// Those of all paths that are_wide.
+    /// Bends the cones of all paths that are wide.
     void bend_cones(const World& world);
     [[nodiscard]] RayCone arriving_cone(std::size_t k) const { return paths_.cone(first_ + k).at(hits_[first_ + k].t); }
-    /// What the lanes have sampled for path `k`, but for its direction.
+    /// Returns what the lanes have sampled for path `k`, but for its direction.
     [[nodiscard]] BsdfSample sample_of_lane(std::size_t k) const;
-    /// What path `k` has been so far, with `event`.
+    /// Takes the words of path `k` past a vertex that scatters as `event`.
     void follow(std::size_t k, const VertexEvent& event) {
         ranges_[first_ + k] = words_.scatter_from_eye(ranges_[first_ + k], event);
     }
@@ -172,36 +175,38 @@ class PathWave final : public IntegratorScratch {
     void keep_survivors(const Context& context, std::size_t& kept);
     /// Tells the profile, if there is one, of the end of path `k`.
     void end_path(const Context& context, std::size_t k, PathEnding ending) const;
-    /// What those that have left the scene meet there.
+    /// Adds the light of the environment to paths of the block that have left the scene.
     void add_environment(const Context& context);
     void add_emission(const Context& context, std::size_t k);
-    /// Where the ray of path `i` starts, as far as the choice of a light depends on it.
+    /// Returns where the ray of path `i` starts, as far as the choice of a light depends on that.
     [[nodiscard]] LightReceiver receiver(std::size_t i) const {
         return receivers_.empty() ? LightReceiver{} : receivers_[i];
     }
-    /// Metres from the vertex that path `i` comes from to where its ray starts, behind panes.
+    /// Returns the metres from the vertex that path `i` comes from to where its ray starts, behind panes.
     [[nodiscard]] float passed(std::size_t i) const { return passed_.empty() ? 0.0f : passed_[i]; }
-    /// Shadow rays to the lights that the block has sampled.
+    /// Queues shadow rays from `paths` to the lights that the block has sampled.
     void queue_direct_light(const Context& context, const LaneList& paths, std::uint32_t round);
     void queue_singly(const Context& context, std::size_t k, std::uint32_t round);
     void queue_by_lanes(const Context& context, std::size_t k, std::uint32_t round);
-    /// The same for all that are_wide, at once, where no words are followed and there are no bodies.
+    /// Queues the shadow rays of all paths that are wide, at once, where no words are followed and there are no bodies.
     void queue_by_lanes(const Context& context, std::uint32_t round);
     void queue_direct_light_in_medium(const Context& context, std::size_t k, const Vec3f& position,
                                       const HomogeneousMedium& medium);
-    /// What the light that path `k` samples is made from.
+    /// Returns the numbers from which the light sample of path `k` is made.
     [[nodiscard]] LightNumbers light_numbers(std::size_t k) const {
         return {light_choice_[k], light_triangle_[k], light_direction_[k]};
     }
-    /// The same of the `round`-th sample of one path alone.
+    /// Draws the numbers for the `round`-th light sample of path `k` alone.
     [[nodiscard]] LightNumbers light_numbers(const Context& context, std::size_t k, std::uint32_t round) const;
-    /// `event` is what the vertex does towards `light`.
+    /// Queues `ray` of path `k` towards `light` with its `contribution`; `event` is how the vertex scatters towards
+    /// that light.
     void queue(const Context& context, std::size_t k, std::uint32_t round, Ray ray, const Rgb& contribution,
                std::uint32_t light, const VertexEvent& event);
     /// Adds `light` that path `i` of the wave has met.
     void add_light(std::size_t i, const Rgb& light, const AovSet::Source& source);
     [[nodiscard]] std::uint32_t alpha_key(const Context& context, std::size_t k) const;
-    /// Of the `round`-th light sample: another than those of the others and of the ray that goes on.
+    /// Returns the alpha key of the shadow ray of the `round`-th light sample of path `k`, unlike those of other rounds
+    /// and of the ray that goes on.
     [[nodiscard]] std::uint32_t shadow_alpha_key(const Context& context, std::size_t k, std::uint32_t round) const {
         return etendue::shadow_alpha_key(alpha_key(context, k), round);
     }
@@ -213,33 +218,33 @@ class PathWave final : public IntegratorScratch {
     std::vector<Interior> interiors_;       ///< only if the World has bodies
     std::vector<LightReceiver> receivers_;  ///< where rays start; only if the World chooses lights by that
     std::vector<float> passed_;             ///< see `passed`; only if the World has panes
-    std::vector<WordRange> ranges_;         ///< what they have been so far; only if that is followed
+    std::vector<WordRange> ranges_;         ///< words of the paths so far; only if words are followed
     PathWords words_;
-    std::vector<ExpressionShare> shares_;  ///< of the contribution at hand
+    std::vector<ExpressionShare> shares_;  ///< shares of expressions in the contribution at hand
     Connections shadow_rays_{RayKind::Shadow};
     LampsInView lamps_;
     // Of the block that is shaded.
-    std::size_t first_ = 0;  ///< its first path
-    std::size_t count_ = 0;  ///< its paths
+    std::size_t first_ = 0;  ///< the block's first path, in the wave
+    std::size_t count_ = 0;  ///< paths in the block
     NumberPairs light_choice_, light_triangle_, light_direction_, bsdf_direction_;
     NumberPairs choices_;  ///< x: which lobe, y: whether the path ends
     NumberPairs medium_;   ///< x: how far, y: by which channel
     std::array<ShadedPath, kBlock> block_{};
     std::vector<SingleShading> singles_;
     std::vector<PanePassage> panes_;                         ///< only if the World has panes
-    std::array<ChosenLight, kBlock> lights_{};               ///< samples of those that are not sampled for many at once
-    std::array<LightSample, kBlock> environment_samples_{};  ///< of those among them that are the environment's
+    std::array<ChosenLight, kBlock> lights_{};               ///< light samples outside the lanes, by path
+    std::array<LightSample, kBlock> environment_samples_{};  ///< light samples of the environment, side by side
     LaneList escaped_;                                       ///< paths that have left the scene
-    LaneList on_emitter_, on_hidden_;                        ///< on surfaces that emit, on hidden boundaries
-    LaneList on_surface_;                                    ///< on surfaces that may scatter them
-    LaneList sampling_;                                      ///< of those: which sample lights
-    LaneList on_texture_, on_gloss_;                         ///< of those: on textured plain ones, on GlossyLanes
+    LaneList on_emitter_, on_hidden_;                        ///< paths on surfaces that emit, on hidden boundaries
+    LaneList on_surface_;                                    ///< paths on surfaces that may scatter them
+    LaneList sampling_;                                      ///< paths of `on_surface_` that sample lights
+    LaneList on_texture_, on_gloss_;                         ///< paths on textured plain surfaces, in GlossyLanes
     BlockLanes lanes_;
     GlossyLanes glossy_;
     TexturedLanes textured_;
     std::array<MetallicRoughness, kBlock> textured_lobes_{};
     PlainLookups lookups_;
-    std::array<LightReceiver, kBlock> to_light_;  ///< of the paths that sample lights, one after the other
+    std::array<LightReceiver, kBlock> to_light_;  ///< what lights are chosen for, side by side
     // By slot, that is, by camera sample.
     std::vector<CameraSample> samples_;
     std::vector<Ray> camera_rays_;

@@ -16,7 +16,7 @@ namespace etendue {
 
 namespace {
 
-/// Of light that a path meets.
+/// Returns how light that a path of this `history` meets comes to the eye.
 LightKind kind_of_met_light(std::uint32_t history) {
     if (path_history::edges(history) == 1 && (history & path_history::kOnlyDelta) != 0) return LightKind::Seen;
     return (history & path_history::kIsDirect) != 0 ? LightKind::Direct : LightKind::Indirect;

@@ -10,9 +10,9 @@
 namespace etendue {
 
 struct TexturedLanes {
-    /// Of the triangle's first vertex, and its edges, as in HitCoordinates.
+    /// Hold the texture coordinates of the triangle's first vertex and of its edges, as in HitCoordinates.
     Vec2Columns uv0, uv_edge1, uv_edge2;
-    Column width;  ///< of the path's cone where it hit, metres
+    Column width;  ///< metres, of the path's cone where it hit
 
     // The point, and what is read around it.
     Vec2Columns uv;
@@ -24,7 +24,7 @@ struct TexturedLanes {
         uv_edge2.set(lane, coordinates.edge2);
         width.set(lane, cone_width);
     }
-    /// Lanes [0, count), rounded up, of `surfaces`, whose points have been set up.
+    /// Computes where textures are read in lanes [0, count), rounded up, of `surfaces`, whose points have been set up.
     void set_up(const BlockLanes& surfaces, std::size_t count);
     [[nodiscard]] TextureFootprint footprint(std::size_t lane) const { return {{along[lane], across[lane]}}; }
 };

@@ -26,7 +26,7 @@ class RayRecorder {
 
     [[nodiscard]] std::span<const std::vector<Ray>> segments() const { return segments_; }
     [[nodiscard]] std::size_t ray_count() const;
-    /// The chance of each segment that was offered to be among those kept.
+    /// Returns the chance, [0, 1], of each segment that was offered to be among those kept.
     [[nodiscard]] double chance() const { return chance_; }
     /// Adds the segments of another. Of the one whose segments had the better chance so many are left out that it is
     /// the same for all of both. Nothing is offered any more after this.

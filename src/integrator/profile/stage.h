@@ -8,7 +8,7 @@
 
 namespace etendue {
 
-/// In the order of a wave.
+/// Names the stages of a wave, in their order.
 enum class Stage : std::uint8_t {
     Generate,       ///< camera rays, and where light paths begin
     Numbers,        ///< random numbers of a bounce
@@ -21,14 +21,14 @@ enum class Stage : std::uint8_t {
     Mis,            ///< weights of samples and connections, and the rays that will decide whether they count
     Roulette,       ///< paths ended, moved and left behind
     Occluded,       ///< whether something is in the way
-    Splat,          ///< what arrived added to samples and put on the film
+    Splat,          ///< light that arrived added to samples and put on the film
     Film,           ///< samples added to pixels
     Count
 };
 
 inline constexpr std::size_t kStages = static_cast<std::size_t>(Stage::Count);
 
-/// As reports name them.
+/// Holds the names of the stages in reports, in the order of `Stage`.
 inline constexpr std::array<std::string_view, kStages> kStageNames{
     "generate", "random numbers", "intersect",      "hit set-up",
     "emission", "textures",       "light sampling", "material evaluation",

@@ -46,12 +46,12 @@ class PathTally {
     /// Lengths that are told apart; longer paths are counted with the longest.
     static constexpr int kMostRays = 256;
 
-    /// A path of `rays` rays came to its end.
+    /// Counts a path of `rays` rays that came to its end.
     void count(PathEnding ending, int rays);
     void add(const PathTally& other);
 
     [[nodiscard]] std::uint64_t paths(PathEnding ending) const { return endings_[static_cast<std::size_t>(ending)]; }
-    /// Paths by the rays they took; as long as it has to be.
+    /// Returns how many paths took each number of rays; the list ends with the longest path.
     [[nodiscard]] std::vector<std::uint64_t> lengths() const;
 
   private:
@@ -75,25 +75,25 @@ class WaveProfile {
     /// `recorded_rays` is about how many rays of each kind are kept.
     explicit WaveProfile(std::size_t recorded_rays);
 
-    /// What was done since the last stamp is nobody's.
+    /// Leaves the time since the last stamp out of all stages.
     void skip() { last_ = ticks_now(); }
-    /// All that was done since the last stamp was `stage`.
+    /// Adds the time since the last stamp to `stage`.
     void stamp(Stage stage) { ticks_[static_cast<std::size_t>(stage)] += lap(); }
     /// Begins a block of paths. True if its stages are told apart: of every second one only, as stamps would take more
     /// than a hundredth of the time where paths are short.
     [[nodiscard]] bool start_block() { return tells_apart_ = !tells_apart_; }
-    /// As `stamp`, in a block of which stages are told apart.
+    /// Adds the time since the last stamp to `stage`, in a block whose stages are told apart.
     void stamp_in_block(Stage stage) { ticks_in_blocks_[static_cast<std::size_t>(stage)] += lap(); }
-    /// All that was done since the last stamp was another block: the stages of those that are told apart have their
-    /// shares of it.
+    /// Adds the time since the last stamp to the blocks whose stages are not told apart; stages share it as in the
+    /// other blocks.
     void stamp_block() { ticks_of_blocks_ += lap(); }
-    /// The same of rays that were traced.
+    /// Adds the time since the last stamp to `stage` and to the rays of `kind` that were traced.
     void stamp(Stage stage, RayKind kind) {
         const std::uint64_t elapsed = lap();
         ticks_[static_cast<std::size_t>(stage)] += elapsed;
         ticks_of_kind_[static_cast<std::size_t>(kind)] += elapsed;
     }
-    /// Keeps some of them for the replay.
+    /// Keeps some of `rays` for the replay.
     template <typename Batch>
     void record(RayKind kind, const Batch& rays) {
         recorders_[static_cast<std::size_t>(kind)].offer(rays);
@@ -101,30 +101,30 @@ class WaveProfile {
     }
     /// `count` rays of a kind met something.
     void count_hits(RayKind kind, std::uint64_t count) { hits_[kind] += count; }
-    /// An eye path came to its end.
+    /// Counts an eye path that came to its end.
     void end_eye_path(PathEnding ending, const LongPath& path);
-    /// The same of a light subpath of `rays` rays.
+    /// Counts a light subpath of `rays` rays that came to its end.
     void end_light_path(PathEnding ending, int rays) { light_paths_.count(ending, rays); }
     [[nodiscard]] SampleUse& use() { return use_; }
 
-    /// Adds what another thread has found.
+    /// Adds the profile of another thread.
     void add(const WaveProfile& other);
 
     [[nodiscard]] double seconds(Stage stage) const;
     [[nodiscard]] double seconds(RayKind kind) const {
         return in_seconds(ticks_of_kind_[static_cast<std::size_t>(kind)]);
     }
-    /// Stamps that were taken.
+    /// Returns how many stamps were taken.
     [[nodiscard]] std::uint64_t stamps() const { return stamps_; }
     [[nodiscard]] std::uint64_t hits(RayKind kind) const { return hits_[kind]; }
     [[nodiscard]] const PathTally& eye_paths() const { return eye_paths_; }
     [[nodiscard]] const PathTally& light_paths() const { return light_paths_; }
-    /// The longest eye paths, the longest of all first.
+    /// Returns the longest eye paths, the longest of all first.
     [[nodiscard]] std::span<const LongPath> longest() const { return longest_; }
     [[nodiscard]] const SampleUse& use() const { return use_; }
     [[nodiscard]] const RayRecorder& recorder(RayKind kind) const { return recorders_[static_cast<std::size_t>(kind)]; }
 
-    /// Seconds of the processor that one stamp takes, measured now.
+    /// Measures how many seconds of the processor one stamp takes.
     [[nodiscard]] static double seconds_per_stamp();
 
   private:
@@ -152,7 +152,7 @@ class WaveProfile {
     std::vector<RayRecorder> recorders_;  ///< of each kind
 };
 
-/// `stamp` where there is a profile.
+/// Adds the time since the last stamp to `stage`, where there is a profile.
 inline void stamp(WaveProfile* profile, Stage stage) {
     if (profile != nullptr) [[unlikely]]
         profile->stamp(stage);

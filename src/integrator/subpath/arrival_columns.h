@@ -9,10 +9,10 @@
 
 namespace etendue {
 
-/// About 4 KiB.
+/// Holds densities of a block of subpaths in columns of doubles, about 4 KiB.
 class ArrivalColumns {
   public:
-    /// What DepartingDensities::arrive takes. `departing` is not from infinity.
+    /// Sets what DepartingDensities::arrive takes in `lane`; `departing` is not from infinity.
     void set(std::size_t lane, const DepartingDensities& departing, double squared_distance, double cos_arriving) {
         d_[lane] = departing.d;
         pdf_forward_[lane] = departing.pdf_forward;
@@ -21,7 +21,7 @@ class ArrivalColumns {
         squared_distance_[lane] = squared_distance;
         cos_arriving_[lane] = cos_arriving;
     }
-    /// Lanes [0, count), whether or not they were set.
+    /// Computes the densities of arrival in lanes [0, count), whether or not these were set.
     void arrive(std::size_t count, const Raised& raised);
     [[nodiscard]] SubpathDensities operator[](std::size_t lane) const { return {a_[lane], b_[lane]}; }
 

@@ -13,13 +13,14 @@ namespace etendue {
 /// How the camera sees a point, if it does at all.
 struct CameraView {
     CameraConnection camera;
-    Vec2f pixel{0.0f, 0.0f};  ///< of the full image
+    Vec2f pixel{0.0f, 0.0f};  ///< place in the full image, pixels
     Vec3f direction{0.0f};    ///< unit, from the point to the lens
     float distance = 0.0f;    ///< metres
     float depth = 0.0f;       ///< metres along the viewing direction; of deep images only
 };
 
-/// `lens` in [0, 1)²; nothing if no pixel of the window would show the point.
+/// Returns how the camera sees `position` through the lens point made from `lens` in [0, 1)²; nothing if no pixel of
+/// the window would show it.
 [[nodiscard]] inline std::optional<CameraView> view_from_camera(const World& world, const TileJob& job,
                                                                 const Vec3f& position, Vec2f lens, float time) {
     CameraView view{.camera = world.connect_to_camera(position, lens, time)};

@@ -15,7 +15,8 @@ namespace etendue {
 template <BounceNumbers... Kinds>
 class ConnectibleVertices {
   public:
-    /// Those of `wave`, whose subpaths are from `end`, in their order.
+    /// Collects the connectible vertices of `wave`, whose subpaths are from `end`, in their order, and draws their
+    /// numbers.
     void collect(const SubpathJob& job, SubpathEnd end, const SubpathWave& wave) {
         vertices_ = wave.connectible_vertices();
         keys_.clear();
@@ -39,7 +40,7 @@ class ConnectibleVertices {
 
     [[nodiscard]] std::size_t size() const { return vertices_.size(); }
     [[nodiscard]] const ConnectibleVertex& operator[](std::size_t i) const { return vertices_[i]; }
-    /// Of vertex `i`, in the order of `Kinds`.
+    /// Returns the numbers of vertex `i`, in the order of `Kinds`.
     [[nodiscard]] std::array<Vec2f, sizeof...(Kinds)> numbers(std::size_t i) const {
         std::array<Vec2f, sizeof...(Kinds)> pairs;
         for (std::size_t kind = 0; kind < pairs.size(); ++kind) pairs[kind] = numbers_[kind][i];
@@ -59,9 +60,9 @@ class ConnectibleVertices {
     std::array<NumberPairs, sizeof...(Kinds)> numbers_;
 };
 
-/// To a point on the lens.
+/// Holds vertices to be connected to a point on the lens.
 using VerticesToCamera = ConnectibleVertices<BounceNumbers::LightChoice>;
-/// To a point on a light.
+/// Holds vertices to be connected to a point on a light.
 using VerticesToLight =
     ConnectibleVertices<BounceNumbers::LightChoice, BounceNumbers::LightTriangle, BounceNumbers::LightDirection>;
 

@@ -63,7 +63,7 @@ class LampsToCamera {
 
     SampleKeys keys_;
     NumberPairs lens_;
-    std::vector<ExpressionShare> shares_;  ///< of the path at hand
+    std::vector<ExpressionShare> shares_;  ///< shares of expressions in the light of the path at hand
 };
 
 }  // namespace etendue

@@ -15,7 +15,7 @@
 
 namespace etendue {
 
-/// A template of its lane type, see core/lane.h.
+/// Holds what connections need of a vertex; a template of its lane type, see core/lane.h.
 template <typename T>
 struct BasicMatteEnd {
     using Vec = Imath::Vec3<T>;
@@ -24,7 +24,7 @@ struct BasicMatteEnd {
     Vec origin;            ///< of rays to where light is scattered to: as `position`, clear of the surface
     Vec normal;            ///< of shading, unit, on the side of the vertex before
     Vec geometric_normal;  ///< unit, on the same side
-    /// The factor of `radiance` and `importance`: the throughput that arrives, times the albedo and its gain where the
+    /// Multiplies `radiance` and `importance`: the throughput that arrives, times the albedo and its gain where the
     /// normal leans (bsdf/leaning_normal.h), for importance also times OrientedSurface::received. Black where nothing
     /// scatters.
     BasicRgb<T> weight;
@@ -48,9 +48,9 @@ struct BasicMatteEnd {
     [[nodiscard]] T importance_pdf(const Vec& w) const { return cosine(w) * kInvPi; }
 };
 
-/// Of one vertex.
+/// Holds in one cache line what connections need of one vertex.
 struct alignas(64) MatteEnd : BasicMatteEnd<float> {
-    /// In place of `fewer`, which is never negative, where there is no such end.
+    /// Stands in place of `fewer`, which is never negative, where there is no such end.
     static constexpr float kNone = -1.0f;
 
     MatteEnd()
@@ -61,7 +61,7 @@ struct alignas(64) MatteEnd : BasicMatteEnd<float> {
 
 static_assert(sizeof(MatteEnd) == kRowFloats * sizeof(float));
 
-/// Of as many ends as `Wide` has lanes.
+/// Returns `ends` as one, each in a lane of its own.
 [[nodiscard]] inline BasicMatteEnd<Wide> load_ends(const std::array<const MatteEnd*, Wide::kWidth>& ends) {
     std::array<const float*, Wide::kWidth> rows;
     for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = &ends[i]->position.x;
@@ -74,7 +74,7 @@ static_assert(sizeof(MatteEnd) == kRowFloats * sizeof(float));
             .fewer = row[15]};
 }
 
-/// The way back.
+/// Stores each lane of `from` in its place of `ends`.
 inline void store_ends(const BasicMatteEnd<Wide>& from, const std::array<MatteEnd*, Wide::kWidth>& ends) {
     const auto& [position, origin, normal, geometric_normal, weight, fewer] = from;
     std::array<float*, Wide::kWidth> rows;
@@ -89,8 +89,8 @@ class MatteEndsOfBlock {
   public:
     void set(std::size_t lane, const MatteEnd& end) { ends_[lane] = &end; }
     [[nodiscard]] const MatteEnd& operator[](std::size_t lane) const { return *ends_[lane]; }
-    /// Lanes from `first` on, of which those from `count` on are the same as the last before: they may have been set
-    /// for a block whose ends are gone.
+    /// Loads lanes from `first` on; those from `count` on repeat the last lane before, as they may have been set for a
+    /// block whose ends are gone.
     [[nodiscard]] BasicMatteEnd<Wide> load(std::size_t first, std::size_t count) const {
         std::array<const MatteEnd*, Wide::kWidth> ends;
         for (std::size_t i = 0; i < ends.size(); ++i) ends[i] = ends_[std::min(first + i, count - 1)];

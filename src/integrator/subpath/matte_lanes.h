@@ -11,7 +11,7 @@
 
 namespace etendue {
 
-/// About 16 KiB, which stay in the first-level cache.
+/// Holds a block of subpaths on plain matte surfaces: about 16 KiB, which stay in the first-level cache.
 struct MatteLanes : SurfaceLanes {
     Vec3Columns wo;
     RgbColumns albedo;
@@ -38,9 +38,10 @@ struct MatteLanes : SurfaceLanes {
 
     // Each computes lanes [0, count), rounded up, from the columns that the one before and the caller have set.
 
-    /// What `surface` returns and ends have, but `end_fewer`, from the points, `wo`, `albedo` and `throughput`.
+    /// Computes what `surface` returns and what ends hold, but `end_fewer`, from the points, `wo`, `albedo` and
+    /// `throughput`.
     void orient(std::size_t count, TransportMode mode);
-    /// Samples of the lobes, from `albedo` and `u`, which are now numbers for directions.
+    /// Samples the lobes, from `albedo` and `u`, which now holds numbers for directions.
     void sample(std::size_t count, TransportMode mode);
     /// Writes the end of each lane to where `ends` has its place; null if it has none.
     void store_ends(std::span<MatteEnd* const> ends) const;

@@ -22,53 +22,54 @@
 
 namespace etendue {
 
-/// What one wave of subpaths is for.
+/// Says which samples one wave of subpaths is traced for, how long paths may be and how strategies are weighed.
 struct SubpathJob {
     const World& world;
     const TileJob& job;
     const PathLengths& lengths;
     Raised raised;
     std::span<const CameraSample> samples;
-    std::span<const Ray> camera_rays;  ///< of the samples
+    std::span<const Ray> camera_rays;  ///< rays of the samples, in their order
 
-    /// Camera samples per area of the film over light paths: what the density of the eye's first vertex is times.
+    /// Returns camera samples per area of the film over light paths, by which the density of the eye's first vertex is
+    /// multiplied.
     [[nodiscard]] double samples_per_light_path() const {
         return static_cast<double>(job.full_width) * static_cast<double>(job.full_height) /
                static_cast<double>(job.window.area());
     }
     /// Returns what weights depend on.
     [[nodiscard]] MisContext mis() const { return {world, raised, samples_per_light_path()}; }
-    /// The wavelength of a sample's path, if it needs one: the same for both of its subpaths.
+    /// Returns the wavelength of the path of the sample in `slot`, if it needs one; both subpaths have the same.
     [[nodiscard]] Wavelength wavelength(std::uint32_t slot) const;
     [[nodiscard]] Rgb wavelength_weight(std::uint32_t slot, bool is_dispersed) const {
         return is_dispersed ? wavelength(slot).weight : Rgb(1.0f);
     }
     /// False if such numbers mean nothing in this World.
     [[nodiscard]] bool needs(SubpathEnd end, BounceNumbers which) const;
-    /// Key of rays that connect a vertex; 0 if nothing is transparent.
+    /// Returns the alpha key of rays that connect the vertex of this index; 0 if nothing is transparent.
     [[nodiscard]] std::uint32_t connection_key(SubpathEnd end, int index, std::uint32_t slot) const;
 };
 
-/// A subpath under way; its ray and interior stand beside it.
+/// Holds a subpath under way; ray and interior stand in arrays of their own.
 struct SubpathState {
     Rgb throughput{1.0f};
-    /// What Russian roulette multiplies the throughput by: eta² over the refractions of radiance, or one over what a
-    /// light began with.
+    /// Multiplies the throughput for Russian roulette: eta² over the refractions of radiance, or one over what a light
+    /// began with.
     float roulette_scale = 1.0f;
     Vec3f from{0.0f};  ///< the vertex before
     DepartingDensities departing;
     WordRange words;
     std::uint32_t slot = 0;
     std::uint32_t last_vertex = PathVertex::kNoVertex;
-    int index = 1;  ///< of the vertex to come
-    int edges = 1;  ///< of the path when its ray has hit; media and hidden boundaries add none
+    int index = 1;  ///< index of the vertex to come
+    int edges = 1;  ///< edges of the path when its ray has hit; media and hidden boundaries add none
     bool is_dispersed = false;
     bool only_delta = true;
     bool lights_directly = true;  ///< every scattering but the last was a delta
     bool is_direct = true;        ///< no boundary that another body hides lies between `from` and where the ray is
 };
 
-/// Told what subpaths from the eye meet.
+/// Hears what subpaths from the eye meet.
 class LightFinder {
   public:
     virtual ~LightFinder() = default;
@@ -77,7 +78,7 @@ class LightFinder {
                             const SubpathDensities& arrived) = 0;
     virtual void on_unlit(const SubpathState& state, const SurfacePoint& point, const Vec3f& direction) = 0;
     virtual void on_escape(const SubpathState& state, const Vec3f& direction) = 0;
-    /// What all camera rays have met, before anything else is said of it.
+    /// Hears what all camera rays have met, before any other call tells of it.
     virtual void on_first_hits(std::span<const Ray> rays, std::span<const Hit> hits) = 0;
     /// True if `on_emitter` is not to be told of what a camera ray has hit first.
     [[nodiscard]] virtual bool knows_emission(const Hit& first_hit) const = 0;
@@ -107,23 +108,24 @@ class SubpathWave {
 
     [[nodiscard]] std::size_t bytes() const;
 
-    /// Where the subpaths from lights began, by slot.
+    /// Returns where the subpaths from lights began, by slot.
     [[nodiscard]] std::span<const Emission> emissions() const { return emissions_; }
-    /// Of all slots, in the order of their bounces; see `whole`.
+    /// Returns the vertices of all slots, in the order of their bounces; their surfaces may be missing, see `whole`.
     [[nodiscard]] std::span<const PathVertex> vertices() const { return vertices_; }
-    /// Those that can be connected, in the same order.
+    /// Returns the vertices that can be connected, in the order of `vertices`.
     [[nodiscard]] std::span<const ConnectibleVertex> connectible_vertices() const { return connectible_vertices_; }
-    /// One of `vertices` with its surface, which few connections of plain matte ones ask for.
+    /// Returns one of `vertices` with its surface, which few connections of plain matte vertices ask for.
     [[nodiscard]] const PathVertex& whole(std::uint32_t vertex);
     [[nodiscard]] const PathVertex& whole(const ConnectibleVertex& vertex) { return whole(vertex.vertex); }
-    /// What connections of `vertex` need of it, if it lies on a plain matte surface in vacuum and its light is still of
-    /// all wavelengths.
+    /// Returns what connections need of `vertex`, if it lies on a plain matte surface in vacuum and its light is still
+    /// of all wavelengths; otherwise, or where floats do not hold its densities, an end that does not exist.
     [[nodiscard]] const MatteEnd& matte_end(const ConnectibleVertex& vertex) const {
         return matte_ends_[vertex.vertex];
     }
-    /// Of the subpaths as they arrive at their vertices.
+    /// Returns the words of the subpaths as they arrive at their vertices.
     [[nodiscard]] PathWords& words() { return words_; }
-    /// Those of a connection that leaves `vertex` along `w`; of use until the next call for this subpath's wave.
+    /// Returns the words of a subpath that goes on from `vertex` along `w`, for a connection; they last until the next
+    /// call for this wave.
     [[nodiscard]] WordRange words_after(const PathVertex& vertex, const Vec3f& w);
 
   private:
@@ -138,21 +140,21 @@ class SubpathWave {
                        std::size_t& kept);
     /// Finds out where subpath `i` is; false if it is on no surface: it left the scene, or a medium has scattered it.
     bool set_up(const SubpathJob& job, std::size_t i, ShadedSubpath& path);
-    /// The same of those on plain surfaces, all at once.
+    /// Finds the points of the block's subpaths on plain surfaces, all at once.
     void set_up_plain();
-    /// With which densities subpaths arrive at the surfaces.
+    /// Computes with which densities the block's subpaths arrive at surfaces.
     void arrive_at_surfaces(const SubpathJob& job, std::size_t first);
-    /// What light there is at its end.
+    /// Tells `finder` what light subpath `i` meets where its ray ends.
     void find_light(LightFinder& finder, std::size_t i, const ShadedSubpath& path) const;
     /// Stores the vertex, if the subpath may have one more; false if it ends, or only passes through.
     bool make_vertex(const SubpathJob& job, std::size_t i, ShadedSubpath& path);
     /// Puts `vertex` where the surface is; unless that is plain, with lobes for the index `relative_ior` as in
     /// World::bsdf.
     void place(const World& world, const ShadedSubpath& path, float relative_ior, PathVertex& vertex);
-    /// What connections need of the vertex just stored, which is plain, but for what its lane holds; false if there is
-    /// no such end.
+    /// Gives the lane of the vertex just stored, which is plain, a place for its MatteEnd and `end_fewer`; false if the
+    /// vertex has no such end.
     bool make_matte_end(const SubpathJob& job, const ShadedSubpath& path, const PathVertex& vertex);
-    /// The rest, of the whole block.
+    /// Stores the matte ends of the whole block.
     void store_matte_ends();
     /// Samples the BSDFs of the first `vertices` in `on_surface_`.
     void sample_bsdfs(std::size_t first, std::size_t vertices);
@@ -162,7 +164,8 @@ class SubpathWave {
     /// Takes the subpath where the sample of the BSDF at its vertex says; false if it ends.
     bool scatter_at_surface(const SubpathJob& job, std::size_t i, const ShadedSubpath& path);
     bool scatter_at_plain(const SubpathJob& job, std::size_t i, const ShadedSubpath& path);
-    /// What both have in common; false if the sample is black.
+    /// Takes subpath `i` past a vertex on a surface, at `position`, whose sample has `weight`; false if the sample is
+    /// black. Ray and words of the subpath are left to the caller.
     bool scatter(const SubpathJob& job, std::size_t i, const Vec3f& position, const Rgb& weight, bool is_delta);
     [[nodiscard]] SubpathDensities arrive(const SubpathJob& job, std::size_t i, const Vec3f& position,
                                           double cosine) const;
@@ -173,9 +176,9 @@ class SubpathWave {
     void end_path(const SubpathJob& job, std::size_t i, PathEnding ending) const;
     /// Takes the subpath's words past a vertex.
     void follow_words(SubpathState& state, const VertexEvent& event);
-    /// The next vertex, with what the state knows of it.
+    /// Stores the next vertex, with what `state` knows of it.
     PathVertex& store(SubpathState& state);
-    /// Puts the vertex just stored among those that can be connected. `state` is that before it scatters.
+    /// Puts the vertex just stored among those that can be connected. `state` is the subpath's before it scatters.
     void list_connectible(const SubpathState& state, int next_edges);
 
     [[nodiscard]] TransportMode mode() const {

@@ -18,7 +18,7 @@ namespace etendue {
 
 namespace {
 
-/// Of light that a branch meets.
+/// Returns how light that a branch meets comes to the eye.
 LightKind kind_of(const WhittedBranch& branch) {
     return branch.edges == 1 ? LightKind::Seen : LightKind::Direct;
 }

@@ -64,11 +64,11 @@ class WhittedWave final : public IntegratorScratch {
     /// Samples a light and the environment. `factor` is what the throughput has to be multiplied by for direct light.
     void queue_direct_light(const Context& context, std::size_t i, const SurfacePoint& point,
                             const Scattering& scattering, const std::optional<Crossing>& crossing, const Rgb& factor);
-    /// Light along a sample, times `weight` over its density.
+    /// Queues the light along a sample, times `weight` over its density.
     void queue(const Context& context, std::size_t i, const SurfacePoint& point, const Scattering& scattering,
                const std::optional<Crossing>& crossing, const LightSample& light, const Rgb& weight);
     void add_environment(const Context& context, const WhittedBranch& branch);
-    /// One that goes on from `i` as its child number `child`, without ray, throughput and edges.
+    /// Returns a branch that goes on from branch `i` as its child number `child`, without ray, throughput and edges.
     [[nodiscard]] WhittedBranch grow(const Context& context, std::size_t i, std::uint32_t child) const;
     /// Keeps `branch` for a later batch, unless it ends here.
     void push(WhittedBranch branch);

@@ -91,7 +91,7 @@ class Path {
     [[nodiscard]] bool is_delta(std::size_t i) const {
         return i >= 1 && i <= inner_.size() && inner_[i - 1]->is_left_by_delta && !is_end_of_subpath(i);
     }
-    /// The last vertices of both subpaths were left, if at all, elsewhere than to where this path goes.
+    /// True at the last vertices of both subpaths, which were left, if at all, elsewhere than to where this path goes.
     [[nodiscard]] bool is_end_of_subpath(std::size_t i) const {
         return is_connected_ && (i == from_light_ || i == from_light_ + 1);
     }
@@ -113,7 +113,7 @@ class Path {
         return i <= from_light_ ? static_cast<double>(inner_[i - 1]->delta_reverse_ratio) : 1.0;
     }
 
-    /// From vertex i to vertex i + 1, unit.
+    /// Returns the unit direction from vertex i to vertex i + 1.
     [[nodiscard]] Vec3f direction(std::size_t i) const {
         if (i == 0) return end_.direction;
         const Vec3f to = i < inner_.size() ? inner_[i]->position : camera_.lens;
