@@ -16,7 +16,8 @@ inline constexpr std::string_view kByteSizeForm =
 /// form.
 [[nodiscard]] std::optional<std::uint64_t> parse_byte_size(std::string_view text);
 
-/// As parse_byte_size reads it, in whole mebibytes, or gibibytes where there are too many of those; rounded down.
+/// As parse_byte_size reads it, in whole mebibytes, or gibibytes or tebibytes where there are too many of those;
+/// rounded down.
 [[nodiscard]] std::string to_byte_size(std::uint64_t bytes);
 
 /// Memory of the machine, bytes.
