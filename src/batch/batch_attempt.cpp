@@ -180,6 +180,7 @@ Attempt attempt_here(const BatchTask& task, const BatchOptions& options, const A
                                             .checkpoint_minutes = options.checkpoint_minutes,
                                             .resume = how.resume,
                                             .title = title,
+                                            .command = options.command,
                                             .is_lost = &is_lost},
                                            threads);
         if (result.outcome == ImageOutcome::Interrupted) attempt.end = AttemptEnd::Interrupted;

@@ -97,11 +97,12 @@ std::vector<ScenePart> parts_of(const fs::path& scene, const std::vector<std::st
 /// Names of the layers of the scene's images that have files of their own, as far as settings tell: those that are
 /// named after what is in the scene are not among them.
 std::vector<std::string> layers_with_files(const fs::path& scene, const SettingsOverrides& overrides) try {
-    SceneDesc settings;
-    settings.settings = find_settings(scene).value_or(RenderSettings());
-    overrides.apply(settings);
+    SceneDesc settings_only;
+    settings_only.settings = find_settings(scene).value_or(RenderSettings());
+    overrides.apply(settings_only.settings);
     ProblemList ignored;
-    return layers_with_files(make_aov_plan(settings, ignored), settings.settings.aov_layout == AovLayout::Files);
+    return layers_with_files(make_aov_plan(settings_only, ignored),
+                             settings_only.settings.aov_layout == AovLayout::Files);
 } catch (const std::exception&) {
     return {};  // rendering the scene will say what is wrong
 }

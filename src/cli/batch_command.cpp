@@ -6,7 +6,9 @@
 #include "batch/batch_runner.h"
 #include "batch/batch_table.h"
 #include "batch/batch_units.h"
+#include "cli/command_options.h"
 #include "cli/commands.h"
+#include "cli/settings_options.h"
 #include "core/byte_size.h"
 #include "core/error.h"
 #include "core/log.h"
@@ -144,7 +146,7 @@ void add_batch_command(CLI::App& app, Action& action) {
     CLI::App* command = app.add_subcommand("batch", "Render every scene directory below some directories");
     add_own_options(*command, *options);
     const std::size_t own = command->get_options().size();
-    options->overrides.add_options(*command);
+    add_settings_options(*command, options->overrides);
     command->get_option("--variants")->excludes(command->get_option("--variant"));
     command->footer(
         "A scene directory holds a render.json or a glTF file. Each image is rendered by a process of its "

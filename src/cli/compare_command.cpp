@@ -1,5 +1,8 @@
 // etendue compare: ways of rendering one scene against each other.
+#include "cli/command_options.h"
 #include "cli/commands.h"
+#include "cli/settings_options.h"
+#include "cli/variant_options.h"
 #include "compare/comparison_images.h"
 #include "compare/comparison_measures.h"
 #include "compare/comparison_reference.h"
@@ -13,7 +16,6 @@
 #include "core/write_file.h"
 #include "output/software_name.h"
 #include "picture/render_setup.h"
-#include "session/given_options.h"
 #include "session/interrupt.h"
 #include "session/library_versions.h"
 #include "session/output_directory.h"
@@ -81,16 +83,18 @@ std::vector<VariantRequest> variant_requests(const CompareArguments& arguments) 
     std::vector<VariantRequest> requests;
     for (std::size_t i = 0; i < kLetters.size(); ++i)
         if (arguments.variants[i])
-            requests.push_back({fmt::format("{}: {}", kLetters[i], *arguments.variants[i]), *arguments.variants[i]});
+            requests.push_back(
+                {fmt::format("{}: {}", kLetters[i], *arguments.variants[i]), *arguments.variants[i], {}});
     const std::vector<std::string> usual{"path", "bdpt"};
     if (requests.empty())
         for (const std::string& name : arguments.integrators.empty() ? usual : arguments.integrators)
-            requests.push_back({name, "--integrator " + name});
+            requests.push_back({name, "--integrator " + name, {}});
+    for (VariantRequest& request : requests) request.request = with_options(arguments.common, request.options);
     return requests;
 }
 
 RenderBudget budget_of(const CompareArguments& arguments) {
-    if (arguments.common.overrides.spp) return {.spp = static_cast<std::uint32_t>(*arguments.common.overrides.spp)};
+    if (const auto spp = arguments.common.overrides.spp()) return {.spp = *spp};
     return {.seconds = arguments.seconds.value_or(kDefaultSeconds)};
 }
 
@@ -180,7 +184,7 @@ ExitCode run_compare(const CompareArguments& arguments) {
     const ThreadPool threads(arguments.threads);
     const ColorConfig colors = ColorConfig::from_environment();
     const std::vector<Variant> variants =
-        make_variants(arguments.scene, variant_requests(arguments), arguments.common, colors, threads, arguments.quiet);
+        make_variants(arguments.scene, variant_requests(arguments), colors, threads, arguments.quiet);
     const PixelRect& window = variants.front().sampling.window;
     require_regions_within(arguments.regions, window);
     const RendersRequest request{.budget = budget_of(arguments),
@@ -302,7 +306,7 @@ void add_compare_command(CLI::App& app, Action& action) {
         app.add_subcommand("compare", "Render one scene in several ways and report which comes to the image soonest");
     add_compare_options(*command, *arguments);
     const std::size_t own = command->get_options().size();
-    arguments->common.overrides.add_options(*command);
+    add_settings_options(*command, arguments->common.overrides);
     hide_options(*command, options_compare_sets());
     command->footer(
         "Every variant is rendered as many times, each time with a seed that no other render has and for the same "
@@ -318,7 +322,7 @@ void add_compare_command(CLI::App& app, Action& action) {
     command->callback([arguments, command, own, &action] {
         const CompareArguments& given = *arguments;
         refuse_options(*command, options_compare_sets());
-        if (given.common.overrides.spp && given.seconds)
+        if (given.common.overrides.spp() && given.seconds)
             throw CLI::ValidationError("--seconds", "cannot be given with --spp: one of them ends a render");
         require_different("--integrators", given.integrators);
         std::vector<std::string> regions;

@@ -1,5 +1,6 @@
 // etendue diff: how far an image is from a reference.
 #include "cli/commands.h"
+#include "cli/settings_options.h"
 #include "compare/image_measures.h"
 #include "compare/image_pair.h"
 #include "core/log.h"
@@ -12,7 +13,6 @@
 #include "output/software_name.h"
 #include "picture/output_paths.h"
 #include "session/input_files.h"
-#include "session/settings_overrides.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,6 @@
 // etendue inspect: what is in a scene, and what is wrong with it.
 #include "cli/commands.h"
+#include "cli/settings_options.h"
 #include "color/color_config.h"
 #include "core/shown_text.h"
 #include "core/standard_output.h"
@@ -9,7 +10,6 @@
 #include "picture/scene_completion.h"
 #include "processor/ray_code.h"
 #include "session/scene_render.h"
-#include "session/settings_overrides.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -29,7 +29,7 @@ namespace {
 
 struct InspectArguments {
     std::string scene;
-    LoadOptions options;
+    SettingsOverrides overrides;
     bool json = false;
 };
 
@@ -179,9 +179,8 @@ void add_inspect_command(CLI::App& app, Action& action) {
     auto arguments = std::make_shared<InspectArguments>();
     CLI::App* command = app.add_subcommand("inspect", "Say what is in a scene and everything that is wrong with it");
     command->add_option("scene", arguments->scene, "Scene directory, .gltf or .glb")->required();
-    add_moment_options(*command, arguments->options);
-    add_assets_option(*command, arguments->options.assets);
-    add_missing_textures_option(*command, arguments->options);
+    add_settings_options(*command, arguments->overrides, {"/time_code", "/animation", "/shutter", "/missing_textures"});
+    add_assets_option(*command, arguments->overrides.assets);
     command->add_flag("--json", arguments->json, "Print JSON");
     command->footer(
         "Loads and compiles everything and renders nothing. Exit code 3 if there is an error.\n\n"
@@ -190,7 +189,7 @@ void add_inspect_command(CLI::App& app, Action& action) {
         "  etendue inspect scenes/cornell-box --json");
     command->callback([arguments, &action] {
         action = [arguments] {
-            const Inspection inspection = inspect(arguments->scene, arguments->options);
+            const Inspection inspection = inspect(arguments->scene, arguments->overrides.load_options());
             if (arguments->json)
                 print_json(inspection);
             else

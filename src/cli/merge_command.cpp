@@ -1,4 +1,5 @@
 // etendue merge: one image from parts that were rendered apart.
+#include "cli/command_options.h"
 #include "cli/commands.h"
 #include "color/color_config.h"
 #include "core/error.h"
@@ -21,6 +22,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -33,6 +35,7 @@ namespace {
 struct MergeArguments {
     std::vector<std::string> parts;
     std::string output;
+    std::string command;
     PixelDepth depth = PixelDepth::Half;
     bool quiet = false;
     bool json = false;
@@ -78,6 +81,7 @@ ExitCode run_merge(const MergeArguments& arguments) {
     const RenderState& state = merged.sum.state;
     ImageDescription image = description_of(merged.sum, arguments.parts.front());
     image.statistics.load = timer.elapsed();
+    image.statistics.command = arguments.command;
     const auto spp_requested = static_cast<std::uint32_t>(std::max(image.statistics.spp_requested, 0));
     const bool complete = is_whole(merged, spp_requested);
     // That of the first part, which is of the settings for its own window.
@@ -146,7 +150,11 @@ void add_merge_command(CLI::App& app, Action& action) {
         "  etendue render scenes/cornell-box --samples 128:256 -o b.partial\n"
         "  etendue merge a.partial b.partial -o box.exr\n"
         "  etendue merge parts/*.partial -o half.partial");
-    command->callback([arguments, &action] { action = [arguments] { return run_merge(*arguments); }; });
+    command->callback([arguments, command, &action] {
+        const std::vector<const CLI::Option*> all = std::as_const(*command).get_options();
+        arguments->command = command_line("etendue merge", given_options(all));
+        action = [arguments] { return run_merge(*arguments); };
+    });
 }
 
 }  // namespace etendue

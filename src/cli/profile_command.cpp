@@ -1,5 +1,7 @@
 // etendue profile: where the time of a render goes, next to what bare Embree needs for its rays.
+#include "cli/command_options.h"
 #include "cli/commands.h"
+#include "cli/settings_options.h"
 #include "core/log.h"
 #include "core/memory_nodes.h"
 #include "core/process_time.h"
@@ -15,9 +17,7 @@
 #include "render/progressive_render.h"
 #include "report/profile_comparison.h"
 #include "report/profile_report.h"
-#include "session/given_options.h"
 #include "session/interrupt.h"
-#include "session/options_of_render.h"
 #include "session/output_directory.h"
 #include "session/phase_timer.h"
 #include "session/prepared_scene.h"
@@ -165,10 +165,8 @@ void time_first_pixels(const World& world, RenderSettings settings, const Profil
 /// What decides how much work a sample is, but for what each run sets itself.
 std::map<std::string, std::string> settings_of_work(RenderSettings settings) {
     settings.integrator.type = "of each run";
-    std::map<std::string, std::string> work;
-    constexpr std::string_view kPrefix = "setting ";
-    for (const auto& [name, value] : settings_identity(settings))
-        if (name != "seed") work[name.starts_with(kPrefix) ? name.substr(kPrefix.size()) : name] = value;
+    std::map<std::string, std::string> work = settings_identity(settings);
+    work.erase("seed");
     if (settings.film.crop) work["crop"] = fmt::format("{}", fmt::join(*settings.film.crop, " "));
     if (settings.texture_memory) work["texture memory"] = fmt::format("{} bytes", *settings.texture_memory);
     return work;
@@ -308,9 +306,7 @@ ExitCode run_profile(const ProfileArguments& arguments) {
     const ProfileRequest request{.integrators = arguments.integrators,
                                  .threads = threads,
                                  .seconds = arguments.seconds.value_or(kSecondsPerRun),
-                                 .spp = arguments.overrides.spp
-                                            ? std::optional(static_cast<std::uint32_t>(*arguments.overrides.spp))
-                                            : std::nullopt,
+                                 .spp = arguments.overrides.spp(),
                                  .repetitions = arguments.repetitions,
                                  .quiet = arguments.quiet};
     ProfileRuns measured = measure_runs(*loaded.world, loaded.settings, request);
@@ -408,7 +404,7 @@ void add_profile_command(CLI::App& app, Action& action) {
     CLI::App* command =
         app.add_subcommand("profile", "Measure where the time of a render goes, and how fast Embree alone would be");
     add_profile_options(*command, *arguments);
-    arguments->overrides.add_options(*command);
+    add_settings_options(*command, arguments->overrides);
     hide_options(*command, kRefusedOptions);
     command->footer(
         "Repetitions of all runs take turns. A last one of each has its stages timed and some of its rays recorded,\n"
@@ -421,7 +417,7 @@ void add_profile_command(CLI::App& app, Action& action) {
         "  etendue profile scenes/cornell-box --against before/profile.json --repeat 15 -o after");
     command->callback([arguments, command, &action] {
         refuse_options(*command, kRefusedOptions);
-        if (arguments->overrides.spp && arguments->seconds)
+        if (arguments->overrides.spp() && arguments->seconds)
             throw CLI::ValidationError("--seconds", "cannot be given with --spp: one of them ends a render");
         require_different_names(arguments->integrators);
         if (std::set(arguments->threads.begin(), arguments->threads.end()).size() != arguments->threads.size())

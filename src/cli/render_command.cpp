@@ -1,5 +1,7 @@
 // etendue render: one scene.
+#include "cli/command_options.h"
 #include "cli/commands.h"
+#include "cli/settings_options.h"
 #include "core/log.h"
 #include "core/standard_output.h"
 #include "farm/probe.h"
@@ -97,7 +99,8 @@ ExitCode run_render(const RenderArguments& arguments) {
                          "it shows one image, and this is a sequence of frames: name the moment with --time-code");
     if (arguments.probe) {
         SettingsOverrides overrides = arguments.job.overrides;
-        if (const auto& range = arguments.job.samples) overrides.spp = static_cast<int>(range->end - range->begin);
+        if (const auto& range = arguments.job.samples)
+            overrides.give("--spp", std::to_string(range->end - range->begin));
         const std::string answer = probe(jobs.front(), overrides, ThreadPool(arguments.threads));
         // What was cut short says nothing about the image.
         if (interrupt_requested()) return interrupt_exit_code();
@@ -125,7 +128,7 @@ void check_outputs(const RenderArguments& arguments) {
     if (!pyramid.empty() && pyramid.extension() != ".exr")
         throw UsageError(fmt::format("--strategies-image '{}' must end in .exr", pyramid.string()));
     if (partial && !pyramid.empty()) throw UsageError("--strategies-image shows an image, not a part of one");
-    if (partial && (arguments.job.overrides.time_seconds || arguments.job.overrides.relative_error))
+    if (partial && (arguments.job.overrides.has("/time") || arguments.job.overrides.has("/error")))
         throw UsageError("--time and --error end an image; a part of one has the samples that --samples names");
 }
 
@@ -179,7 +182,7 @@ void add_render_command(CLI::App& app, Action& action) {
                         "EXR file to write; PNG and JSON go beside it (default: NAME.exr in the current directory). "
                         "Frames of a sequence have their number in place of #### or before the extension. A .partial "
                         "holds a part of an image (a range of --samples, or a --crop) for 'etendue merge'");
-    arguments->job.overrides.add_options(*command);
+    add_settings_options(*command, arguments->job.overrides);
     command->add_option("--threads", arguments->threads, "Threads to use (default: one per processor)")
         ->check(CLI::Range(1, 4096));
     add_continuation_options(*command, arguments);
@@ -227,7 +230,9 @@ void add_render_command(CLI::App& app, Action& action) {
         "  etendue render scenes/veach-mis --crop 100,100,200,200 --time 60 --json --quiet\n\n"
         "Layers for --aov:\n" +
         list_aov_sources());
-    command->callback([arguments, &action] {
+    command->callback([arguments, command, &action] {
+        const std::vector<const CLI::Option*> all = std::as_const(*command).get_options();
+        arguments->job.command = command_line("etendue render", given_options(all));
         action = [arguments] {
             check_outputs(*arguments);
             if (arguments->job.progress_descriptor >= 0) take_all_interrupts_for_one();

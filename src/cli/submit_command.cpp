@@ -1,6 +1,8 @@
 // etendue submit: every scene directory below some directories, on the machines of a cluster.
 #include "batch/batch_units.h"
+#include "cli/command_options.h"
 #include "cli/commands.h"
+#include "cli/settings_options.h"
 #include "core/byte_size.h"
 #include "core/error.h"
 #include "core/log.h"
@@ -12,7 +14,6 @@
 #include "farm/slurm.h"
 #include "farm/slurm_farm.h"
 #include "process/shell_word.h"
-#include "session/given_options.h"
 #include "session/interrupt.h"
 #include "session/usage_error.h"
 #include "world/compile.h"
@@ -283,7 +284,7 @@ void add_submit_command(CLI::App& app, Action& action) {
     command->add_flag("--dry-run", arguments->dry_run, "Tell what would be submitted; write nothing");
     command->add_flag("--json", arguments->json, "Print the summary or the status as JSON on stdout");
     const std::size_t own = command->get_options().size();
-    arguments->request.overrides.add_options(*command);
+    add_settings_options(*command, arguments->request.overrides);
     command->footer(
         "Each image is a task of a job array, or one for each part of its samples and one that merges them. What is "
         "up\n"

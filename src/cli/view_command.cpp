@@ -1,5 +1,6 @@
 // etendue view: an EXR as a display shows it.
 #include "cli/commands.h"
+#include "cli/settings_options.h"
 #include "cli/view_listing.h"
 #include "core/error.h"
 #include "core/log.h"
@@ -13,7 +14,6 @@
 #include "picture/output_paths.h"
 #include "session/file_color_space.h"
 #include "session/input_files.h"
-#include "session/settings_overrides.h"
 #include "session/usage_error.h"
 
 #include <algorithm>

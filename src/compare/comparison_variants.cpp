@@ -13,27 +13,11 @@
 #include <string_view>
 #include <utility>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 namespace etendue {
 
 namespace {
-
-/// Lists options that may be given to all variants alike, but not to one of them.
-constexpr std::array kOptionsForAll{
-    OptionOfRender{"--seed", "every variant gets seeds of its own; the first of all is --seed of 'compare'"},
-    OptionOfRender{"--spp", "all variants render alike, for --seconds or with --spp of 'compare'"}};
-
-constexpr std::array kOptionsOfRender{OptionOfRender{"--time", "here it is --seconds, for all variants alike"},
-                                      OptionOfRender{"--error", "the errors of all variants are measured"},
-                                      OptionOfRender{"--adaptive", "here all pixels get as many samples"},
-                                      OptionOfRender{"--no-adaptive", "here all pixels get as many samples anyway"},
-                                      OptionOfRender{"--min-spp", "here all pixels get as many samples"},
-                                      OptionOfRender{"--frames", "here --time-code names the moment"},
-                                      OptionOfRender{"--brightest", "here no sample is listed"},
-                                      OptionOfRender{"--half", "here no image file is written"},
-                                      OptionOfRender{"--float", "here no image file is written"}};
 
 /// Writes as text what of a scene decides which light there is: neither how it is computed nor what memory that takes.
 std::string light_text(SceneDesc scene) {
@@ -45,9 +29,8 @@ std::string light_text(SceneDesc scene) {
     scene.settings.clamp_indirect = 0.0f;
     scene.settings.robust_buckets = 0;
     scene.settings.brightest = 0;
-    scene.settings.texture_memory.reset();
     // The text of a scene has the names of its files only.
-    std::string text = dump(scene);
+    std::string text = dump_without_settings(scene) + requested_settings(scene.settings) + "\n";
     for (const std::filesystem::path& input : scene.inputs) text += input.string() + "\n";
     return text;
 }
@@ -90,37 +73,19 @@ std::array<int, 2> path_window(const Variant& variant) {
 
 }  // namespace
 
-std::span<const OptionOfRender> options_compare_sets() {
-    return kOptionsOfRender;
-}
-
-RenderRequest with_options(const RenderRequest& common, const std::string& options) {
-    RenderRequest request = common;
-    CLI::App parser;
-    // Its --help would be an exception that nobody expects.
-    parser.set_help_flag();
-    request.overrides.add_options(parser);
-    parser.parse(options, false);
-    refuse_options(parser, kOptionsForAll);
-    refuse_options(parser, kOptionsOfRender);
-    request.given = merged(common.given, given_options(std::as_const(parser).get_options()));
-    return request;
-}
-
 std::vector<Variant> make_variants(const std::filesystem::path& scene, std::span<const VariantRequest> requests,
-                                   const RenderRequest& common, const ColorConfig& colors, const ThreadPool& threads,
-                                   bool quiet) {
+                                   const ColorConfig& colors, const ThreadPool& threads, bool quiet) {
     const bool is_sequence = find_frames(scene).has_value();
     std::vector<Variant> variants;
     for (const VariantRequest& request : requests) {
-        RenderRequest merged_request = with_options(common, request.options);
-        if (is_sequence) merged_request.overrides.moment.frame = 0;
-        PreparedScene prepared = prepare_scene(scene, merged_request.overrides);
+        SettingsOverrides overrides = request.request.overrides;
+        if (is_sequence) overrides.frame = 0;
+        PreparedScene prepared = prepare_scene(scene, overrides);
         const std::string working_space = resolve_colors(prepared.scene.settings, colors);
         Variant variant;
         variant.name = request.name;
         variant.options = request.options;
-        variant.given = std::move(merged_request.given);
+        variant.given = request.request.given;
         variant.inputs = prepared.scene.inputs;
         variant.settings = prepared.scene.settings;
         variant.light = light_text(prepared.scene);

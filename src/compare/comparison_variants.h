@@ -6,7 +6,6 @@
 #include "integrator/integrator.h"
 #include "render/render.h"
 #include "session/given_options.h"
-#include "session/options_of_render.h"
 #include "session/scene_render.h"
 #include "session/settings_overrides.h"
 #include "world/world.h"
@@ -30,6 +29,7 @@ struct RenderRequest {
 struct VariantRequest {
     std::string name;
     std::string options;  ///< in addition to those of all variants, as they stand on a command line
+    RenderRequest request;
 };
 
 /// A variant that can be rendered.
@@ -46,21 +46,13 @@ struct Variant {
     std::vector<std::string> cannot_find{};
 };
 
-/// Lists the options of `render` that `compare` sets itself: for how long it renders, which images and into what file.
-/// A single variant cannot be given the seed and the number of samples either.
-[[nodiscard]] std::span<const OptionOfRender> options_compare_sets();
-
-/// `common` and then `options`. Throws CLI::ParseError for options that it does not know, and for those that
-/// `etendue compare` sets itself.
-[[nodiscard]] RenderRequest with_options(const RenderRequest& common, const std::string& options);
-
 /// Loads and compiles the scene for each request; of a sequence, its frame 0. Notes and warnings of the first, and the
 /// light that each cannot find, go to stderr unless `quiet`. Throws SceneError for what is wrong with a scene or its
 /// settings, and if the variants' images could not be compared: they must have one size, crop window, working space and
 /// view.
 [[nodiscard]] std::vector<Variant> make_variants(const std::filesystem::path& scene,
-                                                 std::span<const VariantRequest> requests, const RenderRequest& common,
-                                                 const ColorConfig& colors, const ThreadPool& threads, bool quiet);
+                                                 std::span<const VariantRequest> requests, const ColorConfig& colors,
+                                                 const ThreadPool& threads, bool quiet);
 
 /// The variant of `integrator` with the settings of `like` but for the algorithm's name, in the same world.
 [[nodiscard]] Variant with_integrator(const Variant& like, const std::string& integrator);

@@ -21,8 +21,9 @@ std::optional<std::uint64_t> parse_byte_size(std::string_view text) {
 
 std::string to_byte_size(std::uint64_t bytes) {
     constexpr std::uint64_t kMost = 999999;  // six digits
-    const std::uint64_t mebibytes = bytes >> 20u;
-    return mebibytes <= kMost ? std::to_string(mebibytes) + "M" : std::to_string(bytes >> 30u) + "G";
+    if (const std::uint64_t mebibytes = bytes >> 20u; mebibytes <= kMost) return std::to_string(mebibytes) + "M";
+    if (const std::uint64_t gibibytes = bytes >> 30u; gibibytes <= kMost) return std::to_string(gibibytes) + "G";
+    return std::to_string(bytes >> 40u) + "T";
 }
 
 std::uint64_t physical_memory() {

@@ -16,8 +16,8 @@ inline constexpr std::string_view kByteSizeForm =
 /// form.
 [[nodiscard]] std::optional<std::uint64_t> parse_byte_size(std::string_view text);
 
-/// Writes `bytes` as parse_byte_size reads them, rounded down: in whole mebibytes, or in whole gibibytes where the
-/// number of mebibytes has more than six digits.
+/// Writes `bytes` as parse_byte_size reads them, rounded down: in whole mebibytes, or in gibibytes or tebibytes where
+/// there are too many of those.
 [[nodiscard]] std::string to_byte_size(std::uint64_t bytes);
 
 /// Memory of the machine, bytes.

@@ -48,7 +48,7 @@ ShortRender render_shortly(const World& world, const Integrator& integrator, con
 
 std::string probe(const ImageJob& job, const SettingsOverrides& overrides, const ThreadPool& threads) {
     SettingsOverrides given = overrides;
-    given.moment.frame = job.frame;
+    given.frame = job.frame;
     PreparedScene prepared = prepare_scene(job.scene, given);
     const PhaseTimer build_timer;
     const ColorConfig colors = ColorConfig::from_environment();

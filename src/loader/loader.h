@@ -5,6 +5,7 @@
 #include "scene/scene_desc.h"
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -13,14 +14,11 @@
 
 namespace etendue {
 
-/// Which moment of a scene is loaded, and with which settings. What is left open is as render.json says.
+/// Says how a scene is loaded where that is not as its render.json says.
 struct LoadOptions {
-    std::optional<double> time_code{};  ///< seconds of the animation; none for the scene at rest
-    std::string animation{};            ///< name; empty for the first
-    std::optional<int> frame{};         ///< of a sequence: shown at time_code (0 if none) + frame / fps
-    std::optional<double> fps{};        ///< frames per second, > 0
-    std::optional<Shutter> shutter{};
-    std::optional<MissingTextures> missing_textures{};
+    std::optional<int> frame{};  ///< of a sequence: shown at time_code (0 if none) + frame / fps
+    /// Changes the settings, once they are read and before anything else is.
+    std::function<void(RenderSettings&)> adjust{};
     /// The text of another render.json, merged into the scene's as RFC 7386 says: members replace members, objects are
     /// merged, null removes. Problems of it are located in kGivenSettings where the scene has no render.json.
     std::string settings{};

@@ -108,17 +108,6 @@ fs::path directory_of(const fs::path& path, bool is_directory) {
     return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-/// `settings`, with what `options` say in place of what they say.
-RenderSettings apply_options(RenderSettings settings, const LoadOptions& options) {
-    if (options.time_code) settings.time_code = options.time_code;
-    if (!options.animation.empty()) settings.animation = options.animation;
-    settings.frame = options.frame;
-    settings.fps = options.fps.value_or(settings.fps);
-    settings.shutter = options.shutter.value_or(settings.shutter);
-    settings.missing_textures = options.missing_textures.value_or(settings.missing_textures);
-    return settings;
-}
-
 void load_into(const fs::path& path, const LoadOptions& options, SceneDesc& scene, ProblemList& problems) {
     std::error_code code;
     const bool is_directory = fs::is_directory(path, code);
@@ -139,7 +128,9 @@ void load_into(const fs::path& path, const LoadOptions& options, SceneDesc& scen
     if (loader == nullptr) {
         throw SceneError({scene.file.string(), {}}, "the file's format is not known; glTF files are .gltf or .glb");
     }
-    scene.settings = apply_options(settings ? settings->settings : RenderSettings{}, options);
+    if (settings) scene.settings = settings->settings;
+    scene.settings.frame = options.frame;
+    if (options.adjust) options.adjust(scene.settings);
     loader->load(scene.file, options, scene, problems);
     if (!settings) return;
     if (!settings->file.empty()) scene.inputs.push_back(settings->file);

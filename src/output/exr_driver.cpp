@@ -56,8 +56,13 @@ std::vector<ImageAttribute> make_attributes(const OutputFrame& frame, const Colo
         {"etendue:complete", frame.complete ? 1 : 0},
         {"etendue:haltReason", frame.halt_reason},
     };
-    // How long it took is never the same twice: files that are to have the same bytes do not tell.
-    if (!source_date()) attributes.push_back({"etendue:renderTime", static_cast<float>(frame.render_seconds)});
+    if (!frame.settings.empty()) attributes.push_back({"etendue:settings", frame.settings});
+    // How long it took is never the same twice, nor need the names of files be: files that are to have the same bytes
+    // do not tell.
+    if (!source_date()) {
+        attributes.push_back({"etendue:renderTime", static_cast<float>(frame.render_seconds)});
+        if (!frame.command.empty()) attributes.push_back({"etendue:command", frame.command});
+    }
     if (frame.half_share > 0.0f) attributes.push_back({"etendue:halfShare", frame.half_share});
     if (!frame.layers.empty()) {
         // Nothing else is to be denoised, whatever its channels are called.

@@ -60,6 +60,8 @@ struct OutputFrame {
     std::string sampler;
     int spp = 0;  ///< samples per pixel that were taken
     std::uint32_t seed = 0;
+    std::string settings;  ///< as in RenderStatistics
+    std::string command;   ///< the same
     double render_seconds = 0.0;
     bool complete = true;     ///< false if rendering was stopped early
     std::string halt_reason;  ///< why it stopped, empty if nothing to say

@@ -18,6 +18,11 @@ double per_second(std::uint64_t count, double seconds) {
     return seconds > 0.0 ? static_cast<double>(count) / seconds : 0.0;
 }
 
+Json parsed_or_null(const std::string& text) {
+    Json json = Json::parse(text, nullptr, false);
+    return json.is_discarded() ? Json() : json;
+}
+
 Json to_object(const PhaseTime& time) {
     return {{"wall", time.wall}, {"cpu", time.cpu}};
 }
@@ -52,6 +57,9 @@ std::string to_json(const RenderStatistics& s) {
     json["integrator"] = s.integrator;
     json["frame"] = s.frame ? Json(*s.frame) : Json();
     json["time_code"] = s.time_code ? Json(*s.time_code) : Json();
+    json["command"] = s.command.empty() ? Json() : Json(s.command);
+    json["settings"] = parsed_or_null(s.settings);
+    json["requested_settings"] = parsed_or_null(s.requested_settings);
     json["settings_hash"] = s.settings_hash;
     json["inputs"] = s.inputs;
     json["layer_files"] = s.layer_files;

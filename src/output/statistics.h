@@ -61,6 +61,9 @@ struct RenderStatistics {
     std::optional<int> frame;         ///< of a sequence
     std::optional<double> time_code;  ///< seconds of the animation that is shown
     std::string settings_hash;        ///< equal for equal settings
+    std::string settings;             ///< all that were rendered with, as a JSON object by JSON pointers
+    std::string requested_settings;  ///< those of them that were not the default and decide what files hold, unresolved
+    std::string command;             ///< the command line; empty if there was none
     std::vector<InputFile> inputs;
     std::vector<std::string> layer_files;  ///< names of what lies beside the image and belongs to it
     std::string light_units;  ///< of lamps: "photometric" (the image is in cd/m²) or "radiometric" (W/(m² sr))

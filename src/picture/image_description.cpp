@@ -4,6 +4,7 @@
 #include "film/median_of_means.h"
 #include "output/input_file_json.h"
 #include "render/render.h"
+#include "scene/canonical_settings.h"
 
 #include <algorithm>
 #include <cctype>
@@ -96,6 +97,9 @@ Json to_object(const RenderStatistics& s) {
             {"frame", s.frame ? Json(*s.frame) : Json()},
             {"time_code", s.time_code ? Json(*s.time_code) : Json()},
             {"settings_hash", s.settings_hash},
+            {"settings", s.settings},
+            {"requested_settings", s.requested_settings},
+            {"command", s.command},
             {"inputs", s.inputs},
             {"light_units", s.light_units},
             {"spp_requested", s.spp_requested},
@@ -113,6 +117,9 @@ RenderStatistics to_statistics(const Json& json) {
     if (!json.at("frame").is_null()) s.frame = json.at("frame").get<int>();
     if (!json.at("time_code").is_null()) s.time_code = json.at("time_code").get<double>();
     json.at("settings_hash").get_to(s.settings_hash);
+    json.at("settings").get_to(s.settings);
+    json.at("requested_settings").get_to(s.requested_settings);
+    json.at("command").get_to(s.command);
     json.at("inputs").get_to(s.inputs);
     json.at("light_units").get_to(s.light_units);
     json.at("spp_requested").get_to(s.spp_requested);
@@ -251,6 +258,7 @@ ImageDescription describe_settings(const SceneDesc& scene, const AovPlan& plan) 
     s.time_code = settings.shown_time();
     s.light_units = light_units_name(settings.light_units);
     s.spp_requested = settings.spp;
+    s.settings = to_json_object(setting_texts(settings));
     return description;
 }
 
@@ -317,6 +325,8 @@ void describe_state(ImageDescription& description, const RenderState& state, boo
     frame.halt_reason = halt_reason;
 
     RenderStatistics& s = description.statistics;
+    frame.settings = s.settings;
+    frame.command = s.command;
     const RenderCounters& c = state.counters;
     s.integrator = frame.integrator;
     s.width = window.width();

@@ -3,7 +3,10 @@
 #include "core/error.h"
 #include "integrator/integrator.h"
 #include "processor/ray_code.h"
+#include "scene/setting.h"
 
+#include <algorithm>
+#include <sstream>
 #include <string_view>
 #include <vector>
 
@@ -81,6 +84,12 @@ IntegratorOptions integrator_options(const RenderSettings& settings) {
     return options;
 }
 
+std::vector<std::string> integrator_names() {
+    std::vector<std::string> names;
+    for (const IntegratorEntry& entry : integrator_registry()) names.emplace_back(entry.name);
+    return names;
+}
+
 bool has_strategies(const std::string& integrator) {
     const IntegratorEntry* const entry = find_integrator(integrator);
     return entry != nullptr && entry->has_strategies;
@@ -133,25 +142,47 @@ std::unique_ptr<const Integrator> create_integrator(const RenderSettings& settin
     return integrator;
 }
 
+namespace {
+
+std::vector<std::string> words_in(std::string_view list) {
+    std::vector<std::string> names;
+    std::istringstream words{std::string(list)};
+    for (std::string name; words >> name;) names.push_back(name);
+    return names;
+}
+
+/// Returns "'path' and 'direct'".
+std::string users_of(const Setting& setting) {
+    std::string text;
+    const std::vector<std::string> names = words_in(setting.integrators);
+    for (std::size_t i = 0; i < names.size(); ++i)
+        text += fmt::format("{}'{}'", i == 0 ? "" : i + 1 == names.size() ? " and " : ", ", names[i]);
+    return text;
+}
+
+bool is_looked_at(const Setting& setting, const std::string& integrator) {
+    const std::vector<std::string> names = words_in(setting.integrators);
+    return names.empty() || std::ranges::find(names, integrator) != names.end();
+}
+
+}  // namespace
+
 std::vector<std::string> ineffective_settings(const RenderSettings& settings, bool has_bodies) {
     std::vector<std::string> sentences;
-    // A render.json may well hold these for when --error is given.
-    const auto without_error = [&](const char* pointer, std::string_view option) {
-        if (settings.relative_error == 0.0 && settings.options.contains(pointer))
-            sentences.push_back(fmt::format("{} has no effect without an error to reach (--error)", option));
-    };
-    without_error("/min_spp", "--min-spp");
-    without_error("/adaptive", settings.adaptive ? "--adaptive" : "--no-adaptive");
-    // A render.json may well hold these for when another integrator is asked for.
     const std::string& type = settings.integrator.type;
-    const auto without_use = [&](const char* pointer, bool has_use, std::string_view whose) {
-        if (const auto option = settings.options.find(pointer); option != settings.options.end() && !has_use)
-            sentences.push_back(fmt::format("{} has no effect with '{}': it is for {}", option->second, type, whose));
-    };
-    for (const char* pointer : {"/integrator/heuristic", "/integrator/connections"})
-        without_use(pointer, has_strategies(type), "'bdpt', which has strategies");
-    const IntegratorEntry* const entry = find_integrator(type);
-    without_use("/integrator/light_samples", entry != nullptr && entry->splits_light_samples, "'path' and 'direct'");
+    RenderSettings effective = settings;
+    effective.time_code = settings.shown_time();
+    for (const Setting& setting : settings_table()) {
+        // A render.json may well hold it for when the other setting or another integrator is asked for.
+        const auto option = settings.options.find(std::string(setting.pointer));
+        if (option == settings.options.end()) continue;
+        if (const Setting* const needed = find_setting(setting.needs);
+            needed != nullptr && needed->place.read(effective) == default_value(*needed))
+            sentences.push_back(fmt::format("{} has no effect without {}", option->second, needed->option));
+        if (!is_looked_at(setting, type))
+            sentences.push_back(
+                fmt::format("{} has no effect with '{}': it is for {}", option->second, type, users_of(setting)));
+    }
     if (settings.clamp_indirect > 0.0f && settings.integrator.max_depth < kShortestIndirect && !has_bodies)
         sentences.push_back(fmt::format(
             "{} has no effect: paths have at most {} (--max-depth), and indirect light takes {}",

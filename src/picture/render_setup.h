@@ -32,6 +32,9 @@ namespace etendue {
 /// What the settings ask of the integrator.
 [[nodiscard]] IntegratorOptions integrator_options(const RenderSettings& settings);
 
+/// Names the integrators of the registry, in its order.
+[[nodiscard]] std::vector<std::string> integrator_names();
+
 /// True if the integrator of this name has strategies.
 [[nodiscard]] bool has_strategies(const std::string& integrator);
 

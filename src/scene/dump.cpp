@@ -1,8 +1,8 @@
 // SceneDesc as text: one line per thing, in the order of the struct, bulk arrays as counts.
 
 #include "core/shown_text.h"
+#include "scene/canonical_settings.h"
 #include "scene/scene_desc.h"
-#include "scene/settings_text.h"
 
 #include <iterator>
 #include <type_traits>
@@ -47,10 +47,6 @@ std::string text(const TextureRef& ref) {
                               t.scale.x, t.scale.y);
     }
     return result;
-}
-
-std::string_view text(AovLayout layout) {
-    return kAovLayoutNames[static_cast<std::size_t>(layout)].first;
 }
 
 const char* text(AlphaMode mode) {
@@ -101,20 +97,6 @@ const char* text(LightType type) {
             return "spot";
         case LightType::Directional:
             return "directional";
-    }
-    return "?";
-}
-
-const char* text(PixelFilterType filter) {
-    switch (filter) {
-        case PixelFilterType::BlackmanHarris:
-            return "blackman-harris";
-        case PixelFilterType::Box:
-            return "box";
-        case PixelFilterType::Gaussian:
-            return "gaussian";
-        case PixelFilterType::Mitchell:
-            return "mitchell";
     }
     return "?";
 }
@@ -280,49 +262,7 @@ void dump_cameras_and_lights(const SceneDesc& scene, Out out) {
 
 }  // namespace
 
-std::string dump(const RenderSettings& s) {
-    std::string result;
-    const Out out = std::back_inserter(result);
-    fmt::format_to(out, "integrator {}: max depth {}, min depth {}, roulette depth {}, {} heuristic", s.integrator.type,
-                   s.integrator.max_depth, s.integrator.min_depth, s.integrator.roulette_depth,
-                   s.integrator.heuristic == HeuristicType::Power ? "power" : "balance");
-    if (s.integrator.strategy)
-        fmt::format_to(out, ", {} strategy {},{} only", s.integrator.weighted ? "weighted" : "unweighted",
-                       (*s.integrator.strategy)[0], (*s.integrator.strategy)[1]);
-    if (const int count = s.integrator.cached_connections; count > 0)
-        fmt::format_to(out, ", connections cache:{}", count);
-    if (const int count = s.integrator.light_samples; count > 1) fmt::format_to(out, ", {} light samples", count);
-    if (s.clamp_indirect > 0.0f) fmt::format_to(out, ", indirect light up to {:g}", s.clamp_indirect);
-    if (s.robust_buckets > 0) fmt::format_to(out, ", mon:{}", s.robust_buckets);
-    if (s.brightest != RenderSettings{}.brightest) fmt::format_to(out, ", {} brightest", s.brightest);
-    fmt::format_to(out, "\n");
-    fmt::format_to(out, "sampling: {}, {} spp, seed {}, time limit {:g}, error {:g}",
-                   s.sampler == SamplerType::Sobol ? "sobol" : "random", s.spp, s.seed, s.time_limit, s.relative_error);
-    if (s.relative_error > 0.0 && s.adaptive) fmt::format_to(out, ", adaptive after {} spp", s.min_spp);
-    fmt::format_to(out, "\n");
-    fmt::format_to(out, "film: {} x {}, filter {} radius {:g}\n", s.film.width, s.film.height, text(s.film.filter),
-                   s.film.filter_radius);
-    if (s.film.crop) fmt::format_to(out, "crop: {}\n", fmt::join(*s.film.crop, " "));
-    for (const AovDesc& aov : s.aovs) fmt::format_to(out, "aov {}\n", shown_text(to_text(aov)));
-    if (!s.aovs.empty()) fmt::format_to(out, "layout of layers: {}\n", text(s.aov_layout));
-    fmt::format_to(out, "camera used: {}\n", quoted(s.camera));
-    fmt::format_to(out, "light units: {}\n", light_units_name(s.light_units));
-    // Not the sequence that a frame belongs to: it is the same image in a longer one.
-    if (s.shown_time()) fmt::format_to(out, "time code {} of animation {}\n", *s.shown_time(), quoted(s.animation));
-    if (s.shutter.is_open() || s.shutter.middle() != 0.0)
-        fmt::format_to(out, "shutter {} to {}\n", s.shutter.open, s.shutter.close);
-    if (!s.variant.empty()) fmt::format_to(out, "variant used: {}\n", quoted(s.variant));
-    if (s.texture_memory) fmt::format_to(out, "texture memory: {} bytes\n", *s.texture_memory);
-    fmt::format_to(out, "colour: working space {}, display {}, view {}, exposure {:g}", quoted(s.color.working_space),
-                   quoted(s.color.display), quoted(s.color.view), s.color.exposure);
-    if (!s.color.look.empty()) fmt::format_to(out, ", look {}", quoted(s.color.look));
-    if (!s.color.output_space.empty()) fmt::format_to(out, ", output space {}", quoted(s.color.output_space));
-    if (s.color.aces_container) fmt::format_to(out, ", ACES container");
-    fmt::format_to(out, "\n");
-    return result;
-}
-
-std::string dump(const SceneDesc& scene) {
+std::string dump_without_settings(const SceneDesc& scene) {
     std::string result;
     const Out out = std::back_inserter(result);
     fmt::format_to(out, "scene {}\n", quoted(scene.name));
@@ -335,7 +275,15 @@ std::string dump(const SceneDesc& scene) {
     for (const std::string& animation : scene.animations) fmt::format_to(out, "animation {}\n", quoted(animation));
     for (const std::string& variant : scene.variants) fmt::format_to(out, "variant {}\n", quoted(variant));
     dump_cameras_and_lights(scene, out);
-    return result + dump(scene.settings);
+    return result;
+}
+
+std::string dump(const SceneDesc& scene) {
+    std::string result = dump_without_settings(scene);
+    const Out out = std::back_inserter(result);
+    for (const auto& [pointer, text] : setting_texts(scene.settings))
+        if (text != "null") fmt::format_to(out, "{}: {}\n", setting_name(*find_setting(pointer)), shown_text(text));
+    return result;
 }
 
 }  // namespace etendue

@@ -65,6 +65,9 @@ void apply_variant(SceneDesc& scene);
 /// Human-readable text with everything but the bulk arrays, for `inspect` and for tests to compare.
 [[nodiscard]] std::string dump(const SceneDesc& scene);
 
+/// Returns the part of that text that is not about `SceneDesc::settings`.
+[[nodiscard]] std::string dump_without_settings(const SceneDesc& scene);
+
 /// Bounds of all instances, from the scene's origin.
 [[nodiscard]] Bounds compute_bounds(const SceneDesc& scene);
 

@@ -1,3 +1,4 @@
+#include "scene/setting.h"
 #include "scene/transform.h"
 #include "scene/validate_parts.h"
 
@@ -9,22 +10,15 @@ namespace etendue {
 namespace {
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
-constexpr int kMaxSide = 65536;
-constexpr int kMaxSpp = 1 << 24;
-constexpr double kMaxExposure = 64.0;  // stops
 
-void validate_film(const RenderSettings& settings, ProblemList& problems) {
+void validate_crop(const RenderSettings& settings, ProblemList& problems) {
     const FilmSettings& film = settings.film;
-    check_range(film.width, 1, kMaxSide, "width", settings.at("/resolution"), problems);
-    check_range(film.height, 1, kMaxSide, "height", settings.at("/resolution"), problems);
-    check_range(static_cast<double>(film.filter_radius), 0.0, 8.0, "filter radius", settings.at("/film/filter_radius"),
-                problems);
     if (!film.crop) return;
     const auto [x0, y0, x1, y1] = *film.crop;
-    if (x0 < 0 || y0 < 0 || x1 > film.width || y1 > film.height || x0 >= x1 || y0 >= y1) {
+    if (x0 >= 0 && y0 >= 0 && x0 < x1 && y0 < y1 && (x1 > film.width || y1 > film.height)) {
         problems.error(settings.at("/crop"),
-                       fmt::format("the crop window [{}, {}, {}, {}] is empty or not inside the image of {} x {}", x0,
-                                   y0, x1, y1, film.width, film.height));
+                       fmt::format("the crop window [{}, {}, {}, {}] is not inside the image of {} x {}", x0, y0, x1,
+                                   y1, film.width, film.height));
     }
 }
 
@@ -44,6 +38,14 @@ void validate_variant(const SceneDesc& scene, ProblemList& problems) {
     const std::vector<std::string_view> names(scene.variants.begin(), scene.variants.end());
     problems.error(scene.settings.at("/variant"),
                    fmt::format("there is no material variant '{}'; {}", name, name_hint(name, names)));
+}
+
+/// Checks each setting by itself, as the table says.
+void validate_ranges(const RenderSettings& settings, ProblemList& problems) {
+    for (const Setting& setting : settings_table())
+        if (const auto problem = problem_with(setting, setting.place.read(settings)))
+            problems.error(settings.at(std::string(setting.pointer)),
+                           fmt::format("{} {}", setting.pointer.substr(setting.pointer.rfind('/') + 1), *problem));
 }
 
 bool is_ascending(const std::vector<float>& values) {
@@ -132,15 +134,8 @@ void validate_lights(const SceneDesc& scene, ProblemList& problems) {
 void validate_settings(const SceneDesc& scene, ProblemList& problems) {
     const RenderSettings& settings = scene.settings;
     const IntegratorSettings& integrator = settings.integrator;
-    constexpr int kMaxInt = std::numeric_limits<int>::max();
-    const auto check = [&](double value, double low, double high, const char* what, const char* pointer) {
-        check_range(value, low, high, what, settings.at(pointer), problems);
-    };
+    validate_ranges(settings, problems);
     if (integrator.type.empty()) problems.error(settings.at("/integrator/type"), "the integrator has no name");
-    check(integrator.max_depth, 1, kMaxInt, "max_depth", "/integrator/max_depth");
-    check(integrator.min_depth, 1, kMaxInt, "min_depth", "/integrator/min_depth");
-    check(integrator.roulette_depth, 1, kMaxInt, "roulette_depth", "/integrator/roulette_depth");
-    check(integrator.light_samples, 1, kMostLightSamples, "light_samples", "/integrator/light_samples");
     if (integrator.min_depth > integrator.max_depth) {
         // Where either was set last: the command line is read after render.json.
         const bool is_option = settings.options.contains("/integrator/min_depth");
@@ -148,7 +143,6 @@ void validate_settings(const SceneDesc& scene, ProblemList& problems) {
                        fmt::format("min_depth {} is above max_depth {}: no path would be kept", integrator.min_depth,
                                    integrator.max_depth));
     }
-    check(integrator.cached_connections, 0, kMostCachedConnections, "connections", "/integrator/connections");
     if (integrator.strategy) {
         const auto [s, t] = *integrator.strategy;
         // No light hits the lens.
@@ -162,20 +156,7 @@ void validate_settings(const SceneDesc& scene, ProblemList& problems) {
         problems.error(settings.at("/integrator/weighted"),
                        "strategies without weights sum to more than the image; one of them can be shown without "
                        "weights: name it as strategy");
-    check(settings.spp, 1, kMaxSpp, "spp", "/spp");
-    check(settings.time_limit, 0.0, kUnbounded, "time", "/time");
-    check(settings.relative_error, 0.0, kUnbounded, "error", "/error");
-    check(static_cast<double>(settings.clamp_indirect), 0.0, std::numeric_limits<float>::max(), "clamp_indirect",
-          "/clamp_indirect");
-    check(settings.brightest, 0, kMostBrightest, "brightest", "/brightest");
-    if (const int n = settings.robust_buckets; n != 0 && (n < kLeastBuckets || n > kMostBuckets || n % 2 == 0))
-        problems.error(settings.at("/robust"), fmt::format("mon:{} is not {}", n, kRobustForm));
-    check(settings.min_spp, 1, kMaxSpp, "min_spp", "/min_spp");
-    check(static_cast<double>(settings.color.exposure), -kMaxExposure, kMaxExposure, "exposure", "/color/exposure");
-    if (!(settings.shutter.close >= settings.shutter.open))
-        problems.error(settings.at("/shutter"), fmt::format("the shutter closes at {} before it opens at {}",
-                                                            settings.shutter.close, settings.shutter.open));
-    validate_film(settings, problems);
+    validate_crop(settings, problems);
     validate_camera_name(scene, problems);
     validate_variant(scene, problems);
 }

@@ -1,46 +1,46 @@
 #include "session/dropped_samples.h"
 
-#include "core/byte_size.h"
 #include "core/log.h"
 #include "process/shell_word.h"
+#include "scene/setting.h"
+
+#include <vector>
 
 #include <fmt/format.h>
 
 namespace etendue {
 
+namespace {
+
+/// Returns the options that ask for the settings which a sample depends on, also where they are as render.json says:
+/// all that are given, and all that are not the default.
+std::vector<std::string> words_of_sample(const RenderSettings& settings) {
+    std::vector<std::string> options;
+    for (const Setting& setting : settings_table()) {
+        const SettingValue value = setting.place.read(settings);
+        const bool is_given = settings.options.contains(std::string(setting.pointer));
+        const bool is_told = setting.decides == Decides::Samples ? is_given || value != default_value(setting)
+                                                                 : is_given && setting.pointer == "/texture_memory";
+        const std::vector<std::string> words = option_words(setting, value);
+        if (!is_told || words.empty()) continue;
+        options.push_back(words.size() > 1 ? words[0] + " " + quoted(words[1]) : words[0]);
+    }
+    return options;
+}
+
+}  // namespace
+
 void report_dropped(const RenderCounters& counters, const std::filesystem::path& scene,
-                    const SettingsOverrides& overrides, const RenderSettings& settings,
-                    const std::string& working_space) {
+                    const SettingsOverrides& overrides, const RenderSettings& settings) {
     if (counters.dropped == 0) return;
     const DroppedSample& first = counters.first_dropped.front();
     // A part of an image keeps splats for all of it, as an image of the one pixel would not.
-    std::string command = fmt::format(
-        "etendue render {} --integrator {} --max-depth {} --size {}x{} --crop {},{},{},{} --samples {}:{} --seed {} "
-        "--working-space {}",
-        quoted(scene.string()), settings.integrator.type, settings.integrator.max_depth, settings.film.width,
-        settings.film.height, first.x, first.y, first.x + 1, first.y + 1, first.sample, first.sample + 1, settings.seed,
-        quoted(working_space));
-    if (overrides.min_depth) command += fmt::format(" --min-depth {}", *overrides.min_depth);
-    if (overrides.light_samples) command += fmt::format(" --light-samples {}", *overrides.light_samples);
-    if (const auto& strategy = settings.integrator.strategy)
-        command += fmt::format(" --strategy {},{}{}", (*strategy)[0], (*strategy)[1],
-                               settings.integrator.weighted ? "" : " --unweighted");
-    if (overrides.heuristic)
-        command += *overrides.heuristic == HeuristicType::Power ? " --heuristic power" : " --heuristic balance";
-    if (const auto& cached = overrides.cached_connections)
-        command += " --bdpt-connections " + (*cached > 0 ? fmt::format("cache:{}", *cached) : "pairwise");
-    if (overrides.clamp_indirect) command += fmt::format(" --clamp-indirect {}", *overrides.clamp_indirect);
-    if (overrides.texture_memory) command += " --texture-memory " + to_byte_size(*overrides.texture_memory);
-    if (!settings.camera.empty()) command += " --camera " + quoted(settings.camera);
-    if (settings.time_code) command += fmt::format(" --time-code {}", *settings.time_code);
+    std::string command = fmt::format("etendue render {} --crop {},{},{},{} --samples {}:{}", quoted(scene.string()),
+                                      first.x, first.y, first.x + 1, first.y + 1, first.sample, first.sample + 1);
+    for (const std::string& words : words_of_sample(settings)) command += " " + words;
     if (settings.frame) command += fmt::format(" --frames {} --fps {}", *settings.frame, settings.fps);
-    if (settings.shutter.is_open())
-        command += fmt::format(" --shutter {}:{}", settings.shutter.open, settings.shutter.close);
-    if (!settings.animation.empty()) command += " --animation " + quoted(settings.animation);
-    if (!settings.variant.empty()) command += " --variant " + quoted(settings.variant);
-    if (overrides.light_units) command += fmt::format(" --light-units {}", light_units_name(settings.light_units));
     if (overrides.environment) command += " --environment " + quoted(*overrides.environment);
-    for (const std::filesystem::path& directory : overrides.moment.assets)
+    for (const std::filesystem::path& directory : overrides.assets)
         command += " --assets " + quoted(directory.string());
     log_warning(
         "warning: {} samples were not finite and were dropped; the first is sample {} of pixel ({}, {}). To see it "

@@ -13,7 +13,6 @@ namespace etendue {
 /// Warns, if samples were dropped, with a command that renders just the first of them. Light vertices of other
 /// samples (--bdpt-connections cache:N) are not there then.
 void report_dropped(const RenderCounters& counters, const std::filesystem::path& scene,
-                    const SettingsOverrides& overrides, const RenderSettings& settings,
-                    const std::string& working_space);
+                    const SettingsOverrides& overrides, const RenderSettings& settings);
 
 }  // namespace etendue

@@ -2,23 +2,7 @@
 
 #include "process/shell_word.h"
 
-#include <CLI/CLI.hpp>
-
 namespace etendue {
-
-std::vector<GivenOption> given_options(std::span<const CLI::Option* const> options) {
-    std::vector<GivenOption> given;
-    for (const CLI::Option* option : options) {
-        if (option->count() == 0) continue;
-        const std::string name = option->get_positional() ? "" : option->get_name();
-        const bool is_flag = option->get_items_expected_max() == 0;
-        if (is_flag)
-            given.push_back({name, std::nullopt});
-        else
-            for (const std::string& value : option->results()) given.push_back({name, value});
-    }
-    return given;
-}
 
 std::vector<GivenOption> without(std::vector<GivenOption> options, const std::string& name) {
     std::erase_if(options, [&](const GivenOption& option) { return option.name == name; });

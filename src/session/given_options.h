@@ -6,10 +6,6 @@
 #include <string>
 #include <vector>
 
-namespace CLI {
-class Option;
-}
-
 namespace etendue {
 
 /// One option with one value; it stands once for each if it has several.
@@ -17,9 +13,6 @@ struct GivenOption {
     std::string name;                  ///< "--max-depth"; empty for a positional argument
     std::optional<std::string> value;  ///< none for a flag
 };
-
-/// Those among `options` that were given, in their order.
-[[nodiscard]] std::vector<GivenOption> given_options(std::span<const CLI::Option* const> options);
 
 /// `options` without those of the name `name`.
 [[nodiscard]] std::vector<GivenOption> without(std::vector<GivenOption> options, const std::string& name);

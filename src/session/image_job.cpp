@@ -45,7 +45,7 @@ std::filesystem::path frame_path(const std::filesystem::path& output, int frame)
 
 std::vector<ImageJob> image_jobs(const std::filesystem::path& scene, const std::filesystem::path& output,
                                  const std::string& name, const SettingsOverrides& overrides) {
-    const std::optional<FrameRange> frames = overrides.frames ? overrides.frames : find_frames(scene);
+    const std::optional<FrameRange> frames = overrides.has("/frames") ? overrides.frames() : find_frames(scene);
     if (!frames) return {{scene, output, name, std::nullopt}};
     std::vector<ImageJob> jobs;
     jobs.reserve(frames->count());
@@ -57,8 +57,8 @@ std::vector<ImageJob> image_jobs(const std::filesystem::path& scene, const std::
 }
 
 SettingsOverrides overrides_of(const ImageJob& job, SettingsOverrides overrides) {
-    overrides.moment.frame = job.frame;
-    if (job.variant) overrides.variant = job.variant;
+    overrides.frame = job.frame;
+    if (job.variant) overrides.give("--variant", *job.variant);
     return overrides;
 }
 
@@ -75,6 +75,7 @@ ImageResult run_job(const ImageJob& job, const ImageJobOptions& options, const T
                                .progress_descriptor = options.progress_descriptor,
                                .quiet = options.quiet,
                                .title = options.title,
+                               .command = options.command,
                                .is_lost = options.is_lost};
     PreparedScene prepared = prepare_scene(job.scene, request.overrides);
     const std::string hash = settings_hash(prepared.scene, request.overrides.depth);

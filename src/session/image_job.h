@@ -57,6 +57,7 @@ struct ImageJobOptions {
     StrategiesRequest strategies{};              ///< the same
     std::optional<SampleRange> samples{};        ///< the same
     std::string title{};                         ///< before the progress bar
+    std::string command{};                       ///< as in SceneRenderRequest
     const std::atomic<bool>* is_lost = nullptr;  ///< as in SceneRenderRequest
 };
 

@@ -4,6 +4,7 @@
 #include "loader/loader.h"
 #include "output/software_name.h"
 #include "picture/scene_completion.h"
+#include "scene/canonical_settings.h"
 #include "session/input_files.h"
 #include "session/phase_timer.h"
 
@@ -16,9 +17,9 @@ namespace etendue {
 PreparedScene prepare_scene(const std::filesystem::path& path, const SettingsOverrides& overrides) {
     const PhaseTimer timer;
     const auto started = std::filesystem::file_time_type::clock::now();
-    LoadedScene loaded = load_scene(path, overrides.moment);
+    LoadedScene loaded = load_scene(path, overrides.load_options());
     PreparedScene prepared{std::move(loaded.scene), std::move(loaded.problems), {}, {}};
-    overrides.apply(prepared.scene);
+    overrides.apply_environment(prepared.scene);
     for (std::filesystem::path& file : ColorConfig::environment_files())
         prepared.scene.inputs.push_back(std::move(file));
     complete_scene(prepared.scene, prepared.problems);
@@ -28,16 +29,17 @@ PreparedScene prepare_scene(const std::filesystem::path& path, const SettingsOve
 }
 
 std::string settings_hash(const SceneDesc& scene, PixelDepth depth) {
-    std::string description = dump(scene);
-    constexpr std::string_view kTextureMemory = "\ntexture memory:";
-    if (const std::size_t begin = description.find(kTextureMemory); begin != std::string::npos)
-        description.erase(begin, description.find('\n', begin + 1) - begin);
-    // FNV-1a, 64 bits, over the text form of the scene; nobody attacks it, it only has to tell settings apart.
-    const std::string text = fmt::format("{}\n{}\n{}\n{}", software_name(), description, static_cast<int>(depth),
-                                         ColorConfig::environment_path().string());
+    // FNV-1a, 64 bits, over exact texts; nobody attacks it, it only has to tell settings apart.
+    const std::string text = fmt::format("{}\n{}\n{}\n{}\n{}", software_name(), dump_without_settings(scene),
+                                         to_json_object(canonical_settings(scene.settings, decides_files)),
+                                         static_cast<int>(depth), ColorConfig::environment_path().string());
     std::uint64_t hash = 0xcbf29ce484222325u;
     for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
     return fmt::format("{:016x}", hash);
+}
+
+std::string requested_settings(const RenderSettings& settings) {
+    return to_json_object(without_defaults(canonical_settings(settings, decides_files)));
 }
 
 }  // namespace etendue

@@ -23,9 +23,11 @@ struct PreparedScene {
 /// Loads the scene directory or file `path` and applies overrides and defaults. Throws SceneError.
 [[nodiscard]] PreparedScene prepare_scene(const std::filesystem::path& path, const SettingsOverrides& overrides);
 
-/// Hash of every setting that the image depends on, and of the program's version. How much memory textures may take is
-/// left out: where nothing says, that is the machine's own matter, and one image may be asked for from several. Equal
-/// for equal pictures as long as the input files are the same.
+/// Hashes every setting that the files of an image depend on, all bits of it, and the program's version: equal for
+/// equal files as long as the input files are the same.
 [[nodiscard]] std::string settings_hash(const SceneDesc& scene, PixelDepth depth);
+
+/// Returns the settings that the hash is made of, but for defaults, as a JSON object by their JSON pointers.
+[[nodiscard]] std::string requested_settings(const RenderSettings& settings);
 
 }  // namespace etendue

@@ -14,10 +14,10 @@ namespace etendue {
 [[nodiscard]] RenderIdentity settings_identity(const RenderSettings& settings);
 
 /// Describes `scene` as it will be rendered in `working_space`: the program's version and build, the instruction set
-/// that runs, the content of every input file, and each setting that the sums depend on, under names that mean
-/// something to the user. How many samples are to be taken, of which pixels, for how long, on how many threads and how
-/// the image is shown is left out: a render can go on with other ones; so is where the scene lies. `inputs` are those
-/// of `scene`, with their content. Throws SceneError if an image cannot be decoded.
+/// that runs, the content of every input file, and each setting that the sums depend on, exactly and under the name
+/// that render.json has for it. How many samples are to be taken, of which pixels, for how long, on how many threads
+/// and how the image is shown is left out: a render can go on with other ones; so is where the scene lies. `inputs` are
+/// those of `scene`, with their content. Throws SceneError if an image cannot be decoded.
 [[nodiscard]] RenderIdentity render_identity(const SceneDesc& scene, std::span<const InputFile> inputs,
                                              const std::string& working_space);
 

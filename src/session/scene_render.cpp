@@ -93,7 +93,7 @@ class SceneRender {
         require_image_module();
         RenderResult rendered = render_from(world, kept ? std::move(kept->state) : new_state());
         find_brightest_paths(world, *integrator_, options_, rendered);
-        report_dropped(rendered.counters, request_.scene, request_.overrides, settings_, settings_.color.working_space);
+        report_dropped(rendered.counters, request_.scene, request_.overrides, settings_);
         fill_texture_statistics(world, description_.statistics);
         require_not_lost();
         const bool interrupted = rendered.halt_reason == HaltReason::Interrupted;
@@ -105,7 +105,7 @@ class SceneRender {
         }
         // An earlier image is worth more than a black one.
         if (!interrupted || rendered.counters.samples > 0) write(world, rendered, !interrupted);
-        if (request_.overrides.brightest && !request_.quiet) list_brightest(description_.statistics);
+        if (request_.overrides.has("/brightest") && !request_.quiet) list_brightest(description_.statistics);
         if (!interrupted) checkpoints_.remove();
         return {std::move(description_.statistics), output_, interrupted, false};
     }
@@ -187,12 +187,15 @@ class SceneRender {
     void describe_scene(PreparedScene& prepared) {
         // Before names are resolved: batch compares it with that of a scene that was only prepared.
         const std::string hash = settings_hash(scene_, request_.overrides.depth);
+        const std::string requested = requested_settings(scene_.settings);
         const std::string working_space = resolve_colors(scene_.settings, colors_);
         description_ = describe_settings(scene_, aovs_);
         RenderStatistics& s = description_.statistics;
         s.load = prepared.load;
         s.inputs = std::move(prepared.inputs);
         s.settings_hash = hash;
+        s.requested_settings = requested;
+        s.command = request_.command;
         s.threads = threads_.thread_count();
         s.libraries = library_versions();
         s.instruction_set = instruction_set_name(ray_code().instruction_set);

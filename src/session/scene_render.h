@@ -29,7 +29,8 @@ struct SceneRenderRequest {
     bool force = false;            ///< render a part again that was rendered before; a checkpoint is gone on with
     int progress_descriptor = -1;  ///< of a pipe that progress is written to as JSON; -1 for a bar on stderr
     bool quiet = false;
-    std::string title{};  ///< before the progress bar
+    std::string title{};    ///< before the progress bar
+    std::string command{};  ///< the command line, to be told with the image
     /// Becomes true when the image is another's to make: nothing is written any more then. Null if it never does.
     const std::atomic<bool>* is_lost = nullptr;
 };

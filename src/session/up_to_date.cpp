@@ -1,6 +1,7 @@
 #include "session/up_to_date.h"
 
 #include "output/input_file_json.h"
+#include "scene/canonical_settings.h"
 #include "session/input_files.h"
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include <system_error>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 namespace etendue {
@@ -61,6 +63,23 @@ std::optional<std::vector<InputFile>> inputs_of(const nlohmann::json& statistics
     return std::nullopt;
 }
 
+/// Returns ": spp: 16 -> 32" if the statistics tell with which settings the image was made, and some have changed.
+std::string changes(const nlohmann::json& statistics, const RenderSettings& settings) try {
+    const auto requested = value_of<nlohmann::json>(statistics, "requested_settings", &nlohmann::json::is_object);
+    if (!requested) return "";
+    // In the words of one writer of JSON.
+    SettingTexts after = canonical_settings(settings, decides_files);
+    for (auto& [pointer, text] : after) text = nlohmann::json::parse(text).dump();
+    SettingTexts before = canonical_settings(RenderSettings(), decides_files);
+    for (auto& [pointer, text] : before) {
+        const auto was = requested->find(pointer);
+        text = was != requested->end() ? was->dump() : nlohmann::json::parse(text).dump();
+    }
+    return fmt::format("{}{}", before == after ? "" : ": ", fmt::join(changed_settings(before, after), "; "));
+} catch (const nlohmann::json::exception&) {
+    return "";
+}
+
 }  // namespace
 
 std::optional<Staleness> why_unfinished(const OutputPaths& output) {
@@ -105,7 +124,7 @@ std::optional<Staleness> why_outdated(const OutputPaths& output, const SceneDesc
         if (!known.contains(input_name(input, scene.directory)))
             return Staleness{.reason = fmt::format("input {} is new", input.filename().string())};
     if (value_of<std::string>(statistics, "settings_hash", &nlohmann::json::is_string) != hash)
-        return Staleness{.reason = "settings changed"};
+        return Staleness{.reason = fmt::format("settings changed{}", changes(statistics, scene.settings))};
     return std::nullopt;
 }
 

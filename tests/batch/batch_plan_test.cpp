@@ -68,7 +68,7 @@ TEST_F(BatchPlanTest, SaysWhyAnImageIsStale) {
     write_file(folder_ / "scene/triangle.bin", read_file(folder_ / "scene/triangle.bin") + "more");
     EXPECT_EQ(reason(), "input triangle.bin has changed");
     render();
-    options_.overrides.spp = 7;
+    options_.overrides.give("--spp", "7");
     EXPECT_EQ(reason(), "settings changed");
     render();
     EXPECT_EQ(reason(), "");

@@ -48,7 +48,7 @@ TEST_F(BatchUnits, AreOneForEachVariantIfAsked) {
     write_scene(folder_ / "scenes/shoe");
     options_.all_variants = true;
     EXPECT_EQ(images(collect()), Names{"out/shoe.exr"});
-    options_.overrides.frames = FrameRange{1, 2, 1};
+    options_.overrides.give("--frames", "1:2");
     const std::vector<BatchTask> tasks = collect({"red", "blue"});
     EXPECT_EQ(images(tasks), (Names{"out/shoe.red.0001.exr", "out/shoe.red.0002.exr", "out/shoe.blue.0001.exr",
                                     "out/shoe.blue.0002.exr"}));
@@ -85,9 +85,9 @@ TEST_F(BatchUnits, WriteNoLayerOverAnImage) {
     EXPECT_THROW((void)collect(), SceneError);
     std::filesystem::remove_all(folder_ / "scenes/a.deep");
     EXPECT_EQ(collect().size(), 3u);
-    options_.overrides.aovs = {{.name = "depth", .source = "depth", .is_float = {}, .location = {}}};
+    options_.overrides.give("--aov", "depth");
     EXPECT_EQ(collect().size(), 3u) << "in the image's own file";
-    options_.overrides.aov_layout = AovLayout::Files;
+    options_.overrides.give("--aov-layout", "files");
     try {
         (void)collect();
         ADD_FAILURE() << "a.depth.exr has two images";
@@ -96,7 +96,8 @@ TEST_F(BatchUnits, WriteNoLayerOverAnImage) {
             << error.what();
     }
     std::filesystem::remove_all(folder_ / "scenes/a.depth");
-    options_.overrides.aovs = {{.name = "denoising", .source = "denoising", .is_float = {}, .location = {}}};
+    options_.overrides.given.erase("/aovs");
+    options_.overrides.give("--aov", "denoising");
     EXPECT_EQ(collect().size(), 2u);
     write_scene(folder_ / "scenes/a.half.N");
     EXPECT_THROW((void)collect(), SceneError);

@@ -165,7 +165,7 @@ TEST_F(Batch, ADryRunPrintsThePlanAndWritesNothing) {
     const Names before = list(work_);
     const json plan = json::parse(run({"--dry-run", "--json", "--seed", "3"}).out);
     EXPECT_EQ(plan["stale"], 2);
-    EXPECT_EQ(plan["units"][1]["reason"], "settings changed");
+    EXPECT_EQ(plan["units"][1]["reason"], "settings changed: seed: 0 -> 3");
     EXPECT_TRUE(plan["units"][1]["estimated_seconds"].is_null());
     EXPECT_EQ(list(work_), before);
 }

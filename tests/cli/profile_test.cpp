@@ -174,8 +174,8 @@ TEST_F(Profile, RefusesOtherWorkBeforeAnythingIsMeasured) {
     refuses(baseline, {"--size", "17x12"}, "has 16 x 12 pixels, not 17 x 12");
     refuses(baseline, {"--max-depth", "9"}, "edges");
     refuses(baseline, {"--crop", "0,0,8,8"}, "the setting 'crop' differs: none in the baseline, '0 0 8 8' now");
-    refuses(baseline, {"--min-depth", "2"}, "min depth 2");
-    refuses(baseline, {"--clamp-indirect", "3"}, "indirect light up to 3");
+    refuses(baseline, {"--min-depth", "2"}, "'integrator.min_depth' differs: '1' in the baseline, '2' now");
+    refuses(baseline, {"--clamp-indirect", "3"}, "'clamp_indirect' differs");
     refuses(baseline, {"--bdpt-connections", "cache:5"}, "cache:5");
     refuses(baseline, {"--heuristic", "power"}, "power");
     refuses("one.json", {}, "one repetition");

@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <gtest/gtest.h>
 
 namespace etendue::test {
@@ -45,26 +44,6 @@ TEST(DifferentLight, IsThatOfOtherScenesStrategiesAndDebugging) {
     faster.settings.integrator.cached_connections = 4;
     faster.settings.spp = 7;
     EXPECT_EQ(different_light(variant_of("bdpt"), faster), "");
-}
-
-TEST(WithOptions, AddsToThoseOfAllVariants) {
-    CLI::App app;
-    RenderRequest common;
-    common.overrides.add_options(app);
-    app.parse("--max-depth 3 --camera 'the main one'", false);
-    common.given = given_options(std::as_const(app).get_options());
-    const RenderRequest request = with_options(common, "--max-depth 5 --unweighted --strategy 1,2");
-    EXPECT_EQ(request.overrides.max_depth, 5);
-    EXPECT_EQ(request.overrides.camera, "the main one");
-    EXPECT_EQ(command_line("render", request.given),
-              "render --camera 'the main one' --max-depth '5' --strategy '1,2' --unweighted");
-}
-
-TEST(WithOptions, RefusesWhatIsDecidedForAll) {
-    for (const char* options :
-         {"--seed 1", "--spp 3", "--time 1", "--frames 1:3", "--half", "--float", "--help", "more"})
-        EXPECT_THROW((void)with_options({}, options), CLI::ParseError) << options;
-    EXPECT_NO_THROW((void)with_options({}, "--quality preview"));
 }
 
 TEST(RenderCommand, IsOfThatImage) {

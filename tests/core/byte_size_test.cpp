@@ -24,6 +24,7 @@ TEST(ByteSize, WhatIsWrittenIsReadAgain) {
     EXPECT_EQ(to_byte_size((std::uint64_t{64} << 20) + 5), "64M");
     EXPECT_EQ(to_byte_size(std::uint64_t{999999} << 20), "999999M");
     EXPECT_EQ(to_byte_size(std::uint64_t{1000000} << 20), "976G");
+    EXPECT_EQ(to_byte_size(std::uint64_t{999999} << 40), "999999T");
 }
 
 TEST(ByteSize, TheMachineHasMemory) {

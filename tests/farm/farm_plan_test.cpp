@@ -154,7 +154,7 @@ TEST(FarmNeeds, OfLayersAreThoseOfTheirSumsAndChannels) {
     EXPECT_EQ(path.bytes(), 16u * 12u * (48 + path.layers.bytes()));
     EXPECT_EQ(path.channels, 2u * (4 + 30 + 1 + 3 + 3 + 3));
     SettingsOverrides bdpt;
-    bdpt.integrator = "bdpt";
+    bdpt.give("--integrator", "bdpt");
     const FilmSize splats = film_size_of(prepare_scene(folder / "box", bdpt).scene);
     EXPECT_EQ(splats.bytes() - path.bytes(), 16u * 12u * 24 * (1 + 10 + 1));
     const RenderProbe probe{.render_seconds = 1.0};

@@ -47,8 +47,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
     // Animations too, and what moves while a shutter is open.
     etendue::LoadOptions options;
-    options.time_code = 0.25;
-    options.shutter = etendue::Shutter{0.0, 0.5};
+    options.adjust = [](etendue::RenderSettings& settings) {
+        settings.time_code = 0.25;
+        settings.shutter = {0.0, 0.5};
+    };
     // Text and GLB alike: the loader looks at the first bytes.
     const etendue::LoadedScene loaded = etendue::inspect_scene(workplace.file(), options);
     if (!loaded.problems.has_errors()) static_cast<void>(etendue::compute_bounds(loaded.scene));

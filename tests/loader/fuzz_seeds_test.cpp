@@ -53,8 +53,10 @@ LoadedScene load_seed(const std::filesystem::path& file) {
     std::filesystem::copy(kFuzz / "beside", directory.path());
     std::filesystem::copy(file, directory.path() / "scene.gltf");
     LoadOptions options;
-    options.time_code = 0.25;
-    options.shutter = Shutter{0.0, 0.5};
+    options.adjust = [](RenderSettings& settings) {
+        settings.time_code = 0.25;
+        settings.shutter = {0.0, 0.5};
+    };
     return inspect_scene(directory.path() / "scene.gltf", options);
 }
 

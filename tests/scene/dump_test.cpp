@@ -20,7 +20,7 @@ TEST(Dump, NamesEverythingButBulkArrays) {
           "override conductor Au roughness 0.25", "1 triangles, 3 vertices, material 0, tangents, uv0, uv1, colours",
           "instance 0", "camera 0 \"main\": perspective yfov 0.8", "light 0 \"\": spot", "times IES profile 0",
           "IES profile 0 \"lamp.ies\": 2 x 2 directions, peak 4 cd", "environment cube map: images -1", "environment:",
-          "light units: radiometric", "integrator path", "64 spp", "film: 1024 x 576", "colour: working space"}) {
+          "light_units: \"radiometric\"", "integrator.type: \"path\"", "spp: 64", "resolution: [1024, 576]"}) {
         EXPECT_NE(text.find(expected), std::string::npos) << expected << "\n" << text;
     }
 }
@@ -44,12 +44,12 @@ TEST(Dump, SaysWhereThingsAreInTheWorld) {
 
 TEST(Dump, NamesWhatDecidesHowTexturesAreRead) {
     SceneDesc scene = small_scene();
-    EXPECT_EQ(dump(scene).find("texture memory"), std::string::npos);
-    scene.settings.texture_memory = 4096;
+    EXPECT_EQ(dump(scene).find("texture_memory"), std::string::npos);
+    scene.settings.texture_memory = 4u << 20;
     scene.textures[0].min_filter = TextureFilter::Nearest;
     scene.textures[0].mip_filter = TextureMipFilter::None;
     const std::string text = dump(scene);
-    EXPECT_NE(text.find("texture memory: 4096 bytes"), std::string::npos) << text;
+    EXPECT_NE(text.find("texture_memory: \"4M\""), std::string::npos) << text;
     EXPECT_NE(text.find("minified nearest mip none"), std::string::npos) << text;
 }
 

@@ -28,7 +28,7 @@ TEST(ImageJobs, TheCommandLinesFramesComeBeforeTheScenes) {
     EXPECT_EQ(jobs[1].output, "a.0007.exr");
     EXPECT_EQ(jobs[1].frame, 7);
     SettingsOverrides overrides;
-    overrides.frames = FrameRange{1, 1, 1};
+    overrides.give("--frames", "1");
     EXPECT_EQ(image_jobs(folder / "scene.gltf", "a.exr", "a", overrides)[0].output, "a.0001.exr");
 }
 

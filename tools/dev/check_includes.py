@@ -76,7 +76,8 @@ THIRD_PARTY = [
     (r"nlohmann/", "loader output report picture api session batch farm cli", WRAPPED),
     (r"(openvdb|nanovdb)/", "medium", WRAPPED),
     (r"embree[34]/", "world", WRAPPED),
-    (r"CLI/", "cli session compare", WRAPPED),
+    (r"CLI/Version\.hpp", "session", WRAPPED),
+    (r"CLI/", "cli", WRAPPED),
     (r"hwy/", "core", SHOWN),
     # The processor and the operating system.
     (r"[a-z]+mmintrin\.h|immintrin\.h", ANY_ROOM, SHOWN),

@@ -21,18 +21,6 @@ const Json& empty_object() {
 
 }  // namespace
 
-bool NumberRange::contains(double value) const {
-    return (open_min ? value > min : value >= min) && (open_max ? value < max : value <= max);
-}
-
-std::string NumberRange::str() const {
-    constexpr double kUnbounded = std::numeric_limits<float>::max();
-    if (max < kUnbounded)
-        return fmt::format("a number in {}{:g}, {:g}{}", open_min ? '(' : '[', min, max, open_max ? ')' : ']');
-    if (min > -kUnbounded) return fmt::format("a number {} {:g}", open_min ? ">" : ">=", min);
-    return "a number that fits single precision";
-}
-
 JsonObject::JsonObject(const Json& value, SourceLocation where, ProblemList& problems)
     : object_(value.is_object() ? &value : &empty_object()), where_(std::move(where)), problems_(problems) {
     if (!value.is_object()) problems_.error(where_, fmt::format("must be an object, but is {}", json_kind(value)));

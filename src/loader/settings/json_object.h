@@ -4,10 +4,11 @@
 #include "core/error.h"
 #include "core/rgb.h"
 #include "core/vec.h"
+#include "scene/setting.h"
 
 #include <array>
 #include <cstdint>
-#include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -16,18 +17,6 @@
 #include <nlohmann/json.hpp>
 
 namespace etendue {
-
-/// The numbers that a member accepts.
-struct NumberRange {
-    double min = -std::numeric_limits<float>::max();
-    double max = std::numeric_limits<float>::max();
-    bool open_min = false;  ///< `min` itself is not accepted
-    bool open_max = false;
-
-    [[nodiscard]] bool contains(double value) const;
-    /// "a number in (0, 3]", "a number >= 0"
-    [[nodiscard]] std::string str() const;
-};
 
 inline constexpr NumberRange kAnyNumber{};
 inline constexpr NumberRange kNotNegative{.min = 0.0};
@@ -57,24 +46,8 @@ class JsonObject {
         return true;
     }
 
-    template <std::size_t N>
-    bool numbers(std::string_view key, const NumberRange& range, std::array<float, N>& out) {
-        return read_numbers(key, range, out);
-    }
-
-    template <std::size_t N>
-    bool integers(std::string_view key, std::int64_t min, std::int64_t max, std::array<int, N>& out) {
-        const nlohmann::json* value = member(key);
-        if (value == nullptr || !check_array(*value, at(key), N, "integers")) return false;
-        std::array<int, N> result{};
-        for (std::size_t i = 0; i < N; ++i) {
-            std::int64_t element = 0;
-            if (!read_integer(&(*value)[i], element_at(key, i), min, max, element)) return false;
-            result[i] = static_cast<int>(element);
-        }
-        out = result;
-        return true;
-    }
+    /// Stores the member where `setting` has its value; `key` is the last part of its pointer.
+    bool setting(const Setting& setting, std::string_view key, RenderSettings& out);
 
     /// One of `names`, each with the value it stands for.
     template <typename Value, std::size_t N>
@@ -113,6 +86,10 @@ class JsonObject {
     [[nodiscard]] ProblemList& problems() const { return problems_; }
 
   private:
+    template <typename Element>
+    bool read_list(std::string_view key, std::size_t least, std::size_t most, std::string_view elements,
+                   std::vector<Element>& out, const auto& read_element);
+    [[nodiscard]] std::optional<SettingValue> read_setting(const Setting& setting, std::string_view key);
     [[nodiscard]] SourceLocation element_at(std::string_view key, std::size_t index) const;
     bool check_array(const nlohmann::json& value, const SourceLocation& where, std::size_t length,
                      std::string_view elements);

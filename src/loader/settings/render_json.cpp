@@ -1,11 +1,11 @@
 #include "loader/settings/render_json.h"
 
-#include "core/byte_size.h"
-#include "core/shown_text.h"
 #include "loader/files.h"
 #include "loader/json_text.h"
 #include "loader/loader.h"
 #include "loader/settings/json_object.h"
+
+#include <algorithm>
 
 #include <fmt/format.h>
 
@@ -15,31 +15,12 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::int64_t kLargestInt = std::numeric_limits<int>::max();
-constexpr std::int64_t kMaxSide = 65536;
-constexpr std::int64_t kMaxSpp = 1 << 24;
-constexpr std::int64_t kMaxSeed = std::numeric_limits<std::uint32_t>::max();
 constexpr NumberRange kFieldOfView{.min = 0.0, .max = 3.141592, .open_min = true};
-constexpr NumberRange kFilterRadius{.min = 0.0, .max = 8.0, .open_min = true};
 constexpr NumberRange kIor{.min = 1.0, .max = 3.0, .open_min = true};
 constexpr NumberRange kSurfaceIor{.min = 1.0, .max = 3.0};
 constexpr NumberRange kAnisotropy{.min = -0.999, .max = 0.999};
 constexpr std::int64_t kMaxPriority = 1'000'000;
 
-constexpr std::array<std::pair<std::string_view, SamplerType>, 2> kSamplers{{
-    {"sobol", SamplerType::Sobol},
-    {"random", SamplerType::Random},
-}};
-constexpr std::array<std::pair<std::string_view, HeuristicType>, 2> kHeuristics{{
-    {"power", HeuristicType::Power},
-    {"balance", HeuristicType::Balance},
-}};
-constexpr std::array<std::pair<std::string_view, PixelFilterType>, 4> kFilters{{
-    {"blackman-harris", PixelFilterType::BlackmanHarris},
-    {"box", PixelFilterType::Box},
-    {"gaussian", PixelFilterType::Gaussian},
-    {"mitchell", PixelFilterType::Mitchell},
-}};
 constexpr std::array<std::pair<std::string_view, CameraType>, 2> kNamedCameraTypes{{
     {"perspective", CameraType::Perspective},
     {"orthographic", CameraType::Orthographic},
@@ -49,46 +30,6 @@ constexpr auto kMetals = [] {
     for (std::size_t i = 0; i < names.size(); ++i) names[i] = {kMetalNames[i], kMetalNames[i]};
     return names;
 }();
-
-void read_integrator(const Json& value, const SourceLocation& where, ProblemList& problems, IntegratorSettings& out) {
-    JsonObject object(value, where, problems);
-    object.text("type", out.type);
-    object.integer("max_depth", 1, kLargestInt, out.max_depth);
-    object.integer("min_depth", 1, kLargestInt, out.min_depth);
-    object.integer("roulette_depth", 1, kLargestInt, out.roulette_depth);
-    object.integer("light_samples", 1, kMostLightSamples, out.light_samples);
-    object.choice("heuristic", kHeuristics, out.heuristic);
-    std::array<int, 2> strategy{};
-    if (object.integers("strategy", 0, kLargestInt, strategy)) out.strategy = strategy;
-    object.boolean("weighted", out.weighted);
-    std::string connections;
-    if (object.text("connections", connections)) {
-        if (const auto count = parse_connections(connections))
-            out.cached_connections = *count;
-        else
-            problems.error(object.at("connections"), fmt::format("'{}' is not {}", connections, kConnectionsForm));
-    }
-    object.finish();
-}
-
-void read_film(const Json& value, const SourceLocation& where, ProblemList& problems, FilmSettings& out) {
-    JsonObject object(value, where, problems);
-    object.choice("filter", kFilters, out.filter);
-    object.number("filter_radius", kFilterRadius, out.filter_radius);
-    object.finish();
-}
-
-void read_color(const Json& value, const SourceLocation& where, ProblemList& problems, ColorSettings& out) {
-    JsonObject object(value, where, problems);
-    object.text("working_space", out.working_space);
-    object.text("display", out.display);
-    object.text("view", out.view);
-    object.text("look", out.look);
-    object.number("exposure", kAnyNumber, out.exposure);
-    object.text("output_space", out.output_space);
-    object.boolean("aces_container", out.aces_container);
-    object.finish();
-}
 
 EnvironmentDesc read_environment(const Json& value, const SourceLocation& where, ProblemList& problems) {
     EnvironmentDesc result;
@@ -239,6 +180,9 @@ LightOverride read_light(const Json& value, const SourceLocation& where, Problem
     return result;
 }
 
+/// May be an object in place of the name.
+constexpr std::string_view kCameraPointer = "/camera";
+
 void read_camera_member(JsonObject& object, RenderJson& out) {
     const Json* member = object.member("camera");
     if (member == nullptr) return;
@@ -246,75 +190,34 @@ void read_camera_member(JsonObject& object, RenderJson& out) {
         out.camera = read_camera(*member, object.at("camera"), out.camera_aim, object.problems());
         out.settings.camera = out.camera->name;
     } else if (member->is_string()) {
-        object.text("camera", out.settings.camera);
+        object.setting(*find_setting(kCameraPointer), "camera", out.settings);
     } else {
         object.problems().error(object.at("camera"), "must be the name of a camera or an object that describes one");
     }
 }
 
-void read_film_size(JsonObject& object, FilmSettings& film) {
-    std::array<int, 2> resolution{film.width, film.height};
-    object.integers("resolution", 1, kMaxSide, resolution);
-    film.width = resolution[0];
-    film.height = resolution[1];
-    std::array<int, 4> crop{};
-    if (object.integers("crop", 0, kMaxSide, crop)) film.crop = crop;
-}
-
-/// "depth", "caustics=lpe:C D S+ L:float", as on the command line.
-void read_aovs(JsonObject& object, RenderSettings& settings) {
-    object.choice("aov_layout", kAovLayoutNames, settings.aov_layout);
-    const Json* member = object.member("aovs");
-    if (member == nullptr) return;
-    const SourceLocation where = object.at("aovs");
-    if (!member->is_array()) {
-        object.problems().error(where, "must be a list of texts");
-        return;
-    }
-    for (std::size_t i = 0; i < member->size(); ++i) {
-        const Json& element = (*member)[i];
-        const SourceLocation place{where.file, fmt::format("{}/{}", where.pointer, i)};
-        auto aov = element.is_string() ? parse_aov(element.get_ref<const std::string&>()) : std::nullopt;
-        if (!aov) {
-            object.problems().error(place, fmt::format("must be a text of the form {}", kAovForm));
-            continue;
+/// Reads the settings of the table that stand in `object`, whose pointer is `parent`, and in the objects within.
+void read_table(JsonObject& object, std::string_view parent, RenderSettings& settings) {
+    std::vector<std::string_view> objects;
+    for (const Setting& setting : settings_table()) {
+        if (!setting.pointer.starts_with(parent) || setting.pointer[parent.size()] != '/') continue;
+        const std::string_view key = setting.pointer.substr(parent.size() + 1);
+        const std::size_t slash = key.find('/');
+        if (slash == std::string_view::npos) {
+            if (setting.pointer != kCameraPointer) object.setting(setting, key, settings);
+        } else if (objects.empty() || objects.back() != key.substr(0, slash)) {
+            objects.push_back(key.substr(0, slash));
         }
-        aov->location = place;
-        settings.aovs.push_back(std::move(*aov));
     }
-}
-
-void read_texture_memory(JsonObject& object, RenderSettings& settings) {
-    std::string text;
-    if (!object.text("texture_memory", text)) return;
-    settings.texture_memory = parse_byte_size(text);
-    if (!settings.texture_memory)
-        object.problems().error(object.at("texture_memory"), fmt::format("'{}' is not {}", text, kByteSizeForm));
-}
-
-/// [first, last] or [first, last, step].
-void read_frames(JsonObject& object, RenderSettings& settings) {
-    object.number("fps", kPositive, settings.fps);
-    const Json* member = object.member("frames");
-    if (member == nullptr) return;
-    FrameRange frames;
-    constexpr std::int64_t kMost = FrameRange::kMaxFrame;
-    std::array<int, 2> ends{};
-    std::array<int, 3> ends_and_step{};
-    if (member->is_array() && member->size() == 3) {
-        if (!object.integers("frames", -kMost, kMost, ends_and_step)) return;
-        frames = {ends_and_step[0], ends_and_step[1], ends_and_step[2]};
-    } else {
-        if (!object.integers("frames", -kMost, kMost, ends)) return;
-        frames = {ends[0], ends[1], 1};
+    std::ranges::sort(objects);
+    objects.erase(std::unique(objects.begin(), objects.end()), objects.end());
+    for (const std::string_view name : objects) {
+        const Json* const member = object.member(name);
+        if (member == nullptr) continue;
+        JsonObject inner(*member, object.at(name), object.problems());
+        read_table(inner, fmt::format("{}/{}", parent, name), settings);
+        inner.finish();
     }
-    if (frames.last < frames.first || frames.step < 1) {
-        object.problems().error(object.at("frames"),
-                                "must be [first, last] or [first, last, step] with first <= last "
-                                "and step >= 1");
-        return;
-    }
-    settings.frames = frames;
 }
 
 void read_overrides(JsonObject& object, RenderJson& out) {
@@ -333,47 +236,17 @@ void read_overrides(JsonObject& object, RenderJson& out) {
     }
 }
 
-/// The whole document. To add a key, see CONTRIBUTING.md (A setting).
+/// Reads the whole document.
 void read_document(const Json& value, ProblemList& problems, RenderJson& out) {
     JsonObject object(value, out.location, problems);
     RenderSettings& settings = out.settings;
     object.text("scene", out.scene);
-    object.text("variant", settings.variant);
-    if (double seconds = 0.0; object.number("time_code", kAnyNumber, seconds)) settings.time_code = seconds;
-    object.text("animation", settings.animation);
-    read_frames(object, settings);
-    std::array<float, 2> shutter{};
-    if (object.numbers("shutter", kAnyNumber, shutter)) {
-        settings.shutter = {static_cast<double>(shutter[0]), static_cast<double>(shutter[1])};
-    }
-    object.choice("sampler", kSamplers, settings.sampler);
-    object.choice("light_units", kLightUnitNames, settings.light_units);
-    object.choice("missing_textures", kMissingTexturesNames, settings.missing_textures);
-    object.integer("spp", 1, kMaxSpp, settings.spp);
-    object.integer("seed", 0, kMaxSeed, settings.seed);
-    object.number("time", kNotNegative, settings.time_limit);
-    object.number("error", kNotNegative, settings.relative_error);
-    object.number("clamp_indirect", kNotNegative, settings.clamp_indirect);
-    if (std::string robust; object.text("robust", robust)) {
-        if (const auto buckets = parse_robust(robust))
-            settings.robust_buckets = *buckets;
-        else
-            problems.error(object.at("robust"), fmt::format("'{}' is not {}", shown(robust), kRobustForm));
-    }
-    object.integer("brightest", 0, kMostBrightest, settings.brightest);
-    object.boolean("adaptive", settings.adaptive);
-    object.integer("min_spp", 1, kMaxSpp, settings.min_spp);
-    read_aovs(object, settings);
-    read_texture_memory(object, settings);
-    read_film_size(object, settings.film);
+    read_table(object, "", settings);
+    for (std::size_t i = 0; i < settings.aovs.size(); ++i)
+        settings.aovs[i].location = {out.location.file, fmt::format("/aovs/{}", i)};
     read_camera_member(object, out);
     if (float radius = 0.0f; object.number("lens_radius", kNotNegative, radius)) out.lens_radius = radius;
     if (float distance = 0.0f; object.number("focus_distance", kPositive, distance)) out.focus_distance = distance;
-    if (const Json* member = object.member("integrator")) {
-        read_integrator(*member, object.at("integrator"), problems, settings.integrator);
-    }
-    if (const Json* member = object.member("film")) read_film(*member, object.at("film"), problems, settings.film);
-    if (const Json* member = object.member("color")) read_color(*member, object.at("color"), problems, settings.color);
     if (const Json* member = object.member("environment")) {
         out.environment = read_environment(*member, object.at("environment"), problems);
     }

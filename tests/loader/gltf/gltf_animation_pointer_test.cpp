@@ -27,7 +27,7 @@ GltfBuilder pointing(const std::string& pointer, const std::vector<float>& value
 
 LoadedScene load_at(const GltfBuilder& builder, double seconds) {
     LoadOptions options;
-    options.time_code = seconds;
+    options.adjust = [seconds](RenderSettings& settings) { settings.time_code = seconds; };
     LoadedScene loaded = builder.load(options);
     EXPECT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
     return loaded;
@@ -133,8 +133,10 @@ TEST(AnimationPointer, NodesMoveAsWithOrdinaryChannels) {
     const LoadedScene loaded = load_at(builder, 0.5);
     EXPECT_EQ(transform_point(loaded.scene.instances.at(0).to_world, Vec3f(0.0f)), Vec3f(2, 0, 0));
     LoadOptions open;
-    open.time_code = 0.0;
-    open.shutter = Shutter{0.0, 0.5};
+    open.adjust = [](RenderSettings& settings) {
+        settings.time_code = 0.0;
+        settings.shutter = {0.0, 0.5};
+    };
     EXPECT_EQ(builder.load(open).scene.instances.at(0).motion.size(), 2u);
 }
 

@@ -21,9 +21,17 @@ GltfBuilder animated(const std::string& path, const std::vector<float>& values, 
     return builder;
 }
 
+/// Asks for that moment of the animation of that name.
+LoadOptions at_time(double seconds, const std::string& animation = {}) {
+    return {.adjust = [=](RenderSettings& settings) {
+        settings.time_code = seconds;
+        settings.animation = animation;
+    }};
+}
+
 /// Where the point goes at `seconds`.
 Vec3f moved(const GltfBuilder& builder, double seconds, const Vec3f& point) {
-    const LoadedScene loaded = builder.load({.time_code = seconds, .animation = "move"});
+    const LoadedScene loaded = builder.load(at_time(seconds, "move"));
     EXPECT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
     return transform_point(loaded.scene.instances.at(0).to_world, point);
 }
@@ -72,18 +80,18 @@ TEST(Animation, AtRestWithoutATimeCode) {
 
 TEST(Animation, UnknownNamesAreErrorsAndNoAnimationIsNone) {
     const GltfBuilder builder = animated("translation", {0, 0, 0, 4, 8, 0}, 3, "LINEAR");
-    EXPECT_TRUE(has_problem(builder.load({.time_code = 1.0, .animation = "mvoe"}).problems, Severity::Error,
-                            "did you mean 'move'?", "/animations"));
+    EXPECT_TRUE(has_problem(builder.load(at_time(1.0, "mvoe")).problems, Severity::Error, "did you mean 'move'?",
+                            "/animations"));
     GltfBuilder still;
     still.add_triangle();
-    EXPECT_TRUE(has_problem(still.load({.time_code = 1.0}).problems, Severity::Warning, "has no animation"));
+    EXPECT_TRUE(has_problem(still.load(at_time(1.0)).problems, Severity::Warning, "has no animation"));
 }
 
 TEST(Animation, WhatCannotBeReadIsAnError) {
     const auto error_of = [](const auto& spoil) {
         GltfBuilder builder = animated("translation", {0, 0, 0, 4, 8, 0}, 3, "LINEAR");
         spoil(builder.json["animations"][0], builder);
-        return listing(builder.load({.time_code = 1.0}).problems);
+        return listing(builder.load(at_time(1.0)).problems);
     };
     using Json = nlohmann::json;
     EXPECT_NE(error_of([](Json& a, GltfBuilder&) { a["channels"][0]["sampler"] = 3; }).find("sampler 3 does not exist"),
@@ -124,7 +132,7 @@ TEST(Animation, ThoseThatAreNotShownAreReadIfAsked) {
     builder.json["animations"][1]["samplers"][0]["input"] = builder.floats({3.0f, 1.0f}, 1);
     EXPECT_FALSE(has_problem(builder.load().problems, Severity::Warning, "", "/animations/1/channels/0"));
     for (const LoadOptions& options :
-         {LoadOptions{.every_animation = true}, LoadOptions{.time_code = 1.0, .every_animation = true}}) {
+         {LoadOptions{.every_animation = true}, LoadOptions{.adjust = at_time(1.0).adjust, .every_animation = true}}) {
         const ProblemList problems = builder.load(options).problems;
         EXPECT_FALSE(problems.has_errors()) << listing(problems);
         EXPECT_TRUE(has_problem(problems, Severity::Warning, "increas", "/animations/1/channels/0"))
@@ -157,7 +165,7 @@ TEST(Morph, AnimatedWeightsComeFirst) {
     builder.json["animations"] = {
         {{"samplers", {{{"input", builder.floats({0, 1}, 1)}, {"output", builder.floats({0, 4}, 1)}}}},
          {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}}}}}};
-    EXPECT_EQ(third_vertex(builder.load({.time_code = 0.25})), Vec3f(0, 1, 2));
+    EXPECT_EQ(third_vertex(builder.load(at_time(0.25))), Vec3f(0, 1, 2));
 }
 
 TEST(Morph, NormalsFollow) {

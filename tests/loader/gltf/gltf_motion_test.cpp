@@ -28,8 +28,10 @@ GltfBuilder sliding() {
 
 LoadOptions shutter(double time, double open, double close) {
     LoadOptions options;
-    options.time_code = time;
-    options.shutter = Shutter{open, close};
+    options.adjust = [=](RenderSettings& settings) {
+        settings.time_code = time;
+        settings.shutter = {open, close};
+    };
     return options;
 }
 

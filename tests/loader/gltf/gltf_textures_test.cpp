@@ -170,7 +170,7 @@ TEST(Textures, WhatCannotBeReadIsLeftOutWithAWarning) {
 
 TEST(Textures, WhatCannotBeReadIsAnErrorWhereThatIsAskedFor) {
     for (const BadImage& bad : unreadable_images()) {
-        const LoadedScene loaded = load_bad_image(bad, {.missing_textures = MissingTextures::Error});
+        const LoadedScene loaded = load_bad_image(bad, {.settings = R"({"missing_textures": "error"})"});
         EXPECT_TRUE(has_problem(loaded.problems, Severity::Error, bad.message, "/images/0"))
             << bad.message << listing(loaded.problems);
     }
@@ -220,7 +220,7 @@ TEST(Textures, RenderJsonSaysWhetherMissingOnesAreErrors) {
     textured({{"uri", "missing.png"}}).write(dir);
     dir.write("render.json", R"({"missing_textures": "error"})");
     EXPECT_TRUE(inspect_scene(dir.path()).problems.has_errors());
-    EXPECT_FALSE(inspect_scene(dir.path(), {.missing_textures = MissingTextures::Warn}).problems.has_errors());
+    EXPECT_FALSE(inspect_scene(dir.path(), {.settings = R"({"missing_textures": "warn"})"}).problems.has_errors());
     dir.write("render.json", R"({"missing_textures": "warn"})");
     EXPECT_FALSE(inspect_scene(dir.path()).problems.has_errors());
 }

@@ -1,14 +1,22 @@
-// Options of `render` that another command has among those that override render.json, and takes no notice of.
+// The options of a command line: which were given, and which of `render` another command takes no notice of.
 #pragma once
 
+#include "session/given_options.h"
+
 #include <span>
+#include <vector>
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace etendue {
 
+/// Returns those among `options` that were given, in their order.
+[[nodiscard]] std::vector<GivenOption> given_options(std::span<const CLI::Option* const> options);
+
+/// Names an option that a command has among those that override render.json, and takes no notice of.
 struct OptionOfRender {
     const char* name;     ///< "--time"
     const char* instead;  ///< how the command decides about that, as the end of a sentence

@@ -1,0 +1,48 @@
+#include "cli/variant_options.h"
+
+#include "cli/settings_options.h"
+
+#include <array>
+#include <utility>
+
+#include <CLI/CLI.hpp>
+
+namespace etendue {
+
+namespace {
+
+/// They may be given to all variants alike.
+constexpr std::array kOptionsForAll{
+    OptionOfRender{"--seed", "every variant gets seeds of its own; the first of all is --seed of 'compare'"},
+    OptionOfRender{"--spp", "all variants render alike, for --seconds or with --spp of 'compare'"}};
+
+constexpr std::array kOptionsOfRender{OptionOfRender{"--time", "here it is --seconds, for all variants alike"},
+                                      OptionOfRender{"--error", "the errors of all variants are measured"},
+                                      OptionOfRender{"--adaptive", "here all pixels get as many samples"},
+                                      OptionOfRender{"--no-adaptive", "here all pixels get as many samples anyway"},
+                                      OptionOfRender{"--min-spp", "here all pixels get as many samples"},
+                                      OptionOfRender{"--frames", "here --time-code names the moment"},
+                                      OptionOfRender{"--brightest", "here no sample is listed"},
+                                      OptionOfRender{"--half", "here no image file is written"},
+                                      OptionOfRender{"--float", "here no image file is written"}};
+
+}  // namespace
+
+std::span<const OptionOfRender> options_compare_sets() {
+    return kOptionsOfRender;
+}
+
+RenderRequest with_options(const RenderRequest& common, const std::string& options) {
+    RenderRequest request = common;
+    CLI::App parser;
+    // Its --help would be an exception that nobody expects.
+    parser.set_help_flag();
+    add_settings_options(parser, request.overrides);
+    parser.parse(options, false);
+    refuse_options(parser, kOptionsForAll);
+    refuse_options(parser, kOptionsOfRender);
+    request.given = merged(common.given, given_options(std::as_const(parser).get_options()));
+    return request;
+}
+
+}  // namespace etendue

@@ -1,0 +1,32 @@
+// The settings of a render as exact texts, by which renders are told apart.
+#pragma once
+
+#include "scene/setting.h"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace etendue {
+
+/// Holds the value of each setting as JSON by its JSON pointer.
+using SettingTexts = std::map<std::string, std::string>;
+
+/// Returns all settings as they are.
+[[nodiscard]] SettingTexts setting_texts(const RenderSettings& settings);
+
+/// Returns those settings that `takes_part` is true for, all bits of them, with one text for renders that are the same
+/// whatever they say: what has no effect without another setting has its default, and a frame is the moment it shows.
+[[nodiscard]] SettingTexts canonical_settings(const RenderSettings& settings, bool (*takes_part)(Decides decides));
+
+/// Returns a line for each setting of which `after` has another text than `before`: "integrator.light_samples: 1 -> 3".
+/// What is missing has its default.
+[[nodiscard]] std::vector<std::string> changed_settings(const SettingTexts& before, const SettingTexts& after);
+
+/// Returns those of `texts` that are not the default.
+[[nodiscard]] SettingTexts without_defaults(SettingTexts texts);
+
+/// Returns `texts` as a JSON object in one line.
+[[nodiscard]] std::string to_json_object(const SettingTexts& texts);
+
+}  // namespace etendue
