@@ -11,7 +11,7 @@ class App;
 
 namespace etendue {
 
-/// What a parsed command line asks for. Stays empty if no subcommand ran (--help, --version).
+/// Carries out what a parsed command line asks for; empty if no subcommand ran (--help, --version).
 using Action = std::function<ExitCode()>;
 
 // Each adds one subcommand to `app` and sets `action` when it is chosen.

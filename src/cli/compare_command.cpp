@@ -72,7 +72,8 @@ NamedRegion parse_region(const std::string& text) {
     return {text.substr(0, colon), {window[0], window[1], window[2], window[3]}, false};
 }
 
-/// What has one name could not be told apart.
+/// Throws a validation error for `option` if `names` has a name twice, because what has one name could not be told
+/// apart.
 void require_different(const std::string& option, const std::vector<std::string>& names) {
     std::set<std::string> known;
     for (const std::string& name : names)

@@ -42,7 +42,7 @@ namespace {
 constexpr const char* kHalfShare = "etendue:halfShare";
 constexpr const char* kLightLayers = "etendue:lightLayers";
 constexpr const char* kDenoised = "etendue:denoised";
-/// What the network knows.
+/// Names the feature layers that Open Image Denoise's network knows.
 const std::vector<std::string> kOidnFeatures{"albedo", "N"};
 
 struct DenoiseArguments {
@@ -100,7 +100,7 @@ DenoiseInput read_input(const DenoiseArguments& arguments) {
     }
 }
 
-/// Of one layer; `filled` counts pixels that could not be used.
+/// Reads the halves of the samples of `layer`; `filled` counts pixels that could not be used.
 Halves read_halves(const DenoiseInput& input, const LayerChannels& layer, std::size_t& filled) {
     Planes whole(input.file.pixels, layer.whole);
     Planes half(input.file.pixels, layer.half);
@@ -165,7 +165,8 @@ ImageF read_channels_of(const ImageF& file, const LayerChannels& layer, const De
     return image;
 }
 
-/// The same.
+/// Denoises the layers of light in place with Open Image Denoise; returns false if the work was interrupted, and throws
+/// SceneError if a layer has not three channels.
 bool denoise_layers_oidn(DenoiseInput& input, const DenoiseArguments& arguments) {
     ImageF& pixels = input.file.pixels;
     OidnFeatures features;
@@ -186,7 +187,8 @@ bool denoise_layers(DenoiseInput& input, const DenoiseArguments& arguments) {
     return arguments.method == "oidn" ? denoise_layers_oidn(input, arguments) : denoise_layers_nfor(input, arguments);
 }
 
-/// Of a channel that is written. What is no light keeps its own: normals or mattes of 16 bits would be others.
+/// Returns the depth in which `channel` is written: for light and alpha the one that `arguments` ask for, if any, else
+/// the depth in the input, because normals or mattes of 16 bits would be others.
 PixelDepth depth_of(const DenoiseInput& input, int channel, const DenoiseArguments& arguments) {
     const auto has_it = [&](const LayerChannels& layer) {
         return std::ranges::find(layer.whole, channel) != layer.whole.end();

@@ -140,7 +140,7 @@ std::vector<std::string> chosen_measures(const DiffArguments& arguments, bool is
 
 // ---- The map.
 
-/// What the map's last colour stands for.
+/// Returns the error that the map's last colour stands for, and where that number comes from.
 std::pair<double, std::string> largest_of_map(const MeasuredPair& pair, const Measure& measure,
                                               const std::optional<double>& told) {
     if (told) return {*told, "as --map-max says"};

@@ -12,7 +12,8 @@ namespace etendue {
 
 namespace {
 
-/// What --help prints. CLI11 words it for the command that was parsed last, so a command line of its own is asked.
+/// Returns what --help prints for `command`, or for the program if `command` is empty, from a command line of its own,
+/// because CLI11 words help for the command that was parsed last.
 std::string help_text(const std::string& command) {
     Action none;
     const std::unique_ptr<CLI::App> app = make_command_line(none);

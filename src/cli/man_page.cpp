@@ -12,7 +12,7 @@ namespace etendue {
 
 namespace {
 
-/// What troff prints as the character itself, so that it can be copied into a shell.
+/// Returns what troff prints as the character `c` itself, so that the character can be copied into a shell.
 std::string escaped(char c) {
     switch (c) {
         case '\\':

@@ -49,7 +49,8 @@ bool is_whole(const MergedParts& merged, std::uint32_t spp_requested) {
     return state.spp_done >= spp_requested && (merged.has_one_window || state.film.window() == all);
 }
 
-/// What is missing at the ends; gaps have been noted before.
+/// Warns of the samples that are missing before and behind those of the parts, and of a common window of the parts that
+/// is not the whole image; gaps have been noted before.
 void note_missing(const MergedParts& merged, std::uint32_t spp_requested) {
     const RenderState& state = merged.sum.state;
     const std::uint32_t end = state.first_sample + merged.spp_span;

@@ -97,7 +97,7 @@ std::string read_text(const std::filesystem::path& path) {
     return std::move(text).str();
 }
 
-/// As the system calls it; empty if it does not.
+/// Returns the processor's name as the system gives it; empty if the system gives none.
 std::string processor_name() {
     std::ifstream file("/proc/cpuinfo");
     for (std::string line; std::getline(file, line);)
@@ -162,7 +162,7 @@ void time_first_pixels(const World& world, RenderSettings settings, const Profil
     report.first_pixel_seconds = seconds_since_process_start();
 }
 
-/// What decides how much work a sample is, but for what each run sets itself.
+/// Returns the settings that decide how much work a sample is, without those that each run sets itself.
 std::map<std::string, std::string> settings_of_work(RenderSettings settings) {
     settings.integrator.type = "of each run";
     std::map<std::string, std::string> work = settings_identity(settings);
@@ -197,7 +197,8 @@ void describe(ProfileReport& report, const ProfileArguments& arguments, const Re
                   .quality = of_world.bvh_quality};
 }
 
-/// What is measured is not to be what measures.
+/// Adds a note to `report` for each run whose time stamps took 1% of the run's time or more, as measuring must not be
+/// what is measured.
 void note_costly_stamps(ProfileReport& report) {
     constexpr double kMostShare = 0.01;
     for (const ProfileRun& run : report.runs)

@@ -58,7 +58,7 @@ std::filesystem::path default_output(const RenderArguments& arguments, const std
     return samples ? fmt::format("{}.{}-{}.partial", name, samples->begin, samples->end) : name + ".exr";
 }
 
-/// Of the only image: those of what was rendered before if it is up to date.
+/// Returns the statistics of the only image as JSON text: for an image that is up to date, those of the earlier render.
 std::string statistics_of(const ImageResult& result) {
     if (result.outcome != ImageOutcome::UpToDate || is_partial(result.job.output)) return to_json(result.statistics);
     const std::vector<unsigned char> bytes = read_bytes(OutputPaths::beside(result.job.output).json, kMaxJsonBytes);

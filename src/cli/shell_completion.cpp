@@ -61,7 +61,7 @@ std::string bash_option_branch(const std::string& command, const std::vector<Opt
     return fmt::format("        '{} -'*) _etendue_words '{}' ;;\n", command, joined(names_of(options)));
 }
 
-/// What stands between the brackets of an option in zsh.
+/// Returns the text that stands between the brackets of an option in zsh, from the option's `description`.
 std::string zsh_text(const std::string& description) {
     std::string text = first_clause(description);
     for (const char* mark : {"\\", "[", "]", ":"}) text = replaced(text, mark, std::string("\\") + mark);

@@ -187,7 +187,7 @@ ExitCode run_status(const SubmitArguments& arguments) {
     return counts[FarmState::Done] == images.size() ? ExitCode::Success : ExitCode::Unfinished;
 }
 
-/// What a task gets and how it is run.
+/// Adds to `command` the options that say what a task gets and how the task is run.
 void add_task_options(CLI::App& command, const std::shared_ptr<SubmitArguments>& arguments) {
     FarmRequest& request = arguments->request;
     command

@@ -95,7 +95,7 @@ bool is_cryptomatte(const ImageLayer& layer, const LayeredImage& image) {
            std::ranges::any_of(image.mattes, [&](const std::string& matte) { return has_ranks_of(layer, matte); });
 }
 
-/// Of a Cryptomatte of this name, if there is one: its heaviest two ids.
+/// Returns the layer of the heaviest two ids of the Cryptomatte `matte`, or nothing if `image` has no such Cryptomatte.
 std::optional<ImageLayer> first_ranks(const LayeredImage& image, const std::string& matte) {
     if (std::ranges::find(image.mattes, matte) == image.mattes.end()) return std::nullopt;
     for (const ImageLayer& layer : image.layers)

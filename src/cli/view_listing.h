@@ -15,9 +15,9 @@ struct ViewedFile {
     std::string color_space;  ///< of the main layer, as `space_of_file` says it
 };
 
-/// As lines of text. `file` may be missing.
+/// Lists the displays and views of `colors`, and the layers of `file` if there is a file, as lines of text.
 [[nodiscard]] std::string list_as_text(const ColorConfig& colors, const std::optional<ViewedFile>& file);
-/// As a JSON object.
+/// Lists the displays, views and looks of `colors`, and the layers of `file` if there is a file, as a JSON object.
 [[nodiscard]] std::string list_as_json(const ColorConfig& colors, const std::optional<ViewedFile>& file);
 
 /// "colour", "luminance", "vector" or "channel".

@@ -24,7 +24,9 @@ inline constexpr std::uintmax_t kMaxBufferBytes = std::uintmax_t{1} << 33;
 /// a link), IoError if it is no name (control characters, a broken escape) or names no regular file.
 [[nodiscard]] std::filesystem::path resolve_uri(const std::filesystem::path& directory, std::string_view uri);
 
-/// The same for a plain file name such as those in render.json: '%' has no meaning.
+/// Returns the regular file that the plain file name `name`, such as one in render.json, where '%' has no meaning,
+/// leads to below `directory`, with symbolic links resolved; throws RefusedInput if `name` leads out of `directory`,
+/// IoError if `name` is no name or names no regular file.
 [[nodiscard]] std::filesystem::path resolve_name(const std::filesystem::path& directory, std::string_view name);
 
 /// The regular file that `name` is below `directory` or, if it is not there, below one of `assets`, with symbolic links

@@ -21,7 +21,7 @@ inline constexpr int kMaxJsonDepth = 64;
 [[nodiscard]] std::string child_pointer(std::string_view pointer, std::string_view key);
 [[nodiscard]] std::string child_pointer(std::string_view pointer, std::size_t index);
 
-/// What kind of JSON value it is, with its article, for messages: "a string", "an array".
+/// Returns the kind of JSON value that `value` is, with the kind's article, for messages: "a string", "an array".
 [[nodiscard]] std::string_view json_kind(const nlohmann::json& value);
 
 }  // namespace etendue

@@ -60,10 +60,11 @@ struct LoadedScene {
 /// validates. What `options` leave open is as render.json says. Throws SceneError with all problems if any is an error.
 [[nodiscard]] LoadedScene load_scene(const std::filesystem::path& path, const LoadOptions& options = {});
 
-/// The same, but every problem is returned and none is thrown, for `inspect`.
+/// Loads the scene directory or file `path` as `load_scene` does, for `inspect`: every problem is returned, none is
+/// thrown.
 [[nodiscard]] LoadedScene inspect_scene(const std::filesystem::path& path, const LoadOptions& options = {});
 
-/// What the user would call the scene directory or file `path`, also for "." and "scenes/box/".
+/// Returns the name that a user would give the scene directory or file `path`, also for "." and "scenes/box/".
 [[nodiscard]] std::string scene_name(const std::filesystem::path& path);
 
 /// Reads the settings of the render.json of the scene directory or file `path`; none if there is none, or if it cannot

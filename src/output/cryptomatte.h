@@ -17,7 +17,7 @@ namespace etendue {
 /// that it is neither zero or denormal nor infinite or NaN.
 [[nodiscard]] std::uint32_t matte_id(std::string_view name);
 
-/// What metadata of the matte of this layer name is found under: seven hexadecimal digits.
+/// Returns the key under which a file has the metadata of the matte `layer`: seven hexadecimal digits.
 [[nodiscard]] std::string matte_key(std::string_view layer);
 
 /// JSON: the ids of names, eight hexadecimal digits each, every name once and in the order of the alphabet.
@@ -33,8 +33,8 @@ struct MatteCollision {
 /// The metadata of a file or part that has the channels of this matte; `manifest` may be empty.
 [[nodiscard]] std::vector<ImageAttribute> matte_attributes(const std::string& layer, const std::string& manifest);
 
-/// Of two ranks in each layer: "NAME00.R" is the id of the first rank, G its coverage, B and A those of the second, of
-/// the third and fourth in "NAME01".
+/// Names the channel `index` of the matte `layer`, with two ranks in each of its layers: "NAME00.R" is the id of the
+/// first rank, G the first's coverage, B and A those of the second rank, and "NAME01" has the third and fourth.
 [[nodiscard]] std::string matte_channel(std::string_view layer, std::size_t index);
 
 }  // namespace etendue

@@ -26,7 +26,7 @@ struct DisplayView {
 /// one over black. Throws IoError for other images, SceneError if the config lacks a name.
 [[nodiscard]] ImageF display_image(const ImageF& image, const DisplayView& view, const ColorConfig& config);
 
-/// What a PNG of such an image says of itself. `view` has no empty names.
+/// Returns what a PNG of an image that was made by `view` says of the view; `view` has no empty names.
 [[nodiscard]] std::vector<ImageAttribute> display_attributes(const DisplayView& view);
 
 }  // namespace etendue

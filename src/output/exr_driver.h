@@ -20,7 +20,8 @@ class ExrDriver final : public OutputDriver {
 
     /// The image and its layers as the channels of one part: R, G, B, A, NAME.R …
     void write(const OutputFrame& frame) override;
-    /// The same as parts of their own: "rgba", NAME … Pixels are in the space that they are written in.
+    /// Writes the image and the layers of `frame` as parts of their own, "rgba", NAME …, from pixels that are in the
+    /// space in which the file holds them.
     void write_layers_as_parts(const OutputFrame& frame);
     /// One layer of the frame, in the space that it is written in, in place of its pixels.
     void write_layer(const OutputFrame& frame, const OutputLayer& layer);

@@ -63,7 +63,7 @@ constexpr int kMostRanks = 32;
 /// Larger manifests are left out: files are opened for their headers.
 constexpr std::size_t kLargestManifest = std::size_t{16} << 20;
 
-/// What expressions call a lamp or an object: those without a name have one together.
+/// Returns what expressions call a lamp or an object of this `name`; all without a name are called "unnamed".
 std::string light_name(const std::string& name) {
     return name.empty() ? "unnamed" : name;
 }
@@ -389,7 +389,7 @@ class Planner {
     ProblemList& problems_;
     AovPlan plan_;
     AovSet set_;
-    /// Of each output.
+    /// Holds which request an output of the plan comes from, and the output's kind and detail as text.
     struct Origin {
         const AovDesc* aov;
         std::string content;

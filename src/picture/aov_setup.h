@@ -20,9 +20,10 @@ struct AovPlan {
     bool has_halves = false;  ///< every layer, and the image, is written of half of the samples, too: for denoising
 };
 
-/// What `scene.settings.aovs` asks for, groups in place of their names. Names that nothing in the scene has are noted
-/// in `problems`. Throws SceneError for sources that do not exist, expressions that are wrong, names that are there
-/// twice, what the integrator cannot tell apart, and layers in an ACES container.
+/// Plans the layers that `scene.settings.aovs` ask for, with the members of each group in place of the group's name;
+/// notes names that nothing in the scene has in `problems`, and throws SceneError for sources that do not exist,
+/// expressions that are wrong, names that are there twice, what the integrator cannot tell apart, and layers in an ACES
+/// container.
 [[nodiscard]] AovPlan make_aov_plan(const SceneDesc& scene, ProblemList& problems);
 
 /// Name of the layer that is the image of half of the samples.

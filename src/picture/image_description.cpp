@@ -140,7 +140,7 @@ double sum_of(const std::vector<float>& image, std::size_t channels) {
     return total;
 }
 
-/// What of all light a limit took away, [0, 1].
+/// Returns the share of all light, in [0, 1], that a limit took away into the light layer `layer` of `film`.
 double removed_share(const Film& film, std::size_t layer) {
     const double removed = sum_of(film.resolve_light(layer), 3);
     return removed > 0.0 ? removed / (removed + sum_of(film.resolve(), 4)) : 0.0;

@@ -36,15 +36,16 @@ struct ImageDescription {
 /// Puts in how the camera sees the world.
 void describe_camera(ImageDescription& description, const World& world);
 
-/// As text that `parse_description` understands.
+/// Returns `description` as text that `parse_description` understands.
 [[nodiscard]] std::string to_text(const ImageDescription& description);
 
-/// Of `text`, which stood in `file` with a film of these layers. Throws IoError if it is not what `to_text` writes, or
-/// not of such a film.
+/// Reads the description in `text`, which stood in `file` with a film of the layers `layout`; throws IoError if `text`
+/// is not what `to_text` writes, or not of such a film.
 [[nodiscard]] ImageDescription parse_description(const std::string& text, const LayerLayout& layout,
                                                  const std::filesystem::path& file);
 
-/// Of a checkpoint or part that was read from `file`.
+/// Reads the description in `kept`, a checkpoint or part that was read from `file`; throws IoError as
+/// `parse_description`.
 [[nodiscard]] ImageDescription description_of(const Checkpoint& kept, const std::filesystem::path& file);
 
 /// Puts in what the film and the counters of `state` say: pixels, window, samples, rays and seconds, and why rendering

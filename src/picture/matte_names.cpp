@@ -20,7 +20,8 @@ std::string node_name(const NodeDesc& node) {
     return node.name.empty() ? fmt::format("unnamed_node_{}", node.number) : clean_matte_name(node.name);
 }
 
-/// Of the instance alone, whatever others are called. Scenes that come from no file have no nodes.
+/// Returns the name of the instance `index`, whatever other instances are called: its own, else that of its node, else,
+/// for scenes that come from no file and have no nodes, "unnamed_node_" and `index`.
 std::string own_name(const SceneDesc& scene, std::size_t index) {
     const InstanceDesc& instance = scene.instances[index];
     if (!instance.name.empty()) return clean_matte_name(instance.name);

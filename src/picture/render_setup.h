@@ -15,11 +15,11 @@
 
 namespace etendue {
 
-/// What the settings ask of the film and the sampler.
+/// Returns what `settings` ask of the film and the sampler.
 [[nodiscard]] RenderOptions make_render_options(const RenderSettings& settings);
 
-/// The same of a part of the image, of `samples` or of all: light subpaths shine on the whole image, and no limit but
-/// the number of samples ends it.
+/// Returns what `settings` ask of the film and the sampler for a part of the image, of `samples` or of all: light
+/// subpaths shine on the whole image, and no limit but the number of samples ends the render.
 [[nodiscard]] RenderOptions make_part_options(const RenderSettings& settings,
                                               const std::optional<SampleRange>& samples);
 
@@ -29,7 +29,7 @@ namespace etendue {
 /// The state of a render that has not begun, with the films that it needs.
 [[nodiscard]] RenderState make_render_state(const RenderOptions& options, bool has_halves);
 
-/// What the settings ask of the integrator.
+/// Returns what `settings` ask of the integrator.
 [[nodiscard]] IntegratorOptions integrator_options(const RenderSettings& settings);
 
 /// Names the integrators of the registry, in its order.

@@ -6,7 +6,7 @@
 
 namespace etendue {
 
-/// Of the sample sequence of every pixel.
+/// Holds a range of the sample sequence of every pixel, from `begin` to before `end`.
 struct SampleRange {
     std::uint32_t begin = 0;
     std::uint32_t end = 0;  ///< > begin

@@ -12,7 +12,8 @@ namespace etendue {
 
 namespace {
 
-/// Of "cryptomatte", "NAME=cryptomatte_object" …; lights and expressions may have numbers behind colons of their own.
+/// Returns true if `text` asks for a Cryptomatte, as "cryptomatte" and "NAME=cryptomatte_object" do, and has no colon
+/// behind the '='; lights and expressions may have numbers behind colons of their own.
 bool has_ranks(std::string_view text) {
     const std::size_t equals = text.find('=');
     const std::string_view source = equals == std::string_view::npos ? text : text.substr(equals + 1);

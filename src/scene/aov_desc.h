@@ -44,7 +44,7 @@ inline constexpr std::string_view kAovForm =
 
 /// "depth", "N:float", "caustics=lpe:C D S+ L", "cryptomatte:8". Nothing if `text` has another form.
 [[nodiscard]] std::optional<AovDesc> parse_aov(std::string_view text);
-/// The same backwards.
+/// Returns `aov` as text from which `parse_aov` reads the same layer.
 [[nodiscard]] std::string to_text(const AovDesc& aov);
 
 }  // namespace etendue

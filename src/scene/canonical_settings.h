@@ -19,8 +19,8 @@ using SettingTexts = std::map<std::string, std::string>;
 /// whatever they say: what has no effect without another setting has its default, and a frame is the moment it shows.
 [[nodiscard]] SettingTexts canonical_settings(const RenderSettings& settings, bool (*takes_part)(Decides decides));
 
-/// Returns a line for each setting of which `after` has another text than `before`: "integrator.light_samples: 1 -> 3".
-/// What is missing has its default.
+/// Returns a line for each setting of which `after` has another text than `before`, as "integrator.light_samples: 1 ->
+/// 3"; a setting that is missing has its default.
 [[nodiscard]] std::vector<std::string> changed_settings(const SettingTexts& before, const SettingTexts& after);
 
 /// Returns those of `texts` that are not the default.

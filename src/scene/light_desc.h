@@ -27,7 +27,7 @@ enum class LightUnits {
     Radiometric,  ///< surfaces, environment and image are in W/(m² sr): lamps are divided by kLumensPerWatt
 };
 
-/// What they are called in render.json and on the command line.
+/// Names the light units as render.json and the command line spell them.
 inline constexpr std::array<std::pair<std::string_view, LightUnits>, 2> kLightUnitNames{{
     {"photometric", LightUnits::Photometric},
     {"radiometric", LightUnits::Radiometric},

@@ -26,7 +26,7 @@ struct ConductorDesc {
     float roughness = 0.0f;  ///< perceptual roughness in [0, 1], alpha = roughness²; 0 is a perfect mirror (delta)
 };
 
-/// What fills a closed body: KHR_materials_volume, _dispersion and _volume_scatter.
+/// Describes the medium that fills a closed body: KHR_materials_volume, _dispersion and _volume_scatter.
 struct VolumeDesc {
     bool closed = false;          ///< false: the surface is a thin wall around nothing
     Rgb attenuation_color{1.0f};  ///< linear Rec.709, [0, 1]: what is left of white after `attenuation_distance`
@@ -110,7 +110,7 @@ struct DiffuseRoughnessDesc {
     TextureRef texture;   ///< data: R
 };
 
-/// What render.json can put in the place of glTF's model.
+/// Holds the model that render.json puts in the place of glTF's; empty to keep glTF's model.
 using MaterialModelDesc = std::variant<std::monostate, ConductorDesc, DielectricDesc, DiffuseDesc, SubsurfaceDesc>;
 
 struct MaterialDesc {

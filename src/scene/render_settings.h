@@ -24,14 +24,18 @@ struct IntegratorSettings {
     int max_depth = 32;         ///< most edges of a path from camera to light, >= 1; 1 is emission seen directly
     int min_depth = 1;          ///< least edges of a path that is kept, >= 1
     int roulette_depth = 3;     ///< edges after which Russian roulette may end a path, >= 1
-    /// Of `path` and `direct`: lights sampled at each first vertex behind the eye and its mirrors.
+    /// Counts the lights, 1 to 64, that `path` and `direct` sample at each first vertex behind the eye and its mirrors.
     int light_samples = 1;
-    /// Of bidirectional path tracing: how strategies are weighed, and which one alone makes the image, by its vertices
-    /// from the light and from the eye; not weighted, it is all there is.
+    /// Says how bidirectional path tracing weighs its strategies against each other.
     HeuristicType heuristic = HeuristicType::Balance;
+    /// Names the one strategy of bidirectional path tracing that makes the image, by its vertices from the light, >= 0,
+    /// and from the eye, >= 1; none for all strategies.
     std::optional<std::array<int, 2>> strategy{};
+    /// Says whether bidirectional path tracing weighs `strategy` against the other strategies; if not, `strategy` is
+    /// all there is.
     bool weighted = true;
-    /// And how many light vertices of all samples an eye vertex is connected to; 0: all of its own sample.
+    /// Counts the light vertices of all samples that bidirectional path tracing connects an eye vertex to; 0 for all
+    /// light vertices of the eye vertex's own sample.
     int cached_connections = 0;
 };
 

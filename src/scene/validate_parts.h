@@ -46,7 +46,7 @@ inline void check_range(double value, double low, double high, std::string_view 
     }
 }
 
-/// The same for each channel of a colour.
+/// Adds an error for the first channel of the colour `value` that is not finite or not in [low, high].
 inline void check_range(const Rgb& value, double low, double high, std::string_view what, const SourceLocation& where,
                         ProblemList& problems) {
     for (const float channel : {value.r, value.g, value.b}) {

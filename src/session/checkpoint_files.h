@@ -15,11 +15,11 @@ namespace etendue {
 
 class CheckpointFiles {
   public:
-    /// Those of the image NAME.exr: NAME.checkpoint, and NAME.checkpoint.previous in case it is damaged. Those of the
-    /// part NAME.partial begin with all of its name: NAME.partial.checkpoint.
+    /// Names the checkpoints of `output`: NAME.checkpoint for the image NAME.exr, NAME.partial.checkpoint for the part
+    /// NAME.partial, and either with ".previous" behind the name in case the newest file is damaged.
     explicit CheckpointFiles(const std::filesystem::path& output);
 
-    /// What is to be gone on with.
+    /// Describes the render that a checkpoint must be of for that render to go on.
     struct Expected {
         const RenderIdentity& identity;
         PixelRect window;
@@ -41,7 +41,7 @@ class CheckpointFiles {
     /// expected.
     [[nodiscard]] std::optional<Checkpoint> read(const Expected& expected, bool quiet) const;
 
-    /// Both, whether they exist or not.
+    /// Returns the paths of the newest and the previous checkpoint, whether the files exist or not.
     [[nodiscard]] std::array<std::filesystem::path, 2> paths() const { return {newest_, previous_}; }
     /// True if there is one.
     [[nodiscard]] bool exist() const;
@@ -53,12 +53,13 @@ class CheckpointFiles {
     std::filesystem::path previous_;
 };
 
-/// Of a render of an image by itself with `options`; `every_other_pass` for an estimate of its error or for denoising.
-/// `identity` outlives it.
+/// Describes the checkpoint of a render of an image by itself with `options`, with `every_other_pass` for an estimate
+/// of the image's error or for denoising; `identity` outlives the result.
 [[nodiscard]] CheckpointFiles::Expected expected_image(const RenderIdentity& identity, const RenderOptions& options,
                                                        bool every_other_pass);
 
-/// Of a render of a part, from `first_sample` on.
+/// Describes the checkpoint of a render of a part from `first_sample` on, with no more samples than `options` ask for;
+/// `identity` outlives the result.
 [[nodiscard]] CheckpointFiles::Expected expected_part(const RenderIdentity& identity, const RenderOptions& options,
                                                       std::uint32_t first_sample, bool every_other_pass);
 

@@ -40,7 +40,8 @@ std::string space_with(const std::array<float, 8>& chromaticities, const ColorCo
     return "";
 }
 
-/// What floats are called that are linear in some primaries: by the library, and in files that know no better.
+/// Returns true if `name` is empty or what the image library, and files that know no better, call floats that are
+/// linear in some primaries.
 bool says_nothing(std::string_view name) {
     return name.empty() || name == "Linear" || name == "linear" || name == "scene_linear";
 }

@@ -20,7 +20,7 @@ struct ImageJob {
     std::filesystem::path output;  ///< the EXR
     std::string name;              ///< what tables and progress call it
     std::optional<int> frame;      ///< of a sequence
-    /// Of the scene's materials; none for the one that overrides or render.json ask for.
+    /// Names the variant of the scene's materials; none for the variant that overrides or render.json ask for.
     std::optional<std::string> variant{};
 };
 

@@ -26,12 +26,12 @@ void require_files_kept(std::string_view option, std::span<const std::filesystem
 /// Throws IoError if one cannot be read.
 void hash_inputs(const SceneDesc& scene, std::span<InputFile> files);
 
-/// The same wherever the directory lies and however it is named: the path from there; of what lies elsewhere, where
-/// that is.
+/// Returns the path of `input` from `directory`, which is the same wherever `directory` lies and however it is named,
+/// or, for an `input` that lies elsewhere, the whole path.
 [[nodiscard]] std::string input_name(const std::filesystem::path& input, const std::filesystem::path& directory);
 
-/// What is different about `file`, which was an input of a scene in `directory`: "input sky.exr has changed", or that
-/// it is missing. None if it has the same size and time, or else the same content.
+/// Returns what is different about `file`, which was an input of a scene in `directory`: "input sky.exr has changed",
+/// or that `file` is missing; none if `file` has the same size and time, or else the same content.
 [[nodiscard]] std::optional<std::string> what_changed(const InputFile& file, const std::filesystem::path& directory);
 
 }  // namespace etendue

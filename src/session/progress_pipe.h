@@ -15,8 +15,8 @@ class ProgressPipe {
 
     /// {"phase": "render", "fraction": 0 to 1, "seconds": of rendering, "samples": n, "rays": n}
     void update(const RenderProgress& progress) const;
-    /// The same, of a phase whose progress is not known: "load", "resume" (what was kept is read), "build" or
-    /// "write".
+    /// Writes a line like that of `update` for a `phase` whose progress is not known: "load", "resume" (what was kept
+    /// is read), "build" or "write".
     void enter(std::string_view phase) const;
 
   private:

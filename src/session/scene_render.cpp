@@ -233,7 +233,7 @@ class SceneRender {
                description_of(kept, output_).statistics.settings_hash == description_.statistics.settings_hash;
     }
 
-    /// Of a part that needs nothing to be done.
+    /// Returns the result of a part that needs nothing to be done, from the part `kept`.
     [[nodiscard]] SceneRenderResult finished_part(const Checkpoint& kept) const {
         ImageDescription description = description_of(kept, output_);
         describe_state(description, kept.state, true, halt_reason_name(HaltReason::SamplesDone));

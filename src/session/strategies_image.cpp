@@ -27,8 +27,8 @@ namespace {
 
 constexpr int kThumbnailWidth = 240;  // pixels
 
-/// Of every pixel of each strategy: four floats, kept until all are rendered, and for encoding them (measured) about
-/// what they would take in a file without compression.
+/// Returns the bytes that every pixel of each strategy takes: four floats, kept until all strategies are rendered, and,
+/// for encoding at `depth`, about (measured) what the pixel would take in a file without compression.
 double bytes_per_pixel(PixelDepth depth) {
     return 16.0 + (depth == PixelDepth::Float ? 16.0 : 8.0);
 }

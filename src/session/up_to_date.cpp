@@ -26,7 +26,7 @@ nlohmann::json read_statistics(const fs::path& json_file) {
     return nlohmann::json::parse(in, nullptr, false);
 }
 
-/// Of a file of statistics, what stands under `key` if it is a `Value`.
+/// Returns the value under `key` in the statistics `json` if that value is a `Value`, else nothing.
 template <typename Value>
 std::optional<Value> value_of(const nlohmann::json& json, const char* key, bool (nlohmann::json::*is_value)() const) {
     if (!json.is_object()) return std::nullopt;

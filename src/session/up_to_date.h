@@ -18,20 +18,21 @@ struct Staleness {
     double done = 0.0;           ///< part of its samples that an interrupted render has taken, [0, 1]
 };
 
-/// What the files of `output` themselves say: one is missing, or they are of a render that was cut short. None if they
-/// are of one that was completed.
+/// Returns why the files of `output` are no completed image: one is missing, or they are of a render that was cut
+/// short; none if they are of a completed render.
 [[nodiscard]] std::optional<Staleness> why_unfinished(const OutputPaths& output);
 
 /// Names of the layers and depths in files of their own that the statistics of `output` list, which lie beside the
 /// image; none if there are no statistics.
 [[nodiscard]] std::vector<std::string> listed_layer_files(const OutputPaths& output);
 
-/// Of a completed render, what the files say that it was made of: one has another content now, or is missing. No scene
-/// is loaded for it. `scene` is the directory or file of the scene. None if all are as they were.
+/// Returns, without loading a scene, why the completed render `output` of the scene directory or file `scene` is
+/// outdated by the inputs that the files of `output` list: one has another content now or is missing, or the inputs are
+/// not known; none if all are as they were.
 [[nodiscard]] std::optional<Staleness> why_outdated(const OutputPaths& output, const std::filesystem::path& scene);
 
-/// Of a completed render whose inputs are as they were, what the scene says that is loaded from them now: it is read
-/// from more files, or its settings have another hash than `hash`. None if neither.
+/// Returns why the completed render `output`, whose inputs are as they were, is outdated by the `scene` that is loaded
+/// from them now: the scene is read from more files, or its settings have another hash than `hash`; none if neither.
 [[nodiscard]] std::optional<Staleness> why_outdated(const OutputPaths& output, const SceneDesc& scene,
                                                     const std::string& hash);
 

@@ -35,7 +35,7 @@ enum IntegerTypes : unsigned {
     kAnyIntegers = 15
 };
 
-/// What a vertex attribute may be stored as (glTF 2.0 specification, 3.7.2.1).
+/// Describes the forms in which a vertex attribute may be stored (glTF 2.0 specification, 3.7.2.1).
 struct AttributeFormat {
     int min_components;
     int max_components;

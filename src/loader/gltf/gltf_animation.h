@@ -12,7 +12,8 @@
 
 namespace etendue {
 
-/// What an animation says of a node at one moment; what it leaves unsaid stays as the node has it.
+/// Holds what an animation says of a node at one moment; a part that the animation leaves unsaid stays as the node has
+/// it.
 struct NodePose {
     std::optional<std::array<double, 3>> translation;
     std::optional<std::array<double, 4>> rotation;  ///< x, y, z, w; not normalised
@@ -43,7 +44,7 @@ struct AnimationKeys {
     }
 };
 
-/// What an animation says of something that is no node, at one moment.
+/// Holds what an animation says at one moment of a place in the document that is no node.
 struct PointerValue {
     std::string pointer;  ///< JSON pointer to it
     std::vector<double> numbers;
@@ -60,7 +61,8 @@ class AnimationSampler {
     /// The poses at `seconds`: before the first key as at the first, after the last as at the last, between by the
     /// sampler's interpolation (glTF 2.0 specification, appendix C).
     [[nodiscard]] NodePoses poses(double seconds) const;
-    /// The same for what else is animated (KHR_animation_pointer).
+    /// Returns the values at `seconds` of what the animation moves besides nodes (KHR_animation_pointer), interpolated
+    /// as by `poses`.
     [[nodiscard]] std::vector<PointerValue> pointer_values(double seconds) const;
 
   private:

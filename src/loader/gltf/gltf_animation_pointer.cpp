@@ -52,7 +52,8 @@ std::optional<std::size_t> to_index(const std::string& token) {
     return index;
 }
 
-/// What must stand one step below `shape`: any element of an array, or a member. Null if no such member is known.
+/// Returns the shape that stands one step below `shape`: of any element of an array, or of the member `token` of an
+/// object; null if no such member is known.
 const Shape* step_down(const Shape& shape, const std::string& token) {
     if (shape.kind == Shape::Kind::Array) return shape.element;
     if (shape.kind != Shape::Kind::Object) return nullptr;
@@ -61,7 +62,8 @@ const Shape* step_down(const Shape& shape, const std::string& token) {
     return field == fields.end() ? nullptr : &field->shape;
 }
 
-/// What must stand where the pointer leads; null if that is no place that `document` has or could have.
+/// Returns the shape that stands where the pointer of these `tokens` leads; null if the pointer leads to no place in
+/// materials, cameras or extensions that `document` has or could have.
 const Shape* find_shape(const Json& document, const std::vector<std::string>& tokens) {
     constexpr std::array kRoots{"materials", "cameras", "extensions"};
     if (tokens.empty() || std::ranges::find(kRoots, tokens.front()) == kRoots.end()) return nullptr;

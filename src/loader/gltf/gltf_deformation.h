@@ -18,7 +18,7 @@ struct MorphTarget {
     std::vector<Vec3f> tangents;
 };
 
-/// What deforms a primitive, in the order of its vertices.
+/// Holds the morph targets and joints that deform a primitive, in the order of the primitive's vertices.
 struct PrimitiveDeformation {
     std::vector<MorphTarget> targets;
     std::size_t influences = 0;         ///< joints that move a vertex

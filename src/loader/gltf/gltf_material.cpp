@@ -85,7 +85,8 @@ class MaterialReader {
         return texture(info.index, info.texCoord, find_extension(info.extensions, "KHR_texture_transform"), member);
     }
 
-    /// The same for a reference inside an extension, which tinygltf leaves as it is.
+    /// Reads the texture reference under `key` in `extension`, whose content tinygltf leaves as it is; no texture if
+    /// `extension` has no such key.
     TextureRef texture(const Value& extension, const std::string& key, std::string_view member) {
         if (!extension.Has(key)) return {};
         const Value& info = extension.Get(key);

@@ -36,7 +36,8 @@ class PrimitiveReader {
     PrimitiveReader(const GltfDocument& document, AccessorReader& accessors, RepairLog& repairs, ProblemList& problems)
         : document_(document), accessors_(accessors), repairs_(repairs), problems_(problems) {}
 
-    /// What deforms it goes to `deformation`.
+    /// Reads the primitive `source` and puts what deforms the primitive into `deformation`; returns nothing, with a
+    /// problem reported, if the primitive cannot be rendered.
     std::optional<PrimitiveDesc> read(const tinygltf::Primitive& source, const SourceLocation& where,
                                       PrimitiveDeformation& deformation) {
         source_ = &source;

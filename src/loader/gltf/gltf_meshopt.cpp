@@ -39,7 +39,7 @@ struct CompressedView {
     [[nodiscard]] std::uint64_t decoded_size() const { return count * stride; }
 };
 
-/// What is wrong with the numbers; an empty text if nothing is. The codecs demand what is checked here.
+/// Returns what the codecs would refuse in the numbers of `view`, as a message; an empty text if all numbers are right.
 std::string find_fault(const CompressedView& view) {
     if (view.mode == "ATTRIBUTES") {
         if (view.stride % 4 != 0 || view.stride == 0 || view.stride > 256)

@@ -135,7 +135,7 @@ class Placer {
           problems_(problems),
           lights_(document, accessors, scene, problems) {}
 
-    /// Of every node that the scene shows, parents before their children.
+    /// Adds to the scene every node that the scene shows, parents before their children.
     void add_nodes(std::span<const int> parents) {
         node_index_.assign(document_.model.nodes.size(), NodeDesc::kNone);
         for (const PlacedNode& placed : nodes_.placed()) {
@@ -149,7 +149,7 @@ class Placer {
         }
     }
 
-    /// Of a node that is not visible only the camera is placed.
+    /// Places the meshes, lights and camera of the node `placed`, or only the camera if the node is not visible.
     void place(const PlacedNode& placed) {
         current_ = node_index_[static_cast<std::size_t>(placed.node)];
         const tinygltf::Node& node = document_.model.nodes[static_cast<std::size_t>(placed.node)];
@@ -259,7 +259,7 @@ class Placer {
         return {static_cast<std::int32_t>(scene_.meshes.size()) - 1};
     }
 
-    /// Of a mesh at rest; found once for each, however often it is placed.
+    /// Returns the bounds of the mesh `handle` at rest, found once for each mesh, however often the mesh is placed.
     const Bounds& bounds_of(Handle<MeshDesc> handle) {
         const auto [entry, is_new] = bounds_.try_emplace(handle.index);
         if (is_new)

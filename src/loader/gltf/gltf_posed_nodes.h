@@ -20,7 +20,8 @@ struct PlacedNode {
     bool visible = true;  ///< KHR_node_visibility: it and all nodes above it are
 };
 
-/// Of what a motion sweeps: farther from it than this no straight piece of it may be.
+/// Limits how far a straight piece of a motion may be from the motion, as a part of the diagonal of the box that the
+/// motion sweeps.
 inline constexpr double kMotionTolerance = 1e-3;
 
 class PosedNodes {
@@ -56,7 +57,8 @@ class PosedNodes {
         const std::span<const Mat4d> steps = motion(node);
         return steps.empty() ? *to_world(node) : steps[step];
     }
-    /// What the animation says of the node's weights of morph targets at one of these times; empty if nothing.
+    /// Returns the weights of morph targets that the animation gives `node` at the time `step`; empty if the animation
+    /// gives none.
     [[nodiscard]] const std::vector<double>& weights_at(int node, std::size_t step) const {
         return (step_poses_.empty() ? pose(node) : pose_of(step_poses_[step], node)).weights;
     }

@@ -7,8 +7,8 @@
 
 namespace etendue {
 
-/// Of a `document` whose shape has been checked. What stands in the way of rendering is an error; of every other breach
-/// there is one warning, which says what is made of it.
+/// Checks glTF's rules in a `document` whose shape has been checked: adds an error to `problems` for what stands in the
+/// way of rendering, and for every other breach one warning, which says what is made of the breach.
 void check_rules(const nlohmann::json& document, const SourceLocation& file, ProblemList& problems);
 
 }  // namespace etendue

@@ -19,7 +19,7 @@ namespace etendue {
 
 struct ShapeField;
 
-/// What a JSON value must be. Made by the functions below.
+/// Describes what a JSON value must be; the functions below make shapes.
 struct Shape {
     enum class Kind { Text, Boolean, Integer, Number, Array, Map, Object };
 

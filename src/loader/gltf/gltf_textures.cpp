@@ -27,7 +27,8 @@ TextureWrap wrap_of(int code) {
     }
 }
 
-/// What a sampler's minification filter says; trilinear if it says nothing.
+/// Sets the filters with which `texture` is minified from the glTF `code` of a sampler; trilinear if `code` says
+/// nothing.
 void read_min_filter(int code, TextureDesc& texture) {
     switch (code) {
         case TINYGLTF_TEXTURE_FILTER_NEAREST:
