@@ -13,6 +13,9 @@ RenderStatistics make_statistics() {
     s.frame = 7;
     s.time_code = 0.25;
     s.settings_hash = "0123abcd";
+    s.settings = R"({"/spp": 8, "/color/exposure": 0.1})";
+    s.requested_settings = R"({"/spp": 8})";
+    s.command = "etendue render box";
     s.light_units = "radiometric";
     s.width = 64;
     s.height = 32;
@@ -76,6 +79,8 @@ TEST(StatisticsJson, HasEveryField) {
     const auto json = nlohmann::json::parse(to_json(make_statistics()));
     const auto expected = nlohmann::json::parse(R"({
         "scene": "cornell-box", "integrator": "bdpt", "frame": 7, "time_code": 0.25, "settings_hash": "0123abcd",
+        "settings": {"/spp": 8, "/color/exposure": 0.1}, "requested_settings": {"/spp": 8},
+        "command": "etendue render box",
         "inputs": [{"path": "textures/sky.exr", "size": 12, "modified": 34, "content": "0123"}],
         "layer_files": ["box.depth.exr"], "light_units": "radiometric", "size": [64, 32], "full_size": [128, 96],
         "complete": false, "halt_reason": "time limit", "estimated_relative_error": 0.125,

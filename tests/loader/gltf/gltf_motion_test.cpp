@@ -71,7 +71,7 @@ TEST(GltfMotion, AClosedShutterShowsAMoment) {
         EXPECT_TRUE(loaded.scene.cameras.at(0).motion.empty());
         EXPECT_EQ(origin_after(loaded.scene.instances.at(0).to_world), Vec3f(2, 0, 0));
     }
-    EXPECT_TRUE(has_problem(sliding().load(shutter(0.0, 0.5, 0.25)).problems, Severity::Error, "before it opens"));
+    EXPECT_TRUE(has_problem(sliding().load(shutter(0.0, 0.5, 0.25)).problems, Severity::Error, "open <= close"));
 }
 
 /// A wheel that turns once in a second, with keys at every quarter: its rim must stay round.
