@@ -1,4 +1,4 @@
-// What scenes/render.schema.json and docs/render-json.md have to say of the table of settings.
+// The schema of render.json and the table of docs/render-json.md, made of the table of settings.
 #pragma once
 
 #include <string>

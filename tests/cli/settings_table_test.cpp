@@ -30,7 +30,7 @@ using nlohmann::ordered_json;
 
 constexpr double kMostFloat = std::numeric_limits<float>::max();
 
-/// Values of a setting: good ones, of which the first two are as near to each other as can be and neither is the
+/// Holds values of a setting: good ones, of which the first two are as near to each other as can be and neither is the
 /// default, and some that are just beyond its range.
 struct Samples {
     std::vector<SettingValue> good;
@@ -70,7 +70,7 @@ Samples samples_of(const WholeNumbers& type) {
     return samples;
 }
 
-/// Of forms, which no program can make up.
+/// Holds the samples of forms, which no program can make up.
 const std::map<std::string_view, Samples> kForms{
     {"/robust", {{"mon:3", "mon:5", "mean", "mon:31"}, {"mon:1", "mon:4", "mon:33", "median"}}},
     {"/integrator/connections",
