@@ -240,7 +240,7 @@ TEST(SettingsFiles, AreAsTheTableHasThem) {
     const bool updates = std::getenv("ETENDUE_UPDATE") != nullptr;
     const auto require_same = [&](const std::string& file, const std::string& made) {
         if (updates) write_file(file, made);
-        EXPECT_EQ(read_file(file), made) << file << " is to be made again: tools/update_settings";
+        EXPECT_EQ(read_file(file), made) << file << " is to be made again: tools/dev/update_settings";
     };
     require_same(schema_file(), schema_text(with_settings(ordered_json::parse(read_file(schema_file())))));
     const std::string page = std::string(ETENDUE_SOURCE_DIR) + "/docs/render-json.md";
