@@ -16,7 +16,7 @@ float met_light_weight(const LightSampleContext& last, float light_pdf_solid_ang
 }
 
 Rgb met_environment(const World& world, const EyePath& path, const Vertex& vertex) {
-    if (!world.has_environment() || (path.rays == 1 && !world.environment_visible_to_camera())) return {};
+    if (!world.has_environment() || (path.is_seen() && !world.environment_visible_to_camera())) return {};
     const Vec3f direction = -vertex.wo;
     const float light_pdf =
         world.light_probability(path.last.receiver, world.environment()) * world.environment_pdf_solid_angle(direction);
@@ -51,6 +51,8 @@ Rgb sampled_light(const World& world, const EyePath& path, const Vertex& vertex,
         const SampleNumbers own{numbers.sequence, light_sample_key(numbers.key, samples, round)};
         const auto draw = [&](BounceDimension which) { return own.pair(bounce_dimension(path.rays, which)); };
         const LightNumbers u_light{draw(kLightChoice), draw(kLightTriangle), draw(kLightDirection)};
+        // n samples share the estimate: with n times the probability, light_sample_scale weighs and divides by their
+        // number.
         LightTree::Choice choice = world.choose_light(receiver, u_light.light);
         choice.probability *= static_cast<float>(samples);
         const ChosenLight chosen = world.sample_light(choice, vertex.position, u_light);

@@ -6,8 +6,9 @@ namespace etendue {
 
 namespace {
 
-/// Returns how many lights the path samples at `vertex`. Light that they send is on a path of one edge more, if the
-/// vertex is on a surface.
+/// Returns how many lights the path samples at `vertex`: none where their light would be on a path too short or too
+/// long. A vertex in a medium adds no edge; there, lights are sampled only if one lies in a medium, since shadow rays
+/// pass no boundary.
 std::uint32_t light_samples_at(const World& world, const EyePath& path, const Vertex& vertex,
                                const PathOptions& options) {
     const bool is_medium = vertex.kind == Vertex::Kind::Medium;
@@ -16,6 +17,7 @@ std::uint32_t light_samples_at(const World& world, const EyePath& path, const Ve
                                 (is_medium ? world.has_lights_in_media() : world.has_sampled_lights()) &&
                                 edges >= options.lengths.min_depth && edges <= options.lengths.max_depth;
     if (!samples_lights) return 0;
+    // Next-event splitting, where the eye looks.
     return path.only_deltas ? options.light_samples : 1;
 }
 
@@ -27,6 +29,7 @@ Rgb path_radiance(const World& world, const EyeSample& sample, const PathOptions
     for (;; ++path.rays) {
         const VertexNumbers u(sample.numbers, path.rays);
         const Vertex vertex = next_vertex(world, path, u);
+        // Weighed against the light samples of the vertex before, path.last.
         if (path.edges >= options.lengths.min_depth) radiance += met_light(world, path, vertex);
         if (vertex.kind == Vertex::Kind::Environment || vertex.kind == Vertex::Kind::Unlit) break;
 

@@ -12,18 +12,18 @@ namespace etendue {
 /// Rays after which a path counts as long.
 inline constexpr int kLongPath = 64;
 
-/// Most of the paths of `depth` rays that Russian roulette lets live. Lossless ones live on as long as paths usually
-/// get; between perfect mirrors they would do so until the longest path allowed.
-[[nodiscard]] inline float most_survival(int depth) {
-    return depth < kLongPath ? 1.0f : 0.95f;
+/// Returns the largest share of paths of `rays` rays that Russian roulette lets live. Lossless ones live on as long as
+/// paths usually get; between perfect mirrors they would do so until the longest path allowed.
+[[nodiscard]] inline float most_survival(int rays) {
+    return rays < kLongPath ? 1.0f : 0.95f;
 }
 
-/// Chance with which Russian roulette lets a path of `depth` edges from the eye live, of whose light the share
-/// `throughput` arrives. The root spares where all light has come a long way, and little of it arrives, what a chance
-/// in proportion would add to the noise; docs/integrators.md has the figures.
+/// Returns the chance with which Russian roulette lets a path of `rays` rays from the eye live, of whose light the
+/// share `throughput` arrives. The root spares where all light has come a long way, and little of it arrives, what a
+/// chance in proportion would add to the noise; docs/integrators.md has the figures.
 template <typename T>
-[[nodiscard]] inline T eye_path_survival(const T& throughput, int depth) {
-    return min(T(most_survival(depth)), sqrt(throughput));
+[[nodiscard]] inline T eye_path_survival(const T& throughput, int rays) {
+    return min(T(most_survival(rays)), sqrt(throughput));
 }
 
 /// Returns the rays after which Russian roulette begins where `roulette_depth` is asked for. In bodies nothing else

@@ -27,7 +27,7 @@ struct Vertex {
     Vec3f position{0.0f};                                     ///< metres; not meaningful in the environment
     float distance = std::numeric_limits<float>::infinity();  ///< metres that the ray has gone
     RayCone cone;                                             ///< the ray's, from the vertex on
-    Interior interior;                                        ///< the bodies that the ray has come through
+    Interior interior;                                        ///< the bodies that the ray was in when it arrived
 
     const HomogeneousMedium* medium = nullptr;  ///< in which light scatters; null on surfaces
 
@@ -67,8 +67,8 @@ struct Vertex {
 [[nodiscard]] LightReceiver light_receiver(const Vec3f& position, const Scattering& scattering);
 
 /// Returns where the medium that `ray` is in, with `cone` around it and from within `interior`, scatters it before it
-/// hits `hit` (valid); nothing if it gets through. Takes from `throughput` what is absorbed on the way. `u` in [0, 1)²
-/// draws how far it gets.
+/// hits `hit` (valid); nothing if it gets through. Multiplies `throughput` by the transmittance, times the scattering
+/// coefficient where it scatters, over the density. `u` in [0, 1)² draws how far it gets.
 [[nodiscard]] std::optional<Vertex> medium_vertex(const World& world, const Ray& ray, const RayCone& cone,
                                                   const Interior& interior, const Hit& hit, Rgb& throughput, Vec2f u);
 

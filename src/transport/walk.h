@@ -27,7 +27,7 @@ struct LightSampleContext {
     LightReceiver receiver;
     std::uint32_t samples = 0;     ///< that were taken of the light; 0 if none of them can find what the ray meets
     float pdf_solid_angle = 0.0f;  ///< 1/sr, of the ray's direction; not meaningful if there are no `samples`
-    float passed = 0.0f;           ///< metres from the vertex to where the ray starts: behind panes, which are none
+    float passed = 0.0f;           ///< metres from the vertex to where the ray starts, over 0 behind panes
 };
 
 /// A path from the eye, between two of its vertices: the ray to the next one, and what has become of the light that
@@ -41,8 +41,11 @@ struct EyePath {
     float wavelength_nm = 0.0f;  ///< nanometres once a dispersive body has refracted it, 0 for all wavelengths
     int rays = 1;                ///< traced, this one included
     int edges = 1;               ///< rays traced without those to media, panes and hidden boundaries
-    bool only_deltas = true;     ///< the eye sees what the ray meets directly, in mirrors and through smooth glass
+    bool only_deltas = true;     ///< every vertex so far was a delta, or there is none: the eye sees what the ray meets
     LightSampleContext last{};
+
+    /// Returns true if the eye sees what the ray meets, through panes at most.
+    [[nodiscard]] bool is_seen() const { return edges == 1 && only_deltas; }
 };
 
 /// The random numbers of one vertex, but for those of light samples.
@@ -65,7 +68,8 @@ struct VertexNumbers {
 /// Returns the share of light, [0, 1], that passes what lies within the length of `ray`.
 [[nodiscard]] Rgb visibility(const World& world, const Ray& ray);
 
-/// Follows the path's ray to where it leads. What a medium absorbs on the way is taken from the throughput.
+/// Follows the path's ray to where it leads. Multiplies the throughput by the transmittance of a medium on the way,
+/// times its scattering coefficient where it scatters, over the density.
 [[nodiscard]] Vertex next_vertex(const World& world, EyePath& path, const VertexNumbers& u);
 
 /// Has the path go on from `vertex`, at which it took `light_samples`; false if it ends there: light is absorbed, or
@@ -73,11 +77,12 @@ struct VertexNumbers {
 [[nodiscard]] bool scatter(const World& world, EyePath& path, const Vertex& vertex, const VertexNumbers& u,
                            std::uint32_t light_samples, int max_depth);
 
-/// Ends the path at random if little light comes along it, and has the others stand for it; false if it ends.
+/// Ends the path at random if little light comes along it, and divides the throughput of survivors by their chance;
+/// false if it ends.
 [[nodiscard]] bool survives_roulette(const World& world, EyePath& path, float u, int roulette_depth);
 
-/// Sends the path on from `vertex` along `sample`, as one with as many edges and the same throughput: its ray, the cone
-/// around it and the bodies that it is in.
+/// Points the path's ray along `sample` from `vertex` and sets its cone, its bodies and eta²; leaves the throughput and
+/// the edges to the caller.
 void leave(const World& world, EyePath& path, const Vertex& vertex, const BsdfSample& sample, std::uint32_t alpha_key);
 
 }  // namespace etendue

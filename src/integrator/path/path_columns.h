@@ -32,6 +32,10 @@ inline constexpr std::uint32_t kAtEye = kOneEdge | kAfterDelta | kOnlyDelta | kI
 [[nodiscard]] constexpr int edges(std::uint32_t history) {
     return static_cast<int>(history / kOneEdge);
 }
+/// Returns true if the eye sees what the path's ray meets, through panes at most.
+[[nodiscard]] constexpr bool is_seen(std::uint32_t history) {
+    return edges(history) == 1 && (history & kOnlyDelta) != 0;
+}
 /// Returns the history after a scattering that was no delta, `edges` edges on.
 template <typename Bits>
 [[nodiscard]] Bits after_lobe(Bits history, std::uint32_t edges) {

@@ -18,7 +18,7 @@ namespace {
 
 /// Returns how light that a path of this `history` meets comes to the eye.
 LightKind kind_of_met_light(std::uint32_t history) {
-    if (path_history::edges(history) == 1 && (history & path_history::kOnlyDelta) != 0) return LightKind::Seen;
+    if (path_history::is_seen(history)) return LightKind::Seen;
     return (history & path_history::kIsDirect) != 0 ? LightKind::Direct : LightKind::Indirect;
 }
 
@@ -134,18 +134,19 @@ void PathWave::put_light_into_lanes(std::size_t k) {
 
 void PathWave::add_environment(const Context& context) {
     const World& world = context.world;
-    if (context.depth == 1 && !(world.has_environment() && world.environment_visible_to_camera())) {
-        for (const std::size_t k : escaped_) alpha_[paths_.slot[first_ + k]] = 0.0f;
-        return;
-    }
-    if (!world.has_environment()) return;
+    const bool is_shown = world.has_environment() && world.environment_visible_to_camera();
     LaneList meeting;
     std::array<Vec3f, kBlock> directions;
     for (const std::size_t k : escaped_) {
-        if (paths_.edges(first_ + k) < context.options.lengths.min_depth) continue;
+        if (!is_shown && path_history::is_seen(paths_.history[first_ + k])) {
+            alpha_[paths_.slot[first_ + k]] = 0.0f;
+            continue;
+        }
+        if (!world.has_environment() || paths_.edges(first_ + k) < context.options.lengths.min_depth) continue;
         directions[meeting.size()] = paths_.direction[first_ + k];
         meeting.add(k);
     }
+    if (meeting.empty()) return;
     if (context.job.profile != nullptr && context.depth > 1)
         context.job.profile->use().bsdf_met_light += meeting.size();
     std::array<EnvironmentRadiance, kBlock> met;

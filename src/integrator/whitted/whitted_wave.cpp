@@ -228,7 +228,7 @@ void WhittedWave::queue(const Context& context, std::size_t i, const SurfacePoin
 
 void WhittedWave::add_environment(const Context& context, const WhittedBranch& branch) {
     const World& world = context.world;
-    if (branch.rays == 1 && !(world.has_environment() && world.environment_visible_to_camera())) {
+    if (branch.edges == 1 && !(world.has_environment() && world.environment_visible_to_camera())) {
         alpha_[branch.slot] = 0.0f;
         return;
     }

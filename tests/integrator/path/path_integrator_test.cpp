@@ -283,6 +283,36 @@ TEST(PathIntegrator, AnInvisibleEnvironmentStillLights) {
     }
 }
 
+// A window shows what lies behind it, and so nothing of an environment that the camera does not see; a mirror does.
+TEST(Integrators, AnInvisibleEnvironmentIsNotSeenThroughPanes) {
+    SceneDesc scene = with_environment(2.0f);
+    scene.environment.visible_to_camera = false;
+    MaterialDesc pane;
+    pane.metallic = 0.0f;
+    pane.roughness = 0.0f;
+    pane.transmission = 1.0f;
+    pane.specular = 0.0f;  // reflects nothing
+    const auto handle = add_material(scene, pane);
+    add_object(scene, quad({0, 0, -2}, {9, 0, 0}, {0, 9, 0}), handle);
+    add_object(scene, quad({0, 0, -3}, {9, 0, 0}, {0, 9, 0}), handle);
+    SceneDesc mirror = with_environment(2.0f);
+    mirror.environment.visible_to_camera = false;
+    MaterialDesc silver;
+    silver.override_model = ConductorDesc{"", 0.0f};
+    add_object(mirror, quad({0, 0, -2}, {9, 0, 0}, {0, 9, 0}), add_material(mirror, silver));
+    const World behind_panes = compile(std::move(scene));
+    const World in_mirror = compile(std::move(mirror));
+    for (const char* name : {"path", "direct", "naive", "whitted", "bdpt"}) {
+        const auto integrator = make_integrator(name, {.lengths = {.max_depth = 8}});
+        const TileResult window = render_tile(behind_panes, *integrator, 4);
+        EXPECT_EQ(window.mean, Rgb(0.0f)) << name;
+        EXPECT_EQ(window.alpha, 0.0) << name;
+        const TileResult reflected = render_tile(in_mirror, *integrator, 4);
+        EXPECT_GT(reflected.mean.g, 1.0f) << name;
+        EXPECT_EQ(reflected.alpha, 1.0) << name;
+    }
+}
+
 TEST(PathIntegrator, UnlitSurfacesAreSeenButLightNothing) {
     SceneDesc scene = empty_scene();
     MaterialDesc unlit;
