@@ -7,20 +7,13 @@ namespace etendue {
 
 namespace {
 
-/// Returns the weight of light that the path has met, and that a light sample at its last vertex finds with
-/// `light_pdf_solid_angle`.
-float met_light_weight(const LightSampleContext& last, float light_pdf_solid_angle) {
-    if (last.samples == 0) return 1.0f;
-    // How many samples of the light are expected, not how probable one is (Veach 1997, section 9.2.1).
-    return power_heuristic(last.pdf_solid_angle, light_pdf_solid_angle * static_cast<float>(last.samples));
-}
-
 Rgb met_environment(const World& world, const EyePath& path, const Vertex& vertex) {
     if (!world.has_environment() || (path.is_seen() && !world.environment_visible_to_camera())) return {};
     const Vec3f direction = -vertex.wo;
     const float light_pdf =
         world.light_probability(path.last.receiver, world.environment()) * world.environment_pdf_solid_angle(direction);
-    return world.environment_radiance(direction) * met_light_weight(path.last, light_pdf);
+    return world.environment_radiance(direction) *
+           met_light_weight(path.last.pdf_solid_angle, light_pdf, path.last.samples);
 }
 
 Rgb met_emission(const World& world, const EyePath& path, const Vertex& vertex) {
@@ -28,7 +21,7 @@ Rgb met_emission(const World& world, const EyePath& path, const Vertex& vertex) 
     if (is_black(emitted)) return {};
     const float light_pdf = world.emitter_pdf_solid_angle(path.last.receiver, vertex.surface, -vertex.wo,
                                                           path.last.passed + vertex.distance);
-    return emitted * met_light_weight(path.last, light_pdf);
+    return emitted * met_light_weight(path.last.pdf_solid_angle, light_pdf, path.last.samples);
 }
 
 }  // namespace

@@ -10,6 +10,15 @@
 
 namespace etendue {
 
+/// Returns the weight of light that a ray has met by chance: it left the last vertex with density `pdf_solid_angle`,
+/// and each of `samples` light samples there would have found this light with `light_pdf_solid_angle`. It is 1 without
+/// any.
+[[nodiscard]] inline float met_light_weight(float pdf_solid_angle, float light_pdf_solid_angle, std::uint32_t samples) {
+    if (samples == 0) return 1.0f;
+    // How many samples of the light are expected, not how probable one is (Veach 1997, section 9.2.1).
+    return power_heuristic(pdf_solid_angle, light_pdf_solid_angle * static_cast<float>(samples));
+}
+
 /// Returns the weight of a light sample, over its density, that the scattering at hand would have found with
 /// `pdf_solid_angle`.
 [[nodiscard]] inline float light_sample_scale(const ChosenLight& chosen, float pdf_solid_angle) {

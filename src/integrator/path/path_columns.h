@@ -16,7 +16,8 @@ namespace etendue {
 /// How a path has come to where it is, as bits that lanes compute with. `Bits` is std::uint32_t or WideBits.
 namespace path_history {
 
-/// The last scattering was a delta, or there was none: lights cannot be sampled for it.
+/// Says that no light sample at the last vertex can find what the path meets: it was a delta, a hidden boundary, a
+/// medium where no lights are sampled, or the eye.
 inline constexpr std::uint32_t kAfterDelta = 1u;
 /// Every scattering was a delta: the eye sees this directly or in mirrors.
 inline constexpr std::uint32_t kOnlyDelta = 2u;

@@ -94,6 +94,11 @@ class PathWave final : public IntegratorScratch {
     [[nodiscard]] std::uint32_t light_samples(const Context& context, std::size_t i, std::uint32_t first_vertex) const {
         return paths_.is(first_vertex, i) ? context.options.light_samples : 1u;
     }
+    /// Returns how many light samples at the last vertex of path `i` could have found the light that it meets.
+    [[nodiscard]] std::uint32_t samples_of_met_light(const Context& context, std::size_t i) const {
+        if (!context.options.sample_lights || paths_.is(path_history::kAfterDelta, i)) return 0;
+        return light_samples(context, i, path_history::kIsDirect);
+    }
     /// Shades all paths, block by block, and calls `trace_shadow_rays` whenever there are enough shadow rays for a
     /// batch.
     template <typename TraceShadowRays>

@@ -2,7 +2,6 @@
 #include "bsdf/gloss.h"
 #include "core/in_place.h"
 #include "integrator/path/path_wave.h"
-#include "sampling/mis.h"
 #include "transport/bodies.h"
 #include "transport/connecting_ray.h"
 #include "transport/dimensions.h"
@@ -154,11 +153,10 @@ void PathWave::add_environment(const Context& context) {
     for (std::size_t m = 0; m < meeting.size(); ++m) {
         const std::size_t i = first_ + meeting[m];
         float weight = 1.0f;
-        if (context.options.sample_lights && !paths_.is(path_history::kAfterDelta, i))
-            weight =
-                power_heuristic(paths_.pdf_solid_angle[i],
-                                world.light_probability(receiver(i), world.environment()) * met[m].pdf_solid_angle *
-                                    static_cast<float>(light_samples(context, i, path_history::kIsDirect)));
+        if (const std::uint32_t samples = samples_of_met_light(context, i); samples > 0)
+            weight = met_light_weight(
+                paths_.pdf_solid_angle[i],
+                world.light_probability(receiver(i), world.environment()) * met[m].pdf_solid_angle, samples);
         add_light(i, met[m].radiance * weight, words_.environment_source());
     }
 }
@@ -173,11 +171,10 @@ void PathWave::add_emission(const Context& context, std::size_t k) {
     if (is_black(emitted)) return;
     if (context.job.profile != nullptr && context.depth > 1) ++context.job.profile->use().bsdf_met_light;
     float weight = 1.0f;
-    if (context.options.sample_lights && !paths_.is(path_history::kAfterDelta, i))
-        weight = power_heuristic(
+    if (const std::uint32_t samples = samples_of_met_light(context, i); samples > 0)
+        weight = met_light_weight(
             paths_.pdf_solid_angle[i],
-            context.world.emitter_pdf_solid_angle(receiver(i), point, direction, passed(i) + hits_[i].t) *
-                static_cast<float>(light_samples(context, i, path_history::kIsDirect)));
+            context.world.emitter_pdf_solid_angle(receiver(i), point, direction, passed(i) + hits_[i].t), samples);
     add_light(i, emitted * weight, words_.surface_source(point));
 }
 

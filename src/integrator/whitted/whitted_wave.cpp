@@ -2,9 +2,9 @@
 
 #include "integrator/aov/first_hits.h"
 #include "integrator/ray_batch.h"
-#include "sampling/mis.h"
 #include "transport/bodies.h"
 #include "transport/connecting_ray.h"
+#include "transport/direct_light.h"
 #include "transport/dispersion.h"
 #include "transport/roulette.h"
 #include "transport/scattered_cone.h"
@@ -191,22 +191,20 @@ void WhittedWave::queue_direct_light(const Context& context, std::size_t i, cons
         const ChosenLight chosen =
             world.sample_light(point.position, {light_choice_[i], light_triangle_[i], light_direction_[i]});
         const LightSample& light = chosen.sample;
-        if (!is_black(light.radiance)) {
-            float share = 1.0f;
-            if (chosen.light == world.environment())
-                share = power_heuristic(light.pdf_solid_angle, world.environment_emission_pdf_solid_angle(light.wi));
+        const bool is_environment = chosen.light == world.environment();
+        if (!is_black(light.radiance))
             queue(context, i, point, scattering, crossing, light,
-                  factor * (share / (light.is_delta ? chosen.probability : light.pdf_solid_angle)));
-        }
+                  factor * light_sample_scale(
+                               chosen, is_environment ? world.environment_emission_pdf_solid_angle(light.wi) : 0.0f));
     }
     if (!world.has_environment()) return;
     const LightSample light = world.sample_environment(point.position, environment_direction_[i]);
     if (is_black(light.radiance)) return;
-    float share = 1.0f;
-    if (world.has_sampled_lights())
-        share = power_heuristic(light.pdf_solid_angle, world.light_probability(point.position, world.environment()) *
-                                                           world.environment_pdf_solid_angle(light.wi));
-    queue(context, i, point, scattering, crossing, light, factor * (share / light.pdf_solid_angle));
+    const float chosen_pdf = world.has_sampled_lights() ? world.light_probability(point.position, world.environment()) *
+                                                              world.environment_pdf_solid_angle(light.wi)
+                                                        : 0.0f;
+    queue(context, i, point, scattering, crossing, light,
+          factor * light_sample_scale({light, 1.0f, world.environment()}, chosen_pdf));
 }
 
 void WhittedWave::queue(const Context& context, std::size_t i, const SurfacePoint& point, const Scattering& scattering,
