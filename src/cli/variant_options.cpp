@@ -11,7 +11,7 @@ namespace etendue {
 
 namespace {
 
-/// They may be given to all variants alike.
+/// Lists options that may be given to all variants alike, but not to one.
 constexpr std::array kOptionsForAll{
     OptionOfRender{"--seed", "every variant gets seeds of its own; the first of all is --seed of 'compare'"},
     OptionOfRender{"--spp", "all variants render alike, for --seconds or with --spp of 'compare'"}};

@@ -9,8 +9,8 @@
 
 namespace etendue {
 
-/// Lists those that `compare` decides about itself: for how long it renders, which images and into what file. To a
-/// variant the seed and the number of samples cannot be given either.
+/// Lists the options of `render` that `compare` does not take: it decides itself how long it renders, which images and
+/// into what file. A single variant does not take the seed and the number of samples either.
 [[nodiscard]] std::span<const OptionOfRender> options_compare_sets();
 
 /// Returns `common` and then `options`. Throws CLI::ParseError for options that it does not know, and for those that

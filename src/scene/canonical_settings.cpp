@@ -28,7 +28,7 @@ SettingTexts setting_texts(const RenderSettings& settings) {
 
 SettingTexts canonical_settings(const RenderSettings& settings, bool (*takes_part)(Decides decides)) {
     RenderSettings effective = settings;
-    // Not the sequence that a frame belongs to: it is the same image in a longer one.
+    // A frame is the same image in a longer sequence, so only the moment counts.
     effective.time_code = settings.shown_time();
     for (const Setting& setting : settings_table())
         if (!setting.needs.empty() && is_default(*find_setting(setting.needs), effective))

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view kLayers =
     R"("aovs": ["passes", "cryptomatte", "variance", "denoising", "caustics=lpe:L S+ D E"])";
 
-/// What lights a model.
+/// Lights a model from all sides.
 constexpr std::string_view kSky = R"("environment": {"color": [1, 1, 1]})";
 
 fs::path scene_directory(std::string_view name) {

@@ -119,7 +119,7 @@ std::optional<std::string> read_back(const Setting& setting, const SettingValue&
     return to_text(setting, setting.place.read(json.settings));
 }
 
-/// Returns the same of the option.
+/// Returns the text of the setting that the option's `words` give; nothing if they are refused.
 std::optional<std::string> parsed_back(const Setting& setting, const std::vector<std::string>& words) {
     CLI::App app;
     SettingsOverrides overrides;
@@ -184,7 +184,7 @@ TEST_P(SettingsTable, IsValidatedWhereverItComesFrom) {
     for (const SettingValue& value : samples_.bad) {
         SceneDesc scene;
         setting_.place.write(scene.settings, value);
-        // What a text is not written as cannot be held.
+        // Some bad values cannot be held: another value is read back, and there is nothing to validate.
         if (to_text(setting_, setting_.place.read(scene.settings)) != to_text(setting_, value)) continue;
         const ProblemList problems = validate(scene);
         ASSERT_TRUE(problems.has_errors()) << to_text(setting_, value);
