@@ -15,8 +15,8 @@ using SettingTexts = std::map<std::string, std::string>;
 /// Returns all settings as they are.
 [[nodiscard]] SettingTexts setting_texts(const RenderSettings& settings);
 
-/// Returns the settings that `takes_part` is true for, exactly. Renders of the same image have the same texts: a setting
-/// has its default if the one that it needs has, and a frame of a sequence is the moment that it shows.
+/// Returns the settings that `takes_part` is true for, exactly. Renders of the same image have the same texts: a
+/// setting has its default if the one that it needs has, and a frame of a sequence is the moment that it shows.
 [[nodiscard]] SettingTexts canonical_settings(const RenderSettings& settings, bool (*takes_part)(Decides decides));
 
 /// Returns a line for each setting of which `after` has another text than `before`, as "integrator.light_samples: 1 ->
