@@ -23,8 +23,8 @@ std::unique_ptr<const Integrator> make_path(const IntegratorOptions& options) {
 std::unique_ptr<const Integrator> make_direct(const IntegratorOptions& options) {
     PathLengths one_bounce = options.lengths;
     one_bounce.max_depth = std::min(one_bounce.max_depth, kDirectPath);
-    return std::make_unique<PathIntegrator>(
-        PathOptions{.lengths = one_bounce, .light_samples = options.light_samples, .leaves_out_indirect = true});
+    return std::make_unique<PathIntegrator>(PathOptions{.lengths = one_bounce, .light_samples = options.light_samples},
+                                            true);
 }
 
 std::unique_ptr<const Integrator> make_naive(const IntegratorOptions& options) {

@@ -3,6 +3,7 @@
 #include "transport/bodies.h"
 #include "transport/connecting_ray.h"
 #include "transport/direct_light.h"
+#include "transport/roulette.h"
 #include "transport/strategy_sums.h"
 
 #include <cmath>
@@ -113,13 +114,10 @@ BidirectionalLight bidirectional_light(const World& world, const EyeSample& eye_
                                        const BidirectionalOptions& options) {
     const PathLengths& lengths = options.lengths;
     const SubpathSample sample{{world, Raised{options.heuristic}, options.samples_per_light_path}, lengths, eye_sample};
-    // The edges that roulette spares are shared. Of light subpaths there are as many as samples, of which few bring
-    // much: the smaller half is enough.
-    const int spared_of_light = lengths.roulette_depth / 2;
-    const int spared_of_eye = lengths.roulette_depth - spared_of_light;
+    const SparedRays spared = spared_rays(lengths.roulette_depth);
 
     BidirectionalLight found;
-    const auto eye = follow_subpath(sample, begin_subpath_at_eye(sample), spared_of_eye,
+    const auto eye = follow_subpath(sample, begin_subpath_at_eye(sample), spared.of_eye,
                                     [&](const Subpath& subpath, const Vertex& vertex, const SubpathDensities& arrived) {
                                         found.radiance += light_met(sample, subpath, vertex, arrived);
                                     });
@@ -138,7 +136,7 @@ BidirectionalLight bidirectional_light(const World& world, const EyeSample& eye_
             keep(*lamp);
     if (lengths.max_depth < edges_to_connect(world) || is_black(emission.weight)) return found;
 
-    const auto light = follow_subpath(sample, *from_light, spared_of_light);
+    const auto light = follow_subpath(sample, *from_light, spared.of_light);
     for (const SubpathVertex& at_eye : eye)
         for (const SubpathVertex& at_light : light) found.radiance += light_connected(sample, at_eye, at_light);
     for (const SubpathVertex& vertex : light) keep(light_at_lens(sample, vertex));

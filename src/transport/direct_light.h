@@ -10,9 +10,9 @@
 
 namespace etendue {
 
-/// Returns the weight of light that a ray has met by chance: it left the last vertex with density `pdf_solid_angle`,
-/// and each of `samples` light samples there would have found this light with `light_pdf_solid_angle`. It is 1 without
-/// any.
+/// Returns the weight of light that a ray has met by chance. The ray left the last vertex with density
+/// `pdf_solid_angle`; each of `samples` light samples there would have found the light with `light_pdf_solid_angle`.
+/// Without light samples the weight is 1.
 [[nodiscard]] inline float met_light_weight(float pdf_solid_angle, float light_pdf_solid_angle, std::uint32_t samples) {
     if (samples == 0) return 1.0f;
     // How many samples of the light are expected, not how probable one is (Veach 1997, section 9.2.1).
@@ -28,6 +28,14 @@ namespace etendue {
                           : power_heuristic(light.pdf_solid_angle, pdf_solid_angle) / light.pdf_solid_angle;
 }
 
+/// Returns the density, 1/sr, with which a light that is chosen for `receiver` is the environment and is sampled along
+/// `direction`; 0 if no lights are sampled.
+[[nodiscard]] inline float chosen_environment_pdf(const World& world, const LightReceiver& receiver,
+                                                  const Vec3f& direction) {
+    if (!world.has_sampled_lights()) return 0.0f;
+    return world.light_probability(receiver, world.environment()) * world.environment_pdf_solid_angle(direction);
+}
+
 /// Returns the light, on its way to the eye, that the path's ray has met at `vertex` by chance.
 [[nodiscard]] Rgb met_light(const World& world, const EyePath& path, const Vertex& vertex);
 
@@ -35,9 +43,9 @@ namespace etendue {
 [[nodiscard]] Rgb sampled_light(const World& world, const EyePath& path, const Vertex& vertex,
                                 const SampleNumbers& numbers, const VertexNumbers& u, std::uint32_t samples);
 
-/// Returns what `vertex` scatters of a light sample towards where its path comes from, of which it has the
-/// `throughput`. `f_cos` is what it scatters along the sample's direction, `scale` the sample's weight over its
-/// density; the shadow ray has `time` and `alpha_key`.
+/// Returns the light of a light sample that `vertex` scatters back along its path, times the path's `throughput`.
+/// `f_cos` is the BSDF times the cosine along the sample's direction, or the phase function. `scale` is the sample's
+/// weight over its density. The shadow ray has `time` and `alpha_key`.
 [[nodiscard]] Rgb light_contribution(const World& world, const Vertex& vertex, const Rgb& throughput,
                                      const LightSample& light, const Rgb& f_cos, float scale, float time,
                                      std::uint32_t alpha_key);

@@ -12,7 +12,7 @@
 
 namespace etendue {
 
-/// Light that a path brings to a place on the film.
+/// Holds light that a path brings to a place on the film.
 struct FilmLight {
     Vec2f film{0.0f, 0.0f};  ///< in [0, 1]², as CameraConnection::film
     Rgb value;               ///< share in the integral over the film of area 1

@@ -17,7 +17,6 @@ struct PathOptions {
     /// Next-event splitting: lights sampled at each vertex that the eye sees directly or in mirrors and smooth glass,
     /// >= 1.
     std::uint32_t light_samples = 1;
-    bool leaves_out_indirect = false;  ///< by its name, `direct`: it says so, whatever the lengths are
 };
 
 /// Returns the radiance that `sample` finds, W/(m² sr).

@@ -26,6 +26,27 @@ template <typename T>
     return min(T(most_survival(rays)), sqrt(throughput));
 }
 
+/// Returns the chance with which Russian roulette lets a path of `rays` rays from a light live, of whose light the
+/// share `throughput` is left. The root is worse for these paths on as many scenes as it is better
+/// (docs/integrators.md).
+template <typename T>
+[[nodiscard]] inline T light_path_survival(const T& throughput, int rays) {
+    return min(T(most_survival(rays)), throughput);
+}
+
+/// Holds how many rays of each subpath of a sample Russian roulette spares.
+struct SparedRays {
+    int of_eye;
+    int of_light;
+};
+
+/// Shares the rays that Russian roulette spares between both subpaths. There are as many light subpaths as samples, few
+/// of which bring much: the smaller half is enough for them.
+[[nodiscard]] constexpr SparedRays spared_rays(int roulette_depth) {
+    const int of_light = roulette_depth / 2;
+    return {roulette_depth - of_light, of_light};
+}
+
 /// Returns the rays after which Russian roulette begins where `roulette_depth` is asked for. In bodies nothing else
 /// bounds a walk: neither media nor hidden boundaries add edges.
 [[nodiscard]] inline int first_roulette(const World& world, int roulette_depth) {

@@ -3,8 +3,6 @@
 #include "transport/bodies.h"
 #include "transport/roulette.h"
 
-#include <algorithm>
-
 namespace etendue {
 
 namespace {
@@ -83,7 +81,7 @@ bool survives_roulette(const SubpathSample& sample, Subpath& subpath, int bounce
     if (bounce < first_roulette(sample.world(), roulette_depth)) return true;
     const float share = max_component(subpath.throughput) * subpath.roulette_scale;
     const float survival =
-        subpath.end == SubpathEnd::AtEye ? eye_path_survival(share, bounce) : std::min(most_survival(bounce), share);
+        subpath.end == SubpathEnd::AtEye ? eye_path_survival(share, bounce) : light_path_survival(share, bounce);
     subpath.throughput *= 1.0f / survival;
     return sample.pair(subpath.end, bounce, BounceNumbers::Choices).y < survival;
 }
@@ -124,9 +122,7 @@ std::vector<SubpathVertex> follow_subpath(const SubpathSample& sample, Subpath s
     for (int bounce = 1;; ++bounce) {
         const Hit hit = nearest_hit(world, subpath.ray);
         if (!hit.valid()) {
-            Vertex environment;
-            environment.wo = -subpath.ray.direction;
-            if (arrive) arrive(subpath, environment, {});
+            if (arrive) arrive(subpath, environment_vertex(subpath.ray.direction), {});
             break;
         }
         const Vec2f u_medium = sample.pair(subpath.end, bounce, BounceNumbers::Medium);

@@ -45,7 +45,7 @@ struct SubpathSample {
     }
 };
 
-/// A subpath under way, between two of its vertices.
+/// Holds a subpath under way, between two of its vertices.
 struct Subpath {
     SubpathEnd end = SubpathEnd::AtEye;
     std::optional<Emission> emission;  ///< with which a subpath from a light begins
@@ -68,7 +68,7 @@ struct Subpath {
     }
 };
 
-/// A vertex of a subpath that can be connected to others.
+/// Describes a vertex of a subpath that can be connected to others.
 struct SubpathVertex : Vertex {
     Rgb throughput;              ///< throughput of the subpath as it arrives
     SubpathDensities densities;  ///< densities with which the subpath arrives

@@ -66,6 +66,13 @@ struct Vertex {
 /// Returns what a light is chosen for at a surface at `position`.
 [[nodiscard]] LightReceiver light_receiver(const Vec3f& position, const Scattering& scattering);
 
+/// Returns the vertex of a ray that leaves the scene along `direction`.
+[[nodiscard]] inline Vertex environment_vertex(const Vec3f& direction) {
+    Vertex vertex;
+    vertex.wo = -direction;
+    return vertex;
+}
+
 /// Returns where the medium that `ray` is in, with `cone` around it and from within `interior`, scatters it before it
 /// hits `hit` (valid); nothing if it gets through. Multiplies `throughput` by the transmittance, times the scattering
 /// coefficient where it scatters, over the density. `u` in [0, 1)² draws how far it gets.

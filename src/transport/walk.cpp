@@ -10,14 +10,6 @@ namespace etendue {
 
 namespace {
 
-/// Goes straight on from `vertex`, which is none to the path: the boundary of a body that another hides, or a pane.
-void pass(EyePath& path, const Vertex& vertex, std::uint32_t alpha_key) {
-    path.ray.origin = vertex.origin_towards(path.ray.direction);
-    path.ray.alpha_key = alpha_key;
-    path.cone = vertex.cone;
-    path.interior = vertex.interior_towards(path.ray.direction);
-}
-
 /// Multiplies the throughput by what of the light of a path's wavelengths goes along `sample`.
 void scatter_wavelengths(const World& world, EyePath& path, const Vertex& vertex, const BsdfSample& sample) {
     const Scattering scattering = vertex.scattering();
@@ -57,14 +49,17 @@ Rgb visibility(const World& world, const Ray& ray) {
     return occluded == kPassesPanes ? world.pane_transmittance(ray) : Rgb(1.0f);
 }
 
+void pass(EyePath& path, const Vertex& vertex, std::uint32_t alpha_key) {
+    path.ray.origin = vertex.origin_towards(path.ray.direction);
+    path.ray.alpha_key = alpha_key;
+    path.cone = vertex.cone;
+    path.interior = vertex.interior_towards(path.ray.direction);
+}
+
 Vertex next_vertex(const World& world, EyePath& path, const VertexNumbers& u) {
     const Hit hit = nearest_hit(world, path.ray);
-    if (!hit.valid()) {
-        // What leaves the scene was in no body, whatever holes in meshes made of its interior.
-        Vertex environment;
-        environment.wo = -path.ray.direction;
-        return environment;
-    }
+    // What leaves the scene was in no body, whatever holes in meshes made of its interior.
+    if (!hit.valid()) return environment_vertex(path.ray.direction);
     if (const auto vertex = medium_vertex(world, path.ray, path.cone, path.interior, hit, path.throughput, u.medium))
         return *vertex;
     return surface_vertex(world, path.ray, path.cone, path.interior, hit, path.wavelength_nm, u.wavelength);

@@ -13,7 +13,7 @@
 
 namespace etendue {
 
-/// A sample of a pixel: its ray from the camera, with the cone of the pixel around it, and its random numbers.
+/// Holds a sample of a pixel: its ray from the camera, with the cone of the pixel around it, and its random numbers.
 struct EyeSample {
     Ray ray;
     RayCone cone;
@@ -21,7 +21,7 @@ struct EyeSample {
     Vec2f lens{0.0f, 0.0f};  ///< chose the point on the lens, in [0, 1)²
 };
 
-/// Remembers of a path's last vertex what it takes to weigh light that it meets by chance against the light samples
+/// Holds what the weight of light that a path meets by chance depends on: the path's last vertex, and the light samples
 /// that were taken there.
 struct LightSampleContext {
     LightReceiver receiver;
@@ -30,8 +30,8 @@ struct LightSampleContext {
     float passed = 0.0f;           ///< metres from the vertex to where the ray starts, over 0 behind panes
 };
 
-/// A path from the eye, between two of its vertices: the ray to the next one, and what has become of the light that
-/// comes back along it.
+/// Holds a path from the eye between two of its vertices: the ray to the next one, and the share of light that comes
+/// back along it.
 struct EyePath {
     Ray ray;
     RayCone cone;                ///< around the ray
@@ -48,7 +48,7 @@ struct EyePath {
     [[nodiscard]] bool is_seen() const { return edges == 1 && only_deltas; }
 };
 
-/// The random numbers of one vertex, but for those of light samples.
+/// Holds the random numbers of one vertex, but for those of light samples.
 struct VertexNumbers {
     Vec2f medium;  ///< x: how far, y: by which channel
     float wavelength;
@@ -76,6 +76,9 @@ struct VertexNumbers {
 /// the path would be longer than `max_depth` edges.
 [[nodiscard]] bool scatter(const World& world, EyePath& path, const Vertex& vertex, const VertexNumbers& u,
                            std::uint32_t light_samples, int max_depth);
+
+/// Sends the path straight on from `vertex`, which is none to the path: a boundary that another body hides, or a pane.
+void pass(EyePath& path, const Vertex& vertex, std::uint32_t alpha_key);
 
 /// Ends the path at random if little light comes along it, and divides the throughput of survivors by their chance;
 /// false if it ends.

@@ -1,7 +1,6 @@
 #include "transport/whitted.h"
 
 #include "sampling/hash.h"
-#include "sampling/mis.h"
 #include "transport/bodies.h"
 #include "transport/direct_light.h"
 #include "transport/dispersion.h"
@@ -14,7 +13,7 @@ namespace etendue {
 
 namespace {
 
-/// A branch of the tree of one sample. All branches have random numbers of their own.
+/// Holds a branch of the tree of one sample. All branches have random numbers of their own.
 struct Branch {
     EyePath path;
     SampleNumbers numbers;
@@ -44,10 +43,7 @@ Rgb branch_direct_light(const World& world, const Branch& branch, const Vertex& 
     if (!world.has_environment()) return found;
     const LightSample light = world.sample_environment(vertex.position, numbers.pair(kBranchEnvironmentDirection));
     if (is_black(light.radiance)) return found;
-    const float chosen_pdf = world.has_sampled_lights()
-                                 ? world.light_probability(vertex.position, world.environment()) *
-                                       world.environment_pdf_solid_angle(light.wi)
-                                 : 0.0f;
+    const float chosen_pdf = chosen_environment_pdf(world, vertex.position, light.wi);
     return found + contribution(light, light_sample_scale({light, 1.0f, world.environment()}, chosen_pdf));
 }
 
@@ -61,10 +57,7 @@ Branch grow(const Branch& branch, std::uint32_t child) {
 
 Branch go_straight_on(const Branch& branch, const Vertex& vertex) {
     Branch next = grow(branch, 0);
-    next.path.ray.origin = vertex.origin_towards(next.path.ray.direction);
-    next.path.ray.alpha_key = next.numbers.bits(kBranchAlpha);
-    next.path.cone = vertex.cone;
-    next.path.interior = vertex.interior_towards(next.path.ray.direction);
+    pass(next.path, vertex, next.numbers.bits(kBranchAlpha));
     return next;
 }
 
@@ -98,11 +91,7 @@ Rgb branch_radiance(const World& world, Branch branch, const PathLengths& length
     EyePath& path = branch.path;
     const Hit hit = nearest_hit(world, path.ray);
     const bool is_wanted = path.edges >= lengths.min_depth;
-    if (!hit.valid()) {
-        Vertex environment;
-        environment.wo = -path.ray.direction;
-        return is_wanted ? met_light(world, path, environment) : Rgb();
-    }
+    if (!hit.valid()) return is_wanted ? met_light(world, path, environment_vertex(path.ray.direction)) : Rgb();
     // What scatters on the way is lost like what is absorbed.
     path.throughput *= transmittance(world, path.interior, hit.t);
     const Vertex vertex = surface_vertex(world, path.ray, path.cone, path.interior, hit, path.wavelength_nm,

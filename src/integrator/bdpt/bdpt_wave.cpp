@@ -2,6 +2,7 @@
 
 #include "integrator/aov/first_hits.h"
 #include "integrator/profile/wave_profile.h"
+#include "transport/roulette.h"
 
 #include <algorithm>
 #include <cmath>
@@ -48,19 +49,16 @@ void BdptWave::trace(const World& world, const TileJob& job, const BdptOptions& 
     found_.reset(count, job, counters.brightest.threshold());
     alpha_.assign(count, 1.0f);
     const Context context{{world, job, options.lengths, Raised{options.heuristic}, samples_, camera_rays_}, options};
-    // The edges that roulette spares are shared. Of light subpaths there are as many as samples, of which few bring
-    // much: the smaller half is enough.
-    const int spared_of_light = options.lengths.roulette_depth / 2;
-    const int spared_of_eye = options.lengths.roulette_depth - spared_of_light;
+    const SparedRays spared = spared_rays(options.lengths.roulette_depth);
     context_ = &context;
     tile_ = &tile;
     counters_ = &counters;
-    eye_.trace(context, spared_of_eye, this, found_, counters);
+    eye_.trace(context, spared.of_eye, this, found_, counters);
     context_ = nullptr;
     tile_ = nullptr;
     counters_ = nullptr;
     if (world.has_lights()) {
-        light_.trace(context, spared_of_light, nullptr, found_, counters);
+        light_.trace(context, spared.of_light, nullptr, found_, counters);
         if (context.wants(1) && context.wants({.s = 1, .t = 1}))
             lamps_to_camera_.connect(context, light_, camera_connections_,
                                      [&](const Emission& emission, const CameraConnection& camera, float cosine) {

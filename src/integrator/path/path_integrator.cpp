@@ -8,7 +8,7 @@ namespace etendue {
 
 std::vector<std::string> PathIntegrator::unreachable_light(const World& world) const {
     std::vector<std::string> notes;
-    if (options_.leaves_out_indirect)
+    if (leaves_out_indirect_)
         notes.emplace_back("light that two surfaces or more have scattered is left out; 'path' finds it");
     if (world.has_delta_lights() && !options_.sample_lights)
         notes.emplace_back(

@@ -12,7 +12,9 @@ namespace etendue {
 
 class PathIntegrator final : public Integrator {
   public:
-    explicit PathIntegrator(const PathOptions& options) : options_(options) {}
+    /// With `leaves_out_indirect` it is `direct`, and notes that indirect light is left out, whatever the lengths are.
+    explicit PathIntegrator(const PathOptions& options, bool leaves_out_indirect = false)
+        : options_(options), leaves_out_indirect_(leaves_out_indirect) {}
 
     [[nodiscard]] std::unique_ptr<IntegratorScratch> make_scratch() const override;
     [[nodiscard]] std::vector<std::string> unreachable_light(const World& world) const override;
@@ -22,6 +24,7 @@ class PathIntegrator final : public Integrator {
 
   private:
     PathOptions options_;
+    bool leaves_out_indirect_;
 };
 
 }  // namespace etendue

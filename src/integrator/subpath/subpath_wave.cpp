@@ -34,7 +34,6 @@ std::uint32_t SubpathJob::connection_key(SubpathEnd end, int index, std::uint32_
 
 void SubpathWave::trace(const SubpathJob& job, int roulette_depth, LightFinder* finder, SampleLight& light,
                         RenderCounters& counters) {
-    // In bodies nothing but roulette bounds a walk: neither media nor hidden boundaries add edges.
     roulette_depth_ = first_roulette(job.world, roulette_depth);
     const std::size_t count = job.samples.size();
     states_.assign(count, {});
@@ -401,10 +400,9 @@ void SubpathWave::keep_survivors(const SubpathJob& job, std::size_t first, std::
         const SubpathState& state = states_[first + k];
         survival.set(k, max_component(state.throughput) * state.roulette_scale);
     }
-    // The root for light subpaths, too, is worse on as many scenes as it is better (docs/integrators.md).
     const auto chance = [&](const Wide& share) {
         if (bounce_ < roulette_depth_) return Wide(1.0f);
-        return end_ == SubpathEnd::AtEye ? eye_path_survival(share, bounce_) : min(Wide(most_survival(bounce_)), share);
+        return end_ == SubpathEnd::AtEye ? eye_path_survival(share, bounce_) : light_path_survival(share, bounce_);
     };
     for (std::size_t k = 0; k < count; k += Wide::kWidth) survival.store(k, chance(survival.load(k)));
     // Without a branch, as in PathWave.

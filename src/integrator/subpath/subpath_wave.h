@@ -62,7 +62,7 @@ struct SubpathState {
     std::uint32_t slot = 0;
     std::uint32_t last_vertex = PathVertex::kNoVertex;
     int index = 1;  ///< index of the vertex to come
-    int edges = 1;  ///< edges of the path when its ray has hit; media and hidden boundaries add none
+    int edges = 1;  ///< edges of the path when its ray has hit; media, panes and hidden boundaries add none
     bool is_dispersed = false;
     bool only_delta = true;
     bool lights_directly = true;  ///< every scattering but the last was a delta

@@ -11,8 +11,6 @@
 #include "world/scattering.h"
 
 #include <algorithm>
-#include <cmath>
-#include <variant>
 
 namespace etendue {
 
@@ -200,9 +198,7 @@ void WhittedWave::queue_direct_light(const Context& context, std::size_t i, cons
     if (!world.has_environment()) return;
     const LightSample light = world.sample_environment(point.position, environment_direction_[i]);
     if (is_black(light.radiance)) return;
-    const float chosen_pdf = world.has_sampled_lights() ? world.light_probability(point.position, world.environment()) *
-                                                              world.environment_pdf_solid_angle(light.wi)
-                                                        : 0.0f;
+    const float chosen_pdf = chosen_environment_pdf(world, point.position, light.wi);
     queue(context, i, point, scattering, crossing, light,
           factor * light_sample_scale({light, 1.0f, world.environment()}, chosen_pdf));
 }
