@@ -55,11 +55,9 @@ std::string type_name_of(const SettingType& type) {
         Overloaded{[](const WholeNumber& number) { return fmt::format("INT in [{} - {}]", number.least, number.most); },
                    [](const RealNumber& number) {
                        const NumberRange& range = number.range;
-                       constexpr double kUnbounded = std::numeric_limits<float>::max();
-                       if (range.max < kUnbounded) return fmt::format("FLOAT in [{:g} - {:g}]", range.min, range.max);
-                       return range.min > -kUnbounded
-                                  ? fmt::format("FLOAT {} {:g}", range.open_min ? ">" : ">=", range.min)
-                                  : std::string("FLOAT");
+                       if (range.has_max()) return fmt::format("FLOAT in [{:g} - {:g}]", range.min, range.max);
+                       return range.has_min() ? fmt::format("FLOAT {} {:g}", range.open_min ? ">" : ">=", range.min)
+                                              : std::string("FLOAT");
                    },
                    [](const Choice& choice) { return fmt::format("TEXT:{{{}}}", fmt::join(choice.names, ",")); },
                    [](const Name& name) {

@@ -98,18 +98,20 @@ std::optional<SettingValue> parse_numbers(const Setting& setting, const Numbers<
 }
 
 template <typename Value, typename Number>
-std::string joined_numbers(const std::vector<Value>& numbers, const Numbers<Number>& type) {
+std::string joined_numbers(const std::vector<Value>& numbers, const Number& each, std::string_view separator) {
     std::string text;
-    for (const Value number : numbers)
-        text += (text.empty() ? std::string() : std::string(1, type.separator)) + number_text(number, type.each);
+    for (const Value number : numbers) text += (text.empty() ? "" : std::string(separator)) + number_text(number, each);
     return text;
 }
 
 template <typename Value, typename Number>
 std::string json_numbers(const std::vector<Value>& numbers, const Number& each) {
-    std::string text;
-    for (const Value number : numbers) text += (text.empty() ? "" : ", ") + number_text(number, each);
-    return "[" + text + "]";
+    return "[" + joined_numbers(numbers, each, ", ") + "]";
+}
+
+template <typename Value, typename Number>
+std::string option_numbers(const std::vector<Value>& numbers, const Numbers<Number>& type) {
+    return joined_numbers(numbers, type.each, std::string_view(&type.separator, 1));
 }
 
 }  // namespace
@@ -119,10 +121,9 @@ bool NumberRange::contains(double value) const {
 }
 
 std::string NumberRange::str() const {
-    constexpr double kUnbounded = std::numeric_limits<float>::max();
-    if (max < kUnbounded)
+    if (has_max())
         return fmt::format("a number in {}{:g}, {:g}{}", open_min ? '(' : '[', min, max, open_max ? ')' : ']');
-    if (min > -kUnbounded) return fmt::format("a number {} {:g}", open_min ? ">" : ">=", min);
+    if (has_min()) return fmt::format("a number {} {:g}", open_min ? ">" : ">=", min);
     return "a number that fits single precision";
 }
 
@@ -249,10 +250,10 @@ std::vector<std::string> option_words(const Setting& setting, const SettingValue
                        return std::vector{option, text};
                    },
                    [&](const std::vector<std::int64_t>& numbers) {
-                       return std::vector{option, joined_numbers(numbers, std::get<WholeNumbers>(setting.type))};
+                       return std::vector{option, option_numbers(numbers, std::get<WholeNumbers>(setting.type))};
                    },
                    [&](const std::vector<double>& numbers) {
-                       return std::vector{option, joined_numbers(numbers, std::get<RealNumbers>(setting.type))};
+                       return std::vector{option, option_numbers(numbers, std::get<RealNumbers>(setting.type))};
                    },
                    [&](const std::vector<std::string>& texts) {
                        std::vector<std::string> words;

@@ -28,10 +28,14 @@ struct NumberRange {
     bool open_min = false;  ///< `min` itself is not accepted
     bool open_max = false;
 
+    [[nodiscard]] bool has_min() const { return min > -std::numeric_limits<float>::max(); }
+    [[nodiscard]] bool has_max() const { return max < std::numeric_limits<float>::max(); }
     [[nodiscard]] bool contains(double value) const;
     /// Returns "a number in (0, 3]" or "a number >= 0".
     [[nodiscard]] std::string str() const;
 };
+
+inline constexpr NumberRange kNotNegative{.min = 0.0};
 
 struct WholeNumber {
     std::int64_t least;

@@ -16,7 +16,6 @@ namespace {
 constexpr std::int64_t kMostInt = std::numeric_limits<int>::max();
 constexpr std::int64_t kMostSpp = 1 << 24;
 constexpr std::int64_t kMostSide = 65536;
-constexpr NumberRange kNotNegative{.min = 0.0};
 
 constexpr std::array<std::pair<std::string_view, SamplerType>, 2> kSamplerNames{{
     {"sobol", SamplerType::Sobol},
@@ -336,9 +335,9 @@ constexpr std::array kRows{
             .type = RealNumber{kNotNegative},
             .decides = Decides::Amount,
             .help = "Start no new pass once the image's estimated relative error is at most this: 0.05 is a clean "
-                    "preview, 0.01 a clean image, 0 asks for none. It is the root mean square; values below half of "
-                    "the image's own scale count against that. Pixels get as many samples as they need, `--spp` at "
-                    "most. Doubles the memory of the film",
+                    "preview, 0.01 a clean image, 0 asks for none. It is a root mean square; values below half of "
+                    "the image's own scale are measured against that half. Pixels get as many samples as they need, "
+                    "`--spp` at most. This doubles the memory of the film",
             .page = "adaptive.md#what-the-error-is-relative-to",
             .place = at([](auto& s) -> auto& { return s.relative_error; })},
     Setting{.pointer = "/clamp_indirect",
@@ -409,8 +408,8 @@ constexpr std::array kRows{
             .type = WholeNumber{1, kMostLightSamples},
             .decides = Decides::Samples,
             .integrators = "path direct",
-            .help = "Lights that `path` and `direct` sample where the eye looks, `path` in mirrors, too; more take "
-                    "noise out of soft shadows and of the light of many lamps, for more time",
+            .help = "How many lights `path` and `direct` sample at what the eye sees directly, in mirrors or through "
+                    "smooth glass; more take longer and reduce the noise of soft shadows and many lights",
             .page = "integrators.md#which-light-is-sampled",
             .place = at([](auto& s) -> auto& { return s.integrator.light_samples; })},
     Setting{.pointer = "/integrator/heuristic",
@@ -420,28 +419,30 @@ constexpr std::array kRows{
             .integrators = "bdpt",
             .help = "How `bdpt` weighs its strategies: `balance`, or `power` with the exponent 2",
             .place = named_at<kHeuristicNames>([](auto& s) -> auto& { return s.integrator.heuristic; })},
-    Setting{.pointer = "/integrator/strategy",
-            .option = "--strategy",
-            .type = WholeNumbers{{0, kMostInt}, 2, 2, ',', "S,T, the vertices from the light and the eye"},
-            .decides = Decides::Samples,
-            .integrators = "bdpt",
-            .default_text = "all",
-            .help = "Of `bdpt`, only paths with S vertices from the light and T from the eye, those on light and lens "
-                    "included",
-            .place = at([](auto& s) -> auto& { return s.integrator.strategy; })},
-    Setting{.pointer = "/integrator/weighted",
-            .type = YesNo{"--unweighted", "That strategy as if no other made its paths"},
-            .decides = Decides::Samples,
-            .integrators = "bdpt",
-            .help = "Whether that strategy is weighed against the others; without, it shows as if no other made its "
-                    "paths",
-            .place = at([](auto& s) -> auto& { return s.integrator.weighted; })},
+    Setting{
+        .pointer = "/integrator/strategy",
+        .option = "--strategy",
+        .type = WholeNumbers{{0, kMostInt}, 2, 2, ',', "S,T, the vertices from the light and the eye"},
+        .decides = Decides::Samples,
+        .integrators = "bdpt",
+        .default_text = "all",
+        .help = "Show only paths of `bdpt` with S vertices from the light and T from the eye, counting those on the "
+                "light and on the lens",
+        .place = at([](auto& s) -> auto& { return s.integrator.strategy; })},
+    Setting{
+        .pointer = "/integrator/weighted",
+        .type = YesNo{"--unweighted", "Show the paths of `--strategy` as if no other strategy made them"},
+        .decides = Decides::Samples,
+        .integrators = "bdpt",
+        .help = "Whether the paths of the strategy are weighted by multiple importance sampling; if not, they show as "
+                "if no other strategy made them",
+        .place = at([](auto& s) -> auto& { return s.integrator.weighted; })},
     Setting{.pointer = "/integrator/connections",
             .option = "--bdpt-connections",
             .type = Form{kConnectionsForm, "^(pairwise|cache:[1-9][0-9]{0,2})$", parses<parse_connections>},
             .decides = Decides::Samples,
             .integrators = "bdpt",
-            .help = "What `bdpt` connects an eye vertex to: all light vertices of its own sample (`pairwise`), or N "
+            .help = "How `bdpt` connects an eye vertex: to all light vertices of its own sample (`pairwise`), or N "
                     "drawn from those of many samples (`cache:N`)",
             .page = "integrators.md#connections-to-a-cache",
             .place = parsed_at<parse_connections, connections_text>(

@@ -17,8 +17,6 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
-constexpr double kLargestFloat = std::numeric_limits<float>::max();
-
 /// Returns an integer where the number is one, which JSON then has without a point.
 OrderedJson shortest(double number) {
     return number == std::floor(number) ? OrderedJson(static_cast<std::int64_t>(number)) : OrderedJson(number);
@@ -31,8 +29,8 @@ OrderedJson each_schema(const WholeNumber& type) {
 OrderedJson each_schema(const RealNumber& type) {
     OrderedJson schema{{"type", "number"}};
     const NumberRange& range = type.range;
-    if (range.min > -kLargestFloat) schema[range.open_min ? "exclusiveMinimum" : "minimum"] = shortest(range.min);
-    if (range.max < kLargestFloat) schema[range.open_max ? "exclusiveMaximum" : "maximum"] = shortest(range.max);
+    if (range.has_min()) schema[range.open_min ? "exclusiveMinimum" : "minimum"] = shortest(range.min);
+    if (range.has_max()) schema[range.open_max ? "exclusiveMaximum" : "maximum"] = shortest(range.max);
     return schema;
 }
 

@@ -44,8 +44,8 @@ double next_to(double number, double towards, bool is_single) {
 
 Samples samples_of(const RealNumber& type) {
     const auto [min, max, open_min, open_max] = type.range;
-    const bool has_min = min > -kMostFloat;
-    const bool has_max = max < kMostFloat;
+    const bool has_min = type.range.has_min();
+    const bool has_max = type.range.has_max();
     const double middle = has_min && has_max ? 0.5 * (min + max) + 0.25 : std::max(min, 0.0) + 1.5;
     Samples samples{{middle, next_to(middle, max, type.is_single)}, {}};
     if (has_min) samples.good.emplace_back(open_min ? next_to(min, max, type.is_single) : min);

@@ -19,7 +19,6 @@
 namespace etendue {
 
 inline constexpr NumberRange kAnyNumber{};
-inline constexpr NumberRange kNotNegative{.min = 0.0};
 inline constexpr NumberRange kPositive{.min = 0.0, .open_min = true};
 inline constexpr NumberRange kUnit{.min = 0.0, .max = 1.0};
 
