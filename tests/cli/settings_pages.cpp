@@ -101,8 +101,10 @@ std::string options_in_words(const Setting& setting) {
 std::string one_line(const OrderedJson& json) {
     if (!json.is_structured() || json.empty()) return json.dump();
     std::string text;
-    for (const auto& [key, value] : json.items())
-        text += (text.empty() ? "" : ", ") + (json.is_object() ? OrderedJson(key).dump() + ": " : "") + one_line(value);
+    for (const auto& [key, value] : json.items()) {
+        const std::string name = json.is_object() ? OrderedJson(key).dump() + ": " : "";
+        text += fmt::format("{}{}{}", text.empty() ? "" : ", ", name, one_line(value));
+    }
     return json.is_object() ? "{ " + text + " }" : "[" + text + "]";
 }
 
@@ -114,7 +116,8 @@ std::string lines_of(const OrderedJson& json, std::size_t indent, std::size_t be
     const std::string blanks(indent + 2, ' ');
     for (const auto& [key, value] : json.items()) {
         const std::string name = json.is_object() ? OrderedJson(key).dump() + ": " : "";
-        text += (text.empty() ? "\n" : ",\n") + blanks + name + lines_of(value, indent + 2, indent + 2 + name.size());
+        const std::string lines = lines_of(value, indent + 2, indent + 2 + name.size());
+        text += fmt::format("{}\n{}{}{}", text.empty() ? "" : ",", blanks, name, lines);
     }
     const std::string end = "\n" + std::string(indent, ' ');
     return json.is_object() ? "{" + text + end + "}" : "[" + text + end + "]";
