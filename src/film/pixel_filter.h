@@ -1,6 +1,6 @@
 // Pixel filters, by importance sampling: each sample is placed with the filter's density and counts once, so that
 // pixels need no neighbours and tiles no borders (Ernst, Stamminger, Greiner, "Filter Importance Sampling", RT 2006).
-// Lamps in view are the exception: integrator/lamps_in_view.h.
+// Lamps in view are the exception: wave/lamps_in_view.h.
 #pragma once
 
 #include "core/vec.h"

@@ -3,16 +3,12 @@
 // To add another, see CONTRIBUTING.md (An integrator).
 #pragma once
 
-#include "film/dropped_sample.h"
 #include "film/film.h"
-#include "film/pixel_filter.h"
-#include "integrator/aov/aov_set.h"
-#include "integrator/bright_sample.h"
-#include "integrator/ray_kind.h"
-#include "integrator/strategy.h"
-#include "sampling/sampler.h"
 #include "transport/heuristic.h"
 #include "transport/path_lengths.h"
+#include "transport/strategy.h"
+#include "wave/render_counters.h"
+#include "wave/tile_job.h"
 #include "world/world.h"
 
 #include <cstddef>
@@ -26,49 +22,6 @@
 #include <vector>
 
 namespace etendue {
-
-class WaveProfile;
-
-/// A pixel that is to get samples: its index in the tile, row by row, and that of its first sample.
-struct PixelJob {
-    std::uint32_t pixel = 0;
-    std::uint32_t first_sample = 0;
-};
-
-/// The samples to take: `sample_count` of every pixel of `rect`, beginning with index `first_sample`, or of `pixels`
-/// alone, each beginning with its own.
-struct TileJob {
-    PixelRect rect;
-    PixelRect window;  ///< pixels that splats may fall into; each has a light path per sample
-    int full_width = 0;
-    int full_height = 0;
-    std::uint32_t first_sample = 0;
-    std::uint32_t sample_count = 1;
-    std::uint32_t seed = 0;
-    SampleSequence sequence = SampleSequence::Sobol;
-    const PixelFilter* filter = nullptr;  ///< not null
-    const AovSet* aovs = nullptr;         ///< what the tile's layers hold; null if it has none
-    /// Most that the largest component of an indirect contribution may have, as a sample of a pixel has it; hues are
-    /// kept. Direct is the light of paths C S* L and C S* . L: what the eye sees, mirrors and smooth glass apart, and
-    /// what lights it without another bounce. All other light is indirect.
-    float clamp_indirect = std::numeric_limits<float>::infinity();
-    std::span<const PixelJob> pixels{};  ///< empty for all
-    WaveProfile* profile = nullptr;      ///< profile of the thread that renders; null if nobody asks
-};
-
-/// Holds what one thread counts as it renders; those of all threads are added up at the end.
-struct RenderCounters {
-    RaysByKind rays;
-    std::uint64_t samples = 0;
-    std::uint64_t dropped = 0;
-    std::vector<DroppedSample> first_dropped;  ///< at most kMaxLocated
-    BrightestSamples brightest;
-
-    static constexpr std::size_t kMaxLocated = 8;
-
-    void drop(const DroppedSample& sample);
-    void add(const RenderCounters& other);
-};
 
 /// Holds all that can be asked of integrators; each integrator takes the options that concern it.
 struct IntegratorOptions {

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "core/error.h"
-#include "integrator/aov/aov_set.h"
 #include "output/aov_output.h"
 #include "scene/scene_desc.h"
+#include "wave/aov/aov_set.h"
 
 #include <memory>
 #include <string>

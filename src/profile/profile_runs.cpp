@@ -1,6 +1,5 @@
 #include "profile/profile_runs.h"
 
-#include "integrator/profile/wave_profile.h"
 #include "picture/render_setup.h"
 #include "process/hardware_counters.h"
 #include "process/peak_memory.h"
@@ -10,6 +9,7 @@
 #include "report/profile_figures.h"
 #include "session/interrupt.h"
 #include "session/progress_display.h"
+#include "wave/profile/wave_profile.h"
 
 #include <algorithm>
 #include <array>

@@ -2,9 +2,9 @@
 
 #include "core/process_time.h"
 #include "core/vector_bytes.h"
-#include "integrator/camera_wave.h"
 #include "render/render_profile.h"
 #include "render/tiles.h"
+#include "wave/camera_wave.h"
 
 #include <algorithm>
 #include <atomic>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/pixel_rect.h"
-#include "integrator/profile/wave_profile.h"
+#include "wave/profile/wave_profile.h"
 
 #include <chrono>
 #include <cstddef>

@@ -1,7 +1,7 @@
 #include "transport/mis.h"
 
-#include "integrator/subpath/arrival_columns.h"
 #include "support/random.h"
+#include "wave/subpath/arrival_columns.h"
 
 #include <array>
 #include <cstddef>

@@ -1,12 +1,12 @@
 #include "transport/oracle_comparison.h"
 
 #include "film/splat_film.h"
-#include "integrator/camera_wave.h"
 #include "transport/bidirectional.h"
 #include "transport/light.h"
 #include "transport/path.h"
 #include "transport/scattered_cone.h"
 #include "transport/whitted.h"
+#include "wave/camera_wave.h"
 
 #include <algorithm>
 #include <cmath>

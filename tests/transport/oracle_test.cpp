@@ -9,7 +9,7 @@
 //   - A number within rounding of a probability (a lobe, a light, Russian roulette) sends the path another way.
 //   - A ray within rounding of an edge meets one triangle in a packet and the next one alone.
 //
-// Lamps in view (integrator/lamps_in_view.h), an estimator across pixels, do not run here: the filter is a box. What
+// Lamps in view (wave/lamps_in_view.h), an estimator across pixels, do not run here: the filter is a box. What
 // both sides take from src/transport, such as probabilities of roulette, is tested by closed forms, not by this.
 #include "color/color_config.h"
 #include "core/error.h"

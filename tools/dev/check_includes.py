@@ -35,14 +35,15 @@ ROOMS = {
     "world": "scene bsdf medium light camera texture image color sampling core",
     "film": "sampling core",
     "transport": "world bsdf medium light camera sampling core",
-    "integrator": "transport world lightpath film bsdf medium light camera sampling core",
+    "wave": "transport world lightpath film bsdf medium light camera sampling core",
+    "integrator": "wave transport world lightpath film bsdf medium light camera sampling core",
     "processor": "integrator world core",
-    "render": "processor integrator world film image core",
+    "render": "processor integrator wave world film image core",
     "output": "film color image core",
     "metrics": "image core",
     "report": "metrics image core",
     "denoise": "image core",
-    "picture": "core lightpath image color scene world film integrator processor render output",
+    "picture": "core lightpath image color scene world film wave integrator processor render output",
     "api": "core color loader scene world integrator processor render output picture",
     "process": "core",
     "session": "process picture output render processor integrator world color image loader scene core",
@@ -50,7 +51,7 @@ ROOMS = {
     "farm": "batch session process picture render processor film scene color core",
     "compare": "session process picture report metrics output render processor integrator film world texture color image "
     "loader core",
-    "profile": "session process picture report render integrator world scene core",
+    "profile": "session process picture report render integrator wave world scene core",
     "cli": "profile compare farm batch session process picture denoise report metrics output render processor film world "
     "color image loader core",
 }

@@ -1,6 +1,7 @@
 #include "integrator/bdpt/bdpt_integrator.h"
 
 #include "integrator/bdpt/bdpt_wave.h"
+#include "integrator/trace_in_waves.h"
 
 #include <fmt/format.h>
 

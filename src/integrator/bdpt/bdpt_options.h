@@ -2,8 +2,8 @@
 #pragma once
 
 #include "integrator/integrator.h"
-#include "integrator/strategy.h"
 #include "transport/heuristic.h"
+#include "transport/strategy.h"
 
 #include <optional>
 

@@ -1,8 +1,8 @@
 #include "integrator/bdpt/bdpt_wave.h"
 
-#include "integrator/aov/first_hits.h"
-#include "integrator/profile/wave_profile.h"
 #include "transport/roulette.h"
+#include "wave/aov/first_hits.h"
+#include "wave/profile/wave_profile.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,13 +4,13 @@
 #include "integrator/bdpt/bdpt_options.h"
 #include "integrator/bdpt/complete_path.h"
 #include "integrator/bdpt/connection_lanes.h"
-#include "integrator/connections.h"
-#include "integrator/lamps_in_view.h"
-#include "integrator/subpath/camera_splat.h"
-#include "integrator/subpath/connectible_vertices.h"
-#include "integrator/subpath/lamps_to_camera.h"
-#include "integrator/subpath/subpath_wave.h"
 #include "transport/strategy_sums.h"
+#include "wave/connections.h"
+#include "wave/lamps_in_view.h"
+#include "wave/subpath/camera_splat.h"
+#include "wave/subpath/connectible_vertices.h"
+#include "wave/subpath/lamps_to_camera.h"
+#include "wave/subpath/subpath_wave.h"
 
 #include <array>
 #include <cstddef>

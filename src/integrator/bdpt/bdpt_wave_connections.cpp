@@ -1,7 +1,7 @@
 // All connections between the subpaths of a wave, the camera and lights.
 #include "integrator/bdpt/bdpt_wave.h"
-#include "integrator/profile/wave_profile.h"
 #include "transport/connecting_ray.h"
+#include "wave/profile/wave_profile.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // A path from a light to the lens, as a strategy of bidirectional path tracing has made it.
 #pragma once
 
-#include "integrator/subpath/subpath_wave.h"
+#include "wave/subpath/subpath_wave.h"
 
 #include <cstddef>
 #include <cstdint>

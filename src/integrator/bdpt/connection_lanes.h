@@ -3,8 +3,8 @@
 
 #include "core/columns.h"
 #include "integrator/bdpt/matte_connections.h"
-#include "integrator/connections.h"
-#include "integrator/light_front_columns.h"
+#include "wave/connections.h"
+#include "wave/light_front_columns.h"
 
 #include <cstddef>
 

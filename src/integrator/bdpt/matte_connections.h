@@ -4,10 +4,10 @@
 // does not hold are none (SubpathWave), and of matte surfaces all but the connection itself is known beforehand.
 #pragma once
 
-#include "integrator/subpath/matte_end.h"
 #include "light/mesh_light.h"
 #include "transport/connecting_ray.h"
 #include "transport/strategy_sums.h"
+#include "wave/subpath/matte_end.h"
 
 namespace etendue {
 

@@ -1,9 +1,9 @@
 #include "integrator/debug/debug_integrator.h"
 
-#include "integrator/aov/first_hits.h"
-#include "integrator/camera_wave.h"
-#include "integrator/ray_batch.h"
 #include "transport/scattered_cone.h"
+#include "wave/aov/first_hits.h"
+#include "wave/camera_wave.h"
+#include "wave/ray_batch.h"
 #include "world/scattering.h"
 
 #include <algorithm>

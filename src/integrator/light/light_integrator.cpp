@@ -1,6 +1,7 @@
 #include "integrator/light/light_integrator.h"
 
 #include "integrator/light/light_wave.h"
+#include "integrator/trace_in_waves.h"
 
 namespace etendue {
 

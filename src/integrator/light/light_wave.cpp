@@ -1,11 +1,11 @@
 #include "integrator/light/light_wave.h"
 
-#include "integrator/aov/first_hits.h"
-#include "integrator/profile/wave_profile.h"
-#include "integrator/ray_batch.h"
-#include "integrator/subpath/camera_splat.h"
 #include "transport/bodies.h"
 #include "transport/connecting_ray.h"
+#include "wave/aov/first_hits.h"
+#include "wave/profile/wave_profile.h"
+#include "wave/ray_batch.h"
+#include "wave/subpath/camera_splat.h"
 
 namespace etendue {
 

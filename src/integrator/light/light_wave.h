@@ -1,10 +1,10 @@
 // A wave of light subpaths, all of whose vertices are shown to the camera.
 #pragma once
 
-#include "integrator/connections.h"
-#include "integrator/subpath/connectible_vertices.h"
-#include "integrator/subpath/lamps_to_camera.h"
-#include "integrator/subpath/subpath_wave.h"
+#include "wave/connections.h"
+#include "wave/subpath/connectible_vertices.h"
+#include "wave/subpath/lamps_to_camera.h"
+#include "wave/subpath/subpath_wave.h"
 
 #include <cstddef>
 #include <vector>

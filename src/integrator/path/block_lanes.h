@@ -1,9 +1,9 @@
 // What lies between the stages of shading a block of paths.
 #pragma once
 
-#include "integrator/light_front_columns.h"
 #include "integrator/path/path_columns.h"
-#include "integrator/surface_lanes.h"
+#include "wave/light_front_columns.h"
+#include "wave/surface_lanes.h"
 
 #include <cstddef>
 

@@ -4,8 +4,8 @@
 
 #include "bsdf/metallic_roughness.h"
 #include "core/columns.h"
-#include "integrator/number_pairs.h"
 #include "integrator/path/block_lanes.h"
+#include "wave/number_pairs.h"
 
 #include <cstddef>
 

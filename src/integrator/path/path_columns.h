@@ -4,7 +4,7 @@
 #include "core/columns.h"
 #include "core/ray_columns.h"
 #include "core/ray_cone.h"
-#include "integrator/camera_wave.h"
+#include "wave/camera_wave.h"
 
 #include <array>
 #include <cstddef>

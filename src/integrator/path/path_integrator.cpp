@@ -1,6 +1,7 @@
 #include "integrator/path/path_integrator.h"
 
 #include "integrator/path/path_wave.h"
+#include "integrator/trace_in_waves.h"
 
 #include <fmt/format.h>
 

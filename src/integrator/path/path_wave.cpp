@@ -1,10 +1,10 @@
 #include "integrator/path/path_wave.h"
 
-#include "integrator/aov/first_hits.h"
-#include "integrator/ray_batch.h"
 #include "transport/dimensions.h"
 #include "transport/roulette.h"
 #include "transport/scattered_cone.h"
+#include "wave/aov/first_hits.h"
+#include "wave/ray_batch.h"
 
 #include <algorithm>
 #include <span>

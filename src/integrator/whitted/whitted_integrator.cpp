@@ -1,5 +1,6 @@
 #include "integrator/whitted/whitted_integrator.h"
 
+#include "integrator/trace_in_waves.h"
 #include "integrator/whitted/whitted_wave.h"
 
 namespace etendue {

@@ -1,13 +1,13 @@
 #include "integrator/whitted/whitted_wave.h"
 
-#include "integrator/aov/first_hits.h"
-#include "integrator/ray_batch.h"
 #include "transport/bodies.h"
 #include "transport/connecting_ray.h"
 #include "transport/direct_light.h"
 #include "transport/dispersion.h"
 #include "transport/roulette.h"
 #include "transport/scattered_cone.h"
+#include "wave/aov/first_hits.h"
+#include "wave/ray_batch.h"
 #include "world/scattering.h"
 
 #include <algorithm>

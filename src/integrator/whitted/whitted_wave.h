@@ -4,10 +4,10 @@
 #include "core/ray.h"
 #include "core/ray_cone.h"
 #include "core/rgb.h"
-#include "integrator/camera_wave.h"
-#include "integrator/connections.h"
-#include "integrator/lamps_in_view.h"
-#include "integrator/number_pairs.h"
+#include "wave/camera_wave.h"
+#include "wave/connections.h"
+#include "wave/lamps_in_view.h"
+#include "wave/number_pairs.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,8 +1,8 @@
 #include "integrator/bdpt/matte_connections.h"
 
 #include "integrator/bdpt/connection_lanes.h"
-#include "integrator/subpath/path_vertex.h"
 #include "support/random.h"
+#include "wave/subpath/path_vertex.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // The limit of indirect contributions: what it takes away, and what it leaves alone.
-#include "integrator/aov/sample_light.h"
 #include "integrator/contributions/spelled_render.h"
+#include "wave/aov/sample_light.h"
 
 #include <algorithm>
 #include <cmath>

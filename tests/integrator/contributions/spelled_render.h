@@ -2,8 +2,8 @@
 #pragma once
 
 #include "integrator/agreement_render.h"
-#include "integrator/aov/layered_render.h"
-#include "integrator/aov/path_speller.h"
+#include "wave/aov/layered_render.h"
+#include "wave/aov/path_speller.h"
 
 #include <functional>
 #include <string>

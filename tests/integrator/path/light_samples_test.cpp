@@ -3,11 +3,11 @@
 // All comparisons of rooms together fail with probability 0.01 if everything is right (Sidak's correction); seeds are
 // fixed.
 #include "integrator/agreement_render.h"
-#include "integrator/aov/layered_render.h"
 #include "integrator/closed_form.h"
 #include "integrator/path/path_integrator.h"
 #include "integrator/render_tile.h"
 #include "support/chi2.h"
+#include "wave/aov/layered_render.h"
 #include "world/test_scene.h"
 
 #include <array>

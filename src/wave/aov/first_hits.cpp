@@ -1,0 +1,163 @@
+#include "wave/aov/first_hits.h"
+
+#include "transport/scattered_cone.h"
+#include "wave/aov/aov_set.h"
+#include "world/scattering.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace etendue {
+
+namespace {
+
+/// Pairs of dimensions of albedos; far from those of paths.
+constexpr std::uint32_t kAlbedoDimension = 7u << 28;
+
+/// Diffuse and specular share of light that a surface scatters, by some of the lobe's own samples.
+struct Albedo {
+    Rgb diffuse;
+    Rgb specular;
+};
+
+/// One surface, seen by one sample; what several values need is found once.
+class FirstHit {
+  public:
+    FirstHit(const World& world, const TileJob& job, const CameraSample& sample, const Ray& ray, const Hit& hit)
+        : world_(world),
+          job_(job),
+          sample_(sample),
+          hit_(hit),
+          wo_(-ray.direction),
+          ray_(ray),
+          point_(world.surface_point(
+              hit, ray, world.has_textures() ? camera_cone(world, job.full_width, job.full_height, ray) : RayCone{})) {}
+
+    void append(FirstHitValue value, std::vector<float>& to) {
+        const auto put = [&](std::initializer_list<float> numbers) { to.insert(to.end(), numbers); };
+        const auto put_rgb = [&](const Rgb& c) { put({c.r, c.g, c.b}); };
+        const auto put_normal = [&](const Vec3f& n) {
+            const Vec3f facing = dot(point_.geometric_normal, wo_) < 0.0f ? -n : n;
+            put({facing.x, facing.y, facing.z});
+        };
+        switch (value) {
+            case FirstHitValue::Depth:
+                return put({world_.depth(point_.position, ray_.time)});
+            case FirstHitValue::Position: {
+                Vec3f position = point_.position;
+                if (world_.origin() != Vec3d(0.0)) position = Vec3f(Vec3d(position) + world_.origin());
+                return put({position.x, position.y, position.z});
+            }
+            case FirstHitValue::Normal:
+                return put_normal(point_.shading.normal);
+            case FirstHitValue::GeometricNormal:
+                return put_normal(point_.geometric_normal);
+            case FirstHitValue::Uv:
+                return put({point_.uv[0].x, point_.uv[0].y});
+            case FirstHitValue::Albedo:
+                return put_rgb(albedo().diffuse + albedo().specular);
+            case FirstHitValue::AlbedoDiffuse:
+                return put_rgb(albedo().diffuse);
+            case FirstHitValue::AlbedoSpecular:
+                return put_rgb(albedo().specular);
+            case FirstHitValue::ObjectId:
+                return put({static_cast<float>(hit_.instance + 1)});
+            case FirstHitValue::MaterialId:
+                return put({static_cast<float>(world_.material_index(point_) + 1)});
+            case FirstHitValue::Motion: {
+                // What is behind the camera then has no place on the film.
+                const std::optional<Vec2f> first = position_on_film(0.0f);
+                const std::optional<Vec2f> last = position_on_film(1.0f);
+                const Vec2f way = first && last ? *last - *first : Vec2f(0.0f, 0.0f);
+                return put({way.x, way.y});
+            }
+        }
+    }
+
+  private:
+    /// Pixels from the corner of the full image, of this point of the surface at another time; none if the camera
+    /// cannot see it then.
+    [[nodiscard]] std::optional<Vec2f> position_on_film(float time) const {
+        Hit then = hit_;
+        then.time = time;
+        constexpr Vec2f kMiddleOfLens{0.5f, 0.5f};
+        const CameraConnection view =
+            world_.connect_to_camera(world_.surface_point(then).position, kMiddleOfLens, time);
+        if (!(view.importance_area > 0.0f)) return std::nullopt;
+        return Vec2f(view.film.x * static_cast<float>(job_.full_width),
+                     view.film.y * static_cast<float>(job_.full_height));
+    }
+
+    const Albedo& albedo() {
+        if (albedo_) return *albedo_;
+        albedo_.emplace();
+        if (point_.material->unlit) return *albedo_;
+        float ior = 0.0f;
+        if (world_.has_bodies() && world_.is_boundary(point_))
+            ior = (hit_.in_contact ? world_.contact_crossing(point_, world_.camera_interior(), hit_, ray_, RayCone{})
+                                   : world_.crossing(point_, world_.camera_interior()))
+                      .relative_ior(0.0f);
+        Bsdf storage;
+        const Bsdf& bsdf = world_.bsdf(point_, wo_, ior, storage);
+        const Scattering scattering(bsdf, point_.shading, point_.geometric_normal, wo_);
+        constexpr std::uint32_t kSamples = 4;
+        for (std::uint32_t i = 0; i < kSamples; ++i) {
+            const auto number = [&](std::uint32_t which) {
+                return sample_2d(job_.sequence, sample_.key, kAlbedoDimension + 2 * i + which);
+            };
+            // Radiance is scaled where it enters glass, which is no albedo. Nor is importance with its factor of
+            // shading normals, which may be anything.
+            const BsdfSample s = scattering.sample(number(0).x, number(1), TransportMode::Radiance);
+            if (is_black(s.weight)) continue;
+            const Rgb weight = s.weight * ((s.is_transmission ? s.eta * s.eta : 1.0f) / kSamples);
+            const Rgb diffuse = s.is_delta ? Rgb() : scattering.diffuse_share(s.wi, TransportMode::Radiance) * weight;
+            albedo_->diffuse += diffuse;
+            albedo_->specular += weight - diffuse;
+        }
+        return *albedo_;
+    }
+
+    const World& world_;
+    const TileJob& job_;
+    const CameraSample& sample_;
+    const Hit& hit_;
+    Vec3f wo_;
+    const Ray& ray_;
+    SurfacePoint point_;
+    std::optional<Albedo> albedo_;
+};
+
+void find_ids(const World& world, const AovSet& aovs, const Hit& hit, std::span<std::uint32_t> ids) {
+    for (std::size_t m = 0; m < aovs.mattes.size(); ++m) {
+        const MatteIds& matte = aovs.mattes[m];
+        ids[m] = matte.ids[matte.by_material ? world.material_index(hit) : hit.instance];
+    }
+}
+
+}  // namespace
+
+void find_first_hits(const World& world, const TileJob& job, std::span<const CameraSample> samples,
+                     std::span<const Ray> rays, std::span<const Hit> hits, TileBuffer& tile) {
+    if (job.aovs == nullptr || !job.aovs->needs_first_hits()) return;
+    const AovSet& aovs = *job.aovs;
+    WaveHits& found = tile.wave_hits();
+    // Behind the values of first hits are those of buckets, which know nothing of surfaces.
+    found.reset(aovs.layout, aovs.layout.values - aovs.buckets.value_count(), samples.size());
+    std::vector<float> values;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        if (!hits[i].valid()) continue;
+        found.set_distance(i, hits[i].t);
+        if (aovs.layout.is_deep)
+            found.depth(i) = world.depth(rays[i].origin + rays[i].direction * hits[i].t, rays[i].time);
+        find_ids(world, aovs, hits[i], found.ids(i));
+        if (aovs.values.empty() && aovs.nearest.empty()) continue;
+        FirstHit hit(world, job, samples[i], rays[i], hits[i]);
+        values.clear();
+        for (const FirstHitValue value : aovs.values) hit.append(value, values);
+        for (const FirstHitValue value : aovs.nearest) hit.append(value, values);
+        std::ranges::copy(values, found.values(i).begin());
+    }
+}
+
+}  // namespace etendue

@@ -1,0 +1,28 @@
+// What threads count as they render.
+#pragma once
+
+#include "film/dropped_sample.h"
+#include "wave/bright_sample.h"
+#include "wave/ray_kind.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace etendue {
+
+/// Holds what one thread counts as it renders; those of all threads are added up at the end.
+struct RenderCounters {
+    RaysByKind rays;
+    std::uint64_t samples = 0;
+    std::uint64_t dropped = 0;
+    std::vector<DroppedSample> first_dropped;  ///< at most kMaxLocated
+    BrightestSamples brightest;
+
+    static constexpr std::size_t kMaxLocated = 8;
+
+    void drop(const DroppedSample& sample);
+    void add(const RenderCounters& other);
+};
+
+}  // namespace etendue

@@ -1,0 +1,69 @@
+// Where light subpaths begin, connected to the camera: lamps in view, found from their side.
+#pragma once
+
+#include "transport/bodies.h"
+#include "transport/connecting_ray.h"
+#include "wave/connections.h"
+#include "wave/number_pairs.h"
+#include "wave/subpath/camera_splat.h"
+#include "wave/subpath/subpath_wave.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace etendue {
+
+class LampsToCamera {
+  public:
+    /// Connects the points at which `subpaths`, those of `job` from lights, begin to points on the lens, and leaves to
+    /// `connections` what arrives, times `weigh(emission, camera, cosine)` with the cosine at the lamp.
+    template <typename Weigh>
+    void connect(const SubpathJob& job, SubpathWave& subpaths, Connections& connections, const Weigh& weigh) {
+        const World& world = job.world;
+        draw_lens(job);
+        for (std::uint32_t slot = 0; slot < job.samples.size(); ++slot) {
+            const Emission& emission = subpaths.emissions()[slot];
+            if (is_black(emission.sample.radiance)) continue;
+            const float time = job.camera_rays[slot].time;
+            const auto view = view_from_camera(world, job.job, emission.sample.position, lens_[slot], time);
+            if (!view) continue;
+            const SurfaceEmission emitted = world.surface_emission(emission, view->direction);
+            if (is_black(emitted.radiance)) continue;
+            const float share = weigh(emission, view->camera, emitted.cosine);
+            if (share == 0.0f) continue;
+            const Interior interior = interior_at_light(world, emission);
+            Ray ray = connecting_ray(emission.sample.origin(view->direction), view->camera.lens);
+            ray.time = time;
+            ray.alpha_key = job.connection_key(SubpathEnd::AtLight, 0, slot);
+            shares_.clear();
+            if (PathWords& words = subpaths.words(); words.are_followed())
+                words.end_at_camera(words.light_source(world, emission.light), shares_);
+            connections.to_film(ray, slot,
+                                {.position = view->pixel,
+                                 .value = emitted.radiance * transmittance(world, interior, view->distance) *
+                                          (emitted.cosine * view->camera.importance_area * share /
+                                           (emission.sample.pdf_position_area * emission.probability)),
+                                 .depth = view->depth},
+                                LightKind::Seen, shares_);
+        }
+    }
+
+    [[nodiscard]] std::size_t bytes() const { return keys_.bytes() + lens_.bytes() + vector_bytes(shares_); }
+
+  private:
+    void draw_lens(const SubpathJob& job) {
+        keys_.clear();
+        for (const CameraSample& sample : job.samples) keys_.push_back(sample.key);
+        if (job.needs(SubpathEnd::AtLight, BounceNumbers::LightChoice))
+            lens_.draw(job.job.sequence, keys_, subpath_dimension(SubpathEnd::AtLight, 0, BounceNumbers::LightChoice));
+        else
+            lens_.draw_none(keys_.size());
+    }
+
+    SampleKeys keys_;
+    NumberPairs lens_;
+    std::vector<ExpressionShare> shares_;  ///< shares of expressions in the light of the path at hand
+};
+
+}  // namespace etendue

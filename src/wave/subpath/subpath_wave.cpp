@@ -1,0 +1,423 @@
+#include "wave/subpath/subpath_wave.h"
+
+#include "core/in_place.h"
+#include "transport/bodies.h"
+#include "transport/roulette.h"
+#include "transport/subpath.h"
+#include "wave/ray_batch.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace etendue {
+
+Wavelength SubpathJob::wavelength(std::uint32_t slot) const {
+    return world.spectral_response().sample(sample_2d(job.sequence, samples[slot].key, kSubpathWavelengthDimension).x);
+}
+
+bool SubpathJob::needs(SubpathEnd end, BounceNumbers which) const {
+    switch (which) {
+        case BounceNumbers::Medium:
+            return world.has_scattering_bodies();
+        case BounceNumbers::LightChoice:
+            return end == SubpathEnd::AtEye ? world.chooses_lights() : world.has_lens();
+        default:
+            return true;
+    }
+}
+
+std::uint32_t SubpathJob::connection_key(SubpathEnd end, int index, std::uint32_t slot) const {
+    if (!world.has_transparency()) return 0;
+    // Another one than that of the subpath's own ray.
+    return ~sample_bits(samples[slot].key, subpath_dimension(end, index, BounceNumbers::Alpha));
+}
+
+void SubpathWave::trace(const SubpathJob& job, int roulette_depth, LightFinder* finder, SampleLight& light,
+                        RenderCounters& counters) {
+    roulette_depth_ = first_roulette(job.world, roulette_depth);
+    const std::size_t count = job.samples.size();
+    states_.assign(count, {});
+    rays_.assign(job.camera_rays.begin(), job.camera_rays.end());
+    interiors_.clear();
+    vertices_.clear();
+    connectible_vertices_.clear();
+    matte_ends_.clear();
+    words_.reset(job.job.aovs);
+    bsdf_count_ = 0;
+    if (end_ == SubpathEnd::AtEye)
+        begin_at_eye(job);
+    else
+        begin_at_lights(job);
+    stamp(job.job.profile, Stage::Generate);
+    for (bounce_ = 1; !states_.empty(); ++bounce_) {
+        hits_.resize(rays_.size());
+        const bool from_camera = end_ == SubpathEnd::AtEye && bounce_ == 1;
+        const RayKind kind = end_ == SubpathEnd::AtLight ? RayKind::LightSubpath
+                             : from_camera               ? RayKind::Primary
+                                                         : RayKind::Bounce;
+        intersect_batch(job.world, job.job, kind, rays_, hits_, counters);
+        if (light.counts_rays())
+            for (const SubpathState& state : states_) light.count_ray(state.slot);
+        if (from_camera && finder != nullptr) finder->on_first_hits(rays_, hits_);
+        stamp(job.job.profile, Stage::HitSetup);
+        draw_numbers(job);
+        stamp(job.job.profile, Stage::Numbers);
+        std::size_t kept = 0;
+        for (std::size_t first = 0; first < states_.size(); first += kBlock)
+            advance_block(job, finder, first, std::min(kBlock, states_.size() - first), kept);
+        states_.resize(kept);
+        rays_.resize(kept);
+    }
+    words_of_vertices_ = words_.size();
+}
+
+std::size_t SubpathWave::bytes() const {
+    std::size_t bytes =
+        sizeof *this +
+        vector_bytes(states_, rays_, hits_, interiors_, emissions_, vertices_, connectible_vertices_, matte_ends_) +
+        keys_.bytes() + bsdfs_.size() * sizeof(Bsdf);
+    for (const NumberPairs* numbers :
+         {&scattering_, &choices_, &medium_, &light_choice_, &triangle_, &position_, &direction_})
+        bytes += numbers->bytes();
+    return bytes;
+}
+
+void SubpathWave::begin_at_eye(const SubpathJob& job) {
+    if (job.world.has_bodies()) interiors_.assign(states_.size(), job.world.camera_interior());
+    for (std::size_t i = 0; i < states_.size(); ++i) {
+        states_[i].slot = static_cast<std::uint32_t>(i);
+        states_[i].from = rays_[i].origin;
+        if (words_.are_followed()) states_[i].words = words_.begin_at_eye();
+    }
+}
+
+void SubpathWave::begin_at_lights(const SubpathJob& job) {
+    const World& world = job.world;
+    emissions_.resize(job.samples.size());
+    keys_.clear();
+    for (const CameraSample& sample : job.samples) keys_.push_back(sample.key);
+    const auto draw = [&](std::uint32_t which, NumberPairs& numbers) {
+        numbers.draw(job.job.sequence, keys_, kFirstLightDimension + which);
+    };
+    if (world.chooses_emitters())
+        draw(kEmitterChoice, light_choice_);
+    else
+        light_choice_.draw_none(keys_.size());
+    draw(kTriangle, triangle_);
+    draw(kPosition, position_);
+    draw(kDirection, direction_);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < job.samples.size(); ++i) {
+        const EmissionNumbers u{triangle_[i], position_[i], direction_[i]};
+        const Emission& emission = emissions_[i];
+        make_in_place(emissions_[i], [&] { return world.sample_emission(light_choice_[i], u, rays_[i].time); });
+        if (job.lengths.max_depth < edges_to_connect(world) || is_black(emission.weight)) continue;
+        const EmissionSample& sample = emission.sample;
+        SubpathState state;
+        state.throughput = emission.weight;
+        state.roulette_scale = 1.0f / max_component(emission.weight);
+        state.from = sample.position;
+        state.slot = static_cast<std::uint32_t>(i);
+        if (words_.are_followed()) state.words = words_.begin_at_light(words_.light_source(world, emission.light));
+        state.departing = leave_light(job.mis(), emission);
+        states_[kept] = state;
+        rays_[kept] = emission.ray;
+        rays_[kept].alpha_key = sample_bits(keys_[i], kFirstLightDimension);
+        if (world.has_bodies()) interiors_.push_back(world.light_interior(emission));
+        ++kept;
+    }
+    states_.resize(kept);
+    rays_.resize(kept);
+}
+
+void SubpathWave::draw_numbers(const SubpathJob& job) {
+    keys_.clear();
+    for (const SubpathState& state : states_) keys_.push_back(job.samples[state.slot].key);
+    const auto draw = [&](BounceNumbers which, NumberPairs& numbers) {
+        if (job.needs(end_, which))
+            numbers.draw(job.job.sequence, keys_, subpath_dimension(end_, bounce_, which));
+        else
+            numbers.draw_none(keys_.size());
+    };
+    draw(BounceNumbers::Scattering, scattering_);
+    draw(BounceNumbers::Choices, choices_);
+    if (job.world.has_bodies()) draw(BounceNumbers::Medium, medium_);
+}
+
+void SubpathWave::advance_block(const SubpathJob& job, LightFinder* finder, std::size_t first, std::size_t count,
+                                std::size_t& kept) {
+    const World& world = job.world;
+    WaveProfile* const profile = job.job.profile;
+    surfaces_ = 0;
+    world.fetch_triangles(std::span(hits_).subspan(first, count));
+    for (std::size_t k = 0; k < count; ++k) {
+        goes_on_[k] = false;
+        block_[k].lane = surfaces_;
+        if (set_up(job, first + k, block_[k]))
+            on_surface_[surfaces_++] = static_cast<std::uint8_t>(k);
+        else
+            goes_on_[k] = hits_[first + k].valid();
+    }
+    set_up_plain();
+    arrive_at_surfaces(job, first);
+    stamp(profile, Stage::HitSetup);
+    if (finder != nullptr)
+        for (std::size_t k = 0; k < count; ++k)
+            if (!goes_on_[k]) find_light(*finder, first + k, block_[k]);
+    stamp(profile, Stage::Emission);
+    std::size_t vertices = 0;
+    ends_.fill(PathVertex::kNoVertex);
+    for (std::size_t s = 0; s < surfaces_; ++s) {
+        const std::uint8_t k = on_surface_[s];
+        if (make_vertex(job, first + k, block_[k])) on_surface_[vertices++] = k;
+    }
+    if (makes_matte_ends_) store_matte_ends();
+    stamp(profile, Stage::Textures);
+    sample_bsdfs(first, vertices);
+    stamp(profile, Stage::Material);
+    for (std::size_t v = 0; v < vertices; ++v) {
+        const std::uint8_t k = on_surface_[v];
+        goes_on_[k] = block_[k].plain != nullptr ? scatter_at_plain(job, first + k, block_[k])
+                                                 : scatter_at_surface(job, first + k, block_[k]);
+    }
+    keep_survivors(job, first, count, kept);
+    stamp(profile, Stage::Roulette);
+}
+
+bool SubpathWave::set_up(const SubpathJob& job, std::size_t i, ShadedSubpath& path) {
+    const World& world = job.world;
+    if (!hits_[i].valid()) {
+        end_path(job, i, PathEnding::Escaped);
+        return false;
+    }
+    if (world.has_bodies() && scatter_in_medium(job, i)) return false;
+    path.plain = world.plain_bsdf(hits_[i]);
+    if (path.plain != nullptr) {
+        path.point.material = world.material(hits_[i]);
+        path.crossing.reset();
+        lanes_.set_hit(path.lane, world.hit_triangle(hits_[i]), {hits_[i].u, hits_[i].v});
+        lanes_.wo.set(path.lane, -rays_[i].direction);
+        lanes_.albedo.set(path.lane, std::get_if<Diffuse>(path.plain)->albedo);
+        lanes_.throughput.set(path.lane, states_[i].throughput);
+        return true;
+    }
+    make_in_place(path.point, [&] { return world.surface_point(hits_[i], rays_[i], RayCone{}); });
+    path.crossing.reset();
+    if (world.has_bodies() && world.is_boundary(path.point))
+        path.crossing.emplace(InPlace{[&] {
+            return hits_[i].in_contact
+                       ? world.contact_crossing(path.point, interiors_[i], hits_[i], rays_[i], RayCone{})
+                       : world.crossing(path.point, interiors_[i]);
+        }});
+    return true;
+}
+
+void SubpathWave::set_up_plain() {
+    const auto is_plain = [&](std::uint8_t k) { return block_[k].plain != nullptr; };
+    if (std::ranges::none_of(std::span(on_surface_.data(), surfaces_), is_plain)) return;
+    lanes_.set_up_points(surfaces_);
+    lanes_.orient(surfaces_, mode());
+}
+
+void SubpathWave::arrive_at_surfaces(const SubpathJob& job, std::size_t first) {
+    bool any_departed = false;
+    for (std::size_t s = 0; s < surfaces_; ++s) {
+        const std::size_t i = first + on_surface_[s];
+        const SubpathState& state = states_[i];
+        ShadedSubpath& path = block_[on_surface_[s]];
+        const bool is_plain = path.plain != nullptr;
+        const Vec3f position = is_plain ? lanes_.position[path.lane] : path.point.position;
+        const Vec3f normal = is_plain ? lanes_.geometric_normal[path.lane] : path.point.geometric_normal;
+        const auto cosine = static_cast<double>(abs_dot(rays_[i].direction, normal));
+        if (state.index > 1) {
+            arrivals_.set(s, state.departing, static_cast<double>(length_squared(position - state.from)), cosine);
+            any_departed = true;
+        } else {
+            path.arrived = arrive(job, i, position, cosine);
+        }
+    }
+    if (!any_departed) return;
+    arrivals_.arrive(surfaces_, job.raised);
+    for (std::size_t s = 0; s < surfaces_; ++s)
+        if (states_[first + on_surface_[s]].index > 1) block_[on_surface_[s]].arrived = arrivals_[s];
+}
+
+void SubpathWave::find_light(LightFinder& finder, std::size_t i, const ShadedSubpath& path) const {
+    const SubpathState& state = states_[i];
+    const Vec3f& direction = rays_[i].direction;
+    if (!hits_[i].valid()) return finder.on_escape(state, direction);
+    if (path.point.material->emits && !(bounce_ == 1 && finder.knows_emission(hits_[i])))
+        finder.on_emitter(state, path.point, direction, path.arrived);
+    if (path.point.material->unlit && !(path.crossing && path.crossing->is_hidden))
+        finder.on_unlit(state, path.point, direction);
+}
+
+SubpathDensities SubpathWave::arrive(const SubpathJob& job, std::size_t i, const Vec3f& position, double cosine) const {
+    const SubpathState& state = states_[i];
+    if (state.index > 1)
+        return state.departing.arrive(job.raised, static_cast<double>(length_squared(position - state.from)), cosine);
+    if (end_ == SubpathEnd::AtLight)
+        return arrive_from_light(job.mis(), emissions_[state.slot], state.departing, position, cosine);
+    const Vec2f lens = job.samples[state.slot].lens;
+    return arrive_from_lens(job.mis(), state.departing, job.world.connect_to_camera(position, lens, rays_[i].time),
+                            cosine);
+}
+
+void SubpathWave::sample_bsdfs(std::size_t first, std::size_t vertices) {
+    bool any_plain = false;
+    for (std::size_t v = 0; v < vertices; ++v) {
+        ShadedSubpath& path = block_[on_surface_[v]];
+        const std::size_t i = first + on_surface_[v];
+        if (path.plain == nullptr) {
+            path.sample = vertices_[path.vertex].surface->sample(choices_[i].x, scattering_[i], mode());
+        } else {
+            lanes_.u.set(path.lane, scattering_[i]);
+            any_plain = true;
+        }
+    }
+    if (any_plain) lanes_.sample(surfaces_, mode());
+}
+
+bool SubpathWave::scatter(const SubpathJob& job, std::size_t i, const Vec3f& position, const Rgb& weight,
+                          bool is_delta) {
+    SampleUse* const use = job.job.profile != nullptr && end_ == SubpathEnd::AtEye ? &job.job.profile->use() : nullptr;
+    if (use != nullptr) ++use->bsdf_samples;
+    if (is_black(weight)) {
+        if (use != nullptr) ++use->bsdf_absorbed;
+        end_path(job, i, PathEnding::Absorbed);
+        return false;
+    }
+    SubpathState& state = states_[i];
+    state.throughput *= weight;
+    state.from = position;
+    state.lights_directly = state.only_delta;
+    state.only_delta = state.only_delta && is_delta;
+    ++state.index;
+    ++state.edges;
+    return true;
+}
+
+bool SubpathWave::scatter_at_plain(const SubpathJob& job, std::size_t i, const ShadedSubpath& path) {
+    const std::size_t lane = path.lane;
+    if (!scatter(job, i, lanes_.position[lane], lanes_.next_weight[lane], false)) return false;
+    SubpathState& state = states_[i];
+    if (words_.are_followed()) follow_words(state, matte_event(vertices_[path.vertex].label));
+    state.departing =
+        depart(job.raised, path.arrived, lanes_.next_pdf[lane], lanes_.reverse_pdf[lane], lanes_.next_cosine[lane]);
+    rays_[i].origin = lanes_.next_origin[lane];
+    rays_[i].direction = lanes_.next_direction[lane];
+    return true;
+}
+
+bool SubpathWave::scatter_at_surface(const SubpathJob& job, std::size_t i, const ShadedSubpath& path) {
+    const SurfacePoint& point = path.point;
+    const BsdfSample& sample = path.sample;
+    if (point.material->is_pane && sample.is_delta && sample.is_transmission && !is_black(sample.weight)) {
+        pass_pane(i, path);
+        return true;
+    }
+    if (path.ends_here) {
+        end_path(job, i, PathEnding::TooLong);
+        return false;
+    }
+    if (!scatter(job, i, point.position, sample.weight, sample.is_delta)) return false;
+    SubpathState& state = states_[i];
+    Ray& ray = rays_[i];
+    PathVertex& vertex = vertices_[path.vertex];
+    const Scattering& scattering = *vertex.surface;
+    vertex.is_left_by_delta = sample.is_delta;
+    if (sample.is_delta) vertex.delta_reverse_ratio = sample.reverse_ratio;
+    if (words_.are_followed())
+        follow_words(state, surface_event(scattering, sample.wi, sample.is_delta, mode(), vertex.label));
+    if (end_ == SubpathEnd::AtEye && sample.is_transmission) state.roulette_scale *= sample.eta * sample.eta;
+    const float cosine = abs_dot(sample.wi, point.geometric_normal);
+    state.departing = sample.is_delta ? depart_by_delta(job.raised, path.arrived, vertex.delta_reverse_ratio, cosine)
+                                      : depart(job.raised, path.arrived, sample.pdf_solid_angle,
+                                               scattering.reverse_pdf_solid_angle(sample.wi, mode()), cosine);
+    ray.origin = offset_origin(point.position, point.geometric_normal, point.clearance, sample.wi);
+    ray.direction = sample.wi;
+    if (path.crossing) interiors_[i] = beyond(*path.crossing, point, sample.wi);
+    return true;
+}
+
+void SubpathWave::pass_pane(std::size_t i, const ShadedSubpath& path) {
+    SubpathState& state = states_[i];
+    const PathVertex& vertex = vertices_[path.vertex];
+    const SurfacePoint& point = path.point;
+    state.throughput *= path.sample.weight;
+    state.last_vertex = vertex.previous;
+    state.is_direct = vertex.is_reached_directly;
+    rays_[i].origin = offset_origin(point.position, point.geometric_normal, point.clearance, rays_[i].direction);
+}
+
+bool SubpathWave::scatter_in_medium(const SubpathJob& job, std::size_t i) {
+    SubpathState& state = states_[i];
+    Ray& ray = rays_[i];
+    const HomogeneousMedium* medium = job.world.medium(interiors_[i]);
+    if (medium == nullptr) return false;
+    const MediumSample sample = medium->sample(state.throughput, hits_[i].t, medium_[i]);
+    state.throughput *= sample.weight;
+    if (!sample.scatters) return false;
+    if (job.job.profile != nullptr && end_ == SubpathEnd::AtEye) ++job.job.profile->use().phase_samples;
+    const Vec3f wo = -ray.direction;
+    PathVertex& vertex = store(state);
+    vertex.position = ray.origin + ray.direction * sample.distance;
+    vertex.wo = wo;
+    vertex.outside = vertex.inside = medium;
+    vertex.densities = arrive(job, i, vertex.position, 1.0);
+    vertex.next_edges = state.edges;
+    list_connectible(state, state.edges);
+    ray.origin = vertex.position;
+    ray.direction = medium->phase.sample(wo, scattering_[i]);
+    // Forwards and backwards a phase function has one density.
+    const float phase = medium->phase.pdf_solid_angle(wo, ray.direction);
+    state.from = vertex.position;
+    state.departing = depart(job.raised, vertex.densities, phase, phase, 1.0f);
+    state.lights_directly = state.only_delta;
+    state.only_delta = false;
+    if (words_.are_followed()) follow_words(state, VertexEvent{});
+    ++state.index;
+    return true;
+}
+
+void SubpathWave::follow_words(SubpathState& state, const VertexEvent& event) {
+    state.words = end_ == SubpathEnd::AtEye ? words_.scatter_from_eye(state.words, event)
+                                            : words_.scatter_from_light(state.words, event);
+}
+
+void SubpathWave::end_path(const SubpathJob& job, std::size_t i, PathEnding ending) const {
+    WaveProfile* const profile = job.job.profile;
+    if (profile == nullptr) return;
+    if (end_ == SubpathEnd::AtLight) return profile->end_light_path(ending, bounce_);
+    const CameraSample& sample = job.samples[states_[i].slot];
+    const Vec2i pixel = pixel_position(job.job, sample.pixel);
+    profile->end_eye_path(ending, {pixel.x, pixel.y, sample.key.index, bounce_});
+}
+
+void SubpathWave::keep_survivors(const SubpathJob& job, std::size_t first, std::size_t count, std::size_t& kept) {
+    Column survival;
+    for (std::size_t k = 0; k < count; ++k) {
+        const SubpathState& state = states_[first + k];
+        survival.set(k, max_component(state.throughput) * state.roulette_scale);
+    }
+    const auto chance = [&](const Wide& share) {
+        if (bounce_ < roulette_depth_) return Wide(1.0f);
+        return end_ == SubpathEnd::AtEye ? eye_path_survival(share, bounce_) : light_path_survival(share, bounce_);
+    };
+    for (std::size_t k = 0; k < count; k += Wide::kWidth) survival.store(k, chance(survival.load(k)));
+    // Without a branch, as in PathWave.
+    for (std::size_t k = 0; k < count; ++k) {
+        const std::size_t i = first + k;
+        const bool survives = choices_[i].y < survival[k];
+        if (job.job.profile != nullptr && goes_on_[k] && !survives) end_path(job, i, PathEnding::Roulette);
+        if (job.world.has_transparency())
+            rays_[i].alpha_key = sample_bits(keys_[i], subpath_dimension(end_, bounce_, BounceNumbers::Alpha));
+        states_[kept] = states_[i];
+        states_[kept].throughput *= 1.0f / survival[k];
+        rays_[kept] = rays_[i];
+        if (!interiors_.empty()) interiors_[kept] = interiors_[i];
+        kept += goes_on_[k] && survives ? 1 : 0;
+    }
+}
+
+}  // namespace etendue

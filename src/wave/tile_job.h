@@ -1,0 +1,44 @@
+// Which samples of a tile to take.
+#pragma once
+
+#include "film/film.h"
+#include "film/pixel_filter.h"
+#include "sampling/sampler.h"
+#include "wave/aov/aov_set.h"
+
+#include <cstdint>
+#include <limits>
+#include <span>
+
+namespace etendue {
+
+class WaveProfile;
+
+/// A pixel that is to get samples: its index in the tile, row by row, and that of its first sample.
+struct PixelJob {
+    std::uint32_t pixel = 0;
+    std::uint32_t first_sample = 0;
+};
+
+/// The samples to take: `sample_count` of every pixel of `rect`, beginning with index `first_sample`, or of `pixels`
+/// alone, each beginning with its own.
+struct TileJob {
+    PixelRect rect;
+    PixelRect window;  ///< pixels that splats may fall into; each has a light path per sample
+    int full_width = 0;
+    int full_height = 0;
+    std::uint32_t first_sample = 0;
+    std::uint32_t sample_count = 1;
+    std::uint32_t seed = 0;
+    SampleSequence sequence = SampleSequence::Sobol;
+    const PixelFilter* filter = nullptr;  ///< not null
+    const AovSet* aovs = nullptr;         ///< what the tile's layers hold; null if it has none
+    /// Most that the largest component of an indirect contribution may have, as a sample of a pixel has it; hues are
+    /// kept. Direct is the light of paths C S* L and C S* . L: what the eye sees, mirrors and smooth glass apart, and
+    /// what lights it without another bounce. All other light is indirect.
+    float clamp_indirect = std::numeric_limits<float>::infinity();
+    std::span<const PixelJob> pixels{};  ///< empty for all
+    WaveProfile* profile = nullptr;      ///< profile of the thread that renders; null if nobody asks
+};
+
+}  // namespace etendue

@@ -1,0 +1,123 @@
+// What is counted and timed of waves.
+#include "wave/profile/wave_profile.h"
+
+#include <chrono>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+namespace etendue::test {
+
+namespace {
+
+void wait() {
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+}
+
+TEST(WaveProfile, TimeBelongsToTheStageThatEnds) {
+    WaveProfile profile(0);
+    profile.skip();
+    wait();
+    profile.stamp(Stage::Textures);
+    wait();
+    profile.skip();
+    wait();
+    profile.stamp(Stage::Occluded, RayKind::Shadow);
+    EXPECT_GE(profile.seconds(Stage::Textures), 0.0019);
+    EXPECT_GE(profile.seconds(Stage::Occluded), 0.0019);
+    EXPECT_NEAR(profile.seconds(Stage::Occluded), profile.seconds(RayKind::Shadow), 1e-4);
+    EXPECT_EQ(profile.seconds(RayKind::Bounce), 0.0);
+    EXPECT_EQ(profile.seconds(Stage::Film), 0.0);
+    EXPECT_EQ(profile.stamps(), 2u) << "what is skipped is no stage";
+}
+
+TEST(WaveProfile, BlocksWhoseStagesAreNotToldApartHaveThoseOfOthers) {
+    WaveProfile profile(0);
+    profile.skip();
+    EXPECT_TRUE(profile.start_block());
+    wait();
+    profile.stamp_in_block(Stage::Numbers);
+    wait();
+    wait();
+    profile.stamp_in_block(Stage::Material);
+    const double numbers = profile.seconds(Stage::Numbers);
+    const double material = profile.seconds(Stage::Material);
+    EXPECT_FALSE(profile.start_block());
+    for (int i = 0; i < 6; ++i) wait();
+    profile.stamp_block();
+    const double of_both = profile.seconds(Stage::Numbers) + profile.seconds(Stage::Material);
+    EXPECT_GE(of_both, numbers + material + 0.0119);
+    // How long ticks are is measured anew each time.
+    constexpr double kTolerance = 0.05;
+    EXPECT_NEAR(profile.seconds(Stage::Numbers) / of_both, numbers / (numbers + material), kTolerance);
+    EXPECT_EQ(profile.seconds(Stage::Film), 0.0);
+    EXPECT_TRUE(profile.start_block());
+    EXPECT_EQ(profile.stamps(), 3u);
+    WaveProfile other(0);
+    other.add(profile);
+    EXPECT_NEAR(other.seconds(Stage::Numbers) / other.seconds(Stage::Material), numbers / material, kTolerance);
+}
+
+TEST(WaveProfile, AStampTakesLessThanAMicrosecond) {
+    const double seconds = WaveProfile::seconds_per_stamp();
+    EXPECT_GT(seconds, 0.0);
+    EXPECT_LT(seconds, 1e-6);
+}
+
+TEST(WaveProfile, PathsEndWithTheirLengths) {
+    WaveProfile profile(0);
+    profile.end_eye_path(PathEnding::Roulette, {.x = 1, .y = 2, .sample = 3, .rays = 4});
+    profile.end_eye_path(PathEnding::Roulette, {.rays = 1});
+    profile.end_eye_path(PathEnding::Escaped, {.rays = 4});
+    EXPECT_EQ(profile.eye_paths().paths(PathEnding::Roulette), 2u);
+    EXPECT_EQ(profile.eye_paths().paths(PathEnding::Escaped), 1u);
+    EXPECT_EQ(profile.eye_paths().lengths(), (std::vector<std::uint64_t>{0, 1, 0, 0, 2}));
+    ASSERT_EQ(profile.longest().size(), 3u);
+    EXPECT_EQ(profile.longest()[2].rays, 1);
+    profile.end_eye_path(PathEnding::Unlit, {.rays = 1000000});
+    EXPECT_EQ(profile.eye_paths().lengths().size(), static_cast<std::size_t>(PathTally::kMostRays) + 1);
+    EXPECT_EQ(profile.longest().front().rays, 1000000);
+}
+
+TEST(WaveProfile, TheLongestPathsDoNotDependOnWhoTracedThem) {
+    WaveProfile whole(0);
+    WaveProfile parts[2] = {WaveProfile(0), WaveProfile(0)};
+    for (int i = 0; i < 100; ++i) {
+        const LongPath path{.x = 100 - i, .y = i % 7, .sample = 0, .rays = (i * 37) % 10};
+        whole.end_eye_path(PathEnding::TooLong, path);
+        parts[i % 3 == 0 ? 1 : 0].end_eye_path(PathEnding::TooLong, path);
+    }
+    parts[0].add(parts[1]);
+    ASSERT_EQ(parts[0].longest().size(), WaveProfile::kLongPaths);
+    ASSERT_EQ(whole.longest().size(), WaveProfile::kLongPaths);
+    for (std::size_t i = 0; i < WaveProfile::kLongPaths; ++i) {
+        EXPECT_EQ(parts[0].longest()[i].x, whole.longest()[i].x);
+        EXPECT_EQ(parts[0].longest()[i].rays, whole.longest()[i].rays);
+    }
+    EXPECT_EQ(parts[0].eye_paths().paths(PathEnding::TooLong), 100u);
+}
+
+TEST(WaveProfile, SumsAreOfAllThreads) {
+    WaveProfile a(1024);
+    WaveProfile b(1024);
+    const std::vector<Ray> rays(10);
+    a.record(RayKind::Bounce, rays);
+    b.record(RayKind::Bounce, rays);
+    a.count_hits(RayKind::Bounce, 3);
+    b.count_hits(RayKind::Bounce, 4);
+    b.use().light_samples = 5;
+    a.end_light_path(PathEnding::Roulette, 1);
+    b.end_light_path(PathEnding::Escaped, 3);
+    a.add(b);
+    EXPECT_EQ(a.recorder(RayKind::Bounce).ray_count(), 20u);
+    EXPECT_EQ(a.recorder(RayKind::Shadow).ray_count(), 0u);
+    EXPECT_EQ(a.hits(RayKind::Bounce), 7u);
+    EXPECT_EQ(a.use().light_samples, 5u);
+    EXPECT_EQ(a.light_paths().lengths(), (std::vector<std::uint64_t>{0, 1, 0, 1}));
+    EXPECT_EQ(a.light_paths().paths(PathEnding::Escaped), 1u);
+    EXPECT_TRUE(a.eye_paths().lengths().empty());
+}
+
+}  // namespace
+
+}  // namespace etendue::test
