@@ -214,10 +214,10 @@ class World {
     [[nodiscard]] const PlainSurface* plain_surface(const Hit& hit) const {
         return hit.in_contact ? nullptr : plain_surfaces_.of_geometry[hit.geometry];
     }
-    /// The lobe of a plain surface that is the same matte one everywhere, in a scene without textures; else null.
+    /// Returns the lobe of a plain surface that is matte; else null.
     [[nodiscard]] const Bsdf* plain_bsdf(const Hit& hit) const {
         const PlainSurface* surface = plain_surface(hit);
-        return surface != nullptr && !has_textures() ? surface->matte : nullptr;
+        return surface != nullptr ? surface->matte : nullptr;
     }
     [[nodiscard]] HitTriangle hit_triangle(const Hit& hit) const {
         const Geometry& geometry = data_->geometries[hit.geometry];
