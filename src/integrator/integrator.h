@@ -7,6 +7,7 @@
 #include "transport/heuristic.h"
 #include "transport/path_lengths.h"
 #include "transport/strategy.h"
+#include "wave/photons.h"
 #include "wave/render_counters.h"
 #include "wave/tile_job.h"
 #include "world/world.h"
@@ -31,6 +32,7 @@ struct IntegratorOptions {
     std::optional<Strategy> strategy{};        ///< this one alone; it exists
     bool weighted = true;                      ///< false: the strategy is all there is, as if no other made its paths
     int cached_connections = 0;                ///< of bdpt: see BdptOptions
+    MergeOptions merging{.at = MergeAt::BetweenDeltas};  ///< of vcm
 };
 
 /// Memory that a thread keeps from tile to tile; each integrator has its own kind.
@@ -56,6 +58,13 @@ class Integrator {
     /// True if `render_tile` leaves splats, one light path for each of its samples.
     [[nodiscard]] virtual bool makes_splats() const { return false; }
 
+    /// Returns where subpaths of `job`, whose samples have one index, merge. Where they do, a pass has one sample of
+    /// every pixel, `trace_photons` is called for all of `job.window` before it, and jobs hold what it has left.
+    [[nodiscard]] virtual Merging merging(const World&, const TileJob&) const { return {}; }
+
+    /// Appends to `photons` those of the light subpaths of the samples of `job`.
+    virtual void trace_photons(const World&, const TileJob&, IntegratorScratch&, PhotonList&, RenderCounters&) const {}
+
     /// Adds the samples of `job` to `tile`, which has been reset to its rectangle. The result depends on `job` and the
     /// world only. `scratch` comes from `make_scratch` and is used by no other call at the same time.
     virtual void render_tile(const World& world, const TileJob& job, IntegratorScratch& scratch, TileBuffer& tile,
@@ -70,6 +79,7 @@ struct IntegratorEntry {
     int longest_path = std::numeric_limits<int>::max();  ///< edges
     bool splits_light_samples = false;                   ///< it looks at IntegratorOptions::light_samples
     bool has_strategies = false;                         ///< it looks at the options for them
+    bool merges = false;                                 ///< it looks at IntegratorOptions::merging
     bool has_expressions = true;                         ///< it tells the light of paths apart
     bool shows_light = true;                             ///< false: something else, for finding out what is wrong
 };

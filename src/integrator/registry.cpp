@@ -43,6 +43,14 @@ std::unique_ptr<const Integrator> make_bdpt(const IntegratorOptions& options) {
                                                         .cached_connections = options.cached_connections});
 }
 
+std::unique_ptr<const Integrator> make_vcm(const IntegratorOptions& options) {
+    return std::make_unique<BdptIntegrator>(BdptOptions{.lengths = options.lengths,
+                                                        .heuristic = options.heuristic,
+                                                        .only = options.strategy,
+                                                        .weighted = options.weighted,
+                                                        .merging = options.merging});
+}
+
 std::unique_ptr<const Integrator> make_whitted(const IntegratorOptions& options) {
     return std::make_unique<WhittedIntegrator>(options.lengths);
 }
@@ -71,6 +79,11 @@ constexpr IntegratorEntry kRegistry[] = {
      .summary = "eye and light paths, connected in every way, combined by MIS",
      .make = make_bdpt,
      .has_strategies = true},
+    {.name = "vcm",
+     .summary = "bdpt that merges subpaths where nothing connects them: caustics seen in mirrors and through glass",
+     .make = make_vcm,
+     .has_strategies = true,
+     .merges = true},
     {.name = "whitted",
      .summary = "mirrored and refracted rays, direct light, and no more",
      .make = make_whitted,

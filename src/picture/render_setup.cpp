@@ -30,6 +30,18 @@ FilterShape to_filter_shape(PixelFilterType type) {
     return FilterShape::BlackmanHarris;
 }
 
+MergeAt merge_at_of(MergeType type) {
+    switch (type) {
+        case MergeType::None:
+            return MergeAt::Nothing;
+        case MergeType::BetweenDeltas:
+            return MergeAt::BetweenDeltas;
+        case MergeType::All:
+            return MergeAt::Everywhere;
+    }
+    return MergeAt::Nothing;
+}
+
 }  // namespace
 
 RenderOptions make_render_options(const RenderSettings& settings) {
@@ -47,7 +59,9 @@ RenderOptions make_render_options(const RenderSettings& settings) {
     options.relative_error = settings.relative_error;
     if (settings.clamp_indirect > 0.0f) options.clamp_indirect = settings.clamp_indirect;
     options.brightest = static_cast<std::size_t>(settings.brightest);
-    options.adaptive = settings.adaptive && settings.relative_error > 0.0;
+    // Samples of a pass that merges all have one index, so that no pixel has more of them.
+    options.adaptive =
+        settings.adaptive && settings.relative_error > 0.0 && !find_integrator(settings.integrator.type)->merges;
     options.min_spp = static_cast<std::uint32_t>(settings.min_spp);
     return options;
 }
@@ -79,7 +93,8 @@ IntegratorOptions integrator_options(const RenderSettings& settings) {
         .light_samples = static_cast<std::uint32_t>(s.light_samples),
         .heuristic = s.heuristic == HeuristicType::Balance ? Heuristic::Balance : Heuristic::Power,
         .weighted = s.weighted,
-        .cached_connections = s.cached_connections};
+        .cached_connections = s.cached_connections,
+        .merging = {.at = merge_at_of(s.merge), .radius = s.merge_radius, .alpha = s.merge_alpha}};
     if (s.strategy) options.strategy = Strategy{(*s.strategy)[0], (*s.strategy)[1]};
     return options;
 }

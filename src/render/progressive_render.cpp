@@ -60,8 +60,15 @@ std::size_t ProgressiveRender::tile_bytes() const {
 }
 
 bool ProgressiveRender::add_samples(std::uint32_t count, const StopPredicate& stop, const TileCallback& tile_done) {
-    if (state_.pass_size == 0) begin_pass(count);
-    return go_on(stop, tile_done);
+    if (state_.pass_size > 0) return go_on(stop, tile_done);
+    // Samples that merge have photons of their own index.
+    const bool merges = integrator_.merging(world_, make_job(options_.window)).merges();
+    const std::uint32_t size = merges ? 1 : count;
+    for (std::uint32_t done = 0; done < count; done += size) {
+        begin_pass(size);
+        if (!go_on(stop, tile_done)) return false;
+    }
+    return true;
 }
 
 bool ProgressiveRender::add_samples_to(std::vector<std::uint8_t> is_active, std::uint32_t count,
@@ -99,6 +106,7 @@ void ProgressiveRender::finish_pass() {
 bool ProgressiveRender::go_on(const StopPredicate& stop, const TileCallback& tile_done) {
     const auto start = Clock::now();
     const double cpu_start = process_cpu_seconds();
+    trace_photons();
     // Splats are added in the order of the tiles, whatever the order in which these are rendered.
     for (std::size_t first = 0; first < tiles_.size() && !stop();) {
         const std::size_t left = tiles_.size() - first;
@@ -112,9 +120,46 @@ bool ProgressiveRender::go_on(const StopPredicate& stop, const TileCallback& til
     state_.wall_seconds += seconds_since(start);
     state_.cpu_seconds += process_cpu_seconds() - cpu_start;
     if (std::ranges::find(state_.tiles_done, 0) != state_.tiles_done.end()) return false;
+    // A pass that was stopped has traced them again, and counts them once.
+    if (photons_) state_.counters.add(photon_counters_);
     if (state_.adaptive.is_uniform() && second_film() != nullptr) state_.every_other_spp += state_.pass_size;
     finish_pass();
     return true;
+}
+
+TileJob ProgressiveRender::make_job(const PixelRect& rect) const {
+    return {.rect = rect,
+            .window = state_.film.splat_window(),
+            .full_width = options_.full_width,
+            .full_height = options_.full_height,
+            .first_sample = state_.next_sample(),
+            .sample_count = state_.pass_size,
+            .seed = options_.seed,
+            .sequence = options_.sequence,
+            .filter = &options_.filter,
+            .aovs = options_.aovs.get(),
+            .clamp_indirect = options_.clamp_indirect};
+}
+
+void ProgressiveRender::trace_photons() {
+    photons_.reset();
+    const PixelRect& window = state_.film.splat_window();
+    const Merging merging = integrator_.merging(world_, make_job(window));
+    if (!merging.merges()) return;
+    const std::vector<PixelRect> tiles = make_tiles(window);
+    std::vector<PhotonList> lists(tiles.size());
+    std::vector<RenderCounters> counters(workers_.size());
+    threads_.parallel_for(tiles.size(), [&](std::size_t index, int slot) {
+        Worker& worker = workers_[static_cast<std::size_t>(slot)];
+        if (!worker.scratch) worker.scratch = integrator_.make_scratch();
+        TileJob job = make_job(tiles[index]);
+        job.merging = merging;
+        integrator_.trace_photons(world_, job, *worker.scratch, lists[index],
+                                  counters[static_cast<std::size_t>(slot)]);
+    });
+    photon_counters_ = {};
+    for (const RenderCounters& of_slot : counters) photon_counters_.add(of_slot);
+    photons_.emplace(lists, merging.radius);
 }
 
 Film* ProgressiveRender::second_film() {
@@ -180,18 +225,12 @@ void ProgressiveRender::render_group(std::size_t first, std::size_t size, const 
             is_done = 1;
             return;
         }
-        TileJob job{tiles_[first + order[index]],
-                    state_.film.splat_window(),
-                    options_.full_width,
-                    options_.full_height,
-                    state_.next_sample(),
-                    state_.pass_size,
-                    options_.seed,
-                    options_.sequence,
-                    &options_.filter,
-                    options_.aovs.get(),
-                    options_.clamp_indirect,
-                    worker.pixels};
+        TileJob job = make_job(tiles_[first + order[index]]);
+        job.pixels = worker.pixels;
+        if (photons_) {
+            job.merging = integrator_.merging(world_, job);
+            job.photons = &*photons_;
+        }
         worker.counters.brightest.expect(options_.brightest, brightest_floor);
         RenderProfile* const profile = options_.profile;
         double start = 0.0;

@@ -124,6 +124,10 @@ class ProgressiveRender {
     /// Tiles whose splats are added together: few enough for the render to stop within seconds. The image does not
     /// depend on it.
     [[nodiscard]] std::size_t splat_group_size() const;
+    /// Returns the job of the pass under way for the pixels of `rect`.
+    [[nodiscard]] TileJob make_job(const PixelRect& rect) const;
+    /// Traces the photons that the samples of the pass under way share, if they merge.
+    void trace_photons();
     /// Begins a pass, unless one was stopped.
     void begin_pass(std::uint32_t count);
     void finish_pass();
@@ -143,6 +147,8 @@ class ProgressiveRender {
     RenderState state_;
     std::vector<PixelRect> tiles_;
     std::vector<Worker> workers_;
+    RenderCounters photon_counters_;          ///< counters of tracing `photons_`
+    std::optional<SharedPhotons> photons_;    ///< photons of the pass under way, if its samples merge
     std::vector<std::vector<Splat>> splats_;  ///< splats of each tile of a group
     double seconds_per_tile_ = 0.0;           ///< seconds per tile of the last group; 0: not known
 };

@@ -19,6 +19,9 @@ namespace etendue {
 
 enum class HeuristicType { Power, Balance };
 
+/// Says which vertices `vcm` merges.
+enum class MergeType { None, BetweenDeltas, All };
+
 struct IntegratorSettings {
     std::string type = "path";  ///< a name from the integrator registry
     int max_depth = 32;         ///< most edges of a path from camera to light, >= 1; 1 is emission seen directly
@@ -37,6 +40,11 @@ struct IntegratorSettings {
     /// Counts the light vertices of all samples that bidirectional path tracing connects an eye vertex to; 0 for all
     /// light vertices of the eye vertex's own sample.
     int cached_connections = 0;
+    /// Says which vertices `vcm` merges.
+    MergeType merge = MergeType::BetweenDeltas;
+    float merge_radius = 1.5f;  ///< radius of merges of the first sample, in widths of a pixel, [0.01, 100]
+    float merge_alpha =
+        0.75f;  ///< [0.1, 1]: the radius shrinks with the power (alpha - 1) / 2 of the number of samples
 };
 
 inline constexpr int kMostLightSamples = 64;

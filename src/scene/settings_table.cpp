@@ -21,6 +21,11 @@ constexpr std::array<std::pair<std::string_view, SamplerType>, 2> kSamplerNames{
     {"sobol", SamplerType::Sobol},
     {"random", SamplerType::Random},
 }};
+constexpr std::array<std::pair<std::string_view, MergeType>, 3> kMergeNames{{
+    {"sds", MergeType::BetweenDeltas},
+    {"all", MergeType::All},
+    {"none", MergeType::None},
+}};
 constexpr std::array<std::pair<std::string_view, HeuristicType>, 2> kHeuristicNames{{
     {"balance", HeuristicType::Balance},
     {"power", HeuristicType::Power},
@@ -416,24 +421,24 @@ constexpr std::array kRows{
             .option = "--heuristic",
             .type = kChoiceOf<kHeuristicNames>,
             .decides = Decides::Samples,
-            .integrators = "bdpt",
-            .help = "How `bdpt` weighs its strategies: `balance`, or `power` with the exponent 2",
+            .integrators = "bdpt vcm",
+            .help = "How `bdpt` and `vcm` weigh their strategies: `balance`, or `power` with the exponent 2",
             .place = named_at<kHeuristicNames>([](auto& s) -> auto& { return s.integrator.heuristic; })},
-    Setting{
-        .pointer = "/transport/strategy",
-        .option = "--strategy",
-        .type = WholeNumbers{{0, kMostInt}, 2, 2, ',', "S,T, the vertices from the light and the eye"},
-        .decides = Decides::Samples,
-        .integrators = "bdpt",
-        .default_text = "all",
-        .help = "Show only paths of `bdpt` with S vertices from the light and T from the eye, counting those on the "
-                "light and on the lens",
-        .place = at([](auto& s) -> auto& { return s.integrator.strategy; })},
+    Setting{.pointer = "/transport/strategy",
+            .option = "--strategy",
+            .type = WholeNumbers{{0, kMostInt}, 2, 2, ',', "S,T, the vertices from the light and the eye"},
+            .decides = Decides::Samples,
+            .integrators = "bdpt vcm",
+            .default_text = "all",
+            .help = "Show only paths of `bdpt` or `vcm` with S vertices from the light and T from the eye, counting "
+                    "those on the "
+                    "light and on the lens",
+            .place = at([](auto& s) -> auto& { return s.integrator.strategy; })},
     Setting{
         .pointer = "/integrator/weighted",
         .type = YesNo{"--unweighted", "Show the paths of `--strategy` as if no other strategy made them"},
         .decides = Decides::Samples,
-        .integrators = "bdpt",
+        .integrators = "bdpt vcm",
         .help = "Whether the paths of the strategy are weighted by multiple importance sampling; if not, they show as "
                 "if no other strategy made them",
         .place = at([](auto& s) -> auto& { return s.integrator.weighted; })},
@@ -447,6 +452,34 @@ constexpr std::array kRows{
             .page = "integrators.md#connections-to-a-cache",
             .place = parsed_at<parse_connections, connections_text>(
                 [](auto& s) -> auto& { return s.integrator.cached_connections; })},
+    Setting{.pointer = "/integrator/merge",
+            .option = "--merge",
+            .type = kChoiceOf<kMergeNames>,
+            .decides = Decides::Samples,
+            .integrators = "vcm",
+            .help = "Which vertices `vcm` merges: those between two mirrors or smooth refractions, which no connection "
+                    "finds (`sds`), `all`, or `none`, which is `bdpt`",
+            .page = "integrators.md#vcm",
+            .place = named_at<kMergeNames>([](auto& s) -> auto& { return s.integrator.merge; })},
+    Setting{.pointer = "/integrator/merge_radius",
+            .option = "--merge-radius",
+            .type = RealNumber{{.min = 0.01, .max = 100.0}},
+            .decides = Decides::Samples,
+            .integrators = "vcm",
+            .unit = "pixels",
+            .help = "How far `vcm` merges in the first sample of a pixel; later samples merge less far",
+            .page = "integrators.md#vcm",
+            .place = at([](auto& s) -> auto& { return s.integrator.merge_radius; })},
+    Setting{
+        .pointer = "/integrator/merge_alpha",
+        .type = RealNumber{{.min = 0.1, .max = 1.0}},
+        .decides = Decides::Samples,
+        .integrators = "vcm",
+        .help =
+            "How slowly the radius of `vcm` shrinks: with the power (merge_alpha - 1) / 2 of the number of samples; "
+            "1 keeps it, and its blur",
+        .page = "integrators.md#vcm",
+        .place = at([](auto& s) -> auto& { return s.integrator.merge_alpha; })},
     Setting{.pointer = "/light_units",
             .option = "--light-units",
             .type = kChoiceOf<kLightUnitNames>,

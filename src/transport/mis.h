@@ -52,6 +52,7 @@
 
 #include "camera/camera.h"
 #include "transport/heuristic.h"
+#include "transport/merge_radius.h"
 #include "world/world.h"
 
 namespace etendue {
@@ -62,12 +63,15 @@ struct MisContext {
     Raised raised{};
     /// Multiplies the density of the eye's first vertex: camera samples per area of the film over light paths.
     double samples_per_light_path = 1.0;
+    Merging merging{};
 };
 
-/// Holds a and b of a vertex, raised.
+/// Holds a and b of a vertex, raised; and what merges add to D, here and at the vertex before (transport/merging.h).
 struct SubpathDensities {
     double a = 0.0;
     double b = 0.0;
+    double merged_before = 0.0;  ///< added to b if the vertex is left by a delta: the one before merges then
+    double merges = 0.0;         ///< eta, raised, where subpaths merge between deltas
 
     /// Returns the sum over the strategies with fewer vertices on this side, but for the raised density per area with
     /// which the other side makes this vertex. `turning_back` is q.
@@ -76,14 +80,17 @@ struct SubpathDensities {
 
 /// Holds the densities of a subpath on its way from a vertex towards the next one.
 struct DepartingDensities {
-    double d = 0.0;              ///< D_i
+    double d = 0.0;              ///< D_i, without `merges`
+    double merges = 0.0;         ///< SubpathDensities::merges of the vertex
     double pdf_forward = 1.0;    ///< 1/sr, of the direction; 1/m², of the point across it, from infinity
     double cosine = 1.0;         ///< |cos theta_i|
     bool is_connectible = true;  ///< the edge can be that of a connection, as far as this vertex is concerned
     bool is_from_infinity = false;
+    bool is_by_delta = false;  ///< the vertex was left by a delta
 
-    /// Returns a and b at a vertex `squared_distance` m² away, >= 0, where the direction has the cosine `cos_arriving`.
-    /// The distance cancels in b, and divides nothing in a: media scatter light again after no distance at all.
+    /// Returns the densities at a vertex `squared_distance` m² away, >= 0, where the direction has the cosine
+    /// `cos_arriving`. The distance cancels in b, and divides nothing in a: media scatter light again after no distance
+    /// at all.
     [[nodiscard]] SubpathDensities arrive(const Raised& raised, double squared_distance, double cos_arriving) const {
         const double across = pdf_forward * cos_arriving;
         // Without a branch, so that compilers do it for many at once.
@@ -91,7 +98,9 @@ struct DepartingDensities {
         const double inverse = 1.0 / raised(across);
         const double back = is_from_infinity ? 1.0 : raised(cosine);
         const double area = is_from_infinity ? 1.0 : raised(squared_distance);
-        return {arrives && is_connectible ? area * inverse : 0.0, arrives ? back * d * inverse : 0.0};
+        return {.a = arrives && is_connectible ? area * inverse : 0.0,
+                .b = arrives ? back * d * inverse : 0.0,
+                .merged_before = arrives ? back * merges * inverse : 0.0};
     }
 };
 
@@ -142,16 +151,32 @@ struct DepartingDensities {
 [[nodiscard]] inline DepartingDensities depart(const Raised& raised, const SubpathDensities& arrived, float pdf,
                                                float reverse_pdf, float cosine) {
     return {.d = arrived.fewer(raised, static_cast<double>(reverse_pdf)),
+            .merges = arrived.merges,
             .pdf_forward = static_cast<double>(pdf),
             .cosine = static_cast<double>(cosine)};
+}
+
+/// Adds to `arrived`, at a vertex at `position` on a surface that scatters by more than deltas, what a merge there has
+/// for the vertices after it. Returns true if subpaths that come as `departing` says merge there.
+[[nodiscard]] inline bool merge_at(const MisContext& mis, const DepartingDensities& departing, const Vec3f& position,
+                                   SubpathDensities& arrived) {
+    if (!mis.merging.merges() || (mis.merging.at == MergeAt::BetweenDeltas && !departing.is_by_delta)) return false;
+    const double expected = mis.raised(mis.merging.expected(position));
+    // Everywhere, D_i is a sum of three terms that needs to know nothing of the next vertex.
+    if (mis.merging.at == MergeAt::Everywhere)
+        arrived.a += expected;
+    else
+        arrived.merges = expected;
+    return true;
 }
 
 /// Departs from a vertex by a delta, where one density is `reverse_ratio` times the other.
 [[nodiscard]] inline DepartingDensities depart_by_delta(const Raised& raised, const SubpathDensities& arrived,
                                                         float reverse_ratio, float cosine) {
-    return {.d = arrived.b * raised(static_cast<double>(reverse_ratio)),
+    return {.d = (arrived.b + arrived.merged_before) * raised(static_cast<double>(reverse_ratio)),
             .cosine = static_cast<double>(cosine),
-            .is_connectible = false};
+            .is_connectible = false,
+            .is_by_delta = true};
 }
 
 }  // namespace etendue

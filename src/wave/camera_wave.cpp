@@ -15,9 +15,16 @@ class CameraNumbers {
 
     /// Draws a pair of `dimension` for each of the samples, at most kCapacity.
     void draw(SampleSequence sequence, std::span<const CameraSample> samples, std::uint32_t dimension) {
+        draw(sequence, samples, dimension, [](SampleKey key) { return key; });
+    }
+    /// Draws a pair for each of the samples by the key that `key_of` returns for theirs.
+    template <typename KeyOf>
+    void draw(SampleSequence sequence, std::span<const CameraSample> samples, std::uint32_t dimension,
+              const KeyOf& key_of) {
         for (std::size_t i = 0; i < samples.size(); ++i) {
-            pixel_seeds_[i] = samples[i].key.pixel_seed;
-            indices_[i] = samples[i].key.index;
+            const SampleKey key = key_of(samples[i].key);
+            pixel_seeds_[i] = key.pixel_seed;
+            indices_[i] = key.index;
         }
         const auto part = [&](auto& all) { return std::span(all).first(samples.size()); };
         sample_2d(sequence, part(pixel_seeds_), part(indices_), dimension, part(x_), part(y_));
@@ -53,7 +60,8 @@ void generate_few(const World& world, const TileJob& job, std::span<CameraSample
     CameraNumbers time;
     film.draw(job.sequence, samples, kFilmDimension);
     if (world.has_lens()) lens.draw(job.sequence, samples, kLensDimension);
-    if (world.has_motion()) time.draw(job.sequence, samples, kTimeDimension);
+    if (world.has_motion())
+        time.draw(job.sequence, samples, kTimeDimension, [&](SampleKey key) { return shared_key(job, key); });
     std::array<Vec2f, CameraNumbers::kCapacity> on_film;
     std::array<Vec2f, CameraNumbers::kCapacity> on_lens;
     std::array<float, CameraNumbers::kCapacity> times;

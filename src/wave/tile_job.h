@@ -4,6 +4,7 @@
 #include "film/film.h"
 #include "film/pixel_filter.h"
 #include "sampling/sampler.h"
+#include "transport/merge_radius.h"
 #include "wave/aov/aov_set.h"
 
 #include <cstdint>
@@ -12,6 +13,7 @@
 
 namespace etendue {
 
+class SharedPhotons;
 class WaveProfile;
 
 /// A pixel that is to get samples: its index in the tile, row by row, and that of its first sample.
@@ -38,7 +40,17 @@ struct TileJob {
     /// what lights it without another bounce. All other light is indirect.
     float clamp_indirect = std::numeric_limits<float>::infinity();
     std::span<const PixelJob> pixels{};  ///< empty for all
-    WaveProfile* profile = nullptr;      ///< profile of the thread that renders; null if nobody asks
+    /// Says where subpaths of bidirectional methods merge; all samples have one index, time and wavelength then.
+    Merging merging{};
+    const SharedPhotons* photons = nullptr;  ///< photons to merge with; null if there are none, or none yet
+    WaveProfile* profile = nullptr;          ///< profile of the thread that renders; null if nobody asks
 };
+
+/// Returns the key of the numbers that samples with this key share if they merge: all of one index have one time and
+/// one wavelength, since a photon of another time or colour would be none.
+[[nodiscard]] inline SampleKey shared_key(const TileJob& job, SampleKey key) {
+    constexpr std::uint32_t kNoPixel = std::numeric_limits<std::uint32_t>::max();
+    return job.merging.merges() ? SampleKey{make_pixel_seed(job.seed, kNoPixel, kNoPixel), key.index} : key;
+}
 
 }  // namespace etendue

@@ -138,7 +138,7 @@ TEST_P(ContinuationOf, PartsMergeToTheSingleImage) {
     EXPECT_LT(difference("merged.exr", "whole.exr"), 1e-12);
 }
 
-INSTANTIATE_TEST_SUITE_P(Integrators, ContinuationOf, testing::Values("path", "light", "bdpt"),
+INSTANTIATE_TEST_SUITE_P(Integrators, ContinuationOf, testing::Values("path", "light", "bdpt", "vcm"),
                          [](const auto& test) { return test.param; });
 
 TEST_F(Continuation, CheckpointsOutliveAKill) {

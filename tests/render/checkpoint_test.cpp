@@ -108,7 +108,7 @@ TEST_P(Checkpoints, GoOnToTheSameMattesAndDepths) {
     EXPECT_EQ(mattes_and_depths(result.film), mattes_and_depths(whole.film));
 }
 
-INSTANTIATE_TEST_SUITE_P(Integrators, Checkpoints, testing::Values("path", "light", "bdpt"),
+INSTANTIATE_TEST_SUITE_P(Integrators, Checkpoints, testing::Values("path", "light", "bdpt", "vcm"),
                          [](const auto& test) { return test.param; });
 
 TEST(Checkpoint, DamageIsFound) {

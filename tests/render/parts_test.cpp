@@ -65,7 +65,7 @@ TEST_P(Parts, WindowsAddUpWithTheLightThatTheyThrowOnEachOther) {
     EXPECT_LT(largest_difference(sum.resolve(), whole.film.resolve()), 1e-6);
 }
 
-INSTANTIATE_TEST_SUITE_P(Integrators, Parts, testing::Values("path", "light", "bdpt"),
+INSTANTIATE_TEST_SUITE_P(Integrators, Parts, testing::Values("path", "light", "bdpt", "vcm"),
                          [](const auto& test) { return test.param; });
 
 }  // namespace

@@ -123,7 +123,7 @@ TEST_P(SplatDeterminism, ThreadsAndTileOrderDoNotChangeABit) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Render, SplatDeterminism,
-                         testing::Combine(testing::Values("light", "bdpt"),
+                         testing::Combine(testing::Values("light", "bdpt", "vcm"),
                                           testing::Values(SampleSequence::Sobol, SampleSequence::Random),
                                           testing::Bool()),
                          name_of);

@@ -55,7 +55,7 @@ TEST_P(Resume, EndsWithTheSameBytes) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Integrators, Resume, testing::Values("path", "light", "bdpt"),
+INSTANTIATE_TEST_SUITE_P(Integrators, Resume, testing::Values("path", "light", "bdpt", "vcm"),
                          [](const auto& test) { return test.param; });
 
 TEST(RenderPause, ActsInTheMiddleAndChangesNothing) {

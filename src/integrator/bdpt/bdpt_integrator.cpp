@@ -32,6 +32,20 @@ std::unique_ptr<IntegratorScratch> BdptIntegrator::make_scratch() const {
     return std::make_unique<BdptWave>();
 }
 
+Merging BdptIntegrator::merging(const World& world, const TileJob& job) const {
+    return make_merging(world, job.full_width, job.full_height, static_cast<double>(job.window.area()),
+                        job.first_sample, options_.merging);
+}
+
+void BdptIntegrator::trace_photons(const World& world, const TileJob& job, IntegratorScratch& scratch,
+                                   PhotonList& photons, RenderCounters& counters) const {
+    auto& wave = static_cast<BdptWave&>(scratch);
+    const std::size_t total = camera_sample_count(job);
+    for (std::size_t first = 0; first < total; first += BdptWave::kCapacity)
+        wave.trace_photons(world, job, options_, first, std::min(BdptWave::kCapacity, total - first), photons,
+                           counters);
+}
+
 void BdptIntegrator::render_tile(const World& world, const TileJob& job, IntegratorScratch& scratch, TileBuffer& tile,
                                  RenderCounters& counters) const {
     auto& wave = static_cast<BdptWave&>(scratch);

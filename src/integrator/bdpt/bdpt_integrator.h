@@ -22,6 +22,9 @@ class BdptIntegrator final : public Integrator {
     [[nodiscard]] std::vector<std::string> unreachable_light(const World& world) const override;
     [[nodiscard]] std::vector<std::string> ineffective_options(const World& world) const override;
     [[nodiscard]] bool makes_splats() const override { return true; }
+    [[nodiscard]] Merging merging(const World& world, const TileJob& job) const override;
+    void trace_photons(const World& world, const TileJob& job, IntegratorScratch& scratch, PhotonList& photons,
+                       RenderCounters& counters) const override;
     void render_tile(const World& world, const TileJob& job, IntegratorScratch& scratch, TileBuffer& tile,
                      RenderCounters& counters) const override;
 

@@ -3,6 +3,7 @@
 
 #include "integrator/integrator.h"
 #include "transport/heuristic.h"
+#include "transport/merge_radius.h"
 #include "transport/strategy.h"
 
 #include <optional>
@@ -28,6 +29,7 @@ struct BdptOptions {
     /// Counts the light vertices of the wave that an eye vertex is connected to; 0: the vertices of its own sample's
     /// light subpath.
     int cached_connections = 0;
+    MergeOptions merging{};
     WeightObserver* observer = nullptr;  ///< must outlive the integrator
 };
 

@@ -48,7 +48,8 @@ void BdptWave::trace(const World& world, const TileJob& job, const BdptOptions& 
                          options.cached_connections > 0 ? SampleOrder::SampleBySample : SampleOrder::PixelByPixel);
     found_.reset(count, job, counters.brightest.threshold());
     alpha_.assign(count, 1.0f);
-    const Context context{{world, job, options.lengths, Raised{options.heuristic}, samples_, camera_rays_}, options};
+    const Context context{{world, job, options.lengths, Raised{options.heuristic}, samples_, camera_rays_, job.merging},
+                          options};
     const SparedRays spared = spared_rays(options.lengths.roulette_depth);
     context_ = &context;
     tile_ = &tile;
@@ -88,6 +89,7 @@ void BdptWave::trace(const World& world, const TileJob& job, const BdptOptions& 
             resolve_if_full(camera_connections_);
             resolve_if_full(wide_camera_connections_);
         }
+        if (job.photons != nullptr && !options.only) merge(context);
         for (Connections* connections : {&light_connections_, &wide_light_connections_, &vertex_connections_,
                                          &wide_vertex_connections_, &camera_connections_, &wide_camera_connections_})
             connections->resolve(world, job, samples_, found_, tile, counters);
@@ -95,6 +97,51 @@ void BdptWave::trace(const World& world, const TileJob& job, const BdptOptions& 
     lamps_.note_radiance(samples_, found_);
     accumulate(job, samples_, found_, alpha_, tile, counters);
     stamp(job.profile, Stage::Film);
+}
+
+void BdptWave::trace_photons(const World& world, const TileJob& job, const BdptOptions& options, std::size_t first,
+                             std::size_t count, PhotonList& photons, RenderCounters& counters) {
+    samples_.resize(count);
+    camera_rays_.resize(count);
+    generate_camera_rays(world, job, first, samples_, camera_rays_);
+    found_.reset(count, job, counters.brightest.threshold());
+    const SubpathJob subpaths{world,    job,          options.lengths, Raised{options.heuristic},
+                              samples_, camera_rays_, job.merging};
+    light_.trace(subpaths, spared_rays(options.lengths.roulette_depth).of_light, nullptr, found_, counters);
+    for (const PathVertex& vertex : light_.vertices())
+        if (vertex.merges)
+            photons.add({.position = vertex.position,
+                         .direction = vertex.wo,
+                         .normal = vertex.geometric_normal,
+                         .throughput = vertex.throughput,
+                         .densities = vertex.densities,
+                         .edges = vertex.next_edges - 1,
+                         .is_dispersed = vertex.is_dispersed ? 1u : 0u},
+                        light_.words(), vertex.words);
+    stamp(job.profile, Stage::Material);
+}
+
+void BdptWave::merge(const Context& context) {
+    const SharedPhotons& photons = *context.job.photons;
+    const MisContext mis = context.mis();
+    for (std::uint32_t v = 0; v < eye_.vertices().size(); ++v) {
+        if (!eye_.vertices()[v].merges) continue;
+        const PathVertex& eye = eye_.whole(v);
+        const MergeKernel kernel{eye.position, eye.geometric_normal, mis.merging.radius(eye.position)};
+        photons.map().for_each_in(kernel, [&](const Photon& photon) {
+            if (!context.wants(eye.next_edges - 1 + photon.edges)) return;
+            const auto scattered = eye.evaluate_both_ways(photon.direction, TransportMode::Radiance);
+            if (is_black(scattered.f_cos)) return;
+            const Rgb light = merged_light(mis, eye, eye.throughput, photon, scattered) *
+                              context.wavelength_weight(eye.slot, eye.is_dispersed || photon.is_dispersed != 0);
+            shares_.clear();
+            if (eye_.words().are_followed())
+                eye_.words().join(eye_.words_after(eye, photon.direction), photons.words(),
+                                  {photon.first_word, photon.word_count}, shares_);
+            found_.add(eye.slot, light, LightKind::Indirect, shares_);
+        });
+    }
+    stamp(context.job.profile, Stage::Mis);
 }
 
 void BdptWave::start(const World& world, const TileJob& job, const BdptOptions& options) {

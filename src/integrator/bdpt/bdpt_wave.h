@@ -7,6 +7,7 @@
 #include "transport/strategy_sums.h"
 #include "wave/connections.h"
 #include "wave/lamps_in_view.h"
+#include "wave/photons.h"
 #include "wave/subpath/camera_splat.h"
 #include "wave/subpath/connectible_vertices.h"
 #include "wave/subpath/lamps_to_camera.h"
@@ -34,6 +35,10 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
     void start(const World& world, const TileJob& job, const BdptOptions& options);
     /// Ends the job, after its samples are traced.
     void finish(TileBuffer& tile, RenderCounters& counters) { lamps_.finish(tile, counters); }
+    /// Appends to `photons` those of the light subpaths of samples [first, first + count) of the job, count <=
+    /// kCapacity.
+    void trace_photons(const World& world, const TileJob& job, const BdptOptions& options, std::size_t first,
+                       std::size_t count, PhotonList& photons, RenderCounters& counters);
     /// Traces samples [first, first + count) of the job, count <= kCapacity.
     void trace(const World& world, const TileJob& job, const BdptOptions& options, std::size_t first, std::size_t count,
                TileBuffer& tile, RenderCounters& counters);
@@ -107,6 +112,8 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
 
     /// Connects eye vertices [first, last) to points on lights that are sampled for them: s = 1.
     void connect_to_lights(const Context& context, std::size_t first, std::size_t last);
+    /// Merges eye vertices with the photons of the job.
+    void merge(const Context& context);
     /// Connects light vertices [first, last) to points on the lens that are sampled for them: t = 1.
     void connect_to_camera(const Context& context, std::size_t first, std::size_t last);
     /// Connects eye vertices [first, last) to light vertices: s > 1, t > 1.

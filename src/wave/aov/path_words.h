@@ -104,9 +104,18 @@ class PathWords {
     /// `light`, which are among `light_words`.
     void join(WordRange eye, const PathWords& light_words, WordRange light, std::vector<ExpressionShare>& shares) const;
 
+    /// Appends the words in `range` of `from`, and returns where they are.
+    WordRange copy(const PathWords& from, WordRange range) {
+        const WordRange copied{static_cast<std::uint32_t>(words_.size()), range.count};
+        const std::span<const WordShare> words = from[range];
+        words_.insert(words_.end(), words.begin(), words.end());
+        return copied;
+    }
+
     /// Forgets all words but the first `size`: the others were needed for one connection only.
     void shrink_to(std::size_t size) { words_.resize(size); }
     [[nodiscard]] std::size_t size() const { return words_.size(); }
+    [[nodiscard]] std::size_t bytes() const { return words_.capacity() * sizeof(WordShare); }
 
   private:
     [[nodiscard]] std::span<const WordShare> operator[](WordRange range) const {

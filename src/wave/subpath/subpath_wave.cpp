@@ -12,7 +12,8 @@
 namespace etendue {
 
 Wavelength SubpathJob::wavelength(std::uint32_t slot) const {
-    return world.spectral_response().sample(sample_2d(job.sequence, samples[slot].key, kSubpathWavelengthDimension).x);
+    return world.spectral_response().sample(
+        sample_2d(job.sequence, shared_key(job, samples[slot].key), kSubpathWavelengthDimension).x);
 }
 
 bool SubpathJob::needs(SubpathEnd end, BounceNumbers which) const {

@@ -41,6 +41,10 @@ bool SubpathWave::make_vertex(const SubpathJob& job, std::size_t i, ShadedSubpat
     vertex.densities = path.arrived;
     vertex.next_edges = state.edges + 1;
     place(world, path, relative_ior, vertex);
+    if (vertex.is_connectible) {
+        vertex.merges = merge_at(job.mis(), state.departing, vertex.position, path.arrived);
+        vertex.densities = path.arrived;
+    }
     if (world.has_bodies()) {
         vertex.outside = world.medium(crossing ? crossing->outside : interiors_[i]);
         vertex.inside = crossing ? world.medium(crossing->inside) : vertex.outside;

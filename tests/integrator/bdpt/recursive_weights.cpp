@@ -16,7 +16,8 @@ using Value = Scattering::TwoWayValue;
 struct Side {
     std::vector<PathVertex> vertices;
     std::vector<Value> values;                  ///< towards the next vertex
-    std::vector<DepartingDensities> departing;  ///< the same
+    std::vector<DepartingDensities> departing;  ///< towards the next vertex
+    std::vector<bool> merges;                   ///< true where it merges as far as this side knows
 };
 
 /// Vertex 0 is the first of `inner`.
@@ -28,7 +29,7 @@ class GivenPath {
         const std::size_t n = path_.inner.size();
         walk_from_eye();
         if (!has_light()) {
-            std::vector<double> weights(n + 2, 0.0);
+            std::vector<double> weights(2 * n + 2, 0.0);
             weights[0] = 1.0;
             return weights;
         }
@@ -36,6 +37,7 @@ class GivenPath {
         std::vector<double> weights{weight_at_light(), weight_of_light_sample()};
         for (std::size_t i = 0; i + 1 < n; ++i) weights.push_back(weight_between(i));
         weights.push_back(weight_at_lens());
+        for (std::size_t i = 0; i < n; ++i) weights.push_back(weight_of_merge(i));
         return weights;
     }
 
@@ -96,6 +98,7 @@ class GivenPath {
         side.vertices.resize(path_.inner.size());
         side.values.resize(path_.inner.size());
         side.departing.resize(path_.inner.size());
+        side.merges.resize(path_.inner.size());
     }
 
     void walk_from_light() {
@@ -108,6 +111,7 @@ class GivenPath {
             departing.is_connectible = departing.is_connectible && is_direct(i);
             vertex.densities = i == 0 ? arrive_from_light(job_.mis(), emission, departing, vertex.position, cosine)
                                       : departing.arrive(job_.raised, squared_distance(i - 1), cosine);
+            light_.merges[i] = merges(i, departing, vertex);
             scatter_along(light_, i, vertex, to_eye(i), TransportMode::Importance);
         }
     }
@@ -120,8 +124,15 @@ class GivenPath {
             departing.is_connectible = departing.is_connectible && is_direct(i + 1);
             vertex.densities = i == last() ? arrive_from_lens(job_.mis(), departing, path_.camera, cosine)
                                            : departing.arrive(job_.raised, squared_distance(i), cosine);
+            eye_.merges[i] = merges(i, departing, vertex);
             scatter_along(eye_, i, vertex, to_light(i), TransportMode::Radiance);
         }
+    }
+
+    /// Has `vertex`, which is vertex `i`, merge if it may.
+    [[nodiscard]] bool merges(std::size_t i, const DepartingDensities& departing, PathVertex& vertex) const {
+        return scatters_freely(i) && vertex.is_on_surface() &&
+               merge_at(job_.mis(), departing, vertex.position, vertex.densities);
     }
 
     /// As World::sample_emission makes it.
@@ -199,6 +210,15 @@ class GivenPath {
         if (!scatters_freely(last()) || !is_direct(last() + 1)) return 0.0;
         return sums_at_lens(job_.mis(), light_.vertices.back(), to_eye(last()), path_.camera, light_.values.back())
             .weight();
+    }
+
+    [[nodiscard]] double weight_of_merge(std::size_t i) const {
+        if (!light_.merges[i] || !eye_.merges[i]) return 0.0;
+        const Value& value = eye_.values[i];
+        const double fewer =
+            light_.vertices[i].densities.fewer(job_.raised, static_cast<double>(value.pdf_solid_angle)) +
+            eye_.vertices[i].densities.fewer(job_.raised, static_cast<double>(value.reverse_pdf_solid_angle));
+        return job_.merging.weight(fewer / job_.raised(job_.merging.expected(path_.inner[i]->position)));
     }
 
     const SubpathJob& job_;

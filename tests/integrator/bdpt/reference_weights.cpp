@@ -87,6 +87,24 @@ class Path {
         return scatters_freely(i - 1) && scatters_freely(i) && is_direct(i);
     }
 
+    /// True if subpaths merge at vertex i.
+    [[nodiscard]] bool merges(std::size_t i) const {
+        if (i == 0 || i > inner_.size() || !scatters_freely(i) || !inner_[i - 1]->is_on_surface()) return false;
+        switch (job_.merging.at) {
+            case MergeAt::Nothing:
+                return false;
+            case MergeAt::BetweenDeltas:
+                return is_delta(i - 1) && is_delta(i + 1);
+            case MergeAt::Everywhere:
+                return true;
+        }
+        return false;
+    }
+    /// How many light subpaths are expected within the radius around vertex i, per density.
+    [[nodiscard]] double expected_photons(std::size_t i) const {
+        return job_.merging.expected(inner_[i - 1]->position);
+    }
+
   private:
     [[nodiscard]] bool is_delta(std::size_t i) const {
         return i >= 1 && i <= inner_.size() && inner_[i - 1]->is_left_by_delta && !is_end_of_subpath(i);
@@ -136,25 +154,33 @@ class Path {
 }  // namespace
 
 std::vector<double> reference_weights(const SubpathJob& job, const CompletePath& complete) {
+    constexpr double kNever = -std::numeric_limits<double>::infinity();
     const Path path(job, complete);
-    const std::size_t last = path.inner_count() + 1;  // the vertex on the lens; it is s = last that has t = 1
-    std::vector<double> densities(last + 1, 0.0);
-    for (std::size_t s = 0; s <= last; ++s) {
-        if (s > 0 && !path.connects(s)) continue;
-        // In logarithms: products of densities leave the range of numbers.
+    const std::size_t inner = path.inner_count();
+    const std::size_t last = inner + 1;  // the vertex on the lens; it is s = last that has t = 1
+    // In logarithms: products of densities leave the range of numbers.
+    const auto from_light_up_to = [&](std::size_t i, std::size_t s) {
+        double logarithm = std::log(path.on_light(s));
+        for (std::size_t j = 1; j <= i; ++j) logarithm += std::log(path.from_light(j));
+        return logarithm;
+    };
+    const auto from_eye_down_to = [&](std::size_t i) {
         double logarithm = 0.0;
-        if (s > 0) logarithm += std::log(path.on_light(s));
-        for (std::size_t i = 1; i < s; ++i) logarithm += std::log(path.from_light(i));
-        for (std::size_t i = s; i < last; ++i) logarithm += std::log(path.from_eye(i));
-        densities[s] = logarithm;
-    }
-    double largest = -std::numeric_limits<double>::infinity();
-    for (std::size_t s = 0; s <= last; ++s)
-        if (s == 0 || path.connects(s)) largest = std::max(largest, densities[s]);
+        for (std::size_t j = i; j < last; ++j) logarithm += std::log(path.from_eye(j));
+        return logarithm;
+    };
+    std::vector<double> densities(last + 1 + inner, kNever);
+    densities[0] = from_eye_down_to(0);
+    for (std::size_t s = 1; s <= last; ++s)
+        if (path.connects(s)) densities[s] = from_light_up_to(s - 1, s) + from_eye_down_to(s);
+    for (std::size_t i = 1; i <= inner; ++i)
+        if (path.merges(i))
+            densities[last + i] = from_light_up_to(i, i + 1) + from_eye_down_to(i) + std::log(path.expected_photons(i));
+    const double largest = std::ranges::max(densities);
     double sum = 0.0;
-    for (std::size_t s = 0; s <= last; ++s) {
-        densities[s] = s == 0 || path.connects(s) ? job.raised(std::exp(densities[s] - largest)) : 0.0;
-        sum += densities[s];
+    for (double& density : densities) {
+        density = density == kNever ? 0.0 : job.raised(std::exp(density - largest));
+        sum += density;
     }
     for (double& density : densities) density /= sum;
     return densities;

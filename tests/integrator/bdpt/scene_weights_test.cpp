@@ -48,9 +48,9 @@ TEST_P(SceneWeights, SumToOneAndAreThoseOfTheDefinition) {
     ProblemList warnings;
     const World world = compile_world(std::move(desc), ColorConfig::built_in(), "ACEScg", threads, warnings);
     for (const Heuristic heuristic : {Heuristic::Power, Heuristic::Balance})
-        EXPECT_GE(
-            expect_right_weights(world, lengths, heuristic, {&job, 1}, kPaths, kShortEdge * world.bounding_radius()),
-            2u);
+        EXPECT_GE(expect_right_weights(world, lengths, heuristic, MergeAt::Nothing, {&job, 1}, kPaths,
+                                       kShortEdge * world.bounding_radius()),
+                  2u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SceneWeights, testing::ValuesIn(scene_names()), [](const auto& scene) {

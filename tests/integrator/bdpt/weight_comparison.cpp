@@ -60,7 +60,9 @@ class Comparison final : public WeightObserver {
         double error = std::max(std::abs(weight - all[path.s]), std::abs(sum - 1.0));
         for (std::size_t s = 0; s < all.size(); ++s) error = std::max(error, std::abs(all[s] - reference[s]));
         ++paths;
-        strategies = std::max(strategies, reference.size());
+        const auto merging = std::span(reference).subspan(path.inner.size() + 2);
+        if (std::ranges::any_of(merging, [](double share) { return share > 0.01; })) ++merged;
+        strategies = std::max(strategies, path.inner.size() + 2);
         if (!(error <= kTolerance)) {
             ++different;
             if (is_well_conditioned(path)) ++different_without_excuse;
@@ -69,12 +71,13 @@ class Comparison final : public WeightObserver {
             least_height(path) < kTellsNoCosine * short_edge_)
             return;
         worst = error;
-        worst_path =
-            fmt::format("s = {}: {:.6f}; of all strategies: {:.6f}, which sum to {:.6f}; by definition: {:.6f}", path.s,
-                        weight, fmt::join(all, " "), sum, fmt::join(reference, " "));
+        worst_path = fmt::format(
+            "s = {}: {:.6f}; of all strategies and merges: {:.6f}, which sum to {:.6f}; by definition: {:.6f}", path.s,
+            weight, fmt::join(all, " "), sum, fmt::join(reference, " "));
     }
 
     std::size_t paths = 0;
+    std::size_t merged = 0;  ///< paths of which merges have a share
     std::size_t different = 0;
     std::size_t different_without_excuse = 0;
     std::size_t strategies = 0;
@@ -102,7 +105,7 @@ class Comparison final : public WeightObserver {
 
 }  // namespace
 
-std::size_t expect_right_weights(const World& world, PathLengths lengths, Heuristic heuristic,
+std::size_t expect_right_weights(const World& world, PathLengths lengths, Heuristic heuristic, MergeAt merge,
                                  std::span<const TileJob> jobs, std::size_t paths, float short_edge) {
     Comparison comparison(short_edge);
     lengths.min_depth = 1;
@@ -114,6 +117,8 @@ std::size_t expect_right_weights(const World& world, PathLengths lengths, Heuris
     for (std::uint32_t seed = 0; comparison.paths < paths; ++seed) {
         TileJob job = jobs[seed % jobs.size()];
         job.seed = seed;
+        job.merging = make_merging(world, job.full_width, job.full_height, static_cast<double>(job.window.area()), 0,
+                                   {.at = merge});
         TileBuffer tile;
         tile.reset(job.rect);
         const std::size_t before = comparison.paths;
@@ -124,6 +129,9 @@ std::size_t expect_right_weights(const World& world, PathLengths lengths, Heuris
     }
     EXPECT_LE(comparison.different_without_excuse, comparison.paths / 10'000) << comparison.worst_path;
     EXPECT_LE(comparison.different, comparison.paths / 400) << comparison.worst_path;
+    if (merge != MergeAt::Nothing) {
+        EXPECT_GE(comparison.merged, comparison.paths / 10'000 + 1);
+    }
     EXPECT_LE(comparison.worst, kRoundingTolerance) << comparison.worst_path;
     return comparison.strategies;
 }

@@ -11,6 +11,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
+#include <tuple>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -41,9 +43,38 @@ TEST_P(BdptWeights, RecursionSaysWhatTheDefinitionSays) {
     // Of a path of so many edges, or of more where media scatter.
     const int strategies = world.has_scattering_bodies() ? 4 : std::min(4, GetParam().lengths.max_depth + 1);
     for (const Heuristic heuristic : {Heuristic::Power, Heuristic::Balance})
-        EXPECT_GE(expect_right_weights(world, GetParam().lengths, heuristic, jobs, kPaths / 2, kShortEdge),
-                  static_cast<std::size_t>(strategies));
+        EXPECT_GE(
+            expect_right_weights(world, GetParam().lengths, heuristic, MergeAt::Nothing, jobs, kPaths / 2, kShortEdge),
+            static_cast<std::size_t>(strategies));
 }
+
+/// A room, and where its subpaths merge.
+using MergingRoom = std::tuple<const char*, MergeAt>;
+
+std::string name_of_merging_room(const testing::TestParamInfo<MergingRoom>& info) {
+    const auto& [name, merge] = info.param;
+    return name + std::string(merge == MergeAt::Everywhere ? "Everywhere" : "BetweenDeltas");
+}
+
+class MergingWeights : public testing::TestWithParam<MergingRoom> {};
+
+TEST_P(MergingWeights, RecursionSaysWhatTheDefinitionSays) {
+    constexpr std::size_t kPaths = 20'000;
+    const auto& [name, merge] = GetParam();
+    const AgreementCase& room = agreement_case(name);
+    const World world = agreement_world(room);
+    const PixelFilter filter(FilterShape::Box);
+    const TileJob jobs[] = {job_of(kWholeImage, 0, filter), job_of(kCrop, 0, filter)};
+    for (const Heuristic heuristic : {Heuristic::Power, Heuristic::Balance})
+        expect_right_weights(world, room.lengths, heuristic, merge, jobs, kPaths / 2, kShortEdge);
+}
+
+INSTANTIATE_TEST_SUITE_P(Rooms, MergingWeights,
+                         testing::Values(MergingRoom{"SmoothGlass", MergeAt::BetweenDeltas},
+                                         MergingRoom{"Mirror", MergeAt::BetweenDeltas},
+                                         MergingRoom{"SmoothGlass", MergeAt::Everywhere},
+                                         MergingRoom{"LampPlastic", MergeAt::Everywhere}),
+                         name_of_merging_room);
 
 /// Of the paths of a crop, holds the weights of their strategies against those in a render of the whole image.
 class CropObserver final : public WeightObserver {
@@ -55,7 +86,7 @@ class CropObserver final : public WeightObserver {
     void on_weight(const SubpathJob& job, const CompletePath& path, double) override {
         const std::vector<double> in_crop = reference_weights(job, path);
         const std::vector<double> in_whole = reference_weights(whole_, path);
-        const std::size_t last = in_crop.size() - 1;
+        const std::size_t last = path.inner.size() + 1;
         if (!(in_whole[last] > 1e-6)) return;
         for (std::size_t s = 0; s < last; ++s) {
             if (!(in_whole[s] > 1e-6)) continue;

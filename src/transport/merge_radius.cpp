@@ -1,0 +1,24 @@
+#include "transport/merge_radius.h"
+
+#include "transport/scattered_cone.h"
+#include "world/world.h"
+
+namespace etendue {
+
+Merging make_merging(const World& world, int width, int height, double light_paths, std::uint32_t sample,
+                     const MergeOptions& options) {
+    if (!world.has_lights() || (options.at == MergeAt::BetweenDeltas && !world.has_specular_surfaces())) return {};
+    // Radii of the scene's.
+    constexpr float kLeast = 1e-4f;
+    constexpr float kMost = 0.02f;
+    constexpr Vec2f kMiddle{0.5f, 0.5f};
+    const Ray ray = world.generate_ray(kMiddle, kMiddle, 0.5f);
+    MergeRadius radius{.eye = ray.origin, .pixel = camera_cone(world, width, height, ray)};
+    const float shrunk = std::pow(static_cast<float>(sample) + 1.0f, 0.5f * (options.alpha - 1.0f));
+    radius.scale = std::min(options.radius * shrunk, MergeRadius::kMostSlope / std::abs(radius.pixel.spread));
+    radius.least = kLeast * world.bounding_radius();
+    radius.most = kMost * world.bounding_radius();
+    return {.at = options.at, .radius = radius, .light_paths = light_paths};
+}
+
+}  // namespace etendue

@@ -1,0 +1,75 @@
+// Where subpaths merge, and how far apart their vertices may be.
+#pragma once
+
+#include "core/ray_cone.h"
+#include "core/vec.h"
+#include "transport/heuristic.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+namespace etendue {
+
+/// Says which vertices merge.
+enum class MergeAt : std::uint8_t {
+    Nothing,        ///< none: bidirectional path tracing without merging
+    BetweenDeltas,  ///< those which both subpaths reach by a delta: no connection finds such paths
+    Everywhere,     ///< all that scatter by more than deltas: the algorithm as it was published
+};
+
+/// Computes the radius within which vertices merge, for samples of one index.
+struct MergeRadius {
+    Vec3f eye{0.0f};
+    RayCone pixel{};     ///< cone of a pixel in the middle of the image
+    float scale = 1.0f;  ///< radius over the pixel's width
+    float least = 0.0f;  ///< metres
+    float most = 0.0f;   ///< metres
+
+    [[nodiscard]] float operator()(const Vec3f& point) const {
+        return std::clamp(scale * pixel.width_at(length(point - eye)), least, most);
+    }
+    /// Bounds `slope`: within a kernel radii then lie between two thirds and four thirds of its own.
+    static constexpr float kMostSlope = 1.0f / 3.0f;
+
+    /// Returns how much radii of points one metre apart differ at most.
+    [[nodiscard]] float slope() const { return scale * std::abs(pixel.spread); }
+};
+
+/// Says where the subpaths of one sample of every pixel merge.
+struct Merging {
+    MergeAt at = MergeAt::Nothing;
+    MergeRadius radius{};
+    double light_paths = 0.0;  ///< light subpaths whose photons an eye vertex may merge with
+
+    [[nodiscard]] bool merges() const { return at != MergeAt::Nothing; }
+    /// Returns eta: how many light subpaths are expected within the radius around `point`, per density of arriving
+    /// there.
+    [[nodiscard]] double expected(const Vec3f& point) const {
+        const auto metres = static_cast<double>(radius(point));
+        return std::numbers::pi * metres * metres * light_paths;
+    }
+    /// Returns the weight of a merge for which the other strategies of both sides together have `ratio` times its
+    /// density.
+    [[nodiscard]] double weight(double ratio) const {
+        // Where all vertices merge, both sides have counted this one.
+        return 1.0 / (at == MergeAt::Everywhere ? std::max(1.0, ratio - 1.0) : 1.0 + ratio);
+    }
+};
+
+/// Says how subpaths are to merge.
+struct MergeOptions {
+    MergeAt at = MergeAt::Nothing;
+    float radius = 1.5f;  ///< c: of the first sample, in widths of a pixel, > 0
+    float alpha = 0.75f;  ///< (0, 1]: the radius shrinks with the power (alpha - 1) / 2 of the number of samples
+};
+
+class World;
+
+/// Returns where subpaths merge in an image of `width` × `height` pixels, for the sample of index `sample` of every
+/// pixel and as many light subpaths as `light_paths`. Nowhere, if nothing in `world` could have it happen.
+[[nodiscard]] Merging make_merging(const World& world, int width, int height, double light_paths, std::uint32_t sample,
+                                   const MergeOptions& options);
+
+}  // namespace etendue

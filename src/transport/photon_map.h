@@ -1,0 +1,56 @@
+// Photons of all light subpaths of one sample of every pixel, to be looked up by place.
+//
+// Each lies in a cell of a grid whose cells are at least as wide as a kernel there: radii grow with the distance from
+// the camera, and there is one grid for each power of two between them. Cells share buckets by a hash of their place.
+#pragma once
+
+#include "transport/merging.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace etendue {
+
+class PhotonMap {
+  public:
+    /// Takes the photons of `lists`, one list after the other; where a kernel finds several, they come in this order,
+    /// bucket by bucket.
+    PhotonMap(std::span<const std::vector<Photon>> lists, const MergeRadius& radius);
+
+    [[nodiscard]] std::size_t size() const { return photons_.size(); }
+    [[nodiscard]] std::size_t bytes() const;
+
+    /// Calls `take` with each photon within `kernel`, whose radius is that of its position.
+    template <typename Take>
+    void for_each_in(const MergeKernel& kernel, const Take& take) const {
+        if (photons_.empty()) return;
+        Buckets buckets;
+        find_buckets(kernel, buckets);
+        for (const std::uint32_t bucket : std::span(buckets.index).first(buckets.count))
+            for (std::uint32_t p = begin_[bucket]; p < begin_[bucket + 1]; ++p)
+                if (kernel.contains(photons_[p])) take(photons_[p]);
+    }
+
+  private:
+    /// Holds the buckets that a kernel's photons may be in, each once.
+    struct Buckets {
+        /// Two grids, as MergeRadius::kMostSlope keeps radii from changing more, and in each no more than three cells
+        /// a side.
+        static constexpr std::size_t kMost = 2 * 27;
+        std::array<std::uint32_t, kMost> index{};
+        std::size_t count = 0;
+    };
+
+    [[nodiscard]] std::uint32_t bucket_of(const Vec3f& position) const;
+    void find_buckets(const MergeKernel& kernel, Buckets& buckets) const;
+
+    MergeRadius radius_;
+    std::uint32_t mask_ = 0;
+    std::vector<std::uint32_t> begin_;  ///< by bucket, and the end of the last
+    std::vector<Photon> photons_;       ///< bucket by bucket
+};
+
+}  // namespace etendue

@@ -1,0 +1,72 @@
+// Photons are found by place, each once.
+#include "transport/photon_map.h"
+
+#include "support/random.h"
+
+#include <cstddef>
+#include <map>
+#include <span>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace etendue::test {
+
+namespace {
+
+/// Radii from 1 cm to half a metre: five grids and their limits.
+constexpr MergeRadius kRadius{.eye{0.5f, 0.0f, 0.0f}, .pixel{0.0f, 0.1f}, .scale = 1.0f, .least = 0.01f, .most = 0.5f};
+
+std::vector<std::vector<Photon>> some_photons(Random& random, std::size_t lists, std::size_t per_list) {
+    std::vector<std::vector<Photon>> photons(lists);
+    for (std::vector<Photon>& list : photons)
+        for (std::size_t i = 0; i < per_list; ++i) {
+            // On a plane, as kernels are thin.
+            const Vec2f place = random.next_2d();
+            list.push_back({.position{8.0f * place.x - 4.0f, 0.0f, 8.0f * place.y - 4.0f},
+                            .normal{0, 1, 0},
+                            .edges = static_cast<std::int32_t>(i)});
+        }
+    return photons;
+}
+
+TEST(PhotonMap, FindsEachPhotonOfAKernelOnce) {
+    Random random(1);
+    const std::vector<std::vector<Photon>> lists = some_photons(random, 7, 900);
+    const PhotonMap map(lists, kRadius);
+    EXPECT_EQ(map.size(), 6300u);
+    std::size_t found = 0;
+    for (int i = 0; i < 500; ++i) {
+        const Vec2f place = random.next_2d();
+        const Vec3f position(9.0f * place.x - 4.5f, 0.0f, 9.0f * place.y - 4.5f);
+        const MergeKernel kernel{position, {0, 1, 0}, kRadius(position)};
+        std::map<float, int> expected;
+        for (const std::vector<Photon>& list : lists)
+            for (const Photon& photon : list)
+                if (kernel.contains(photon)) ++expected[photon.position.x];
+        std::map<float, int> seen;
+        map.for_each_in(kernel, [&](const Photon& photon) { ++seen[photon.position.x]; });
+        ASSERT_EQ(seen, expected) << position.x << " " << position.z;
+        found += seen.size();
+    }
+    EXPECT_GT(found, 5000u);
+}
+
+TEST(PhotonMap, OfNoPhotonsFindsNone) {
+    const PhotonMap map({}, kRadius);
+    map.for_each_in({{}, {0, 1, 0}, 1.0f}, [](const Photon&) { FAIL(); });
+    EXPECT_EQ(map.size(), 0u);
+}
+
+TEST(MergeKernel, TakesWhatLiesOnItsSurface) {
+    const MergeKernel kernel{{0, 0, 0}, {0, 1, 0}, 1.0f};
+    EXPECT_TRUE(kernel.contains({.position{0.9f, 0, 0}, .normal{0, 1, 0}}));
+    EXPECT_FALSE(kernel.contains({.position{1.1f, 0, 0}, .normal{0, 1, 0}})) << "too far";
+    EXPECT_FALSE(kernel.contains({.position{0, 0.2f, 0}, .normal{0, 1, 0}})) << "another surface above";
+    EXPECT_FALSE(kernel.contains({.position{0.1f, 0, 0}, .normal{1, 0, 0}})) << "around a corner";
+    EXPECT_FALSE(kernel.contains({.position{0.1f, 0, 0}, .normal{0, -1, 0}})) << "the other side of a thin wall";
+}
+
+}  // namespace
+
+}  // namespace etendue::test
