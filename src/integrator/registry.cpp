@@ -48,6 +48,7 @@ std::unique_ptr<const Integrator> make_vcm(const IntegratorOptions& options) {
                                                         .heuristic = options.heuristic,
                                                         .only = options.strategy,
                                                         .weighted = options.weighted,
+                                                        .cached_connections = options.cached_connections,
                                                         .merging = options.merging});
 }
 

@@ -20,7 +20,7 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-constexpr const char* kTransport[] = {"path", "direct", "naive", "light", "bdpt", "whitted"};
+constexpr const char* kTransport[] = {"path", "direct", "naive", "light", "bdpt", "vcm", "whitted"};
 
 /// Those of whose sentences one contains `text`.
 Names who_says(const World& world, std::string_view text) {
@@ -119,6 +119,7 @@ TEST(UnreachableLight, CausticsOfPointsAreNotSeenInMirrors) {
     const World world = compile(std::move(scene));
     EXPECT_EQ(who_says(world, "where the eye sees it in a mirror"), Names{"bdpt"});
     for (const char* name : {"path", "light", "bdpt"}) EXPECT_EQ(render_by(world, name, 6).mean, 0.0) << name;
+    EXPECT_GT(render_by(world, "vcm", 6).mean, 0.0);
 }
 
 TEST(UnreachableLight, TheSkyItselfIsNotFoundFromTheLight) {

@@ -13,10 +13,11 @@ std::vector<std::string> BdptIntegrator::unreachable_light(const World& world) c
         sentences.push_back(fmt::format(
             "the image stays black: strategy {},{} makes paths of {} edges, and the longest that are kept have {}",
             options_.only->s, options_.only->t, options_.only->edges(), options_.lengths.max_depth));
-    if (world.has_delta_lights() && world.has_specular_surfaces())
+    const bool merges = options_.merging.at != MergeAt::Nothing && !options_.only;
+    if (world.has_delta_lights() && world.has_specular_surfaces() && !merges)
         sentences.emplace_back(
             "what point, spot and directional lights send through smooth glass or by way of mirrors cannot be found "
-            "where the eye sees it in a mirror or through smooth glass, too");
+            "where the eye sees it in a mirror or through smooth glass, too; 'vcm' finds it");
     return sentences;
 }
 
