@@ -442,16 +442,18 @@ constexpr std::array kRows{
         .help = "Whether the paths of the strategy are weighted by multiple importance sampling; if not, they show as "
                 "if no other strategy made them",
         .place = at([](auto& s) -> auto& { return s.integrator.weighted; })},
-    Setting{.pointer = "/integrator/connections",
-            .option = "--bdpt-connections",
-            .type = Form{kConnectionsForm, "^(pairwise|cache:[1-9][0-9]{0,2})$", parses<parse_connections>},
-            .decides = Decides::Samples,
-            .integrators = "bdpt vcm",
-            .help = "How `bdpt` and `vcm` connect an eye vertex: to all light vertices of its own sample (`pairwise`), or N "
-                    "drawn from those of many samples (`cache:N`)",
-            .page = "integrators.md#connections-to-a-cache",
-            .place = parsed_at<parse_connections, connections_text>(
-                [](auto& s) -> auto& { return s.integrator.cached_connections; })},
+    Setting{
+        .pointer = "/integrator/connections",
+        .option = "--bdpt-connections",
+        .type = Form{kConnectionsForm, "^(pairwise|cache:[1-9][0-9]{0,2})$", parses<parse_connections>},
+        .decides = Decides::Samples,
+        .integrators = "bdpt vcm",
+        .help =
+            "How `bdpt` and `vcm` connect an eye vertex: to all light vertices of its own sample (`pairwise`), or N "
+            "drawn from those of many samples (`cache:N`)",
+        .page = "integrators.md#connections-to-a-cache",
+        .place = parsed_at<parse_connections, connections_text>(
+            [](auto& s) -> auto& { return s.integrator.cached_connections; })},
     Setting{.pointer = "/integrator/merge",
             .option = "--merge",
             .type = kChoiceOf<kMergeNames>,

@@ -69,8 +69,8 @@ TEST(IneffectiveSettings, OptionsOfStrategiesNeedStrategies) {
     settings.options = {{"/integrator/heuristic", "--heuristic"}, {"/integrator/connections", "--bdpt-connections"}};
     const std::vector<std::string> notes = ineffective_settings(settings, false);
     ASSERT_EQ(notes.size(), 2u);
-    EXPECT_EQ(notes[0], "--heuristic has no effect with 'path': it is for 'bdpt'");
-    EXPECT_EQ(notes[1], "--bdpt-connections has no effect with 'path': it is for 'bdpt'");
+    EXPECT_EQ(notes[0], "--heuristic has no effect with 'path': it is for 'bdpt' and 'vcm'");
+    EXPECT_EQ(notes[1], "--bdpt-connections has no effect with 'path': it is for 'bdpt' and 'vcm'");
     settings.integrator.type = "bdpt";
     EXPECT_TRUE(ineffective_settings(settings, false).empty());
 }
