@@ -57,7 +57,7 @@ constexpr RegressionScene kRegressionScenes[] = {
 // tell anything, and their materials and shapes are in the others.
 constexpr std::string_view kWithoutReference[] = {
     "ajar-door",    "caustic-glass",   "caustic-mirror", "caustic-pool", "caustic-prism",
-    "caustic-ring", "glossy-interior", "many-lights",    "veach-bidir",
+    "caustic-ring", "glossy-interior", "many-lights",    "torus-in-glass", "veach-bidir",
 };
 
 }  // namespace
