@@ -86,10 +86,11 @@ std::vector<VariantRequest> variant_requests(const CompareArguments& arguments) 
         if (arguments.variants[i])
             requests.push_back(
                 {fmt::format("{}: {}", kLetters[i], *arguments.variants[i]), *arguments.variants[i], {}});
-    const std::vector<std::string> usual{"path", "bdpt"};
+    const bool chooses = requests.empty() && arguments.integrators.empty();
+    const std::vector<std::string> usual{"path", "bdpt", "vcm"};
     if (requests.empty())
-        for (const std::string& name : arguments.integrators.empty() ? usual : arguments.integrators)
-            requests.push_back({name, "--integrator " + name, {}});
+        for (const std::string& name : chooses ? usual : arguments.integrators)
+            requests.push_back({name, "--integrator " + name, {}, chooses && name == "vcm"});
     for (VariantRequest& request : requests) request.request = with_options(arguments.common, request.options);
     return requests;
 }
@@ -258,8 +259,10 @@ void add_compare_options(CLI::App& command, CompareArguments& arguments) {
         ->required()
         ->check(CLI::Validator([](const std::string& text) { return std::string(text.empty() ? "it is empty" : ""); },
                                "DIR"));
-    auto* integrators = command.add_option("--integrators", arguments.integrators,
-                                           "Algorithms to compare, separated by commas (default: path,bdpt)");
+    auto* integrators =
+        command.add_option("--integrators", arguments.integrators,
+                           "Algorithms to compare, separated by commas (default: path,bdpt, and vcm where the "
+                           "scene has mirrors or smooth glass)");
     integrators->delimiter(',')->allow_extra_args(false)->check(CLI::IsMember(integrator_names()));
     for (std::size_t i = 0; i < kLetters.size(); ++i)
         command

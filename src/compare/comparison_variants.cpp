@@ -96,6 +96,7 @@ std::vector<Variant> make_variants(const std::filesystem::path& scene, std::span
                             ? same_world->world
                             : std::make_shared<const World>(ray_code().compile_world(
                                   std::move(prepared.scene), colors, working_space, threads, prepared.problems, {}));
+        if (request.is_for_mirrors && !variant.world->has_specular_surfaces()) continue;
         if (variants.empty() && !quiet)
             for (const Problem& problem : prepared.problems.all()) log_warning("{}", problem.str());
         complete(variant);

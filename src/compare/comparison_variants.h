@@ -30,6 +30,7 @@ struct VariantRequest {
     std::string name;
     std::string options;  ///< in addition to those of all variants, as they stand on a command line
     RenderRequest request;
+    bool is_for_mirrors = false;  ///< left out of scenes without mirrors and smooth glass
 };
 
 /// A variant that can be rendered.

@@ -163,6 +163,26 @@ TEST_F(Compare, EveryPrintedCommandRemakesItsImage) {
     EXPECT_EQ(this->report()["command"], report["command"]);
 }
 
+TEST_F(Compare, HasMergingWhereTheSceneHasMirrors) {
+    const auto names = [&] {
+        Names found;
+        const json written = report();
+        for (const json& variant : written["variants"]) found.push_back(variant["name"]);
+        return found;
+    };
+    const std::vector<std::string> arguments{"--spp", "1", "--seeds", "1", "--strategies-depth", "0"};
+    ASSERT_EQ(compare(arguments).exit_code, 0);
+    EXPECT_EQ(names(), (Names{"path", "bdpt"}));
+    const fs::path file = folder_ / "box/scene.gltf";
+    std::string text = read_file(file);
+    constexpr std::string_view kPrimitive = R"({"attributes": {"POSITION": 0}})";
+    text.replace(text.find(kPrimitive), kPrimitive.size(), R"({"material": 0, "attributes": {"POSITION": 0}})");
+    text.insert(text.rfind('}'), R"(, "materials": [{"pbrMetallicRoughness": {"roughnessFactor": 0}}])");
+    write_file(file, text);
+    ASSERT_EQ(compare(arguments).exit_code, 0);
+    EXPECT_EQ(names(), (Names{"path", "bdpt", "vcm"}));
+}
+
 TEST_F(Compare, TheComparisonsCommandNamesEachOfSeveralValues) {
     const std::vector<std::string> arguments{
         "--spp",    "1",         "--seeds",       "1",         "--region",           "a:0,0,4,4",
