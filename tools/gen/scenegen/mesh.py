@@ -373,6 +373,38 @@ def torus_knot(p, q, radius, reach, tube, along, around, color):
     return mesh
 
 
+def convex(planes, slack=1e-7):
+    """The flat-shaded body of all points with dot(normal, point) <= offset for each (unit normal, offset) of `planes`.
+
+    A vertex is where three planes meet within all others; corners that lie within 100 `slack` are one.
+    """
+    corners = []
+    for i, (n0, d0) in enumerate(planes):
+        for j, (n1, d1) in enumerate(planes[:i]):
+            along = cross(n0, n1)
+            for n2, d2 in planes[:j]:
+                volume = dot(along, n2)
+                if abs(volume) < 1e-6:
+                    continue
+                point = scale(add(add(scale(cross(n1, n2), d0), scale(cross(n2, n0), d1)), scale(along, d2)), 1.0 / volume)
+                if all(dot(n, point) <= d + slack for n, d in planes) and all(
+                        length(sub(point, corner)) > 100.0 * slack for corner in corners):
+                    corners.append(point)
+    mesh = Mesh()
+    for normal, offset in planes:
+        face = [corner for corner in corners if abs(dot(normal, corner) - offset) <= 200.0 * slack]
+        if len(face) < 3:
+            continue
+        right = normalize(cross(normal, (0.0, 0.0, 1.0) if abs(normal[2]) < 0.9 else (1.0, 0.0, 0.0)))
+        up = cross(normal, right)
+        middle = scale(tuple(map(sum, zip(*face))), 1.0 / len(face))
+        face.sort(key=lambda point: math.atan2(dot(sub(point, middle), up), dot(sub(point, middle), right)))
+        indices = [mesh.add_vertex(point, normal) for point in face]
+        for b, c in zip(indices[1:], indices[2:]):
+            mesh.add_triangle(indices[0], b, c)
+    return mesh
+
+
 def merged(meshes):
     """One mesh of all triangles; all must have the same attributes."""
     result = Mesh()
