@@ -1,6 +1,6 @@
 """One module per scene. To add another: a module with `build()` that returns a GeneratedScene, and its line here."""
 
-from . import (ajar_door, caustic_glass, caustic_mirror, caustic_pool, caustic_prism, caustic_ring, cornell_box,
+from . import (ajar_door, caustic_glass, caustic_glasses, caustic_mirror, caustic_pool, caustic_prism, caustic_ring, cornell_box,
                cornell_glass, diamond, furnace, glossy_interior, instances, many_lights, material_grid, sun_and_sky, torus_in_glass,
                veach_bidir, veach_mis)
 
@@ -23,4 +23,5 @@ SCENES = {
     "glossy-interior": glossy_interior.build,
     "torus-in-glass": torus_in_glass.build,
     "diamond": diamond.build,
+    "caustic-glasses": caustic_glasses.build,
 }
