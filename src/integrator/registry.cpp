@@ -1,6 +1,7 @@
 // All integrators, in the order in which --help lists them.
 #include "integrator/bdpt/bdpt_integrator.h"
-#include "integrator/debug/debug_integrator.h"
+#include "integrator/debug/albedo_integrator.h"
+#include "integrator/debug/normals_integrator.h"
 #include "integrator/integrator.h"
 #include "integrator/light/light_integrator.h"
 #include "integrator/path/path_integrator.h"
@@ -48,11 +49,11 @@ std::unique_ptr<const Integrator> make_whitted(const IntegratorOptions& options)
 }
 
 std::unique_ptr<const Integrator> make_normals(const IntegratorOptions&) {
-    return std::make_unique<DebugIntegrator>(DebugQuantity::Normals);
+    return std::make_unique<NormalsIntegrator>();
 }
 
 std::unique_ptr<const Integrator> make_albedo(const IntegratorOptions&) {
-    return std::make_unique<DebugIntegrator>(DebugQuantity::Albedo);
+    return std::make_unique<AlbedoIntegrator>();
 }
 
 constexpr IntegratorEntry kRegistry[] = {

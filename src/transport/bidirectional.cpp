@@ -68,7 +68,7 @@ Rgb light_sampled(const SubpathSample& sample, const SubpathVertex& eye) {
     const float share = weight(sums_of_light_sample(sample.mis, eye, chosen, scattered));
     return light_contribution(world, eye, eye.throughput * sample.wavelength_weight(eye.is_dispersed), light,
                               scattered.f_cos, share / (light.is_delta ? chosen.probability : light.pdf_solid_angle),
-                              sample.eye.ray.time, sample.connection_key(SubpathEnd::AtEye, eye.index));
+                              {sample.eye.ray.time, sample.connection_key(SubpathEnd::AtEye, eye.index)});
 }
 
 /// Returns the light of s > 1 and t > 1: `eye` is connected to `light`.

@@ -29,7 +29,8 @@ Rgb met_emission(const World& world, const EyePath& path, const Vertex& vertex) 
 Rgb met_light(const World& world, const EyePath& path, const Vertex& vertex) {
     Rgb light;
     if (vertex.kind == Vertex::Kind::Environment) light += met_environment(world, path, vertex);
-    if (vertex.surface.material != nullptr && vertex.surface.material->emits)
+    const bool is_found_elsewhere = path.tracer != nullptr && path.rays == 1 && path.tracer->finds_emission(vertex.hit);
+    if (vertex.surface.material != nullptr && vertex.surface.material->emits && !is_found_elsewhere)
         light += met_emission(world, path, vertex);
     // An unlit surface lights nothing.
     if (vertex.kind == Vertex::Kind::Unlit && path.only_deltas) light += world.unlit_color(vertex.surface);
@@ -52,21 +53,21 @@ Rgb sampled_light(const World& world, const EyePath& path, const Vertex& vertex,
         if (is_black(chosen.sample.radiance)) continue;
         const BsdfValue value = vertex.evaluate(chosen.sample.wi);
         light += light_contribution(world, vertex, path.throughput * vertex.wavelength.weight, chosen.sample,
-                                    value.f_cos, light_sample_scale(chosen, value.pdf_solid_angle), path.ray.time,
-                                    shadow_alpha_key(u.alpha_key, round));
+                                    value.f_cos, light_sample_scale(chosen, value.pdf_solid_angle),
+                                    {path.ray.time, shadow_alpha_key(u.alpha_key, round), path.tracer});
     }
     return light;
 }
 
 Rgb light_contribution(const World& world, const Vertex& vertex, const Rgb& throughput, const LightSample& light,
-                       const Rgb& f_cos, float scale, float time, std::uint32_t alpha_key) {
+                       const Rgb& f_cos, float scale, const ShadowTrace& trace) {
     const Rgb contribution = throughput * f_cos * light.radiance * scale *
                              transmittance(world, vertex.interior_towards(light.wi), light.distance);
     if (is_black(contribution)) return {};
     Ray ray = shadow_ray(vertex.origin_towards(light.wi), light);
-    ray.time = time;
-    ray.alpha_key = alpha_key;
-    return contribution * visibility(world, ray);
+    ray.time = trace.time;
+    ray.alpha_key = trace.alpha_key;
+    return contribution * visibility(world, ray, trace.tracer);
 }
 
 }  // namespace etendue

@@ -43,11 +43,17 @@ namespace etendue {
 [[nodiscard]] Rgb sampled_light(const World& world, const EyePath& path, const Vertex& vertex,
                                 const SampleNumbers& numbers, const VertexNumbers& u, std::uint32_t samples);
 
+/// Says how the ray to a sampled light is traced.
+struct ShadowTrace {
+    float time;  ///< while the shutter is open, [0, 1]
+    std::uint32_t alpha_key;
+    SampleTracer* tracer = nullptr;  ///< null if the World traces it
+};
+
 /// Returns the light of a light sample that `vertex` scatters back along its path, times the path's `throughput`.
 /// `f_cos` is the BSDF times the cosine along the sample's direction, or the phase function. `scale` is the sample's
-/// weight over its density. The shadow ray has `time` and `alpha_key`.
+/// weight over its density.
 [[nodiscard]] Rgb light_contribution(const World& world, const Vertex& vertex, const Rgb& throughput,
-                                     const LightSample& light, const Rgb& f_cos, float scale, float time,
-                                     std::uint32_t alpha_key);
+                                     const LightSample& light, const Rgb& f_cos, float scale, const ShadowTrace& trace);
 
 }  // namespace etendue

@@ -5,7 +5,6 @@
 #include "transport/light.h"
 #include "transport/path.h"
 #include "transport/scattered_cone.h"
-#include "transport/whitted.h"
 #include "wave/camera_wave.h"
 
 #include <algorithm>
@@ -37,7 +36,6 @@ Rgb scalar_light(const World& world, const OracleRun& run, const EyeSample& samp
     const auto add = [&](const std::vector<FilmLight>& found) {
         on_film.insert(on_film.end(), found.begin(), found.end());
     };
-    if (run.integrator == "whitted") return whitted_radiance(world, sample, run.lengths);
     if (run.integrator == "light") {
         add(light_on_film(world, sample, run.lengths));
         return {};

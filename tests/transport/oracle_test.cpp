@@ -48,7 +48,7 @@ void expect_samples_of_oracle(const World& world, const OracleRun& run, double m
 
 /// Compares all algorithms, and what they may be asked for.
 void expect_all_samples_of_oracle(const World& world, const OracleRun& run, double most = kMostOfRooms) {
-    for (const char* const integrator : {"path", "direct", "naive", "whitted", "light", "bdpt"}) {
+    for (const char* const integrator : {"path", "direct", "naive", "light", "bdpt"}) {
         OracleRun one = run;
         one.integrator = integrator;
         expect_samples_of_oracle(world, one, most);

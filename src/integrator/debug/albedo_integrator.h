@@ -1,0 +1,12 @@
+#pragma once
+
+#include "integrator/scalar_integrator.h"
+
+namespace etendue {
+
+/// Shows the share of light that surfaces scatter, seen from the eye.
+struct AlbedoIntegrator final : ScalarIntegrator {
+    [[nodiscard]] EyeLight li(const World& world, const EyeSample& sample, const Hit& hit) const override;
+};
+
+}  // namespace etendue
