@@ -100,9 +100,9 @@ std::unique_ptr<IntegratorScratch> ScalarIntegrator::make_scratch() const {
 void ScalarIntegrator::render_tile(const World& world, const TileJob& job, IntegratorScratch& scratch, TileBuffer& tile,
                                    RenderCounters& counters) const {
     LampsInView& lamps = static_cast<ScalarWave&>(scratch).lamps();
-    if (lengths_) lamps.start(world, job, *lengths_, true);
+    if (shows_ == Shows::Light) lamps.start(world, job, settings_.lengths, true);
     trace_in_waves<ScalarWave>(world, job, *this, scratch, tile, counters);
-    if (lengths_) lamps.finish(tile, counters);
+    if (shows_ == Shows::Light) lamps.finish(tile, counters);
 }
 
 }  // namespace etendue

@@ -4,8 +4,6 @@
 #include "integrator/integrator.h"
 #include "transport/walk.h"
 
-#include <optional>
-
 namespace etendue {
 
 /// Renders by a function of one sample. Camera rays are traced together before; samples, alpha, layers, lamps in view
@@ -22,13 +20,16 @@ class ScalarIntegrator : public Integrator {
     [[nodiscard]] virtual EyeLight li(const World& world, const EyeSample& sample, const Hit& hit) const = 0;
 
   protected:
-    /// With `lengths`, finds the light of paths that long by `met_light`, which leaves lamps in view to the base.
-    explicit ScalarIntegrator(std::optional<PathLengths> lengths = {}) : lengths_(lengths) {}
+    /// Says what `li` returns; it finds light that it meets by `met_light`, which leaves lamps in view to this class.
+    enum class Shows { Light, NoLight };
 
-    [[nodiscard]] const std::optional<PathLengths>& lengths() const { return lengths_; }
+    ScalarIntegrator(const IntegratorSettings& settings, Shows shows) : settings_(settings), shows_(shows) {}
+
+    [[nodiscard]] const IntegratorSettings& settings() const { return settings_; }
 
   private:
-    std::optional<PathLengths> lengths_;
+    IntegratorSettings settings_;
+    Shows shows_;
 };
 
 }  // namespace etendue

@@ -21,9 +21,9 @@ constexpr std::array<std::pair<std::string_view, SamplerType>, 2> kSamplerNames{
     {"sobol", SamplerType::Sobol},
     {"random", SamplerType::Random},
 }};
-constexpr std::array<std::pair<std::string_view, HeuristicType>, 2> kHeuristicNames{{
-    {"balance", HeuristicType::Balance},
-    {"power", HeuristicType::Power},
+constexpr std::array<std::pair<std::string_view, Heuristic>, 2> kHeuristicNames{{
+    {"balance", Heuristic::Balance},
+    {"power", Heuristic::Power},
 }};
 constexpr std::array<std::pair<std::string_view, PixelFilterType>, 4> kFilterNames{{
     {"blackman-harris", PixelFilterType::BlackmanHarris},
@@ -66,6 +66,9 @@ template <std::size_t N>
 SettingValue to_value(const std::array<int, N>& value) {
     return std::vector<std::int64_t>(value.begin(), value.end());
 }
+SettingValue to_value(const Strategy& value) {
+    return std::vector<std::int64_t>{value.s, value.t};
+}
 SettingValue to_value(const Shutter& value) {
     return std::vector{value.open, value.close};
 }
@@ -92,6 +95,9 @@ Held from_value(const SettingValue& value) {
         const auto& times = std::get<std::vector<double>>(value);
         return {static_cast<double>(static_cast<float>(times.at(0))),
                 static_cast<double>(static_cast<float>(times.at(1)))};
+    } else if constexpr (std::is_same_v<Held, Strategy>) {
+        const auto& numbers = std::get<std::vector<std::int64_t>>(value);
+        return {static_cast<int>(numbers.at(0)), static_cast<int>(numbers.at(1))};
     } else if constexpr (std::is_same_v<Held, FrameRange>) {
         const auto& numbers = std::get<std::vector<std::int64_t>>(value);
         return {static_cast<int>(numbers.at(0)), static_cast<int>(numbers.at(1)),
@@ -387,27 +393,27 @@ constexpr std::array kRows{
             .decides = Decides::Samples,
             .unit = "edges",
             .help = "Longest paths from camera to light; 1 is emission seen directly",
-            .place = at([](auto& s) -> auto& { return s.integrator.max_depth; })},
+            .place = at([](auto& s) -> auto& { return s.integrator.lengths.max_depth; })},
     Setting{.pointer = "/integrator/min_depth",
             .option = "--min-depth",
             .type = WholeNumber{1, kMostInt},
             .decides = Decides::Samples,
             .unit = "edges",
             .help = "Shortest paths that are kept",
-            .place = at([](auto& s) -> auto& { return s.integrator.min_depth; })},
+            .place = at([](auto& s) -> auto& { return s.integrator.lengths.min_depth; })},
     Setting{.pointer = "/integrator/roulette_depth",
             .type = WholeNumber{1, kMostInt},
             .decides = Decides::Samples,
-            .unit = "edges",
-            .help = "Length after which Russian roulette may end a path; `bdpt` shares it between the subpaths from "
-                    "the eye and from the light, `whitted` does not use it",
+            .unit = "rays",
+            .help = "After how many rays Russian roulette may end a path, those behind panes and in media included; "
+                    "`bdpt` shares them between the subpaths from the eye and from the light, `whitted` does not use "
+                    "this",
             .page = "integrators.md#russian-roulette",
-            .place = at([](auto& s) -> auto& { return s.integrator.roulette_depth; })},
+            .place = at([](auto& s) -> auto& { return s.integrator.lengths.roulette_depth; })},
     Setting{.pointer = "/integrator/light_samples",
             .option = "--light-samples",
             .type = WholeNumber{1, kMostLightSamples},
             .decides = Decides::Samples,
-            .integrators = "path direct",
             .help = "How many lights `path` and `direct` sample at what the eye sees directly, in mirrors or through "
                     "smooth glass; more take longer and reduce the noise of soft shadows and many lights",
             .page = "integrators.md#which-light-is-sampled",
@@ -416,7 +422,6 @@ constexpr std::array kRows{
             .option = "--heuristic",
             .type = kChoiceOf<kHeuristicNames>,
             .decides = Decides::Samples,
-            .integrators = "bdpt",
             .help = "How `bdpt` weighs its strategies: `balance`, or `power` with the exponent 2",
             .place = named_at<kHeuristicNames>([](auto& s) -> auto& { return s.integrator.heuristic; })},
     Setting{
@@ -424,7 +429,6 @@ constexpr std::array kRows{
         .option = "--strategy",
         .type = WholeNumbers{{0, kMostInt}, 2, 2, ',', "S,T, the vertices from the light and the eye"},
         .decides = Decides::Samples,
-        .integrators = "bdpt",
         .default_text = "all",
         .help = "Show only paths of `bdpt` with S vertices from the light and T from the eye, counting those on the "
                 "light and on the lens",
@@ -433,7 +437,6 @@ constexpr std::array kRows{
         .pointer = "/integrator/weighted",
         .type = YesNo{"--unweighted", "Show the paths of `--strategy` as if no other strategy made them"},
         .decides = Decides::Samples,
-        .integrators = "bdpt",
         .help = "Whether the paths of the strategy are weighted by multiple importance sampling; if not, they show as "
                 "if no other strategy made them",
         .place = at([](auto& s) -> auto& { return s.integrator.weighted; })},
@@ -441,7 +444,6 @@ constexpr std::array kRows{
             .option = "--bdpt-connections",
             .type = Form{kConnectionsForm, "^(pairwise|cache:[1-9][0-9]{0,2})$", parses<parse_connections>},
             .decides = Decides::Samples,
-            .integrators = "bdpt",
             .help = "How `bdpt` connects an eye vertex: to all light vertices of its own sample (`pairwise`), or N "
                     "drawn from those of many samples (`cache:N`)",
             .page = "integrators.md#connections-to-a-cache",

@@ -45,10 +45,8 @@ Rgb sampled_light(const World& world, const EyePath& path, const Vertex& vertex,
         const SampleNumbers own{numbers.sequence, light_sample_key(numbers.key, samples, round)};
         const auto draw = [&](BounceDimension which) { return own.pair(bounce_dimension(path.rays, which)); };
         const LightNumbers u_light{draw(kLightChoice), draw(kLightTriangle), draw(kLightDirection)};
-        // n samples share the estimate: with n times the probability, light_sample_scale weighs and divides by their
-        // number.
         LightTree::Choice choice = world.choose_light(receiver, u_light.light);
-        choice.probability *= static_cast<float>(samples);
+        share_estimate(choice, samples);
         const ChosenLight chosen = world.sample_light(choice, vertex.position, u_light);
         if (is_black(chosen.sample.radiance)) continue;
         const BsdfValue value = vertex.evaluate(chosen.sample.wi);

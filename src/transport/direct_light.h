@@ -23,9 +23,15 @@ namespace etendue {
 /// `pdf_solid_angle`.
 [[nodiscard]] inline float light_sample_scale(const ChosenLight& chosen, float pdf_solid_angle) {
     const LightSample& light = chosen.sample;
-    // A delta light can be found in no other way; its density is the choice's probability alone.
-    return light.is_delta ? 1.0f / chosen.probability
+    // A delta light can be found in no other way; its density is that of the choice alone.
+    return light.is_delta ? 1.0f / chosen.expected_samples
                           : power_heuristic(light.pdf_solid_angle, pdf_solid_angle) / light.pdf_solid_angle;
+}
+
+/// Makes `choice` one of `samples` that share an estimate: weights and densities then are of how many samples of the
+/// light are expected, not of how probable one is (Veach 1997, section 9.2.1).
+inline void share_estimate(LightTree::Choice& choice, std::uint32_t samples) {
+    choice.probability *= static_cast<float>(samples);
 }
 
 /// Returns the density, 1/sr, with which a light that is chosen for `receiver` is the environment and is sampled along

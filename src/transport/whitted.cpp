@@ -136,8 +136,8 @@ void Tree::follow(Branch branch) {
 
 }  // namespace
 
-EyeLight whitted_light(const World& world, const EyeSample& sample, const PathLengths& lengths) {
-    Tree tree{world, lengths};
+EyeLight whitted_light(const World& world, const EyeSample& sample, const IntegratorSettings& settings) {
+    Tree tree{world, settings.lengths};
     tree.follow({begin_at_eye(world, sample), sample.numbers});
     return tree.found;
 }

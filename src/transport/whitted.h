@@ -7,13 +7,12 @@
 // from one point of one light, chosen as path tracing does.
 #pragma once
 
-#include "transport/path_lengths.h"
+#include "scene/integrator_settings.h"
 #include "transport/walk.h"
 
 namespace etendue {
 
-/// Returns the light that `sample` finds. Branches end by how little they contribute, whatever the `roulette_depth` of
-/// `lengths`.
-[[nodiscard]] EyeLight whitted_light(const World& world, const EyeSample& sample, const PathLengths& lengths);
+/// Returns the light that `sample` finds. Branches end by how little they contribute, whatever `roulette_depth` is.
+[[nodiscard]] EyeLight whitted_light(const World& world, const EyeSample& sample, const IntegratorSettings& settings);
 
 }  // namespace etendue

@@ -90,7 +90,7 @@ class OracleOfScene : public testing::TestWithParam<std::string> {};
 TEST_P(OracleOfScene, FindsTheSameSamples) {
     SceneDesc desc = load_scene(std::filesystem::path(ETENDUE_SCENES) / GetParam()).scene;
     const IntegratorSettings& integrator = desc.settings.integrator;
-    const PathLengths lengths{integrator.max_depth, integrator.min_depth, integrator.roulette_depth};
+    const PathLengths lengths = integrator.lengths;
     const ThreadPool threads;
     ProblemList warnings;
     const World world = compile_world(std::move(desc), ColorConfig::built_in(), "ACEScg", threads, warnings);

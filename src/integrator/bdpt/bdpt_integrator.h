@@ -10,13 +10,16 @@
 // material.
 #pragma once
 
-#include "integrator/bdpt/bdpt_options.h"
+#include "integrator/bdpt/weight_observer.h"
+#include "integrator/integrator.h"
 
 namespace etendue {
 
 class BdptIntegrator final : public Integrator {
   public:
-    explicit BdptIntegrator(const BdptOptions& options) : options_(options) {}
+    /// `observer` must outlive the integrator; null if nobody sees weights.
+    explicit BdptIntegrator(const IntegratorSettings& settings, WeightObserver* observer = nullptr)
+        : settings_(settings), observer_(observer) {}
 
     [[nodiscard]] std::unique_ptr<IntegratorScratch> make_scratch() const override;
     [[nodiscard]] std::vector<std::string> unreachable_light(const World& world) const override;
@@ -26,7 +29,8 @@ class BdptIntegrator final : public Integrator {
                      RenderCounters& counters) const override;
 
   private:
-    BdptOptions options_;
+    IntegratorSettings settings_;
+    WeightObserver* observer_;
 };
 
 }  // namespace etendue

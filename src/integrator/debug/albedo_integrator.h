@@ -6,6 +6,7 @@ namespace etendue {
 
 /// Shows the share of light that surfaces scatter, seen from the eye.
 struct AlbedoIntegrator final : ScalarIntegrator {
+    explicit AlbedoIntegrator(const IntegratorSettings& settings) : ScalarIntegrator(settings, Shows::NoLight) {}
     [[nodiscard]] EyeLight li(const World& world, const EyeSample& sample, const Hit& hit) const override;
 };
 

@@ -18,7 +18,7 @@ std::vector<std::string> WhittedIntegrator::unreachable_light(const World& world
 }
 
 EyeLight WhittedIntegrator::li(const World& world, const EyeSample& sample, const Hit& /*hit*/) const {
-    return whitted_light(world, sample, *lengths());
+    return whitted_light(world, sample, settings());
 }
 
 }  // namespace etendue
