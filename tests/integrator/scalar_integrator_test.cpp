@@ -70,7 +70,7 @@ TEST(ScalarIntegrator, DropsWhatIsNoNumber) {
                     }),
                     4);
     EXPECT_EQ(result.mean, Rgb(1.0f)) << "of the samples that were kept";
-    EXPECT_EQ(4 * result.counters.dropped, result.counters.samples);
+    ASSERT_EQ(4 * result.counters.dropped, result.counters.samples);
     EXPECT_EQ(result.counters.first_dropped.front().sample, 1u);
 }
 
