@@ -24,13 +24,17 @@ Rgb met_emission(const World& world, const EyePath& path, const Vertex& vertex) 
     return emitted * met_light_weight(path.last.pdf_solid_angle, light_pdf, path.last.samples);
 }
 
+/// Returns true if whoever traces the path finds the emission at `vertex` by another estimate.
+bool is_found_elsewhere(const EyePath& path, const Vertex& vertex) {
+    return path.tracer != nullptr && path.rays == 1 && path.tracer->finds_emission(vertex.hit);
+}
+
 }  // namespace
 
 Rgb met_light(const World& world, const EyePath& path, const Vertex& vertex) {
     Rgb light;
     if (vertex.kind == Vertex::Kind::Environment) light += met_environment(world, path, vertex);
-    const bool is_found_elsewhere = path.tracer != nullptr && path.rays == 1 && path.tracer->finds_emission(vertex.hit);
-    if (vertex.surface.material != nullptr && vertex.surface.material->emits && !is_found_elsewhere)
+    if (vertex.surface.material != nullptr && vertex.surface.material->emits && !is_found_elsewhere(path, vertex))
         light += met_emission(world, path, vertex);
     // An unlit surface lights nothing.
     if (vertex.kind == Vertex::Kind::Unlit && path.only_deltas) light += world.unlit_color(vertex.surface);
