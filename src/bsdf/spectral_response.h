@@ -15,23 +15,25 @@
 
 namespace etendue {
 
+/// Holds the wavelength that a path has taken.
 struct Wavelength {
-    float nm = 0.0f;   ///< 0: not chosen, all of them
+    float nm = 0.0f;   ///< nanometres; 0 if the path stands for all of them
     Rgb weight{1.0f};  ///< response over density; each channel at most 3
     float u = 0.0f;    ///< the number that it was drawn by, [0, 1)
 };
 
+/// Knows the response of each channel to each wavelength, and draws wavelengths by it.
 class SpectralResponse {
   public:
     SpectralResponse() : SpectralResponse(kXyzToLinearRec709) {}
     explicit SpectralResponse(const XyzToWorking& xyz_to_working);
 
-    /// `u` in [0, 1).
+    /// Draws a wavelength by `u` in [0, 1).
     [[nodiscard]] Wavelength sample(float u) const;
 
-    /// Colour of a share that depends on the wavelength, `share(nm)` in [0, 1], from 16 wavelengths: the one that was
-    /// drawn, and one in each other sixteenth of the chances, as far into it (Wilkie et al. 2014, Hero Wavelength
-    /// Spectral Sampling). Its mean over what is drawn is exact.
+    /// Returns the colour of a share that depends on the wavelength, `share(nm)` in [0, 1], from 16 wavelengths: the
+    /// one that was drawn, and one in each other sixteenth of the chances, as far into it (Wilkie et al. 2014, Hero
+    /// Wavelength Spectral Sampling). Its mean over what is drawn is exact.
     template <typename Share>
     [[nodiscard]] Rgb mean(const Wavelength& drawn, const Share& share) const {
         Rgb color;
@@ -40,7 +42,7 @@ class SpectralResponse {
     }
 
     /// Returns the mean colour of `share` at the 16 wavelengths of `mean`, over the chance with which `share` is met by
-    /// one of them, whichever was drawn: what a path weighs that met `share` by the wavelength `drawn` and goes on as
+    /// one of them, whichever was drawn. A path weighs by it that met `share` by the wavelength `drawn` and goes on as
     /// one of all wavelengths.
     template <typename Share>
     [[nodiscard]] Rgb mean_over_chance(const Wavelength& drawn, const Share& share) const {
@@ -75,8 +77,8 @@ class SpectralResponse {
     std::array<float, kSteps + 1> cumulative_{};
 };
 
-/// Index of refraction at a wavelength, by Cauchy's equation from the index at 587.6 nm and 20 over the Abbe number
-/// (KHR_materials_dispersion). `nm` = 0 is 587.6.
+/// Returns the index of refraction at a wavelength, by Cauchy's equation from the index at 587.6 nm and 20 over the
+/// Abbe number (KHR_materials_dispersion). `nm` = 0 is 587.6.
 [[nodiscard]] float dispersed_ior(float ior, float dispersion, float nm);
 
 }  // namespace etendue

@@ -181,7 +181,7 @@ void describe(ProfileReport& report, const ProfileArguments& arguments, const Re
     report.scene_path = arguments.scene;
     report.width = settings.film.width;
     report.height = settings.film.height;
-    report.max_depth = settings.integrator.max_depth;
+    report.max_depth = settings.integrator.lengths.max_depth;
     report.seed = settings.seed;
     report.settings = settings_of_work(settings);
     report.processor = processor_name();

@@ -5,9 +5,10 @@
 #include "session/usage_error.h"
 
 #include <algorithm>
-#include <cstdio>
+#include <cstdint>
 #include <cstdlib>
 #include <map>
+#include <optional>
 #include <sstream>
 
 #include <CLI/CLI.hpp>
@@ -128,12 +129,13 @@ CLI::Validator real_range(double least, double most) {
 }
 
 std::array<int, 4> parse_pixel_window(const std::string& option, const std::string& text) {
-    std::array<int, 4> c{};
-    char rest = 0;
-    if (std::sscanf(text.c_str(), "%d,%d,%d,%d%c", &c[0], &c[1], &c[2], &c[3], &rest) != 4 || c[0] < 0 || c[1] < 0 ||
-        c[2] <= c[0] || c[3] <= c[1])
-        throw CLI::ValidationError(option, "'" + text + "' is not x0,y0,x1,y1 with 0 <= x0 < x1 and 0 <= y0 < y1");
-    return c;
+    const Setting& crop = *find_setting("/crop");
+    const std::optional<SettingValue> value = parse_option(crop, text);
+    if (!value) throw CLI::ValidationError(option, fmt::format("'{}' is not {}", text, option_requirement(crop.type)));
+    std::array<int, 4> window{};
+    std::ranges::transform(std::get<std::vector<std::int64_t>>(*value), window.begin(),
+                           [](std::int64_t side) { return static_cast<int>(side); });
+    return window;
 }
 
 void add_assets_option(CLI::App& command, std::vector<std::filesystem::path>& assets) {

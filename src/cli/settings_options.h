@@ -31,8 +31,8 @@ void add_assets_option(CLI::App& command, std::vector<std::filesystem::path>& as
 /// Checks that an option's value is a number from `least` to `most`; NaN, which CLI::Range lets pass, is not.
 [[nodiscard]] CLI::Validator real_range(double least, double most);
 
-/// Turns "100,100,200,200" to x0, y0, x1, y1. Throws the error that CLI11 shows for `option` unless 0 <= x0 < x1 and
-/// 0 <= y0 < y1.
+/// Turns "100,100,200,200" to x0, y0, x1, y1. Throws the error that CLI11 shows for `option` where --crop would not
+/// take `text`.
 [[nodiscard]] std::array<int, 4> parse_pixel_window(const std::string& option, const std::string& text);
 
 }  // namespace etendue

@@ -98,7 +98,7 @@ void add_images(ReportImages& images, ComparisonReport& report, std::span<const 
 bool add_strategies(ReportImages& images, ComparisonReport& report, const Variant& variant, int longest,
                     const DisplayView& view, const MeasureContext& context, bool quiet) {
     const RenderOptions options = small_options(variant);
-    IntegratorOptions integrator = integrator_options(variant.settings);
+    IntegratorSettings integrator = variant.settings.integrator;
     integrator.strategy.reset();
     longest = std::min(longest, integrator.lengths.max_depth);
     const std::vector<Strategy> wanted = strategies_between(integrator.lengths.min_depth, longest);

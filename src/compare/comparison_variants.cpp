@@ -68,7 +68,8 @@ void complete(Variant& variant) {
 /// Lengths of the paths that an image shows, in edges.
 std::array<int, 2> path_window(const Variant& variant) {
     const IntegratorSettings& settings = variant.settings.integrator;
-    return {settings.min_depth, std::min(settings.max_depth, find_integrator(settings.type)->longest_path)};
+    return {settings.lengths.min_depth,
+            std::min(settings.lengths.max_depth, find_integrator(settings.type)->longest_path)};
 }
 
 }  // namespace
@@ -132,7 +133,7 @@ std::string different_light(const Variant& a, const Variant& b) {
         if (!find_integrator(variant->settings.integrator.type)->shows_light)
             return fmt::format("'{}' shows something else than light", variant->name);
         if (const auto& strategy = variant->settings.integrator.strategy)
-            return fmt::format("'{}' shows the strategy {},{} alone", variant->name, (*strategy)[0], (*strategy)[1]);
+            return fmt::format("'{}' shows the strategy {},{} alone", variant->name, strategy->s, strategy->t);
     }
     if (a.settings.clamp_indirect != b.settings.clamp_indirect)
         return fmt::format("'{}' and '{}' limit indirect light differently", a.name, b.name);
@@ -165,7 +166,7 @@ std::string render_command(const std::filesystem::path& scene, const Variant& va
 
 std::string command_note(const Variant& variant) {
     const IntegratorSettings& settings = variant.settings.integrator;
-    if (settings.cached_connections == 0 || !find_integrator(settings.type)->has_strategies) return "";
+    if (settings.cached_connections == 0 || !find_integrator(settings.type)->has_strategies()) return "";
     return "With cached connections the command renders an image of the same light with other noise: each pass fills "
            "its caches anew, and here passes end wherever an image is kept.";
 }

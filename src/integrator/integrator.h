@@ -4,36 +4,22 @@
 #pragma once
 
 #include "film/film.h"
-#include "transport/heuristic.h"
-#include "transport/path_lengths.h"
-#include "transport/strategy.h"
+#include "scene/integrator_settings.h"
 #include "wave/photons.h"
 #include "wave/render_counters.h"
 #include "wave/tile_job.h"
 #include "world/world.h"
 
+#include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace etendue {
-
-/// Holds all that can be asked of integrators; each integrator takes the options that concern it.
-struct IntegratorOptions {
-    PathLengths lengths{};
-    std::uint32_t light_samples = 1;           ///< see PathOptions
-    Heuristic heuristic = Heuristic::Balance;  ///< weighs strategies, where an integrator has them
-    std::optional<Strategy> strategy{};        ///< this one alone; it exists
-    bool weighted = true;                      ///< false: the strategy is all there is, as if no other made its paths
-    int cached_connections = 0;                ///< of bdpt: see BdptOptions
-    MergeOptions merging{.at = MergeAt::BetweenDeltas};  ///< of vcm
-};
 
 /// Memory that a thread keeps from tile to tile; each integrator has its own kind.
 class IntegratorScratch {
@@ -71,17 +57,26 @@ class Integrator {
                              RenderCounters& counters) const = 0;
 };
 
+/// Names the setting by which integrators that have strategies show one alone.
+inline constexpr std::string_view kStrategySetting = "/integrator/strategy";
+
 /// Describes one integrator of the registry.
 struct IntegratorEntry {
     std::string_view name;
     std::string_view summary;  ///< for --help
-    std::unique_ptr<const Integrator> (*make)(const IntegratorOptions&);
+    std::unique_ptr<const Integrator> (*make)(const IntegratorSettings&);
     int longest_path = std::numeric_limits<int>::max();  ///< edges
-    bool splits_light_samples = false;                   ///< it looks at IntegratorOptions::light_samples
-    bool has_strategies = false;                         ///< it looks at the options for them
-    bool merges = false;                                 ///< it looks at IntegratorOptions::merging
-    bool has_expressions = true;                         ///< it tells the light of paths apart
-    bool shows_light = true;                             ///< false: something else, for finding out what is wrong
+    /// Lists the settings, by their JSON pointers, that this integrator looks at and not all others do.
+    std::span<const std::string_view> own_settings{};
+    bool merges = false;          ///< its samples may share photons, so that all pixels have as many
+    bool has_expressions = true;  ///< it tells the light of paths apart
+    bool shows_light = true;      ///< false: something else, for finding out what is wrong
+
+    /// Returns true if `own_settings` has this JSON pointer.
+    [[nodiscard]] bool owns(std::string_view setting) const {
+        return std::ranges::find(own_settings, setting) != own_settings.end();
+    }
+    [[nodiscard]] bool has_strategies() const { return owns(kStrategySetting); }
 };
 
 [[nodiscard]] std::span<const IntegratorEntry> integrator_registry();
@@ -89,8 +84,8 @@ struct IntegratorEntry {
 /// Returns the integrator of that name in the registry; null if there is none.
 [[nodiscard]] const IntegratorEntry* find_integrator(std::string_view name);
 
-/// Makes the integrator of that name; null if there is none.
+/// Makes the integrator of that name, whatever the `type` of `settings`; null if there is none.
 [[nodiscard]] std::unique_ptr<const Integrator> make_integrator(std::string_view name,
-                                                                const IntegratorOptions& options);
+                                                                const IntegratorSettings& settings);
 
 }  // namespace etendue

@@ -1,6 +1,7 @@
 // All integrators, in the order in which --help lists them.
 #include "integrator/bdpt/bdpt_integrator.h"
-#include "integrator/debug/debug_integrator.h"
+#include "integrator/debug/albedo_integrator.h"
+#include "integrator/debug/normals_integrator.h"
 #include "integrator/integrator.h"
 #include "integrator/light/light_integrator.h"
 #include "integrator/path/path_integrator.h"
@@ -15,88 +16,67 @@ namespace {
 /// Camera, surface, light.
 constexpr int kDirectPath = 2;
 
-std::unique_ptr<const Integrator> make_path(const IntegratorOptions& options) {
-    return std::make_unique<PathIntegrator>(
-        PathOptions{.lengths = options.lengths, .light_samples = options.light_samples});
+template <typename AnyIntegrator>
+std::unique_ptr<const Integrator> make(const IntegratorSettings& settings) {
+    return std::make_unique<AnyIntegrator>(settings);
 }
 
-std::unique_ptr<const Integrator> make_direct(const IntegratorOptions& options) {
-    PathLengths one_bounce = options.lengths;
-    one_bounce.max_depth = std::min(one_bounce.max_depth, kDirectPath);
-    return std::make_unique<PathIntegrator>(PathOptions{.lengths = one_bounce, .light_samples = options.light_samples},
-                                            true);
+std::unique_ptr<const Integrator> make_direct(IntegratorSettings settings) {
+    settings.lengths.max_depth = std::min(settings.lengths.max_depth, kDirectPath);
+    return std::make_unique<PathIntegrator>(settings, true);
 }
 
-std::unique_ptr<const Integrator> make_naive(const IntegratorOptions& options) {
-    return std::make_unique<PathIntegrator>(PathOptions{.lengths = options.lengths, .sample_lights = false});
+std::unique_ptr<const Integrator> make_naive(IntegratorSettings settings) {
+    settings.light_samples = 0;
+    return std::make_unique<PathIntegrator>(settings);
 }
 
-std::unique_ptr<const Integrator> make_light(const IntegratorOptions& options) {
-    return std::make_unique<LightIntegrator>(options.lengths);
+std::unique_ptr<const Integrator> make_vcm(const IntegratorSettings& settings) {
+    return std::make_unique<BdptIntegrator>(settings, nullptr, settings.merging);
 }
 
-std::unique_ptr<const Integrator> make_bdpt(const IntegratorOptions& options) {
-    return std::make_unique<BdptIntegrator>(BdptOptions{.lengths = options.lengths,
-                                                        .heuristic = options.heuristic,
-                                                        .only = options.strategy,
-                                                        .weighted = options.weighted,
-                                                        .cached_connections = options.cached_connections});
-}
-
-std::unique_ptr<const Integrator> make_vcm(const IntegratorOptions& options) {
-    return std::make_unique<BdptIntegrator>(BdptOptions{.lengths = options.lengths,
-                                                        .heuristic = options.heuristic,
-                                                        .only = options.strategy,
-                                                        .weighted = options.weighted,
-                                                        .cached_connections = options.cached_connections,
-                                                        .merging = options.merging});
-}
-
-std::unique_ptr<const Integrator> make_whitted(const IntegratorOptions& options) {
-    return std::make_unique<WhittedIntegrator>(options.lengths);
-}
-
-std::unique_ptr<const Integrator> make_normals(const IntegratorOptions&) {
-    return std::make_unique<DebugIntegrator>(DebugQuantity::Normals);
-}
-
-std::unique_ptr<const Integrator> make_albedo(const IntegratorOptions&) {
-    return std::make_unique<DebugIntegrator>(DebugQuantity::Albedo);
-}
+constexpr std::string_view kOfSplitting[] = {"/integrator/light_samples"};
+constexpr std::string_view kOfStrategies[] = {"/integrator/heuristic", kStrategySetting, "/integrator/weighted",
+                                              "/integrator/connections"};
+constexpr std::string_view kOfMerging[] = {"/integrator/heuristic",   kStrategySetting,    "/integrator/weighted",
+                                           "/integrator/connections", "/integrator/merge", "/integrator/merge_radius",
+                                           "/integrator/merge_alpha"};
 
 constexpr IntegratorEntry kRegistry[] = {
     {.name = "path",
      .summary = "eye paths with light sampling, combined by MIS",
-     .make = make_path,
-     .splits_light_samples = true},
+     .make = make<PathIntegrator>,
+     .own_settings = kOfSplitting},
     {.name = "direct",
      .summary = "path, one bounce only",
-     .make = make_direct,
+     .make = [](const IntegratorSettings& settings) { return make_direct(settings); },
      .longest_path = kDirectPath,
-     .splits_light_samples = true},
-    {"naive", "eye paths that find lights by chance", make_naive},
-    {"light", "paths from the lights, connected to the camera", make_light},
+     .own_settings = kOfSplitting},
+    {.name = "naive",
+     .summary = "eye paths that find lights by chance",
+     .make = [](const IntegratorSettings& settings) { return make_naive(settings); }},
+    {.name = "light", .summary = "paths from the lights, connected to the camera", .make = make<LightIntegrator>},
     {.name = "bdpt",
      .summary = "eye and light paths, connected in every way, combined by MIS",
-     .make = make_bdpt,
-     .has_strategies = true},
+     .make = make<BdptIntegrator>,
+     .own_settings = kOfStrategies},
     {.name = "vcm",
      .summary = "bdpt that merges subpaths where nothing connects them: caustics seen in mirrors and through glass",
      .make = make_vcm,
-     .has_strategies = true,
+     .own_settings = kOfMerging,
      .merges = true},
     {.name = "whitted",
      .summary = "mirrored and refracted rays, direct light, and no more",
-     .make = make_whitted,
+     .make = make<WhittedIntegrator>,
      .has_expressions = false},
     {.name = "normals",
      .summary = "shading normals, for debugging",
-     .make = make_normals,
+     .make = make<NormalsIntegrator>,
      .has_expressions = false,
      .shows_light = false},
     {.name = "albedo",
      .summary = "scattered share of light, for debugging",
-     .make = make_albedo,
+     .make = make<AlbedoIntegrator>,
      .has_expressions = false,
      .shows_light = false},
 };
@@ -112,9 +92,9 @@ const IntegratorEntry* find_integrator(std::string_view name) {
     return found != std::ranges::end(kRegistry) ? found : nullptr;
 }
 
-std::unique_ptr<const Integrator> make_integrator(std::string_view name, const IntegratorOptions& options) {
+std::unique_ptr<const Integrator> make_integrator(std::string_view name, const IntegratorSettings& settings) {
     const IntegratorEntry* const entry = find_integrator(name);
-    return entry != nullptr ? entry->make(options) : nullptr;
+    return entry != nullptr ? entry->make(settings) : nullptr;
 }
 
 }  // namespace etendue

@@ -6,7 +6,9 @@
 #include "scene/setting.h"
 
 #include <algorithm>
-#include <sstream>
+#include <cstddef>
+#include <functional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -30,16 +32,15 @@ FilterShape to_filter_shape(PixelFilterType type) {
     return FilterShape::BlackmanHarris;
 }
 
-MergeAt merge_at_of(MergeType type) {
-    switch (type) {
-        case MergeType::None:
-            return MergeAt::Nothing;
-        case MergeType::BetweenDeltas:
-            return MergeAt::BetweenDeltas;
-        case MergeType::All:
-            return MergeAt::Everywhere;
-    }
-    return MergeAt::Nothing;
+/// Returns "'path' and 'direct'", the integrators for which `is_meant` is true.
+std::string names_of(const std::function<bool(const IntegratorEntry&)>& is_meant) {
+    std::vector<std::string> names;
+    for (const IntegratorEntry& entry : integrator_registry())
+        if (is_meant(entry)) names.push_back(fmt::format("'{}'", entry.name));
+    std::string text;
+    for (std::size_t i = 0; i < names.size(); ++i)
+        text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+    return text;
 }
 
 }  // namespace
@@ -86,19 +87,6 @@ RenderState make_render_state(const RenderOptions& options, bool has_halves) {
     return state;
 }
 
-IntegratorOptions integrator_options(const RenderSettings& settings) {
-    const IntegratorSettings& s = settings.integrator;
-    IntegratorOptions options{
-        .lengths = {s.max_depth, s.min_depth, s.roulette_depth},
-        .light_samples = static_cast<std::uint32_t>(s.light_samples),
-        .heuristic = s.heuristic == HeuristicType::Balance ? Heuristic::Balance : Heuristic::Power,
-        .weighted = s.weighted,
-        .cached_connections = s.cached_connections,
-        .merging = {.at = merge_at_of(s.merge), .radius = s.merge_radius, .alpha = s.merge_alpha}};
-    if (s.strategy) options.strategy = Strategy{(*s.strategy)[0], (*s.strategy)[1]};
-    return options;
-}
-
 std::vector<std::string> integrator_names() {
     std::vector<std::string> names;
     for (const IntegratorEntry& entry : integrator_registry()) names.emplace_back(entry.name);
@@ -107,25 +95,31 @@ std::vector<std::string> integrator_names() {
 
 bool has_strategies(const std::string& integrator) {
     const IntegratorEntry* const entry = find_integrator(integrator);
-    return entry != nullptr && entry->has_strategies;
+    return entry != nullptr && entry->has_strategies();
 }
 
 void require_strategies(const RenderSettings& settings, const SourceLocation& asked_for) {
     const std::string& type = settings.integrator.type;
-    if (!has_strategies(type)) throw SceneError(asked_for, fmt::format("'{}' has no strategies; 'bdpt' does", type));
+    if (has_strategies(type)) return;
+    const std::string others = names_of([](const IntegratorEntry& entry) { return entry.has_strategies(); });
+    throw SceneError(asked_for, fmt::format("'{}' has no strategies; these have some: {}", type, others));
 }
 
 namespace {
 
 constexpr int kShortestIndirect = 3;  // edges
 
+/// Returns true if the integrator tells indirect light from direct light.
+bool finds_indirect_light(const IntegratorEntry& entry) {
+    return entry.has_expressions && entry.longest_path >= kShortestIndirect;
+}
+
 /// Throws SceneError for what could have no effect with the integrator `entry`.
 void require_fireflies(const RenderSettings& settings, const IntegratorEntry& entry) {
-    if (settings.clamp_indirect > 0.0f && (!entry.has_expressions || entry.longest_path < kShortestIndirect))
+    if (settings.clamp_indirect > 0.0f && !finds_indirect_light(entry))
         throw SceneError(settings.at("/clamp_indirect"),
-                         fmt::format("'{}' finds no indirect light that could be limited; path, naive, light and bdpt "
-                                     "do",
-                                     entry.name));
+                         fmt::format("'{}' finds no indirect light that could be limited; these find some: {}",
+                                     entry.name, names_of(finds_indirect_light)));
     if (settings.robust_buckets > 0 && !entry.shows_light)
         throw SceneError(settings.at("/robust"), fmt::format("'{}' shows no light, and has no fireflies", entry.name));
     if (settings.robust_buckets > settings.spp)
@@ -144,12 +138,12 @@ std::unique_ptr<const Integrator> create_integrator(const RenderSettings& settin
     for (const IntegratorEntry& entry : integrator_registry()) {
         names.push_back(entry.name);
         if (entry.name == s.type) require_fireflies(settings, entry);
-        if (entry.name == s.type && s.min_depth > entry.longest_path)
+        if (entry.name == s.type && s.lengths.min_depth > entry.longest_path)
             throw SceneError(settings.at("/integrator/min_depth"),
-                             fmt::format("min_depth is {}, but the paths of '{}' have at most {} edges", s.min_depth,
-                                         s.type, entry.longest_path));
+                             fmt::format("min_depth is {}, but the paths of '{}' have at most {} edges",
+                                         s.lengths.min_depth, s.type, entry.longest_path));
     }
-    auto integrator = ray_code().make_integrator(s.type, integrator_options(settings));
+    auto integrator = ray_code().make_integrator(s.type, s);
     if (!integrator)
         throw SceneError(settings.at("/integrator/type"),
                          fmt::format("no integrator is named '{}'; {}", s.type, name_hint(s.type, names)));
@@ -159,25 +153,10 @@ std::unique_ptr<const Integrator> create_integrator(const RenderSettings& settin
 
 namespace {
 
-std::vector<std::string> words_in(std::string_view list) {
-    std::vector<std::string> names;
-    std::istringstream words{std::string(list)};
-    for (std::string name; words >> name;) names.push_back(name);
-    return names;
-}
-
-/// Returns "'path' and 'direct'".
-std::string users_of(const Setting& setting) {
-    std::string text;
-    const std::vector<std::string> names = words_in(setting.integrators);
-    for (std::size_t i = 0; i < names.size(); ++i)
-        text += fmt::format("{}'{}'", i == 0 ? "" : i + 1 == names.size() ? " and " : ", ", names[i]);
-    return text;
-}
-
 bool is_looked_at(const Setting& setting, const std::string& integrator) {
-    const std::vector<std::string> names = words_in(setting.integrators);
-    return names.empty() || std::ranges::find(names, integrator) != names.end();
+    const auto owns = [&](const IntegratorEntry& entry) { return entry.owns(setting.pointer); };
+    const IntegratorEntry* const entry = find_integrator(integrator);
+    return (entry != nullptr && owns(*entry)) || std::ranges::none_of(integrator_registry(), owns);
 }
 
 }  // namespace
@@ -196,13 +175,15 @@ std::vector<std::string> ineffective_settings(const RenderSettings& settings, bo
             sentences.push_back(fmt::format("{} has no effect without {}", option->second, needed->option));
         if (!is_looked_at(setting, type))
             sentences.push_back(
-                fmt::format("{} has no effect with '{}': it is for {}", option->second, type, users_of(setting)));
+                fmt::format("{} has no effect with '{}': it is for {}", option->second, type,
+                            names_of([&](const IntegratorEntry& entry) { return entry.owns(setting.pointer); })));
     }
-    if (settings.clamp_indirect > 0.0f && settings.integrator.max_depth < kShortestIndirect && !has_bodies)
+    if (settings.clamp_indirect > 0.0f && settings.integrator.lengths.max_depth < kShortestIndirect && !has_bodies)
         sentences.push_back(fmt::format(
             "{} has no effect: paths have at most {} (--max-depth), and indirect light takes {}",
             settings.at("/clamp_indirect").str(),
-            settings.integrator.max_depth == 1 ? "1 edge" : fmt::format("{} edges", settings.integrator.max_depth),
+            settings.integrator.lengths.max_depth == 1 ? "1 edge"
+                                                       : fmt::format("{} edges", settings.integrator.lengths.max_depth),
             kShortestIndirect));
     return sentences;
 }

@@ -29,9 +29,6 @@ namespace etendue {
 /// The state of a render that has not begun, with the films that it needs.
 [[nodiscard]] RenderState make_render_state(const RenderOptions& options, bool has_halves);
 
-/// Returns what `settings` ask of the integrator.
-[[nodiscard]] IntegratorOptions integrator_options(const RenderSettings& settings);
-
 /// Names the integrators of the registry, in its order.
 [[nodiscard]] std::vector<std::string> integrator_names();
 

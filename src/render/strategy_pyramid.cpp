@@ -16,14 +16,14 @@ std::vector<Strategy> strategies_between(int shortest, int longest) {
     return strategies;
 }
 
-std::vector<StrategyImage> render_strategies(const World& world, const IntegratorOptions& integrator,
+std::vector<StrategyImage> render_strategies(const World& world, const IntegratorSettings& integrator,
                                              std::span<const Strategy> strategies, const RenderOptions& options,
                                              const ThreadPool& threads, const std::atomic<bool>& stop,
                                              const ProgressCallback& progress) {
     std::vector<StrategyImage> images;
     RenderProgress before;
     for (const Strategy& strategy : strategies) {
-        IntegratorOptions one = integrator;
+        IntegratorSettings one = integrator;
         one.strategy = strategy;
         RenderProgress now;
         const ProgressCallback report = [&](const RenderProgress& p) {
@@ -34,7 +34,7 @@ std::vector<StrategyImage> render_strategies(const World& world, const Integrato
                 .rays = before.rays + p.rays};
             if (progress) progress(now);
         };
-        RenderResult result = render(world, *ray_code().make_integrator("bdpt", one), options, threads, stop, report);
+        RenderResult result = render(world, *ray_code().make_integrator(one.type, one), options, threads, stop, report);
         if (result.halt_reason == HaltReason::Interrupted) break;
         images.push_back({strategy, rgba_image(result.film)});
         before = now;

@@ -22,7 +22,7 @@ struct StrategyImage {
 
 /// Renders each of `strategies` by itself, with the same random numbers: weighted ones add up to the image of `bdpt`.
 /// `progress` is told of all of them as of one render. Once `stop` is true, those are returned that are finished.
-[[nodiscard]] std::vector<StrategyImage> render_strategies(const World& world, const IntegratorOptions& integrator,
+[[nodiscard]] std::vector<StrategyImage> render_strategies(const World& world, const IntegratorSettings& integrator,
                                                            std::span<const Strategy> strategies,
                                                            const RenderOptions& options, const ThreadPool& threads,
                                                            const std::atomic<bool>& stop,

@@ -4,13 +4,8 @@
 
 namespace etendue {
 
-/// Balance heuristic, equation 9.8: weight of a sample drawn with density `pdf` when the other strategy has
-/// `other_pdf`, both in the same measure.
-[[nodiscard]] constexpr float balance_heuristic(float pdf, float other_pdf) {
-    return pdf / (pdf + other_pdf);
-}
-
-/// Power heuristic with exponent 2, equation 9.9. Written as a ratio, so that large densities do not overflow.
+/// Returns the weight, by the power heuristic with exponent 2 (equation 9.9), of a sample drawn with density `pdf` when
+/// the other strategy has `other_pdf`, both in the same measure. A ratio keeps large densities from overflowing.
 template <typename T>
 [[nodiscard]] constexpr T power_heuristic(T pdf, T other_pdf) {
     const T ratio = other_pdf / pdf;

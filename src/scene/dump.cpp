@@ -89,18 +89,6 @@ const char* text(TextureMipFilter filter) {
     return "?";
 }
 
-const char* text(LightType type) {
-    switch (type) {
-        case LightType::Point:
-            return "point";
-        case LightType::Spot:
-            return "spot";
-        case LightType::Directional:
-            return "directional";
-    }
-    return "?";
-}
-
 /// Quotes a name as terminals may show it; different names stay different.
 std::string quoted(const std::string& name) {
     return '"' + shown_text(name) + '"';
@@ -241,8 +229,8 @@ void dump_cameras_and_lights(const SceneDesc& scene, Out out) {
     }
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         const LightDesc& light = scene.lights[i];
-        fmt::format_to(out, "light {} {}: {} colour {} intensity {:g}", i, quoted(light.name), text(light.type),
-                       text(light.color), light.intensity);
+        fmt::format_to(out, "light {} {}: {} colour {} intensity {:g}", i, quoted(light.name),
+                       kLightTypeNames[static_cast<std::size_t>(light.type)], text(light.color), light.intensity);
         if (light.type == LightType::Spot) {
             fmt::format_to(out, " cone {:g} to {:g}", light.inner_cone_angle, light.outer_cone_angle);
         }

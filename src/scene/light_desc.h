@@ -20,6 +20,9 @@ namespace etendue {
 
 enum class LightType { Point, Spot, Directional };
 
+/// Names the types of lights as glTF spells them, in the order of `LightType`.
+inline constexpr std::array<std::string_view, 3> kLightTypeNames{"point", "spot", "directional"};
+
 /// How the luminous intensity (candela) and the illuminance (lux) of lamps meet the radiance of emissive surfaces and
 /// of the environment, whose numbers always reach the image as they are.
 enum class LightUnits {

@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "scene/aov_desc.h"
+#include "scene/integrator_settings.h"
 #include "scene/light_desc.h"
 
 #include <array>
@@ -16,36 +17,6 @@
 #include <vector>
 
 namespace etendue {
-
-enum class HeuristicType { Power, Balance };
-
-/// Says which vertices `vcm` merges.
-enum class MergeType { None, BetweenDeltas, All };
-
-struct IntegratorSettings {
-    std::string type = "path";  ///< a name from the integrator registry
-    int max_depth = 32;         ///< most edges of a path from camera to light, >= 1; 1 is emission seen directly
-    int min_depth = 1;          ///< least edges of a path that is kept, >= 1
-    int roulette_depth = 3;     ///< edges after which Russian roulette may end a path, >= 1
-    /// Counts the lights, 1 to 64, that `path` and `direct` sample at each first vertex behind the eye and its mirrors.
-    int light_samples = 1;
-    /// Says how bidirectional path tracing weighs its strategies against each other.
-    HeuristicType heuristic = HeuristicType::Balance;
-    /// Names the one strategy of bidirectional path tracing that makes the image, by its vertices from the light, >= 0,
-    /// and from the eye, >= 1; none for all strategies.
-    std::optional<std::array<int, 2>> strategy{};
-    /// Says whether bidirectional path tracing weighs `strategy` against the other strategies; if not, `strategy` is
-    /// all there is.
-    bool weighted = true;
-    /// Counts the light vertices of all samples that bidirectional path tracing connects an eye vertex to; 0 for all
-    /// light vertices of the eye vertex's own sample.
-    int cached_connections = 0;
-    /// Says which vertices `vcm` merges.
-    MergeType merge = MergeType::BetweenDeltas;
-    float merge_radius = 1.5f;  ///< radius of merges of the first sample, in widths of a pixel, [0.01, 100]
-    float merge_alpha =
-        0.75f;  ///< [0.1, 1]: the radius shrinks with the power (alpha - 1) / 2 of the number of samples
-};
 
 inline constexpr int kMostLightSamples = 64;
 inline constexpr int kMostCachedConnections = 999;

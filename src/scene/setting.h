@@ -123,7 +123,6 @@ struct Setting {
     std::string_view option{};  ///< "--max-depth"; empty if there is none, or only one for no
     SettingType type;
     Decides decides;
-    std::string_view integrators{};   ///< names, with blanks between them, of those that look at it; empty for all
     std::string_view needs{};         ///< pointer of the setting without which it has no effect
     std::string_view unit{};          ///< "pixels"
     std::string_view default_text{};  ///< what is meant by no value

@@ -21,14 +21,14 @@ constexpr std::array<std::pair<std::string_view, SamplerType>, 2> kSamplerNames{
     {"sobol", SamplerType::Sobol},
     {"random", SamplerType::Random},
 }};
-constexpr std::array<std::pair<std::string_view, MergeType>, 3> kMergeNames{{
-    {"sds", MergeType::BetweenDeltas},
-    {"all", MergeType::All},
-    {"none", MergeType::None},
+constexpr std::array<std::pair<std::string_view, MergeAt>, 3> kMergeNames{{
+    {"sds", MergeAt::BetweenDeltas},
+    {"all", MergeAt::Everywhere},
+    {"none", MergeAt::Nothing},
 }};
-constexpr std::array<std::pair<std::string_view, HeuristicType>, 2> kHeuristicNames{{
-    {"balance", HeuristicType::Balance},
-    {"power", HeuristicType::Power},
+constexpr std::array<std::pair<std::string_view, Heuristic>, 2> kHeuristicNames{{
+    {"balance", Heuristic::Balance},
+    {"power", Heuristic::Power},
 }};
 constexpr std::array<std::pair<std::string_view, PixelFilterType>, 4> kFilterNames{{
     {"blackman-harris", PixelFilterType::BlackmanHarris},
@@ -71,6 +71,9 @@ template <std::size_t N>
 SettingValue to_value(const std::array<int, N>& value) {
     return std::vector<std::int64_t>(value.begin(), value.end());
 }
+SettingValue to_value(const Strategy& value) {
+    return std::vector<std::int64_t>{value.s, value.t};
+}
 SettingValue to_value(const Shutter& value) {
     return std::vector{value.open, value.close};
 }
@@ -97,6 +100,9 @@ Held from_value(const SettingValue& value) {
         const auto& times = std::get<std::vector<double>>(value);
         return {static_cast<double>(static_cast<float>(times.at(0))),
                 static_cast<double>(static_cast<float>(times.at(1)))};
+    } else if constexpr (std::is_same_v<Held, Strategy>) {
+        const auto& numbers = std::get<std::vector<std::int64_t>>(value);
+        return {static_cast<int>(numbers.at(0)), static_cast<int>(numbers.at(1))};
     } else if constexpr (std::is_same_v<Held, FrameRange>) {
         const auto& numbers = std::get<std::vector<std::int64_t>>(value);
         return {static_cast<int>(numbers.at(0)), static_cast<int>(numbers.at(1)),
@@ -392,27 +398,27 @@ constexpr std::array kRows{
             .decides = Decides::Samples,
             .unit = "edges",
             .help = "Longest paths from camera to light; 1 is emission seen directly",
-            .place = at([](auto& s) -> auto& { return s.integrator.max_depth; })},
+            .place = at([](auto& s) -> auto& { return s.integrator.lengths.max_depth; })},
     Setting{.pointer = "/integrator/min_depth",
             .option = "--min-depth",
             .type = WholeNumber{1, kMostInt},
             .decides = Decides::Samples,
             .unit = "edges",
             .help = "Shortest paths that are kept",
-            .place = at([](auto& s) -> auto& { return s.integrator.min_depth; })},
+            .place = at([](auto& s) -> auto& { return s.integrator.lengths.min_depth; })},
     Setting{.pointer = "/integrator/roulette_depth",
             .type = WholeNumber{1, kMostInt},
             .decides = Decides::Samples,
-            .unit = "edges",
-            .help = "Length after which Russian roulette may end a path; `bdpt` shares it between the subpaths from "
-                    "the eye and from the light, `whitted` does not use it",
+            .unit = "rays",
+            .help = "After how many rays Russian roulette may end a path, those behind panes and in media included; "
+                    "`bdpt` shares them between the subpaths from the eye and from the light, `whitted` does not use "
+                    "this",
             .page = "integrators.md#russian-roulette",
-            .place = at([](auto& s) -> auto& { return s.integrator.roulette_depth; })},
+            .place = at([](auto& s) -> auto& { return s.integrator.lengths.roulette_depth; })},
     Setting{.pointer = "/integrator/light_samples",
             .option = "--light-samples",
             .type = WholeNumber{1, kMostLightSamples},
             .decides = Decides::Samples,
-            .integrators = "path direct",
             .help = "How many lights `path` and `direct` sample at what the eye sees directly, in mirrors or through "
                     "smooth glass; more take longer and reduce the noise of soft shadows and many lights",
             .page = "integrators.md#which-light-is-sampled",
@@ -421,14 +427,12 @@ constexpr std::array kRows{
             .option = "--heuristic",
             .type = kChoiceOf<kHeuristicNames>,
             .decides = Decides::Samples,
-            .integrators = "bdpt vcm",
             .help = "How `bdpt` and `vcm` weigh their strategies: `balance`, or `power` with the exponent 2",
             .place = named_at<kHeuristicNames>([](auto& s) -> auto& { return s.integrator.heuristic; })},
     Setting{.pointer = "/integrator/strategy",
             .option = "--strategy",
             .type = WholeNumbers{{0, kMostInt}, 2, 2, ',', "S,T, the vertices from the light and the eye"},
             .decides = Decides::Samples,
-            .integrators = "bdpt vcm",
             .default_text = "all",
             .help = "Show only paths of `bdpt` or `vcm` with S vertices from the light and T from the eye, counting "
                     "those on the "
@@ -438,7 +442,6 @@ constexpr std::array kRows{
         .pointer = "/integrator/weighted",
         .type = YesNo{"--unweighted", "Show the paths of `--strategy` as if no other strategy made them"},
         .decides = Decides::Samples,
-        .integrators = "bdpt vcm",
         .help = "Whether the paths of the strategy are weighted by multiple importance sampling; if not, they show as "
                 "if no other strategy made them",
         .place = at([](auto& s) -> auto& { return s.integrator.weighted; })},
@@ -447,7 +450,6 @@ constexpr std::array kRows{
         .option = "--bdpt-connections",
         .type = Form{kConnectionsForm, "^(pairwise|cache:[1-9][0-9]{0,2})$", parses<parse_connections>},
         .decides = Decides::Samples,
-        .integrators = "bdpt vcm",
         .help =
             "How `bdpt` and `vcm` connect an eye vertex: to all light vertices of its own sample (`pairwise`), or N "
             "drawn from those of many samples (`cache:N`)",
@@ -458,30 +460,27 @@ constexpr std::array kRows{
             .option = "--merge",
             .type = kChoiceOf<kMergeNames>,
             .decides = Decides::Samples,
-            .integrators = "vcm",
             .help = "Which vertices `vcm` merges: those between two mirrors or smooth refractions, which no connection "
                     "finds (`sds`), `all`, or `none`, which is `bdpt`",
             .page = "integrators.md#vcm",
-            .place = named_at<kMergeNames>([](auto& s) -> auto& { return s.integrator.merge; })},
+            .place = named_at<kMergeNames>([](auto& s) -> auto& { return s.integrator.merging.at; })},
     Setting{.pointer = "/integrator/merge_radius",
             .option = "--merge-radius",
             .type = RealNumber{{.min = 0.01, .max = 100.0}},
             .decides = Decides::Samples,
-            .integrators = "vcm",
             .unit = "pixels",
             .help = "How far `vcm` merges in the first sample of a pixel; later samples merge less far",
             .page = "integrators.md#vcm",
-            .place = at([](auto& s) -> auto& { return s.integrator.merge_radius; })},
+            .place = at([](auto& s) -> auto& { return s.integrator.merging.radius; })},
     Setting{
         .pointer = "/integrator/merge_alpha",
         .type = RealNumber{{.min = 0.1, .max = 1.0}},
         .decides = Decides::Samples,
-        .integrators = "vcm",
         .help =
             "How slowly the radius of `vcm` shrinks: with the power (merge_alpha - 1) / 2 of the number of samples; "
             "1 keeps it, and its blur",
         .page = "integrators.md#vcm",
-        .place = at([](auto& s) -> auto& { return s.integrator.merge_alpha; })},
+        .place = at([](auto& s) -> auto& { return s.integrator.merging.alpha; })},
     Setting{.pointer = "/light_units",
             .option = "--light-units",
             .type = kChoiceOf<kLightUnitNames>,

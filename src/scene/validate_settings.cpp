@@ -136,21 +136,19 @@ void validate_settings(const SceneDesc& scene, ProblemList& problems) {
     const IntegratorSettings& integrator = settings.integrator;
     validate_ranges(settings, problems);
     if (integrator.type.empty()) problems.error(settings.at("/integrator/type"), "the integrator has no name");
-    if (integrator.min_depth > integrator.max_depth) {
+    if (integrator.lengths.min_depth > integrator.lengths.max_depth) {
         // Where either was set last: the command line is read after render.json.
         const bool is_option = settings.options.contains("/integrator/min_depth");
         problems.error(settings.at(is_option ? "/integrator/min_depth" : "/integrator/max_depth"),
-                       fmt::format("min_depth {} is above max_depth {}: no path would be kept", integrator.min_depth,
-                                   integrator.max_depth));
+                       fmt::format("min_depth {} is above max_depth {}: no path would be kept",
+                                   integrator.lengths.min_depth, integrator.lengths.max_depth));
     }
     if (integrator.strategy) {
-        const auto [s, t] = *integrator.strategy;
-        // No light hits the lens.
-        if (s < 0 || t < 1 || s + t < 2)
+        if (const Strategy& strategy = *integrator.strategy; !strategy.exists())
             problems.error(settings.at("/integrator/strategy"),
                            fmt::format("there is no strategy {},{}: s >= 0 vertices from the light and t >= 1 from the "
                                        "eye make a path of s + t - 1 >= 1 edges",
-                                       s, t));
+                                       strategy.s, strategy.t));
     }
     if (!integrator.weighted && !integrator.strategy)
         problems.error(settings.at("/integrator/weighted"),

@@ -85,7 +85,7 @@ std::string strategy_label(const Strategy& strategy) {
 void check_strategies_request(const StrategiesRequest& request, const OutputPaths& image,
                               const RenderSettings& settings, const RenderOptions& options, PixelDepth depth) {
     require_other_files(image, OutputPaths::beside(request.output));
-    const PathLengths lengths{settings.integrator.max_depth, settings.integrator.min_depth};
+    const PathLengths& lengths = settings.integrator.lengths;
     const std::size_t count = shown_strategies(request, lengths).size();
     if (count == 0)
         throw UsageError(fmt::format(
@@ -95,7 +95,7 @@ void check_strategies_request(const StrategiesRequest& request, const OutputPath
     require_memory(count, options.window, depth);
 }
 
-void write_strategies_image(const StrategiesRequest& request, const World& world, const IntegratorOptions& integrator,
+void write_strategies_image(const StrategiesRequest& request, const World& world, const IntegratorSettings& integrator,
                             const RenderOptions& options, OutputFrame frame, const ColorConfig& colors,
                             PixelDepth depth, const ThreadPool& threads, const std::string& title, bool quiet) {
     const PathLengths& lengths = integrator.lengths;
@@ -103,7 +103,7 @@ void write_strategies_image(const StrategiesRequest& request, const World& world
     if (longest < lengths.max_depth && !quiet)
         log_warning("note: {} shows the strategies of paths of up to {} edges, of {}; --strategies-depth shows more",
                     request.output.string(), longest, lengths.max_depth);
-    IntegratorOptions one = integrator;
+    IntegratorSettings one = integrator;
     one.weighted = request.weighted;
     ProgressDisplay display(title + " strategies", quiet);
     const std::vector<Strategy> wanted = shown_strategies(request, lengths);

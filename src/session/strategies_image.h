@@ -33,7 +33,7 @@ void check_strategies_request(const StrategiesRequest& request, const OutputPath
 /// Renders every strategy of bidirectional path tracing and writes an EXR with a part for each, named "s0t2" and so on,
 /// and a PNG with all of them labelled (s,t), a row for each length of path. `frame` says what is to be said of the
 /// image. Nothing is written if it is interrupted.
-void write_strategies_image(const StrategiesRequest& request, const World& world, const IntegratorOptions& integrator,
+void write_strategies_image(const StrategiesRequest& request, const World& world, const IntegratorSettings& integrator,
                             const RenderOptions& options, OutputFrame frame, const ColorConfig& colors,
                             PixelDepth depth, const ThreadPool& threads, const std::string& title, bool quiet);
 

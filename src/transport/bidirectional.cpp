@@ -12,9 +12,6 @@ namespace etendue {
 
 namespace {
 
-/// Index of the vertex at which a camera ray ends.
-constexpr int kDirectlySeen = 1;
-
 bool wants(const SubpathSample& sample, int edges) {
     return edges >= sample.lengths.min_depth && edges <= sample.lengths.max_depth;
 }
@@ -57,9 +54,9 @@ Rgb light_met(const SubpathSample& sample, const Subpath& eye, const Vertex& ver
 Rgb light_sampled(const SubpathSample& sample, const SubpathVertex& eye) {
     const World& world = sample.world();
     if (!world.has_sampled_lights() || !wants(sample, eye.next_edges)) return {};
-    const auto draw = [&](BounceNumbers which) { return sample.pair(SubpathEnd::AtEye, eye.index, which); };
-    const LightNumbers u{draw(BounceNumbers::LightChoice), draw(BounceNumbers::LightTriangle),
-                         draw(BounceNumbers::LightDirection)};
+    const auto draw = [&](SubpathDimension which) { return sample.pair(SubpathEnd::AtEye, eye.index, which); };
+    const LightNumbers u{draw(SubpathDimension::LightChoice), draw(SubpathDimension::LightTriangle),
+                         draw(SubpathDimension::LightDirection)};
     const ChosenLight chosen = world.sample_light(eye.position, u);
     const LightSample& light = chosen.sample;
     if (is_black(light.radiance)) return {};
@@ -67,8 +64,9 @@ Rgb light_sampled(const SubpathSample& sample, const SubpathVertex& eye) {
     if (is_black(scattered.f_cos)) return {};
     const float share = weight(sums_of_light_sample(sample.mis, eye, chosen, scattered));
     return light_contribution(world, eye, eye.throughput * sample.wavelength_weight(eye.is_dispersed), light,
-                              scattered.f_cos, share / (light.is_delta ? chosen.probability : light.pdf_solid_angle),
-                              sample.eye.ray.time, sample.connection_key(SubpathEnd::AtEye, eye.index));
+                              scattered.f_cos,
+                              share / (light.is_delta ? chosen.expected_samples : light.pdf_solid_angle),
+                              {sample.eye.ray.time, sample.connection_key(SubpathEnd::AtEye, eye.index)});
 }
 
 /// Returns the light of s > 1 and t > 1: `eye` is connected to `light`.
@@ -99,7 +97,7 @@ Rgb light_connected(const SubpathSample& sample, const SubpathVertex& eye, const
 FilmLight light_at_lens(const SubpathSample& sample, const SubpathVertex& light) {
     const World& world = sample.world();
     if (!wants(sample, light.next_edges)) return {};
-    const Vec2f lens = sample.pair(SubpathEnd::AtLight, light.index, BounceNumbers::LightChoice);
+    const Vec2f lens = sample.pair(SubpathEnd::AtLight, light.index, SubpathDimension::LightChoice);
     const auto view = view_from_lens(world, light.position, lens, sample.eye.ray.time);
     if (!view) return {};
     const auto scattered = light.evaluate_both_ways(view->direction, TransportMode::Importance);
@@ -111,9 +109,9 @@ FilmLight light_at_lens(const SubpathSample& sample, const SubpathVertex& light)
 }  // namespace
 
 BidirectionalLight bidirectional_light(const World& world, const EyeSample& eye_sample,
-                                       const BidirectionalOptions& options) {
-    const PathLengths& lengths = options.lengths;
-    const SubpathSample sample{{world, Raised{options.heuristic}, options.samples_per_light_path}, lengths, eye_sample};
+                                       const IntegratorSettings& settings, double samples_per_light_path) {
+    const PathLengths& lengths = settings.lengths;
+    const SubpathSample sample{{world, Raised{settings.heuristic}, samples_per_light_path}, lengths, eye_sample};
     const SparedRays spared = spared_rays(lengths.roulette_depth);
 
     BidirectionalLight found;

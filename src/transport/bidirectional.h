@@ -4,19 +4,12 @@
 #pragma once
 
 #include "core/rgb.h"
-#include "transport/heuristic.h"
+#include "scene/integrator_settings.h"
 #include "transport/light.h"
-#include "transport/path_lengths.h"
 
 #include <vector>
 
 namespace etendue {
-
-struct BidirectionalOptions {
-    PathLengths lengths;
-    Heuristic heuristic = Heuristic::Balance;
-    double samples_per_light_path = 1.0;  ///< see MisContext
-};
 
 /// Holds the light that a pair of subpaths finds.
 struct BidirectionalLight {
@@ -24,7 +17,10 @@ struct BidirectionalLight {
     std::vector<FilmLight> on_film;  ///< what the light subpath alone brings; nothing black
 };
 
+/// Returns the light that `sample` finds by all strategies, weighed by the heuristic of `settings`. For
+/// `samples_per_light_path` see MisContext.
 [[nodiscard]] BidirectionalLight bidirectional_light(const World& world, const EyeSample& sample,
-                                                     const BidirectionalOptions& options);
+                                                     const IntegratorSettings& settings,
+                                                     double samples_per_light_path = 1.0);
 
 }  // namespace etendue

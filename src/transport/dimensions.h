@@ -8,8 +8,8 @@
 
 namespace etendue {
 
-/// Pairs of dimensions that camera rays use; integrators begin after them. The alpha key takes bits, which are
-/// unrelated to the pair of the same dimension: the time has that.
+/// Numbers the pairs that camera rays take; integrators begin after them. The alpha key takes bits, which are unrelated
+/// to the pair of the same dimension: the time has that.
 enum CameraDimension : std::uint32_t {
     kFilmDimension,
     kLensDimension,
@@ -18,7 +18,7 @@ enum CameraDimension : std::uint32_t {
     kTimeDimension = kCameraAlphaDimension
 };
 
-/// Pairs of dimensions of one bounce.
+/// Numbers the pairs of one bounce of an eye path, within those of the bounce.
 enum BounceDimension : std::uint32_t {
     kLightChoice,
     kLightTriangle,
@@ -29,14 +29,15 @@ enum BounceDimension : std::uint32_t {
     kBounceDimensions
 };
 
-/// Pairs of dimensions that only scenes with bodies need, apart from the others: adding one changes none of these.
+/// Numbers the pairs of one bounce that only scenes with bodies need, apart from the others: adding one changes none of
+/// these.
 enum BodyDimension : std::uint32_t {
     kMedium,  ///< x: how far, y: by which channel
     kWavelength,
     kBodyDimensions
 };
 
-/// Pairs of dimensions of one branch of Whitted's trees; its seed sets it apart from the others.
+/// Numbers the pairs of one branch of Whitted's trees, whose seed sets it apart from the others.
 enum BranchDimension : std::uint32_t {
     kBranchLightChoice = kFirstFreeDimension,
     kBranchLightTriangle,
@@ -50,8 +51,8 @@ enum BranchDimension : std::uint32_t {
 /// Names the end from which a subpath of bidirectional path tracing begins.
 enum class SubpathEnd { AtEye, AtLight };
 
-/// Pairs of dimensions of each bounce of a subpath, scattering and connections.
-enum class BounceNumbers : std::uint32_t {
+/// Numbers the pairs of one bounce of a subpath of bidirectional path tracing, for scattering and for connections.
+enum class SubpathDimension : std::uint32_t {
     Scattering,
     Choices,  ///< x: which lobe, y: whether the path ends
     Medium,
@@ -62,26 +63,28 @@ enum class BounceNumbers : std::uint32_t {
     Count
 };
 
-/// Pairs of dimensions of the beginning of a light subpath, from kFirstLightDimension on.
+/// Numbers the pairs with which a light subpath begins, from kFirstLightDimension on.
 enum EmissionDimension : std::uint32_t { kEmitterChoice, kTriangle, kPosition, kDirection, kEmissionDimensions };
 
-/// The first dimension of light subpaths, far from those of eye paths.
+/// Begins the dimensions of light subpaths, far from those of eye paths.
 inline constexpr std::uint32_t kFirstLightDimension = 1u << 29;
-/// The dimension of the wavelength that both subpaths of a sample take in dispersive bodies.
+/// Has the wavelength that both subpaths of a sample take in dispersive bodies.
 inline constexpr std::uint32_t kSubpathWavelengthDimension = 1u << 30;
 
 /// Returns the dimension of bounce `bounce` of a subpath, from 1 on; 0 is where a light subpath begins.
-[[nodiscard]] constexpr std::uint32_t subpath_dimension(SubpathEnd end, int bounce, BounceNumbers which) {
+[[nodiscard]] constexpr std::uint32_t subpath_dimension(SubpathEnd end, int bounce, SubpathDimension which) {
     const std::uint32_t first =
         end == SubpathEnd::AtEye ? kTimeDimension + 1 : kFirstLightDimension + kEmissionDimensions;
-    return first + static_cast<std::uint32_t>(bounce) * static_cast<std::uint32_t>(BounceNumbers::Count) +
+    return first + static_cast<std::uint32_t>(bounce) * static_cast<std::uint32_t>(SubpathDimension::Count) +
            static_cast<std::uint32_t>(which);
 }
 
+/// Returns the dimension of the eye path's ray number `depth` and of what that leads to.
 [[nodiscard]] constexpr std::uint32_t bounce_dimension(int depth, BounceDimension which) {
     return kFirstFreeDimension + static_cast<std::uint32_t>(depth) * kBounceDimensions + which;
 }
 
+/// Returns the dimension, of those that only bodies need, of ray number `depth`.
 [[nodiscard]] constexpr std::uint32_t body_dimension(int depth, BodyDimension which) {
     constexpr std::uint32_t kFirst = 1u << 30;
     return kFirst + static_cast<std::uint32_t>(depth) * kBodyDimensions + which;
@@ -104,7 +107,7 @@ inline constexpr std::uint32_t kSubpathWavelengthDimension = 1u << 30;
     return hash_combine(hash_combine(seed, kBranchEnd), child);
 }
 
-/// The random numbers of one sample.
+/// Draws the random numbers of one sample.
 struct SampleNumbers {
     SampleSequence sequence = SampleSequence::Sobol;
     SampleKey key;

@@ -24,12 +24,17 @@ Rgb met_emission(const World& world, const EyePath& path, const Vertex& vertex) 
     return emitted * met_light_weight(path.last.pdf_solid_angle, light_pdf, path.last.samples);
 }
 
+/// Returns true if whoever traces the path finds the emission at `vertex` by another estimate.
+bool is_found_elsewhere(const EyePath& path, const Vertex& vertex) {
+    return path.tracer != nullptr && path.rays == 1 && path.tracer->finds_emission(vertex.hit);
+}
+
 }  // namespace
 
 Rgb met_light(const World& world, const EyePath& path, const Vertex& vertex) {
     Rgb light;
     if (vertex.kind == Vertex::Kind::Environment) light += met_environment(world, path, vertex);
-    if (vertex.surface.material != nullptr && vertex.surface.material->emits)
+    if (vertex.surface.material != nullptr && vertex.surface.material->emits && !is_found_elsewhere(path, vertex))
         light += met_emission(world, path, vertex);
     // An unlit surface lights nothing.
     if (vertex.kind == Vertex::Kind::Unlit && path.only_deltas) light += world.unlit_color(vertex.surface);
@@ -44,29 +49,27 @@ Rgb sampled_light(const World& world, const EyePath& path, const Vertex& vertex,
         const SampleNumbers own{numbers.sequence, light_sample_key(numbers.key, samples, round)};
         const auto draw = [&](BounceDimension which) { return own.pair(bounce_dimension(path.rays, which)); };
         const LightNumbers u_light{draw(kLightChoice), draw(kLightTriangle), draw(kLightDirection)};
-        // n samples share the estimate: with n times the probability, light_sample_scale weighs and divides by their
-        // number.
         LightTree::Choice choice = world.choose_light(receiver, u_light.light);
-        choice.probability *= static_cast<float>(samples);
+        share_estimate(choice, samples);
         const ChosenLight chosen = world.sample_light(choice, vertex.position, u_light);
         if (is_black(chosen.sample.radiance)) continue;
         const BsdfValue value = vertex.evaluate(chosen.sample.wi);
         light += light_contribution(world, vertex, path.throughput * vertex.wavelength.weight, chosen.sample,
-                                    value.f_cos, light_sample_scale(chosen, value.pdf_solid_angle), path.ray.time,
-                                    shadow_alpha_key(u.alpha_key, round));
+                                    value.f_cos, light_sample_scale(chosen, value.pdf_solid_angle),
+                                    {path.ray.time, shadow_alpha_key(u.alpha_key, round), path.tracer});
     }
     return light;
 }
 
 Rgb light_contribution(const World& world, const Vertex& vertex, const Rgb& throughput, const LightSample& light,
-                       const Rgb& f_cos, float scale, float time, std::uint32_t alpha_key) {
+                       const Rgb& f_cos, float scale, const ShadowTrace& trace) {
     const Rgb contribution = throughput * f_cos * light.radiance * scale *
                              transmittance(world, vertex.interior_towards(light.wi), light.distance);
     if (is_black(contribution)) return {};
     Ray ray = shadow_ray(vertex.origin_towards(light.wi), light);
-    ray.time = time;
-    ray.alpha_key = alpha_key;
-    return contribution * visibility(world, ray);
+    ray.time = trace.time;
+    ray.alpha_key = trace.alpha_key;
+    return contribution * visibility(world, ray, trace.tracer);
 }
 
 }  // namespace etendue

@@ -23,9 +23,15 @@ namespace etendue {
 /// `pdf_solid_angle`.
 [[nodiscard]] inline float light_sample_scale(const ChosenLight& chosen, float pdf_solid_angle) {
     const LightSample& light = chosen.sample;
-    // A delta light can be found in no other way; its density is the choice's probability alone.
-    return light.is_delta ? 1.0f / chosen.probability
+    // A delta light can be found in no other way; its density is that of the choice alone.
+    return light.is_delta ? 1.0f / chosen.expected_samples
                           : power_heuristic(light.pdf_solid_angle, pdf_solid_angle) / light.pdf_solid_angle;
+}
+
+/// Makes `choice` one of `samples` that share an estimate: weights and densities then are of how many samples of the
+/// light are expected, not of how probable one is (Veach 1997, section 9.2.1).
+inline void share_estimate(LightTree::Choice& choice, std::uint32_t samples) {
+    choice.probability *= static_cast<float>(samples);
 }
 
 /// Returns the density, 1/sr, with which a light that is chosen for `receiver` is the environment and is sampled along
@@ -43,11 +49,17 @@ namespace etendue {
 [[nodiscard]] Rgb sampled_light(const World& world, const EyePath& path, const Vertex& vertex,
                                 const SampleNumbers& numbers, const VertexNumbers& u, std::uint32_t samples);
 
+/// Says how the ray to a sampled light is traced.
+struct ShadowTrace {
+    float time;  ///< while the shutter is open, [0, 1]
+    std::uint32_t alpha_key;
+    SampleTracer* tracer = nullptr;  ///< null if the World traces it
+};
+
 /// Returns the light of a light sample that `vertex` scatters back along its path, times the path's `throughput`.
 /// `f_cos` is the BSDF times the cosine along the sample's direction, or the phase function. `scale` is the sample's
-/// weight over its density. The shadow ray has `time` and `alpha_key`.
+/// weight over its density.
 [[nodiscard]] Rgb light_contribution(const World& world, const Vertex& vertex, const Rgb& throughput,
-                                     const LightSample& light, const Rgb& f_cos, float scale, float time,
-                                     std::uint32_t alpha_key);
+                                     const LightSample& light, const Rgb& f_cos, float scale, const ShadowTrace& trace);
 
 }  // namespace etendue

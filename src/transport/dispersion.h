@@ -12,15 +12,15 @@
 
 namespace etendue {
 
-/// True if `sample` of a dispersive surface goes where light of all wavelengths goes, and Fresnel's equations alone say
-/// how much of each.
+/// Returns true if `sample` of a dispersive surface goes where light of all wavelengths goes, and Fresnel's equations
+/// alone say how much of each.
 [[nodiscard]] inline bool mirrors_all_wavelengths(const Scattering& scattering, const BsdfSample& sample) {
     const auto* const mirror = std::get_if<SmoothDielectric>(&scattering.bsdf());
     return mirror != nullptr && sample.is_delta && !sample.is_transmission && mirror->fresnel.is_bare();
 }
 
-/// Returns the share of light, [0, 1], that such a surface mirrors at a wavelength at which its index inside over that
-/// outside is `relative_ior`.
+/// Returns the share of light, [0, 1], that a smooth dielectric surface mirrors at a wavelength at which its index
+/// inside over that outside is `relative_ior`.
 [[nodiscard]] inline float mirrored_share(const Scattering& scattering, float relative_ior) {
     const float cos_o = scattering.wo_local().z;
     const auto& mirror = std::get<SmoothDielectric>(scattering.bsdf());

@@ -1,12 +1,9 @@
-// How multiple importance sampling weighs strategies against each other.
+// How densities enter the weights of multiple importance sampling.
 #pragma once
 
-namespace etendue {
+#include "scene/integrator_settings.h"
 
-enum class Heuristic {
-    Power,    ///< exponent 2 (Veach 1997, section 9.2.4)
-    Balance,  ///< exponent 1
-};
+namespace etendue {
 
 /// Raises a density, or a ratio of densities, to the exponent of the heuristic.
 struct Raised {

@@ -18,7 +18,7 @@ std::optional<FilmLight> lamp_to_camera(const SubpathSample& sample, const Emiss
                                         const std::function<float(const LensView& view, float cosine)>& weigh) {
     const World& world = sample.world();
     if (is_black(emission.sample.radiance)) return {};
-    const Vec2f lens = sample.pair(SubpathEnd::AtLight, 0, BounceNumbers::LightChoice);
+    const Vec2f lens = sample.pair(SubpathEnd::AtLight, 0, SubpathDimension::LightChoice);
     const float time = sample.eye.ray.time;
     const auto view = view_from_lens(world, emission.sample.position, lens, time);
     if (!view) return {};
@@ -47,7 +47,8 @@ FilmLight vertex_to_camera(const SubpathSample& sample, const SubpathVertex& ver
                                   (view.camera.importance_area * weight) * visibility(world, ray)};
 }
 
-std::vector<FilmLight> light_on_film(const World& world, const EyeSample& eye, const PathLengths& lengths) {
+std::vector<FilmLight> light_on_film(const World& world, const EyeSample& eye, const IntegratorSettings& settings) {
+    const PathLengths& lengths = settings.lengths;
     const SubpathSample sample{{world}, lengths, eye};
     const std::optional<Subpath> subpath = begin_subpath_at_light(sample);
     if (!subpath) return {};
@@ -61,7 +62,7 @@ std::vector<FilmLight> light_on_film(const World& world, const EyeSample& eye, c
     if (lengths.max_depth < edges_to_connect(world) || is_black(subpath->emission->weight)) return found;
     for (const SubpathVertex& vertex : follow_subpath(sample, *subpath, lengths.roulette_depth)) {
         if (vertex.next_edges < lengths.min_depth) continue;
-        const Vec2f lens = sample.pair(SubpathEnd::AtLight, vertex.index, BounceNumbers::LightChoice);
+        const Vec2f lens = sample.pair(SubpathEnd::AtLight, vertex.index, SubpathDimension::LightChoice);
         const auto view = view_from_lens(world, vertex.position, lens, eye.ray.time);
         if (!view) continue;
         const Rgb scattered = vertex.evaluate(view->direction, TransportMode::Importance).f_cos;

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/rgb.h"
-#include "transport/path_lengths.h"
+#include "scene/integrator_settings.h"
 #include "transport/subpath.h"
 
 #include <optional>
@@ -42,6 +42,6 @@ struct LensView {
 
 /// Returns what the light path of `sample` brings to the film. Black contributions are left out.
 [[nodiscard]] std::vector<FilmLight> light_on_film(const World& world, const EyeSample& sample,
-                                                   const PathLengths& lengths);
+                                                   const IntegratorSettings& settings);
 
 }  // namespace etendue

@@ -6,7 +6,7 @@
 namespace etendue {
 
 Merging make_merging(const World& world, int width, int height, double light_paths, std::uint32_t sample,
-                     const MergeOptions& options) {
+                     const MergeSettings& options) {
     if (!world.has_lights() || (options.at == MergeAt::BetweenDeltas && !world.has_specular_surfaces())) return {};
     // Radii of the scene's.
     constexpr float kLeast = 1e-4f;

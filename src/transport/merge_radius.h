@@ -3,7 +3,7 @@
 
 #include "core/ray_cone.h"
 #include "core/vec.h"
-#include "transport/heuristic.h"
+#include "scene/integrator_settings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,13 +11,6 @@
 #include <numbers>
 
 namespace etendue {
-
-/// Says which vertices merge.
-enum class MergeAt : std::uint8_t {
-    Nothing,        ///< none: bidirectional path tracing without merging
-    BetweenDeltas,  ///< those which both subpaths reach by a delta: no connection finds such paths
-    Everywhere,     ///< all that scatter by more than deltas: the algorithm as it was published
-};
 
 /// Computes the radius within which vertices merge, for samples of one index.
 struct MergeRadius {
@@ -58,18 +51,11 @@ struct Merging {
     }
 };
 
-/// Says how subpaths are to merge.
-struct MergeOptions {
-    MergeAt at = MergeAt::Nothing;
-    float radius = 1.5f;  ///< c: of the first sample, in widths of a pixel, > 0
-    float alpha = 0.75f;  ///< (0, 1]: the radius shrinks with the power (alpha - 1) / 2 of the number of samples
-};
-
 class World;
 
 /// Returns where subpaths merge in an image of `width` × `height` pixels, for the sample of index `sample` of every
 /// pixel and as many light subpaths as `light_paths`. Nowhere, if nothing in `world` could have it happen.
 [[nodiscard]] Merging make_merging(const World& world, int width, int height, double light_paths, std::uint32_t sample,
-                                   const MergeOptions& options);
+                                   const MergeSettings& options);
 
 }  // namespace etendue

@@ -57,6 +57,9 @@
 
 namespace etendue {
 
+/// Numbers the vertex of a subpath at which a camera ray ends; the lens is 0.
+inline constexpr int kDirectlySeen = 1;
+
 /// Holds what the weights of all paths of a render depend on.
 struct MisContext {
     const World& world;

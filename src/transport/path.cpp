@@ -10,34 +10,34 @@ namespace {
 /// long. A vertex in a medium adds no edge; there, lights are sampled only if one lies in a medium, since shadow rays
 /// pass no boundary.
 std::uint32_t light_samples_at(const World& world, const EyePath& path, const Vertex& vertex,
-                               const PathOptions& options) {
+                               const IntegratorSettings& settings) {
     const bool is_medium = vertex.kind == Vertex::Kind::Medium;
     const int edges = path.edges + (is_medium ? 0 : 1);
-    const bool samples_lights = options.sample_lights && vertex.has_non_delta() &&
+    const bool samples_lights = settings.light_samples > 0 && vertex.has_non_delta() &&
                                 (is_medium ? world.has_lights_in_media() : world.has_sampled_lights()) &&
-                                edges >= options.lengths.min_depth && edges <= options.lengths.max_depth;
+                                edges >= settings.lengths.min_depth && edges <= settings.lengths.max_depth;
     if (!samples_lights) return 0;
     // Next-event splitting, where the eye looks.
-    return path.only_deltas ? options.light_samples : 1;
+    return path.only_deltas ? settings.light_samples : 1;
 }
 
 }  // namespace
 
-Rgb path_radiance(const World& world, const EyeSample& sample, const PathOptions& options) {
+Rgb path_radiance(const World& world, const EyeSample& sample, const IntegratorSettings& settings) {
     Rgb radiance;
     EyePath path = begin_at_eye(world, sample);
     for (;; ++path.rays) {
         const VertexNumbers u(sample.numbers, path.rays);
         const Vertex vertex = next_vertex(world, path, u);
         // Weighed against the light samples of the vertex before, path.last.
-        if (path.edges >= options.lengths.min_depth) radiance += met_light(world, path, vertex);
+        if (path.edges >= settings.lengths.min_depth) radiance += met_light(world, path, vertex);
         if (vertex.kind == Vertex::Kind::Environment || vertex.kind == Vertex::Kind::Unlit) break;
 
-        const std::uint32_t light_samples = light_samples_at(world, path, vertex, options);
+        const std::uint32_t light_samples = light_samples_at(world, path, vertex, settings);
         if (light_samples > 0) radiance += sampled_light(world, path, vertex, sample.numbers, u, light_samples);
 
-        if (!scatter(world, path, vertex, u, light_samples, options.lengths.max_depth)) break;
-        if (!survives_roulette(world, path, u.roulette, options.lengths.roulette_depth)) break;
+        if (!scatter(world, path, vertex, u, light_samples, settings.lengths.max_depth)) break;
+        if (!survives_roulette(world, path, u.roulette, settings.lengths.roulette_depth)) break;
     }
     return radiance;
 }

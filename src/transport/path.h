@@ -4,22 +4,12 @@
 #pragma once
 
 #include "core/rgb.h"
-#include "transport/path_lengths.h"
+#include "scene/integrator_settings.h"
 #include "transport/walk.h"
-
-#include <cstdint>
 
 namespace etendue {
 
-struct PathOptions {
-    PathLengths lengths;
-    bool sample_lights = true;  ///< false: lights are found by chance only, which is the naive path tracer
-    /// Next-event splitting: lights sampled at each vertex that the eye sees directly or in mirrors and smooth glass,
-    /// >= 1.
-    std::uint32_t light_samples = 1;
-};
-
 /// Returns the radiance that `sample` finds, W/(m² sr).
-[[nodiscard]] Rgb path_radiance(const World& world, const EyeSample& sample, const PathOptions& options);
+[[nodiscard]] Rgb path_radiance(const World& world, const EyeSample& sample, const IntegratorSettings& settings);
 
 }  // namespace etendue

@@ -30,14 +30,14 @@ template <typename T>
     return {.fewer_from_light = raised(from_eye) * fewer_of_light, .fewer_from_eye = raised(from_light) * fewer_of_eye};
 }
 
-/// Densities of a point of a light, 1/m², or at infinity of a direction, 1/sr, without the choice of the light.
+/// Holds densities of a point of a light, 1/m², or at infinity of a direction, 1/sr, without the choice of the light.
 struct LightPointPdfs {
     float sampled;  ///< for the next vertex
     float emitted;  ///< for a light subpath
 };
 
-/// s = 0: an eye subpath has met a point of `light`, or at infinity a direction, coming from `from`. `pdfs` are of that
-/// point or direction, `emission_pdf` of the ray from there.
+/// Returns the sums of s = 0: an eye subpath has met a point of `light`, or at infinity a direction, coming from
+/// `from`. `pdfs` are of that point or direction, `emission_pdf` of the ray from there.
 [[nodiscard]] inline StrategySums sums_at_light(const MisContext& mis, const Vec3f& from, std::uint32_t light,
                                                 const LightPointPdfs& pdfs, float emission_pdf,
                                                 const SubpathDensities& arrived) {
@@ -59,7 +59,7 @@ struct LightPointPdfs {
         mis.world.emission_pdf(light, -direction, cos_light), arrived);
 }
 
-/// Sums for a lamp that a camera ray has met, which the strategy (1, 1) finds, too.
+/// Returns the sums for a lamp that a camera ray has met, which the strategy (1, 1) finds, too.
 [[nodiscard]] inline StrategySums sums_at_seen_emitter(const MisContext& mis, std::uint32_t light,
                                                        const SubpathDensities& arrived) {
     return {.fewer_from_eye = mis.raised(static_cast<double>(mis.world.emitter_pdf_area(light) *
@@ -80,7 +80,7 @@ struct LightPointPdfs {
                          departing.arrive(mis.raised, 1.0, 1.0));
 }
 
-/// s = 1: `chosen` was sampled for the last vertex of an eye subpath, which scatters it by `value`.
+/// Returns the sums of s = 1: `chosen` was sampled for the last vertex of an eye subpath, which scatters it by `value`.
 template <typename AnyVertex>
 [[nodiscard]] inline StrategySums sums_of_light_sample(const MisContext& mis, const AnyVertex& vertex,
                                                        const ChosenLight& chosen,
@@ -95,12 +95,12 @@ template <typename AnyVertex>
     // triangle, and the direction of an environment: its densities jump from cell to cell, and both must be of the one
     // that other strategies find the direction in.
     auto for_emission = static_cast<double>(world.emission_probability(chosen.light));
-    auto for_vertex = static_cast<double>(chosen.probability *
+    auto for_vertex = static_cast<double>(chosen.expected_samples *
                                           world.light_sample_gain(chosen.light, light.triangle, vertex.position));
     float pdf_solid_angle = light.pdf_solid_angle;
     if (chosen.light == world.environment()) {
         for_emission *= static_cast<double>(world.environment_emission_pdf_solid_angle(light.wi));
-        pdf_solid_angle = chosen.probability * world.environment_pdf_solid_angle(light.wi);
+        pdf_solid_angle = chosen.expected_samples * world.environment_pdf_solid_angle(light.wi);
         for_vertex = static_cast<double>(pdf_solid_angle);
         if (!(pdf_solid_angle > 0.0f)) return {.fewer_from_light = std::numeric_limits<double>::infinity()};
     }
@@ -109,7 +109,7 @@ template <typename AnyVertex>
                               vertex.densities.fewer(raised, static_cast<double>(value.reverse_pdf_solid_angle)));
 }
 
-/// t = 1: the last vertex of a light subpath scatters along `direction`, by `value`, to the lens.
+/// Returns the sums of t = 1: the last vertex of a light subpath scatters along `direction`, by `value`, to the lens.
 template <typename AnyVertex>
 [[nodiscard]] inline StrategySums sums_at_lens(const MisContext& mis, const AnyVertex& vertex, const Vec3f& direction,
                                                const CameraConnection& camera, const Scattering::TwoWayValue& value) {
@@ -119,7 +119,8 @@ template <typename AnyVertex>
                                 vertex.densities.fewer(mis.raised, static_cast<double>(value.reverse_pdf_solid_angle))};
 }
 
-/// s = 1, t = 1: the point of a lamp at which `emission` begins is seen by `camera` with this cosine.
+/// Returns the sums of s = 1, t = 1: the point of a lamp at which `emission` begins is seen by `camera` with this
+/// cosine.
 [[nodiscard]] inline StrategySums sums_of_seen_light(const MisContext& mis, const Emission& emission,
                                                      const CameraConnection& camera, float cosine) {
     const double from_eye = mis.samples_per_light_path * static_cast<double>(camera.importance_area * cosine);
@@ -127,7 +128,8 @@ template <typename AnyVertex>
     return {.fewer_from_light = mis.raised(from_eye / from_light)};
 }
 
-/// s > 1, t > 1: the last vertices of both subpaths, `squared` m² apart, the direction from that of the eye being `w`.
+/// Returns the sums of s > 1, t > 1: the last vertices of both subpaths are `squared` m² apart, and `w` leads from that
+/// of the eye to the other.
 template <typename AnyVertex>
 [[nodiscard]] inline StrategySums sums_between(const Raised& raised, const AnyVertex& eye, const AnyVertex& light,
                                                const Vec3f& w, float squared, const Scattering::TwoWayValue& at_eye,

@@ -64,8 +64,8 @@ bool scatter_at_surface(const SubpathSample& sample, Subpath& subpath, const Ver
     if (subpath.end == SubpathEnd::AtLight)
         ends_here = ends_here || subpath.edges + edges_to_connect(sample.world()) > sample.lengths.max_depth;
     const BsdfSample scattered =
-        vertex.sample(sample.pair(subpath.end, bounce, BounceNumbers::Choices).x,
-                      sample.pair(subpath.end, bounce, BounceNumbers::Scattering), subpath.mode());
+        vertex.sample(sample.pair(subpath.end, bounce, SubpathDimension::Choices).x,
+                      sample.pair(subpath.end, bounce, SubpathDimension::Scattering), subpath.mode());
     if (is_black(scattered.weight)) return false;
     if (is_pane && scattered.is_delta && scattered.is_transmission) {
         subpath.throughput *= scattered.weight;
@@ -83,7 +83,7 @@ bool survives_roulette(const SubpathSample& sample, Subpath& subpath, int bounce
     const float survival =
         subpath.end == SubpathEnd::AtEye ? eye_path_survival(share, bounce) : light_path_survival(share, bounce);
     subpath.throughput *= 1.0f / survival;
-    return sample.pair(subpath.end, bounce, BounceNumbers::Choices).y < survival;
+    return sample.pair(subpath.end, bounce, SubpathDimension::Choices).y < survival;
 }
 
 }  // namespace
@@ -125,12 +125,12 @@ std::vector<SubpathVertex> follow_subpath(const SubpathSample& sample, Subpath s
             if (arrive) arrive(subpath, environment_vertex(subpath.ray.direction), {});
             break;
         }
-        const Vec2f u_medium = sample.pair(subpath.end, bounce, BounceNumbers::Medium);
+        const Vec2f u_medium = sample.pair(subpath.end, bounce, SubpathDimension::Medium);
         if (const auto vertex =
                 medium_vertex(world, subpath.ray, RayCone{}, subpath.interior, hit, subpath.throughput, u_medium)) {
             const SubpathDensities densities = densities_at(sample, subpath, vertex->position, 1.0f);
             vertices.push_back(make_vertex(subpath, *vertex, densities, subpath.edges));
-            const Vec2f u = sample.pair(subpath.end, bounce, BounceNumbers::Scattering);
+            const Vec2f u = sample.pair(subpath.end, bounce, SubpathDimension::Scattering);
             depart_from(sample, subpath, *vertex, densities, vertex->sample(0.0f, u, subpath.mode()));
         } else {
             const float nanometres = subpath.is_dispersed ? sample.wavelength().nm : 0.0f;
@@ -149,7 +149,8 @@ std::vector<SubpathVertex> follow_subpath(const SubpathSample& sample, Subpath s
                 break;
             }
         }
-        subpath.ray.alpha_key = sample.eye.numbers.bits(subpath_dimension(subpath.end, bounce, BounceNumbers::Alpha));
+        subpath.ray.alpha_key =
+            sample.eye.numbers.bits(subpath_dimension(subpath.end, bounce, SubpathDimension::Alpha));
         if (!survives_roulette(sample, subpath, bounce, roulette_depth)) break;
     }
     return vertices;

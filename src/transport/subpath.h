@@ -3,9 +3,9 @@
 
 #include "core/ray.h"
 #include "core/rgb.h"
+#include "scene/integrator_settings.h"
 #include "transport/dimensions.h"
 #include "transport/mis.h"
-#include "transport/path_lengths.h"
 #include "transport/vertex.h"
 #include "transport/walk.h"
 
@@ -29,12 +29,12 @@ struct SubpathSample {
 
     [[nodiscard]] const World& world() const { return mis.world; }
     /// Returns a pair of numbers for `bounce` of a subpath, 0 where it begins.
-    [[nodiscard]] Vec2f pair(SubpathEnd end, int bounce, BounceNumbers which) const {
+    [[nodiscard]] Vec2f pair(SubpathEnd end, int bounce, SubpathDimension which) const {
         return eye.numbers.pair(subpath_dimension(end, bounce, which));
     }
     /// Returns the key of rays that connect the vertex of this index.
     [[nodiscard]] std::uint32_t connection_key(SubpathEnd end, int index) const {
-        return ~eye.numbers.bits(subpath_dimension(end, index, BounceNumbers::Alpha));
+        return ~eye.numbers.bits(subpath_dimension(end, index, SubpathDimension::Alpha));
     }
     /// Returns the wavelength that the sample's path takes where a body disperses light.
     [[nodiscard]] Wavelength wavelength() const {

@@ -33,7 +33,7 @@ VertexNumbers::VertexNumbers(const SampleNumbers& numbers, int depth)
       alpha_key(numbers.bits(bounce_dimension(depth, kAlpha))) {}
 
 EyePath begin_at_eye(const World& world, const EyeSample& sample) {
-    return {.ray = sample.ray, .cone = sample.cone, .interior = world.camera_interior()};
+    return {.ray = sample.ray, .cone = sample.cone, .interior = world.camera_interior(), .tracer = sample.tracer};
 }
 
 Hit nearest_hit(const World& world, const Ray& ray) {
@@ -42,9 +42,16 @@ Hit nearest_hit(const World& world, const Ray& ray) {
     return hit;
 }
 
-Rgb visibility(const World& world, const Ray& ray) {
+Hit nearest_hit(const World& world, const EyePath& path) {
+    return path.tracer != nullptr ? path.tracer->nearest_hit(path.ray, path.rays) : nearest_hit(world, path.ray);
+}
+
+Rgb visibility(const World& world, const Ray& ray, SampleTracer* tracer) {
     std::uint8_t occluded = kFree;
-    world.occluded(std::span(&ray, 1), std::span(&occluded, 1));
+    if (tracer != nullptr)
+        occluded = tracer->occluded(ray);
+    else
+        world.occluded(std::span(&ray, 1), std::span(&occluded, 1));
     if (occluded == kOccluded) return {};
     return occluded == kPassesPanes ? world.pane_transmittance(ray) : Rgb(1.0f);
 }
@@ -57,7 +64,7 @@ void pass(EyePath& path, const Vertex& vertex, std::uint32_t alpha_key) {
 }
 
 Vertex next_vertex(const World& world, EyePath& path, const VertexNumbers& u) {
-    const Hit hit = nearest_hit(world, path.ray);
+    const Hit hit = nearest_hit(world, path);
     // What leaves the scene was in no body, whatever holes in meshes made of its interior.
     if (!hit.valid()) return environment_vertex(path.ray.direction);
     if (const auto vertex = medium_vertex(world, path.ray, path.cone, path.interior, hit, path.throughput, u.medium))

@@ -6,6 +6,7 @@
 #include "core/rgb.h"
 #include "light/light_receiver.h"
 #include "transport/dimensions.h"
+#include "transport/sample_tracer.h"
 #include "transport/vertex.h"
 #include "world/world.h"
 
@@ -18,7 +19,17 @@ struct EyeSample {
     Ray ray;
     RayCone cone;
     SampleNumbers numbers;
-    Vec2f lens{0.0f, 0.0f};  ///< chose the point on the lens, in [0, 1)²
+    Vec2f lens{0.0f, 0.0f};          ///< chose the point on the lens, in [0, 1)²
+    SampleTracer* tracer = nullptr;  ///< traces the sample's rays; null if the World does
+};
+
+/// Holds the light that a sample finds, W/(m² sr).
+struct EyeLight {
+    Rgb seen{};          ///< from what the eye sees directly, which is as bright in every sample
+    Rgb scattered{};     ///< all other light
+    float alpha = 1.0f;  ///< 0 if the eye sees through the scene
+
+    [[nodiscard]] Rgb radiance() const { return seen + scattered; }
 };
 
 /// Holds what the weight of light that a path meets by chance depends on: the path's last vertex, and the light samples
@@ -43,6 +54,7 @@ struct EyePath {
     int edges = 1;               ///< rays traced without those to media, panes and hidden boundaries
     bool only_deltas = true;     ///< every vertex so far was a delta, or there is none: the eye sees what the ray meets
     LightSampleContext last{};
+    SampleTracer* tracer = nullptr;  ///< traces the path's rays; null if the World does
 
     /// Returns true if the eye sees what the ray meets, through panes at most.
     [[nodiscard]] bool is_seen() const { return edges == 1 && only_deltas; }
@@ -65,8 +77,10 @@ struct VertexNumbers {
 
 /// Returns the nearest surface along `ray`.
 [[nodiscard]] Hit nearest_hit(const World& world, const Ray& ray);
-/// Returns the share of light, [0, 1], that passes what lies within the length of `ray`.
-[[nodiscard]] Rgb visibility(const World& world, const Ray& ray);
+/// Returns the nearest surface along the path's ray.
+[[nodiscard]] Hit nearest_hit(const World& world, const EyePath& path);
+/// Returns the share of light, [0, 1], that passes what lies within the length of `ray`; `tracer` may be null.
+[[nodiscard]] Rgb visibility(const World& world, const Ray& ray, SampleTracer* tracer = nullptr);
 
 /// Follows the path's ray to where it leads. Multiplies the throughput by the transmittance of a medium on the way,
 /// times its scattering coefficient where it scatters, over the density.

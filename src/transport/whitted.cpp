@@ -26,7 +26,8 @@ Rgb branch_direct_light(const World& world, const Branch& branch, const Vertex& 
     const std::uint32_t alpha_key = shadow_alpha_key(numbers.bits(kBranchAlpha), 0);
     const auto contribution = [&](const LightSample& light, float scale) {
         return light_contribution(world, vertex, branch.path.throughput * vertex.wavelength.weight, light,
-                                  vertex.evaluate(light.wi).f_cos, scale, branch.path.ray.time, alpha_key);
+                                  vertex.evaluate(light.wi).f_cos, scale,
+                                  {branch.path.ray.time, alpha_key, branch.path.tracer});
     };
     Rgb found;
     if (world.has_sampled_lights()) {
@@ -61,8 +62,8 @@ Branch go_straight_on(const Branch& branch, const Vertex& vertex) {
     return next;
 }
 
-Branch follow(const World& world, const Branch& branch, const Vertex& vertex, const BsdfSample& delta,
-              std::uint32_t child) {
+Branch grow_along(const World& world, const Branch& branch, const Vertex& vertex, const BsdfSample& delta,
+                  std::uint32_t child) {
     Branch next = grow(branch, child);
     const Scattering scattering = vertex.scattering();
     if (vertex.chooses_wavelength && mirrors_all_wavelengths(scattering, delta)) {
@@ -86,44 +87,59 @@ std::optional<Branch> survivor(Branch branch) {
     return branch;
 }
 
-/// Returns the light that comes to the eye along `branch` and all that grows from it.
-Rgb branch_radiance(const World& world, Branch branch, const PathLengths& lengths) {
+/// Follows all branches of the tree of one sample.
+struct Tree {
+    const World& world;
+    const PathLengths& lengths;
+    EyeLight found{};
+
+    /// Finds the light that comes to the eye along `branch` and all that grows from it.
+    void follow(Branch branch);
+    void follow_survivor(const Branch& branch) {
+        if (const std::optional<Branch> followed = survivor(branch)) follow(*followed);
+    }
+};
+
+void Tree::follow(Branch branch) {
     EyePath& path = branch.path;
-    const Hit hit = nearest_hit(world, path.ray);
-    const bool is_wanted = path.edges >= lengths.min_depth;
-    if (!hit.valid()) return is_wanted ? met_light(world, path, environment_vertex(path.ray.direction)) : Rgb();
+    const Hit hit = nearest_hit(world, path);
+    const auto add_met_light = [&](const Vertex& vertex) {
+        if (path.edges >= lengths.min_depth)
+            (path.is_seen() ? found.seen : found.scattered) += met_light(world, path, vertex);
+    };
+    if (!hit.valid()) {
+        if (path.is_seen() && !(world.has_environment() && world.environment_visible_to_camera())) found.alpha = 0.0f;
+        add_met_light(environment_vertex(path.ray.direction));
+        return;
+    }
     // What scatters on the way is lost like what is absorbed.
     path.throughput *= transmittance(world, path.interior, hit.t);
     const Vertex vertex = surface_vertex(world, path.ray, path.cone, path.interior, hit, path.wavelength_nm,
                                          branch.numbers.pair(kBranchWavelength).x);
-    Rgb radiance;
-    if (is_wanted) radiance += met_light(world, path, vertex);
-    const auto add = [&](const Branch& next) {
-        if (const std::optional<Branch> followed = survivor(next))
-            radiance += branch_radiance(world, *followed, lengths);
-    };
-    if (vertex.kind == Vertex::Kind::Boundary) add(go_straight_on(branch, vertex));
-    if (vertex.kind != Vertex::Kind::Surface) return radiance;
+    add_met_light(vertex);
+    if (vertex.kind == Vertex::Kind::Boundary) follow_survivor(go_straight_on(branch, vertex));
+    if (vertex.kind != Vertex::Kind::Surface) return;
 
     const bool ends_here = path.edges >= lengths.max_depth;
     if (!ends_here && vertex.has_non_delta() && path.edges + 1 >= lengths.min_depth)
-        radiance += branch_direct_light(world, branch, vertex);
+        found.scattered += branch_direct_light(world, branch, vertex);
     std::uint32_t child = 0;
     for (const BsdfSample& delta : vertex.scattering().deltas()) {
         // What goes straight through a pane has no vertex there.
         const bool passes = vertex.surface.material->is_pane && delta.is_transmission;
         if (ends_here && !passes) continue;
-        Branch next = follow(world, branch, vertex, delta, child++);
+        Branch next = grow_along(world, branch, vertex, delta, child++);
         next.path.edges += passes ? 0 : 1;
-        add(next);
+        follow_survivor(next);
     }
-    return radiance;
 }
 
 }  // namespace
 
-Rgb whitted_radiance(const World& world, const EyeSample& sample, const PathLengths& lengths) {
-    return branch_radiance(world, {begin_at_eye(world, sample), sample.numbers}, lengths);
+EyeLight whitted_light(const World& world, const EyeSample& sample, const IntegratorSettings& settings) {
+    Tree tree{world, settings.lengths};
+    tree.follow({begin_at_eye(world, sample), sample.numbers});
+    return tree.found;
 }
 
 }  // namespace etendue

@@ -22,7 +22,7 @@
 #pragma once
 
 #include "core/pixel_rect.h"
-#include "transport/path_lengths.h"
+#include "scene/integrator_settings.h"
 #include "wave/camera_wave.h"
 
 #include <cstddef>

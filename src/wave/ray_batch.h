@@ -1,4 +1,4 @@
-// How integrators trace: batches of one kind of rays, counted, and timed where a profile is wanted.
+// How integrators trace: batches of one kind of rays, or single ones, counted, and timed where a profile is wanted.
 #pragma once
 
 #include "wave/ray_kind.h"
@@ -19,5 +19,12 @@ void intersect_batch(const World& world, const TileJob& job, RayKind kind, const
 /// 1 where something is in the way of a ray, else 0; `occluded` is as long as `rays`.
 void occluded_batch(const World& world, const TileJob& job, RayKind kind, const RayColumns& rays,
                     std::span<std::uint8_t> occluded, RenderCounters& counters);
+
+/// Returns the nearest surface along `ray`, as `intersect_batch` does along many.
+[[nodiscard]] Hit intersect_one(const World& world, const TileJob& job, RayKind kind, const Ray& ray,
+                                RenderCounters& counters);
+/// Returns what is in the way of `ray`, as `occluded_batch` does for many.
+[[nodiscard]] std::uint8_t occluded_one(const World& world, const TileJob& job, RayKind kind, const Ray& ray,
+                                        RenderCounters& counters);
 
 }  // namespace etendue

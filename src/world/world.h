@@ -139,8 +139,10 @@ struct WorldData {
 
 /// A light chosen for a point, with the choice in its density.
 struct ChosenLight {
-    LightSample sample;     ///< pdf_solid_angle includes the choice
-    float probability = 0;  ///< of choosing this light
+    LightSample sample;  ///< pdf_solid_angle includes the choice
+    /// Counts the samples of this light that are expected: the chance of choosing it, times the light samples that are
+    /// taken.
+    float expected_samples = 0;
     std::uint32_t light = kNone;
 };
 

@@ -103,9 +103,9 @@ TEST(SettingsOverrides, StrategiesOfBidirectionalPathTracing) {
     RenderSettings settings = settings_of(640, 360, 100);
     parse({"--strategy", "2,3", "--unweighted", "--heuristic", "power"}).apply(settings);
     const IntegratorSettings& integrator = settings.integrator;
-    EXPECT_EQ(integrator.strategy, (std::array<int, 2>{2, 3}));
+    EXPECT_EQ(integrator.strategy, (Strategy{2, 3}));
     EXPECT_FALSE(integrator.weighted);
-    EXPECT_EQ(integrator.heuristic, HeuristicType::Power);
+    EXPECT_EQ(integrator.heuristic, Heuristic::Power);
     for (const char* text : {"2", "2,", "2,3,4", "-1,3", "a,b", "2x3"})
         EXPECT_THROW((void)parse({"--strategy", text}), CLI::ValidationError) << text;
     EXPECT_THROW((void)parse({"--heuristic", "cutoff"}), CLI::ValidationError);

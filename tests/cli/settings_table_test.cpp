@@ -3,7 +3,6 @@
 #include "cli/settings_pages.h"
 #include "loader/settings/json_schema.h"
 #include "loader/settings/render_json.h"
-#include "picture/render_setup.h"
 #include "program/small_files.h"
 #include "scene/canonical_settings.h"
 #include "session/prepared_scene.h"
@@ -14,7 +13,6 @@
 #include <cstdlib>
 #include <limits>
 #include <map>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -216,9 +214,6 @@ TEST_P(SettingsTable, IsPartOfWhatItDecides) {
 
 TEST_P(SettingsTable, NamesWhatThereIs) {
     EXPECT_EQ(find_setting(setting_.needs) == nullptr, setting_.needs.empty());
-    const std::vector<std::string> names = integrator_names();
-    std::istringstream words{std::string(setting_.integrators)};
-    for (std::string word; words >> word;) EXPECT_EQ(std::ranges::count(names, word), 1) << word;
     EXPECT_FALSE(setting_.help.empty());
     EXPECT_NE(setting_.help.back(), '.');
     EXPECT_FALSE(std::holds_alternative<std::monostate>(default_value(setting_)) && setting_.default_text.empty());

@@ -20,7 +20,7 @@ TEST(WithOptions, AddsToThoseOfAllVariants) {
     const RenderRequest request = with_options(common, "--max-depth 5 --unweighted --strategy 1,2");
     RenderSettings settings;
     request.overrides.apply(settings);
-    EXPECT_EQ(settings.integrator.max_depth, 5);
+    EXPECT_EQ(settings.integrator.lengths.max_depth, 5);
     EXPECT_EQ(settings.camera, "the main one");
     EXPECT_EQ(command_line("render", request.given),
               "render --camera 'the main one' --max-depth '5' --strategy '1,2' --unweighted");

@@ -17,14 +17,14 @@ Variant variant_of(const std::string& integrator) {
 
 TEST(DifferentLight, IsThatOfOtherPaths) {
     Variant few = variant_of("path");
-    few.settings.integrator.max_depth = 4;
+    few.settings.integrator.lengths.max_depth = 4;
     EXPECT_NE(different_light(variant_of("path"), few).find("1 to 4"), std::string::npos);
     EXPECT_EQ(different_light(few, few), "");
     Variant later = variant_of("path");
-    later.settings.integrator.min_depth = 2;
+    later.settings.integrator.lengths.min_depth = 2;
     EXPECT_NE(different_light(variant_of("path"), later), "");
     EXPECT_NE(different_light(variant_of("path"), variant_of("direct")), "");
-    few.settings.integrator.max_depth = 2;
+    few.settings.integrator.lengths.max_depth = 2;
     EXPECT_EQ(different_light(few, variant_of("direct")), "") << "one bounce";
     EXPECT_EQ(different_light(variant_of("path"), variant_of("bdpt")), "");
 }
@@ -40,7 +40,7 @@ TEST(DifferentLight, IsThatOfOtherScenesStrategiesAndDebugging) {
         EXPECT_NE(different_light(variant_of(name), variant_of("path")).find("something else"), std::string::npos)
             << name;
     Variant faster = variant_of("bdpt");
-    faster.settings.integrator.heuristic = HeuristicType::Power;
+    faster.settings.integrator.heuristic = Heuristic::Power;
     faster.settings.integrator.cached_connections = 4;
     faster.settings.spp = 7;
     EXPECT_EQ(different_light(variant_of("bdpt"), faster), "");

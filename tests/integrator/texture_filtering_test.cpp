@@ -155,7 +155,7 @@ TEST_F(TexturedFurnace, StrategiesAgreeUnderTexturedLight) {
     add_object(scene, quad({0, 0.5f, -1}, {0, 0, -0.7f}, {0.7f, 0, 0}), add_material(scene, lamp));
     const World world = compile(std::move(scene));
     const auto edges_of_two = [](bool sample_lights) {
-        return PathIntegrator({.lengths = {3, 2, 8}, .sample_lights = sample_lights});
+        return PathIntegrator({.lengths = {3, 2, 8}, .light_samples = sample_lights ? 1u : 0u});
     };
     const TileResult by_mis = render_tile(world, edges_of_two(true), 1024);
     const TileResult by_chance = render_tile(world, edges_of_two(false), 8192);

@@ -137,7 +137,7 @@ TEST(LoadScene, GivenSettingsAreMergedIntoThoseOfTheFile) {
     EXPECT_EQ(merged.spp, 7);
     EXPECT_EQ(merged.seed, RenderSettings{}.seed) << "null restores the default";
     EXPECT_EQ(merged.integrator.type, "bdpt") << "objects are merged";
-    EXPECT_EQ(merged.integrator.max_depth, 9);
+    EXPECT_EQ(merged.integrator.lengths.max_depth, 9);
     EXPECT_EQ(load_scene(dir.path(), {.settings = R"({"spp": 7})"}).scene.inputs, load_scene(dir.path()).scene.inputs);
 }
 

@@ -14,9 +14,9 @@ namespace {
 
 TEST(CreateIntegrator, RefusesPathsThatAreNeverTraced) {
     RenderSettings settings;
-    settings.integrator = {.type = "direct", .min_depth = 3};
+    settings.integrator = {.type = "direct", .lengths = {.min_depth = 3}};
     EXPECT_THROW((void)create_integrator(settings), SceneError);
-    settings.integrator.min_depth = 2;
+    settings.integrator.lengths.min_depth = 2;
     EXPECT_NE(create_integrator(settings), nullptr);
 }
 
@@ -26,28 +26,6 @@ TEST(CreateIntegrator, OnlyThoseWithStrategiesShowOne) {
     EXPECT_THROW((void)create_integrator(settings), SceneError);
     settings.integrator.type = "bdpt";
     EXPECT_NE(create_integrator(settings), nullptr);
-}
-
-TEST(IntegratorOptions, AreThoseOfTheSettings) {
-    RenderSettings settings;
-    settings.integrator = {.type = "bdpt",
-                           .max_depth = 9,
-                           .min_depth = 2,
-                           .roulette_depth = 5,
-                           .light_samples = 4,
-                           .heuristic = HeuristicType::Power,
-                           .strategy = {{1, 2}},
-                           .weighted = false,
-                           .cached_connections = 3};
-    const IntegratorOptions options = integrator_options(settings);
-    EXPECT_EQ(options.lengths.max_depth, 9);
-    EXPECT_EQ(options.lengths.min_depth, 2);
-    EXPECT_EQ(options.lengths.roulette_depth, 5);
-    EXPECT_EQ(options.light_samples, 4u);
-    EXPECT_EQ(options.heuristic, Heuristic::Power);
-    EXPECT_EQ(options.strategy, (Strategy{1, 2}));
-    EXPECT_FALSE(options.weighted);
-    EXPECT_EQ(options.cached_connections, 3);
 }
 
 TEST(IneffectiveSettings, OptionsOfAdaptiveSamplingNeedAnError) {
@@ -64,7 +42,7 @@ TEST(IneffectiveSettings, OptionsOfAdaptiveSamplingNeedAnError) {
 
 TEST(IneffectiveSettings, OptionsOfStrategiesNeedStrategies) {
     RenderSettings settings;
-    settings.integrator = {.type = "path", .heuristic = HeuristicType::Power, .cached_connections = 2};
+    settings.integrator = {.type = "path", .heuristic = Heuristic::Power, .cached_connections = 2};
     EXPECT_TRUE(ineffective_settings(settings, false).empty()) << "of a render.json, for when bdpt is asked for";
     settings.options = {{"/integrator/heuristic", "--heuristic"}, {"/integrator/connections", "--bdpt-connections"}};
     const std::vector<std::string> notes = ineffective_settings(settings, false);
@@ -75,15 +53,10 @@ TEST(IneffectiveSettings, OptionsOfStrategiesNeedStrategies) {
     EXPECT_TRUE(ineffective_settings(settings, false).empty());
 }
 
-TEST(IneffectiveSettings, TheTableNamesTheIntegratorsThatTheRegistryDoes) {
-    for (const IntegratorEntry& entry : integrator_registry()) {
-        const auto is_named = [&](const char* pointer) {
-            return find_setting(pointer)->integrators.find(entry.name) != std::string_view::npos;
-        };
-        EXPECT_EQ(is_named("/integrator/light_samples"), entry.splits_light_samples) << entry.name;
-        EXPECT_EQ(is_named("/integrator/heuristic"), entry.has_strategies) << entry.name;
-        EXPECT_EQ(is_named("/integrator/connections"), entry.has_strategies) << entry.name;
-    }
+TEST(IneffectiveSettings, TheRegistryNamesSettingsOfTheTable) {
+    for (const IntegratorEntry& entry : integrator_registry())
+        for (const std::string_view pointer : entry.own_settings)
+            EXPECT_NE(find_setting(pointer), nullptr) << entry.name << " " << pointer;
 }
 
 TEST(IneffectiveSettings, MoreLightSamplesAreForPathTracing) {
@@ -101,7 +74,7 @@ TEST(IneffectiveSettings, MoreLightSamplesAreForPathTracing) {
 
 TEST(IneffectiveSettings, IndirectLightTakesThreeEdges) {
     RenderSettings settings;
-    settings.integrator.max_depth = 2;
+    settings.integrator.lengths.max_depth = 2;
     EXPECT_TRUE(ineffective_settings(settings, false).empty());
     settings.clamp_indirect = 1.0f;
     settings.options["/clamp_indirect"] = "--clamp-indirect";
@@ -110,7 +83,7 @@ TEST(IneffectiveSettings, IndirectLightTakesThreeEdges) {
     EXPECT_NE(notes[0].find("--clamp-indirect has no effect: paths have at most 2 edges"), std::string::npos)
         << notes[0];
     EXPECT_TRUE(ineffective_settings(settings, true).empty()) << "media add no edges";
-    settings.integrator.max_depth = 3;
+    settings.integrator.lengths.max_depth = 3;
     EXPECT_TRUE(ineffective_settings(settings, false).empty());
 }
 

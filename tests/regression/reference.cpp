@@ -41,9 +41,7 @@ ImageEstimate render_estimate(const RegressionScene& scene, const Sampling& samp
     SceneDesc desc = load_scene(std::filesystem::path(scene.parent) / scene.name).scene;
     desc.settings.film.width = scene.width;
     desc.settings.film.height = scene.height;
-    const IntegratorSettings lengths = desc.settings.integrator;
-    const auto integrator = make_integrator(
-        sampling.integrator, {.lengths = {lengths.max_depth, lengths.min_depth, lengths.roulette_depth}});
+    const auto integrator = make_integrator(sampling.integrator, {.lengths = desc.settings.integrator.lengths});
     if (!integrator) throw IoError(fmt::format("no integrator is named '{}'", sampling.integrator));
 
     const ThreadPool threads;

@@ -174,7 +174,7 @@ const Defect kDefects[] = {
      }},
     {"LightFar", "the light reaches", [](SceneDesc& s) { s.lights[0].to_world[3][0] = 1e19f; }},
     {"LightSamplesMany", "light_samples", [](SceneDesc& s) { s.settings.integrator.light_samples = 65; }},
-    {"DepthsSwapped", "min_depth", [](SceneDesc& s) { s.settings.integrator.min_depth = 99; }},
+    {"DepthsSwapped", "min_depth", [](SceneDesc& s) { s.settings.integrator.lengths.min_depth = 99; }},
     {"StrategyHitsTheLens", "strategy 3,0",
      [](SceneDesc& s) {
          s.settings.integrator.strategy = {{3, 0}};

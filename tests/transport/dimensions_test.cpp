@@ -35,8 +35,8 @@ TEST(SubpathDimensions, AreEachForOnePurpose) {
     std::set<std::uint32_t> seen = camera_dimensions();
     for (const SubpathEnd end : {SubpathEnd::AtEye, SubpathEnd::AtLight})
         for (int bounce = 0; bounce <= kDepths; ++bounce)
-            for (std::uint32_t which = 0; which < static_cast<std::uint32_t>(BounceNumbers::Count); ++which)
-                EXPECT_TRUE(seen.insert(subpath_dimension(end, bounce, static_cast<BounceNumbers>(which))).second)
+            for (std::uint32_t which = 0; which < static_cast<std::uint32_t>(SubpathDimension::Count); ++which)
+                EXPECT_TRUE(seen.insert(subpath_dimension(end, bounce, static_cast<SubpathDimension>(which))).second)
                     << which << " at bounce " << bounce;
 }
 

@@ -5,7 +5,6 @@
 #include "transport/light.h"
 #include "transport/path.h"
 #include "transport/scattered_cone.h"
-#include "transport/whitted.h"
 #include "wave/camera_wave.h"
 
 #include <algorithm>
@@ -37,21 +36,19 @@ Rgb scalar_light(const World& world, const OracleRun& run, const EyeSample& samp
     const auto add = [&](const std::vector<FilmLight>& found) {
         on_film.insert(on_film.end(), found.begin(), found.end());
     };
-    if (run.integrator == "whitted") return whitted_radiance(world, sample, run.lengths);
+    IntegratorSettings settings{.lengths = run.lengths, .light_samples = run.light_samples, .heuristic = run.heuristic};
     if (run.integrator == "light") {
-        add(light_on_film(world, sample, run.lengths));
+        add(light_on_film(world, sample, settings));
         return {};
     }
     if (run.integrator == "bdpt") {
-        const BidirectionalLight found =
-            bidirectional_light(world, sample, {.lengths = run.lengths, .heuristic = run.heuristic});
+        const BidirectionalLight found = bidirectional_light(world, sample, settings);
         add(found.on_film);
         return found.radiance;
     }
-    PathOptions options{.lengths = run.lengths, .light_samples = run.light_samples};
-    if (run.integrator == "naive") options.sample_lights = false;
-    if (run.integrator == "direct") options.lengths.max_depth = std::min(options.lengths.max_depth, 2);
-    return path_radiance(world, sample, options);
+    if (run.integrator == "naive") settings.light_samples = 0;
+    if (run.integrator == "direct") settings.lengths.max_depth = std::min(settings.lengths.max_depth, 2);
+    return path_radiance(world, sample, settings);
 }
 
 bool differ(const Rgb& a, const Rgb& b) {

@@ -12,7 +12,7 @@ namespace etendue::test {
 
 /// Says which samples are compared.
 struct OracleRun {
-    std::string integrator = "path";  ///< one that shows light
+    std::string integrator = "path";  ///< one that computes many samples at once
     PathLengths lengths{};
     std::uint32_t light_samples = 1;
     Heuristic heuristic = Heuristic::Balance;

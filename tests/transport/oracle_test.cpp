@@ -48,7 +48,7 @@ void expect_samples_of_oracle(const World& world, const OracleRun& run, double m
 
 /// Compares all algorithms, and what they may be asked for.
 void expect_all_samples_of_oracle(const World& world, const OracleRun& run, double most = kMostOfRooms) {
-    for (const char* const integrator : {"path", "direct", "naive", "whitted", "light", "bdpt"}) {
+    for (const char* const integrator : {"path", "direct", "naive", "light", "bdpt"}) {
         OracleRun one = run;
         one.integrator = integrator;
         expect_samples_of_oracle(world, one, most);
@@ -90,7 +90,7 @@ class OracleOfScene : public testing::TestWithParam<std::string> {};
 TEST_P(OracleOfScene, FindsTheSameSamples) {
     SceneDesc desc = load_scene(std::filesystem::path(ETENDUE_SCENES) / GetParam()).scene;
     const IntegratorSettings& integrator = desc.settings.integrator;
-    const PathLengths lengths{integrator.max_depth, integrator.min_depth, integrator.roulette_depth};
+    const PathLengths lengths = integrator.lengths;
     const ThreadPool threads;
     ProblemList warnings;
     const World world = compile_world(std::move(desc), ColorConfig::built_in(), "ACEScg", threads, warnings);

@@ -214,9 +214,9 @@ TEST(LampsInView, AreAmongTheBrightestBesideThem) {
 
 /// Mean of red over the image of lamps by bdpt.
 double mean_lamp(const World& world, std::optional<Strategy> only, bool is_weighted, std::uint32_t seed) {
-    BdptOptions options;
+    IntegratorSettings options;
     options.lengths = {.max_depth = 1};
-    options.only = only;
+    options.strategy = only;
     options.weighted = is_weighted;
     const std::vector<float> image =
         render_lamp(world, BdptIntegrator(options), whole_image(kLampSide, kLampSide, 64, seed)).film.resolve();

@@ -36,7 +36,7 @@ TEST(CompileLights, PunctualLightsTakePlaceAndAxisFromTheirNode) {
             const World world = compile(std::move(scene));
             const ChosenLight chosen =
                 world.sample_light(position + axis * 2.0f, {{0.5f, 0.5f}, {0.5f, 0.5f}, {0.5f, 0.5f}});
-            EXPECT_EQ(chosen.probability, 1.0f);
+            EXPECT_EQ(chosen.expected_samples, 1.0f);
             EXPECT_TRUE(chosen.sample.is_delta);
             EXPECT_GT(dot(chosen.sample.wi, -axis), 0.99999f);
             const float expected = type == LightType::Directional ? 6.0f : 6.0f / 4.0f;

@@ -75,7 +75,7 @@ TEST(World, LightSamplesAndHitsAgree) {
             } else {
                 ++lit;
                 EXPECT_NEAR(pdf / sample.pdf_solid_angle, 1.0f, 2e-2f);
-                EXPECT_GT(chosen.probability, 0.0f);
+                EXPECT_GT(chosen.expected_samples, 0.0f);
             }
         }
         EXPECT_GT(lit, 500);
@@ -163,7 +163,7 @@ TEST(World, LightsAreChosenByPower) {
         const ChosenLight chosen =
             world.sample_light(Vec3f(0.0f), {random.next_2d(), random.next_2d(), random.next_2d()});
         const bool is_bright = chosen.sample.wi.x > 0.0f;
-        EXPECT_NEAR(chosen.probability, is_bright ? 0.7425f : 0.2575f, 1e-6f);
+        EXPECT_NEAR(chosen.expected_samples, is_bright ? 0.7425f : 0.2575f, 1e-6f);
         bright += is_bright ? 1 : 0;
     }
     EXPECT_NEAR(bright, 0.725 * kSamples, 4.5 * std::sqrt(0.2 * kSamples));

@@ -9,11 +9,11 @@ namespace etendue {
 
 std::vector<std::string> BdptIntegrator::unreachable_light(const World& world) const {
     std::vector<std::string> sentences;
-    if (options_.only && !world.has_bodies() && options_.only->edges() > options_.lengths.max_depth)
+    if (settings_.strategy && !world.has_bodies() && settings_.strategy->edges() > settings_.lengths.max_depth)
         sentences.push_back(fmt::format(
             "the image stays black: strategy {},{} makes paths of {} edges, and the longest that are kept have {}",
-            options_.only->s, options_.only->t, options_.only->edges(), options_.lengths.max_depth));
-    const bool merges = options_.merging.at != MergeAt::Nothing && !options_.only;
+            settings_.strategy->s, settings_.strategy->t, settings_.strategy->edges(), settings_.lengths.max_depth));
+    const bool merges = merging_.at != MergeAt::Nothing && !settings_.strategy;
     if (world.has_delta_lights() && world.has_specular_surfaces() && !merges)
         sentences.emplace_back(
             "what point, spot and directional lights send through smooth glass or by way of mirrors cannot be found "
@@ -22,11 +22,11 @@ std::vector<std::string> BdptIntegrator::unreachable_light(const World& world) c
 }
 
 std::vector<std::string> BdptIntegrator::ineffective_options(const World& world) const {
-    if (options_.cached_connections == 0 || !world.has_motion()) return {};
+    if (settings_.cached_connections == 0 || !world.has_motion()) return {};
     return {fmt::format(
         "connections to a cache (cache:{}) have no effect where something moves while the shutter is open: each sample "
         "has a time of its own, and is connected pairwise",
-        options_.cached_connections)};
+        settings_.cached_connections)};
 }
 
 std::unique_ptr<IntegratorScratch> BdptIntegrator::make_scratch() const {
@@ -35,7 +35,7 @@ std::unique_ptr<IntegratorScratch> BdptIntegrator::make_scratch() const {
 
 Merging BdptIntegrator::merging(const World& world, const TileJob& job) const {
     return make_merging(world, job.full_width, job.full_height, static_cast<double>(job.window.area()),
-                        job.first_sample, options_.merging);
+                        job.first_sample, merging_);
 }
 
 void BdptIntegrator::trace_photons(const World& world, const TileJob& job, IntegratorScratch& scratch,
@@ -43,15 +43,15 @@ void BdptIntegrator::trace_photons(const World& world, const TileJob& job, Integ
     auto& wave = static_cast<BdptWave&>(scratch);
     const std::size_t total = camera_sample_count(job);
     for (std::size_t first = 0; first < total; first += BdptWave::kCapacity)
-        wave.trace_photons(world, job, options_, first, std::min(BdptWave::kCapacity, total - first), photons,
+        wave.trace_photons(world, job, settings_, first, std::min(BdptWave::kCapacity, total - first), photons,
                            counters);
 }
 
 void BdptIntegrator::render_tile(const World& world, const TileJob& job, IntegratorScratch& scratch, TileBuffer& tile,
                                  RenderCounters& counters) const {
     auto& wave = static_cast<BdptWave&>(scratch);
-    wave.start(world, job, options_);
-    trace_in_waves<BdptWave>(world, job, options_, scratch, tile, counters);
+    wave.start(world, job, settings_, observer_);
+    trace_in_waves<BdptWave>(world, job, settings_, scratch, tile, counters);
     wave.finish(tile, counters);
 }
 

@@ -10,13 +10,18 @@
 // material.
 #pragma once
 
-#include "integrator/bdpt/bdpt_options.h"
+#include "integrator/bdpt/weight_observer.h"
+#include "integrator/integrator.h"
 
 namespace etendue {
 
 class BdptIntegrator final : public Integrator {
   public:
-    explicit BdptIntegrator(const BdptOptions& options) : options_(options) {}
+    /// `observer` must outlive the integrator; null if nobody sees weights. Subpaths merge as `merging` says, not as
+    /// `settings` do.
+    explicit BdptIntegrator(const IntegratorSettings& settings, WeightObserver* observer = nullptr,
+                            const MergeSettings& merging = {.at = MergeAt::Nothing})
+        : settings_(settings), observer_(observer), merging_(merging) {}
 
     [[nodiscard]] std::unique_ptr<IntegratorScratch> make_scratch() const override;
     [[nodiscard]] std::vector<std::string> unreachable_light(const World& world) const override;
@@ -29,7 +34,9 @@ class BdptIntegrator final : public Integrator {
                      RenderCounters& counters) const override;
 
   private:
-    BdptOptions options_;
+    IntegratorSettings settings_;
+    WeightObserver* observer_;
+    MergeSettings merging_;
 };
 
 }  // namespace etendue

@@ -11,9 +11,6 @@ namespace etendue {
 
 namespace {
 
-/// Index of the vertex at which a camera ray ends.
-constexpr int kDirectlySeen = 1;
-
 /// Appends to `path` the vertices of the subpath that ends in `last`, the last one first.
 void append_subpath(SubpathWave& wave, const PathVertex* last, std::vector<const PathVertex*>& path) {
     for (const PathVertex* v = last; v != nullptr;
@@ -39,18 +36,18 @@ std::size_t BdptWave::bytes() const {
            wide_vertex_connections_.bytes();
 }
 
-void BdptWave::trace(const World& world, const TileJob& job, const BdptOptions& options, std::size_t first,
+void BdptWave::trace(const World& world, const TileJob& job, const IntegratorSettings& settings, std::size_t first,
                      std::size_t count, TileBuffer& tile, RenderCounters& counters) {
     samples_.resize(count);
     camera_rays_.resize(count);
     // The samples of a wave share the cache.
     generate_camera_rays(world, job, first, samples_, camera_rays_,
-                         options.cached_connections > 0 ? SampleOrder::SampleBySample : SampleOrder::PixelByPixel);
+                         settings.cached_connections > 0 ? SampleOrder::SampleBySample : SampleOrder::PixelByPixel);
     found_.reset(count, job, counters.brightest.threshold());
     alpha_.assign(count, 1.0f);
-    const Context context{{world, job, options.lengths, Raised{options.heuristic}, samples_, camera_rays_, job.merging},
-                          options};
-    const SparedRays spared = spared_rays(options.lengths.roulette_depth);
+    const Context context{
+        {world, job, settings.lengths, Raised{settings.heuristic}, samples_, camera_rays_, job.merging}, settings};
+    const SparedRays spared = spared_rays(settings.lengths.roulette_depth);
     context_ = &context;
     tile_ = &tile;
     counters_ = &counters;
@@ -63,7 +60,7 @@ void BdptWave::trace(const World& world, const TileJob& job, const BdptOptions& 
         if (context.wants(1) && context.wants({.s = 1, .t = 1}))
             lamps_to_camera_.connect(context, light_, camera_connections_,
                                      [&](const Emission& emission, const CameraConnection& camera, float cosine) {
-                                         return weight(options,
+                                         return weight(settings,
                                                        sums_of_seen_light(context.mis(), emission, camera, cosine));
                                      });
         find_candidates(context);
@@ -89,7 +86,7 @@ void BdptWave::trace(const World& world, const TileJob& job, const BdptOptions& 
             resolve_if_full(camera_connections_);
             resolve_if_full(wide_camera_connections_);
         }
-        if (job.photons != nullptr && !options.only) merge(context);
+        if (job.photons != nullptr && !settings.strategy) merge(context);
         for (Connections* connections : {&light_connections_, &wide_light_connections_, &vertex_connections_,
                                          &wide_vertex_connections_, &camera_connections_, &wide_camera_connections_})
             connections->resolve(world, job, samples_, found_, tile, counters);
@@ -99,15 +96,15 @@ void BdptWave::trace(const World& world, const TileJob& job, const BdptOptions& 
     stamp(job.profile, Stage::Film);
 }
 
-void BdptWave::trace_photons(const World& world, const TileJob& job, const BdptOptions& options, std::size_t first,
-                             std::size_t count, PhotonList& photons, RenderCounters& counters) {
+void BdptWave::trace_photons(const World& world, const TileJob& job, const IntegratorSettings& settings,
+                             std::size_t first, std::size_t count, PhotonList& photons, RenderCounters& counters) {
     samples_.resize(count);
     camera_rays_.resize(count);
     generate_camera_rays(world, job, first, samples_, camera_rays_);
     found_.reset(count, job, counters.brightest.threshold());
-    const SubpathJob subpaths{world,    job,          options.lengths, Raised{options.heuristic},
+    const SubpathJob subpaths{world,    job,          settings.lengths, Raised{settings.heuristic},
                               samples_, camera_rays_, job.merging};
-    light_.trace(subpaths, spared_rays(options.lengths.roulette_depth).of_light, nullptr, found_, counters);
+    light_.trace(subpaths, spared_rays(settings.lengths.roulette_depth).of_light, nullptr, found_, counters);
     for (const PathVertex& vertex : light_.vertices())
         if (vertex.merges)
             photons.add({.position = vertex.position,
@@ -144,29 +141,30 @@ void BdptWave::merge(const Context& context) {
     stamp(context.job.profile, Stage::Mis);
 }
 
-void BdptWave::start(const World& world, const TileJob& job, const BdptOptions& options) {
-    const bool is_wanted = !options.only || *options.only == Strategy{.s = 0, .t = 2};
+void BdptWave::start(const World& world, const TileJob& job, const IntegratorSettings& settings,
+                     WeightObserver* observer) {
+    observer_ = observer;
+    const bool is_wanted = !settings.strategy || *settings.strategy == Strategy{.s = 0, .t = 2};
     lamps_.start(
-        world, job, options.lengths, false,
-        [&world, &job, &options, is_wanted](const CameraSample& sample, const Ray& ray, const SurfacePoint& point) {
+        world, job, settings.lengths, false,
+        [&world, &job, &settings, is_wanted](const CameraSample& sample, const Ray& ray, const SurfacePoint& point) {
             const std::uint32_t light = world.light_at(point);
             if (!is_wanted || light == kNone) return is_wanted ? 1.0f : 0.0f;
-            const SubpathJob of_sample{world, job, options.lengths, Raised{options.heuristic}, {}, {}};
+            const SubpathJob of_sample{world, job, settings.lengths, Raised{settings.heuristic}, {}, {}};
             const SubpathDensities arrived =
                 arrive_from_lens(of_sample.mis(), {}, world.connect_to_camera(point.position, sample.lens, ray.time),
                                  static_cast<double>(abs_dot(ray.direction, point.geometric_normal)));
-            return weight(options, sums_at_seen_emitter(of_sample.mis(), light, arrived));
+            return weight(settings, sums_at_seen_emitter(of_sample.mis(), light, arrived));
         });
 }
 
-void BdptWave::show(const SubpathJob& job, const BdptOptions& options, std::size_t s, float weight,
-                    const PathLightEnd& end, const PathVertex* light, const PathVertex* eye,
-                    const CameraConnection& camera) {
+void BdptWave::show(const SubpathJob& job, std::size_t s, float weight, const PathLightEnd& end,
+                    const PathVertex* light, const PathVertex* eye, const CameraConnection& camera) {
     std::vector<const PathVertex*> path;
     append_subpath(light_, light, path);
     std::reverse(path.begin(), path.end());
     append_subpath(eye_, eye, path);
-    options.observer->on_weight(job, {end, path, s, camera}, static_cast<double>(weight));
+    observer_->on_weight(job, {end, path, s, camera}, static_cast<double>(weight));
 }
 
 PathLightEnd BdptWave::light_end(std::uint32_t slot) const {
@@ -194,14 +192,14 @@ void BdptWave::add(const SubpathState& state, const Rgb& light, const StrategySu
     const Context& context = *context_;
     if (context.job.profile != nullptr && state.index > kDirectlySeen) ++context.job.profile->use().bsdf_met_light;
     if (!context.wants({.s = 0, .t = state.index + 1})) return;
-    const float share = weight(context.options, sums);
+    const float share = weight(context.settings, sums);
     shares_.clear();
     if (eye_.words().are_followed()) eye_.words().end_at_light(state.words, source, shares_);
     found_.add(state.slot, state.throughput * light * context.wavelength_weight(state.slot, state.is_dispersed) * share,
                kind_of_light_met_by(state), shares_);
-    if (context.options.observer != nullptr && state.index > kDirectlySeen) {
+    if (observer_ != nullptr && state.index > kDirectlySeen) {
         const PathVertex& last = eye_.whole(state.last_vertex);
-        show(context, context.options, 0, share, end, nullptr, &last, camera_of(context, last));
+        show(context, 0, share, end, nullptr, &last, camera_of(context, last));
     }
 }
 

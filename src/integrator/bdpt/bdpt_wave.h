@@ -1,9 +1,10 @@
 // A wave of eye and light subpaths, and all connections between them.
 #pragma once
 
-#include "integrator/bdpt/bdpt_options.h"
 #include "integrator/bdpt/complete_path.h"
 #include "integrator/bdpt/connection_lanes.h"
+#include "integrator/bdpt/weight_observer.h"
+#include "integrator/integrator.h"
 #include "transport/strategy_sums.h"
 #include "wave/connections.h"
 #include "wave/lamps_in_view.h"
@@ -31,30 +32,32 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
 
     [[nodiscard]] std::size_t bytes() const override;
 
-    /// Starts a job, before its samples are traced.
-    void start(const World& world, const TileJob& job, const BdptOptions& options);
+    /// Starts a job, before its samples are traced. `observer` may be null.
+    void start(const World& world, const TileJob& job, const IntegratorSettings& settings, WeightObserver* observer);
     /// Ends the job, after its samples are traced.
     void finish(TileBuffer& tile, RenderCounters& counters) { lamps_.finish(tile, counters); }
     /// Appends to `photons` those of the light subpaths of samples [first, first + count) of the job, count <=
     /// kCapacity.
-    void trace_photons(const World& world, const TileJob& job, const BdptOptions& options, std::size_t first,
+    void trace_photons(const World& world, const TileJob& job, const IntegratorSettings& settings, std::size_t first,
                        std::size_t count, PhotonList& photons, RenderCounters& counters);
     /// Traces samples [first, first + count) of the job, count <= kCapacity.
-    void trace(const World& world, const TileJob& job, const BdptOptions& options, std::size_t first, std::size_t count,
-               TileBuffer& tile, RenderCounters& counters);
+    void trace(const World& world, const TileJob& job, const IntegratorSettings& settings, std::size_t first,
+               std::size_t count, TileBuffer& tile, RenderCounters& counters);
 
   private:
     struct Context : SubpathJob {
-        const BdptOptions& options;
+        const IntegratorSettings& settings;
 
         /// True if the vertex may be connected to those of other samples: each sample has a time and a wavelength of
         /// its own.
         [[nodiscard]] bool is_shared(const ConnectibleVertex& vertex) const {
-            return options.cached_connections > 0 && !world.has_motion() && !vertex.is_dispersed;
+            return settings.cached_connections > 0 && !world.has_motion() && !vertex.is_dispersed;
         }
         [[nodiscard]] bool wants(int edges) const { return edges >= lengths.min_depth && edges <= lengths.max_depth; }
-        [[nodiscard]] bool wants(const Strategy& strategy) const { return !options.only || *options.only == strategy; }
-        [[nodiscard]] WeightRule rule() const { return {raised, options.weighted}; }
+        [[nodiscard]] bool wants(const Strategy& strategy) const {
+            return !settings.strategy || *settings.strategy == strategy;
+        }
+        [[nodiscard]] WeightRule rule() const { return {raised, settings.weighted}; }
     };
 
     // s = 0: subpaths from the eye that meet a light.
@@ -147,14 +150,14 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
     void queue(const Context& context, const ConnectibleVertex& eye, const ConnectibleVertex& light, Ray ray,
                const Brought& brought, Connections& connections);
 
-    [[nodiscard]] static float weight(const BdptOptions& options, const StrategySums& sums) {
-        return options.weighted ? static_cast<float>(sums.weight()) : 1.0f;
+    [[nodiscard]] static float weight(const IntegratorSettings& settings, const StrategySums& sums) {
+        return settings.weighted ? static_cast<float>(sums.weight()) : 1.0f;
     }
 
     /// Shows the weight of a path to the observer. The path leads from `end` over the subpath that ends in `light` and
     /// back over that which ends in `eye`; either may be null.
-    void show(const SubpathJob& job, const BdptOptions& options, std::size_t s, float weight, const PathLightEnd& end,
-              const PathVertex* light, const PathVertex* eye, const CameraConnection& camera);
+    void show(const SubpathJob& job, std::size_t s, float weight, const PathLightEnd& end, const PathVertex* light,
+              const PathVertex* eye, const CameraConnection& camera);
     [[nodiscard]] PathLightEnd light_end(std::uint32_t slot) const;
     /// Returns how the camera sees `eye`, the first vertex of a sample's eye subpath.
     [[nodiscard]] CameraConnection camera_of(const SubpathJob& job, const PathVertex& eye) const;
@@ -172,7 +175,7 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
     VerticesToCamera to_camera_;
     std::vector<Candidate> own_;            ///< sample by sample, the last vertex first
     std::vector<std::uint32_t> own_begin_;  ///< by slot, and the end of the last
-    /// Holds the light vertices that eye vertices of any sample may be connected to, if options ask for that.
+    /// Holds the light vertices that eye vertices of any sample may be connected to, if settings ask for that.
     std::vector<Candidate> cache_;
     // Of the block at hand.
     std::vector<ToLight> to_lights_;
@@ -194,6 +197,7 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
     Connections light_connections_{RayKind::Shadow}, wide_light_connections_{RayKind::Shadow};
     Connections camera_connections_{RayKind::LightToCamera}, wide_camera_connections_{RayKind::LightToCamera};
     Connections vertex_connections_{RayKind::Connection}, wide_vertex_connections_{RayKind::Connection};
+    WeightObserver* observer_ = nullptr;  ///< sees weights; null if nobody does
     const Context* context_ = nullptr;    ///< context of the call of `trace` under way
     TileBuffer* tile_ = nullptr;          ///< tile of the call of `trace` under way
     RenderCounters* counters_ = nullptr;  ///< counters of the call of `trace` under way

@@ -89,9 +89,9 @@ void BdptWave::weigh(const Context& context, const ToLight& connection) {
     const ChosenLight& chosen = connection.chosen;
     const LightSample& light = chosen.sample;
     const Scattering::TwoWayValue& value = connection.scattered;
-    const float share = weight(context.options, sums_of_light_sample(context.mis(), vertex, chosen, value));
+    const float share = weight(context.settings, sums_of_light_sample(context.mis(), vertex, chosen, value));
     if (share == 0.0f) return;
-    const float density = light.is_delta ? chosen.probability : light.pdf_solid_angle;
+    const float density = light.is_delta ? chosen.expected_samples : light.pdf_solid_angle;
     queue(context, *connection.vertex,
           {.light = chosen.light,
            .triangle = light.triangle,
@@ -135,9 +135,9 @@ void BdptWave::queue(const Context& context, const ConnectibleVertex& vertex, co
     }
     connections.to_sample(ray, vertex.slot, brought.light,
                           vertex.is_seen_directly ? LightKind::Direct : LightKind::Indirect, shares_);
-    if (context.options.observer != nullptr) {
+    if (observer_ != nullptr) {
         const PathVertex& whole = eye_.whole(vertex);
-        show(context, context.options, 1, brought.weight, end, nullptr, &whole, camera_of(context, whole));
+        show(context, 1, brought.weight, end, nullptr, &whole, camera_of(context, whole));
     }
 }
 
@@ -182,7 +182,7 @@ void BdptWave::weigh(const Context& context, const ToCamera& connection) {
     const CameraView& view = connection.view;
     const Scattering::TwoWayValue& value = connection.scattered;
     const float share =
-        weight(context.options, sums_at_lens(context.mis(), vertex, view.direction, view.camera, value));
+        weight(context.settings, sums_at_lens(context.mis(), vertex, view.direction, view.camera, value));
     queue(context, *connection.vertex, view, connecting_ray(vertex.origin(view.direction), view.camera.lens),
           {vertex.throughput * value.f_cos * vertex.transmittance(view.direction, view.distance) *
                context.wavelength_weight(vertex.slot, vertex.is_dispersed) * (view.camera.importance_area * share),
@@ -217,9 +217,9 @@ void BdptWave::queue(const Context& context, const ConnectibleVertex& vertex, co
         light_.words().end_at_camera(light_.words_after(light_.whole(vertex), view.direction), shares_);
     connections.to_film(ray, vertex.slot, {.position = view.pixel, .value = brought.light, .depth = view.depth},
                         vertex.index > 1 ? LightKind::Indirect : LightKind::Direct, shares_);
-    if (context.options.observer != nullptr)
-        show(context, context.options, static_cast<std::size_t>(vertex.index) + 1, brought.weight,
-             light_end(vertex.slot), &light_.whole(vertex), nullptr, view.camera);
+    if (observer_ != nullptr)
+        show(context, static_cast<std::size_t>(vertex.index) + 1, brought.weight, light_end(vertex.slot),
+             &light_.whole(vertex), nullptr, view.camera);
 }
 
 void BdptWave::connect_to_vertices(const Context& context, std::size_t first, std::size_t last) {
@@ -228,7 +228,7 @@ void BdptWave::connect_to_vertices(const Context& context, std::size_t first, st
     for (std::size_t v = first; v < last; ++v) {
         const ConnectibleVertex& eye = to_light_[v];
         find_own(context, eye);
-        if (context.is_shared(eye)) find_cached(context, eye, context.options.cached_connections);
+        if (context.is_shared(eye)) find_cached(context, eye, context.settings.cached_connections);
     }
     weigh_wide_between(context);
     stamp(profile, Stage::Mis);
@@ -314,7 +314,8 @@ void BdptWave::weigh(const Context& context, const Between& connection) {
     const auto& [eye_vertex, light_vertex, w, squared, scale, at_eye, at_light] = connection;
     const PathVertex& eye = eye_.whole(*eye_vertex);
     const PathVertex& light = light_.whole(*light_vertex);
-    const float share = weight(context.options, sums_between(context.raised, eye, light, w, squared, at_eye, at_light));
+    const float share =
+        weight(context.settings, sums_between(context.raised, eye, light, w, squared, at_eye, at_light));
     queue(
         context, *eye_vertex, *light_vertex, connecting_ray(eye.origin(w), light.origin(-w)),
         {eye.throughput * at_eye.f_cos * at_light.f_cos * light.throughput * eye.transmittance(w, std::sqrt(squared)) *
@@ -342,7 +343,7 @@ void BdptWave::weigh_wide_between(const Context& context) {
 
 bool BdptWave::asks_for_each(const Context& context) {
     return eye_.words().are_followed() || context.world.has_motion() || context.world.has_transparency() ||
-           context.options.observer != nullptr;
+           observer_ != nullptr;
 }
 
 void BdptWave::queue_wide(const ConnectionColumns& lanes, std::size_t count, Connections& connections) {
@@ -364,8 +365,8 @@ void BdptWave::queue(const Context& context, const ConnectibleVertex& eye, const
         eye_.words().join(eye_.words_after(at_eye, w), light_.words(), light_.words_after(at_light, -w), shares_);
     }
     connections.to_sample(ray, eye.slot, brought.light, LightKind::Indirect, shares_);
-    if (context.options.observer != nullptr)
-        show(context, context.options, static_cast<std::size_t>(light.index) + 1, brought.weight, light_end(light.slot),
+    if (observer_ != nullptr)
+        show(context, static_cast<std::size_t>(light.index) + 1, brought.weight, light_end(light.slot),
              &light_.whole(light), &eye_.whole(eye), camera_of(context, eye_.whole(eye)));
 }
 

@@ -14,24 +14,24 @@ using WideVec3 = Imath::Vec3<Wide>;
 
 void BlockLanes::sample_mesh_lights(std::size_t count) {
     for (std::size_t l = 0; l < count; l += Wide::kWidth) {
-        const LightTriangleSample<Wide> sample = front.load(l).sample(position.load(l), u.load(l));
+        const LightTriangleSample<Wide> sample = front.load(l).sample(position.load(l), u_light.load(l));
         light_wi.store(l, sample.wi);
         light_end.store(l, sample.end);
         light_distance.store(l, sample.distance);
-        light_pdf.store(l, sample.pdf_solid_angle * light_probability.load(l));
+        light_pdf.store(l, sample.pdf_solid_angle * expected_samples.load(l));
     }
 }
 
-void BlockLanes::evaluate_matte(std::size_t count) {
+void BlockLanes::evaluate_and_sample_matte(std::size_t count) {
     for (std::size_t l = 0; l < count; l += Wide::kWidth) {
         const OrientedSurface<Wide> surface({tangent.load(l), bitangent.load(l), normal.load(l)},
                                             geometric_normal.load(l), wo.load(l), true);
         const BasicDiffuse<Wide> lobe{albedo.load(l)};
         const BasicBsdfValue<Wide> value =
-            etendue::evaluate_matte(surface, lobe, surface.frame.to_local(light_wi.load(l)), TransportMode::Radiance);
+            evaluate_matte(surface, lobe, surface.frame.to_local(light_wi.load(l)), TransportMode::Radiance);
         f_cos.store(l, value.f_cos);
         pdf.store(l, value.pdf_solid_angle);
-        const BasicBsdfSample<Wide> sample = sample_matte(surface, lobe, u.load(l), TransportMode::Radiance);
+        const BasicBsdfSample<Wide> sample = sample_matte(surface, lobe, u_bsdf.load(l), TransportMode::Radiance);
         next_direction.store(l, sample.wi);
         next_weight.store(l, sample.weight);
         next_pdf.store(l, sample.pdf_solid_angle);

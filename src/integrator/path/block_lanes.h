@@ -9,15 +9,15 @@
 
 namespace etendue {
 
-/// Holds a block of paths between the stages of shading: about 21 KiB, which stay in the first-level cache. `u` becomes
-/// the numbers for a point on the light that is sampled, then those for directions.
+/// Holds a block of paths between the stages of shading: about 21 KiB, which stay in the first-level cache.
 struct BlockLanes : SurfaceLanes {
     Vec3Columns wo;
     RgbColumns albedo;
 
     // The sample of a light.
+    Vec2Columns u_light;  ///< numbers for a point on it
     LightFrontColumns front;
-    Column light_probability;  ///< of choosing the light, times samples; 0 where `front` is not sampled
+    Column expected_samples;  ///< as in ChosenLight; 0 where `front` is not sampled
     Vec3Columns light_wi, light_end;
     Column light_distance;
     Column light_pdf;        ///< the choice included; of a delta that alone; 0 if nothing arrives
@@ -33,6 +33,7 @@ struct BlockLanes : SurfaceLanes {
     Column shadow_t_max;
 
     // Where the path goes on.
+    Vec2Columns u_bsdf;  ///< numbers for its direction
     Vec3Columns next_origin, next_direction;
     RgbColumns next_weight;
     Column next_pdf;
@@ -53,7 +54,7 @@ struct BlockLanes : SurfaceLanes {
     /// Leaves all paths without a sample of a light.
     void forget_light() {
         for (std::size_t l = 0; l < kBlockLanes; l += Wide::kWidth) {
-            light_probability.store(l, Wide(0.0f));
+            expected_samples.store(l, Wide(0.0f));
             light_pdf.store(l, Wide(0.0f));
             light_by_chance.store(l, Wide(1.0f));
         }
@@ -61,10 +62,11 @@ struct BlockLanes : SurfaceLanes {
 
     // Each computes lanes [0, count), rounded up, from the columns that the one before and the caller have set.
 
-    /// Samples mesh lights from `position`, the triangles and `u`.
+    /// Samples mesh lights from `position`, the triangles and `u_light`.
     void sample_mesh_lights(std::size_t count);
-    /// Computes `f_cos` and `pdf` towards the light, and `next_direction`, `next_weight` and `next_pdf` from `u`.
-    void evaluate_matte(std::size_t count);
+    /// Computes `f_cos` and `pdf` of matte surfaces towards the light, and `next_direction`, `next_weight` and
+    /// `next_pdf` from `u_bsdf`.
+    void evaluate_and_sample_matte(std::size_t count);
     /// Computes `next_origin` from `next_direction`.
     void set_next_origins(std::size_t count);
     /// Computes `contribution`, whether it `arrives`, and its shadow ray, for the paths from `first` of the wave on.

@@ -40,8 +40,8 @@ void GlossyLanes::take(const BlockLanes& lanes, std::size_t paths, const NumberP
         for_vector(move, lanes.light_wi, light_wi);
         put(u_lobe, choices.load(l).x);
         const Imath::Vec2<Wide> direction = directions.load(l);
-        put(u.x, direction.x);
-        put(u.y, direction.y);
+        put(u_bsdf.x, direction.x);
+        put(u_bsdf.y, direction.y);
         to += lanes_here;
     }
 }
@@ -64,13 +64,14 @@ void GlossyLanes::give(BlockLanes& lanes, std::size_t paths) const {
     }
 }
 
-void GlossyLanes::evaluate(std::size_t count) {
+void GlossyLanes::evaluate_and_sample(std::size_t count) {
     for (std::size_t l = 0; l < count; l += Wide::kWidth) {
         const OrientedSurface<Wide> surface({tangent.load(l), bitangent.load(l), normal.load(l)},
                                             geometric_normal.load(l), wo.load(l), true);
         const PlainMetallicRoughness<Wide> lobe{base.load(l), metallic.load(l), alpha.load(l), f0.load(l), f90.load(l)};
-        const auto [value, sample] = lobe.evaluate_and_sample(
-            surface.leaning, surface.seen_from(), surface.frame.to_local(light_wi.load(l)), u_lobe.load(l), u.load(l));
+        const auto [value, sample] =
+            lobe.evaluate_and_sample(surface.leaning, surface.seen_from(), surface.frame.to_local(light_wi.load(l)),
+                                     u_lobe.load(l), u_bsdf.load(l));
         f_cos.store(l, value.f_cos);
         pdf.store(l, value.pdf_solid_angle);
         next_direction.store(l, surface.frame.to_world(sample.wi));

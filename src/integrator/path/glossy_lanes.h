@@ -28,7 +28,7 @@ struct GlossyLanes {
     Vec3Columns wo;
 
     Column u_lobe;
-    Vec2Columns u;
+    Vec2Columns u_bsdf;
     Vec3Columns light_wi;
 
     RgbColumns f_cos;
@@ -51,7 +51,7 @@ struct GlossyLanes {
     /// their numbers for the choice of a lobe, x, `directions` for the direction.
     void take(const BlockLanes& lanes, std::size_t paths, const NumberPairs& choices, const NumberPairs& directions);
     /// Evaluates and samples the lobes of lanes [0, count), rounded up.
-    void evaluate(std::size_t count);
+    void evaluate_and_sample(std::size_t count);
     /// Moves values and samples back to the `paths` of `lanes` that are on gloss.
     void give(BlockLanes& lanes, std::size_t paths) const;
 };

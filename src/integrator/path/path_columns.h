@@ -18,7 +18,7 @@ namespace path_history {
 
 /// Says that no light sample at the last vertex can find what the path meets: it was a delta, a hidden boundary, a
 /// medium where no lights are sampled, or the eye.
-inline constexpr std::uint32_t kAfterDelta = 1u;
+inline constexpr std::uint32_t kUnsampled = 1u;
 /// Every scattering was a delta: the eye sees this directly or in mirrors.
 inline constexpr std::uint32_t kOnlyDelta = 2u;
 /// Every scattering but the last was a delta: what the path meets lights what the eye sees directly or in mirrors.
@@ -28,7 +28,7 @@ inline constexpr std::uint32_t kIsDirect = 4u;
 inline constexpr std::uint32_t kOneEdge = 8u;
 inline constexpr std::uint32_t kFlags = kOneEdge - 1u;
 
-inline constexpr std::uint32_t kAtEye = kOneEdge | kAfterDelta | kOnlyDelta | kIsDirect;
+inline constexpr std::uint32_t kAtEye = kOneEdge | kUnsampled | kOnlyDelta | kIsDirect;
 
 [[nodiscard]] constexpr int edges(std::uint32_t history) {
     return static_cast<int>(history / kOneEdge);
@@ -44,7 +44,7 @@ template <typename Bits>
 }
 [[nodiscard]] constexpr std::uint32_t after_delta(std::uint32_t history) {
     const std::uint32_t only_delta = history & kOnlyDelta;
-    return ((history & ~kFlags) + kOneEdge) | (only_delta << 1) | only_delta | kAfterDelta;
+    return ((history & ~kFlags) + kOneEdge) | (only_delta << 1) | only_delta | kUnsampled;
 }
 
 }  // namespace path_history

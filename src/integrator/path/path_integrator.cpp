@@ -11,7 +11,7 @@ std::vector<std::string> PathIntegrator::unreachable_light(const World& world) c
     std::vector<std::string> notes;
     if (leaves_out_indirect_)
         notes.emplace_back("light that two surfaces or more have scattered is left out; 'path' finds it");
-    if (world.has_delta_lights() && !options_.sample_lights)
+    if (world.has_delta_lights() && settings_.light_samples == 0)
         notes.emplace_back(
             "point, spot and directional lights are never met by chance: what they give is missing; "
             "'path' finds it");
@@ -23,8 +23,8 @@ std::vector<std::string> PathIntegrator::unreachable_light(const World& world) c
 }
 
 std::vector<std::string> PathIntegrator::ineffective_options(const World& world) const {
-    if (options_.light_samples == 1 || (world.has_sampled_lights() && options_.lengths.max_depth > 1)) return {};
-    return {fmt::format("{} light samples have no effect: {}", options_.light_samples,
+    if (settings_.light_samples <= 1 || (world.has_sampled_lights() && settings_.lengths.max_depth > 1)) return {};
+    return {fmt::format("{} light samples have no effect: {}", settings_.light_samples,
                         world.has_sampled_lights() ? "paths have at most 1 edge (--max-depth)"
                                                    : "no light is sampled here, as the BSDF's samples find all best")};
 }
@@ -36,8 +36,8 @@ std::unique_ptr<IntegratorScratch> PathIntegrator::make_scratch() const {
 void PathIntegrator::render_tile(const World& world, const TileJob& job, IntegratorScratch& scratch, TileBuffer& tile,
                                  RenderCounters& counters) const {
     LampsInView& lamps = static_cast<PathWave&>(scratch).lamps();
-    lamps.start(world, job, options_.lengths, true);
-    trace_in_waves<PathWave>(world, job, options_, scratch, tile, counters);
+    lamps.start(world, job, settings_.lengths, true);
+    trace_in_waves<PathWave>(world, job, settings_, scratch, tile, counters);
     lamps.finish(tile, counters);
 }
 

@@ -1,8 +1,8 @@
 // Path tracing: eye paths that meet light by next-event estimation and by chance, combined by multiple importance
 // sampling (Kajiya 1986; Veach 1997, chapter 9; Russian roulette after Arvo and Kirk 1990).
 //
-// Written as steps over a wave of paths: generate, then per bounce intersect, shade, test shadow rays, add. With
-// `sample_lights` off it is the naive path tracer, which finds lights by chance only.
+// Written as steps over a wave of paths: generate, then per bounce intersect, shade, test shadow rays, add. Without
+// light samples it is the naive path tracer, which finds lights by chance only.
 #pragma once
 
 #include "integrator/integrator.h"
@@ -13,8 +13,8 @@ namespace etendue {
 class PathIntegrator final : public Integrator {
   public:
     /// With `leaves_out_indirect` it is `direct`, and notes that indirect light is left out, whatever the lengths are.
-    explicit PathIntegrator(const PathOptions& options, bool leaves_out_indirect = false)
-        : options_(options), leaves_out_indirect_(leaves_out_indirect) {}
+    explicit PathIntegrator(const IntegratorSettings& settings, bool leaves_out_indirect = false)
+        : settings_(settings), leaves_out_indirect_(leaves_out_indirect) {}
 
     [[nodiscard]] std::unique_ptr<IntegratorScratch> make_scratch() const override;
     [[nodiscard]] std::vector<std::string> unreachable_light(const World& world) const override;
@@ -23,7 +23,7 @@ class PathIntegrator final : public Integrator {
                      RenderCounters& counters) const override;
 
   private:
-    PathOptions options_;
+    IntegratorSettings settings_;
     bool leaves_out_indirect_;
 };
 

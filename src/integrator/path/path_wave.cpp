@@ -24,7 +24,7 @@ std::size_t PathWave::bytes() const {
     return bytes;
 }
 
-void PathWave::trace(const World& world, const TileJob& job, const PathOptions& options, std::size_t first,
+void PathWave::trace(const World& world, const TileJob& job, const IntegratorSettings& settings, std::size_t first,
                      std::size_t count, TileBuffer& tile, RenderCounters& counters) {
     const std::span<Ray> camera_rays = std::span(camera_rays_).first(count);
     generate_camera_rays(world, job, first, std::span(samples_).first(count), camera_rays);
@@ -57,7 +57,7 @@ void PathWave::trace(const World& world, const TileJob& job, const PathOptions& 
         }
         stamp(job.profile, Stage::HitSetup);
         const auto trace_shadow_rays = [&] { shadow_rays_.resolve(world, job, samples_, light_, tile, counters); };
-        shade({world, job, options, depth}, trace_shadow_rays);
+        shade({world, job, settings, depth}, trace_shadow_rays);
         trace_shadow_rays();
     }
     lamps_.note_radiance(std::span(samples_).first(count), light_);
@@ -69,7 +69,7 @@ void PathWave::draw_numbers(const Context& context) {
     const std::span pixel_seeds(paths_.pixel_seed.data() + first_, count_);
     const std::span indices(paths_.index.data() + first_, count_);
     const bool has_bodies = context.world.has_bodies();
-    const bool ends = context.depth >= context.options.lengths.max_depth && !has_bodies && !context.world.has_panes();
+    const bool ends = context.depth >= context.settings.lengths.max_depth && !has_bodies && !context.world.has_panes();
     const auto draw = [&](std::uint32_t dimension, NumberPairs& numbers, bool is_needed = true) {
         if (is_needed && !ends)
             numbers.draw(context.job.sequence, pixel_seeds, indices, dimension);
@@ -77,7 +77,7 @@ void PathWave::draw_numbers(const Context& context) {
             numbers.draw_none(count_);
     };
     if (has_bodies) draw(body_dimension(context.depth, kMedium), medium_, context.world.has_scattering_bodies());
-    if (context.options.sample_lights && context.world.has_sampled_lights() && !ends) draw_light_numbers(context, 0);
+    if (context.samples_lights() && context.world.has_sampled_lights() && !ends) draw_light_numbers(context, 0);
     draw(bounce_dimension(context.depth, kBsdfDirection), bsdf_direction_);
     draw(bounce_dimension(context.depth, kChoices), choices_);
 }
@@ -93,7 +93,7 @@ void PathWave::draw_light_numbers(const Context& context, std::uint32_t round) {
     std::span indices(paths_.index.data() + first_, count_);
     std::array<std::uint32_t, kBlock> split_seeds;
     std::array<std::uint32_t, kBlock> split_indices;
-    if (context.options.light_samples > 1) {
+    if (context.settings.light_samples > 1) {
         for (std::size_t k = 0; k < count_; ++k) {
             const SampleKey key = light_sample_key(context, k, round);
             split_seeds[k] = key.pixel_seed;
@@ -128,8 +128,8 @@ void PathWave::sample_direct_light(const Context& context, const LaneList& paths
                                    const Stamp& stamp) {
     sample_lights(context, paths, round);
     stamp(Stage::LightSampling);
-    evaluate_matte();
-    evaluate_glossy();
+    evaluate_and_sample_matte();
+    evaluate_and_sample_glossy();
     for (const std::size_t k : paths)
         if (!block_[k].is_wide) evaluate_light(k);
     stamp(Stage::Material);
@@ -138,13 +138,13 @@ void PathWave::sample_direct_light(const Context& context, const LaneList& paths
 }
 
 template <typename Stamp>
-void PathWave::split_direct_light(const Context& context, const Stamp& stamp) {
+void PathWave::sample_direct_light_in_rounds(const Context& context, const Stamp& stamp) {
     sample_direct_light(context, sampling_, 0, stamp);
-    if (context.options.light_samples == 1) return;
+    if (context.settings.light_samples <= 1) return;
     LaneList split;
     for (const std::size_t k : sampling_) split.add_if(paths_.is(path_history::kOnlyDelta, first_ + k), k);
     if (split.empty()) return;
-    for (std::uint32_t round = 1; round < context.options.light_samples; ++round) {
+    for (std::uint32_t round = 1; round < context.settings.light_samples; ++round) {
         draw_light_numbers(context, round);
         lanes_.forget_light();
         stamp(Stage::Numbers);
@@ -176,7 +176,7 @@ void PathWave::shade_block(const Context& context, std::size_t first, std::size_
     look_up_textures(context);
     make_scattering(context);
     stamp(Stage::Textures);
-    split_direct_light(context, stamp);
+    sample_direct_light_in_rounds(context, stamp);
     lanes_.set_next_origins(count);
     for (const std::size_t k : on_surface_)
         if (!block_[k].is_wide) sample_bsdf(k);
@@ -194,7 +194,7 @@ void PathWave::shade_block(const Context& context, std::size_t first, std::size_
 
 void PathWave::keep_survivors(const Context& context, std::size_t& kept) {
     const World& world = context.world;
-    const bool is_spared = context.depth < first_roulette(world, context.options.lengths.roulette_depth);
+    const bool is_spared = context.depth < first_roulette(world, context.settings.lengths.roulette_depth);
     BlockSurvivors survivors(first_, kept);
     for (std::size_t l = 0; l < count_; l += Wide::kWidth) {
         const std::size_t i = first_ + l;

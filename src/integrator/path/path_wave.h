@@ -72,15 +72,18 @@ class PathWave final : public IntegratorScratch {
     /// them.
     [[nodiscard]] LampsInView& lamps() { return lamps_; }
     /// Traces samples [first, first + count) of the job, count <= kCapacity.
-    void trace(const World& world, const TileJob& job, const PathOptions& options, std::size_t first, std::size_t count,
-               TileBuffer& tile, RenderCounters& counters);
+    void trace(const World& world, const TileJob& job, const IntegratorSettings& settings, std::size_t first,
+               std::size_t count, TileBuffer& tile, RenderCounters& counters);
 
   private:
     struct Context {
         const World& world;
         const TileJob& job;
-        const PathOptions& options;
+        const IntegratorSettings& settings;
         int depth;  ///< rays that each path has traced; its edges, if the World has no bodies
+
+        /// Returns true if paths sample lights, and do not find them by chance only.
+        [[nodiscard]] bool samples_lights() const { return settings.light_samples > 0; }
     };
 
     /// Draws the random numbers of the block for this bounce, many at a time.
@@ -92,11 +95,11 @@ class PathWave final : public IntegratorScratch {
     /// Returns how many light samples path `i` of the wave has: where it is, if nothing but deltas has scattered it yet
     /// (`kOnlyDelta`), or where its ray comes from, if nothing else had there (`kIsDirect`).
     [[nodiscard]] std::uint32_t light_samples(const Context& context, std::size_t i, std::uint32_t first_vertex) const {
-        return paths_.is(first_vertex, i) ? context.options.light_samples : 1u;
+        return paths_.is(first_vertex, i) ? context.settings.light_samples : 1u;
     }
     /// Returns how many light samples at the last vertex of path `i` could have found the light that it meets.
     [[nodiscard]] std::uint32_t samples_of_met_light(const Context& context, std::size_t i) const {
-        if (!context.options.sample_lights || paths_.is(path_history::kAfterDelta, i)) return 0;
+        if (!context.samples_lights() || paths_.is(path_history::kUnsampled, i)) return 0;
         return light_samples(context, i, path_history::kIsDirect);
     }
     /// Shades all paths, block by block, and calls `trace_shadow_rays` whenever there are enough shadow rays for a
@@ -138,7 +141,7 @@ class PathWave final : public IntegratorScratch {
     void sample_direct_light(const Context& context, const LaneList& paths, std::uint32_t round, const Stamp& stamp);
     /// Takes all light samples of the block.
     template <typename Stamp>
-    void split_direct_light(const Context& context, const Stamp& stamp);
+    void sample_direct_light_in_rounds(const Context& context, const Stamp& stamp);
     // The sample of path `k`, from the lanes or to them.
     void take_light_from_lanes(std::size_t k);
     void put_light_into_lanes(std::size_t k);
@@ -147,8 +150,8 @@ class PathWave final : public IntegratorScratch {
     /// Samples the BSDF of path `k`, which is not wide.
     void sample_bsdf(std::size_t k);
     // Evaluation and sample, of all paths that lanes scatter.
-    void evaluate_matte();
-    void evaluate_glossy();
+    void evaluate_and_sample_matte();
+    void evaluate_and_sample_glossy();
     /// Takes path `k` through the medium that its ray is in; true if it scatters there.
     bool scatter_in_medium(const Context& context, std::size_t k);
     /// Takes path `k` through a boundary that another body hides.

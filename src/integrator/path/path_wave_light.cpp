@@ -52,11 +52,9 @@ void PathWave::sample_lights(const Context& context, const LaneList& paths, std:
     }
     std::array<LightTree::Choice, kBlock> choices;
     world.choose_lights(std::span(to_light_).first(count), std::span(u).first(count), std::span(choices).first(count));
-    // How many samples of the light are expected, not how probable one is (Veach 1997, section 9.2.1).
-    if (context.options.light_samples > 1)
+    if (context.settings.light_samples > 1)
         for (std::size_t place = 0; place < count; ++place)
-            choices[place].probability *=
-                static_cast<float>(light_samples(context, first_ + paths[place], path_history::kOnlyDelta));
+            share_estimate(choices[place], light_samples(context, first_ + paths[place], path_history::kOnlyDelta));
     // Places among the paths, by how their lights are sampled.
     LaneList by_mesh;
     LaneList by_environment;
@@ -81,11 +79,11 @@ void PathWave::sample_lights(const Context& context, const LaneList& paths, std:
         const std::size_t k = paths[place];
         const MeshLight& mesh = *meshes[place];
         lanes_.front.set(k, mesh, triangles[place]);
-        lanes_.light_probability.set(k, choices[place].probability);
+        lanes_.expected_samples.set(k, choices[place].probability);
         lanes_.light_radiance.set(k, mesh.radiance());
     }
     if (!by_mesh.empty()) {
-        for (std::size_t l = 0; l < count_; l += Wide::kWidth) lanes_.u.store(l, light_direction_.load(l));
+        for (std::size_t l = 0; l < count_; l += Wide::kWidth) lanes_.u_light.store(l, light_direction_.load(l));
         lanes_.sample_mesh_lights(count_);
     }
     if (!by_environment.empty()) {
@@ -126,7 +124,7 @@ void PathWave::put_light_into_lanes(std::size_t k) {
     lanes_.light_wi.set(k, light.wi);
     lanes_.light_distance.set(k, light.distance);
     lanes_.light_end.set(k, light.end);
-    lanes_.light_pdf.set(k, light.is_delta ? lights_[k].probability : light.pdf_solid_angle);
+    lanes_.light_pdf.set(k, light.is_delta ? lights_[k].expected_samples : light.pdf_solid_angle);
     lanes_.light_by_chance.set(k, light.is_delta ? 0.0f : 1.0f);
     lanes_.light_radiance.set(k, light.radiance);
 }
@@ -141,7 +139,7 @@ void PathWave::add_environment(const Context& context) {
             alpha_[paths_.slot[first_ + k]] = 0.0f;
             continue;
         }
-        if (!world.has_environment() || paths_.edges(first_ + k) < context.options.lengths.min_depth) continue;
+        if (!world.has_environment() || paths_.edges(first_ + k) < context.settings.lengths.min_depth) continue;
         directions[meeting.size()] = paths_.direction[first_ + k];
         meeting.add(k);
     }
@@ -164,7 +162,7 @@ void PathWave::add_environment(const Context& context) {
 void PathWave::add_emission(const Context& context, std::size_t k) {
     const std::size_t i = first_ + k;
     const SurfacePoint& point = singles_[k].point;
-    if (paths_.edges(i) < context.options.lengths.min_depth) return;
+    if (paths_.edges(i) < context.settings.lengths.min_depth) return;
     if (context.depth == 1 && lamps_.finds(hits_[i])) return;
     const Vec3f direction = paths_.direction[i];
     const Rgb emitted = context.world.emission(point, -direction);
@@ -259,7 +257,7 @@ void PathWave::queue_direct_light_in_medium(const Context& context, std::size_t 
     for (std::uint32_t round = 0; round < samples; ++round) {
         const LightNumbers numbers = round == 0 ? light_numbers(k) : light_numbers(context, k, round);
         LightTree::Choice choice = context.world.choose_light(position, numbers.light);
-        choice.probability *= static_cast<float>(samples);
+        share_estimate(choice, samples);
         const ChosenLight chosen = context.world.sample_light(choice, position, numbers);
         const LightSample& light = chosen.sample;
         if (is_black(light.radiance)) continue;

@@ -29,7 +29,7 @@ void PathWave::set_up(const Context& context) {
         }
         const PlainSurface* const plain = block_[k].plain = world.plain_surface(hits_[i]);
         if (plain == nullptr && !set_up_any(context, k)) continue;
-        if (paths_.edges(i) < context.options.lengths.max_depth ||
+        if (paths_.edges(i) < context.settings.lengths.max_depth ||
             (plain == nullptr && singles_[k].point.material->is_pane))
             on_surface_.add(k);
         else
@@ -57,7 +57,7 @@ bool PathWave::set_up_any(const Context& context, std::size_t k) {
     }
     if (!point.material->unlit) return true;
     // Only what the eye sees directly or in mirrors shows an unlit surface; it lights nothing.
-    if (paths_.is(path_history::kOnlyDelta, i) && paths_.edges(i) >= context.options.lengths.min_depth)
+    if (paths_.is(path_history::kOnlyDelta, i) && paths_.edges(i) >= context.settings.lengths.min_depth)
         add_light(i, world.unlit_color(point), words_.surface_source(point));
     end_path(context, k, PathEnding::Unlit);
     return false;
@@ -112,7 +112,7 @@ void PathWave::look_up_textures(const Context& context) {
 }
 
 void PathWave::make_scattering(const Context& context) {
-    const bool samples_lights = context.options.sample_lights && context.world.has_sampled_lights();
+    const bool samples_lights = context.samples_lights() && context.world.has_sampled_lights();
     on_gloss_.clear();
     sampling_.clear();
     for (const std::size_t k : on_surface_) {
@@ -129,8 +129,8 @@ void PathWave::make_scattering(const Context& context) {
         lanes_.is_glossy.set(k, path.glossy != nullptr ? 1.0f : 0.0f);
         on_gloss_.add_if(path.glossy != nullptr, k);
         const int edges = paths_.edges(first_ + k) + 1;
-        sampling_.add_if(samples_lights && edges >= context.options.lengths.min_depth &&
-                             edges <= context.options.lengths.max_depth &&
+        sampling_.add_if(samples_lights && edges >= context.settings.lengths.min_depth &&
+                             edges <= context.settings.lengths.max_depth &&
                              (path.is_wide || singles_[k].scattering->has_non_delta()),
                          k);
     }
@@ -177,16 +177,16 @@ void PathWave::make_scattering_singly(const Context& context, std::size_t k) {
     single.scattering.emplace(bsdf, point.shading, point.geometric_normal, wo);
 }
 
-void PathWave::evaluate_matte() {
-    for (std::size_t l = 0; l < count_; l += Wide::kWidth) lanes_.u.store(l, bsdf_direction_.load(l));
-    lanes_.evaluate_matte(count_);
+void PathWave::evaluate_and_sample_matte() {
+    for (std::size_t l = 0; l < count_; l += Wide::kWidth) lanes_.u_bsdf.store(l, bsdf_direction_.load(l));
+    lanes_.evaluate_and_sample_matte(count_);
 }
 
-void PathWave::evaluate_glossy() {
+void PathWave::evaluate_and_sample_glossy() {
     if (on_gloss_.empty()) return;
     for (std::size_t g = 0; g < on_gloss_.size(); ++g) glossy_.set_lobe(g, *block_[on_gloss_[g]].glossy);
     glossy_.take(lanes_, count_, choices_, bsdf_direction_);
-    glossy_.evaluate(on_gloss_.size());
+    glossy_.evaluate_and_sample(on_gloss_.size());
     glossy_.give(lanes_, count_);
 }
 
@@ -271,7 +271,7 @@ bool PathWave::scatter_at_surface(const Context& context, std::size_t k) {
         pass_pane(context, k);
         return true;
     }
-    if (paths_.edges(i) >= context.options.lengths.max_depth) {
+    if (paths_.edges(i) >= context.settings.lengths.max_depth) {
         end_path(context, k, PathEnding::TooLong);
         return false;
     }
@@ -310,8 +310,8 @@ bool PathWave::scatter_in_medium(const Context& context, std::size_t k) {
 
     const Vec3f wo = -paths_.direction[i];
     const Vec3f position = paths_.origin[i] - wo * sample.distance;
-    const bool samples_lights = context.options.sample_lights && context.world.has_lights_in_media();
-    if (samples_lights && paths_.edges(i) >= context.options.lengths.min_depth)
+    const bool samples_lights = context.samples_lights() && context.world.has_lights_in_media();
+    if (samples_lights && paths_.edges(i) >= context.settings.lengths.min_depth)
         queue_direct_light_in_medium(context, k, position, *medium);
     const Vec3f direction = medium->phase.sample(wo, bsdf_direction_[k]);
     const float pdf_solid_angle = medium->phase.pdf_solid_angle(wo, direction);
@@ -322,7 +322,7 @@ bool PathWave::scatter_in_medium(const Context& context, std::size_t k) {
     if (!receivers_.empty()) receivers_[i] = position;
     if (!passed_.empty()) passed_[i] = 0.0f;
     const std::uint32_t history = path_history::after_lobe(paths_.history[i], 0);
-    paths_.history.set(i, samples_lights ? history : history | path_history::kAfterDelta);
+    paths_.history.set(i, samples_lights ? history : history | path_history::kUnsampled);
     if (words_.are_followed()) follow(k, VertexEvent{});
     paths_.set_cone(i, scatter_cone(paths_.cone(i).at(sample.distance), lobe_spread(pdf_solid_angle)));
     return true;
@@ -345,7 +345,7 @@ void PathWave::pass_hidden(const Context& context, std::size_t k) {
     const SurfacePoint& point = singles_[k].point;
     const Vec3f direction = paths_.direction[i];
     // No light sample passes a boundary, so what the path meets next could not have been sampled.
-    paths_.history.set(i, paths_.history[i] | path_history::kAfterDelta);
+    paths_.history.set(i, paths_.history[i] | path_history::kUnsampled);
     paths_.set_cone(i, paths_.cone(i).at(hits_[i].t));
     paths_.origin.set(i, offset_origin(point.position, point.geometric_normal, point.clearance, direction));
     paths_.alpha_key.set(i, alpha_key(context, k));

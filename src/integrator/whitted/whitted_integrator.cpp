@@ -1,7 +1,6 @@
 #include "integrator/whitted/whitted_integrator.h"
 
-#include "integrator/trace_in_waves.h"
-#include "integrator/whitted/whitted_wave.h"
+#include "transport/whitted.h"
 
 namespace etendue {
 
@@ -18,16 +17,8 @@ std::vector<std::string> WhittedIntegrator::unreachable_light(const World& world
     return sentences;
 }
 
-std::unique_ptr<IntegratorScratch> WhittedIntegrator::make_scratch() const {
-    return std::make_unique<WhittedWave>();
-}
-
-void WhittedIntegrator::render_tile(const World& world, const TileJob& job, IntegratorScratch& scratch,
-                                    TileBuffer& tile, RenderCounters& counters) const {
-    LampsInView& lamps = static_cast<WhittedWave&>(scratch).lamps();
-    lamps.start(world, job, lengths_, true);
-    trace_in_waves<WhittedWave>(world, job, lengths_, scratch, tile, counters);
-    lamps.finish(tile, counters);
+EyeLight WhittedIntegrator::li(const World& world, const EyeSample& sample, const Hit& /*hit*/) const {
+    return whitted_light(world, sample, settings());
 }
 
 }  // namespace etendue

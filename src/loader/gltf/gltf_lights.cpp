@@ -44,9 +44,9 @@ void LightReader::place_punctual(const tinygltf::Node& node, std::size_t index, 
     const tinygltf::Light& source = document_.model.lights[index];
     LightDesc& light = scene_.lights.emplace_back();
     light.name = source.name.empty() ? node.name : source.name;
-    light.type = source.type == "spot"          ? LightType::Spot
-                 : source.type == "directional" ? LightType::Directional
-                                                : LightType::Point;
+    // The document's shape allows these names alone.
+    const auto* const type = std::ranges::find(kLightTypeNames, source.type);
+    light.type = static_cast<LightType>(type - kLightTypeNames.begin());
     if (source.color.size() == 3) {
         light.color = {static_cast<float>(source.color[0]), static_cast<float>(source.color[1]),
                        static_cast<float>(source.color[2])};

@@ -3,6 +3,7 @@
 #include "loader/gltf/gltf_material_shape.h"
 #include "loader/gltf/gltf_shape.h"
 #include "loader/gltf/gltf_shape_build.h"
+#include "scene/light_desc.h"
 
 namespace etendue {
 
@@ -180,14 +181,17 @@ constexpr ShapeField kCameraFields[] = {
 };
 constexpr Shape kCamera = object(kCameraFields);
 
-constexpr std::string_view kLightTypes[] = {"point", "spot", "directional"};
 constexpr ShapeField kSpotFields[] = {
     {"innerConeAngle", number()},
     {"outerConeAngle", number()},
 };
 constexpr ShapeField kLightFields[] = {
-    {"name", text()},    {"type", text(kLightTypes), true}, {"color", array(kNumber, 3)}, {"intensity", number(0.0)},
-    {"range", number()}, {"spot", object(kSpotFields)},
+    {"name", text()},
+    {"type", text(kLightTypeNames), true},
+    {"color", array(kNumber, 3)},
+    {"intensity", number(0.0)},
+    {"range", number()},
+    {"spot", object(kSpotFields)},
 };
 constexpr Shape kLight = object(kLightFields);
 constexpr ShapeField kLightsFields[] = {{"lights", array(kLight), true}};

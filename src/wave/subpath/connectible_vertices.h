@@ -12,7 +12,7 @@
 namespace etendue {
 
 /// `Kinds` are the numbers that the connections need.
-template <BounceNumbers... Kinds>
+template <SubpathDimension... Kinds>
 class ConnectibleVertices {
   public:
     /// Collects the connectible vertices of `wave`, whose subpaths are from `end`, in their order, and draws their
@@ -61,9 +61,9 @@ class ConnectibleVertices {
 };
 
 /// Holds vertices to be connected to a point on the lens.
-using VerticesToCamera = ConnectibleVertices<BounceNumbers::LightChoice>;
+using VerticesToCamera = ConnectibleVertices<SubpathDimension::LightChoice>;
 /// Holds vertices to be connected to a point on a light.
-using VerticesToLight =
-    ConnectibleVertices<BounceNumbers::LightChoice, BounceNumbers::LightTriangle, BounceNumbers::LightDirection>;
+using VerticesToLight = ConnectibleVertices<SubpathDimension::LightChoice, SubpathDimension::LightTriangle,
+                                            SubpathDimension::LightDirection>;
 
 }  // namespace etendue

@@ -55,8 +55,9 @@ class LampsToCamera {
     void draw_lens(const SubpathJob& job) {
         keys_.clear();
         for (const CameraSample& sample : job.samples) keys_.push_back(sample.key);
-        if (job.needs(SubpathEnd::AtLight, BounceNumbers::LightChoice))
-            lens_.draw(job.job.sequence, keys_, subpath_dimension(SubpathEnd::AtLight, 0, BounceNumbers::LightChoice));
+        if (job.needs(SubpathEnd::AtLight, SubpathDimension::LightChoice))
+            lens_.draw(job.job.sequence, keys_,
+                       subpath_dimension(SubpathEnd::AtLight, 0, SubpathDimension::LightChoice));
         else
             lens_.draw_none(keys_.size());
     }

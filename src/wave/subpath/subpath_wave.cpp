@@ -16,11 +16,11 @@ Wavelength SubpathJob::wavelength(std::uint32_t slot) const {
         sample_2d(job.sequence, shared_key(job, samples[slot].key), kSubpathWavelengthDimension).x);
 }
 
-bool SubpathJob::needs(SubpathEnd end, BounceNumbers which) const {
+bool SubpathJob::needs(SubpathEnd end, SubpathDimension which) const {
     switch (which) {
-        case BounceNumbers::Medium:
+        case SubpathDimension::Medium:
             return world.has_scattering_bodies();
-        case BounceNumbers::LightChoice:
+        case SubpathDimension::LightChoice:
             return end == SubpathEnd::AtEye ? world.chooses_lights() : world.has_lens();
         default:
             return true;
@@ -30,7 +30,7 @@ bool SubpathJob::needs(SubpathEnd end, BounceNumbers which) const {
 std::uint32_t SubpathJob::connection_key(SubpathEnd end, int index, std::uint32_t slot) const {
     if (!world.has_transparency()) return 0;
     // Another one than that of the subpath's own ray.
-    return ~sample_bits(samples[slot].key, subpath_dimension(end, index, BounceNumbers::Alpha));
+    return ~sample_bits(samples[slot].key, subpath_dimension(end, index, SubpathDimension::Alpha));
 }
 
 void SubpathWave::trace(const SubpathJob& job, int roulette_depth, LightFinder* finder, SampleLight& light,
@@ -134,15 +134,15 @@ void SubpathWave::begin_at_lights(const SubpathJob& job) {
 void SubpathWave::draw_numbers(const SubpathJob& job) {
     keys_.clear();
     for (const SubpathState& state : states_) keys_.push_back(job.samples[state.slot].key);
-    const auto draw = [&](BounceNumbers which, NumberPairs& numbers) {
+    const auto draw = [&](SubpathDimension which, NumberPairs& numbers) {
         if (job.needs(end_, which))
             numbers.draw(job.job.sequence, keys_, subpath_dimension(end_, bounce_, which));
         else
             numbers.draw_none(keys_.size());
     };
-    draw(BounceNumbers::Scattering, scattering_);
-    draw(BounceNumbers::Choices, choices_);
-    if (job.world.has_bodies()) draw(BounceNumbers::Medium, medium_);
+    draw(SubpathDimension::Scattering, scattering_);
+    draw(SubpathDimension::Choices, choices_);
+    if (job.world.has_bodies()) draw(SubpathDimension::Medium, medium_);
 }
 
 void SubpathWave::advance_block(const SubpathJob& job, LightFinder* finder, std::size_t first, std::size_t count,
@@ -412,7 +412,7 @@ void SubpathWave::keep_survivors(const SubpathJob& job, std::size_t first, std::
         const bool survives = choices_[i].y < survival[k];
         if (job.job.profile != nullptr && goes_on_[k] && !survives) end_path(job, i, PathEnding::Roulette);
         if (job.world.has_transparency())
-            rays_[i].alpha_key = sample_bits(keys_[i], subpath_dimension(end_, bounce_, BounceNumbers::Alpha));
+            rays_[i].alpha_key = sample_bits(keys_[i], subpath_dimension(end_, bounce_, SubpathDimension::Alpha));
         states_[kept] = states_[i];
         states_[kept].throughput *= 1.0f / survival[k];
         rays_[kept] = rays_[i];

@@ -4,8 +4,8 @@
 
 #include "core/ray.h"
 #include "core/rgb.h"
+#include "scene/integrator_settings.h"
 #include "transport/dimensions.h"
-#include "transport/path_lengths.h"
 #include "wave/camera_wave.h"
 #include "wave/number_pairs.h"
 #include "wave/profile/wave_profile.h"
@@ -47,7 +47,7 @@ struct SubpathJob {
         return is_dispersed ? wavelength(slot).weight : Rgb(1.0f);
     }
     /// False if such numbers mean nothing in this World.
-    [[nodiscard]] bool needs(SubpathEnd end, BounceNumbers which) const;
+    [[nodiscard]] bool needs(SubpathEnd end, SubpathDimension which) const;
     /// Returns the alpha key of rays that connect the vertex of this index; 0 if nothing is transparent.
     [[nodiscard]] std::uint32_t connection_key(SubpathEnd end, int index, std::uint32_t slot) const;
 };

@@ -20,7 +20,7 @@ namespace etendue::test {
 namespace {
 
 /// Pixels share light vertices, so that only images with other seeds are independent.
-MeanEstimate estimate(const World& world, const BdptOptions& options, std::uint32_t first_seed) {
+MeanEstimate estimate(const World& world, const IntegratorSettings& options, std::uint32_t first_seed) {
     constexpr std::uint32_t kSeeds = 8;
     constexpr std::uint32_t kSpp = 16;
     std::vector<double> means;
@@ -30,7 +30,7 @@ MeanEstimate estimate(const World& world, const BdptOptions& options, std::uint3
 }
 
 /// Seeds are fixed. At most four standard errors apart, which are at most 2% together.
-void expect_same_mean(const World& world, BdptOptions options, const std::string& what) {
+void expect_same_mean(const World& world, IntegratorSettings options, const std::string& what) {
     options.cached_connections = 0;
     const MeanEstimate pairwise = estimate(world, options, 100);
     for (const int count : {1, 3}) {
@@ -78,8 +78,8 @@ World two_places(float left) {
 
 /// Only the connections of the second vertices of both subpaths.
 double mean_of_connections(const World& world, int cached) {
-    BdptOptions options{.lengths = {.max_depth = 3, .min_depth = 3}, .cached_connections = cached};
-    options.only = Strategy{2, 2};
+    IntegratorSettings options{.lengths = {.max_depth = 3, .min_depth = 3}, .cached_connections = cached};
+    options.strategy = Strategy{2, 2};
     options.weighted = false;
     return mean_of(render_bdpt(world, options, 1, 1));
 }
@@ -105,8 +105,8 @@ TEST(CachedConnectionsOfAStrategy, MakeItsImage) {
     constexpr int kEdges = 4;
     const World world = agreement_world(agreement_case("LampDiffuse"));
     for (int s = 2; s < kEdges; ++s) {
-        BdptOptions options{.lengths = {.max_depth = kEdges, .min_depth = kEdges}};
-        options.only = Strategy{s, kEdges + 1 - s};
+        IntegratorSettings options{.lengths = {.max_depth = kEdges, .min_depth = kEdges}};
+        options.strategy = Strategy{s, kEdges + 1 - s};
         expect_same_mean(world, options, "s = " + std::to_string(s));
     }
 }
@@ -115,11 +115,11 @@ TEST(CachedConnectionsOfAStrategy, MakeItsImage) {
 TEST(CachedConnectionsOfAStrategy, AddUpToTheWhole) {
     constexpr int kEdges = 4;
     const World world = agreement_world(agreement_case("LampPlastic"));
-    BdptOptions options{.lengths = {.max_depth = kEdges, .min_depth = kEdges}, .cached_connections = 2};
+    IntegratorSettings options{.lengths = {.max_depth = kEdges, .min_depth = kEdges}, .cached_connections = 2};
     const double whole = mean_of(render_bdpt(world, options, 16, 7));
     double sum = 0.0;
     for (int s = 0; s <= kEdges; ++s) {
-        options.only = Strategy{s, kEdges + 1 - s};
+        options.strategy = Strategy{s, kEdges + 1 - s};
         sum += mean_of(render_bdpt(world, options, 16, 7));
     }
     EXPECT_NEAR(sum / whole, 1.0, 1e-5);
@@ -127,10 +127,10 @@ TEST(CachedConnectionsOfAStrategy, AddUpToTheWhole) {
 
 TEST(CachedConnectionsOfThreads, AreTheSame) {
     const World world = agreement_world(agreement_case("LampPrism"));
-    const BdptOptions options{.lengths = {.max_depth = 6}, .cached_connections = 2};
+    const IntegratorSettings options{.lengths = {.max_depth = 6}, .cached_connections = 2};
     const std::vector<float> one = render_bdpt(world, options, 8, 3, 1);
     EXPECT_EQ(one, render_bdpt(world, options, 8, 3, 3));
-    BdptOptions pairwise = options;
+    IntegratorSettings pairwise = options;
     pairwise.cached_connections = 0;
     EXPECT_NE(one, render_bdpt(world, pairwise, 8, 3, 1));
 }
@@ -159,9 +159,8 @@ class PathObserver final : public WeightObserver {
 TEST(CachedConnectionsObserved, MixNoWavelengthsAndKeepTheWeights) {
     const World world = agreement_world(agreement_case("LampPrism"));
     PathObserver observer;
-    BdptOptions options{.lengths = {.max_depth = 6}, .cached_connections = 2};
-    options.observer = &observer;
-    (void)render_bdpt(world, options, 2, 5, 1);
+    IntegratorSettings options{.lengths = {.max_depth = 6}, .cached_connections = 2};
+    (void)render_bdpt(world, options, 2, 5, 1, &observer);
     EXPECT_GT(observer.mixed, 1000);
     EXPECT_GT(observer.dispersed, 1000);
     EXPECT_EQ(observer.mixed_wavelengths, 0);
@@ -180,7 +179,7 @@ TEST(CachedConnectionsInMotion, AreThoseOfEachSample) {
     };
     const World world = agreement_world(moving);
     ASSERT_TRUE(world.has_motion());
-    BdptOptions options{.lengths = {.max_depth = 6}};
+    IntegratorSettings options{.lengths = {.max_depth = 6}};
     const std::vector<float> pairwise = render_bdpt(world, options, 8, 3);
     options.cached_connections = 4;
     EXPECT_EQ(pairwise, render_bdpt(world, options, 8, 3));

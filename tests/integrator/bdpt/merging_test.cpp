@@ -61,19 +61,17 @@ TEST(Merging, FindsWhatASpotSendsThroughAPlateTwice) {
     const double passes = std::pow(1.0 - fresnel, 2.0);
     const double distance = 2.0 - static_cast<double>(kPlateThickness) * (1.0 - 1.0 / static_cast<double>(kIor));
     const double expected = 10.0 / (distance * distance) * passes * passes * 0.5 / std::numbers::pi;
-    BdptOptions options{.lengths = {.max_depth = 6}, .merging = {.at = MergeAt::BetweenDeltas}};
-    const auto mean = [&](const BdptOptions& of) {
+    const auto mean = [&](MergeAt merge) {
+        const BdptIntegrator integrator({.lengths = {.max_depth = 6}}, nullptr, {.at = merge});
         const ThreadPool threads;
         const std::atomic<bool> stop{false};
         RenderOptions render_options = whole_image(kPlateSize, kPlateSize, 32, 3);
-        return mean_of(render(world, BdptIntegrator(of), render_options, threads, stop, {}).film.resolve());
+        return mean_of(render(world, integrator, render_options, threads, stop, {}).film.resolve());
     };
     // The eye sees a part in which irradiance differs by 1%; counts of some ten thousand photons vary by as much.
-    EXPECT_NEAR(mean(options), expected, 0.02 * expected);
-    options.merging.at = MergeAt::Everywhere;
-    EXPECT_NEAR(mean(options), expected, 0.02 * expected);
-    options.merging.at = MergeAt::Nothing;
-    EXPECT_EQ(mean(options), 0.0);
+    EXPECT_NEAR(mean(MergeAt::BetweenDeltas), expected, 0.02 * expected);
+    EXPECT_NEAR(mean(MergeAt::Everywhere), expected, 0.02 * expected);
+    EXPECT_EQ(mean(MergeAt::Nothing), 0.0);
 }
 
 /// A room, where subpaths merge, and the heuristic.
@@ -93,8 +91,7 @@ TEST_P(MergingAgreement, MakesTheSameImage) {
     const AgreementCase& room = agreement_case(name);
     const World world = agreement_world(room);
     const ThreadPool threads;
-    const BdptIntegrator merging(
-        BdptOptions{.lengths = room.lengths, .merging = {.at = merge, .radius = 0.2f, .alpha = 1.0f}});
+    const BdptIntegrator merging({.lengths = room.lengths}, nullptr, {.at = merge, .radius = 0.2f, .alpha = 1.0f});
     const BlockAgreement result =
         test_agreement(estimate(world, "path", room, {.first_seed = 700}, threads),
                        estimate(world, merging, room, {.first_seed = 800}, threads, room.window),

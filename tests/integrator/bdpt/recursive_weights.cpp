@@ -163,7 +163,7 @@ class GivenPath {
         const PathLightEnd& end = path_.end;
         const Vec3f& position = path_.inner.front()->position;
         ChosenLight chosen;
-        chosen.probability = world.light_probability(position, end.light);
+        chosen.expected_samples = world.light_probability(position, end.light);
         chosen.light = end.light;
         chosen.sample.wi = -end.direction;
         chosen.sample.cos_light = end.cos_light;
@@ -173,7 +173,7 @@ class GivenPath {
         const float squared = length_squared(end.position - position);
         chosen.sample.distance = std::sqrt(squared);
         if (can_be_hit())
-            chosen.sample.pdf_solid_angle = chosen.probability * world.emitter_pdf_area(end.light) *
+            chosen.sample.pdf_solid_angle = chosen.expected_samples * world.emitter_pdf_area(end.light) *
                                             world.light_sample_gain(end.light, end.triangle, position) * squared /
                                             std::abs(end.cos_light);
         return chosen;
@@ -196,7 +196,7 @@ class GivenPath {
     [[nodiscard]] double weight_of_light_sample() const {
         if (!job_.world.has_sampled_lights() || !scatters_freely(0) || !is_direct(0)) return 0.0;
         const ChosenLight light = chosen();
-        if (!(light.probability > 0.0f)) return 0.0;
+        if (!(light.expected_samples > 0.0f)) return 0.0;
         return sums_of_light_sample(job_.mis(), eye_.vertices.front(), light, eye_.values.front()).weight();
     }
     /// With vertices up to `i` from the light.

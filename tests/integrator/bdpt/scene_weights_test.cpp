@@ -40,7 +40,7 @@ TEST_P(SceneWeights, SumToOneAndAreThoseOfTheDefinition) {
     film.height = std::max(1, film.height * kWidth / film.width);
     film.width = kWidth;
     const IntegratorSettings& integrator = desc.settings.integrator;
-    const PathLengths lengths{integrator.max_depth, integrator.min_depth, integrator.roulette_depth};
+    const PathLengths lengths = integrator.lengths;
     const PixelRect all{0, 0, film.width, film.height};
     const PixelFilter filter(FilterShape::Box);
     const TileJob job{all, all, film.width, film.height, 0, 1, 0, SampleSequence::Sobol, &filter};

@@ -21,9 +21,9 @@ World room() {
 
 /// Mean of all channels and pixels; of paths of `kEdges` edges.
 double mean_image(const World& world, std::optional<Strategy> only, bool weighted, std::uint32_t seed) {
-    BdptOptions options;
+    IntegratorSettings options;
     options.lengths = {.max_depth = kEdges, .min_depth = kEdges};
-    options.only = only;
+    options.strategy = only;
     options.weighted = weighted;
     return mean_of(render_bdpt(world, options, 64, seed));
 }

@@ -109,9 +109,7 @@ std::size_t expect_right_weights(const World& world, PathLengths lengths, Heuris
                                  std::span<const TileJob> jobs, std::size_t paths, float short_edge) {
     Comparison comparison(short_edge);
     lengths.min_depth = 1;
-    BdptOptions options{.lengths = lengths, .heuristic = heuristic};
-    options.observer = &comparison;
-    const BdptIntegrator integrator(options);
+    const BdptIntegrator integrator({.lengths = lengths, .heuristic = heuristic}, &comparison);
     const auto scratch = integrator.make_scratch();
     RenderCounters counters;
     for (std::uint32_t seed = 0; comparison.paths < paths; ++seed) {

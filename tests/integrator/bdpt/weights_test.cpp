@@ -112,9 +112,7 @@ TEST(BdptWeightsOfACrop, CountItsCameraSamples) {
     const PixelFilter filter(FilterShape::Box);
     const TileJob whole = job_of(kWholeImage, 0, filter);
     CropObserver observer(world, whole, room.lengths);
-    BdptOptions options{.lengths = room.lengths, .heuristic = Heuristic::Balance};
-    options.observer = &observer;
-    const BdptIntegrator integrator(options);
+    const BdptIntegrator integrator({.lengths = room.lengths, .heuristic = Heuristic::Balance}, &observer);
     const auto scratch = integrator.make_scratch();
     TileBuffer tile;
     tile.reset(kCrop);

@@ -1,5 +1,5 @@
-#include "integrator/debug/debug_integrator.h"
-
+#include "integrator/debug/albedo_integrator.h"
+#include "integrator/debug/normals_integrator.h"
 #include "integrator/render_tile.h"
 #include "world/test_scene.h"
 
@@ -17,7 +17,7 @@ SceneDesc wall(MaterialDesc material) {
 
 TEST(DebugIntegrator, NormalsAreMappedToTheUnitCube) {
     const World world = compile(wall(diffuse(Rgb(0.5f))));
-    const TileResult result = render_tile(world, DebugIntegrator(DebugQuantity::Normals), 2);
+    const TileResult result = render_tile(world, NormalsIntegrator({}), 2);
     EXPECT_NEAR(result.mean.r, 0.5f, 1e-5f);
     EXPECT_NEAR(result.mean.g, 0.5f, 1e-5f);
     EXPECT_NEAR(result.mean.b, 1.0f, 1e-5f);
@@ -27,7 +27,7 @@ TEST(DebugIntegrator, NormalsAreMappedToTheUnitCube) {
 
 TEST(DebugIntegrator, AlbedoIsTheScatteredShare) {
     const World world = compile(wall(diffuse({0.2f, 0.5f, 0.8f})));
-    const TileResult result = render_tile(world, DebugIntegrator(DebugQuantity::Albedo), 2);
+    const TileResult result = render_tile(world, AlbedoIntegrator({}), 2);
     EXPECT_NEAR(result.mean.r, 0.2f, 1e-4f);
     EXPECT_NEAR(result.mean.g, 0.5f, 1e-4f);
     EXPECT_NEAR(result.mean.b, 0.8f, 1e-4f);
@@ -37,12 +37,12 @@ TEST(DebugIntegrator, UnlitSurfacesShowTheirColour) {
     MaterialDesc material;
     material.unlit = true;
     material.base_color = {0.2f, 0.5f, 0.8f};
-    const TileResult result = render_tile(compile(wall(material)), DebugIntegrator(DebugQuantity::Albedo), 1);
+    const TileResult result = render_tile(compile(wall(material)), AlbedoIntegrator({}), 1);
     EXPECT_NEAR(result.mean.b, 0.8f, 1e-4f);
 }
 
 TEST(DebugIntegrator, NothingIsTransparentBlack) {
-    const TileResult result = render_tile(compile(empty_scene()), DebugIntegrator(DebugQuantity::Normals), 1);
+    const TileResult result = render_tile(compile(empty_scene()), NormalsIntegrator({}), 1);
     EXPECT_EQ(result.mean, Rgb(0.0f));
     EXPECT_EQ(result.alpha, 0.0);
 }

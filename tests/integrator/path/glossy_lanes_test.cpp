@@ -52,7 +52,7 @@ void ask(GlossyLanes& lanes, std::size_t lane, const Question& q) {
     lanes.wo.set(lane, q.wo);
     lanes.light_wi.set(lane, q.light_wi);
     lanes.u_lobe.set(lane, q.u_lobe);
-    lanes.u.set(lane, q.u);
+    lanes.u_bsdf.set(lane, q.u);
 }
 
 using Bits = std::array<std::uint32_t, 11>;
@@ -81,7 +81,7 @@ TEST(GlossyLanes, ScatterAsThatOneSurfaceDoes) {
             questions.push_back(make_question(random));
             ask(lanes, l, questions[l]);
         }
-        lanes.evaluate(kCount);
+        lanes.evaluate_and_sample(kCount);
         for (std::size_t l = 0; l < kCount; ++l) {
             const Question& q = questions[l];
             const Bsdf bsdf = q.lobe;
@@ -122,7 +122,7 @@ TEST(GlossyLanes, DoNotDependOnTheirNeighbours) {
         for (Question& question : questions) question = make_question(random);
         GlossyLanes all;
         for (std::size_t l = 0; l < kBlockLanes; ++l) ask(all, l, questions[l]);
-        all.evaluate(kBlockLanes);
+        all.evaluate_and_sample(kBlockLanes);
         // Turned around, among others that are all metals or all dielectrics, and no numbers in the lanes after them.
         constexpr std::size_t kCount = kBlockLanes - 5;
         GlossyLanes some;
@@ -138,7 +138,7 @@ TEST(GlossyLanes, DoNotDependOnTheirNeighbours) {
             }
             ask(some, l, q);
         }
-        some.evaluate(kCount);
+        some.evaluate_and_sample(kCount);
         for (std::size_t l = 0; l < kCount; l += 2)
             ASSERT_EQ(answer(some, l), answer(all, kBlockLanes - 1 - l)) << block << ' ' << l;
     }

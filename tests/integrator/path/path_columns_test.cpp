@@ -30,7 +30,7 @@ struct History {
     }
     [[nodiscard]] std::uint32_t bits() const {
         return static_cast<std::uint32_t>(edges) * path_history::kOneEdge |
-               (after_delta ? path_history::kAfterDelta : 0u) | (only_delta ? path_history::kOnlyDelta : 0u) |
+               (after_delta ? path_history::kUnsampled : 0u) | (only_delta ? path_history::kOnlyDelta : 0u) |
                (is_direct ? path_history::kIsDirect : 0u);
     }
 };
@@ -129,7 +129,7 @@ TEST(PathColumns, HoldTheRaysThatBeginAtTheEye) {
         EXPECT_EQ(columns->key(i).index, samples[i].key.index);
         EXPECT_EQ(columns->throughput[i], Rgb(1.0f));
         EXPECT_EQ(columns->eta_scale[i], 1.0f);
-        EXPECT_TRUE(columns->is(path_history::kAfterDelta, i));
+        EXPECT_TRUE(columns->is(path_history::kUnsampled, i));
         EXPECT_EQ(columns->edges(i), 1);
     }
 }

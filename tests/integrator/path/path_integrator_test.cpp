@@ -22,7 +22,8 @@ namespace {
 constexpr double kRounding = 1e-5;
 
 PathIntegrator path_of(int max_depth, int min_depth = 1, bool sample_lights = true, int roulette_depth = 3) {
-    return PathIntegrator({.lengths = {max_depth, min_depth, roulette_depth}, .sample_lights = sample_lights});
+    return PathIntegrator(
+        {.lengths = {max_depth, min_depth, roulette_depth}, .light_samples = sample_lights ? 1u : 0u});
 }
 
 SceneDesc with_environment(float radiance) {

@@ -59,12 +59,12 @@ TEST(RenderJson, EverySettingIsRead) {
     const RenderSettings& s = parsed.json.settings;
     EXPECT_EQ(parsed.json.scene, "x.glb");
     EXPECT_EQ(s.integrator.type, "direct");
-    EXPECT_EQ(s.integrator.max_depth, 7);
-    EXPECT_EQ(s.integrator.min_depth, 2);
-    EXPECT_EQ(s.integrator.roulette_depth, 6);
-    EXPECT_EQ(s.integrator.light_samples, 5);
-    EXPECT_EQ(s.integrator.heuristic, HeuristicType::Power);
-    EXPECT_EQ(s.integrator.strategy, (std::array<int, 2>{2, 3}));
+    EXPECT_EQ(s.integrator.lengths.max_depth, 7);
+    EXPECT_EQ(s.integrator.lengths.min_depth, 2);
+    EXPECT_EQ(s.integrator.lengths.roulette_depth, 6);
+    EXPECT_EQ(s.integrator.light_samples, 5u);
+    EXPECT_EQ(s.integrator.heuristic, Heuristic::Power);
+    EXPECT_EQ(s.integrator.strategy, (Strategy{2, 3}));
     EXPECT_FALSE(s.integrator.weighted);
     EXPECT_EQ(s.integrator.cached_connections, 4);
     EXPECT_EQ(s.sampler, SamplerType::Random);

@@ -1,0 +1,69 @@
+// What is asked of integrators: the only home of their settings. Transport and integrators take them from here.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace etendue {
+
+/// Bounds the lengths of paths. An edge leads from vertex to vertex, so that one edge is a light seen directly and two
+/// are direct light on a surface; media, panes and hidden boundaries add rays and no edges.
+struct PathLengths {
+    int max_depth = 32;      ///< most edges of a path from camera to light, >= 1
+    int min_depth = 1;       ///< least edges of a path that is kept, >= 1
+    int roulette_depth = 3;  ///< rays, whatever they lead to, after which Russian roulette may end a path, >= 1
+};
+
+/// Says how multiple importance sampling weighs strategies against each other.
+enum class Heuristic {
+    Power,    ///< exponent 2 (Veach 1997, section 9.2.4)
+    Balance,  ///< exponent 1
+};
+
+/// Names one way in which bidirectional path tracing makes paths: `s` vertices from the light, `t` from the eye, those
+/// on the light and on the lens included. Vertices in media count, though they add no edge to a path's length.
+struct Strategy {
+    int s = 0;
+    int t = 0;
+
+    /// Returns true if there is such a strategy: no light hits the lens (t = 0).
+    [[nodiscard]] bool exists() const { return s >= 0 && t >= 1 && s + t >= 2; }
+    [[nodiscard]] int edges() const { return s + t - 1; }
+    friend bool operator==(const Strategy&, const Strategy&) = default;
+};
+
+/// Says which vertices of both subpaths merge.
+enum class MergeAt : std::uint8_t {
+    Nothing,        ///< none: bidirectional path tracing without merging
+    BetweenDeltas,  ///< those which both subpaths reach by a delta: no connection finds such paths
+    Everywhere,     ///< all that scatter by more than deltas: the algorithm as it was published
+};
+
+/// Says how subpaths merge.
+struct MergeSettings {
+    MergeAt at = MergeAt::BetweenDeltas;
+    float radius = 1.5f;  ///< radius of the first sample, in widths of a pixel, [0.01, 100]
+    float alpha = 0.75f;  ///< [0.1, 1]: the radius shrinks with the power (alpha - 1) / 2 of the number of samples
+};
+
+struct IntegratorSettings {
+    std::string type = "path";  ///< a name from the integrator registry
+    PathLengths lengths{};
+    /// Counts the lights, 1 to 64, that `path` and `direct` sample at each first vertex behind the eye and its mirrors.
+    /// With 0, which no user asks for, paths find lights by chance only.
+    std::uint32_t light_samples = 1;
+    /// Says how bidirectional path tracing weighs its strategies against each other.
+    Heuristic heuristic = Heuristic::Balance;
+    /// Names the one strategy of bidirectional path tracing that makes the image; none for all strategies.
+    std::optional<Strategy> strategy{};
+    /// Says whether bidirectional path tracing weighs `strategy` against the other strategies; if not, `strategy` is
+    /// all there is.
+    bool weighted = true;
+    /// Counts the light vertices of all samples that bidirectional path tracing connects an eye vertex to; 0 for all
+    /// light vertices of the eye vertex's own sample.
+    int cached_connections = 0;
+    MergeSettings merging{};  ///< says how `vcm` merges
+};
+
+}  // namespace etendue
