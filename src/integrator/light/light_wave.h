@@ -1,6 +1,7 @@
 // A wave of light subpaths, all of whose vertices are shown to the camera.
 #pragma once
 
+#include "integrator/integrator.h"
 #include "wave/connections.h"
 #include "wave/subpath/connectible_vertices.h"
 #include "wave/subpath/lamps_to_camera.h"
