@@ -1,13 +1,16 @@
 // Bidirectional path tracing (Veach 1997, chapter 10) for one sample: subpaths from the eye and from a light, connected
-// in every way and weighed by what other ways would have made of the same path. `integrator/bdpt/` computes the same
-// for many samples at once, from the same random numbers.
+// in every way and weighed by what other ways would have made of the same path; and, where asked for, merged
+// (merging.h). `integrator/bdpt/` computes the same for many samples at once, from the same random numbers.
 #pragma once
 
 #include "core/rgb.h"
 #include "transport/heuristic.h"
 #include "transport/light.h"
 #include "transport/path_lengths.h"
+#include "transport/photon_map.h"
+#include "transport/subpath.h"
 
+#include <optional>
 #include <vector>
 
 namespace etendue {
@@ -16,6 +19,9 @@ struct BidirectionalOptions {
     PathLengths lengths;
     Heuristic heuristic = Heuristic::Balance;
     double samples_per_light_path = 1.0;  ///< see MisContext
+    Merging merging{};                    ///< where subpaths merge
+    const PhotonMap* photons = nullptr;   ///< photons of the light subpaths of all samples; null: none merge
+    std::optional<SampleKey> shared{};    ///< see SubpathSample
 };
 
 /// Holds the light that a pair of subpaths finds.
@@ -26,5 +32,9 @@ struct BidirectionalLight {
 
 [[nodiscard]] BidirectionalLight bidirectional_light(const World& world, const EyeSample& sample,
                                                      const BidirectionalOptions& options);
+
+/// Returns the photons that the light subpath of the sample leaves where subpaths merge.
+[[nodiscard]] std::vector<Photon> photons_of_sample(const World& world, const EyeSample& sample,
+                                                    const BidirectionalOptions& options);
 
 }  // namespace etendue

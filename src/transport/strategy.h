@@ -15,4 +15,7 @@ struct Strategy {
     friend bool operator==(const Strategy&, const Strategy&) = default;
 };
 
+/// Stands for all merges (transport/merging.h), which are no strategies of bidirectional path tracing.
+inline constexpr Strategy kMerges{0, 0};
+
 }  // namespace etendue
