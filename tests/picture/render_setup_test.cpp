@@ -62,6 +62,21 @@ TEST(IneffectiveSettings, OptionsOfAdaptiveSamplingNeedAnError) {
     EXPECT_TRUE(ineffective_settings(settings, false).empty());
 }
 
+TEST(IneffectiveSettings, WhatMergesIsNotAdaptive) {
+    RenderSettings settings;
+    settings.integrator.type = "vcm";
+    settings.relative_error = 0.1;
+    EXPECT_FALSE(make_render_options(settings).adaptive);
+    EXPECT_TRUE(ineffective_settings(settings, false).empty()) << "nobody has asked for it";
+    settings.options = {{"/min_spp", "--min-spp"}, {"/adaptive", "--adaptive"}};
+    const std::vector<std::string> notes = ineffective_settings(settings, false);
+    ASSERT_EQ(notes.size(), 2u);
+    EXPECT_EQ(notes[0].find("--adaptive has no effect with 'vcm': samples merge"), 0u) << notes[0];
+    EXPECT_EQ(notes[1].find("--min-spp has no effect with 'vcm': samples merge"), 0u) << notes[1];
+    settings.integrator.type = "bdpt";
+    EXPECT_TRUE(ineffective_settings(settings, false).empty());
+}
+
 TEST(IneffectiveSettings, OptionsOfStrategiesNeedStrategies) {
     RenderSettings settings;
     settings.integrator = {.type = "path", .heuristic = HeuristicType::Power, .cached_connections = 2};
@@ -69,7 +84,7 @@ TEST(IneffectiveSettings, OptionsOfStrategiesNeedStrategies) {
     settings.options = {{"/integrator/heuristic", "--heuristic"}, {"/wave/connections", "--bdpt-connections"}};
     const std::vector<std::string> notes = ineffective_settings(settings, false);
     ASSERT_EQ(notes.size(), 2u);
-    EXPECT_EQ(notes[0], "--heuristic has no effect with 'path': it is for 'bdpt'");
+    EXPECT_EQ(notes[0], "--heuristic has no effect with 'path': it is for 'bdpt' and 'vcm'");
     EXPECT_EQ(notes[1], "--bdpt-connections has no effect with 'path': it is for 'bdpt'");
     settings.integrator.type = "bdpt";
     EXPECT_TRUE(ineffective_settings(settings, false).empty());
@@ -82,7 +97,8 @@ TEST(IneffectiveSettings, TheTableNamesTheIntegratorsThatTheRegistryDoes) {
         };
         EXPECT_EQ(is_named("/integrator/light_samples"), entry.splits_light_samples) << entry.name;
         EXPECT_EQ(is_named("/integrator/heuristic"), entry.has_strategies) << entry.name;
-        EXPECT_EQ(is_named("/wave/connections"), entry.has_strategies) << entry.name;
+        EXPECT_EQ(is_named("/wave/connections"), entry.has_strategies && !entry.merges) << entry.name;
+        EXPECT_EQ(is_named("/integrator/merge"), entry.merges) << entry.name;
     }
 }
 
