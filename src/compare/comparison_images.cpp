@@ -118,8 +118,8 @@ bool add_strategies(ReportImages& images, ComparisonReport& report, const Varian
         const char* name = weighted ? "weighted" : "unweighted";
         ProgressDisplay display(fmt::format("{} strategies of {}", name, variant.name), quiet);
         const std::vector<StrategyImage> strategies =
-            render_strategies(*variant.world, integrator, wanted, options, context.threads, interrupt_requested(),
-                              [&](const RenderProgress& progress) { display.update(progress); });
+            render_strategies(*variant.world, "bdpt", integrator, wanted, options, context.threads,
+                              interrupt_requested(), [&](const RenderProgress& progress) { display.update(progress); });
         if (strategies.size() < wanted.size()) return false;
         for (std::size_t i = 0; i < strategies.size(); ++i) {
             const ImageF& image = strategies[i].rgba;

@@ -16,10 +16,10 @@ std::vector<Strategy> strategies_between(int shortest, int longest) {
     return strategies;
 }
 
-std::vector<StrategyImage> render_strategies(const World& world, const IntegratorOptions& integrator,
-                                             std::span<const Strategy> strategies, const RenderOptions& options,
-                                             const ThreadPool& threads, const std::atomic<bool>& stop,
-                                             const ProgressCallback& progress) {
+std::vector<StrategyImage> render_strategies(const World& world, std::string_view name,
+                                             const IntegratorOptions& integrator, std::span<const Strategy> strategies,
+                                             const RenderOptions& options, const ThreadPool& threads,
+                                             const std::atomic<bool>& stop, const ProgressCallback& progress) {
     std::vector<StrategyImage> images;
     RenderProgress before;
     for (const Strategy& strategy : strategies) {
@@ -34,7 +34,8 @@ std::vector<StrategyImage> render_strategies(const World& world, const Integrato
                 .rays = before.rays + p.rays};
             if (progress) progress(now);
         };
-        RenderResult result = render(world, *ray_code().make_integrator("bdpt", one), options, threads, stop, report);
+        RenderResult result =
+            render(world, *ray_code().make_integrator(std::string(name), one), options, threads, stop, report);
         if (result.halt_reason == HaltReason::Interrupted) break;
         images.push_back({strategy, rgba_image(result.film)});
         before = now;
@@ -44,7 +45,8 @@ std::vector<StrategyImage> render_strategies(const World& world, const Integrato
 
 std::vector<ImagePart> strategy_parts(std::span<const StrategyImage> images) {
     std::vector<ImagePart> parts;
-    for (const auto& [strategy, rgba] : images) parts.push_back({fmt::format("s{}t{}", strategy.s, strategy.t), &rgba});
+    for (const auto& [strategy, rgba] : images)
+        parts.push_back({strategy == kMerges ? "merges" : fmt::format("s{}t{}", strategy.s, strategy.t), &rgba});
     return parts;
 }
 

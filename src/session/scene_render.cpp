@@ -323,8 +323,8 @@ class SceneRender {
         const PixelDepth depth = request_.overrides.depth;
         const std::vector<std::string> earlier = write_image_files(paths_, description_, colors_, depth, [&] {
             if (!request_.strategies.output.empty() && complete)
-                write_strategies_image(request_.strategies, world, integrator_options(settings_), options_,
-                                       description_.frame, colors_, depth, threads_, title(), request_.quiet);
+                write_strategies_image(request_.strategies, world, settings_, options_, description_.frame, colors_,
+                                       depth, threads_, title(), request_.quiet);
         });
         if (!request_.quiet) note_earlier_files(earlier);
     }

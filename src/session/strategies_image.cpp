@@ -79,7 +79,7 @@ std::vector<std::vector<LabelledImage>> make_rows(std::span<const StrategyImage>
 }  // namespace
 
 std::string strategy_label(const Strategy& strategy) {
-    return fmt::format("({},{})", strategy.s, strategy.t);
+    return strategy == kMerges ? "merges" : fmt::format("({},{})", strategy.s, strategy.t);
 }
 
 void check_strategies_request(const StrategiesRequest& request, const OutputPaths& image,
@@ -95,20 +95,21 @@ void check_strategies_request(const StrategiesRequest& request, const OutputPath
     require_memory(count, options.window, depth);
 }
 
-void write_strategies_image(const StrategiesRequest& request, const World& world, const IntegratorOptions& integrator,
+void write_strategies_image(const StrategiesRequest& request, const World& world, const RenderSettings& settings,
                             const RenderOptions& options, OutputFrame frame, const ColorConfig& colors,
                             PixelDepth depth, const ThreadPool& threads, const std::string& title, bool quiet) {
-    const PathLengths& lengths = integrator.lengths;
+    IntegratorOptions one = integrator_options(settings);
+    one.weighted = request.weighted;
+    const PathLengths& lengths = one.lengths;
     const int longest = longest_shown(request, lengths);
     if (longest < lengths.max_depth && !quiet)
         log_warning("note: {} shows the strategies of paths of up to {} edges, of {}; --strategies-depth shows more",
                     request.output.string(), longest, lengths.max_depth);
-    IntegratorOptions one = integrator;
-    one.weighted = request.weighted;
     ProgressDisplay display(title + " strategies", quiet);
-    const std::vector<Strategy> wanted = shown_strategies(request, lengths);
+    std::vector<Strategy> wanted = shown_strategies(request, lengths);
+    if (find_integrator(settings.integrator.type)->merges) wanted.push_back(kMerges);
     std::vector<StrategyImage> images =
-        render_strategies(world, one, wanted, options, threads, interrupt_requested(),
+        render_strategies(world, settings.integrator.type, one, wanted, options, threads, interrupt_requested(),
                           [&](const RenderProgress& progress) { display.update(progress); });
     if (images.size() < wanted.size()) return;
     if (!frame.output_space.empty() && frame.output_space != frame.working_space) {
