@@ -178,6 +178,14 @@ std::vector<std::string> ineffective_settings(const RenderSettings& settings, bo
                 fmt::format("{} has no effect with '{}': it is for {}", option->second, type,
                             names_of([&](const IntegratorEntry& entry) { return entry.owns(setting.pointer); })));
     }
+    const IntegratorEntry* const entry = find_integrator(type);
+    if (entry != nullptr && entry->merges && settings.relative_error > 0.0 && settings.adaptive)
+        for (const char* const pointer : {"/adaptive", "/min_spp"})
+            if (const auto option = settings.options.find(pointer); option != settings.options.end())
+                sentences.push_back(
+                    fmt::format("{} has no effect with '{}': samples merge with photons of their own index, so that "
+                                "all pixels have as many",
+                                option->second, type));
     if (settings.clamp_indirect > 0.0f && settings.integrator.lengths.max_depth < kShortestIndirect && !has_bodies)
         sentences.push_back(fmt::format(
             "{} has no effect: paths have at most {} (--max-depth), and indirect light takes {}",

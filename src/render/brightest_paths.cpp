@@ -63,16 +63,17 @@ void find_brightest_paths(const World& world, const Integrator& integrator, cons
     for (BrightSample& sample : state.counters.brightest.samples()) {
         if (sample.has_path()) continue;
         if (!scratch) scratch = integrator.make_scratch();
-        const TileJob job{{sample.sample_x, sample.sample_y, sample.sample_x + 1, sample.sample_y + 1},
-                          state.film.splat_window(),
-                          options.full_width,
-                          options.full_height,
-                          sample.sample,
-                          1,
-                          options.seed,
-                          options.sequence,
-                          &options.filter,
-                          &spelled};
+        TileJob job{{sample.sample_x, sample.sample_y, sample.sample_x + 1, sample.sample_y + 1},
+                    state.film.splat_window(),
+                    options.full_width,
+                    options.full_height,
+                    sample.sample,
+                    1,
+                    options.seed,
+                    options.sequence,
+                    &options.filter,
+                    &spelled};
+        job.merging = integrator.merging(world, job);
         speller.clear();
         TileBuffer tile;
         tile.reset(job.rect);

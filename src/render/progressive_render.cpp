@@ -53,7 +53,7 @@ std::size_t ProgressiveRender::scratch_bytes() const {
 }
 
 std::size_t ProgressiveRender::tile_bytes() const {
-    std::size_t bytes = vector_bytes(tiles_, splats_);
+    std::size_t bytes = vector_bytes(tiles_, splats_) + (photons_ ? photons_->bytes() : 0);
     for (const Worker& worker : workers_) bytes += worker.tile.bytes();
     for (const std::vector<Splat>& list : splats_) bytes += vector_bytes(list);
     return bytes;
@@ -154,8 +154,10 @@ void ProgressiveRender::trace_photons() {
         if (!worker.scratch) worker.scratch = integrator_.make_scratch();
         TileJob job = make_job(tiles[index]);
         job.merging = merging;
-        integrator_.trace_photons(world_, job, *worker.scratch, lists[index],
-                                  counters[static_cast<std::size_t>(slot)]);
+        const std::vector<PixelJob> pixels = photon_pixels(window, tiles[index], job.first_sample);
+        if (pixels.empty()) return;
+        job.pixels = pixels;
+        integrator_.trace_photons(world_, job, *worker.scratch, lists[index], counters[static_cast<std::size_t>(slot)]);
     });
     photon_counters_ = {};
     for (const RenderCounters& of_slot : counters) photon_counters_.add(of_slot);

@@ -106,7 +106,7 @@ class ProgressiveRender {
     /// Returns the bytes that all threads keep between tiles, without the tiles themselves; threads that had no tile
     /// keep none.
     [[nodiscard]] std::size_t scratch_bytes() const;
-    /// Returns the bytes of tiles under way and of splats that wait to be added, without layers.
+    /// Returns the bytes of tiles under way, of splats that wait to be added and of photons, without layers.
     [[nodiscard]] std::size_t tile_bytes() const;
     /// Moves the state out; nothing else may be called then.
     [[nodiscard]] RenderState take_state() { return std::move(state_); }

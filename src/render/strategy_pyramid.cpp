@@ -44,7 +44,8 @@ std::vector<StrategyImage> render_strategies(const World& world, const Integrato
 
 std::vector<ImagePart> strategy_parts(std::span<const StrategyImage> images) {
     std::vector<ImagePart> parts;
-    for (const auto& [strategy, rgba] : images) parts.push_back({fmt::format("s{}t{}", strategy.s, strategy.t), &rgba});
+    for (const auto& [strategy, rgba] : images)
+        parts.push_back({strategy == kMerges ? "merges" : fmt::format("s{}t{}", strategy.s, strategy.t), &rgba});
     return parts;
 }
 

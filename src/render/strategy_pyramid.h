@@ -7,6 +7,7 @@
 #include "render/render.h"
 
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace etendue {
@@ -20,15 +21,16 @@ struct StrategyImage {
     ImageF rgba;  ///< red, green, blue and alpha of the render's window
 };
 
-/// Renders each of `strategies` by itself, with the same random numbers: weighted ones add up to the image of `bdpt`.
-/// `progress` is told of all of them as of one render. Once `stop` is true, those are returned that are finished.
+/// Renders each of `strategies` by itself with the integrator that `integrator` names, which has strategies, and with
+/// the same random numbers: weighted ones add up to its image, for one that merges together with `kMerges`. `progress`
+/// is told of all of them as of one render. Once `stop` is true, those are returned that are finished.
 [[nodiscard]] std::vector<StrategyImage> render_strategies(const World& world, const IntegratorSettings& integrator,
                                                            std::span<const Strategy> strategies,
                                                            const RenderOptions& options, const ThreadPool& threads,
                                                            const std::atomic<bool>& stop,
                                                            const ProgressCallback& progress);
 
-/// A part of a file for each, named "s0t2" and so on, with the pixels of `images`.
+/// A part of a file for each, named "s0t2" and so on, or "merges", with the pixels of `images`.
 [[nodiscard]] std::vector<ImagePart> strategy_parts(std::span<const StrategyImage> images);
 
 }  // namespace etendue

@@ -33,6 +33,9 @@ struct Strategy {
     friend bool operator==(const Strategy&, const Strategy&) = default;
 };
 
+/// Stands for all merges (transport/merging.h), which are no strategies of bidirectional path tracing.
+inline constexpr Strategy kMerges{0, 0};
+
 /// Says which vertices of both subpaths merge.
 enum class MergeAt : std::uint8_t {
     Nothing,        ///< none: bidirectional path tracing without merging

@@ -79,7 +79,7 @@ std::vector<std::vector<LabelledImage>> make_rows(std::span<const StrategyImage>
 }  // namespace
 
 std::string strategy_label(const Strategy& strategy) {
-    return fmt::format("({},{})", strategy.s, strategy.t);
+    return strategy == kMerges ? "merges" : fmt::format("({},{})", strategy.s, strategy.t);
 }
 
 void check_strategies_request(const StrategiesRequest& request, const OutputPaths& image,
@@ -98,15 +98,16 @@ void check_strategies_request(const StrategiesRequest& request, const OutputPath
 void write_strategies_image(const StrategiesRequest& request, const World& world, const IntegratorSettings& integrator,
                             const RenderOptions& options, OutputFrame frame, const ColorConfig& colors,
                             PixelDepth depth, const ThreadPool& threads, const std::string& title, bool quiet) {
-    const PathLengths& lengths = integrator.lengths;
+    IntegratorSettings one = integrator;
+    one.weighted = request.weighted;
+    const PathLengths& lengths = one.lengths;
     const int longest = longest_shown(request, lengths);
     if (longest < lengths.max_depth && !quiet)
         log_warning("note: {} shows the strategies of paths of up to {} edges, of {}; --strategies-depth shows more",
                     request.output.string(), longest, lengths.max_depth);
-    IntegratorSettings one = integrator;
-    one.weighted = request.weighted;
     ProgressDisplay display(title + " strategies", quiet);
-    const std::vector<Strategy> wanted = shown_strategies(request, lengths);
+    std::vector<Strategy> wanted = shown_strategies(request, lengths);
+    if (find_integrator(one.type)->merges) wanted.push_back(kMerges);
     std::vector<StrategyImage> images =
         render_strategies(world, one, wanted, options, threads, interrupt_requested(),
                           [&](const RenderProgress& progress) { display.update(progress); });

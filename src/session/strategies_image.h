@@ -30,14 +30,14 @@ struct StrategiesRequest {
 void check_strategies_request(const StrategiesRequest& request, const OutputPaths& image,
                               const RenderSettings& settings, const RenderOptions& options, PixelDepth depth);
 
-/// Renders every strategy of bidirectional path tracing and writes an EXR with a part for each, named "s0t2" and so on,
-/// and a PNG with all of them labelled (s,t), a row for each length of path. `frame` says what is to be said of the
-/// image. Nothing is written if it is interrupted.
+/// Renders every strategy of the integrator of these settings, and its merges, if it has any, and writes an EXR with a
+/// part for each, named "s0t2" and so on, and a PNG with all of them labelled (s,t), a row for each length of path.
+/// `frame` says what is to be said of the image. Nothing is written if it is interrupted.
 void write_strategies_image(const StrategiesRequest& request, const World& world, const IntegratorSettings& integrator,
                             const RenderOptions& options, OutputFrame frame, const ColorConfig& colors,
                             PixelDepth depth, const ThreadPool& threads, const std::string& title, bool quiet);
 
-/// "(s,t)"
+/// "(s,t)", or "merges"
 [[nodiscard]] std::string strategy_label(const Strategy& strategy);
 
 }  // namespace etendue

@@ -93,6 +93,20 @@ Rgb light_connected(const SubpathSample& sample, const SubpathVertex& eye, const
            visibility(world, ray);
 }
 
+/// Returns the light that `eye` takes from photons around it.
+Rgb light_merged(const SubpathSample& sample, const SubpathVertex& eye, const PhotonMap& photons) {
+    const MergeKernel kernel{eye.position, eye.surface.geometric_normal, sample.mis.merging.radius(eye.position),
+                             eye.surface.clearance};
+    Rgb light;
+    photons.for_each_in(kernel, [&](const Photon& photon) {
+        if (!wants(sample, eye.next_edges - 1 + photon.edges)) return;
+        const auto scattered = eye.evaluate_both_ways(photon.direction, TransportMode::Radiance);
+        light += merged_light(sample.mis, eye, eye.throughput, photon, scattered) *
+                 sample.wavelength_weight(eye.is_dispersed || photon.is_dispersed);
+    });
+    return light;
+}
+
 /// Returns the light of t = 1: `light` is connected to the lens; black if the film does not show it.
 FilmLight light_at_lens(const SubpathSample& sample, const SubpathVertex& light) {
     const World& world = sample.world();
@@ -106,12 +120,20 @@ FilmLight light_at_lens(const SubpathSample& sample, const SubpathVertex& light)
     return vertex_to_camera(sample, light, *view, scattered.f_cos, weight(sums));
 }
 
+SubpathSample subpath_sample(const World& world, const EyeSample& eye, const IntegratorSettings& settings,
+                             const BidirectionalSetup& setup) {
+    return {{world, Raised{settings.heuristic}, setup.samples_per_light_path, setup.merging},
+            settings.lengths,
+            eye,
+            setup.shared};
+}
+
 }  // namespace
 
 BidirectionalLight bidirectional_light(const World& world, const EyeSample& eye_sample,
-                                       const IntegratorSettings& settings, double samples_per_light_path) {
+                                       const IntegratorSettings& settings, const BidirectionalSetup& setup) {
     const PathLengths& lengths = settings.lengths;
-    const SubpathSample sample{{world, Raised{settings.heuristic}, samples_per_light_path}, lengths, eye_sample};
+    const SubpathSample sample = subpath_sample(world, eye_sample, settings, setup);
     const SparedRays spared = spared_rays(lengths.roulette_depth);
 
     BidirectionalLight found;
@@ -138,7 +160,23 @@ BidirectionalLight bidirectional_light(const World& world, const EyeSample& eye_
     for (const SubpathVertex& at_eye : eye)
         for (const SubpathVertex& at_light : light) found.radiance += light_connected(sample, at_eye, at_light);
     for (const SubpathVertex& vertex : light) keep(light_at_lens(sample, vertex));
+    if (setup.photons != nullptr)
+        for (const SubpathVertex& vertex : eye)
+            if (vertex.merges) found.radiance += light_merged(sample, vertex, *setup.photons);
     return found;
+}
+
+std::vector<Photon> photons_of_sample(const World& world, const EyeSample& eye_sample,
+                                      const IntegratorSettings& settings, const BidirectionalSetup& setup) {
+    const SubpathSample sample = subpath_sample(world, eye_sample, settings, setup);
+    const std::optional<Subpath> from_light = begin_subpath_at_light(sample);
+    std::vector<Photon> photons;
+    if (!from_light || settings.lengths.max_depth < edges_to_connect(world) || is_black(from_light->emission->weight))
+        return photons;
+    for (const SubpathVertex& vertex :
+         follow_subpath(sample, *from_light, spared_rays(settings.lengths.roulette_depth).of_light))
+        if (vertex.merges) photons.push_back(make_photon(vertex, vertex.surface.geometric_normal));
+    return photons;
 }
 
 }  // namespace etendue

@@ -8,8 +8,8 @@ namespace etendue {
 Merging make_merging(const World& world, int width, int height, double light_paths, std::uint32_t sample,
                      const MergeSettings& options) {
     if (!world.has_lights() || (options.at == MergeAt::BetweenDeltas && !world.has_specular_surfaces())) return {};
-    // Radii of the scene's.
-    constexpr float kLeast = 1e-4f;
+    // In radii of the scene. Below the least, places are known too coarsely.
+    constexpr float kLeast = 1e-6f;
     constexpr float kMost = 0.02f;
     constexpr Vec2f kMiddle{0.5f, 0.5f};
     const Ray ray = world.generate_ray(kMiddle, kMiddle, 0.5f);

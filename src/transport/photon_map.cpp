@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 namespace etendue {
 
@@ -34,25 +35,28 @@ std::uint32_t hash_of_cell(int grid, std::int32_t x, std::int32_t y, std::int32_
 
 }  // namespace
 
-PhotonMap::PhotonMap(std::span<const std::vector<Photon>> lists, const MergeRadius& radius) : radius_(radius) {
+PhotonMap::PhotonMap(std::vector<std::vector<Photon>> lists, const MergeRadius& radius) : radius_(radius) {
     std::size_t total = 0;
     for (const std::vector<Photon>& list : lists) total += list.size();
     if (total == 0) return;
     mask_ = std::bit_ceil(static_cast<std::uint32_t>(total)) - 1;
     begin_.assign(static_cast<std::size_t>(mask_) + 2, 0);
-    std::vector<std::uint32_t> buckets;
-    buckets.reserve(total);
-    for (const std::vector<Photon>& list : lists)
-        for (const Photon& photon : list) {
-            buckets.push_back(bucket_of(photon.position));
-            ++begin_[buckets.back() + 1];
-        }
+    photons_.reserve(total);
+    for (std::vector<Photon>& list : lists) {
+        for (const Photon& photon : list) ++begin_[bucket_of(photon.position) + 1];
+        photons_.insert(photons_.end(), list.begin(), list.end());
+        list = {};
+    }
     for (std::size_t b = 1; b < begin_.size(); ++b) begin_[b] += begin_[b - 1];
-    photons_.resize(total);
+    // Each photon is swapped to the next free place of its bucket, until the one that lies here belongs here.
     std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
-    std::size_t which = 0;
-    for (const std::vector<Photon>& list : lists)
-        for (const Photon& photon : list) photons_[next[buckets[which++]]++] = photon;
+    for (std::uint32_t b = 0; b <= mask_; ++b)
+        while (next[b] < begin_[b + 1]) {
+            Photon& here = photons_[next[b]];
+            const std::uint32_t bucket = bucket_of(here.position);
+            if (bucket != b) std::swap(here, photons_[next[bucket]]);
+            ++next[bucket];
+        }
 }
 
 std::size_t PhotonMap::bytes() const {

@@ -16,9 +16,9 @@ namespace etendue {
 
 class PhotonMap {
   public:
-    /// Takes the photons of `lists`, one list after the other; where a kernel finds several, they come in this order,
-    /// bucket by bucket.
-    PhotonMap(std::span<const std::vector<Photon>> lists, const MergeRadius& radius);
+    /// Takes the photons of `lists`, and leaves nothing of each that it has taken, so that no photon is held twice.
+    /// Where a kernel finds several, their order depends on that of the lists alone.
+    PhotonMap(std::vector<std::vector<Photon>> lists, const MergeRadius& radius);
 
     [[nodiscard]] std::size_t size() const { return photons_.size(); }
     [[nodiscard]] std::size_t bytes() const;

@@ -52,14 +52,17 @@ void pass_through(Subpath& subpath, const Vertex& vertex) {
 }
 
 /// Goes on from a surface that the subpath has reached; false if it ends there.
-bool scatter_at_surface(const SubpathSample& sample, Subpath& subpath, const Vertex& vertex,
-                        const SubpathDensities& densities, int bounce, std::vector<SubpathVertex>& vertices) {
+bool scatter_at_surface(const SubpathSample& sample, Subpath& subpath, const Vertex& vertex, SubpathDensities densities,
+                        int bounce, std::vector<SubpathVertex>& vertices) {
     const bool is_pane = vertex.surface.material->is_pane;
     bool ends_here = subpath.edges >= sample.lengths.max_depth;
     if (ends_here && !is_pane) return false;
     subpath.is_dispersed = subpath.is_dispersed || vertex.chooses_wavelength;
-    if (vertex.has_non_delta() && !ends_here)
+    if (vertex.has_non_delta() && !ends_here) {
+        const bool merges = merge_at(sample.mis, subpath.departing, vertex.position, densities);
         vertices.push_back(make_vertex(subpath, vertex, densities, subpath.edges + 1));
+        vertices.back().merges = merges;
+    }
     // A light subpath needs one more edge to the camera, at least.
     if (subpath.end == SubpathEnd::AtLight)
         ends_here = ends_here || subpath.edges + edges_to_connect(sample.world()) > sample.lengths.max_depth;
@@ -135,7 +138,7 @@ std::vector<SubpathVertex> follow_subpath(const SubpathSample& sample, Subpath s
         } else {
             const float nanometres = subpath.is_dispersed ? sample.wavelength().nm : 0.0f;
             const Vertex surface = surface_vertex(world, subpath.ray, RayCone{}, subpath.interior, hit, nanometres,
-                                                  sample.eye.numbers.pair(kSubpathWavelengthDimension).x);
+                                                  sample.wavelength_number());
             const float cosine = abs_dot(subpath.ray.direction, surface.surface.geometric_normal);
             const SubpathDensities densities = densities_at(sample, subpath, surface.position, cosine);
             if (arrive) arrive(subpath, surface, densities);

@@ -26,6 +26,8 @@ struct SubpathSample {
     MisContext mis;
     const PathLengths& lengths;
     const EyeSample& eye;
+    /// Key of the numbers that samples share if they merge, in place of the sample's own.
+    std::optional<SampleKey> shared{};
 
     [[nodiscard]] const World& world() const { return mis.world; }
     /// Returns a pair of numbers for `bounce` of a subpath, 0 where it begins.
@@ -36,10 +38,13 @@ struct SubpathSample {
     [[nodiscard]] std::uint32_t connection_key(SubpathEnd end, int index) const {
         return ~eye.numbers.bits(subpath_dimension(end, index, SubpathDimension::Alpha));
     }
-    /// Returns the wavelength that the sample's path takes where a body disperses light.
-    [[nodiscard]] Wavelength wavelength() const {
-        return world().spectral_response().sample(eye.numbers.pair(kSubpathWavelengthDimension).x);
+    /// Returns the number in [0, 1) that chooses the sample's wavelength.
+    [[nodiscard]] float wavelength_number() const {
+        const SampleNumbers numbers{eye.numbers.sequence, shared.value_or(eye.numbers.key)};
+        return numbers.pair(kSubpathWavelengthDimension).x;
     }
+    /// Returns the wavelength that the sample's path takes where a body disperses light.
+    [[nodiscard]] Wavelength wavelength() const { return world().spectral_response().sample(wavelength_number()); }
     [[nodiscard]] Rgb wavelength_weight(bool is_dispersed) const {
         return is_dispersed ? wavelength().weight : Rgb(1.0f);
     }
@@ -75,6 +80,7 @@ struct SubpathVertex : Vertex {
     int index = 1;               ///< vertices before it
     int next_edges = 1;          ///< edges of the path when a ray from here has hit
     bool is_dispersed = false;
+    bool merges = false;  ///< other subpaths from the other end may merge with this one here
 };
 
 /// Hears where the ray of a subpath has led, and with which densities if that is a surface.

@@ -3,12 +3,30 @@
 
 #include "transport/photon_map.h"
 #include "wave/aov/path_words.h"
+#include "wave/tile_job.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
 namespace etendue {
+
+/// Bounds the light subpaths of one index, and with them the memory of photons, whatever the size of the image.
+inline constexpr std::size_t kMostPhotonPaths = std::size_t{1} << 20u;
+
+/// Returns the step between the pixels of `window`, counted row by row from the first one, whose light subpaths leave
+/// photons.
+[[nodiscard]] inline std::size_t photon_step(const PixelRect& window) {
+    return (window.area() + kMostPhotonPaths - 1) / kMostPhotonPaths;
+}
+/// Returns how many pixels of `window` have light subpaths that leave photons.
+[[nodiscard]] inline std::size_t photon_paths(const PixelRect& window) {
+    const std::size_t step = photon_step(window);
+    return (window.area() + step - 1) / step;
+}
+/// Returns those pixels of `window` that lie in `tile`, a part of it, each with its sample `sample`.
+[[nodiscard]] std::vector<PixelJob> photon_pixels(const PixelRect& window, const PixelRect& tile, std::uint32_t sample);
 
 /// Holds the photons of a few light subpaths, with their words.
 struct PhotonList {
@@ -27,7 +45,7 @@ struct PhotonList {
 /// Holds the photons of one sample of every pixel.
 class SharedPhotons {
   public:
-    /// Takes the photons of `lists` in their order.
+    /// Takes the photons of `lists` in their order, and leaves them empty.
     SharedPhotons(std::span<PhotonList> lists, const MergeRadius& radius);
 
     [[nodiscard]] const PhotonMap& map() const { return map_; }

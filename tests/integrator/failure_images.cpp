@@ -31,7 +31,7 @@ void write_pyramid(const std::filesystem::path& path, const AgreementCase& agree
     const ThreadPool this_thread(1);
     const std::atomic<bool> stop{false};
     const std::vector<StrategyImage> images =
-        render_strategies(world, {.lengths = agreement.lengths},
+        render_strategies(world, {.type = "bdpt", .lengths = agreement.lengths},
                           strategies_between(agreement.lengths.min_depth, agreement.lengths.max_depth),
                           render_options(agreement), this_thread, stop, {});
     write_image_parts(path, strategy_parts(images), {.depth = PixelDepth::Float});

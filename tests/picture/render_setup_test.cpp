@@ -40,6 +40,21 @@ TEST(IneffectiveSettings, OptionsOfAdaptiveSamplingNeedAnError) {
     EXPECT_TRUE(ineffective_settings(settings, false).empty());
 }
 
+TEST(IneffectiveSettings, WhatMergesIsNotAdaptive) {
+    RenderSettings settings;
+    settings.integrator.type = "vcm";
+    settings.relative_error = 0.1;
+    EXPECT_FALSE(make_render_options(settings).adaptive);
+    EXPECT_TRUE(ineffective_settings(settings, false).empty()) << "nobody has asked for it";
+    settings.options = {{"/min_spp", "--min-spp"}, {"/adaptive", "--adaptive"}};
+    const std::vector<std::string> notes = ineffective_settings(settings, false);
+    ASSERT_EQ(notes.size(), 2u);
+    EXPECT_EQ(notes[0].find("--adaptive has no effect with 'vcm': samples merge"), 0u) << notes[0];
+    EXPECT_EQ(notes[1].find("--min-spp has no effect with 'vcm': samples merge"), 0u) << notes[1];
+    settings.integrator.type = "bdpt";
+    EXPECT_TRUE(ineffective_settings(settings, false).empty());
+}
+
 TEST(IneffectiveSettings, OptionsOfStrategiesNeedStrategies) {
     RenderSettings settings;
     settings.integrator = {.type = "path", .heuristic = Heuristic::Power, .cached_connections = 2};

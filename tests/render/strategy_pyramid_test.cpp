@@ -67,12 +67,44 @@ TEST(RenderStrategies, WeightedOnesAddUpToTheImage) {
     EXPECT_EQ(parts[4].image->channels, 4);
 }
 
+TEST(RenderStrategies, OfWhatMergesAddUpWithTheMerges) {
+    SceneDesc scene = empty_scene();
+    add_object(scene, quad({0, -0.6f, -3}, {1.2f, 0, 0}, {0, 0, -1.2f}), add_material(scene, diffuse(Rgb(0.7f))));
+    add_object(scene, quad({0, 0.6f, -3}, {0.4f, 0, 0}, {0, 0, 0.4f}), add_material(scene, emissive(Rgb(6.0f))));
+    MaterialDesc glass;
+    glass.override_model = DielectricDesc{1.5f, 0.0f};
+    add_object(scene, sphere({0, -0.05f, -3}, 0.5f, 16), add_material(scene, glass));
+    add_object(scene, sphere({0, -0.05f, -3}, 0.35f, 16), add_material(scene, diffuse(Rgb(0.6f))));
+    const World world = compile(std::move(scene));
+    const ThreadPool threads(2);
+    const std::atomic<bool> stop{false};
+    const RenderOptions options = whole_image(24, 16, 4);
+    const IntegratorSettings integrator{.type = "vcm", .lengths = {.max_depth = 6}};
+    std::vector<Strategy> strategies = strategies_between(1, 6);
+    strategies.push_back(kMerges);
+    const std::vector<StrategyImage> images =
+        render_strategies(world, integrator, strategies, options, threads, stop, {});
+    const std::vector<float> whole =
+        render(world, *make_integrator("vcm", integrator), options, threads, stop, {}).film.resolve();
+    double merged = 0.0;
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+        if (i % 4 == 3) continue;  // alpha
+        double sum = 0.0;
+        for (const StrategyImage& image : images) sum += static_cast<double>(image.rgba.pixels[i]);
+        EXPECT_NEAR(sum, static_cast<double>(whole[i]), 1e-4 * (1.0 + sum)) << i;
+        merged += static_cast<double>(images.back().rgba.pixels[i]);
+    }
+    EXPECT_GT(merged, 0.1);
+    EXPECT_EQ(strategy_parts(images).back().name, "merges");
+}
+
 TEST(RenderStrategies, AStopLeavesThoseThatAreFinished) {
     const ThreadPool threads(1);
     const World world = lamp_above_floor();
     std::atomic<bool> stop{false};
-    const auto images = render_strategies(world, {}, strategies_between(1, 3), whole_image(8, 8, 1), threads, stop,
-                                          [&](const RenderProgress& progress) { stop = progress.fraction > 0.3; });
+    const auto images =
+        render_strategies(world, {.type = "bdpt"}, strategies_between(1, 3), whole_image(8, 8, 1), threads, stop,
+                          [&](const RenderProgress& progress) { stop = progress.fraction > 0.3; });
     EXPECT_GE(images.size(), 1u);
     EXPECT_LT(images.size(), 8u);
 }

@@ -17,7 +17,8 @@ struct OracleRun {
     std::uint32_t light_samples = 1;
     Heuristic heuristic = Heuristic::Balance;
     SampleSequence sequence = SampleSequence::Sobol;
-    int width = 24;  ///< pixels
+    MergeAt merge = MergeAt::BetweenDeltas;  ///< of vcm
+    int width = 24;                          ///< pixels
     int height = 24;
     std::uint32_t samples = 8;  ///< of each pixel
 };
@@ -29,7 +30,9 @@ struct OracleComparison {
     std::size_t differing = 0;  ///< by more than rounding
     std::size_t splats = 0;
     std::size_t splats_alone = 0;  ///< that only one of the two has
-    std::string first;             ///< of these: where it is, and what both have found
+    std::size_t photons = 0;
+    std::size_t photons_alone = 0;  ///< that only one of the two has
+    std::string first;              ///< of these: where it is, and what both have found
 };
 std::ostream& operator<<(std::ostream& out, const OracleComparison& comparison);
 

@@ -1,6 +1,7 @@
 // Photons are found by place, each once.
 #include "transport/photon_map.h"
 
+#include "sampling/warp.h"
 #include "support/random.h"
 
 #include <cstddef>
@@ -24,8 +25,8 @@ std::vector<std::vector<Photon>> some_photons(Random& random, std::size_t lists,
             // On a plane, as kernels are thin.
             const Vec2f place = random.next_2d();
             list.push_back({.position{8.0f * place.x - 4.0f, 0.0f, 8.0f * place.y - 4.0f},
-                            .normal{0, 1, 0},
-                            .edges = static_cast<std::int32_t>(i)});
+                            .edges = static_cast<std::int32_t>(i),
+                            .normal = CoarseDirection({0, 1, 0})});
         }
     return photons;
 }
@@ -60,11 +61,27 @@ TEST(PhotonMap, OfNoPhotonsFindsNone) {
 
 TEST(MergeKernel, TakesWhatLiesOnItsSurface) {
     const MergeKernel kernel{{0, 0, 0}, {0, 1, 0}, 1.0f};
-    EXPECT_TRUE(kernel.contains({.position{0.9f, 0, 0}, .normal{0, 1, 0}}));
-    EXPECT_FALSE(kernel.contains({.position{1.1f, 0, 0}, .normal{0, 1, 0}})) << "too far";
-    EXPECT_FALSE(kernel.contains({.position{0, 0.2f, 0}, .normal{0, 1, 0}})) << "another surface above";
-    EXPECT_FALSE(kernel.contains({.position{0.1f, 0, 0}, .normal{1, 0, 0}})) << "around a corner";
-    EXPECT_FALSE(kernel.contains({.position{0.1f, 0, 0}, .normal{0, -1, 0}})) << "the other side of a thin wall";
+    const CoarseDirection up({0, 1, 0});
+    EXPECT_TRUE(kernel.contains({.position{0.9f, 0, 0}, .normal = up}));
+    EXPECT_FALSE(kernel.contains({.position{1.1f, 0, 0}, .normal = up})) << "too far";
+    EXPECT_FALSE(kernel.contains({.position{0, 0.2f, 0}, .normal = up})) << "another surface above";
+    EXPECT_FALSE(kernel.contains({.position{0.1f, 0, 0}, .normal = CoarseDirection({1, 0, 0})})) << "around a corner";
+    EXPECT_FALSE(kernel.contains({.position{0.1f, 0, 0}, .normal = CoarseDirection({0, -1, 0})}))
+        << "the other side of a thin wall";
+    MergeKernel moved = kernel;
+    moved.radius = 1e-3f;
+    EXPECT_FALSE(moved.contains({.position{0, 2e-4f, 0}, .normal = up}));
+    moved.clearance = 1e-4f;
+    EXPECT_TRUE(moved.contains({.position{0, 2e-4f, 0}, .normal = up})) << "rounding is no other surface";
+}
+
+TEST(CoarseDirection, TellsCosines) {
+    Random random(2);
+    for (int i = 0; i < 1000; ++i) {
+        const Vec3f a = square_to_sphere(random.next_2d());
+        const Vec3f b = square_to_sphere(random.next_2d());
+        ASSERT_NEAR(CoarseDirection(a).cosine(b), dot(a, b), 0.01f);
+    }
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ std::unique_ptr<IntegratorScratch> BdptIntegrator::make_scratch() const {
 }
 
 Merging BdptIntegrator::merging(const World& world, const TileJob& job) const {
-    return make_merging(world, job.full_width, job.full_height, static_cast<double>(job.window.area()),
+    return make_merging(world, job.full_width, job.full_height, static_cast<double>(photon_paths(job.window)),
                         job.first_sample, merging_);
 }
 

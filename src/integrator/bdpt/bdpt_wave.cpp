@@ -86,7 +86,7 @@ void BdptWave::trace(const World& world, const TileJob& job, const IntegratorSet
             resolve_if_full(camera_connections_);
             resolve_if_full(wide_camera_connections_);
         }
-        if (job.photons != nullptr && !settings.strategy) merge(context);
+        if (job.photons != nullptr && context.wants(kMerges)) merge(context);
         for (Connections* connections : {&light_connections_, &wide_light_connections_, &vertex_connections_,
                                          &wide_vertex_connections_, &camera_connections_, &wide_camera_connections_})
             connections->resolve(world, job, samples_, found_, tile, counters);
@@ -106,15 +106,7 @@ void BdptWave::trace_photons(const World& world, const TileJob& job, const Integ
                               samples_, camera_rays_, job.merging};
     light_.trace(subpaths, spared_rays(settings.lengths.roulette_depth).of_light, nullptr, found_, counters);
     for (const PathVertex& vertex : light_.vertices())
-        if (vertex.merges)
-            photons.add({.position = vertex.position,
-                         .direction = vertex.wo,
-                         .normal = vertex.geometric_normal,
-                         .throughput = vertex.throughput,
-                         .densities = vertex.densities,
-                         .edges = vertex.next_edges - 1,
-                         .is_dispersed = vertex.is_dispersed ? 1u : 0u},
-                        light_.words(), vertex.words);
+        if (vertex.merges) photons.add(make_photon(vertex, vertex.geometric_normal), light_.words(), vertex.words);
     stamp(job.profile, Stage::Material);
 }
 
@@ -124,13 +116,13 @@ void BdptWave::merge(const Context& context) {
     for (std::uint32_t v = 0; v < eye_.vertices().size(); ++v) {
         if (!eye_.vertices()[v].merges) continue;
         const PathVertex& eye = eye_.whole(v);
-        const MergeKernel kernel{eye.position, eye.geometric_normal, mis.merging.radius(eye.position)};
+        const MergeKernel kernel{eye.position, eye.geometric_normal, mis.merging.radius(eye.position), eye.clearance};
         photons.map().for_each_in(kernel, [&](const Photon& photon) {
             if (!context.wants(eye.next_edges - 1 + photon.edges)) return;
             const auto scattered = eye.evaluate_both_ways(photon.direction, TransportMode::Radiance);
             if (is_black(scattered.f_cos)) return;
-            const Rgb light = merged_light(mis, eye, eye.throughput, photon, scattered) *
-                              context.wavelength_weight(eye.slot, eye.is_dispersed || photon.is_dispersed != 0);
+            const Rgb light = merged_light(mis, eye, eye.throughput, photon, scattered, context.options.weighted) *
+                              context.wavelength_weight(eye.slot, eye.is_dispersed || photon.is_dispersed);
             shares_.clear();
             if (eye_.words().are_followed())
                 eye_.words().join(eye_.words_after(eye, photon.direction), photons.words(),

@@ -41,7 +41,7 @@ bool SubpathWave::make_vertex(const SubpathJob& job, std::size_t i, ShadedSubpat
     vertex.densities = path.arrived;
     vertex.next_edges = state.edges + 1;
     place(world, path, relative_ior, vertex);
-    if (vertex.is_connectible) {
+    if (vertex.is_connectible && !path.ends_here) {
         vertex.merges = merge_at(job.mis(), state.departing, vertex.position, path.arrived);
         vertex.densities = path.arrived;
     }

@@ -5,9 +5,11 @@
 #include "integrator/bdpt/bdpt_integrator.h"
 #include "integrator/bdpt/render_bdpt.h"
 #include "support/chi2.h"
+#include "wave/aov/layered_render.h"
 #include "world/test_scene.h"
 
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <string>
 #include <tuple>
@@ -23,33 +25,54 @@ constexpr int kPlateSize = 32;
 constexpr float kPlateThickness = 0.02f;
 constexpr float kIor = 1.5f;
 
+/// A body between two heights.
+void add_slab(SceneDesc& scene, float bottom, float top, const MaterialDesc& filling) {
+    const Handle<MaterialDesc> material = add_material(scene, filling);
+    const float middle = 0.5f * (bottom + top);
+    const Vec3f up{0, 0.5f * (top - bottom), 0};
+    std::vector<PrimitiveDesc> faces = {
+        quad({0, top, 0}, {0, 0, 2}, {2, 0, 0}), quad({0, bottom, 0}, {2, 0, 0}, {0, 0, 2}),
+        quad({2, middle, 0}, up, {0, 0, 2}),     quad({-2, middle, 0}, {0, 0, 2}, up),
+        quad({0, middle, 2}, {2, 0, 0}, up),     quad({0, middle, -2}, up, {2, 0, 0})};
+    for (PrimitiveDesc& face : faces) face.material = material;
+    place(scene, add_mesh(scene, faces), Mat4f());
+}
+
+/// Has the camera look straight down from `height`.
+void look_down(SceneDesc& scene, float height, float camera_width) {
+    CameraDesc& camera = scene.cameras[0];
+    camera.type = CameraType::Orthographic;
+    camera.ymag = 0.5f * camera_width;
+    camera.to_world = looking_down(0.5f * std::numbers::pi_v<float>) * translation({0, height, 0});
+    scene.settings.film.width = scene.settings.film.height = kPlateSize;
+}
+
+double mean_of_render(const World& world, const Integrator& integrator, std::uint32_t spp, int size = kPlateSize) {
+    const ThreadPool threads;
+    const std::atomic<bool> stop{false};
+    return mean_of(render(world, integrator, whole_image(size, size, spp, 3), threads, stop, {}).film.resolve());
+}
+
 /// A grey floor, a plate of glass above it, and above that a spot and a camera that look straight down.
 SceneDesc plate_over_floor(float camera_width) {
     SceneDesc scene = empty_scene();
     add_object(scene, quad({0, 0, 0}, {0, 0, 4}, {4, 0, 0}), add_material(scene, diffuse(Rgb(0.5f))));
-    const Handle<MaterialDesc> plate = add_material(scene, glass(0.0f));
-    const float top = 1.0f + 0.5f * kPlateThickness;
-    const float bottom = 1.0f - 0.5f * kPlateThickness;
-    const std::vector<PrimitiveDesc> faces = {quad({0, top, 0}, {0, 0, 2}, {2, 0, 0}),
-                                              quad({0, bottom, 0}, {2, 0, 0}, {0, 0, 2}),
-                                              quad({2, 1, 0}, {0, 0.5f * kPlateThickness, 0}, {0, 0, 2}),
-                                              quad({-2, 1, 0}, {0, 0, 2}, {0, 0.5f * kPlateThickness, 0}),
-                                              quad({0, 1, 2}, {2, 0, 0}, {0, 0.5f * kPlateThickness, 0}),
-                                              quad({0, 1, -2}, {0, 0.5f * kPlateThickness, 0}, {2, 0, 0})};
-    std::vector<PrimitiveDesc> body = faces;
-    for (PrimitiveDesc& face : body) face.material = plate;
-    place(scene, add_mesh(scene, body), Mat4f());
+    add_slab(scene, 1.0f - 0.5f * kPlateThickness, 1.0f + 0.5f * kPlateThickness, glass(0.0f));
     LightDesc spot =
         light(LightType::Spot, 10.0f, looking_down(0.5f * std::numbers::pi_v<float>) * translation({0, 2, 0}));
     spot.inner_cone_angle = 0.15f;
     spot.outer_cone_angle = 0.16f;
     scene.lights.push_back(spot);
-    CameraDesc& camera = scene.cameras[0];
-    camera.type = CameraType::Orthographic;
-    camera.ymag = 0.5f * camera_width;
-    camera.to_world = looking_down(0.5f * std::numbers::pi_v<float>) * translation({0, 3, 0});
-    scene.settings.film.width = scene.settings.film.height = kPlateSize;
+    look_down(scene, 3.0f, camera_width);
     return scene;
+}
+
+/// What the plate's floor sends to the eye.
+double light_through_plate() {
+    const double fresnel = std::pow((static_cast<double>(kIor) - 1.0) / (static_cast<double>(kIor) + 1.0), 2.0);
+    const double passes = std::pow(1.0 - fresnel, 2.0);
+    const double distance = 2.0 - static_cast<double>(kPlateThickness) * (1.0 - 1.0 / static_cast<double>(kIor));
+    return 10.0 / (distance * distance) * passes * passes * 0.5 / std::numbers::pi;
 }
 
 // No other path of six edges reaches the eye: light goes through the plate, is scattered by the floor, and goes through
@@ -57,21 +80,140 @@ SceneDesc plate_over_floor(float camera_width) {
 // nearer.
 TEST(Merging, FindsWhatASpotSendsThroughAPlateTwice) {
     const World world = compile(plate_over_floor(0.2f));
-    const double fresnel = std::pow((static_cast<double>(kIor) - 1.0) / (static_cast<double>(kIor) + 1.0), 2.0);
-    const double passes = std::pow(1.0 - fresnel, 2.0);
-    const double distance = 2.0 - static_cast<double>(kPlateThickness) * (1.0 - 1.0 / static_cast<double>(kIor));
-    const double expected = 10.0 / (distance * distance) * passes * passes * 0.5 / std::numbers::pi;
+    const double expected = light_through_plate();
     const auto mean = [&](MergeAt merge) {
-        const BdptIntegrator integrator({.lengths = {.max_depth = 6}}, nullptr, {.at = merge});
-        const ThreadPool threads;
-        const std::atomic<bool> stop{false};
-        RenderOptions render_options = whole_image(kPlateSize, kPlateSize, 32, 3);
-        return mean_of(render(world, integrator, render_options, threads, stop, {}).film.resolve());
+        return mean_of_render(world, BdptIntegrator({.lengths = {.max_depth = 6}}, nullptr, {.at = merge}), 32);
     };
     // The eye sees a part in which irradiance differs by 1%; counts of some ten thousand photons vary by as much.
     EXPECT_NEAR(mean(MergeAt::BetweenDeltas), expected, 0.02 * expected);
     EXPECT_NEAR(mean(MergeAt::Everywhere), expected, 0.02 * expected);
     EXPECT_EQ(mean(MergeAt::Nothing), 0.0);
+}
+
+TEST(Merging, BoundsThePhotonsOfLargeImages) {
+    constexpr int kSize = 1100;
+    const PixelRect window{0, 0, kSize, kSize};
+    EXPECT_EQ(photon_step(window), 2u);
+    EXPECT_EQ(photon_paths(window), window.area() / 2);
+    EXPECT_EQ(photon_paths({0, 0, kPlateSize, kPlateSize}), 1024u);
+    std::size_t pixels = 0;
+    for (const PixelRect& tile : {PixelRect{0, 0, 333, kSize}, PixelRect{333, 0, kSize, kSize}})
+        pixels += photon_pixels(window, tile, 0).size();
+    EXPECT_EQ(pixels, photon_paths(window));
+    const World world = compile(plate_over_floor(0.2f));
+    const BdptIntegrator integrator({.lengths = {.max_depth = 6, .min_depth = 6}}, nullptr, {.radius = 20.0f});
+    RenderOptions options = whole_image(kSize, kSize, 1, 3);
+    options.window = {kSize / 2 - 32, kSize / 2 - 32, kSize / 2 + 32, kSize / 2 + 32};
+    options.splat_window = window;
+    const std::atomic<bool> stop{false};
+    const Film part = render(world, integrator, options, ThreadPool(), stop, {}).film;
+    const double expected = light_through_plate();
+    EXPECT_NEAR(mean_of(part.resolve()), expected, 0.05 * expected);
+}
+
+constexpr float kWater = 1.33f;
+constexpr float kDepth = 0.5f;
+constexpr float kSeen = 1.2f;
+
+/// A grey floor under smooth water, below a lamp at `height` of 10 W/sr: a point, or a small square.
+World pool(bool is_point, float height) {
+    SceneDesc scene = empty_scene();
+    add_object(scene, quad({0, 0, 0}, {0, 0, 1.9f}, {1.9f, 0, 0}), add_material(scene, diffuse(Rgb(0.5f))));
+    MaterialDesc water;
+    water.override_model = DielectricDesc{.ior = kWater, .roughness = 0.0f};
+    add_slab(scene, -0.1f, kDepth, water);
+    if (is_point) {
+        scene.lights.push_back(light(LightType::Point, 10.0f, translation({0, height, 0})));
+    } else {
+        constexpr float kHalf = 5e-3f;
+        add_object(scene, quad({0, height, 0}, {kHalf, 0, 0}, {0, 0, kHalf}),
+                   add_material(scene, emissive(Rgb(10.0f / (4.0f * kHalf * kHalf)))));
+    }
+    look_down(scene, height - 0.5f, kSeen);
+    return compile(std::move(scene));
+}
+
+/// Share of light that water takes in at `theta`.
+double taken_in(double theta) {
+    const auto n = static_cast<double>(kWater);
+    const double below = std::asin(std::sin(theta) / n);
+    const double s = (std::cos(theta) - n * std::cos(below)) / (std::cos(theta) + n * std::cos(below));
+    const double p = (n * std::cos(theta) - std::cos(below)) / (n * std::cos(theta) + std::cos(below));
+    return 1.0 - 0.5 * (s * s + p * p);
+}
+
+/// Light from the floor of `pool`, as it is seen from above, in the mean over a square of this width: what leaves the
+/// lamp at an angle arrives on a ring, and what comes out of the water has lost n² of its radiance.
+double light_of_pool(bool is_point, double height, double width) {
+    const auto n = static_cast<double>(kWater);
+    const auto ring = [&](double theta) {
+        return (height - static_cast<double>(kDepth)) * std::tan(theta) +
+               static_cast<double>(kDepth) * std::tan(std::asin(std::sin(theta) / n));
+    };
+    const auto irradiance = [&](double radius) {
+        double low = 0.0;
+        double high = 1.2;
+        while (high - low > 1e-9) (ring(0.5 * (low + high)) < radius ? low : high) = 0.5 * (low + high);
+        constexpr double kStep = 1e-5;
+        const double wider = (ring(low + kStep) - ring(low)) / kStep;
+        return 10.0 * (is_point ? 1.0 : std::cos(low)) * taken_in(low) * std::sin(low) / (radius * wider);
+    };
+    constexpr int kCells = 32;
+    double sum = 0.0;
+    for (int y = 0; y < kCells; ++y)
+        for (int x = 0; x < kCells; ++x)
+            sum += irradiance(width * std::hypot((x + 0.5) / kCells - 0.5, (y + 0.5) / kCells - 0.5));
+    return sum / (kCells * kCells) * taken_in(0.0) * 0.5 / std::numbers::pi / (n * n);
+}
+
+TEST(Merging, ShowsTheFloorOfAPoolUnderAPointAsUnderASmallLamp) {
+    constexpr float kHeight = 2.0f;
+    const BdptIntegrator merging({.lengths = {.max_depth = 4, .min_depth = 4}}, nullptr, {});
+    for (const bool is_point : {true, false}) {
+        const double expected = light_of_pool(is_point, static_cast<double>(kHeight), static_cast<double>(kSeen));
+        EXPECT_NEAR(mean_of_render(pool(is_point, kHeight), merging, 160), expected, 0.03 * expected)
+            << (is_point ? "point" : "lamp");
+    }
+}
+
+/// A quad within a ball of glass below a large lamp, in a closed room.
+World quad_in_ball() {
+    SceneDesc scene = empty_scene();
+    add_object(scene, sphere({0, 0, 0}, 0.5f, 24), add_material(scene, glass(0.0f)));
+    add_object(scene, quad({0, 0, 0}, {0, 0, 0.25f}, {0.25f, 0, 0}), add_material(scene, diffuse(Rgb(0.8f))));
+    add_object(scene, quad({0, -1, 0}, {0, 0, 2}, {2, 0, 0}), add_material(scene, diffuse(Rgb(0.5f))));
+    add_object(scene, quad({0, 1.5f, 0}, {2, 0, 0}, {0, 0, 2}), add_material(scene, emissive(Rgb(1.0f))));
+    look_down(scene, 1.0f, 0.3f);
+    return compile(std::move(scene));
+}
+
+TEST(Merging, KeepsTheEnergyOfLightThatEyePathsMeetByChance) {
+    const World world = quad_in_ball();
+    const PathLengths lengths{.max_depth = 8, .min_depth = 4};
+    const double expected = mean_of_render(world, *make_integrator("naive", {.lengths = lengths}), 256);
+    for (const Heuristic heuristic : {Heuristic::Balance, Heuristic::Power}) {
+        const BdptIntegrator merging({.lengths = lengths, .heuristic = heuristic}, nullptr, {});
+        EXPECT_NEAR(mean_of_render(world, merging, 96), expected, 0.01 * expected);
+    }
+}
+
+TEST(Merging, IsInTheLayersOfItsPaths) {
+    AgreementCase plate{.name = "Plate", .make = [](SceneDesc&) {}, .window = {0, 0, kPlateSize, kPlateSize}, .spp = 4};
+    const World world = compile(plate_over_floor(0.2f));
+    const BdptIntegrator merging({.lengths = {.max_depth = 6}}, nullptr, {});
+    RenderOptions options = whole_image(kPlateSize, kPlateSize, 4, 3);
+    options.aovs = std::make_shared<AovSet>(expression_layers(plate, {"C S+ D S+ L", "C D S+ L", "C <TS>+ D .* L"}));
+    const std::atomic<bool> stop{false};
+    const Film film = render(world, merging, options, ThreadPool(), stop, {}).film;
+    const std::vector<float> image = film.resolve();
+    const std::vector<float> caustic = film.resolve_light(0);
+    const std::vector<float> transmitted = film.resolve_light(2);
+    EXPECT_GT(mean_of(image), 0.1);
+    for (std::size_t i = 0; i < caustic.size(); ++i) {
+        EXPECT_FLOAT_EQ(caustic[i], image[i / 3 * 4 + i % 3]);
+        EXPECT_FLOAT_EQ(transmitted[i], image[i / 3 * 4 + i % 3]);
+    }
+    for (const float value : film.resolve_light(1)) EXPECT_EQ(value, 0.0f);
 }
 
 /// A room, where subpaths merge, and the heuristic.

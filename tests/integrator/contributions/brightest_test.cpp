@@ -182,6 +182,28 @@ TEST(BrightestPaths, SayWhichStrategyIsToBlame) {
     EXPECT_EQ(brightest("light").t, 1);
 }
 
+/// Samples that merge share their wavelength with all others: those are traced again with the same.
+TEST(BrightestPaths, AreFoundWhereSubpathsMergeButForTheMerged) {
+    SceneDesc scene = empty_scene();
+    DielectricDesc prism{1.5f, 0.0f};
+    prism.volume.dispersion = 4.0f;
+    MaterialDesc glass;
+    glass.override_model = prism;
+    add_object(scene, sphere({0.0f, -0.2f, -3.0f}, 0.35f, 24), add_material(scene, glass));
+    add_object(scene, quad({0, -0.6f, -3}, {1.2f, 0, 0}, {0, 0, -1.2f}), add_material(scene, diffuse(Rgb(0.7f))));
+    add_object(scene, quad({0, 1.1f, -3}, {0.08f, 0, 0}, {0, 0, 0.08f}), add_material(scene, emissive(Rgb(200.0f))));
+    const World world = compile(std::move(scene));
+    RenderOptions options = whole_image(48, 36, 16);
+    options.brightest = 64;
+    const auto integrator = make_integrator("vcm", {});
+    const std::atomic<bool> stop{false};
+    RenderResult result = render(world, *integrator, options, ThreadPool(2), stop, {});
+    find_brightest_paths(world, *integrator, options, result);
+    std::size_t found = 0;
+    for (const BrightSample& sample : result.counters.brightest.samples()) found += sample.has_path() ? 1 : 0;
+    EXPECT_GT(found, 48u) << "the merged are few";
+}
+
 BrightSample bright(int x, int y, float value, std::uint32_t sample = 0) {
     return {.x = x, .y = y, .sample = sample, .value = Rgb(value)};
 }

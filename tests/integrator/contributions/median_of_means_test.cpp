@@ -72,7 +72,7 @@ TEST_P(MedianOfMeansRender, ComesToTheTruthWithMoreSamples) {
     EXPECT_LT(error(384), 0.6 * more);
 }
 
-INSTANTIATE_TEST_SUITE_P(Integrators, MedianOfMeansRender, testing::Values("path", "light", "bdpt"),
+INSTANTIATE_TEST_SUITE_P(Integrators, MedianOfMeansRender, testing::Values("path", "light", "bdpt", "vcm"),
                          [](const auto& each) { return each.param; });
 
 }  // namespace

@@ -30,6 +30,7 @@ std::vector<RoomRun> rooms_of_all_kinds() {
             if (std::ranges::find(agreement_case(name).integrators, integrator) ==
                 std::ranges::end(agreement_case(name).integrators))
                 rooms.push_back({name, integrator});
+    rooms.push_back({"SmoothGlass", "vcm"});
     return rooms;
 }
 
