@@ -138,7 +138,7 @@ std::unique_ptr<const Integrator> create_integrator(const RenderSettings& settin
     if (!integrator)
         throw SceneError(settings.at("/integrator/type"),
                          fmt::format("no integrator is named '{}'; {}", s.type, name_hint(s.type, names)));
-    if (s.strategy) require_strategies(settings, settings.at("/transport/strategy"));
+    if (s.strategy) require_strategies(settings, settings.at("/integrator/strategy"));
     return integrator;
 }
 

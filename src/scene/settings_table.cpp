@@ -420,7 +420,7 @@ constexpr std::array kRows{
             .help = "How `bdpt` weighs its strategies: `balance`, or `power` with the exponent 2",
             .place = named_at<kHeuristicNames>([](auto& s) -> auto& { return s.integrator.heuristic; })},
     Setting{
-        .pointer = "/transport/strategy",
+        .pointer = "/integrator/strategy",
         .option = "--strategy",
         .type = WholeNumbers{{0, kMostInt}, 2, 2, ',', "S,T, the vertices from the light and the eye"},
         .decides = Decides::Samples,
@@ -437,7 +437,7 @@ constexpr std::array kRows{
         .help = "Whether the paths of the strategy are weighted by multiple importance sampling; if not, they show as "
                 "if no other strategy made them",
         .place = at([](auto& s) -> auto& { return s.integrator.weighted; })},
-    Setting{.pointer = "/wave/connections",
+    Setting{.pointer = "/integrator/connections",
             .option = "--bdpt-connections",
             .type = Form{kConnectionsForm, "^(pairwise|cache:[1-9][0-9]{0,2})$", parses<parse_connections>},
             .decides = Decides::Samples,

@@ -147,7 +147,7 @@ void validate_settings(const SceneDesc& scene, ProblemList& problems) {
         const auto [s, t] = *integrator.strategy;
         // No light hits the lens.
         if (s < 0 || t < 1 || s + t < 2)
-            problems.error(settings.at("/transport/strategy"),
+            problems.error(settings.at("/integrator/strategy"),
                            fmt::format("there is no strategy {},{}: s >= 0 vertices from the light and t >= 1 from the "
                                        "eye make a path of s + t - 1 >= 1 edges",
                                        s, t));

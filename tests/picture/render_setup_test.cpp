@@ -66,7 +66,7 @@ TEST(IneffectiveSettings, OptionsOfStrategiesNeedStrategies) {
     RenderSettings settings;
     settings.integrator = {.type = "path", .heuristic = HeuristicType::Power, .cached_connections = 2};
     EXPECT_TRUE(ineffective_settings(settings, false).empty()) << "of a render.json, for when bdpt is asked for";
-    settings.options = {{"/integrator/heuristic", "--heuristic"}, {"/wave/connections", "--bdpt-connections"}};
+    settings.options = {{"/integrator/heuristic", "--heuristic"}, {"/integrator/connections", "--bdpt-connections"}};
     const std::vector<std::string> notes = ineffective_settings(settings, false);
     ASSERT_EQ(notes.size(), 2u);
     EXPECT_EQ(notes[0], "--heuristic has no effect with 'path': it is for 'bdpt'");
@@ -82,7 +82,7 @@ TEST(IneffectiveSettings, TheTableNamesTheIntegratorsThatTheRegistryDoes) {
         };
         EXPECT_EQ(is_named("/integrator/light_samples"), entry.splits_light_samples) << entry.name;
         EXPECT_EQ(is_named("/integrator/heuristic"), entry.has_strategies) << entry.name;
-        EXPECT_EQ(is_named("/wave/connections"), entry.has_strategies) << entry.name;
+        EXPECT_EQ(is_named("/integrator/connections"), entry.has_strategies) << entry.name;
     }
 }
 
