@@ -74,6 +74,13 @@ PathNames names_in(const SceneDesc& scene) {
     for (const LightDesc& light : scene.lights) names.lights.push_back(light_name(light.name));
     for (const InstanceDesc& instance : scene.instances) names.lights.push_back(light_name(instance.name));
     names.lights.emplace_back("environment");
+    const std::set<std::string_view> own_names(names.lights.begin(), names.lights.end());
+    for (const std::string_view node : node_names_of_lights(scene))
+        names.light_aliases.emplace_back(own_names.contains(node) ? std::string_view() : node);
+    for (const InstanceDesc& instance : scene.instances) {
+        const std::string& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh.index)].name;
+        names.light_aliases.emplace_back(own_names.contains(mesh) ? std::string() : mesh);
+    }
     return names;
 }
 

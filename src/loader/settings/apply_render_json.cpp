@@ -119,27 +119,63 @@ void apply_light(const LightOverride& change, Handle<IesProfileDesc> profile, co
     light.intensity *= change.scale;
 }
 
-void apply_lights(const RenderJson& json, SceneDesc& scene, ProblemList& problems) {
-    ProfileFiles files(scene, problems);
-    std::vector<std::string> disabled;
-    for (const auto& [name, change] : json.lights) {
-        if (!check_name(scene.lights, "light", name, change.location, problems)) continue;
-        if (!change.enabled) disabled.push_back(name);
-        const SourceLocation where{change.location.file, child_pointer(change.location.pointer, "ies")};
-        const Handle<IesProfileDesc> profile =
-            change.ies.empty() ? Handle<IesProfileDesc>{} : files.profile(change.ies, where);
-        for (LightDesc& light : scene.lights) {
-            if (light.name != name) continue;
-            if (profile && light.type == LightType::Directional) {
-                problems.error(where, "a directional light has no position from which an IES profile could shine");
+/// Applies what the document says of lamps, by their own names and by those of their nodes.
+class LightChanges {
+  public:
+    LightChanges(SceneDesc& scene, ProblemList& problems)
+        : scene_(scene), problems_(problems), files_(scene, problems), is_enabled_(scene.lights.size(), true) {
+        for (const std::string_view name : node_names_of_lights(scene)) node_names_.emplace_back(name);
+    }
+
+    void apply(const std::map<std::string, LightOverride>& changes) {
+        // What is said of one node comes after what is said of all that share its lamp.
+        for (const auto& [name, change] : changes)
+            if (is_of_lamp(name)) apply_to_those(change, [&](std::size_t i) { return scene_.lights[i].name == name; });
+        for (const auto& [name, change] : changes) {
+            if (is_of_lamp(name)) continue;
+            if (name.empty() || std::ranges::find(node_names_, name) == node_names_.end()) {
+                report_unknown(name, change.location);
                 continue;
             }
-            apply_light(change, profile, scene, light);
+            apply_to_those(change, [&](std::size_t i) { return node_names_[i] == name; });
+        }
+        std::size_t next = 0;
+        std::erase_if(scene_.lights, [&](const LightDesc&) { return !is_enabled_[next++]; });
+    }
+
+  private:
+    [[nodiscard]] bool is_of_lamp(const std::string& name) const {
+        return !name.empty() && std::ranges::find(scene_.lights, name, &LightDesc::name) != scene_.lights.end();
+    }
+
+    void report_unknown(const std::string& name, const SourceLocation& where) {
+        std::vector<std::string_view> names = names_of(scene_.lights);
+        for (const std::string& node : node_names_)
+            if (!node.empty()) names.push_back(node);
+        problems_.error(where, fmt::format("the scene has no light '{}'; {}", shown(name), name_hint(name, names)));
+    }
+
+    void apply_to_those(const LightOverride& change, const auto& is_meant) {
+        const SourceLocation where{change.location.file, child_pointer(change.location.pointer, "ies")};
+        const Handle<IesProfileDesc> profile =
+            change.ies.empty() ? Handle<IesProfileDesc>{} : files_.profile(change.ies, where);
+        for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
+            if (!is_meant(i)) continue;
+            LightDesc& light = scene_.lights[i];
+            is_enabled_[i] = is_enabled_[i] && change.enabled;
+            if (profile && light.type == LightType::Directional)
+                problems_.error(where, "a directional light has no position from which an IES profile could shine");
+            else
+                apply_light(change, profile, scene_, light);
         }
     }
-    std::erase_if(scene.lights,
-                  [&](const LightDesc& light) { return std::ranges::find(disabled, light.name) != disabled.end(); });
-}
+
+    SceneDesc& scene_;
+    ProblemList& problems_;
+    ProfileFiles files_;
+    std::vector<std::string> node_names_;  ///< by lamp, as `node_names_of_lights` has them
+    std::vector<bool> is_enabled_;         ///< by lamp
+};
 
 void apply_camera(const RenderJson& json, SceneDesc& scene, ProblemList& problems) {
     if (json.camera) {
@@ -190,7 +226,7 @@ void apply_render_json(const RenderJson& json, std::span<const std::filesystem::
     apply_camera(json, scene, problems);
     apply_environment(json, assets, scene, problems);
     apply_materials(json, scene, problems);
-    apply_lights(json, scene, problems);
+    LightChanges(scene, problems).apply(json.lights);
 }
 
 }  // namespace etendue

@@ -214,6 +214,36 @@ TEST(RenderJson, LightOverrides) {
     EXPECT_TRUE(load_with(R"({"lights": {"lamp": {"enabled": false}}})").scene.lights.empty());
 }
 
+// Two nodes share the lamp "bulb", and a third node is called as that lamp.
+TEST(RenderJson, LightsAreFoundByTheirNodes) {
+    GltfBuilder builder;
+    builder.add_triangle();
+    const nlohmann::json extension = {{"KHR_lights_punctual", {{"light", 0}}}};
+    for (const char* name : {"left", "right", "bulb"})
+        builder.json["nodes"].push_back({{"name", name}, {"extensions", extension}});
+    builder.json["nodes"][3]["extensions"]["KHR_lights_punctual"]["light"] = 1;
+    builder.json["scenes"][0]["nodes"] = {0, 1, 2, 3};
+    builder.json["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "point"}, {"name", "bulb"}, {"intensity", 10}},
+        {{"type", "point"}, {"name", "other"}, {"intensity", 10}}};
+    const auto intensities = [&](const std::string& changes) {
+        const TempDir dir;
+        builder.write(dir);
+        dir.write("render.json", R"({"lights": )" + changes + "}");
+        const LoadedScene loaded = inspect_scene(dir.path());
+        std::vector<float> found;
+        for (const LightDesc& light : loaded.scene.lights) found.push_back(light.intensity);
+        if (loaded.problems.has_errors()) ADD_FAILURE() << listing(loaded.problems);
+        return found;
+    };
+    using Floats = std::vector<float>;
+    EXPECT_EQ(intensities(R"({"left": {"scale": 2}})"), (Floats{20, 10, 10}));
+    EXPECT_EQ(intensities(R"({"bulb": {"scale": 3}})"), (Floats{30, 30, 10})) << "lamps' own names go first";
+    EXPECT_EQ(intensities(R"({"bulb": {"intensity": 3}, "left": {"scale": 2}, "right": {"enabled": false}})"),
+              (Floats{6, 10}))
+        << "what a node is told comes after";
+}
+
 /// The light "lamp" of a scene of two such lights, with these changes and the file lamp.ies, whose peak is 200 candela.
 LoadedScene load_with_profile(const std::string& changes, const std::string& type = "point") {
     GltfBuilder builder;
