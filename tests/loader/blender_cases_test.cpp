@@ -47,6 +47,22 @@ TEST_F(BlenderCases, EveryActionPlays) {
     EXPECT_FALSE(has_moved("Floor"));
 }
 
+// Blender writes no KHR_materials_volume for the usual glass.
+TEST_F(BlenderCases, GlassIsClosedByOneWord) {
+    const auto glass_of = [](const std::string& settings) {
+        const LoadedScene loaded = inspect_scene(folder("glass_default"), {.settings = settings});
+        EXPECT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
+        for (const MaterialDesc& material : loaded.scene.materials)
+            if (material.name == "Glass") return material;
+        return MaterialDesc();
+    };
+    EXPECT_FALSE(glass_of("").volume.closed);
+    const MaterialDesc solid = glass_of(R"({"materials": {"Glass": {"solid": true}}})");
+    EXPECT_TRUE(solid.volume.closed);
+    EXPECT_EQ(solid.transmission, 1.0f);
+    EXPECT_NEAR(solid.base_color.r, 0.8f, 1e-6f) << "which a dielectric would drop";
+}
+
 TEST_F(BlenderCases, CamerasHaveTheNamesOfObjects) {
     const LoadedScene loaded = inspect_scene(folder("camnames"));
     for (const char* name : {"Hero shot", "Side shot", "Rig shot"})
