@@ -130,7 +130,7 @@ std::string light_expression(std::string name) {
 
 /// Channels of the file that the writer makes.
 bool is_reserved(const std::string& name) {
-    return name == "rgba" || name == "half" || name.starts_with("half.");
+    return name == "rgba" || name == kHalf || name.starts_with("half_");
 }
 
 /// True if `name` is that of the Cryptomatte `matte` and digits behind it.
@@ -426,7 +426,8 @@ bool has_half(const AovOutput& output) {
 }
 
 std::string half_name(const AovOutput& output) {
-    return fmt::format("{}.{}", kHalf, output.name);
+    // With a point, Blender would take it for a layer of its own, and show that in place of the image.
+    return fmt::format("{}_{}", kHalf, output.name);
 }
 
 std::vector<std::string> layers_with_files(const AovPlan& plan, bool each_has_file) {
