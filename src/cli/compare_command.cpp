@@ -253,7 +253,7 @@ ExitCode run_compare(const CompareArguments& arguments) {
 }
 
 void add_compare_options(CLI::App& command, CompareArguments& arguments) {
-    command.add_option("scene", arguments.scene, "Scene directory, .gltf or .glb")->required();
+    add_scene_argument(command, arguments.scene);
     command
         .add_option("-o,--output", arguments.output, "Directory for report.json and index.html; made if it is missing")
         ->required()

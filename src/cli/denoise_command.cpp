@@ -89,8 +89,8 @@ DenoiseInput read_input(const DenoiseArguments& arguments) {
         if (!value || !(*value > 0.0f && *value < 1.0f))
             throw std::invalid_argument(fmt::format(
                 "its attribute {} does not say what share of the samples, above 0 and below 1, the channels "
-                "'{}' are from; render with '--aov denoising'",
-                kHalfShare, kHalfPrefix));
+                "of half of them are from; render with '--aov denoising'",
+                kHalfShare));
         input.half_share = *value;
         return input;
     } catch (const IoError& error) {
@@ -304,7 +304,7 @@ void add_denoise_command(CLI::App& app, Action& action) {
     command->add_flag("--quiet", arguments->quiet, "No notes or warnings; errors only");
     command->footer(
         "R, G and B are denoised, and every layer of light that has R, G and B; each by its own variance, which the\n"
-        "channels 'half.*' tell. Features, alpha and all else are written as they are, the channels 'half.*' are not.\n"
+        "channels of half of the samples tell. Features, alpha and all else are written as they are, these are not.\n"
         "The result is the same for every number of threads. docs/denoising.md says what it does to caustics, "
         "textures\n"
         "and fireflies.\n\n"

@@ -51,6 +51,14 @@ nlohmann::json names(const std::vector<T>& things) {
     return list;
 }
 
+/// Names of the nodes that place `things`.
+template <typename T>
+nlohmann::json nodes_of(const std::vector<T>& things) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const T& thing : things) list.push_back(thing.node);
+    return list;
+}
+
 nlohmann::json summarize(const SceneDesc& s) {
     return {{"scene", s.name},
             {"file", s.file.string()},
@@ -61,7 +69,10 @@ nlohmann::json summarize(const SceneDesc& s) {
             {"images", s.images.size()},
             {"missing_textures", count_missing_textures(s)},
             {"lights", names(s.lights)},
+            {"light_nodes", nodes_of(s.lights)},
             {"cameras", names(s.cameras)},
+            {"camera_nodes", nodes_of(s.cameras)},
+            {"scenes", s.scenes},
             {"variants", s.variants},
             {"light_units", light_units_name(s.settings.light_units)},
             {"ies_profiles", names(s.ies_profiles)},
@@ -178,8 +189,9 @@ void print_json(const Inspection& i) {
 void add_inspect_command(CLI::App& app, Action& action) {
     auto arguments = std::make_shared<InspectArguments>();
     CLI::App* command = app.add_subcommand("inspect", "Say what is in a scene and everything that is wrong with it");
-    command->add_option("scene", arguments->scene, "Scene directory, .gltf or .glb")->required();
-    add_settings_options(*command, arguments->overrides, {"/time_code", "/animation", "/shutter", "/missing_textures"});
+    add_scene_argument(*command, arguments->scene);
+    add_settings_options(*command, arguments->overrides,
+                         {"/scene_name", "/time_code", "/animation", "/shutter", "/missing_textures"});
     add_assets_option(*command, arguments->overrides.assets);
     command->add_flag("--json", arguments->json, "Print JSON");
     command->footer(

@@ -347,7 +347,7 @@ ExitCode run_profile(const ProfileArguments& arguments) {
 }
 
 void add_profile_options(CLI::App& command, ProfileArguments& arguments) {
-    command.add_option("scene", arguments.scene, "Scene directory, .gltf or .glb")->required();
+    add_scene_argument(command, arguments.scene);
     command
         .add_option("-o,--output", arguments.output,
                     "Directory for profile.json, index.html, trace.json and heat maps; made if it is missing")

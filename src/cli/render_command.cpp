@@ -177,7 +177,7 @@ void add_render_command(CLI::App& app, Action& action) {
     auto arguments = std::make_shared<RenderArguments>();
     CLI::App* command = app.add_subcommand(
         "render", "Render one scene to NAME.exr, NAME.png and NAME.json, or its frames to NAME.0001.exr ...");
-    command->add_option("scene", arguments->scene, "Scene directory, .gltf or .glb")->required();
+    add_scene_argument(*command, arguments->scene);
     command->add_option("-o,--output", arguments->output,
                         "EXR file to write; PNG and JSON go beside it (default: NAME.exr in the current directory). "
                         "Frames of a sequence have their number in place of #### or before the extension. A .partial "

@@ -32,7 +32,7 @@ std::string without_backticks(std::string_view text) {
 std::string default_of(const Setting& setting) {
     const SettingValue value = default_value(setting);
     if (std::holds_alternative<std::monostate>(value)) return std::string(setting.default_text);
-    if (std::holds_alternative<Texts>(setting.type)) return "";
+    if (std::holds_alternative<Texts>(setting.type)) return std::string(setting.default_text);
     if (const auto* const yes = std::get_if<bool>(&value)) return *yes ? "yes" : "";
     return option_words(setting, value).back();
 }
@@ -155,6 +155,11 @@ void add_assets_option(CLI::App& command, std::vector<std::filesystem::path>& as
         ->check(CLI::ExistingDirectory)
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+void add_scene_argument(CLI::App& command, std::string& scene) {
+    // Newer versions of CLI11 take it for --scene of a configuration file otherwise.
+    command.add_option("scene", scene, "Scene directory, .gltf or .glb")->required()->configurable(false);
 }
 
 void add_settings_options(CLI::App& command, SettingsOverrides& overrides,

@@ -6,6 +6,7 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -38,7 +39,7 @@ std::optional<LayerChannels> find_layer(const Places& places, const std::string&
         if (place == places.end()) return std::nullopt;
         found.whole.push_back(place->second);
         if (halves == HalvesUse::None) continue;
-        const auto half = places.find(std::string(kHalfPrefix) + whole);
+        const auto half = places.find(half_channel(whole));
         if (half == places.end()) return std::nullopt;
         found.half.push_back(half->second);
     }
@@ -60,7 +61,7 @@ void add_features(const Places& places, const std::map<std::string, std::vector<
         if (!found && contains(required, feature))
             throw std::invalid_argument(
                 layer == layers.end() ? fmt::format("there is no layer '{}' to be a feature", feature)
-                : fits                ? fmt::format("the feature '{0}' has no '{1}{0}' beside it", feature, kHalfPrefix)
+                : fits                ? fmt::format("the feature '{0}' has no 'half_{0}' beside it", feature)
                        : fmt::format("the feature '{}' has more than {} channels", feature, kMostChannelsOfFeature));
         if (!found) continue;
         count += found->whole.size();
@@ -73,6 +74,10 @@ void add_features(const Places& places, const std::map<std::string, std::vector<
 
 }  // namespace
 
+std::string half_channel(std::string_view whole) {
+    return fmt::format("half{}{}", whole.find('.') == std::string_view::npos ? "." : "_", whole);
+}
+
 std::vector<std::string> default_features() {
     return {"albedo", "N", "depth"};
 }
@@ -83,9 +88,11 @@ LayerPlan plan_layers(std::span<const std::string> names, const std::optional<st
     Places places;
     std::map<std::string, std::vector<std::string>> layers;
     LayerPlan plan;
+    std::set<std::string> half_names;
+    for (const std::string& name : names) half_names.insert(half_channel(name));
     for (std::size_t i = 0; i < names.size(); ++i) {
         places.emplace(names[i], static_cast<int>(i));
-        if (names[i].starts_with(kHalfPrefix)) continue;
+        if (half_names.contains(names[i])) continue;
         plan.kept.push_back(static_cast<int>(i));
         const auto [layer, channel] = split(names[i]);
         layers[layer].push_back(channel);
@@ -99,9 +106,9 @@ LayerPlan plan_layers(std::span<const std::string> names, const std::optional<st
     }
     if (plan.lights.empty() || !plan.lights.front().name.empty())
         throw std::invalid_argument(fmt::format(
-            "there are no channels {0}R, {0}G and {0}B, the image from half of the samples, which say how noisy it is; "
+            "there are no channels {}, {} and {}, the image from half of the samples, which say how noisy it is; "
             "render with '--aov denoising' and more than one sample to have them, and without '--aov-layout files'",
-            kHalfPrefix));
+            half_channel("R"), half_channel("G"), half_channel("B")));
     add_features(places, layers, features, required, halves, plan);
     return plan;
 }

@@ -10,8 +10,9 @@
 
 namespace etendue {
 
-/// The prefix of channels that hold the mean of about half of the samples.
-inline constexpr std::string_view kHalfPrefix = "half.";
+/// Returns the name of the channel that holds what the channel `whole` does, of about half of the samples: "half.R" of
+/// "R", "half_albedo.R" of "albedo.R".
+[[nodiscard]] std::string half_channel(std::string_view whole);
 
 /// Says whether a method needs the halves of an image, to know its noise.
 enum class HalvesUse { Needed, None };
@@ -33,7 +34,7 @@ struct LayerPlan {
 [[nodiscard]] std::vector<std::string> default_features();
 
 /// Finds the layers among the channels `names` of a file. A layer of light is one that has NAME.R, NAME.G and NAME.B,
-/// and the same with the prefix kHalfPrefix if halves are needed, and is one of `lights` if these are known (if neither
+/// and their `half_channel` if halves are needed, and is one of `lights` if these are known (if neither
 /// halves nor lights say what is light, only the beauty is); a feature is one of `features`, of up to four channels,
 /// with their halves if needed. What lacks a half that is needed is kept as it is. Throws std::invalid_argument, with
 /// what to do about it, if there is no beauty with its half, a feature of `required` (a subset of `features`) is not

@@ -14,11 +14,21 @@
 
 namespace etendue {
 
+struct ImageRational {
+    int numerator = 0;
+    int denominator = 1;  ///< > 0
+};
+
+/// Holds a SMPTE time code, hours, minutes, seconds and frames from the highest byte, two decimal digits in each.
+struct ImageTimeCode {
+    std::uint32_t digits = 0;
+};
+
 /// One entry of an image's metadata. A vector of eight floats under the name "chromaticities" is written as the EXR
 /// attribute of that name.
 struct ImageAttribute {
     std::string name;
-    std::variant<int, float, std::string, std::vector<float>, Mat4f> value;
+    std::variant<int, float, std::string, std::vector<float>, Mat4f, ImageRational, ImageTimeCode> value;
 };
 
 enum class PixelDepth { UInt8, UInt16, Half, Float };

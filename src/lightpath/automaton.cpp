@@ -145,7 +145,7 @@ std::vector<bool> PathAutomaton::symbols_of(const EventSet& set) const {
 PathAutomaton::PathAutomaton(std::span<const PathExpression> expressions, const PathNames& names)
     : expression_count_(expressions.size()),
       materials_(labels_of(expressions, kAllScatterKinds), names.materials),
-      lights_(labels_of(expressions, kAllSourceKinds), names.lights),
+      lights_(labels_of(expressions, kAllSourceKinds), names.lights, names.light_aliases),
       first_source_(1 + kScatterEvents * materials_.count()),
       symbol_count_(first_source_ + kSourceEvents * lights_.count()) {
     if (expressions.size() > kMostExpressions)

@@ -28,6 +28,7 @@ inline constexpr std::size_t kMostStates = 1024;
 struct PathNames {
     std::vector<std::string> materials;
     std::vector<std::string> lights;
+    std::vector<std::string> light_aliases{};  ///< second names by the same index, some empty; fewer where none follow
 };
 
 class PathAutomaton {

@@ -28,7 +28,8 @@ bool matches_label(std::string_view pattern, std::string_view name) {
     return pattern.find_first_not_of('*', p) == std::string_view::npos;
 }
 
-LabelClasses::LabelClasses(std::vector<std::string> patterns, std::span<const std::string> names)
+LabelClasses::LabelClasses(std::vector<std::string> patterns, std::span<const std::string> names,
+                           std::span<const std::string> aliases)
     : patterns_(std::move(patterns)) {
     std::map<std::vector<bool>, std::uint16_t> known;
     const auto class_of = [&](std::vector<bool> matched) {
@@ -38,10 +39,12 @@ LabelClasses::LabelClasses(std::vector<std::string> patterns, std::span<const st
     };
     (void)class_of(std::vector<bool>(patterns_.size(), false));
     classes_.reserve(names.size());
-    for (const std::string& name : names) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const bool has_alias = i < aliases.size() && !aliases[i].empty();
         std::vector<bool> matched;
         matched.reserve(patterns_.size());
-        for (const std::string& pattern : patterns_) matched.push_back(matches_label(pattern, name));
+        for (const std::string& pattern : patterns_)
+            matched.push_back(matches_label(pattern, names[i]) || (has_alias && matches_label(pattern, aliases[i])));
         classes_.push_back(class_of(std::move(matched)));
     }
 }

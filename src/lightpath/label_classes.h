@@ -16,7 +16,9 @@ namespace etendue {
 /// Which patterns each name matches. Names without any are in class 0.
 class LabelClasses {
   public:
-    LabelClasses(std::vector<std::string> patterns, std::span<const std::string> names);
+    /// Something matches by its name or its alias; `aliases` may be empty, and fewer than `names`.
+    LabelClasses(std::vector<std::string> patterns, std::span<const std::string> names,
+                 std::span<const std::string> aliases = {});
 
     /// Returns the class of the name with this index.
     [[nodiscard]] std::uint16_t of(std::size_t name) const { return classes_[name]; }

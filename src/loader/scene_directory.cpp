@@ -1,5 +1,6 @@
 // From a path to a scene: which file, which settings, in which order, and what becomes of the problems.
 
+#include "core/shown_text.h"
 #include "loader/files.h"
 #include "loader/loader.h"
 #include "loader/named_files.h"
@@ -108,6 +109,22 @@ fs::path directory_of(const fs::path& path, bool is_directory) {
     return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
+/// Says which camera was taken if nobody chose one of several.
+void note_camera(const SceneDesc& scene, ProblemList& problems) {
+    if (!scene.settings.camera.empty() || scene.cameras.size() < 2) return;
+    constexpr std::size_t kMostNames = 8;
+    std::string others;
+    for (std::size_t i = 1; i < std::min(scene.cameras.size(), kMostNames + 1); ++i) {
+        const CameraDesc& camera = scene.cameras[i];
+        others += fmt::format("{}'{}'", i == 1 ? "" : ", ", shown(camera.node.empty() ? camera.name : camera.node));
+    }
+    if (scene.cameras.size() > kMostNames + 1) others += " and more";
+    problems.note({scene.file.string(), "/cameras"},
+                  fmt::format("the file has {} cameras, of which the first, '{}', is taken; --camera NAME takes "
+                              "another: {}",
+                              scene.cameras.size(), shown(scene.cameras.front().name), others));
+}
+
 void load_into(const fs::path& path, const LoadOptions& options, SceneDesc& scene, ProblemList& problems) {
     std::error_code code;
     const bool is_directory = fs::is_directory(path, code);
@@ -132,9 +149,11 @@ void load_into(const fs::path& path, const LoadOptions& options, SceneDesc& scen
     scene.settings.frame = options.frame;
     if (options.adjust) options.adjust(scene.settings);
     loader->load(scene.file, options, scene, problems);
-    if (!settings) return;
-    if (!settings->file.empty()) scene.inputs.push_back(settings->file);
-    apply_render_json(*settings, options.assets, scene, problems);
+    if (settings) {
+        if (!settings->file.empty()) scene.inputs.push_back(settings->file);
+        apply_render_json(*settings, options.assets, scene, problems);
+    }
+    note_camera(scene, problems);
 }
 
 void append(const ProblemList& from, ProblemList& to) {

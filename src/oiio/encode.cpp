@@ -4,6 +4,7 @@
 #include "oiio/library_setup.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <fstream>
@@ -58,6 +59,14 @@ void add_attribute(OIIO::ImageSpec& spec, const ImageAttribute& attribute) {
             spec.attribute(name, OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, static_cast<int>(value.size())), value.data());
         }
         void operator()(const Mat4f& value) const { spec.attribute(name, OIIO::TypeMatrix, value.getValue()); }
+        void operator()(const ImageRational& value) const {
+            const std::array<int, 2> numbers{value.numerator, value.denominator};
+            spec.attribute(name, OIIO::TypeRational, numbers.data());
+        }
+        void operator()(const ImageTimeCode& value) const {
+            const std::array<std::uint32_t, 2> words{value.digits, 0};
+            spec.attribute(name, OIIO::TypeTimeCode, words.data());
+        }
     };
     std::visit(Visitor{spec, attribute.name}, attribute.value);
 }

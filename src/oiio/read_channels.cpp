@@ -35,6 +35,11 @@ std::optional<ImageAttribute> to_attribute(const OIIO::ParamValue& parameter) {
         Mat4f matrix;
         std::copy_n(static_cast<const float*>(parameter.data()), 16, matrix.getValue());
         attribute.value = matrix;
+    } else if (type == OIIO::TypeRational) {
+        const auto* numbers = static_cast<const int*>(parameter.data());
+        attribute.value = ImageRational{numbers[0], numbers[1]};
+    } else if (type == OIIO::TypeTimeCode) {
+        attribute.value = ImageTimeCode{static_cast<const std::uint32_t*>(parameter.data())[0]};
     } else if (attribute.name == "chromaticities" && type == OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8)) {
         const auto* values = static_cast<const float*>(parameter.data());
         attribute.value = std::vector<float>(values, values + 8);

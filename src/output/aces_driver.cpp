@@ -25,7 +25,7 @@ std::string comment_of(const OutputFrame& frame) {
         fmt::format("{}: scene {}, integrator {}, sampler {}, {} samples per pixel, seed {}", software_name(),
                     frame.scene, frame.integrator, frame.sampler, frame.spp, frame.seed);
     if (!frame.complete) text += fmt::format(", incomplete: {}", frame.halt_reason);
-    return text;
+    return frame.comments.empty() ? text : fmt::format("{}\n{}", frame.comments, text);
 }
 
 std::vector<ImageAttribute> aces_attributes(const OutputFrame& frame) {

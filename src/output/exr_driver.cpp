@@ -4,6 +4,7 @@
 #include "core/source_date.h"
 #include "output/cryptomatte.h"
 #include "output/output_space.h"
+#include "output/shot_attributes.h"
 #include "output/software_name.h"
 
 #include <array>
@@ -39,6 +40,26 @@ void add_chromaticities(const ColorConfig& config, const std::string& space, std
     }
 }
 
+/// Adds those of OpenEXR's standard attributes of cameras and shots that are known.
+void add_standard_attributes(const OutputFrame& frame, std::vector<ImageAttribute>& attributes) {
+    attributes.push_back({"utcOffset", utc_offset()});
+    const auto add_text = [&](const char* name, const std::string& text) {
+        if (!text.empty()) attributes.push_back({name, text});
+    };
+    const auto add_number = [&](const char* name, float number) {
+        if (number > 0.0f) attributes.push_back({name, number});
+    };
+    add_text("owner", frame.owner);
+    add_text("comments", frame.comments);
+    add_text("cameraLabel", frame.camera);
+    add_number("nominalFocalLength", frame.focal_length);
+    add_number("aperture", frame.f_number);
+    add_number("focus", frame.focus_distance);
+    if (!frame.frame) return;
+    attributes.push_back({"framesPerSecond", frames_per_second(frame.fps)});
+    if (const auto code = time_code(*frame.frame, frame.fps)) attributes.push_back({"timeCode", *code});
+}
+
 std::vector<ImageAttribute> make_attributes(const OutputFrame& frame, const ColorConfig& config) {
     const std::string space =
         config.resolve_space(frame.output_space.empty() ? frame.working_space : frame.output_space);
@@ -68,9 +89,10 @@ std::vector<ImageAttribute> make_attributes(const OutputFrame& frame, const Colo
         // Nothing else is to be denoised, whatever its channels are called.
         std::string names;
         for (const OutputLayer& layer : frame.layers)
-            if (layer.is_light && !layer.name.starts_with("half.")) names += (names.empty() ? "" : " ") + layer.name;
+            if (layer.is_light && !layer.is_half) names += (names.empty() ? "" : " ") + layer.name;
         attributes.push_back({"etendue:lightLayers", names});
     }
+    add_standard_attributes(frame, attributes);
     add_chromaticities(config, space, attributes);
     return attributes;
 }
@@ -138,6 +160,10 @@ void ExrDriver::write_layers_as_parts(const OutputFrame& frame) {
     for (const OutputLayer& layer : frame.layers) {
         parts.push_back(part_of(layer, true));
         parts.back().name = layer.name;
+        if (!layer.is_matte) continue;
+        // Blender looks for them in the first part alone.
+        std::vector<ImageAttribute>& first = parts.front().attributes;
+        first.insert(first.end(), layer.attributes.begin(), layer.attributes.end());
     }
     write_parts(frame, parts);
 }

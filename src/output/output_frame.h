@@ -6,6 +6,7 @@
 #include "image/write.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct OutputLayer {
     bool is_float = false;                     ///< to be written as 32-bit floats, whatever the image is
     bool is_color = false;                     ///< in the working space; else numbers that mean the same in every space
     bool is_light = false;                     ///< a part of the light of the image
+    bool is_half = false;                      ///< of about half of the samples, `OutputFrame::half_share`
     bool is_matte = false;                     ///< its channels are those of `matte_channel`
     std::vector<ImageAttribute> attributes{};  ///< of the file or part that has it
     ImageF pixels{};
@@ -36,7 +38,7 @@ struct OutputFrame {
     ImageF pixels;
     std::vector<OutputLayer> layers;  ///< of the same size
     DeepPixels deep;                  ///< of the same size
-    /// Not 0: layers whose names begin with "half." are of this share of the samples, (0, 1).
+    /// Not 0: layers that are halves are of this share of the samples, (0, 1).
     float half_share = 0.0f;
     int crop_x = 0;             ///< column of the first pixel in the full image
     int crop_y = 0;             ///< row of the first pixel in the full image, y down
@@ -54,6 +56,15 @@ struct OutputFrame {
 
     Mat4f world_to_camera;  ///< the camera looks along -Z with +Y up
     Mat4f world_to_screen;  ///< projective; x right and y up in [-1, 1] over the full image
+
+    std::string camera;           ///< its name
+    float focal_length = 0.0f;    ///< millimetres; 0 if it is not known
+    float f_number = 0.0f;        ///< 0 if it is not known
+    float focus_distance = 0.0f;  ///< metres; 0 if all is in focus
+    double fps = 0.0;             ///< of the sequence
+    std::optional<int> frame;     ///< of a sequence, which one this is
+    std::string owner;            ///< whose image it is; may be empty
+    std::string comments;         ///< any text; may be empty
 
     std::string scene;
     std::string integrator;

@@ -74,6 +74,13 @@ PathNames names_in(const SceneDesc& scene) {
     for (const LightDesc& light : scene.lights) names.lights.push_back(light_name(light.name));
     for (const InstanceDesc& instance : scene.instances) names.lights.push_back(light_name(instance.name));
     names.lights.emplace_back("environment");
+    const std::set<std::string_view> own_names(names.lights.begin(), names.lights.end());
+    for (const std::string_view node : node_names_of_lights(scene))
+        names.light_aliases.emplace_back(own_names.contains(node) ? std::string_view() : node);
+    for (const InstanceDesc& instance : scene.instances) {
+        const std::string& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh.index)].name;
+        names.light_aliases.emplace_back(own_names.contains(mesh) ? std::string() : mesh);
+    }
     return names;
 }
 
@@ -123,7 +130,7 @@ std::string light_expression(std::string name) {
 
 /// Channels of the file that the writer makes.
 bool is_reserved(const std::string& name) {
-    return name == "rgba" || name == "half" || name.starts_with("half.");
+    return name == "rgba" || name == kHalf || name.starts_with("half_");
 }
 
 /// True if `name` is that of the Cryptomatte `matte` and digits behind it.
@@ -419,7 +426,8 @@ bool has_half(const AovOutput& output) {
 }
 
 std::string half_name(const AovOutput& output) {
-    return fmt::format("{}.{}", kHalf, output.name);
+    // With a point, Blender would take it for a layer of its own, and show that in place of the image.
+    return fmt::format("{}_{}", kHalf, output.name);
 }
 
 std::vector<std::string> layers_with_files(const AovPlan& plan, bool each_has_file) {

@@ -49,6 +49,14 @@ Json to_object(const OutputFrame& f) {
             {"aces_container", f.aces_container},
             {"world_to_camera", to_object(f.world_to_camera)},
             {"world_to_screen", to_object(f.world_to_screen)},
+            {"camera", f.camera},
+            {"focal_length", f.focal_length},
+            {"f_number", f.f_number},
+            {"focus_distance", f.focus_distance},
+            {"fps", f.fps},
+            {"frame", f.frame ? Json(*f.frame) : Json()},
+            {"owner", f.owner},
+            {"comments", f.comments},
             {"scene", f.scene},
             {"integrator", f.integrator},
             {"sampler", f.sampler},
@@ -67,6 +75,14 @@ OutputFrame to_frame(const Json& json) {
     f.aces_container = json.value("aces_container", false);
     f.world_to_camera = to_matrix(json.at("world_to_camera"));
     f.world_to_screen = to_matrix(json.at("world_to_screen"));
+    json.at("camera").get_to(f.camera);
+    json.at("focal_length").get_to(f.focal_length);
+    json.at("f_number").get_to(f.f_number);
+    json.at("focus_distance").get_to(f.focus_distance);
+    json.at("fps").get_to(f.fps);
+    if (const Json& number = json.at("frame"); !number.is_null()) f.frame = number.get<int>();
+    json.at("owner").get_to(f.owner);
+    json.at("comments").get_to(f.comments);
     json.at("scene").get_to(f.scene);
     json.at("integrator").get_to(f.integrator);
     json.at("sampler").get_to(f.sampler);
@@ -229,6 +245,20 @@ Mat4f after_move(const Vec3d& way, Mat4f m) {
     return m;
 }
 
+/// Tells `frame` which camera was chosen, and what is known of its lens.
+void describe_lens(const SceneDesc& scene, OutputFrame& frame) {
+    const std::string& name = scene.settings.camera;
+    const CameraDesc* const first = scene.cameras.empty() ? nullptr : &scene.cameras.front();
+    const CameraDesc* const camera = name.empty() ? first : find_camera(scene, name);
+    if (camera == nullptr) return;
+    frame.camera = camera->name;
+    frame.focal_length = camera->focal_length;
+    if (!(camera->lens_radius > 0.0f)) return;
+    frame.focus_distance = camera->focus_distance;
+    constexpr float kMillimetresPerMetre = 1000.0f;
+    frame.f_number = camera->focal_length / (2.0f * camera->lens_radius * kMillimetresPerMetre);
+}
+
 }  // namespace
 
 ImageDescription describe_settings(const SceneDesc& scene, const AovPlan& plan) {
@@ -242,6 +272,11 @@ ImageDescription describe_settings(const SceneDesc& scene, const AovPlan& plan) 
     frame.output_space = settings.color.output_space;
     frame.aces_container = settings.color.aces_container;
     frame.exposure = settings.color.exposure;
+    describe_lens(scene, frame);
+    frame.fps = settings.fps;
+    frame.frame = settings.frame;
+    frame.owner = settings.metadata.owner;
+    frame.comments = settings.metadata.comments;
     frame.scene = scene.name;
     frame.integrator = settings.integrator.type;
     frame.sampler = settings.sampler == SamplerType::Random ? "random" : "sobol";
@@ -390,12 +425,14 @@ void resolve_layers(ImageDescription& description, const RenderState& state) {
     const Film& half = evened ? *evened : *state.every_other_pass;
     frame.half_share =
         is_adaptive ? 0.5f : static_cast<float>(state.every_other_spp) / static_cast<float>(state.spp_done);
-    OutputLayer image{.name = std::string(kHalf), .channels = "RGBA", .is_color = true, .pixels = rgba_image(half)};
+    OutputLayer image{
+        .name = std::string(kHalf), .channels = "RGBA", .is_color = true, .is_half = true, .pixels = rgba_image(half)};
     frame.layers.push_back(std::move(image));
     for (const AovOutput& aov : description.aovs) {
         if (!has_half(aov)) continue;
         frame.layers.push_back(resolve_layer(half, aov));
         frame.layers.back().name = half_name(aov);
+        frame.layers.back().is_half = true;
     }
 }
 

@@ -13,6 +13,7 @@ enum class CameraType { Perspective, Orthographic };
 
 struct CameraDesc {
     std::string name;
+    std::string node;  ///< name of the node that places it; empty if there is none
     CameraType type = CameraType::Perspective;
     float yfov = 0.8f;  ///< perspective: full vertical field of view, radians, (0, pi)
     float ymag = 1.0f;  ///< orthographic: half the height of the view, metres, > 0
@@ -21,6 +22,7 @@ struct CameraDesc {
     float aspect_ratio = 0.0f;
     float lens_radius = 0.0f;     ///< metres; 0 for a pinhole
     float focus_distance = 1.0f;  ///< metres along the optical axis, > 0; used when lens_radius > 0
+    float focal_length = 0.0f;    ///< millimetres, for the headers of images; 0 if it is not known
     Mat4f to_world;               ///< in the middle of the shutter
     std::vector<Mat4f> motion;    ///< at equally spaced times from its opening to its closing; empty if it stands still
     SourceLocation location;

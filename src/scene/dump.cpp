@@ -213,12 +213,17 @@ void dump_geometry(const SceneDesc& scene, Out out) {
     }
 }
 
+/// Quotes the name of a camera or lamp, and that of its node if it is another.
+std::string quoted(const std::string& name, const std::string& node) {
+    return node.empty() || node == name ? quoted(name) : fmt::format("{} of node {}", quoted(name), quoted(node));
+}
+
 void dump_cameras_and_lights(const SceneDesc& scene, Out out) {
     for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
         const CameraDesc& c = scene.cameras[i];
         const bool perspective = c.type == CameraType::Perspective;
         fmt::format_to(out, "camera {} {}: {} {:g}, aspect {:g}, lens radius {:g}, focus {:g}, {}{}\n", i,
-                       quoted(c.name), perspective ? "perspective yfov" : "orthographic ymag",
+                       quoted(c.name, c.node), perspective ? "perspective yfov" : "orthographic ymag",
                        perspective ? c.yfov : c.ymag, c.aspect_ratio, c.lens_radius, c.focus_distance,
                        text(c.to_world, scene.origin), text_of_motion(c.motion.size()));
     }
@@ -229,7 +234,7 @@ void dump_cameras_and_lights(const SceneDesc& scene, Out out) {
     }
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         const LightDesc& light = scene.lights[i];
-        fmt::format_to(out, "light {} {}: {} colour {} intensity {:g}", i, quoted(light.name),
+        fmt::format_to(out, "light {} {}: {} colour {} intensity {:g}", i, quoted(light.name, light.node),
                        kLightTypeNames[static_cast<std::size_t>(light.type)], text(light.color), light.intensity);
         if (light.type == LightType::Spot) {
             fmt::format_to(out, " cone {:g} to {:g}", light.inner_cone_angle, light.outer_cone_angle);
@@ -257,6 +262,9 @@ std::string dump_without_settings(const SceneDesc& scene) {
     fmt::format_to(out, "extensions used: {}\nextensions ignored: {}\n",
                    shown_text(fmt::format("{}", fmt::join(scene.extensions_used, " "))),
                    shown_text(fmt::format("{}", fmt::join(scene.extensions_ignored, " "))));
+    for (std::size_t i = 0; i < scene.scenes.size() && scene.scenes.size() > 1; ++i)
+        fmt::format_to(out, "scene of the file {}{}\n", quoted(scene.scenes[i]),
+                       i == scene.shown_scene ? ", shown" : "");
     dump_textures(scene, out);
     for (std::size_t i = 0; i < scene.materials.size(); ++i) dump_material(i, scene.materials[i], out);
     dump_geometry(scene, out);

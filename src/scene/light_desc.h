@@ -46,6 +46,7 @@ inline constexpr float kLumensPerWatt = 683.002f;
 /// Points along its local -Z, as in glTF.
 struct LightDesc {
     std::string name;
+    std::string node;  ///< name of the node that places it
     LightType type = LightType::Point;
     Rgb color{1.0f};  ///< linear Rec.709
     /// Point and spot: candela, or with a profile the factor on its candela. Directional: lux on a surface facing the

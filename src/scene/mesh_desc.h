@@ -57,13 +57,15 @@ using TransformMotion = std::vector<Mat4f>;
 /// Most moments of a motion, of transforms and of vertices: what Embree takes.
 inline constexpr std::size_t kMaxMotionSteps = 129;
 
-/// A place in the hierarchy of the scene file, for names: all transforms are those of the instances already.
+/// A place in the hierarchy of the scene file, for names and for what looks at a node: instances, lamps and cameras
+/// have their transforms already.
 struct NodeDesc {
     static constexpr std::uint32_t kNone = 0xffffffffu;
 
     std::string name;
     std::uint32_t parent = kNone;  ///< index into SceneDesc::nodes, smaller than its own; kNone at the top
     std::uint32_t number = 0;      ///< of the node in the file
+    Vec3f position{0.0f};          ///< where it is in the middle of the shutter, from the scene's origin
 };
 
 /// A mesh placed in the world. Meshes used once and small ones are baked, other shared ones and those that move become

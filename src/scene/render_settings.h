@@ -87,6 +87,15 @@ struct Shutter {
     [[nodiscard]] double middle() const { return 0.5 * (open + close); }
 };
 
+/// Holds what files say of an image besides how it was made.
+struct MetadataSettings {
+    std::string owner;     ///< whose image it is; empty for nobody's
+    std::string comments;  ///< any text; empty for none
+};
+
+/// Stands in `RenderSettings::animations` for no animation.
+inline constexpr std::string_view kNoAnimation = "none";
+
 struct RenderSettings {
     IntegratorSettings integrator;
     SamplerType sampler = SamplerType::Sobol;
@@ -99,14 +108,16 @@ struct RenderSettings {
     int brightest = 8;            ///< how many of the brightest contributions to list, [0, kMostBrightest]
     bool adaptive = true;         ///< with a relative error: pixels get samples as they need them
     int min_spp = 48;             ///< samples that every pixel gets before, [1, 2^24]
-    std::string camera;           ///< name of the camera; empty for the first
+    std::string camera;           ///< name of the camera or of its node; empty for the first
+    std::string scene_name;       ///< which of the scene file's scenes; empty for the file's default
     std::string variant;  ///< KHR_materials_variants: name of the set of materials; empty for the file's default
     std::optional<double> time_code;   ///< seconds of the animation; of a sequence, where frame 0 is
     std::optional<FrameRange> frames;  ///< a sequence; none for one image
     double fps = 24.0;                 ///< frames per second, > 0
     Shutter shutter;
     std::optional<int> frame;  ///< which frame of the sequence this is
-    std::string animation;     ///< its name; empty for the file's first
+    /// Names the animations that play, or holds `kNoAnimation` alone; empty for all whose targets do not conflict.
+    std::vector<std::string> animations;
     LightUnits light_units = LightUnits::Photometric;
     std::optional<std::uint64_t> texture_memory;  ///< bytes for decoded textures; none for half of the machine's memory
     MissingTextures missing_textures = MissingTextures::Warn;
@@ -114,6 +125,7 @@ struct RenderSettings {
     std::vector<AovDesc> aovs;  ///< layers to write besides the image
     AovLayout aov_layout = AovLayout::Layers;
     ColorSettings color;
+    MetadataSettings metadata;
     SourceLocation location;                     ///< of render.json
     std::map<std::string, std::string> options;  ///< JSON pointers of what the command line set, and with which option
 

@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace etendue {
@@ -32,6 +33,8 @@ struct SceneDesc {
     std::vector<MaterialDesc> materials;  ///< a primitive without one gets an index into here too
     std::vector<MeshDesc> meshes;
     std::vector<std::string> animations;  ///< names of those that the file has
+    std::vector<std::string> scenes;      ///< names of those that the file has
+    std::size_t shown_scene = 0;          ///< index into `scenes`
     std::vector<std::string> variants;    ///< names of the sets of materials that the file offers
     std::vector<NodeDesc> nodes;          ///< parents before their children
     std::vector<InstanceDesc> instances;
@@ -54,6 +57,16 @@ struct SceneDesc {
 /// Takes the textures whose image is unreadable from all materials: factors stand alone, normals stay as they are. What
 /// a map of emission was to choose from stays dark, and what one of specular colour and glossiness was to, matte.
 void leave_out_unreadable_images(SceneDesc& scene);
+
+/// Returns the camera of this name, or else the first whose node has it; null if there is none.
+[[nodiscard]] const CameraDesc* find_camera(const SceneDesc& scene, std::string_view name);
+
+/// Returns the names by which `find_camera` finds cameras.
+[[nodiscard]] std::vector<std::string_view> camera_names(const SceneDesc& scene);
+
+/// Returns for each lamp its node's name, or an empty one where that is the name of a lamp itself: names of lamps go
+/// before those of nodes.
+[[nodiscard]] std::vector<std::string_view> node_names_of_lights(const SceneDesc& scene);
 
 /// Counts the images that materials do without because they are unreadable.
 [[nodiscard]] std::size_t count_missing_textures(const SceneDesc& scene);

@@ -87,6 +87,8 @@ using RealNumbers = Numbers<RealNumber>;
 /// Takes a list of texts that follow a grammar; an option gives one and adds it to the list.
 struct Texts {
     Form each;
+    /// Says that render.json may give one text in place of a list of it, and that options replace its list.
+    bool takes_one = false;
 };
 
 using SettingType = std::variant<WholeNumber, RealNumber, YesNo, Name, Choice, Form, WholeNumbers, RealNumbers, Texts>;

@@ -74,6 +74,9 @@ SettingValue to_value(const std::array<int, N>& value) {
 SettingValue to_value(const Strategy& value) {
     return std::vector<std::int64_t>{value.s, value.t};
 }
+SettingValue to_value(const std::vector<std::string>& value) {
+    return value;
+}
 SettingValue to_value(const Shutter& value) {
     return std::vector{value.open, value.close};
 }
@@ -89,7 +92,8 @@ SettingValue to_value(const std::optional<Value>& value) {
 
 template <typename Held>
 Held from_value(const SettingValue& value) {
-    if constexpr (std::is_same_v<Held, bool> || std::is_same_v<Held, std::string>) {
+    if constexpr (std::is_same_v<Held, bool> || std::is_same_v<Held, std::string> ||
+                  std::is_same_v<Held, std::vector<std::string>>) {
         return std::get<Held>(value);
     } else if constexpr (std::is_integral_v<Held>) {
         return static_cast<Held>(std::get<std::int64_t>(value));
@@ -189,6 +193,10 @@ bool parses(std::string_view text) {
     return parse(text).has_value();
 }
 
+bool is_some_text(std::string_view text) {
+    return !text.empty();
+}
+
 bool are_frames(std::span<const double> numbers) {
     return numbers[0] <= numbers[1] && (numbers.size() < 3 || numbers[2] >= 1);
 }
@@ -269,8 +277,15 @@ constexpr std::array kRows{
             .type = Name{},
             .decides = Decides::Samples,
             .default_text = "the first of the file",
-            .help = "Name of the camera",
+            .help = "Name of the camera, or of its node",
             .place = at([](auto& s) -> auto& { return s.camera; })},
+    Setting{.pointer = "/scene_name",
+            .option = "--scene",
+            .type = Name{},
+            .decides = Decides::Samples,
+            .default_text = "the file's own",
+            .help = "Name of the scene to show, of a file that has several",
+            .place = at([](auto& s) -> auto& { return s.scene_name; })},
     Setting{.pointer = "/time_code",
             .option = "--time-code",
             .type = RealNumber{},
@@ -281,12 +296,14 @@ constexpr std::array kRows{
             .place = at([](auto& s) -> auto& { return s.time_code; })},
     Setting{.pointer = "/animation",
             .option = "--animation",
-            .type = Name{},
+            .type = Texts{{"the name of an animation, or none", "^.+$", is_some_text}, true},
             .decides = Decides::Samples,
             .needs = "/time_code",
-            .default_text = "the first of the file",
-            .help = "Name of the animation to show",
-            .place = at([](auto& s) -> auto& { return s.animation; })},
+            .default_text = "all whose targets do not conflict",
+            .help = "Animations to play, by name, or `none`; those that move what an earlier one does are left out. "
+                    "The option can be given several times",
+            .page = "gltf.md#animations",
+            .place = at([](auto& s) -> auto& { return s.animations; })},
     Setting{.pointer = "/shutter",
             .option = "--shutter",
             .type = RealNumbers{{.is_single = true}, 2, 2, ':', "OPEN:CLOSE", "open <= close", are_times},
@@ -589,6 +606,22 @@ constexpr std::array kRows{
             .help = "Write the EXR as SMPTE ST 2065-4 asks: in ACES2065-1, 16-bit floats, not compressed",
             .page = "colour.md#aces-containers-smpte-st-2065-4",
             .place = at([](auto& s) -> auto& { return s.color.aces_container; })},
+    Setting{.pointer = "/metadata/owner",
+            .option = "--owner",
+            .type = Name{},
+            .decides = Decides::Display,
+            .default_text = "none",
+            .help = "Whose image it is, as the EXR tells it (`owner`)",
+            .page = "colour.md#what-an-exr-says-about-itself",
+            .place = at([](auto& s) -> auto& { return s.metadata.owner; })},
+    Setting{.pointer = "/metadata/comments",
+            .option = "--comments",
+            .type = Name{},
+            .decides = Decides::Display,
+            .default_text = "none",
+            .help = "Any text that the EXR is to tell (`comments`)",
+            .page = "colour.md#what-an-exr-says-about-itself",
+            .place = at([](auto& s) -> auto& { return s.metadata.comments; })},
 };
 
 }  // namespace

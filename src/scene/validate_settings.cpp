@@ -24,12 +24,9 @@ void validate_crop(const RenderSettings& settings, ProblemList& problems) {
 
 void validate_camera_name(const SceneDesc& scene, ProblemList& problems) {
     const std::string& name = scene.settings.camera;
-    if (name.empty()) return;
-    if (std::ranges::find(scene.cameras, name, &CameraDesc::name) != scene.cameras.end()) return;
-    std::vector<std::string_view> names;
-    for (const CameraDesc& camera : scene.cameras) names.push_back(camera.name);
+    if (name.empty() || find_camera(scene, name) != nullptr) return;
     problems.error(scene.settings.at("/camera"),
-                   fmt::format("there is no camera '{}'; {}", name, name_hint(name, names)));
+                   fmt::format("there is no camera '{}'; {}", name, name_hint(name, camera_names(scene))));
 }
 
 void validate_variant(const SceneDesc& scene, ProblemList& problems) {

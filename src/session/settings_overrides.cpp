@@ -67,8 +67,10 @@ std::optional<FrameRange> SettingsOverrides::frames() const {
 void SettingsOverrides::apply(RenderSettings& settings) const {
     if (quality) apply_quality(*quality, settings);
     for (const auto& [pointer, setting] : given) {
-        if (std::holds_alternative<std::vector<std::string>>(setting.value)) continue;
-        find_setting(pointer)->place.write(settings, setting.value);
+        const Setting& row = *find_setting(pointer);
+        const auto* const texts = std::get_if<Texts>(&row.type);
+        if (texts != nullptr && !texts->takes_one) continue;
+        row.place.write(settings, setting.value);
         settings.options[pointer] = setting.option;
     }
     for (AovDesc& aov : defaults_with(*this, "/aovs").aovs) {

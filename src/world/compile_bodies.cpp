@@ -1,3 +1,4 @@
+#include "core/shown_text.h"
 #include "world/compile_parts.h"
 
 #include <algorithm>
@@ -10,6 +11,8 @@
 #include <tuple>
 #include <utility>
 #include <vector>
+
+#include <fmt/format.h>
 
 namespace etendue {
 
@@ -171,6 +174,44 @@ void check_surfaces(const SceneDesc& scene, const WorldData& data, std::span<con
     }
 }
 
+/// Notes closed meshes whose materials transmit as thin sheets do: the thickness may have got lost, as it does where
+/// Blender's exporter writes no KHR_materials_volume.
+void note_closed_sheets(const SceneDesc& scene, const WorldData& data, ProblemList& problems) {
+    const auto is_sheet = [&](const Geometry& geometry) {
+        const MaterialDesc& desc = scene.materials[geometry.material];
+        return desc.transmission > 0.0f && !desc.volume.closed && !desc.unlit && desc.alpha_mode != AlphaMode::Mask &&
+               std::holds_alternative<std::monostate>(desc.override_model);
+    };
+    // What encloses less than this part of the cube of its size is flat.
+    constexpr double kLeastVolume = 1e-6;
+    std::set<std::int32_t> seen;
+    for (std::size_t i = 0; i < data.instances.size(); ++i) {
+        const Instance& instance = data.instances[i];
+        const InstanceDesc& desc = scene.instances[i];
+        const std::span geometries(data.geometries.data() + instance.first_geometry, instance.geometry_count);
+        if (!std::ranges::any_of(geometries, is_sheet) || !seen.insert(desc.mesh.index).second) continue;
+        Bounds bounds;
+        for (const Geometry& geometry : geometries)
+            if (is_sheet(geometry))
+                for (const Vec3f& p : geometry.positions) bounds.extend(p);
+        const double size = bounds.empty() ? 0.0 : static_cast<double>(length(bounds.size()));
+        if (!(size > 0.0)) continue;
+        SurfaceSums surface(bounds);
+        std::string material;
+        for (const Geometry& geometry : geometries) {
+            if (!is_sheet(geometry)) continue;
+            surface.add(geometry);
+            material = scene.materials[geometry.material].name;
+        }
+        if (!surface.is_closed() || std::abs(surface.volume()) < kLeastVolume * size * size * size) continue;
+        problems.note(desc.location,
+                      fmt::format("'{0}' is closed, but its material '{1}' transmits without a thickness, so that it "
+                                  "is a thin shell: \"materials\": {{\"{1}\": {{\"solid\": true}}}} in render.json "
+                                  "fills it",
+                                  shown(desc.name), shown(material)));
+    }
+}
+
 }  // namespace
 
 std::optional<Filling> compile_filling(const MaterialDesc& desc, const ColorMatrix& from_rec709) {
@@ -212,6 +253,7 @@ void compile_bodies(const SceneDesc& scene, WorldData& data, ProblemList& proble
             candidate_of_slot[instance.first_light_slot + g] = entry->second;
         }
     }
+    note_closed_sheets(scene, data, problems);
     if (candidates.empty()) return;
     check_surfaces(scene, data, local_bounds, problems);
     // What is wholly inside another is smaller than it, and is what one means to see there.

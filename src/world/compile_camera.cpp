@@ -1,32 +1,29 @@
 #include "world/compile_parts.h"
 
 #include <cmath>
-#include <vector>
+#include <string>
 
 namespace etendue {
 
 namespace {
 
-const CameraDesc& find_camera(const SceneDesc& scene) {
+const CameraDesc& chosen_camera(const SceneDesc& scene) {
     if (scene.cameras.empty()) throw SceneError({scene.file.string(), ""}, "the scene has no camera");
-    if (scene.settings.camera.empty()) return scene.cameras.front();
-    std::vector<std::string_view> names;
-    for (const CameraDesc& camera : scene.cameras) {
-        if (camera.name == scene.settings.camera) return camera;
-        names.push_back(camera.name);
-    }
+    const std::string& name = scene.settings.camera;
+    if (name.empty()) return scene.cameras.front();
+    if (const CameraDesc* const camera = find_camera(scene, name)) return *camera;
     throw SceneError(scene.settings.at("/camera"),
-                     "there is no camera '" + scene.settings.camera + "'; " + name_hint(scene.settings.camera, names));
+                     "there is no camera '" + name + "'; " + name_hint(name, camera_names(scene)));
 }
 
 }  // namespace
 
 TransformMotion compile_camera_motion(const SceneDesc& scene) {
-    return find_camera(scene).motion;
+    return chosen_camera(scene).motion;
 }
 
 Camera compile_camera(const SceneDesc& scene) {
-    const CameraDesc& desc = find_camera(scene);
+    const CameraDesc& desc = chosen_camera(scene);
     const FilmSettings& film = scene.settings.film;
     const float aspect = static_cast<float>(film.width) / static_cast<float>(film.height);
     const CameraPose pose = CameraPose::from_matrix(desc.to_world);

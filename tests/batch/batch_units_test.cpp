@@ -99,7 +99,7 @@ TEST_F(BatchUnits, WriteNoLayerOverAnImage) {
     options_.overrides.given.erase("/aovs");
     options_.overrides.give("--aov", "denoising");
     EXPECT_EQ(collect().size(), 2u);
-    write_scene(folder_ / "scenes/a.half.N");
+    write_scene(folder_ / "scenes/a.half_N");
     EXPECT_THROW((void)collect(), SceneError);
 }
 

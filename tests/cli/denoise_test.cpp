@@ -1,4 +1,5 @@
 // etendue denoise from outside: what it reads, refuses and writes.
+#include "denoise/layers.h"
 #include "image/read_channels.h"
 #include "image/write.h"
 #include "program/run_program.h"
@@ -25,12 +26,12 @@ using Names = std::vector<std::string>;
 
 constexpr float kTruth = 0.5f;
 
-/// Channels without "half." and their halves, with noise around kTruth in those of light and none in features.
+/// Channels and their halves, with noise around kTruth in those of light and none in features.
 struct TestImage {
     explicit TestImage(const Names& layers, int width = 40, int height = 24) {
         names = layers;
         for (const std::string& layer : layers)
-            if (layer != "A" && layer != "id") names.push_back("half." + layer);
+            if (layer != "A" && layer != "id") names.push_back(half_channel(layer));
         pixels = ImageF(width, height, static_cast<int>(names.size()));
         std::mt19937 generator(1);
         std::normal_distribution<float> normal;
@@ -41,7 +42,8 @@ struct TestImage {
                     const float a = kTruth + (is_feature ? 0.0f : 0.1f * normal(generator));
                     const float b = kTruth + (is_feature ? 0.0f : 0.1f * normal(generator));
                     at(layers[i], x, y) = 0.5f * (a + b);
-                    if (std::ranges::find(names, "half." + layers[i]) != names.end()) at("half." + layers[i], x, y) = a;
+                    if (std::ranges::find(names, half_channel(layers[i])) != names.end())
+                        at(half_channel(layers[i]), x, y) = a;
                 }
     }
     float& at(const std::string& name, int x, int y) {
@@ -185,7 +187,7 @@ TEST_F(Denoise, CountsAndFillsPixelsThatAreNotFinite) {
     TestImage image(kLayers);
     image.at("R", 10, 10) = std::numeric_limits<float>::quiet_NaN();
     image.at("half.G", 12, 11) = std::numeric_limits<float>::infinity();
-    image.at("half.N.X", 3, 3) = std::numeric_limits<float>::quiet_NaN();
+    image.at("half_N.X", 3, 3) = std::numeric_limits<float>::quiet_NaN();
     const ProgramResult result = denoise({write("a.exr", image), "-o", "out.exr"});
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_TRUE(contains(result.err, "2 pixels of RGB are not finite")) << result.err;

@@ -137,7 +137,7 @@ TEST_F(Layers, OfPartsAreThoseOfTheWhole) {
         const ChannelImage whole = read_channels(work_ / "whole.exr");
         const ChannelImage sum = read_channels(work_ / "merged.exr");
         ASSERT_EQ(sum.channel_names, whole.channel_names);
-        ASSERT_NE(std::ranges::find(sum.channel_names, "half.albedo.R"), sum.channel_names.end());
+        ASSERT_NE(std::ranges::find(sum.channel_names, "half_albedo.R"), sum.channel_names.end());
         const std::size_t count = sum.channel_names.size();
         for (std::size_t i = 0; i < sum.pixels.pixels.size(); ++i) {
             const float value = whole.pixels.pixels[i];

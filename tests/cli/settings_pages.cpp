@@ -36,37 +36,40 @@ OrderedJson each_schema(const RealNumber& type) {
 
 OrderedJson type_schema(const SettingType& type) {
     return std::visit(
-        Overloaded{
-            [](const WholeNumber& number) { return each_schema(number); },
-            [](const RealNumber& number) { return each_schema(number); },
-            [](const YesNo&) {
-                return OrderedJson{{"type", "boolean"}};
-            },
-            [](const Name& name) {
-                return name.is_integrator ? OrderedJson{{"enum", integrator_names()}}
-                                          : OrderedJson{{"type", "string"}, {"minLength", 1}};
-            },
-            [](const Choice& choice) {
-                return OrderedJson{{"enum", std::vector<std::string>(choice.names.begin(), choice.names.end())}};
-            },
-            [](const Form& form) {
-                return OrderedJson{{"type", "string"}, {"pattern", form.pattern}};
-            },
-            []<typename Number>(const Numbers<Number>& numbers) {
-                return OrderedJson{{"type", "array"},
-                                   {"items", each_schema(numbers.each)},
-                                   {"minItems", numbers.least_count},
-                                   {"maxItems", numbers.most_count}};
-            },
-            [](const Texts& texts) {
-                return OrderedJson{{"type", "array"}, {"items", {{"type", "string"}, {"pattern", texts.each.pattern}}}};
-            }},
+        Overloaded{[](const WholeNumber& number) { return each_schema(number); },
+                   [](const RealNumber& number) { return each_schema(number); },
+                   [](const YesNo&) {
+                       return OrderedJson{{"type", "boolean"}};
+                   },
+                   [](const Name& name) {
+                       return name.is_integrator ? OrderedJson{{"enum", integrator_names()}}
+                                                 : OrderedJson{{"type", "string"}, {"minLength", 1}};
+                   },
+                   [](const Choice& choice) {
+                       return OrderedJson{{"enum", std::vector<std::string>(choice.names.begin(), choice.names.end())}};
+                   },
+                   [](const Form& form) {
+                       return OrderedJson{{"type", "string"}, {"pattern", form.pattern}};
+                   },
+                   []<typename Number>(const Numbers<Number>& numbers) {
+                       return OrderedJson{{"type", "array"},
+                                          {"items", each_schema(numbers.each)},
+                                          {"minItems", numbers.least_count},
+                                          {"maxItems", numbers.most_count}};
+                   },
+                   [](const Texts& texts) {
+                       const OrderedJson one{{"type", "string"}, {"pattern", texts.each.pattern}};
+                       const OrderedJson list{{"type", "array"}, {"items", one}};
+                       return texts.takes_one ? OrderedJson{{"anyOf", {one, list}}} : list;
+                   }},
         type);
 }
 
 std::string default_in_words(const Setting& setting) {
     const SettingValue value = default_value(setting);
-    return std::holds_alternative<std::monostate>(value) ? std::string(setting.default_text) : to_text(setting, value);
+    const bool is_in_words =
+        std::holds_alternative<std::monostate>(value) || std::holds_alternative<Texts>(setting.type);
+    return is_in_words && !setting.default_text.empty() ? std::string(setting.default_text) : to_text(setting, value);
 }
 
 std::string schema_description(const Setting& setting) {
@@ -85,7 +88,9 @@ std::string value_in_words(const SettingType& type) {
                    },
                    [](const Choice& choice) { return fmt::format("`{}`", fmt::join(choice.names, "`, `")); },
                    [](const Form& form) { return fmt::format("string: {}", form.form); },
-                   [](const Texts& texts) { return fmt::format("strings: {}", texts.each.form); },
+                   [](const Texts& texts) {
+                       return fmt::format("{}: {}", texts.takes_one ? "string or strings" : "strings", texts.each.form);
+                   },
                    [&](const auto&) { return requirement(type); }},
         type);
 }

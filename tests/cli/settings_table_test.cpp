@@ -94,6 +94,9 @@ Samples samples_of(const Setting& setting) {
         for (const std::string_view name : choice->names) samples.good.emplace_back(std::string(name));
         return samples;
     }
+    if (const auto* const texts = std::get_if<Texts>(&setting.type); texts != nullptr && texts->takes_one)
+        return {{std::vector<std::string>{"walk"}, std::vector<std::string>{"walk", "wave"}},
+                {std::vector<std::string>{""}}};
     if (std::holds_alternative<Texts>(setting.type))
         return {{std::vector<std::string>{"depth"}, std::vector<std::string>{"depth", "N:half"}},
                 {std::vector<std::string>{"N="}}};
@@ -245,7 +248,7 @@ TEST(SettingsFiles, AreAsTheTableHasThem) {
 // Settings that nobody reads any more would stay in the schema.
 TEST(SettingsFiles, HaveNothingElse) {
     const ordered_json schema = ordered_json::parse(read_file(schema_file()));
-    for (const char* object : {"integrator", "film", "color"})
+    for (const char* object : {"integrator", "film", "color", "metadata"})
         for (const auto& [key, value] : schema["properties"][object]["properties"].items())
             EXPECT_NE(find_setting(std::string("/") + object + "/" + key), nullptr) << object << "/" << key;
 }
@@ -264,12 +267,12 @@ TEST(CanonicalSettings, AreTheSameForAFrameOfWhateverSequence) {
 TEST(CanonicalSettings, LeaveOutWhatHasNoEffect) {
     RenderSettings settings;
     settings.min_spp = 7;
-    settings.animation = "walk";
+    settings.animations = {"walk"};
     EXPECT_EQ(requested_settings(settings), requested_settings({}));
     settings.relative_error = 0.1;
     settings.time_code = 0.0;
     EXPECT_EQ(requested_settings(settings),
-              "{\"/animation\": \"walk\", \"/error\": 0.1, \"/min_spp\": 7, \"/time_code\": 0}");
+              "{\"/animation\": [\"walk\"], \"/error\": 0.1, \"/min_spp\": 7, \"/time_code\": 0}");
 }
 
 }  // namespace

@@ -16,10 +16,10 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-/// The names, and the same with "half." before them.
+/// The names, and those of their halves.
 Names with_halves(const Names& names) {
     Names all = names;
-    for (const std::string& name : names) all.push_back("half." + name);
+    for (const std::string& name : names) all.push_back(half_channel(name));
     return all;
 }
 
@@ -35,7 +35,7 @@ std::string refusal(const Names& names, const Names& features = default_features
 TEST(Layers, OnlyWhatTheFileSaysIsLight) {
     Names names{"R", "G", "B", "half.R", "half.G", "half.B"};
     for (const char* layer : {"variance", "caustics"})
-        for (const char* half : {"", "half."})
+        for (const char* half : {"", "half_"})
             for (const char* channel : {"R", "G", "B"}) names.push_back(std::string(half) + layer + "." + channel);
     const auto lights_of = [&](const std::optional<Names>& lights) {
         Names found;
@@ -101,8 +101,8 @@ TEST(Layers, FeaturesThatWereAskedForMustBeThere) {
     EXPECT_EQ(refusal(names), "");
     EXPECT_TRUE(test::contains(refusal(names, Names{"N"}, Names{"N"}), "no layer 'N'"));
     Names without_half = names;
-    without_half.insert(without_half.end(), {"N.X", "N.Y", "N.Z", "half.N.X"});
-    EXPECT_TRUE(test::contains(refusal(without_half, Names{"N"}, Names{"N"}), "half.N"));
+    without_half.insert(without_half.end(), {"N.X", "N.Y", "N.Z", "half_N.X"});
+    EXPECT_TRUE(test::contains(refusal(without_half, Names{"N"}, Names{"N"}), "half_N"));
     EXPECT_EQ(refusal(without_half), "") << "and are left out if they were not";
 }
 

@@ -41,5 +41,16 @@ TEST(LabelClasses, NamesThatNoPatternTellsApartAreOne) {
     EXPECT_EQ(classes.unmatched(), std::vector<std::string>{"silver"});
 }
 
+TEST(LabelClasses, AliasesMatchAsNamesDo) {
+    const std::array<std::string, 3> names{"bulb", "bulb", "spot"};
+    const std::array<std::string, 2> aliases{"", "left lamp"};
+    const LabelClasses classes({"bulb", "left*", "*"}, names, aliases);
+    EXPECT_EQ(classes.count(), 4u) << "nothing, bulb, the left bulb, and what only * matches";
+    EXPECT_FALSE(classes.matches(classes.of(0), "left*"));
+    EXPECT_TRUE(classes.matches(classes.of(1), "left*"));
+    EXPECT_TRUE(classes.matches(classes.of(1), "bulb"));
+    EXPECT_FALSE(classes.matches(classes.of(2), "left*"));
+}
+
 }  // namespace
 }  // namespace etendue

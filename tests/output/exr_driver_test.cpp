@@ -2,12 +2,17 @@
 
 #include "core/error.h"
 #include "image/read.h"
+#include "output/cryptomatte.h"
+#include "output/shot_attributes.h"
 #include "output/software_name.h"
 #include "test_frame.h"
 
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <fstream>
+#include <utility>
+#include <variant>
 
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
@@ -77,6 +82,70 @@ TEST(ExrDriver, CarriesAllMetadata) {
     ASSERT_TRUE(found);
     const std::vector<float> ap1{0.713f, 0.293f, 0.165f, 0.83f, 0.128f, 0.044f, 0.32168f, 0.33767f};
     EXPECT_EQ(std::memcmp(found->data(), ap1.data(), 8 * sizeof(float)), 0);
+}
+
+// Names as OpenImageIO has them: Copyright is owner, ImageDescription comments, FNumber aperture.
+TEST(ExrDriver, CarriesStandardAttributesOfShots) {
+    const TestFolder folder;
+    ExrDriver(folder / "a.exr", ColorConfig::built_in()).write(make_test_frame());
+    const OIIO::ImageSpec spec = spec_of(folder / "a.exr");
+    EXPECT_EQ(spec.get_string_attribute("Copyright"), "Jo");
+    EXPECT_EQ(spec.get_string_attribute("ImageDescription"), "For Sam.");
+    EXPECT_EQ(spec.get_string_attribute("cameraLabel"), "Hero");
+    EXPECT_EQ(spec.get_float_attribute("nominalFocalLength"), 50.0f);
+    EXPECT_EQ(spec.get_float_attribute("FNumber"), 2.0f);
+    EXPECT_EQ(spec.get_float_attribute("focus"), 3.5f);
+    EXPECT_NE(spec.find_attribute("utcOffset", OIIO::TypeDesc::FLOAT), nullptr);
+    const auto* rate = spec.find_attribute("framesPerSecond", OIIO::TypeRational);
+    ASSERT_TRUE(rate);
+    EXPECT_EQ(static_cast<const int*>(rate->data())[0], 24);
+    EXPECT_EQ(static_cast<const int*>(rate->data())[1], 1);
+    const auto* code = spec.find_attribute("smpte:TimeCode", OIIO::TypeTimeCode);
+    ASSERT_TRUE(code);
+    EXPECT_EQ(static_cast<const std::uint32_t*>(code->data())[0], 0x00010010u) << "00:01:00:10";
+    OutputFrame still = make_test_frame();
+    still.frame.reset();
+    still.owner.clear();
+    ExrDriver(folder / "b.exr", ColorConfig::built_in()).write(still);
+    EXPECT_EQ(spec_of(folder / "b.exr").find_attribute("smpte:TimeCode"), nullptr);
+    EXPECT_EQ(spec_of(folder / "b.exr").find_attribute("Copyright"), nullptr);
+}
+
+TEST(ShotAttributes, RatesAndTimeCodes) {
+    const auto rate = [](double fps) {
+        const ImageRational ratio = frames_per_second(fps);
+        return std::pair(ratio.numerator, ratio.denominator);
+    };
+    EXPECT_EQ(rate(25.0), std::pair(25, 1));
+    EXPECT_EQ(rate(23.976), std::pair(24000, 1001));
+    EXPECT_EQ(rate(29.97), std::pair(30000, 1001));
+    EXPECT_EQ(rate(12.5), std::pair(12500, 1000));
+    EXPECT_EQ(time_code(0, 24.0)->digits, 0u);
+    EXPECT_EQ(time_code((11 * 3600 + 59 * 60 + 58) * 30 + 29, 29.97)->digits, 0x11595829u);
+    EXPECT_FALSE(time_code(-1, 24.0));
+    EXPECT_FALSE(time_code(1, 60.0));
+    EXPECT_FALSE(time_code(999'999, 1.0));
+}
+
+// Blender looks for Cryptomattes in the first part of a file.
+TEST(ExrDriver, TellsCryptomattesInTheFirstPart) {
+    const TestFolder folder;
+    OutputFrame frame = make_test_frame();
+    frame.layers.push_back({.name = "CryptoObject",
+                            .channels = "RGBA",
+                            .is_float = true,
+                            .is_matte = true,
+                            .attributes = matte_attributes("CryptoObject", "{}"),
+                            .pixels = frame.pixels});
+    ExrDriver(folder / "a.exr", ColorConfig::built_in()).write_layers_as_parts(frame);
+    const auto input = OIIO::ImageInput::open((folder / "a.exr").string());
+    ASSERT_TRUE(input);
+    for (int part = 0; part < 2; ++part) {
+        ASSERT_TRUE(input->seek_subimage(part, 0));
+        for (const ImageAttribute& attribute : frame.layers[0].attributes)
+            EXPECT_EQ(input->spec().get_string_attribute(attribute.name), std::get<std::string>(attribute.value))
+                << part;
+    }
 }
 
 TEST(ExrDriver, PlacesTheCropWindow) {

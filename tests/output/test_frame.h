@@ -26,6 +26,14 @@ inline OutputFrame make_test_frame() {
     frame.world_to_camera.setTranslation(Vec3f(0.0f, 0.0f, -4.0f));  // a camera at z = 4
     frame.world_to_screen =
         frame.world_to_camera * Mat4f(2.0f, 0, 0, 0, 0, 3.0f, 0, 0, 0, 0, -1, -1, 0, 0, 0, 0);  // 1/2 and 1/3 wide
+    frame.camera = "Hero";
+    frame.focal_length = 50.0f;
+    frame.f_number = 2.0f;
+    frame.focus_distance = 3.5f;
+    frame.fps = 24.0;
+    frame.frame = 1450;
+    frame.owner = "Jo";
+    frame.comments = "For Sam.";
     frame.scene = "cornell-box";
     frame.integrator = "path";
     frame.sampler = "sobol";

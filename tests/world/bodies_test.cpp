@@ -160,6 +160,36 @@ std::string said_of_a_ball(const Change& change) {
     return said;
 }
 
+/// Messages about a ball whose material transmits without a thickness, after `change` to the ball and the material.
+template <typename Change>
+std::string said_of_a_shell(const Change& change) {
+    SceneDesc scene = empty_scene();
+    PrimitiveDesc ball = sphere({3.0f, 0.0f, 0.0f}, 1.0f, 12);
+    MaterialDesc glass;
+    glass.name = "Glass";
+    glass.transmission = 1.0f;
+    change(ball, glass);
+    add_object(scene, ball, add_material(scene, glass));
+    ProblemList problems;
+    (void)compile(std::move(scene), kGltfColorSpace, problems);
+    std::string said;
+    for (const Problem& problem : problems.all()) said += problem.message;
+    return said;
+}
+
+TEST(Bodies, ClosedSheetsAreNoted) {
+    EXPECT_NE(said_of_a_shell([](PrimitiveDesc&, MaterialDesc&) {}).find("its material 'Glass' transmits without"),
+              std::string::npos);
+    EXPECT_EQ(said_of_a_shell([](PrimitiveDesc& ball, MaterialDesc&) { ball.triangles.pop_back(); }), "");
+    EXPECT_EQ(said_of_a_shell([](PrimitiveDesc&, MaterialDesc& glass) { glass.volume.closed = true; }), "");
+    EXPECT_EQ(said_of_a_shell([](PrimitiveDesc&, MaterialDesc& glass) { glass.transmission = 0.0f; }), "");
+    EXPECT_EQ(said_of_a_shell([](PrimitiveDesc& ball, MaterialDesc&) {
+                  for (Vec3f& p : ball.positions) p.y = 0.0f;
+              }),
+              "")
+        << "a flat mesh encloses nothing";
+}
+
 TEST(Bodies, HolesAndTurnedSurfacesAreWarnedOf) {
     EXPECT_EQ(said_of_a_ball([](PrimitiveDesc&) {}), "");
     EXPECT_NE(said_of_a_ball([](PrimitiveDesc& ball) { ball.triangles.pop_back(); }).find("not closed"),

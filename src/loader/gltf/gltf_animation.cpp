@@ -1,8 +1,13 @@
 #include "loader/gltf/gltf_animation.h"
 
+#include "core/shown_text.h"
+#include "loader/json_text.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -91,33 +96,118 @@ int output_components(const GltfDocument& document, const GltfAnimation& animati
     return std::clamp(component_count(document.model.accessors[accessor]), 1, 4);
 }
 
-}  // namespace
-
-const GltfAnimation* find_animation(const GltfDocument& document, const RenderSettings& settings,
-                                    ProblemList& problems) {
-    const std::string& name = settings.animation;
-    if (document.animations.empty()) {
-        if (settings.frame)
-            problems.error(document.at(""),
-                           "the file has no animation, so all frames would be the same; render one "
-                           "image, without --frames and \"frames\"");
-        else
-            problems.warning(document.at(""), "a time code was given, but the file has no animation");
-        return nullptr;
+/// Remembers what animations move, by JSON pointers.
+class MovedPlaces {
+  public:
+    /// Adds what `animation` moves, or returns false and adds nothing if something of it is moved already.
+    [[nodiscard]] bool add(const GltfAnimation& animation) {
+        std::vector<std::string> places;
+        for (const GltfAnimation::Channel& channel : animation.channels) {
+            if (!channel.pointer.empty())
+                places.push_back(channel.pointer + '/');
+            else if (channel.node >= 0)
+                places.push_back(fmt::format("/nodes/{}/{}/", channel.node, channel.path));
+        }
+        if (std::ranges::any_of(places, [&](const std::string& place) { return is_moved(place); })) return false;
+        places_.insert(places.begin(), places.end());
+        return true;
     }
-    if (name.empty()) return &document.animations.front();
-    const auto found = std::ranges::find(document.animations, name, &GltfAnimation::name);
-    if (found != document.animations.end()) return &*found;
-    std::vector<std::string_view> names;
-    names.reserve(document.animations.size());
-    for (const GltfAnimation& animation : document.animations) names.push_back(animation.name);
-    problems.error(document.at("/animations"),
-                   fmt::format("there is no animation '{}'; {}", name, name_hint(name, names)));
-    return nullptr;
+
+  private:
+    /// True if `place`, something in it or something that it is in is moved.
+    [[nodiscard]] bool is_moved(const std::string& place) const {
+        const auto inside = places_.lower_bound(place);
+        if (inside != places_.end() && inside->starts_with(place)) return true;
+        std::size_t end = 0;
+        for (int depth = 0; depth <= kMaxJsonDepth; ++depth) {  // nothing stands deeper
+            end = place.find('/', end + 1);
+            if (end == std::string::npos) return false;
+            if (places_.contains(place.substr(0, end + 1))) return true;
+        }
+        return false;
+    }
+
+    std::set<std::string> places_;
+};
+
+bool wants_none(const RenderSettings& settings) {
+    return settings.animations == std::vector<std::string>{std::string(kNoAnimation)};
 }
 
-AnimationSampler::AnimationSampler(const GltfDocument& document, const GltfAnimation& animation,
+/// Finds the animations that `settings` name. Errors for names that are not there.
+std::vector<const GltfAnimation*> find_named(const GltfDocument& document, const RenderSettings& settings,
+                                             ProblemList& problems) {
+    std::vector<std::string_view> names{kNoAnimation};
+    for (const GltfAnimation& animation : document.animations) names.push_back(animation.name);
+    std::vector<const GltfAnimation*> found;
+    for (const std::string& name : settings.animations) {
+        const std::size_t before = found.size();
+        for (const GltfAnimation& animation : document.animations)
+            if (animation.name == name && std::ranges::find(found, &animation) == found.end())
+                found.push_back(&animation);
+        const bool is_repeated = std::ranges::find(found, name, &GltfAnimation::name) != found.end();
+        if (found.size() > before || is_repeated) continue;
+        if (name == kNoAnimation)
+            problems.error(settings.at("/animation"), "'none' stands alone: it asks for no animation");
+        else
+            problems.error(document.at("/animations"),
+                           fmt::format("there is no animation '{}'; {}", shown(name), name_hint(name, names)));
+    }
+    return found;
+}
+
+/// Says which animations are left out.
+void warn_of_conflicts(const GltfDocument& document, std::span<const GltfAnimation* const> left_out,
+                       ProblemList& problems) {
+    if (left_out.empty()) return;
+    constexpr std::size_t kMostNames = 8;
+    std::string names;
+    for (std::size_t i = 0; i < std::min(left_out.size(), kMostNames); ++i)
+        names += fmt::format("{}'{}'", i == 0 ? "" : ", ", shown(left_out[i]->name));
+    if (left_out.size() > kMostNames) names += fmt::format(" and {} more", left_out.size() - kMostNames);
+    problems.warning(document.at("/animations"),
+                     fmt::format("not played, since what they move is moved by animations before them: {}; --animation "
+                                 "NAME chooses",
+                                 names));
+}
+
+}  // namespace
+
+std::vector<const GltfAnimation*> choose_animations(const GltfDocument& document, const RenderSettings& settings,
+                                                    ProblemList& problems) {
+    const bool is_still = document.animations.empty() || wants_none(settings);
+    if (is_still && settings.frame)
+        problems.error(document.at(""),
+                       fmt::format("{}, so all frames would be the same; render one image, without --frames and "
+                                   "\"frames\"",
+                                   wants_none(settings) ? "no animation is to play" : "the file has no animation"));
+    else if (is_still && !wants_none(settings))
+        problems.warning(document.at(""), "a time code was given, but the file has no animation");
+    if (is_still) return {};
+
+    std::vector<const GltfAnimation*> asked;
+    if (settings.animations.empty())
+        for (const GltfAnimation& animation : document.animations) asked.push_back(&animation);
+    else
+        asked = find_named(document, settings, problems);
+    MovedPlaces moved;
+    std::vector<const GltfAnimation*> left_out;
+    std::erase_if(asked, [&](const GltfAnimation* animation) {
+        if (moved.add(*animation)) return false;
+        left_out.push_back(animation);
+        return true;
+    });
+    warn_of_conflicts(document, left_out, problems);
+    return asked;
+}
+
+AnimationSampler::AnimationSampler(const GltfDocument& document, std::span<const GltfAnimation* const> animations,
                                    AccessorReader& accessors, ProblemList& problems) {
+    for (const GltfAnimation* animation : animations) read(document, *animation, accessors, problems);
+}
+
+void AnimationSampler::read(const GltfDocument& document, const GltfAnimation& animation, AccessorReader& accessors,
+                            ProblemList& problems) {
     static const std::map<std::string, Target> kTargets{{"translation", Target::Translation},
                                                         {"rotation", Target::Rotation},
                                                         {"scale", Target::Scale},

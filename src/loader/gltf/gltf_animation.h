@@ -7,6 +7,7 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,10 +25,12 @@ struct NodePose {
 /// Poses by node index.
 using NodePoses = std::map<int, NodePose>;
 
-/// The animation that `settings` name, or the first. Null if there is none of that name (an error) or none at all (an
-/// error if a frame of a sequence is asked for, which would be like all the others, else a warning).
-[[nodiscard]] const GltfAnimation* find_animation(const GltfDocument& document, const RenderSettings& settings,
-                                                  ProblemList& problems);
+/// Chooses the animations that play: those that `settings` name, in that order, or all of the file. An animation that
+/// moves what one before it does is left out, with a warning. Errors for names that the file does not have; if none is
+/// left, an error if a frame of a sequence is asked for, which would be like all the others.
+[[nodiscard]] std::vector<const GltfAnimation*> choose_animations(const GltfDocument& document,
+                                                                  const RenderSettings& settings,
+                                                                  ProblemList& problems);
 
 /// The keys of one sampler.
 struct AnimationKeys {
@@ -51,21 +54,24 @@ struct PointerValue {
     SourceLocation where;  ///< the channel
 };
 
-/// An animation, read once and posed at any moment.
+/// Animations that play together, read once and posed at any moment.
 class AnimationSampler {
   public:
-    /// Channels that cannot be read are errors, those whose target is not known warnings.
-    AnimationSampler(const GltfDocument& document, const GltfAnimation& animation, AccessorReader& accessors,
-                     ProblemList& problems);
+    /// Reads `animations`. Channels that cannot be read are errors, those whose target is not known warnings.
+    AnimationSampler(const GltfDocument& document, std::span<const GltfAnimation* const> animations,
+                     AccessorReader& accessors, ProblemList& problems);
 
     /// The poses at `seconds`: before the first key as at the first, after the last as at the last, between by the
     /// sampler's interpolation (glTF 2.0 specification, appendix C).
     [[nodiscard]] NodePoses poses(double seconds) const;
-    /// Returns the values at `seconds` of what the animation moves besides nodes (KHR_animation_pointer), interpolated
+    /// Returns the values at `seconds` of what the animations move besides nodes (KHR_animation_pointer), interpolated
     /// as by `poses`.
     [[nodiscard]] std::vector<PointerValue> pointer_values(double seconds) const;
 
   private:
+    void read(const GltfDocument& document, const GltfAnimation& animation, AccessorReader& accessors,
+              ProblemList& problems);
+
     enum class Target { Translation, Rotation, Scale, Weights };
     struct Channel {
         int node;

@@ -44,6 +44,7 @@ void LightReader::place_punctual(const tinygltf::Node& node, std::size_t index, 
     const tinygltf::Light& source = document_.model.lights[index];
     LightDesc& light = scene_.lights.emplace_back();
     light.name = source.name.empty() ? node.name : source.name;
+    light.node = node.name;
     // The document's shape allows these names alone.
     const auto* const type = std::ranges::find(kLightTypeNames, source.type);
     light.type = static_cast<LightType>(type - kLightTypeNames.begin());
@@ -73,6 +74,7 @@ void LightReader::place_measured(const tinygltf::Node& node, const tinygltf::Val
     if (!light.profile) return;
     const std::string& name = scene_.ies_profiles[static_cast<std::size_t>(light.profile.index)].name;
     light.name = name.empty() ? node.name : name;
+    light.node = node.name;
     // The extension clamps colours, which are factors, to one.
     const auto channel = [&](int c) {
         return static_cast<float>(std::clamp(element_or(extension, "color", c, 1.0), 0.0, 1.0));

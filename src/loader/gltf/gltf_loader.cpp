@@ -15,20 +15,24 @@
 #include <array>
 #include <fstream>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace etendue {
 
 namespace {
 
-/// Says what is wrong with the animations other than `shown`, all of it as warnings: the image does not show them.
-void check_other_animations(const GltfDocument& document, const GltfAnimation* shown, ProblemList& problems) {
+/// Says what is wrong with the animations that are not among `shown`, all of it as warnings: the image does not show
+/// them.
+void check_other_animations(const GltfDocument& document, std::span<const GltfAnimation* const> shown,
+                            ProblemList& problems) {
     for (const GltfAnimation& animation : document.animations) {
-        if (&animation == shown) continue;
+        if (std::ranges::find(shown, &animation) != shown.end()) continue;
         ProblemList found;
         AccessorReader accessors(document, found);
-        const AnimationSampler sampler(document, animation, accessors, found);
+        const AnimationSampler sampler(document, std::array{&animation}, accessors, found);
         for (Problem problem : found.all()) {
             problem.severity = std::min(problem.severity, Severity::Warning);
             problems.add(std::move(problem));
@@ -60,14 +64,14 @@ void GltfLoader::load(const std::filesystem::path& file, const LoadOptions& opti
     AccessorReader accessors(document, problems);
     for (const GltfAnimation& animation : document.animations) scene.animations.push_back(animation.name);
     std::optional<AnimationSampler> sampler;
-    const GltfAnimation* shown = nullptr;
+    std::vector<const GltfAnimation*> shown;
     if (settings.shown_time()) {
-        shown = find_animation(document, settings, problems);
-        if (shown != nullptr) sampler.emplace(document, *shown, accessors, problems);
+        shown = choose_animations(document, settings, problems);
+        if (!shown.empty()) sampler.emplace(document, shown, accessors, problems);
     } else if (!document.animations.empty()) {
         problems.note(document.at("/animations"),
                       "the scene is shown at rest; --time-code SECONDS shows a moment of "
-                      "its animation");
+                      "its animations");
     }
     if (options.every_animation) check_other_animations(document, shown, problems);
     if (sampler)

@@ -1,5 +1,6 @@
 #include "loader/gltf/gltf_nodes.h"
 
+#include "core/shown_text.h"
 #include "loader/gltf/gltf_instancing.h"
 #include "loader/gltf/gltf_lights.h"
 #include "loader/gltf/gltf_mesh_deformer.h"
@@ -105,8 +106,51 @@ std::vector<int> roots_of_scene(const GltfDocument& document, std::size_t index,
     return distinct;
 }
 
-/// The nodes to start from. There must be no cycles.
-std::vector<int> find_roots(const GltfDocument& document, const std::vector<int>& parents, ProblemList& problems) {
+/// Hands out names of which none is there twice.
+class FreeNames {
+  public:
+    /// Returns `wanted`, or `fallback` for an empty one; where that is taken, with a number behind it.
+    std::string take(const std::string& wanted, const std::string& fallback) {
+        const std::string base = wanted.empty() ? fallback : wanted;
+        std::string name = base;
+        for (int& n = last_number_[base]; !taken_.insert(name).second;) name = fmt::format("{}-{}", base, ++n + 1);
+        return name;
+    }
+
+  private:
+    std::set<std::string> taken_;
+    std::map<std::string, int> last_number_;  ///< by name, so that finding a free one does not start over
+};
+
+/// Chooses the scene that `settings` name, or the file's own, and tells `scene` which there are. An error if there is
+/// none of that name, and a note if one of several was taken without being asked for.
+void choose_scene(const GltfDocument& document, const RenderSettings& settings, SceneDesc& scene,
+                  ProblemList& problems) {
+    const tinygltf::Model& model = document.model;
+    FreeNames free_names;
+    for (const tinygltf::Scene& each : model.scenes) scene.scenes.push_back(free_names.take(each.name, "scene"));
+    scene.shown_scene = model.defaultScene >= 0 ? static_cast<std::size_t>(model.defaultScene) : 0;
+    const std::vector<std::string_view> names(scene.scenes.begin(), scene.scenes.end());
+    const std::string& wanted = settings.scene_name;
+    if (!wanted.empty()) {
+        const auto found = std::ranges::find(names, wanted);
+        if (found == names.end())
+            problems.error(settings.at("/scene_name"),
+                           fmt::format("the file has no scene '{}'; {}", shown(wanted), name_hint(wanted, names)));
+        else
+            scene.shown_scene = static_cast<std::size_t>(found - names.begin());
+    } else if (names.size() > 1) {
+        problems.note(
+            document.at("/scenes"),
+            fmt::format("the file has {} scenes, of which '{}' is shown; --scene NAME shows another, such as "
+                        "'{}'",
+                        names.size(), shown(names[scene.shown_scene]), shown(names[scene.shown_scene == 0 ? 1 : 0])));
+    }
+}
+
+/// The nodes to start from, of the scene with this index. There must be no cycles.
+std::vector<int> find_roots(const GltfDocument& document, std::size_t index, const std::vector<int>& parents,
+                            ProblemList& problems) {
     const tinygltf::Model& model = document.model;
     if (model.scenes.empty()) {
         std::vector<int> roots;
@@ -118,7 +162,6 @@ std::vector<int> find_roots(const GltfDocument& document, const std::vector<int>
         }
         return roots;
     }
-    const std::size_t index = model.defaultScene >= 0 ? static_cast<std::size_t>(model.defaultScene) : 0;
     return roots_of_scene(document, index, parents, problems);
 }
 
@@ -145,7 +188,8 @@ class Placer {
             scene_.nodes.push_back(
                 {document_.model.nodes[node].name,
                  parent == kNoParent ? NodeDesc::kNone : node_index_[static_cast<std::size_t>(parent)],
-                 static_cast<std::uint32_t>(placed.node)});
+                 static_cast<std::uint32_t>(placed.node),
+                 Vec3f(Vec3d(placed.to_world[3][0], placed.to_world[3][1], placed.to_world[3][2]))});
         }
     }
 
@@ -271,7 +315,8 @@ class Placer {
     void place_camera(const tinygltf::Node& node, const Mat4f& to_world, std::span<const Mat4d> motion) {
         const tinygltf::Camera& source = document_.model.cameras[static_cast<std::size_t>(node.camera)];
         CameraDesc camera;
-        camera.name = unique_camera_name(source.name.empty() ? node.name : source.name);
+        camera.name = camera_names_.take(source.name.empty() ? node.name : source.name, "camera");
+        camera.node = node.name;
         camera.to_world = to_world;
         // Its scale has no meaning.
         std::vector<Mat4f> poses;
@@ -294,15 +339,6 @@ class Placer {
         scene_.cameras.push_back(std::move(camera));
     }
 
-    /// Cameras are chosen by name, so each has one of its own.
-    std::string unique_camera_name(const std::string& wanted) {
-        const std::string base = wanted.empty() ? "camera" : wanted;
-        std::string name = base;
-        for (int& n = last_number_[base]; !camera_names_.insert(name).second;)
-            name = fmt::format("{}-{}", base, ++n + 1);
-        return name;
-    }
-
     const GltfDocument& document_;
     AccessorReader& accessors_;
     MeshDeformer& deformer_;
@@ -314,8 +350,7 @@ class Placer {
     std::uint32_t current_ = NodeDesc::kNone;  ///< the node that is placed, in the scene's
     std::map<std::int32_t, Bounds> bounds_;    ///< by mesh
     std::size_t moving_lights_ = 0;
-    std::set<std::string> camera_names_;
-    std::map<std::string, int> last_number_;  ///< by name, so that finding a free one does not start over
+    FreeNames camera_names_;  ///< cameras are chosen by name, so each has one of its own
 };
 
 /// How much of everything that nodes place a scene has.
@@ -361,10 +396,11 @@ void read_nodes(const GltfDocument& document, AccessorReader& accessors, std::sp
         return;
     }
     ProblemList structure;
+    choose_scene(document, settings, scene, structure);
     const std::vector<int> parents = find_parents(document, structure);
     check_cycles(document, parents, structure);
     const std::vector<int> roots =
-        structure.has_errors() ? std::vector<int>() : find_roots(document, parents, structure);
+        structure.has_errors() ? std::vector<int>() : find_roots(document, scene.shown_scene, parents, structure);
     for (const Problem& problem : structure.all()) problems.add(problem);
     if (structure.has_errors()) return;
 

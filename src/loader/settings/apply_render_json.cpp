@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <span>
 #include <vector>
@@ -52,12 +53,31 @@ void apply_priority(int priority, const SourceLocation& where, MaterialDesc& mat
                                             shown(material.name)));
 }
 
+/// Gives the glTF material the factors of `change`, with errors for those that it does not have.
+void apply_factors(const MaterialOverride& change, MaterialDesc& material, ProblemList& problems) {
+    for (const FactorChange& each : change.factors) {
+        const std::string name(each.factor->name);
+        if (material.glossiness && !each.factor->in_glossiness)
+            problems.error({change.location.file, child_pointer(change.location.pointer, name)},
+                           fmt::format("'{}' is of KHR_materials_pbrSpecularGlossiness, which has no {}",
+                                       shown(material.name), name));
+        else
+            each.apply(material);
+    }
+    if (!change.solid) return;
+    material.volume.closed = *change.solid;
+    if (*change.solid && material.transmission == 0.0f && material.diffuse_transmission.factor == 0.0f)
+        problems.warning({change.location.file, child_pointer(change.location.pointer, "solid")},
+                         fmt::format("'{}' is solid, but transmits no light", shown(material.name)));
+}
+
 void apply_materials(const RenderJson& json, SceneDesc& scene, ProblemList& problems) {
     for (const auto& [name, change] : json.materials) {
         if (!check_name(scene.materials, "material", name, change.location, problems)) continue;
         for (MaterialDesc& material : scene.materials) {
             if (material.name != name) continue;
             material.override_model = change.model;
+            apply_factors(change, material, problems);
             if (change.priority) apply_priority(*change.priority, change.location, material, problems);
             if (!change.emission) continue;
             // Colours above 1 go into the strength, which has no upper bound.
@@ -119,26 +139,115 @@ void apply_light(const LightOverride& change, Handle<IesProfileDesc> profile, co
     light.intensity *= change.scale;
 }
 
-void apply_lights(const RenderJson& json, SceneDesc& scene, ProblemList& problems) {
-    ProfileFiles files(scene, problems);
-    std::vector<std::string> disabled;
-    for (const auto& [name, change] : json.lights) {
-        if (!check_name(scene.lights, "light", name, change.location, problems)) continue;
-        if (!change.enabled) disabled.push_back(name);
-        const SourceLocation where{change.location.file, child_pointer(change.location.pointer, "ies")};
-        const Handle<IesProfileDesc> profile =
-            change.ies.empty() ? Handle<IesProfileDesc>{} : files.profile(change.ies, where);
-        for (LightDesc& light : scene.lights) {
-            if (light.name != name) continue;
-            if (profile && light.type == LightType::Directional) {
-                problems.error(where, "a directional light has no position from which an IES profile could shine");
+/// Applies what the document says of lamps, by their own names and by those of their nodes.
+class LightChanges {
+  public:
+    LightChanges(SceneDesc& scene, ProblemList& problems)
+        : scene_(scene), problems_(problems), files_(scene, problems), is_enabled_(scene.lights.size(), true) {
+        for (const std::string_view name : node_names_of_lights(scene)) node_names_.emplace_back(name);
+    }
+
+    void apply(const std::map<std::string, LightOverride>& changes) {
+        // What is said of one node comes after what is said of all that share its lamp.
+        for (const auto& [name, change] : changes)
+            if (is_of_lamp(name)) apply_to_those(change, [&](std::size_t i) { return scene_.lights[i].name == name; });
+        for (const auto& [name, change] : changes) {
+            if (is_of_lamp(name)) continue;
+            if (name.empty() || std::ranges::find(node_names_, name) == node_names_.end()) {
+                report_unknown(name, change.location);
                 continue;
             }
-            apply_light(change, profile, scene, light);
+            apply_to_those(change, [&](std::size_t i) { return node_names_[i] == name; });
+        }
+        std::size_t next = 0;
+        std::erase_if(scene_.lights, [&](const LightDesc&) { return !is_enabled_[next++]; });
+    }
+
+  private:
+    [[nodiscard]] bool is_of_lamp(const std::string& name) const {
+        return !name.empty() && std::ranges::find(scene_.lights, name, &LightDesc::name) != scene_.lights.end();
+    }
+
+    void report_unknown(const std::string& name, const SourceLocation& where) {
+        std::vector<std::string_view> names = names_of(scene_.lights);
+        for (const std::string& node : node_names_)
+            if (!node.empty()) names.push_back(node);
+        problems_.error(where, fmt::format("the scene has no light '{}'; {}", shown(name), name_hint(name, names)));
+    }
+
+    void apply_to_those(const LightOverride& change, const auto& is_meant) {
+        const SourceLocation where{change.location.file, child_pointer(change.location.pointer, "ies")};
+        const Handle<IesProfileDesc> profile =
+            change.ies.empty() ? Handle<IesProfileDesc>{} : files_.profile(change.ies, where);
+        for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
+            if (!is_meant(i)) continue;
+            LightDesc& light = scene_.lights[i];
+            is_enabled_[i] = is_enabled_[i] && change.enabled;
+            if (profile && light.type == LightType::Directional)
+                problems_.error(where, "a directional light has no position from which an IES profile could shine");
+            else
+                apply_light(change, profile, scene_, light);
         }
     }
-    std::erase_if(scene.lights,
-                  [&](const LightDesc& light) { return std::ranges::find(disabled, light.name) != disabled.end(); });
+
+    SceneDesc& scene_;
+    ProblemList& problems_;
+    ProfileFiles files_;
+    std::vector<std::string> node_names_;  ///< by lamp, as `node_names_of_lights` has them
+    std::vector<bool> is_enabled_;         ///< by lamp
+};
+
+constexpr float kUsualSensorWidth = 36.0f;  ///< millimetres, of 35 mm film
+
+/// Height of the sensor in millimetres, whose longer side is `sensor_width`, for an image of this width over height.
+float sensor_height(float sensor_width, float aspect) {
+    return sensor_width / std::max(aspect, 1.0f);
+}
+
+/// Applies focal length and f-number to a perspective camera.
+void apply_lens(const LensSettings& lens, float image_aspect, CameraDesc& camera) {
+    const float aspect = camera.aspect_ratio > 0.0f ? camera.aspect_ratio : image_aspect;
+    const float height = sensor_height(lens.sensor_width.value_or(kUsualSensorWidth), aspect);
+    if (lens.focal_length) camera.yfov = 2.0f * std::atan(0.5f * height / *lens.focal_length);
+    camera.focal_length = 0.5f * height / std::tan(0.5f * camera.yfov);
+    constexpr float kMetresPerMillimetre = 1e-3f;
+    if (lens.f_stop) camera.lens_radius = camera.focal_length * kMetresPerMillimetre / (2.0f * *lens.f_stop);
+}
+
+/// Applies what the document says of the lens to all cameras, whichever is chosen in the end.
+void apply_lenses(const RenderJson& json, SceneDesc& scene, ProblemList& problems) {
+    const LensSettings& lens = json.lens;
+    const bool has_lens = lens.f_stop || lens.focal_length || lens.sensor_width;
+    const FilmSettings& film = scene.settings.film;
+    const float aspect = static_cast<float>(film.width) / static_cast<float>(film.height);
+    for (CameraDesc& camera : scene.cameras) {
+        camera.lens_radius = json.lens_radius.value_or(camera.lens_radius);
+        camera.focus_distance = json.focus_distance.value_or(camera.focus_distance);
+        if (has_lens && camera.type == CameraType::Perspective) apply_lens(lens, aspect, camera);
+    }
+    if ((json.lens_radius || json.focus_distance || has_lens || !lens.focus_node.empty()) && scene.cameras.empty())
+        problems.warning(json.location, "what is said of the lens is ignored: the scene has no camera");
+}
+
+/// Focuses every camera on the node that the document names, but those that it lies behind; an error if it does behind
+/// the one that is chosen.
+void focus_on_node(const RenderJson& json, SceneDesc& scene, ProblemList& problems) {
+    const std::string& name = json.lens.focus_node;
+    const SourceLocation where{json.location.file, "/focus_node"};
+    if (name.empty() || !check_name(scene.nodes, "node", name, where, problems)) return;
+    const Vec3f place = std::ranges::find(scene.nodes, name, &NodeDesc::name)->position;
+    const std::string& wanted = scene.settings.camera;
+    for (CameraDesc& camera : scene.cameras) {
+        const Vec3f back(camera.to_world[2][0], camera.to_world[2][1], camera.to_world[2][2]);
+        const Vec3f eye(camera.to_world[3][0], camera.to_world[3][1], camera.to_world[3][2]);
+        const float distance = -dot(place - eye, normalize(back));
+        const bool is_chosen = &camera == (wanted.empty() ? scene.cameras.data() : find_camera(scene, wanted));
+        if (distance > 0.0f)
+            camera.focus_distance = distance;
+        else if (is_chosen)
+            problems.error(where, fmt::format("the node '{}' is not in front of the camera '{}'", shown(name),
+                                              shown(camera.name)));
+    }
 }
 
 void apply_camera(const RenderJson& json, SceneDesc& scene, ProblemList& problems) {
@@ -151,14 +260,8 @@ void apply_camera(const RenderJson& json, SceneDesc& scene, ProblemList& problem
         if (scene.origin != Vec3d(0.0) && !problems.has_errors())
             aim(json.camera_aim, scene.origin, scene.cameras.back());
     }
-    // Whichever camera is chosen in the end, by name, by default or on the command line.
-    for (CameraDesc& camera : scene.cameras) {
-        camera.lens_radius = json.lens_radius.value_or(camera.lens_radius);
-        camera.focus_distance = json.focus_distance.value_or(camera.focus_distance);
-    }
-    if ((json.lens_radius || json.focus_distance) && scene.cameras.empty()) {
-        problems.warning(json.location, "lens_radius and focus_distance are ignored: the scene has no camera");
-    }
+    apply_lenses(json, scene, problems);
+    focus_on_node(json, scene, problems);
 }
 
 void apply_environment(const RenderJson& json, std::span<const std::filesystem::path> assets, SceneDesc& scene,
@@ -190,7 +293,7 @@ void apply_render_json(const RenderJson& json, std::span<const std::filesystem::
     apply_camera(json, scene, problems);
     apply_environment(json, assets, scene, problems);
     apply_materials(json, scene, problems);
-    apply_lights(json, scene, problems);
+    LightChanges(scene, problems).apply(json.lights);
 }
 
 }  // namespace etendue

@@ -93,6 +93,11 @@ std::optional<SettingValue> JsonObject::read_setting(const Setting& setting, std
             },
             [&](const Texts& type) {
                 std::vector<std::string> value;
+                const nlohmann::json* const found = member(key);
+                if (type.takes_one && found != nullptr && found->is_string()) {
+                    const bool is_read = text(key, value.emplace_back());
+                    return value_if(is_read, std::move(value));
+                }
                 const auto read_element = [&](const auto& json, const SourceLocation& where, std::string& out) {
                     if (json.is_string()) json.get_to(out);
                     if (json.is_string() && type.each.accepts(out)) return true;

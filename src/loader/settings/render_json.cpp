@@ -137,6 +137,32 @@ EmissionOverride read_emission(const Json& value, const SourceLocation& where, P
     return result;
 }
 
+void read_factors(JsonObject& object, std::vector<FactorChange>& factors) {
+    for (const MaterialFactor& factor : material_factors()) {
+        float number = 0.0f;
+        Rgb color;
+        if (factor.number != nullptr && object.number(factor.name, factor.range, number))
+            factors.push_back({&factor, number});
+        if (factor.color != nullptr && object.color(factor.name, factor.range, color))
+            factors.push_back({&factor, color});
+    }
+}
+
+/// Errors for what would have no effect beside something else.
+void check_combination(const MaterialOverride& material, bool has_model, JsonObject& object) {
+    const auto refuse = [&](std::string_view key) {
+        object.problems().error(object.at(key), "a model takes the place of the glTF material: leave one of both out");
+    };
+    if (has_model && material.solid) refuse("solid");
+    for (const FactorChange& change : material.factors) {
+        const std::string_view name = change.factor->name;
+        const bool is_emission = name.starts_with("emissive");
+        if (has_model && !is_emission && name != "normal_scale" && name != "alpha_cutoff") refuse(name);
+        if (is_emission && material.emission)
+            object.problems().error(object.at(name), "'emission' takes its place: leave one of both out");
+    }
+}
+
 MaterialOverride read_material(const Json& value, const SourceLocation& where, ProblemList& problems) {
     MaterialOverride result;
     result.location = where;
@@ -157,10 +183,11 @@ MaterialOverride read_material(const Json& value, const SourceLocation& where, P
     }
     int priority = 0;
     if (object.integer("priority", -kMaxPriority, kMaxPriority, priority)) result.priority = priority;
+    read_factors(object, result.factors);
+    if (bool solid = false; object.boolean("solid", solid)) result.solid = solid;
     if (models > 1) problems.error(where, "only one of conductor, dielectric, diffuse and subsurface may be given");
-    if (value.is_object() && models == 0 && !result.emission && !result.priority) {
-        problems.error(where, "one of conductor, dielectric, diffuse, subsurface, emission and priority must be given");
-    }
+    if (value.is_object() && value.empty()) problems.error(where, "says nothing of the material");
+    check_combination(result, models > 0, object);
     object.finish();
     return result;
 }
@@ -236,6 +263,21 @@ void read_overrides(JsonObject& object, RenderJson& out) {
     }
 }
 
+/// Reads what is said of the lens in a photographer's words. Errors for what is said twice.
+void read_lens(JsonObject& object, RenderJson& out) {
+    const auto number = [&](std::string_view key, std::optional<float>& value) {
+        if (float read = 0.0f; object.number(key, kPositive, read)) value = read;
+    };
+    number("f_stop", out.lens.f_stop);
+    number("focal_length", out.lens.focal_length);
+    number("sensor_width", out.lens.sensor_width);
+    object.text("focus_node", out.lens.focus_node);
+    if (out.lens.f_stop && out.lens_radius)
+        object.problems().error(object.at("f_stop"), "lens_radius says the same: leave one of both out");
+    if (!out.lens.focus_node.empty() && out.focus_distance)
+        object.problems().error(object.at("focus_node"), "focus_distance says the same: leave one of both out");
+}
+
 /// Reads the whole document.
 void read_document(const Json& value, ProblemList& problems, RenderJson& out) {
     JsonObject object(value, out.location, problems);
@@ -247,6 +289,7 @@ void read_document(const Json& value, ProblemList& problems, RenderJson& out) {
     read_camera_member(object, out);
     if (float radius = 0.0f; object.number("lens_radius", kNotNegative, radius)) out.lens_radius = radius;
     if (float distance = 0.0f; object.number("focus_distance", kPositive, distance)) out.focus_distance = distance;
+    read_lens(object, out);
     if (const Json* member = object.member("environment")) {
         out.environment = read_environment(*member, object.at("environment"), problems);
     }

@@ -1,6 +1,7 @@
 // render.json: what it says, before it meets the scene. Its keys are described in docs/render-json.md.
 #pragma once
 
+#include "loader/settings/material_factors.h"
 #include "scene/scene_desc.h"
 
 #include <filesystem>
@@ -9,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace etendue {
 
@@ -21,6 +23,8 @@ struct MaterialOverride {
     MaterialModelDesc model;
     std::optional<int> priority;
     std::optional<EmissionOverride> emission;
+    std::vector<FactorChange> factors;  ///< of the glTF material; none beside a model
+    std::optional<bool> solid;          ///< the mesh bounds a body of the glTF material; none beside a model
     SourceLocation location;
 };
 
@@ -45,6 +49,14 @@ struct CameraAim {
 /// scene with this origin.
 void aim(const CameraAim& aim, const Vec3d& origin, CameraDesc& camera);
 
+/// Describes the lens as photographers do, in place of its radius and focus distance.
+struct LensSettings {
+    std::optional<float> f_stop;        ///< focal length over the diameter of the lens, > 0
+    std::optional<float> focal_length;  ///< millimetres, > 0; none for that of the camera's field of view
+    std::optional<float> sensor_width;  ///< millimetres of the image's longer side, > 0
+    std::string focus_node;             ///< name of the node in focus; empty for none
+};
+
 struct RenderJson {
     std::string scene;                           ///< file name; empty for the only one
     RenderSettings settings;                     ///< `camera` is the name chosen
@@ -52,6 +64,7 @@ struct RenderJson {
     CameraAim camera_aim;                        ///< of that
     std::optional<float> lens_radius;            ///< of whichever camera is chosen
     std::optional<float> focus_distance;         ///< the same
+    LensSettings lens;                           ///< the same
     std::optional<EnvironmentDesc> environment;  ///< its image not yet resolved
     std::map<std::string, MaterialOverride> materials;
     std::map<std::string, LightOverride> lights;

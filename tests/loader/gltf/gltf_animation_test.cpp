@@ -25,7 +25,7 @@ GltfBuilder animated(const std::string& path, const std::vector<float>& values, 
 LoadOptions at_time(double seconds, const std::string& animation = {}) {
     return {.adjust = [=](RenderSettings& settings) {
         settings.time_code = seconds;
-        settings.animation = animation;
+        if (!animation.empty()) settings.animations = {animation};
     }};
 }
 
@@ -113,6 +113,67 @@ TEST(Animation, WhatCannotBeReadIsAnError) {
         std::string::npos);
 }
 
+/// Two triangles that move 4 m within 2 s: "rise" lifts the first, "slide" moves the second, and "turn", with its
+/// scale, the first as well.
+GltfBuilder with_three_animations() {
+    GltfBuilder builder;
+    builder.add_triangle();
+    builder.json["nodes"] = {{{"mesh", 0}}, {{"mesh", 0}}};
+    builder.json["scenes"][0]["nodes"] = {0, 1};
+    const int input = builder.floats({0.0f, 2.0f}, 1);
+    const int output = builder.floats({0, 0, 0, 4, 4, 4}, 3);
+    const nlohmann::json samplers = {{{"input", input}, {"output", output}}};
+    const auto channel = [](int node, const char* path) {
+        return nlohmann::json{{"sampler", 0}, {"target", {{"node", node}, {"path", path}}}};
+    };
+    builder.json["animations"] = {
+        {{"name", "rise"}, {"samplers", samplers}, {"channels", {channel(0, "translation")}}},
+        {{"name", "slide"}, {"samplers", samplers}, {"channels", {channel(1, "translation")}}},
+        {{"name", "turn"}, {"samplers", samplers}, {"channels", {channel(1, "scale"), channel(0, "translation")}}}};
+    return builder;
+}
+
+/// Where the two triangles and the scale of the second are after 2 s if these animations are asked for.
+Vec3f moved_by(const GltfBuilder& builder, const std::vector<std::string>& names, ProblemList* problems = nullptr) {
+    const LoadedScene loaded = builder.load({.adjust = [&](RenderSettings& settings) {
+        settings.time_code = 1.0;
+        settings.animations = names;
+    }});
+    if (problems != nullptr)
+        *problems = loaded.problems;
+    else
+        EXPECT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
+    if (loaded.scene.instances.size() < 2) return Vec3f(-1.0f);
+    const Mat4f& first = loaded.scene.instances[0].to_world;
+    const Mat4f& second = loaded.scene.instances[1].to_world;
+    return {first[3][0], second[3][0], second[0][0]};
+}
+
+TEST(Animation, AllThatDoNotConflictPlay) {
+    const GltfBuilder builder = with_three_animations();
+    ProblemList problems;
+    EXPECT_EQ(moved_by(builder, {}, &problems), Vec3f(2, 2, 1)) << "all of 'turn' is left out, its scale, too";
+    EXPECT_TRUE(has_problem(problems, Severity::Warning, "animations before them: 'turn'", "/animations"))
+        << listing(problems);
+    EXPECT_EQ(moved_by(builder, {"turn", "rise"}, &problems), Vec3f(2, 0, 2)) << "the first that is asked for";
+    EXPECT_TRUE(has_problem(problems, Severity::Warning, "animations before them: 'rise'", "/animations"));
+    EXPECT_EQ(moved_by(builder, {"turn", "slide"}, &problems), Vec3f(2, 2, 2));
+    EXPECT_TRUE(problems.all().empty()) << listing(problems);
+}
+
+TEST(Animation, NamesChooseWhichPlay) {
+    const GltfBuilder builder = with_three_animations();
+    EXPECT_EQ(moved_by(builder, {"slide"}), Vec3f(0, 2, 1));
+    EXPECT_EQ(moved_by(builder, {"slide", "slide", "rise"}), Vec3f(2, 2, 1));
+    EXPECT_EQ(moved_by(builder, {"none"}), Vec3f(0, 0, 1));
+    ProblemList problems;
+    (void)moved_by(builder, {"rise", "none"}, &problems);
+    EXPECT_TRUE(has_problem(problems, Severity::Error, "'none' stands alone", "/animation")) << listing(problems);
+    const LoadedScene frame =
+        builder.load({.frame = 1, .adjust = [](RenderSettings& settings) { settings.animations = {"none"}; }});
+    EXPECT_TRUE(has_problem(frame.problems, Severity::Error, "no animation is to play, so all frames"));
+}
+
 /// A triangle with a target that lifts its third vertex by 2 along z.
 GltfBuilder morphing() {
     GltfBuilder builder;
@@ -124,6 +185,27 @@ Vec3f third_vertex(const LoadedScene& loaded) {
     EXPECT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
     const Handle<MeshDesc> mesh = loaded.scene.instances.at(0).mesh;
     return loaded.scene.meshes.at(static_cast<std::size_t>(mesh.index)).primitives.at(0).positions.at(2);
+}
+
+// A weight of a mesh lies within all weights of it, whichever is animated first.
+TEST(Animation, PointersWithinEachOtherConflict) {
+    for (const bool whole_first : {false, true}) {
+        GltfBuilder builder = morphing();
+        const int input = builder.floats({0.0f, 2.0f}, 1);
+        const auto to = [&](const char* pointer, float end) {
+            const nlohmann::json extension = {{"KHR_animation_pointer", {{"pointer", pointer}}}};
+            return nlohmann::json{
+                {"name", pointer},
+                {"samplers", {{{"input", input}, {"output", builder.floats({end, end}, 1)}}}},
+                {"channels", {{{"sampler", 0}, {"target", {{"path", "pointer"}, {"extensions", extension}}}}}}};
+        };
+        builder.json["extensionsUsed"] = {"KHR_animation_pointer"};
+        builder.json["animations"] = {to("/meshes/0/weights", 0.5f), to("/meshes/0/weights/0", 0.25f)};
+        if (!whole_first) std::swap(builder.json["animations"][0], builder.json["animations"][1]);
+        const LoadedScene loaded = builder.load(at_time(1.0));
+        EXPECT_EQ(third_vertex(loaded).z, whole_first ? 1.0f : 0.5f) << listing(loaded.problems);
+        EXPECT_TRUE(has_problem(loaded.problems, Severity::Warning, "not played"));
+    }
 }
 
 TEST(Animation, ThoseThatAreNotShownAreReadIfAsked) {

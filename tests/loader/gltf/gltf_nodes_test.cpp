@@ -260,6 +260,66 @@ TEST(Cameras, TakeTheirNodesTransformWithoutScale) {
     EXPECT_EQ(loaded.scene.cameras[2].name, "flat-2");
 }
 
+/// Two scenes of a node each.
+GltfBuilder with_two_scenes() {
+    GltfBuilder builder = with_nodes({{{"mesh", 0}, {"name", "a"}}, {{"mesh", 0}, {"name", "b"}}}, {0});
+    builder.json["scenes"] = {{{"name", "day"}, {"nodes", {0}}}, {{"name", "night"}, {"nodes", {1}}}};
+    return builder;
+}
+
+TEST(Scenes, AreChosenByNameAndANoteSaysWhichWasTaken) {
+    GltfBuilder builder = with_two_scenes();
+    const auto shown_of = [&](const std::string& name) {
+        const LoadedScene loaded = builder.load({.adjust = [&](RenderSettings& s) { s.scene_name = name; }});
+        EXPECT_TRUE(loaded.problems.all().empty()) << listing(loaded.problems);
+        return loaded.scene.instances.at(0).name;
+    };
+    EXPECT_EQ(shown_of("night"), "b");
+    EXPECT_EQ(shown_of("day"), "a");
+    LoadedScene loaded = builder.load();
+    EXPECT_EQ(loaded.scene.instances.at(0).name, "a");
+    EXPECT_EQ(loaded.scene.scenes, (std::vector<std::string>{"day", "night"}));
+    EXPECT_TRUE(has_problem(loaded.problems, Severity::Note,
+                            "'day' is shown; --scene NAME shows another, such as 'night'", "/scenes"))
+        << listing(loaded.problems);
+    builder.json["scene"] = 1;
+    loaded = builder.load();
+    EXPECT_EQ(loaded.scene.instances.at(0).name, "b") << "the file's own";
+    EXPECT_TRUE(has_problem(loaded.problems, Severity::Note, "'night' is shown")) << listing(loaded.problems);
+    loaded = builder.load({.adjust = [](RenderSettings& s) { s.scene_name = "nigth"; }});
+    EXPECT_TRUE(has_problem(loaded.problems, Severity::Error, "no scene 'nigth'; did you mean 'night'?", "/scene_name"))
+        << listing(loaded.problems);
+}
+
+TEST(Scenes, WithoutANameOfTheirOwnGetOne) {
+    GltfBuilder builder = with_two_scenes();
+    for (int i : {0, 1}) builder.json["scenes"][i].erase("name");
+    EXPECT_EQ(builder.load({.adjust = [](RenderSettings& s) { s.scene_name = "scene-2"; }}).scene.instances.at(0).name,
+              "b");
+}
+
+TEST(Cameras, AreFoundByTheirNodesAndANoteSaysWhichWasTaken) {
+    GltfBuilder builder =
+        with_nodes({{{"mesh", 0}}, {{"camera", 0}, {"name", "Hero"}}, {{"camera", 0}, {"name", "Side"}}}, {0, 1, 2});
+    builder.json["cameras"] = {
+        {{"type", "perspective"}, {"name", "Data"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.1}}}}};
+    const auto named = [](const char* name) {
+        return LoadOptions{.adjust = [=](RenderSettings& s) { s.camera = name; }};
+    };
+    const LoadedScene loaded = builder.load(named("Side"));
+    EXPECT_TRUE(loaded.problems.all().empty()) << listing(loaded.problems);
+    EXPECT_EQ(find_camera(loaded.scene, "Side"), &loaded.scene.cameras.at(1));
+    EXPECT_EQ(find_camera(loaded.scene, "Data-2"), &loaded.scene.cameras.at(1));
+    EXPECT_EQ(find_camera(loaded.scene, "Data"), &loaded.scene.cameras.at(0));
+    EXPECT_EQ(find_camera(loaded.scene, ""), nullptr);
+    EXPECT_TRUE(has_problem(builder.load(named("Sid")).problems, Severity::Error, "did you mean 'Side'?"));
+    EXPECT_TRUE(has_problem(builder.load().problems, Severity::Note,
+                            "2 cameras, of which the first, 'Data', is taken; --camera NAME takes another: 'Side'",
+                            "/cameras"));
+    builder.json["cameras"][0]["name"] = "Side";
+    EXPECT_EQ(find_camera(builder.load().scene, "Side")->node, "Hero") << "a camera's own name goes first";
+}
+
 TEST(Cameras, WithoutTheirDescriptionAreErrors) {
     GltfBuilder builder = with_nodes({{{"camera", 0}}});
     builder.json["cameras"] = {{{"type", "perspective"}}};

@@ -2,6 +2,9 @@
 
 #include "loader/gltf/gltf_builder.h"
 
+#include <cmath>
+#include <set>
+
 #include <gtest/gtest.h>
 
 namespace etendue {
@@ -205,6 +208,123 @@ TEST(RenderJson, MaterialOverrides) {
     EXPECT_EQ(lamp.emissive_strength, 40.0f);
 }
 
+/// The material "paper" of the scene above, but with all that `material` says, after this change of render.json.
+LoadedScene load_material(const nlohmann::json& material, const std::string& change) {
+    GltfBuilder builder;
+    builder.add_triangle()["material"] = 0;
+    builder.json["materials"] = {material};
+    builder.json["materials"][0]["name"] = "paper";
+    const TempDir dir;
+    builder.write(dir);
+    dir.write("render.json", "{\"materials\": {\"paper\": " + change + "}}");
+    return inspect_scene(dir.path());
+}
+
+TEST(RenderJson, FactorsChangeOneNumberOfTheGltfMaterial) {
+    const nlohmann::json source = {{"pbrMetallicRoughness", {{"metallicFactor", 0.25}, {"roughnessFactor", 0.5}}},
+                                   {"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 0.5}}}}}};
+    const LoadedScene loaded =
+        load_material(source, R"({"roughness": 0.125, "sheen_color": [0.5, 0, 1], "transmission": 1, "priority": 0})");
+    const MaterialDesc& material = loaded.scene.materials.at(0);
+    EXPECT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
+    EXPECT_TRUE(std::holds_alternative<std::monostate>(material.override_model));
+    EXPECT_EQ(material.roughness, 0.125f);
+    EXPECT_EQ(material.metallic, 0.25f);
+    EXPECT_EQ(material.sheen.color, Rgb(0.5f, 0, 1));
+    EXPECT_EQ(material.transmission, 1.0f);
+}
+
+// Each factor by its own name: no two write to one place.
+TEST(RenderJson, EveryFactorHasAPlaceOfItsOwn) {
+    std::set<const float*> places;
+    MaterialDesc material;
+    for (const MaterialFactor& factor : material_factors()) {
+        ASSERT_NE(factor.number == nullptr, factor.color == nullptr) << factor.name;
+        const float* const place = factor.number != nullptr ? &factor.number(material) : &factor.color(material).r;
+        EXPECT_TRUE(places.insert(place).second) << factor.name;
+    }
+}
+
+TEST(RenderJson, FactorsThatMeanNothingAreErrors) {
+    const auto expect = [](const LoadedScene& loaded, const std::string& message, const std::string& pointer) {
+        EXPECT_TRUE(has_problem(loaded.problems, Severity::Error, message, pointer)) << listing(loaded.problems);
+    };
+    expect(load_material({}, R"({"rougness": 0.1})"), "did you mean 'roughness'", "/materials/paper/rougness");
+    expect(load_material({}, R"({"diffuse": {}, "roughness": 0.1})"), "a model takes the place",
+           "/materials/paper/roughness");
+    expect(load_material({}, R"({"dielectric": {}, "solid": true})"), "a model takes the place",
+           "/materials/paper/solid");
+    expect(load_material({}, R"({"emission": {}, "emissive": [1, 1, 1]})"), "'emission' takes its place",
+           "/materials/paper/emissive");
+    expect(load_material({{"extensions", {{"KHR_materials_pbrSpecularGlossiness", nlohmann::json::object()}}}},
+                         R"({"roughness": 0.1})"),
+           "which has no roughness", "/materials/paper/roughness");
+}
+
+TEST(RenderJson, SolidClosesAMaterialAndKeepsIt) {
+    const nlohmann::json glass = {{"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 1, 1, 1}}}},
+                                  {"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 1}}}}}};
+    const LoadedScene loaded = load_material(glass, R"({"solid": true})");
+    EXPECT_TRUE(loaded.scene.materials.at(0).volume.closed);
+    EXPECT_EQ(loaded.scene.materials[0].base_color, Rgb(0.5f, 1, 1));
+    EXPECT_TRUE(has_problem(load_material({}, R"({"solid": true})").problems, Severity::Warning, "transmits no light",
+                            "/materials/paper/solid"));
+    nlohmann::json thick = glass;
+    thick["extensions"]["KHR_materials_volume"] = {{"thicknessFactor", 1}};
+    EXPECT_TRUE(load_material(thick, R"({"roughness": 0})").scene.materials.at(0).volume.closed);
+    EXPECT_FALSE(load_material(thick, R"({"solid": false})").scene.materials.at(0).volume.closed);
+}
+
+/// A camera at z = 10 that looks along -Z, and a node "in focus" 4 m before it and 3 m beside its axis.
+LoadedScene load_lens(const std::string& text, double aspect_ratio = 0.0) {
+    GltfBuilder builder;
+    builder.add_triangle();
+    builder.json["cameras"] = {
+        {{"type", "perspective"}, {"name", "main"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.1}}}}};
+    if (aspect_ratio > 0.0) builder.json["cameras"][0]["perspective"]["aspectRatio"] = aspect_ratio;
+    builder.json["nodes"].push_back({{"camera", 0}, {"translation", {0, 0, 10}}});
+    builder.json["nodes"].push_back({{"name", "in focus"}, {"translation", {3, 0, 6}}});
+    builder.json["nodes"].push_back({{"name", "behind"}, {"translation", {0, 0, 11}}});
+    builder.json["scenes"][0]["nodes"] = {0, 1, 2, 3};
+    const TempDir dir;
+    builder.write(dir);
+    dir.write("render.json", text);
+    return inspect_scene(dir.path());
+}
+
+// A full-frame camera of 50 mm sees 24 mm of height in landscape 3:2, and 36 mm in portrait.
+TEST(RenderJson, LensesAsPhotographersSayThem) {
+    const auto camera = [](const LoadedScene& loaded) {
+        EXPECT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
+        return loaded.scene.cameras.at(0);
+    };
+    const CameraDesc wide = camera(load_lens(R"({"resolution": [300, 200], "focal_length": 50, "f_stop": 2})"));
+    EXPECT_NEAR(wide.yfov, 2.0f * std::atan(12.0f / 50.0f), 1e-6f);
+    EXPECT_NEAR(wide.lens_radius, 0.0125f, 1e-8f);
+    EXPECT_NEAR(wide.focal_length, 50.0f, 1e-4f);
+    const CameraDesc tall = camera(load_lens(R"({"resolution": [200, 300], "focal_length": 50, "sensor_width": 24})"));
+    EXPECT_NEAR(tall.yfov, 2.0f * std::atan(12.0f / 50.0f), 1e-6f);
+    EXPECT_EQ(tall.lens_radius, 0.0f);
+    // The focal length of the camera's own view, whatever the image is.
+    const CameraDesc own = camera(load_lens(R"({"resolution": [90, 100], "f_stop": 4})", 1.5));
+    EXPECT_EQ(own.yfov, 0.5f);
+    const float focal_length = 12.0f / std::tan(0.25f);
+    EXPECT_NEAR(own.focal_length, focal_length, 1e-4f);
+    EXPECT_NEAR(own.lens_radius, focal_length * 1e-3f / 8.0f, 1e-8f);
+    EXPECT_NEAR(camera(load_lens(R"({"focus_node": "in focus"})")).focus_distance, 4.0f, 1e-6f);
+}
+
+TEST(RenderJson, LensesThatAreSaidTwiceOrBehindAreErrors) {
+    const auto expect = [](const std::string& text, const std::string& message, const std::string& pointer) {
+        const LoadedScene loaded = load_lens(text);
+        EXPECT_TRUE(has_problem(loaded.problems, Severity::Error, message, pointer)) << listing(loaded.problems);
+    };
+    expect(R"({"f_stop": 2, "lens_radius": 0.1})", "lens_radius says the same", "/f_stop");
+    expect(R"({"focus_node": "in focus", "focus_distance": 2})", "focus_distance says the same", "/focus_node");
+    expect(R"({"focus_node": "in fokus"})", "no node 'in fokus'; did you mean 'in focus'?", "/focus_node");
+    expect(R"({"focus_node": "behind"})", "is not in front of the camera 'main'", "/focus_node");
+}
+
 TEST(RenderJson, LightOverrides) {
     const LoadedScene changed = load_with(R"({"lights": {"lamp": {"color": [1, 0, 0], "scale": 3}}})");
     EXPECT_EQ(changed.scene.lights.at(0).color, Rgb(1, 0, 0));
@@ -212,6 +332,36 @@ TEST(RenderJson, LightOverrides) {
     const LoadedScene replaced = load_with(R"({"lights": {"lamp": {"intensity": 2, "scale": 3}}})");
     EXPECT_EQ(replaced.scene.lights.at(0).intensity, 6.0f);
     EXPECT_TRUE(load_with(R"({"lights": {"lamp": {"enabled": false}}})").scene.lights.empty());
+}
+
+// Two nodes share the lamp "bulb", and a third node is called as that lamp.
+TEST(RenderJson, LightsAreFoundByTheirNodes) {
+    GltfBuilder builder;
+    builder.add_triangle();
+    const nlohmann::json extension = {{"KHR_lights_punctual", {{"light", 0}}}};
+    for (const char* name : {"left", "right", "bulb"})
+        builder.json["nodes"].push_back({{"name", name}, {"extensions", extension}});
+    builder.json["nodes"][3]["extensions"]["KHR_lights_punctual"]["light"] = 1;
+    builder.json["scenes"][0]["nodes"] = {0, 1, 2, 3};
+    builder.json["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "point"}, {"name", "bulb"}, {"intensity", 10}},
+        {{"type", "point"}, {"name", "other"}, {"intensity", 10}}};
+    const auto intensities = [&](const std::string& changes) {
+        const TempDir dir;
+        builder.write(dir);
+        dir.write("render.json", R"({"lights": )" + changes + "}");
+        const LoadedScene loaded = inspect_scene(dir.path());
+        std::vector<float> found;
+        for (const LightDesc& light : loaded.scene.lights) found.push_back(light.intensity);
+        if (loaded.problems.has_errors()) ADD_FAILURE() << listing(loaded.problems);
+        return found;
+    };
+    using Floats = std::vector<float>;
+    EXPECT_EQ(intensities(R"({"left": {"scale": 2}})"), (Floats{20, 10, 10}));
+    EXPECT_EQ(intensities(R"({"bulb": {"scale": 3}})"), (Floats{30, 30, 10})) << "lamps' own names go first";
+    EXPECT_EQ(intensities(R"({"bulb": {"intensity": 3}, "left": {"scale": 2}, "right": {"enabled": false}})"),
+              (Floats{6, 10}))
+        << "what a node is told comes after";
 }
 
 /// The light "lamp" of a scene of two such lights, with these changes and the file lamp.ies, whose peak is 200 candela.

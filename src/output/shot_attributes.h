@@ -1,0 +1,20 @@
+// When and how fast a shot runs, as OpenEXR's standard attributes tell it.
+#pragma once
+
+#include "image/write.h"
+
+#include <optional>
+
+namespace etendue {
+
+/// Returns `fps` as a ratio: whole, a whole number by 1.001 as television has it, or in thousandths.
+[[nodiscard]] ImageRational frames_per_second(double fps);
+
+/// Returns the SMPTE time code of frame number `frame`, counted without dropping; nothing for frames below 0, beyond a
+/// day, or of more than 30 in a second, which time codes do not count.
+[[nodiscard]] std::optional<ImageTimeCode> time_code(int frame, double fps);
+
+/// Returns how many seconds to add to the local time of a file's date for universal time.
+[[nodiscard]] float utc_offset();
+
+}  // namespace etendue
