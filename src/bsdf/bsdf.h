@@ -42,11 +42,7 @@ using Bsdf = std::variant<Diffuse, DielectricBody, LayeredSurface, MetallicRough
 /// All deltas of the lobe, as radiance: what `sample_bsdf` chooses one of.
 [[nodiscard]] inline DeltaList deltas_of(const Bsdf& bsdf, const Vec3f& wo) {
     DeltaList deltas;
-    std::visit(
-        [&](const auto& lobe) {
-            if constexpr (requires { lobe.add_deltas(wo, deltas); }) lobe.add_deltas(wo, deltas);
-        },
-        bsdf);
+    std::visit([&](const auto& lobe) { lobe.add_deltas(wo, deltas); }, bsdf);
     return deltas;
 }
 
@@ -66,17 +62,17 @@ using Bsdf = std::variant<Diffuse, DielectricBody, LayeredSurface, MetallicRough
 /// True if the lobe distinguishes the two sides of its surface (z > 0 is the outside of a body); false if it wants wo
 /// on the side z > 0.
 [[nodiscard]] inline bool is_two_sided_interface(const Bsdf& bsdf) {
-    if (const auto* layered = std::get_if<LayeredSurface>(&bsdf)) return layered->is_two_sided();
-    return std::holds_alternative<SmoothDielectric>(bsdf) || std::holds_alternative<RoughDielectric>(bsdf) ||
-           std::holds_alternative<DielectricBody>(bsdf);
+    return std::visit([](const auto& lobe) { return lobe.is_two_sided(); }, bsdf);
 }
 
 /// True if the lobe scatters nothing across its surface: quick to ask, and may be false where it does not either.
 [[nodiscard]] inline bool only_reflects(const Bsdf& bsdf) {
-    if (const auto* base = std::get_if<MetallicRoughness>(&bsdf))
-        return base->transmission == 0.0f && base->diffuse_transmission == 0.0f;
-    return std::holds_alternative<Diffuse>(bsdf) || std::holds_alternative<RoughDiffuse>(bsdf) ||
-           std::holds_alternative<RoughConductor>(bsdf) || std::holds_alternative<SmoothConductor>(bsdf);
+    return std::visit([](const auto& lobe) { return lobe.only_reflects(); }, bsdf);
+}
+
+/// Returns whether all that the lobe scatters is diffuse.
+[[nodiscard]] inline bool is_diffuse(const Bsdf& bsdf) {
+    return std::visit([](const auto& lobe) { return lobe.is_diffuse(); }, bsdf);
 }
 
 /// Share of the light from `wo` that is scattered, by the lobe's own samples: an unbiased estimate from `count` of

@@ -28,6 +28,9 @@ struct DielectricBody {
     /// Adds the deltas that light seen along `wo` may have taken, weighted as radiance.
     void add_deltas(const Vec3f& wo, DeltaList& deltas) const;
     [[nodiscard]] bool has_non_delta() const;
+    [[nodiscard]] static constexpr bool is_diffuse() { return false; }
+    [[nodiscard]] static constexpr bool is_two_sided() { return true; }
+    [[nodiscard]] static constexpr bool only_reflects() { return false; }
 };
 
 }  // namespace etendue

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "bsdf/bsdf_sample.h"
+#include "bsdf/delta_list.h"
 #include "sampling/warp.h"
 
 namespace etendue {
@@ -23,7 +24,12 @@ struct BasicDiffuse {
         const T scatters = select(wo.z > T(0.0f) && wi.z > T(0.0f), T(1.0f), T(0.0f));
         return {.wi = wi, .weight = albedo * scatters, .pdf_solid_angle = cosine_hemisphere_pdf_solid_angle(wi)};
     }
+    /// Adds nothing: none of its samples are deltas.
+    void add_deltas(const Vec3f&, DeltaList&) const {}
     [[nodiscard]] bool has_non_delta() const { return true; }
+    [[nodiscard]] static constexpr bool is_diffuse() { return true; }
+    [[nodiscard]] static constexpr bool is_two_sided() { return false; }
+    [[nodiscard]] static constexpr bool only_reflects() { return true; }
 };
 
 using Diffuse = BasicDiffuse<float>;

@@ -44,6 +44,9 @@ struct LayeredSurface {
     /// Adds the deltas that light seen along `wo` may have taken, weighted as radiance.
     void add_deltas(const Vec3f& wo, DeltaList& deltas) const;
     [[nodiscard]] bool has_non_delta() const;
+    [[nodiscard]] static constexpr bool is_diffuse() { return false; }
+    /// Returns false without looking at the base, which may transmit light.
+    [[nodiscard]] static constexpr bool only_reflects() { return false; }
     /// Returns the surface of a thin sheet as it is seen from its other side, in the frame turned about y: the coat's
     /// normal is the opposite one there.
     [[nodiscard]] LayeredSurface from_behind() const {

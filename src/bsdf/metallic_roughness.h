@@ -63,6 +63,9 @@ struct MetallicRoughness {
     /// Adds the deltas that light seen along `wo` may have taken, weighted as radiance.
     void add_deltas(const Vec3f& wo, DeltaList& deltas) const;
     [[nodiscard]] bool has_non_delta() const;
+    [[nodiscard]] static constexpr bool is_diffuse() { return false; }
+    [[nodiscard]] static constexpr bool is_two_sided() { return false; }
+    [[nodiscard]] bool only_reflects() const { return transmission == 0.0f && diffuse_transmission == 0.0f; }
 };
 
 }  // namespace etendue

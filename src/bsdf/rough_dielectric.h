@@ -15,6 +15,7 @@
 #pragma once
 
 #include "bsdf/bsdf_sample.h"
+#include "bsdf/delta_list.h"
 #include "bsdf/interface_fresnel.h"
 
 namespace etendue {
@@ -37,7 +38,12 @@ struct RoughDielectric {
 
     [[nodiscard]] BsdfValue evaluate(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const;
     [[nodiscard]] BsdfSample sample(const Vec3f& wo, float u_lobe, Vec2f u, TransportMode mode) const;
+    /// Adds nothing: none of its samples are deltas.
+    void add_deltas(const Vec3f&, DeltaList&) const {}
     [[nodiscard]] bool has_non_delta() const { return true; }
+    [[nodiscard]] static constexpr bool is_diffuse() { return false; }
+    [[nodiscard]] static constexpr bool is_two_sided() { return true; }
+    [[nodiscard]] static constexpr bool only_reflects() { return false; }
 
     /// Holds what would leave a body if a layer on its outside did not send it back, as f |cos theta_i| of light that
     /// is sent back whole; wo.z < 0, wi.z < 0. `single` is from the facet that mirrors wo to wi, where light would go

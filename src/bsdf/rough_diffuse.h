@@ -6,6 +6,7 @@
 #pragma once
 
 #include "bsdf/bsdf_sample.h"
+#include "bsdf/delta_list.h"
 
 namespace etendue {
 
@@ -19,7 +20,12 @@ struct RoughDiffuse {
 
     [[nodiscard]] BsdfValue evaluate(const Vec3f& wo, const Vec3f& wi, TransportMode mode) const;
     [[nodiscard]] BsdfSample sample(const Vec3f& wo, float u_lobe, Vec2f u, TransportMode mode) const;
+    /// Adds nothing: none of its samples are deltas.
+    void add_deltas(const Vec3f&, DeltaList&) const {}
     [[nodiscard]] bool has_non_delta() const { return true; }
+    [[nodiscard]] static constexpr bool is_diffuse() { return true; }
+    [[nodiscard]] static constexpr bool is_two_sided() { return false; }
+    [[nodiscard]] static constexpr bool only_reflects() { return true; }
 };
 
 }  // namespace etendue

@@ -17,6 +17,9 @@ struct SmoothConductor {
     /// Adds the delta that light seen along `wo` may have taken, weighted as radiance.
     void add_deltas(const Vec3f& wo, DeltaList& deltas) const;
     [[nodiscard]] bool has_non_delta() const { return false; }
+    [[nodiscard]] static constexpr bool is_diffuse() { return false; }
+    [[nodiscard]] static constexpr bool is_two_sided() { return false; }
+    [[nodiscard]] static constexpr bool only_reflects() { return true; }
 };
 
 }  // namespace etendue

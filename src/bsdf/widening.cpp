@@ -1,6 +1,7 @@
 #include "bsdf/widening.h"
 
 #include "bsdf/ggx.h"
+#include "core/overloaded.h"
 
 #include <variant>
 
@@ -24,14 +25,24 @@ Bsdf widened_dielectric(const Dielectric& lobe, Vec2f alpha, Vec2f variance) {
 }  // namespace
 
 Bsdf widened(const Bsdf& bsdf, Vec2f variance) {
-    if (const auto* lobe = std::get_if<SmoothConductor>(&bsdf)) return widened_conductor(lobe->fresnel, 0.0f, variance);
-    if (const auto* lobe = std::get_if<RoughConductor>(&bsdf))
-        return widened_conductor(lobe->fresnel, lobe->alpha, variance);
-    if (const auto* lobe = std::get_if<SmoothDielectric>(&bsdf))
-        return widened_dielectric(*lobe, {0.0f, 0.0f}, variance);
-    if (const auto* lobe = std::get_if<RoughDielectric>(&bsdf))
-        return widened_dielectric(*lobe, {lobe->alpha_x, lobe->alpha_y}, variance);
-    return bsdf;
+    return std::visit(
+        Overloaded{
+            [&](const SmoothConductor& lobe) { return widened_conductor(lobe.fresnel, 0.0f, variance); },
+            [&](const RoughConductor& lobe) { return widened_conductor(lobe.fresnel, lobe.alpha, variance); },
+            [&](const SmoothDielectric& lobe) {
+                return widened_dielectric(lobe, {0.0f, 0.0f}, variance);
+            },
+            [&](const RoughDielectric& lobe) {
+                return widened_dielectric(lobe, {lobe.alpha_x, lobe.alpha_y}, variance);
+            },
+            // As wide as they can be, or widened where their material is evaluated.
+            [](const Diffuse& lobe) { return Bsdf(lobe); },
+            [](const RoughDiffuse& lobe) { return Bsdf(lobe); },
+            [](const MetallicRoughness& lobe) { return Bsdf(lobe); },
+            [](const DielectricBody& lobe) { return Bsdf(lobe); },
+            [](const LayeredSurface& lobe) { return Bsdf(lobe); },
+        },
+        bsdf);
 }
 
 }  // namespace etendue

@@ -154,6 +154,10 @@ const CameraPose& pose_of(const Camera& camera) {
     return std::visit([](const auto& c) -> const CameraPose& { return pose_of(c); }, camera);
 }
 
+bool has_lens(const Camera& camera) {
+    return std::visit([](const auto& c) { return c.has_lens(); }, camera);
+}
+
 Camera with_pose(const Camera& camera, const CameraPose& pose) {
     Camera result = camera;
     std::visit([&](auto& c) { set_pose(c, pose); }, result);

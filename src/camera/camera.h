@@ -1,7 +1,8 @@
 // Cameras: from a point on the film and one on the lens to a ray.
 //
-// To add another: a struct with `generate_ray`, `connect`, `pdf_solid_angle` and `pixel_cone`, its place in the
-// variant, one case in world/compile_camera.cpp, and its row in tests/camera.
+// To add another: a struct with `generate_ray`, `connect`, `pdf_solid_angle`, `pixel_cone` and `has_lens`, its place in
+// the variant, its pose and its projection in camera.cpp, one case in world/compile_camera.cpp, and its row in
+// tests/camera.
 //
 // Film coordinates run over [0, 1)², x to the right and y down from the top left corner of the full image.
 #pragma once
@@ -50,6 +51,7 @@ struct PinholeCamera {
     /// Density per solid angle of the ray directions for uniform film points: 1 / (A cos³); 0 outside the image.
     [[nodiscard]] float pdf_solid_angle(const Vec3f& direction) const;
     [[nodiscard]] RayCone pixel_cone(const Vec3f& direction, float pixel_area) const;
+    [[nodiscard]] static constexpr bool has_lens() { return false; }
 };
 
 /// Perspective through a disk: what lies at the focus distance is sharp.
@@ -64,6 +66,7 @@ struct ThinLensCamera {
     [[nodiscard]] float pdf_solid_angle(const Vec3f& direction) const;
     /// Returns the cone of the pinhole: what the lens blurs, its samples blur.
     [[nodiscard]] RayCone pixel_cone(const Vec3f& direction, float pixel_area) const;
+    [[nodiscard]] static constexpr bool has_lens() { return true; }
 };
 
 /// Parallel rays.
@@ -77,11 +80,14 @@ struct OrthographicCamera {
     /// All rays have one direction: a delta, so 0.
     [[nodiscard]] float pdf_solid_angle(const Vec3f&) const { return 0.0f; }
     [[nodiscard]] RayCone pixel_cone(const Vec3f& direction, float pixel_area) const;
+    [[nodiscard]] static constexpr bool has_lens() { return false; }
 };
 
 using Camera = std::variant<PinholeCamera, ThinLensCamera, OrthographicCamera>;
 
 [[nodiscard]] const CameraPose& pose_of(const Camera& camera);
+/// Returns whether numbers for a point on the lens mean something.
+[[nodiscard]] bool has_lens(const Camera& camera);
 /// `camera` with another pose.
 [[nodiscard]] Camera with_pose(const Camera& camera, const CameraPose& pose);
 

@@ -16,7 +16,9 @@
 #include "sampling/distribution.h"
 #include "texture/texture.h"
 
+#include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 
 namespace etendue {
@@ -42,6 +44,11 @@ struct ConstantEnvironment {
     [[nodiscard]] float power(float scene_radius) const;
     [[nodiscard]] LightSample sample_compensated(const Vec3f&, Vec2f) const { return {}; }
     [[nodiscard]] float compensated_power(float) const { return 0.0f; }
+    [[nodiscard]] static std::optional<Vec3f> point() { return std::nullopt; }
+    [[nodiscard]] static constexpr std::size_t bytes() { return 0; }
+    [[nodiscard]] static constexpr bool is_delta() { return false; }
+    [[nodiscard]] static constexpr bool is_at_infinity() { return true; }
+    [[nodiscard]] static constexpr bool is_environment() { return true; }
 };
 
 /// An image, importance-sampled in two dimensions by its bilinear reconstruction's mean over each cell, times the sine
@@ -66,6 +73,10 @@ class ImageEnvironment {
     /// others are looked at.
     void look(std::span<const Vec3f> directions, std::span<EnvironmentRadiance> seen) const;
     [[nodiscard]] float compensated_power(float scene_radius) const;
+    [[nodiscard]] static std::optional<Vec3f> point() { return std::nullopt; }
+    [[nodiscard]] static constexpr bool is_delta() { return false; }
+    [[nodiscard]] static constexpr bool is_at_infinity() { return true; }
+    [[nodiscard]] static constexpr bool is_environment() { return true; }
     [[nodiscard]] std::size_t bytes() const {
         return texture_.bytes() + densities_.complete.bytes() + densities_.compensated.bytes();
     }

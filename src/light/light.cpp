@@ -37,22 +37,15 @@ float emission_pdf(const Light& light, const Vec3f& direction, float cos_light, 
 }
 
 bool is_delta_light(const Light& light) {
-    return std::holds_alternative<PointLight>(light) || std::holds_alternative<SpotLight>(light) ||
-           std::holds_alternative<ProfileLight>(light) || std::holds_alternative<DirectionalLight>(light);
+    return std::visit([](const auto& l) { return l.is_delta(); }, light);
 }
 
 std::size_t light_bytes(const Light& light) {
-    return std::visit(
-        [](const auto& one) -> std::size_t {
-            if constexpr (requires { one.bytes(); }) return one.bytes();
-            return 0;
-        },
-        light);
+    return std::visit([](const auto& l) { return l.bytes(); }, light);
 }
 
 bool is_at_infinity(const Light& light) {
-    return std::holds_alternative<DirectionalLight>(light) || std::holds_alternative<ConstantEnvironment>(light) ||
-           std::holds_alternative<ImageEnvironment>(light);
+    return std::visit([](const auto& l) { return l.is_at_infinity(); }, light);
 }
 
 float light_power(const Light& light, float scene_radius) {
@@ -61,8 +54,8 @@ float light_power(const Light& light, float scene_radius) {
 
 float compensated_power(const Light& light, float scene_radius) {
     return std::visit(
-        [&](const auto& l) {
-            if constexpr (requires { l.compensated_power(scene_radius); })
+        [&]<typename Kind>(const Kind& l) {
+            if constexpr (Kind::is_environment())
                 return l.compensated_power(scene_radius);
             else
                 return l.power(scene_radius);
@@ -72,13 +65,17 @@ float compensated_power(const Light& light, float scene_radius) {
 
 std::optional<LightBounds> light_bounds(const Light& light) {
     return std::visit(
-        [](const auto& l) -> std::optional<LightBounds> {
-            if constexpr (requires { l.bounds(); })
-                return l.bounds();
-            else
+        []<typename Kind>(const Kind& l) -> std::optional<LightBounds> {
+            if constexpr (Kind::is_at_infinity())
                 return std::nullopt;
+            else
+                return l.bounds();
         },
         light);
+}
+
+std::optional<Vec3f> light_point(const Light& light) {
+    return std::visit([](const auto& l) { return l.point(); }, light);
 }
 
 Rgb environment_radiance(const Light& light, const Vec3f& direction) {

@@ -52,6 +52,8 @@ void sample_environment_compensated(const Light& light, std::span<const Vec2f> u
 
 /// Returns where the light is and where it shines; none for lights at infinity.
 [[nodiscard]] std::optional<LightBounds> light_bounds(const Light& light);
+/// Returns where a light is that shines from a point; none for others.
+[[nodiscard]] std::optional<Vec3f> light_point(const Light& light);
 
 /// Radiance from infinity along `-direction`; zero for lights that are no environment.
 [[nodiscard]] Rgb environment_radiance(const Light& light, const Vec3f& direction);

@@ -132,6 +132,10 @@ class MeshLight {
     [[nodiscard]] float power(float scene_radius) const;
     /// Returns bounds as if every point of the mesh shone as much as any other.
     [[nodiscard]] LightBounds bounds() const;
+    [[nodiscard]] static std::optional<Vec3f> point() { return std::nullopt; }
+    [[nodiscard]] static constexpr bool is_delta() { return false; }
+    [[nodiscard]] static constexpr bool is_at_infinity() { return false; }
+    [[nodiscard]] static constexpr bool is_environment() { return false; }
 
     [[nodiscard]] float area() const { return area_; }
     /// True if `radiance` of a sample is right as it is; false if the World must evaluate it at the sampled point.

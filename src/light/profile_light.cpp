@@ -25,8 +25,7 @@ float ProfileLight::emission_pdf(const Vec3f& direction, float, const SceneSpher
 
 EmissionSample ProfileLight::sample_emission(const EmissionNumbers& u, const SceneSphere&) const {
     const SpotLight* spot = std::get_if<SpotLight>(&lamp);
-    const Vec3f position = std::visit([](const auto& l) { return l.position; }, lamp);
-    EmissionSample sample = sample_emission_in_cone(position, -frame.normal, cos_emission(), u.direction);
+    EmissionSample sample = sample_emission_in_cone(position(), -frame.normal, cos_emission(), u.direction);
     sample.radiance = spot != nullptr ? spot->intensity * spot->falloff(dot(sample.direction, spot->axis))
                                       : std::get<PointLight>(lamp).intensity;
     sample.radiance *= profile->candela(frame.to_local(sample.direction));
@@ -34,9 +33,8 @@ EmissionSample ProfileLight::sample_emission(const EmissionNumbers& u, const Sce
 }
 
 LightBounds ProfileLight::bounds() const {
-    const Vec3f position = std::visit([](const auto& l) { return l.position; }, lamp);
-    return bounds_of_point(position, {.axis = -frame.normal, .theta_o = std::acos(static_cast<double>(cos_emission()))},
-                           power(0.0f));
+    return bounds_of_point(
+        position(), {.axis = -frame.normal, .theta_o = std::acos(static_cast<double>(cos_emission()))}, power(0.0f));
 }
 
 float ProfileLight::power(float) const {

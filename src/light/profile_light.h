@@ -5,7 +5,9 @@
 #include "light/ies_profile.h"
 #include "light/punctual_light.h"
 
+#include <cstddef>
 #include <memory>
+#include <optional>
 #include <variant>
 
 namespace etendue {
@@ -25,8 +27,17 @@ struct ProfileLight {
     [[nodiscard]] float power(float scene_radius) const;
     /// All directions within the cone into which there is any light count alike.
     [[nodiscard]] LightBounds bounds() const;
+    [[nodiscard]] std::optional<Vec3f> point() const { return position(); }
+    /// Returns nothing for the profile, which lamps share.
+    [[nodiscard]] static constexpr std::size_t bytes() { return 0; }
+    [[nodiscard]] static constexpr bool is_delta() { return true; }
+    [[nodiscard]] static constexpr bool is_at_infinity() { return false; }
+    [[nodiscard]] static constexpr bool is_environment() { return false; }
 
   private:
+    [[nodiscard]] Vec3f position() const {
+        return std::visit([](const auto& l) { return l.position; }, lamp);
+    }
     /// Returns the cosine of the half angle of the cone into which the profile, and the spot, have any light.
     [[nodiscard]] float cos_emission() const;
 };

@@ -5,6 +5,9 @@
 #include "light/light_bounds.h"
 #include "light/light_sample.h"
 
+#include <cstddef>
+#include <optional>
+
 namespace etendue {
 
 /// Radiates equally in all directions from a point.
@@ -17,6 +20,11 @@ struct PointLight {
     [[nodiscard]] float emission_pdf(const Vec3f& direction, float cos_light, const SceneSphere& scene) const;
     [[nodiscard]] float power(float scene_radius) const;
     [[nodiscard]] LightBounds bounds() const;
+    [[nodiscard]] std::optional<Vec3f> point() const { return position; }
+    [[nodiscard]] static constexpr std::size_t bytes() { return 0; }
+    [[nodiscard]] static constexpr bool is_delta() { return true; }
+    [[nodiscard]] static constexpr bool is_at_infinity() { return false; }
+    [[nodiscard]] static constexpr bool is_environment() { return false; }
 };
 
 /// A point that radiates into a cone. Between the two cones intensity falls off as KHR_lights_punctual recommends: the
@@ -34,6 +42,11 @@ struct SpotLight {
     [[nodiscard]] float emission_pdf(const Vec3f& direction, float cos_light, const SceneSphere& scene) const;
     [[nodiscard]] float power(float scene_radius) const;
     [[nodiscard]] LightBounds bounds() const;
+    [[nodiscard]] std::optional<Vec3f> point() const { return position; }
+    [[nodiscard]] static constexpr std::size_t bytes() { return 0; }
+    [[nodiscard]] static constexpr bool is_delta() { return true; }
+    [[nodiscard]] static constexpr bool is_at_infinity() { return false; }
+    [[nodiscard]] static constexpr bool is_environment() { return false; }
 };
 
 /// Parallel light from infinitely far away.
@@ -45,6 +58,11 @@ struct DirectionalLight {
     [[nodiscard]] EmissionSample sample_emission(const EmissionNumbers& u, const SceneSphere& scene) const;
     [[nodiscard]] float emission_pdf(const Vec3f& direction, float cos_light, const SceneSphere& scene) const;
     [[nodiscard]] float power(float scene_radius) const;
+    [[nodiscard]] static std::optional<Vec3f> point() { return std::nullopt; }
+    [[nodiscard]] static constexpr std::size_t bytes() { return 0; }
+    [[nodiscard]] static constexpr bool is_delta() { return true; }
+    [[nodiscard]] static constexpr bool is_at_infinity() { return true; }
+    [[nodiscard]] static constexpr bool is_environment() { return false; }
 };
 
 /// Returns the bounds of a light at `position` that shines as `cone` and `power` say.

@@ -32,15 +32,6 @@ bool is_near(const PlacedTriangle& triangle, const Vec3d& point, double distance
     return true;
 }
 
-/// Where a light is that shines from a point.
-std::optional<Vec3f> point_of(const Light& light) {
-    if (const auto* point = std::get_if<PointLight>(&light)) return point->position;
-    if (const auto* spot = std::get_if<SpotLight>(&light)) return spot->position;
-    if (const auto* profile = std::get_if<ProfileLight>(&light))
-        return std::visit([](const auto& lamp) { return lamp.position; }, profile->lamp);
-    return std::nullopt;
-}
-
 /// Unit normals of the vertices of a mesh; those in one place that face one way have one, so that moving along it tears
 /// nothing.
 std::vector<Vec3f> vertex_normals(const Geometry& geometry) {
@@ -179,17 +170,6 @@ std::vector<Vec3f> planes_through(const WorldData& data, const Vec3f& point) {
     return planes;
 }
 
-CameraPose& movable_pose(Camera& camera) {
-    return std::visit(
-        [](auto& kind) -> CameraPose& {
-            if constexpr (requires { kind.pinhole; })
-                return kind.pinhole.pose;
-            else
-                return kind.pose;
-        },
-        camera);
-}
-
 }  // namespace
 
 void build_bvh(const ThreadPool& threads, WorldData& data, ProblemList& problems) {
@@ -244,7 +224,7 @@ void build_bvh(const ThreadPool& threads, WorldData& data, ProblemList& problems
 
 void find_planes_of_lamps(WorldData& data) {
     for (std::size_t light = 0; light < data.lights.size(); ++light) {
-        const std::optional<Vec3f> lamp = point_of(data.lights[light]);
+        const std::optional<Vec3f> lamp = light_point(data.lights[light]);
         if (!lamp) continue;
         std::vector<Vec3f> planes = planes_through(data, *lamp);
         if (planes.empty()) continue;
@@ -255,9 +235,10 @@ void find_planes_of_lamps(WorldData& data) {
 
 void move_camera_off_surfaces(WorldData& data) {
     if (!data.camera_motion.empty()) return;
-    CameraPose& pose = movable_pose(data.camera);
+    CameraPose pose = pose_of(data.camera);
     for (const Vec3f& plane : planes_through(data, pose.position))
         pose.position += dot(plane, pose.forward) >= 0.0f ? plane : -plane;
+    data.camera = with_pose(data.camera, pose);
 }
 
 }  // namespace etendue

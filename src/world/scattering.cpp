@@ -77,10 +77,6 @@ BsdfParts lobe_parts(const Bsdf& bsdf, const Vec3f& wo, const Vec3f& wi, Transpo
     return parts;
 }
 
-bool is_matte(const Bsdf& bsdf) {
-    return std::holds_alternative<Diffuse>(bsdf) || std::holds_alternative<RoughDiffuse>(bsdf);
-}
-
 float share(float diffuse, float specular) {
     return diffuse > 0.0f ? diffuse / (diffuse + specular) : 0.0f;
 }
@@ -129,7 +125,7 @@ BsdfParts Scattering::evaluate_for_light(const Placed& wo, const Placed& wi) con
 }
 
 Rgb Scattering::diffuse_share(const Vec3f& wi, TransportMode mode) const {
-    if (is_matte(*bsdf_)) return Rgb(1.0f);
+    if (is_diffuse(*bsdf_)) return Rgb(1.0f);
     const BsdfParts parts = evaluate_parts(placed(wi), mode);
     return {share(parts.diffuse.r, parts.specular.r), share(parts.diffuse.g, parts.specular.g),
             share(parts.diffuse.b, parts.specular.b)};

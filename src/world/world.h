@@ -408,7 +408,7 @@ class World {
     /// Returns the camera as it is in the middle of the shutter.
     [[nodiscard]] const Camera& camera() const { return data_->camera; }
     /// False if numbers for a point on the lens mean nothing.
-    [[nodiscard]] bool has_lens() const { return std::holds_alternative<ThinLensCamera>(data_->camera); }
+    [[nodiscard]] bool has_lens() const { return etendue::has_lens(data_->camera); }
     /// How the camera as it is at `time` sees `point` through the lens point made from `lens` in [0, 1)².
     [[nodiscard]] CameraConnection connect_to_camera(const Vec3f& point, Vec2f lens, float time) const;
     /// The ray of the camera as it is at `time`, through film point `film` and the lens point made from `lens`, all in
