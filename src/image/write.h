@@ -17,11 +17,15 @@ namespace etendue {
 struct ImageRational {
     int numerator = 0;
     int denominator = 1;  ///< > 0
+
+    friend bool operator==(const ImageRational&, const ImageRational&) = default;
 };
 
 /// Holds a SMPTE time code, hours, minutes, seconds and frames from the highest byte, two decimal digits in each.
 struct ImageTimeCode {
     std::uint32_t digits = 0;
+
+    friend bool operator==(const ImageTimeCode&, const ImageTimeCode&) = default;
 };
 
 /// One entry of an image's metadata. A vector of eight floats under the name "chromaticities" is written as the EXR

@@ -121,7 +121,7 @@ void BdptWave::merge(const Context& context) {
             if (!context.wants(eye.next_edges - 1 + photon.edges)) return;
             const auto scattered = eye.evaluate_both_ways(photon.direction, TransportMode::Radiance);
             if (is_black(scattered.f_cos)) return;
-            const Rgb light = merged_light(mis, eye, eye.throughput, photon, scattered, context.options.weighted) *
+            const Rgb light = merged_light(mis, eye, eye.throughput, photon, scattered, context.settings.weighted) *
                               context.wavelength_weight(eye.slot, eye.is_dispersed || photon.is_dispersed);
             shares_.clear();
             if (eye_.words().are_followed())
