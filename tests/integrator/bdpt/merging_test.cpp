@@ -195,9 +195,11 @@ TEST(Merging, KeepsTheEnergyOfLightThatEyePathsMeetByChance) {
     const PathLengths lengths{.max_depth = 8, .min_depth = 4};
     const double expected = mean_of_render(world, *make_integrator("naive", {.lengths = lengths}), 256);
     for (const Heuristic heuristic : {Heuristic::Balance, Heuristic::Power}) {
-        const BdptIntegrator merging(
-            {.lengths = lengths, .heuristic = heuristic, .merging = {.at = MergeAt::BetweenDeltas}});
-        EXPECT_NEAR(mean_of_render(world, merging, 96), expected, 0.01 * expected);
+        BdptOptions options{
+            .lengths = lengths, .heuristic = heuristic, .merging = {.at = MergeAt::BetweenDeltas, .radius = 8.0f}};
+        EXPECT_NEAR(mean_of_render(world, BdptIntegrator(options), 96), expected, 0.01 * expected);
+        options.only = kMerges;
+        EXPECT_GT(mean_of_render(world, BdptIntegrator(options), 8), 0.3 * expected);
     }
 }
 
