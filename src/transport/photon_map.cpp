@@ -90,7 +90,7 @@ void PhotonMap::find_buckets(const MergeKernel& kernel, Buckets& buckets) const 
     }
     const auto found = std::span(buckets.index).first(buckets.count);
     std::ranges::sort(found);
-    buckets.count = static_cast<std::size_t>(std::ranges::unique(found).begin() - found.begin());
+    buckets.count = static_cast<std::size_t>(std::unique(found.begin(), found.end()) - found.begin());
 }
 
 }  // namespace etendue

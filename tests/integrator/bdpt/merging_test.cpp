@@ -192,8 +192,11 @@ TEST(Merging, KeepsTheEnergyOfLightThatEyePathsMeetByChance) {
     const PathLengths lengths{.max_depth = 8, .min_depth = 4};
     const double expected = mean_of_render(world, *make_integrator("naive", {.lengths = lengths}), 256);
     for (const Heuristic heuristic : {Heuristic::Balance, Heuristic::Power}) {
-        const BdptIntegrator merging({.lengths = lengths, .heuristic = heuristic}, nullptr, {});
-        EXPECT_NEAR(mean_of_render(world, merging, 96), expected, 0.01 * expected);
+        IntegratorSettings settings{.lengths = lengths, .heuristic = heuristic};
+        const MergeSettings wide{.radius = 8.0f};
+        EXPECT_NEAR(mean_of_render(world, BdptIntegrator(settings, nullptr, wide), 96), expected, 0.01 * expected);
+        settings.strategy = kMerges;
+        EXPECT_GT(mean_of_render(world, BdptIntegrator(settings, nullptr, wide), 8), 0.3 * expected);
     }
 }
 
