@@ -46,8 +46,8 @@ enum class MergeAt : std::uint8_t {
 /// Says how subpaths merge.
 struct MergeSettings {
     MergeAt at = MergeAt::BetweenDeltas;
-    float radius = 1.5f;  ///< radius of the first sample, in widths of a pixel, [0.01, 100]
-    float alpha = 0.75f;  ///< [0.1, 1]: the radius shrinks with the power (alpha - 1) / 2 of the number of samples
+    double radius = 1.5;  ///< radius of the first sample, in widths of a pixel, [0.01, 100]
+    double alpha = 0.75;  ///< [0.1, 1]: the radius shrinks with the power (alpha - 1) / 2 of the number of samples
 };
 
 struct IntegratorSettings {

@@ -452,8 +452,7 @@ constexpr std::array kRows{
             .decides = Decides::Samples,
             .default_text = "all",
             .help = "Show only paths of `bdpt` or `vcm` with S vertices from the light and T from the eye, counting "
-                    "those on the "
-                    "light and on the lens",
+                    "those on the light and on the lens",
             .place = at([](auto& s) -> auto& { return s.integrator.strategy; })},
     Setting{
         .pointer = "/integrator/weighted",

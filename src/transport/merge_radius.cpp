@@ -14,8 +14,9 @@ Merging make_merging(const World& world, int width, int height, double light_pat
     constexpr Vec2f kMiddle{0.5f, 0.5f};
     const Ray ray = world.generate_ray(kMiddle, kMiddle, 0.5f);
     MergeRadius radius{.eye = ray.origin, .pixel = camera_cone(world, width, height, ray)};
-    const float shrunk = std::pow(static_cast<float>(sample) + 1.0f, 0.5f * (options.alpha - 1.0f));
-    radius.scale = std::min(options.radius * shrunk, MergeRadius::kMostSlope / std::abs(radius.pixel.spread));
+    const double shrunk = std::pow(static_cast<double>(sample) + 1.0, 0.5 * (options.alpha - 1.0));
+    radius.scale =
+        std::min(static_cast<float>(options.radius * shrunk), MergeRadius::kMostSlope / std::abs(radius.pixel.spread));
     radius.least = kLeast * world.bounding_radius();
     radius.most = kMost * world.bounding_radius();
     return {.at = options.at, .radius = radius, .light_paths = light_paths};
