@@ -150,14 +150,15 @@ class LightChanges {
     void apply(const std::map<std::string, LightOverride>& changes) {
         // What is said of one node comes after what is said of all that share its lamp.
         for (const auto& [name, change] : changes)
-            if (is_of_lamp(name)) apply_to_those(change, [&](std::size_t i) { return scene_.lights[i].name == name; });
+            if (is_of_lamp(name))
+                apply_to_those(change, [&, &lamp = name](std::size_t i) { return scene_.lights[i].name == lamp; });
         for (const auto& [name, change] : changes) {
             if (is_of_lamp(name)) continue;
             if (name.empty() || std::ranges::find(node_names_, name) == node_names_.end()) {
                 report_unknown(name, change.location);
                 continue;
             }
-            apply_to_those(change, [&](std::size_t i) { return node_names_[i] == name; });
+            apply_to_those(change, [&, &node = name](std::size_t i) { return node_names_[i] == node; });
         }
         std::size_t next = 0;
         std::erase_if(scene_.lights, [&](const LightDesc&) { return !is_enabled_[next++]; });
