@@ -300,8 +300,7 @@ constexpr std::array kRows{
             .decides = Decides::Samples,
             .needs = "/time_code",
             .default_text = "all whose targets do not conflict",
-            .help = "Animations to play, by name, or `none`; those that move what an earlier one does are left out. "
-                    "The option can be given several times",
+            .help = "Animations to play, by name, or `none`; may be given several times",
             .page = "gltf.md#animations",
             .place = at([](auto& s) -> auto& { return s.animations; })},
     Setting{.pointer = "/shutter",
@@ -423,15 +422,15 @@ constexpr std::array kRows{
             .unit = "edges",
             .help = "Shortest paths that are kept",
             .place = at([](auto& s) -> auto& { return s.integrator.lengths.min_depth; })},
-    Setting{.pointer = "/integrator/roulette_depth",
-            .type = WholeNumber{1, kMostInt},
-            .decides = Decides::Samples,
-            .unit = "rays",
-            .help = "After how many rays Russian roulette may end a path, those behind panes and in media included; "
-                    "`bdpt` shares them between the subpaths from the eye and from the light, `whitted` does not use "
-                    "this",
-            .page = "integrators.md#russian-roulette",
-            .place = at([](auto& s) -> auto& { return s.integrator.lengths.roulette_depth; })},
+    Setting{
+        .pointer = "/integrator/roulette_depth",
+        .type = WholeNumber{1, kMostInt},
+        .decides = Decides::Samples,
+        .unit = "rays",
+        .help = "Rays, those behind panes and in media included, after which Russian roulette may end a path; `bdpt` "
+                "shares them between its subpaths",
+        .page = "integrators.md#russian-roulette",
+        .place = at([](auto& s) -> auto& { return s.integrator.lengths.roulette_depth; })},
     Setting{.pointer = "/integrator/light_samples",
             .option = "--light-samples",
             .type = WholeNumber{1, kMostLightSamples},

@@ -92,9 +92,9 @@ template <typename AnyVertex>
 
 /// Decides which photons a vertex takes light from.
 struct MergeKernel {
-    /// Least cosine between the normals of the photon's surface and the vertex's.
+    /// Bounds the cosine between the normals of the photon's surface and the vertex's from below.
     static constexpr float kLeastCosine = 0.7f;
-    /// Share of the radius that a photon may lie above or below the vertex's surface.
+    /// Bounds how far a photon may lie above or below the vertex's surface, in radii.
     static constexpr float kThickness = 0.1f;
 
     Vec3f position{0.0f};

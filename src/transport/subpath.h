@@ -26,7 +26,7 @@ struct SubpathSample {
     MisContext mis;
     const PathLengths& lengths;
     const EyeSample& eye;
-    /// Key of the numbers that samples share if they merge, in place of the sample's own.
+    /// Holds the key of the numbers that samples share if they merge, in place of the sample's own.
     std::optional<SampleKey> shared{};
 
     [[nodiscard]] const World& world() const { return mis.world; }

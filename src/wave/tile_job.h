@@ -16,14 +16,14 @@ namespace etendue {
 class SharedPhotons;
 class WaveProfile;
 
-/// A pixel that is to get samples: its index in the tile, row by row, and that of its first sample.
+/// Names a pixel that is to get samples: its index in the tile, row by row, and that of its first sample.
 struct PixelJob {
     std::uint32_t pixel = 0;
     std::uint32_t first_sample = 0;
 };
 
-/// The samples to take: `sample_count` of every pixel of `rect`, beginning with index `first_sample`, or of `pixels`
-/// alone, each beginning with its own.
+/// Names the samples to take: `sample_count` of every pixel of `rect`, beginning with index `first_sample`, or of
+/// `pixels` alone, each beginning with its own.
 struct TileJob {
     PixelRect rect;
     PixelRect window;  ///< pixels that splats may fall into; each has a light path per sample

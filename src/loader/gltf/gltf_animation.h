@@ -54,7 +54,7 @@ struct PointerValue {
     SourceLocation where;  ///< the channel
 };
 
-/// Animations that play together, read once and posed at any moment.
+/// Poses animations that play together at any moment; they are read once.
 class AnimationSampler {
   public:
     /// Reads `animations`. Channels that cannot be read are errors, those whose target is not known warnings.

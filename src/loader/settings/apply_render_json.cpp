@@ -200,7 +200,8 @@ class LightChanges {
 
 constexpr float kUsualSensorWidth = 36.0f;  ///< millimetres, of 35 mm film
 
-/// Height of the sensor in millimetres, whose longer side is `sensor_width`, for an image of this width over height.
+/// Returns the height of the sensor in millimetres, whose longer side is `sensor_width`, for an image of this width
+/// over height.
 float sensor_height(float sensor_width, float aspect) {
     return sensor_width / std::max(aspect, 1.0f);
 }

@@ -148,7 +148,7 @@ void read_factors(JsonObject& object, std::vector<FactorChange>& factors) {
     }
 }
 
-/// Errors for what would have no effect beside something else.
+/// Reports what would have no effect beside something else.
 void check_combination(const MaterialOverride& material, bool has_model, JsonObject& object) {
     const auto refuse = [&](std::string_view key) {
         object.problems().error(object.at(key), "a model takes the place of the glTF material: leave one of both out");

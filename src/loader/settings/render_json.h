@@ -64,7 +64,7 @@ struct RenderJson {
     CameraAim camera_aim;                        ///< of that
     std::optional<float> lens_radius;            ///< of whichever camera is chosen
     std::optional<float> focus_distance;         ///< the same
-    LensSettings lens;                           ///< the same
+    LensSettings lens;                           ///< its lens in a photographer's words
     std::optional<EnvironmentDesc> environment;  ///< its image not yet resolved
     std::map<std::string, MaterialOverride> materials;
     std::map<std::string, LightOverride> lights;
