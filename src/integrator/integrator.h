@@ -3,8 +3,10 @@
 // To add another, see CONTRIBUTING.md (An integrator).
 #pragma once
 
+#include "core/parallel.h"
 #include "film/film.h"
 #include "scene/integrator_settings.h"
+#include "wave/lamp_images.h"
 #include "wave/photons.h"
 #include "wave/render_counters.h"
 #include "wave/tile_job.h"
@@ -47,6 +49,11 @@ class Integrator {
     /// Returns where subpaths of `job`, whose samples have one index, merge. Where they do, a pass has one sample of
     /// every pixel, `trace_photons` is called for all of `job.window` before it, and jobs hold what it has left.
     [[nodiscard]] virtual Merging merging(const World&, const TileJob&) const { return {}; }
+
+    /// Returns the images of lamps that are to get samples of their own in jobs like `whole`, one of the full image.
+    [[nodiscard]] virtual LampImages lamp_images(const World&, const TileJob& /*whole*/, const ThreadPool&) const {
+        return {};
+    }
 
     /// Appends to `photons` those of the light subpaths of the samples of `job`.
     virtual void trace_photons(const World&, const TileJob&, IntegratorScratch&, PhotonList&, RenderCounters&) const {}

@@ -35,12 +35,13 @@ std::unique_ptr<const Integrator> make_vcm(const IntegratorSettings& settings) {
     return std::make_unique<BdptIntegrator>(settings, nullptr, settings.merging);
 }
 
-constexpr std::string_view kOfSplitting[] = {"/integrator/light_samples"};
+constexpr std::string_view kLampImages = "/integrator/lamp_images";
+constexpr std::string_view kOfSplitting[] = {"/integrator/light_samples", kLampImages};
 constexpr std::string_view kOfStrategies[] = {"/integrator/heuristic", kStrategySetting, "/integrator/weighted",
-                                              "/integrator/connections"};
+                                              "/integrator/connections", kLampImages};
 constexpr std::string_view kOfMerging[] = {"/integrator/heuristic",   kStrategySetting,    "/integrator/weighted",
                                            "/integrator/connections", "/integrator/merge", "/integrator/merge_radius",
-                                           "/integrator/merge_alpha"};
+                                           "/integrator/merge_alpha", kLampImages};
 
 constexpr IntegratorEntry kRegistry[] = {
     {.name = "path",

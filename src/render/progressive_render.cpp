@@ -53,7 +53,8 @@ std::size_t ProgressiveRender::scratch_bytes() const {
 }
 
 std::size_t ProgressiveRender::tile_bytes() const {
-    std::size_t bytes = vector_bytes(tiles_, splats_) + (photons_ ? photons_->bytes() : 0);
+    std::size_t bytes =
+        vector_bytes(tiles_, splats_) + (photons_ ? photons_->bytes() : 0) + (lamp_images_ ? lamp_images_->bytes() : 0);
     for (const Worker& worker : workers_) bytes += worker.tile.bytes();
     for (const std::vector<Splat>& list : splats_) bytes += vector_bytes(list);
     return bytes;
@@ -106,6 +107,9 @@ void ProgressiveRender::finish_pass() {
 bool ProgressiveRender::go_on(const StopPredicate& stop, const TileCallback& tile_done) {
     const auto start = Clock::now();
     const double cpu_start = process_cpu_seconds();
+    if (!lamp_images_)
+        lamp_images_ =
+            integrator_.lamp_images(world_, make_job({0, 0, options_.full_width, options_.full_height}), threads_);
     trace_photons();
     // Splats are added in the order of the tiles, whatever the order in which these are rendered.
     for (std::size_t first = 0; first < tiles_.size() && !stop();) {
@@ -138,7 +142,8 @@ TileJob ProgressiveRender::make_job(const PixelRect& rect) const {
             .sequence = options_.sequence,
             .filter = &options_.filter,
             .aovs = options_.aovs.get(),
-            .clamp_indirect = options_.clamp_indirect};
+            .clamp_indirect = options_.clamp_indirect,
+            .lamp_images = lamp_images_ ? &*lamp_images_ : nullptr};
 }
 
 void ProgressiveRender::trace_photons() {

@@ -147,6 +147,7 @@ class ProgressiveRender {
     RenderState state_;
     std::vector<PixelRect> tiles_;
     std::vector<Worker> workers_;
+    std::optional<LampImages> lamp_images_;   ///< found before the first pass
     RenderCounters photon_counters_;          ///< counters of tracing `photons_`
     std::optional<SharedPhotons> photons_;    ///< photons of the pass under way, if its samples merge
     std::vector<std::vector<Splat>> splats_;  ///< splats of each tile of a group

@@ -66,6 +66,9 @@ struct IntegratorSettings {
     /// Counts the light vertices of all samples that bidirectional path tracing connects an eye vertex to; 0 for all
     /// light vertices of the eye vertex's own sample.
     int cached_connections = 0;
+    /// Says whether images of small lamps in mirrors and glass get samples of their own, which only renders of `path`,
+    /// `direct`, `bdpt` and `vcm` take.
+    bool lamp_images = true;
     MergeSettings merging{};  ///< says how `vcm` merges
 };
 

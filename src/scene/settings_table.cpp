@@ -471,6 +471,12 @@ constexpr std::array kRows{
         .page = "integrators.md#connections-to-a-cache",
         .place = parsed_at<parse_connections, connections_text>(
             [](auto& s) -> auto& { return s.integrator.cached_connections; })},
+    Setting{.pointer = "/integrator/lamp_images",
+            .type = YesNo{"--no-lamp-images", "Leave images of small lamps in mirrors and glass to chance"},
+            .decides = Decides::Samples,
+            .help = "Whether images of small lamps in mirrors and smooth glass get samples of their own",
+            .page = "integrators.md#images-of-lamps",
+            .place = at([](auto& s) -> auto& { return s.integrator.lamp_images; })},
     Setting{.pointer = "/integrator/merge",
             .option = "--merge",
             .type = kChoiceOf<kMergeNames>,

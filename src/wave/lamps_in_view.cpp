@@ -50,6 +50,11 @@ void for_each_pixel(const PixelRect& rect, const Visit& visit) {
         for (int x = rect.x0; x < rect.x1; ++x) visit(Vec2i(x, y));
 }
 
+/// Returns where `sample` falls on the film, pixels from the middle of its pixel.
+[[nodiscard]] Vec2f film_offset(const TileJob& job, const CameraSample& sample) {
+    return job.filter->sample(sample_2d(job.sequence, sample.key, kFilmDimension)).offset;
+}
+
 [[nodiscard]] PixelRect neighbours(const Vec2i& pixel) {
     return grown({pixel.x, pixel.y, pixel.x + 1, pixel.y + 1}, kReach);
 }
@@ -116,7 +121,8 @@ void LampsInView::start(const World& world, const TileJob& job, const PathLength
                  !is_spelled && may_see_lamps(world, job);
     met_.clear();
     found_.clear();
-    if (!is_active_) return;
+    images_.start(world, job, lengths);
+    if (!is_active_ && !images_.is_active()) return;
     around_ = intersection(grown(job.rect, kReach), full_image(job));
     first_samples_.assign(job.rect.area(), job.pixels.empty() ? job.first_sample : kNone);
     for (const PixelJob& pixel : job.pixels) first_samples_[pixel.pixel] = pixel.first_sample;
@@ -133,6 +139,11 @@ SurfacePoint LampsInView::surface_point(const Ray& ray, const Hit& hit) const {
     const bool has_cone = filters_textures_ && world_->has_textures();
     return world_->surface_point(hit, ray,
                                  has_cone ? camera_cone(*world_, job_->full_width, job_->full_height, ray) : RayCone{});
+}
+
+Vec2f LampsInView::film_position(const CameraSample& sample) const {
+    const Vec2i pixel = pixel_position(*job_, sample.pixel);
+    return Vec2f(static_cast<float>(pixel.x) + 0.5f, static_cast<float>(pixel.y) + 0.5f) + film_offset(*job_, sample);
 }
 
 bool LampsInView::has_sample(const Vec2i& pixel, std::uint32_t sample) const {
@@ -163,7 +174,7 @@ void LampsInView::note(const CameraSample& sample, const Vec2i& pixel, const Ray
     if (words_.are_followed()) words_.end_at_camera(words_.surface_source(point), shares_);
     met_.push_back({.pixel = pixel,
                     .sample = sample.key.index,
-                    .offset = job_->filter->sample(sample_2d(job_->sequence, sample.key, kFilmDimension)).offset,
+                    .offset = film_offset(*job_, sample),
                     .light = light,
                     .expressions = shares_.empty() ? ExpressionMask{0} : shares_.front().expressions,
                     .depth = job_->aovs != nullptr && job_->aovs->layout.is_deep
@@ -261,39 +272,42 @@ void LampsInView::spread(const Met& met, TileBuffer& tile, RenderCounters& count
     for_each_pixel(intersection(neighbours(met.pixel), job_->rect), [&](const Vec2i& pixel) {
         if (!has_sample(pixel, met.sample)) return;
         if (is_even_[index_in(job_->rect, pixel)] != 0) {
-            if (pixel == met.pixel) add(met, pixel, met.light, tile, counters);
+            if (pixel == met.pixel) add(met, pixel, met.light, tile);
             return;
         }
         if (!axes)
             axes.emplace(AlongAxis(*job_->filter, met.offset.x, met.pixel.x, job_->full_width),
                          AlongAxis(*job_->filter, met.offset.y, met.pixel.y, job_->full_height));
         const float scale = axes->first.scale(pixel.x - met.pixel.x) * axes->second.scale(pixel.y - met.pixel.y);
-        if (scale != 0.0f) add(met, pixel, met.light * scale, tile, counters);
+        if (scale == 0.0f) return;
+        offer(met, pixel, met.light * scale, counters);
+        add(met, pixel, met.light * scale, tile);
     });
 }
 
-void LampsInView::add(const Met& met, const Vec2i& position, const Rgb& light, TileBuffer& tile,
-                      RenderCounters& counters) {
+void LampsInView::offer(const Met& met, const Vec2i& position, const Rgb& light, RenderCounters& counters) const {
+    // Where the middle of a pixel shows the lamp, it is as bright in every sample, and no firefly.
+    if (max_component(light) < counters.brightest.threshold() || middles_[index_in(around_, position)] > 0.0f) return;
+    BrightSample bright{.x = position.x,
+                        .y = position.y,
+                        .sample_x = met.pixel.x,
+                        .sample_y = met.pixel.y,
+                        .sample = met.sample,
+                        .value = light,
+                        .s = 0,
+                        .t = 2,
+                        .edges = 1};
+    constexpr std::string_view kWord = "C O";
+    std::ranges::copy(kWord, bright.word.begin());
+    counters.brightest.offer(bright);
+}
+
+void LampsInView::add(const Met& met, const Vec2i& position, const Rgb& light, TileBuffer& tile) {
     const auto pixel = static_cast<std::uint32_t>(index_in(job_->rect, position));
     PixelSum& sum = tile.pixel(pixel);
     sum.r += static_cast<double>(light.r);
     sum.g += static_cast<double>(light.g);
     sum.b += static_cast<double>(light.b);
-    // Where the middle of a pixel shows the lamp, it is as bright in every sample, and no firefly.
-    if (max_component(light) >= counters.brightest.threshold() && !(middles_[index_in(around_, position)] > 0.0f)) {
-        BrightSample bright{.x = position.x,
-                            .y = position.y,
-                            .sample_x = met.pixel.x,
-                            .sample_y = met.pixel.y,
-                            .sample = met.sample,
-                            .value = light,
-                            .s = 0,
-                            .t = 2,
-                            .edges = 1};
-        constexpr std::string_view kWord = "C O";
-        std::ranges::copy(kWord, bright.word.begin());
-        counters.brightest.offer(bright);
-    }
     LayerBuffer& layers = tile.layers();
     const LayerLayout& layout = layers.layout();
     if (layout.empty()) return;
@@ -314,7 +328,33 @@ void LampsInView::add(const Met& met, const Vec2i& position, const Rgb& light, T
     found += light;
 }
 
+void LampsInView::sample_images(TileBuffer& tile, RenderCounters& counters) {
+    std::uint32_t first = kNone;
+    std::uint32_t last = 0;
+    for (const std::uint32_t of_pixel : first_samples_)
+        if (of_pixel != kNone) {
+            first = std::min(first, of_pixel);
+            last = std::max(last, of_pixel);
+        }
+    if (first == kNone) return;
+    images_.sample(
+        first, last + job_->sample_count,
+        [this](const Vec2i& pixel, std::uint32_t sample) { return has_sample(pixel, sample); },
+        [&](const Vec2i& pixel, std::uint32_t sample, const LampSeen& seen, const Rgb& light) {
+            const bool is_deep = job_->aovs != nullptr && job_->aovs->layout.is_deep;
+            add({.pixel = pixel,
+                 .sample = sample,
+                 .offset = {},
+                 .light = light,
+                 .expressions = seen.expressions,
+                 .depth = is_deep ? world_->depth(seen.first_position, 0.0f) : 0.0f},
+                pixel, light, tile);
+        },
+        counters);
+}
+
 void LampsInView::finish(TileBuffer& tile, RenderCounters& counters) {
+    if (images_.is_active()) sample_images(tile, counters);
     if (!is_active_) return;
     trace_neighbours(counters);
     if (!met_.empty()) {

@@ -24,6 +24,7 @@
 #include "core/pixel_rect.h"
 #include "scene/integrator_settings.h"
 #include "wave/camera_wave.h"
+#include "wave/lamp_images.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -45,6 +46,11 @@ class LampsInView {
 
     /// True if the emission of what a camera ray has hit first is found here, and nobody else may add it.
     [[nodiscard]] bool finds(const Hit& hit) const { return is_active_ && is_lamp(*world_, hit); }
+
+    /// Returns true if the emission that a path of `sample` has met by deltas alone is found here (lamp_images.h).
+    [[nodiscard]] bool finds_image(const CameraSample& sample) const {
+        return images_.is_active() && images_.finds(film_position(sample));
+    }
 
     /// Notes what lamps `samples` of the job have met: `rays` are theirs, `hits` what these met first.
     void note(std::span<const CameraSample> samples, std::span<const Ray> rays, std::span<const Hit> hits,
@@ -68,6 +74,10 @@ class LampsInView {
         float depth = 0.0f;  ///< metres along the viewing direction; of deep images only
     };
 
+    /// Returns where `sample` of the job falls on the film, pixels of the full image.
+    [[nodiscard]] Vec2f film_position(const CameraSample& sample) const;
+    /// Draws the samples of images of lamps.
+    void sample_images(TileBuffer& tile, RenderCounters& counters);
     [[nodiscard]] static bool is_lamp(const World& world, const Hit& hit);
     /// True if the job takes the sample of this index of `pixel`.
     [[nodiscard]] bool has_sample(const Vec2i& pixel, std::uint32_t sample) const;
@@ -82,7 +92,9 @@ class LampsInView {
     [[nodiscard]] bool has_even_middles(const Vec2i& pixel) const;
     void spread(const Met& met, TileBuffer& tile, RenderCounters& counters);
     /// Adds what `met` brings to the pixel at `position`.
-    void add(const Met& met, const Vec2i& position, const Rgb& light, TileBuffer& tile, RenderCounters& counters);
+    void add(const Met& met, const Vec2i& position, const Rgb& light, TileBuffer& tile);
+    /// Has `counters` remember `light`, if it is bright.
+    void offer(const Met& met, const Vec2i& position, const Rgb& light, RenderCounters& counters) const;
     /// Returns the radiance that a sample has found; `pixel` is its pixel in the tile, and the job takes it.
     [[nodiscard]] Rgb& found_by(std::uint32_t pixel, std::uint32_t sample);
 
@@ -91,6 +103,7 @@ class LampsInView {
     bool filters_textures_ = false;
     Share share_;
     bool is_active_ = false;
+    LampImageSampler images_;
     PixelRect around_;                          ///< the job's rectangle with the neighbours of its pixels
     std::vector<std::uint32_t> first_samples_;  ///< by pixel of the tile; kNone of those without samples
     std::vector<Met> met_;

@@ -13,6 +13,7 @@
 
 namespace etendue {
 
+class LampImages;
 class SharedPhotons;
 class WaveProfile;
 
@@ -42,8 +43,9 @@ struct TileJob {
     std::span<const PixelJob> pixels{};  ///< empty for all
     /// Says where subpaths of bidirectional methods merge; all samples have one index, time and wavelength then.
     Merging merging{};
-    const SharedPhotons* photons = nullptr;  ///< photons to merge with; null if there are none, or none yet
-    WaveProfile* profile = nullptr;          ///< profile of the thread that renders; null if nobody asks
+    const SharedPhotons* photons = nullptr;   ///< photons to merge with; null if there are none, or none yet
+    const LampImages* lamp_images = nullptr;  ///< images that get samples of their own; null for none
+    WaveProfile* profile = nullptr;           ///< profile of the thread that renders; null if nobody asks
 };
 
 /// Returns the key of the numbers that samples with this key share if they merge: all of one index have one time and

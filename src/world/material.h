@@ -135,4 +135,7 @@ struct Material {
     }
 };
 
+/// Returns whether the material mirrors or refracts without roughness; textured roughness is taken not to reach zero.
+[[nodiscard]] bool is_specular(const Material& material);
+
 }  // namespace etendue

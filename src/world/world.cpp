@@ -24,6 +24,15 @@
 
 namespace etendue {
 
+bool is_specular(const Material& material) {
+    if (material.unlit) return false;
+    if (const Bsdf* constant = std::get_if<Bsdf>(&material.model)) return !has_non_delta(*constant);
+    const GltfModel& model = std::get<GltfModel>(material.model);
+    return model.roughness * model.roughness < kSmoothAlpha ||
+           (model.layers && model.layers->clearcoat > 0.0f &&
+            model.layers->clearcoat_roughness * model.layers->clearcoat_roughness < kSmoothAlpha);
+}
+
 namespace {
 
 float opacity_callback(const void* data, std::uint32_t geometry, std::uint32_t triangle, Vec2f barycentric) {
@@ -36,16 +45,6 @@ constexpr float kMiddle = 0.5f;
 float radius_of(const Bounds& bounds) {
     const float radius = 0.5f * length(bounds.size());
     return radius > 0.0f ? radius : 1.0f;
-}
-
-/// True if the material mirrors or refracts without roughness; textured roughness is taken not to reach zero.
-bool is_specular(const Material& material) {
-    if (material.unlit) return false;
-    if (const Bsdf* constant = std::get_if<Bsdf>(&material.model)) return !has_non_delta(*constant);
-    const GltfModel& model = std::get<GltfModel>(material.model);
-    return model.roughness * model.roughness < kSmoothAlpha ||
-           (model.layers && model.layers->clearcoat > 0.0f &&
-            model.layers->clearcoat_roughness * model.layers->clearcoat_roughness < kSmoothAlpha);
 }
 
 /// True if what the model evaluates to depends on nothing about a point but its vertex colour. A coat has a normal of

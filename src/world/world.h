@@ -296,6 +296,12 @@ class World {
     [[nodiscard]] bool has_unlit_surfaces() const { return has_unlit_surfaces_; }
     /// True if some surface emits light.
     [[nodiscard]] bool has_emitting_surfaces() const { return has_emitting_surfaces_; }
+    /// Returns how many lights there are, the environment included.
+    [[nodiscard]] std::uint32_t light_count() const { return static_cast<std::uint32_t>(data_->lights.size()); }
+    /// Returns where the light of this index is and where it shines; none at infinity.
+    [[nodiscard]] std::optional<LightBounds> bounds_of_light(std::uint32_t light) const {
+        return light_bounds(data_->lights[light]);
+    }
     /// False if no camera ray through the part of the film from `least` to `most` can meet a surface that emits light.
     [[nodiscard]] bool may_show_lamps(Vec2f least, Vec2f most) const;
     /// True if some surface that emits is met by chance only: it moves while the shutter is open, or is beyond the most

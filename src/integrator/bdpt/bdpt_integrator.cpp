@@ -38,6 +38,12 @@ Merging BdptIntegrator::merging(const World& world, const TileJob& job) const {
                         job.first_sample, merging_);
 }
 
+LampImages BdptIntegrator::lamp_images(const World& world, const TileJob& whole, const ThreadPool& threads) const {
+    // They are of no single strategy, and an observer is to see all weights.
+    if (!settings_.lamp_images || settings_.strategy || observer_ != nullptr) return {};
+    return find_lamp_images(world, whole, settings_.lengths.max_depth, threads);
+}
+
 void BdptIntegrator::trace_photons(const World& world, const TileJob& job, IntegratorScratch& scratch,
                                    PhotonList& photons, RenderCounters& counters) const {
     auto& wave = static_cast<BdptWave&>(scratch);

@@ -198,6 +198,7 @@ void BdptWave::add(const SubpathState& state, const Rgb& light, const StrategySu
 void BdptWave::on_emitter(const SubpathState& state, const SurfacePoint& point, const Vec3f& direction,
                           const SubpathDensities& arrived) {
     if (state.edges < context_->lengths.min_depth) return;
+    if (state.only_delta && state.edges > 1 && lamps_.finds_image(samples_[state.slot])) return;
     const World& world = context_->world;
     const Rgb emitted = world.emission(point, -direction);
     if (is_black(emitted)) return;

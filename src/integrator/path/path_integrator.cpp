@@ -33,6 +33,12 @@ std::unique_ptr<IntegratorScratch> PathIntegrator::make_scratch() const {
     return std::make_unique<PathWave>();
 }
 
+LampImages PathIntegrator::lamp_images(const World& world, const TileJob& whole, const ThreadPool& threads) const {
+    // Without light samples, the integrator is there to find light by chance.
+    if (!settings_.lamp_images || settings_.light_samples == 0) return {};
+    return find_lamp_images(world, whole, settings_.lengths.max_depth, threads);
+}
+
 void PathIntegrator::render_tile(const World& world, const TileJob& job, IntegratorScratch& scratch, TileBuffer& tile,
                                  RenderCounters& counters) const {
     LampsInView& lamps = static_cast<PathWave&>(scratch).lamps();

@@ -164,6 +164,8 @@ void PathWave::add_emission(const Context& context, std::size_t k) {
     const SurfacePoint& point = singles_[k].point;
     if (paths_.edges(i) < context.settings.lengths.min_depth) return;
     if (context.depth == 1 && lamps_.finds(hits_[i])) return;
+    if (paths_.is(path_history::kOnlyDelta, i) && paths_.edges(i) > 1 && lamps_.finds_image(samples_[paths_.slot[i]]))
+        return;
     const Vec3f direction = paths_.direction[i];
     const Rgb emitted = context.world.emission(point, -direction);
     if (is_black(emitted)) return;

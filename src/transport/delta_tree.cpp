@@ -1,0 +1,61 @@
+#include "transport/delta_tree.h"
+
+#include "sampling/hash.h"
+#include "transport/bodies.h"
+#include "transport/dispersion.h"
+#include "transport/roulette.h"
+
+namespace etendue {
+
+namespace {
+
+/// Returns the branch that grows from `branch` as its child number `child`, without a way yet.
+DeltaBranch grow(const DeltaBranch& branch, std::uint32_t child) {
+    DeltaBranch next = branch;
+    next.numbers.key.pixel_seed = branch_seed(branch.numbers.key.pixel_seed, child);
+    ++next.path.rays;
+    return next;
+}
+
+}  // namespace
+
+DeltaBranch go_straight_on(const DeltaBranch& branch, const Vertex& vertex) {
+    DeltaBranch next = grow(branch, 0);
+    pass(next.path, vertex, next.numbers.bits(kBranchAlpha));
+    return next;
+}
+
+DeltaBranch grow_along(const World& world, const DeltaBranch& branch, const Vertex& vertex, const BsdfSample& delta,
+                       std::uint32_t child) {
+    DeltaBranch next = grow(branch, child);
+    const Scattering scattering = vertex.scattering();
+    if (vertex.chooses_wavelength && mirrors_all_wavelengths(scattering, delta)) {
+        next.path.throughput *= world.spectral_response().mean(
+            vertex.wavelength, [&](float nm) { return mirrored_share(scattering, vertex.crossing->relative_ior(nm)); });
+    } else {
+        next.path.throughput *= delta.weight * vertex.wavelength.weight;
+        next.path.wavelength_nm = vertex.wavelength.nm;
+    }
+    leave(world, next.path, vertex, delta, next.numbers.bits(kBranchAlpha));
+    return next;
+}
+
+std::optional<DeltaBranch> survivor(DeltaBranch branch) {
+    EyePath& path = branch.path;
+    const float chance = branch_survival(max_component(path.throughput) * path.eta_scale, path.rays);
+    if (chance >= 1.0f) return branch;
+    if (to_unit_float(branch.numbers.bits(kBranchEnd)) >= chance) return {};
+    path.throughput *= 1.0f / chance;
+    return branch;
+}
+
+Vertex next_vertex(const World& world, DeltaBranch& branch) {
+    EyePath& path = branch.path;
+    const Hit hit = nearest_hit(world, path);
+    if (!hit.valid()) return environment_vertex(path.ray.direction);
+    path.throughput *= transmittance(world, path.interior, hit.t);
+    return surface_vertex(world, path.ray, path.cone, path.interior, hit, path.wavelength_nm,
+                          branch.numbers.pair(kBranchWavelength).x);
+}
+
+}  // namespace etendue
