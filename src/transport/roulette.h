@@ -53,11 +53,13 @@ struct SparedRays {
     return world.has_bodies() ? std::min(roulette_depth, kLongPath) : roulette_depth;
 }
 
+/// Bounds the throughput of the branches of trees that are followed in any case from below.
+inline constexpr float kSmallestContribution = 1.0f / 1024.0f;
+
 /// Returns the chance with which a branch of Whitted's trees is followed that ends with ray number `rays` and
 /// contributes `contribution`. Small ones live on as rarely as they are small, with one and the same contribution:
 /// trees stay small, and what they show on average is what they would show in full.
 [[nodiscard]] inline float branch_survival(float contribution, int rays) {
-    constexpr float kSmallestContribution = 1.0f / 1024.0f;
     return std::min(most_survival(rays), contribution / kSmallestContribution);
 }
 

@@ -1,6 +1,7 @@
 #include "wave/lamp_images.h"
 
 #include "sampling/hash.h"
+#include "transport/roulette.h"
 #include "transport/scattered_cone.h"
 #include "wave/ray_batch.h"
 
@@ -9,6 +10,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 namespace etendue {
 
@@ -17,19 +19,29 @@ namespace {
 /// Bounds the lamps that images are looked for; of more, those of the most power.
 constexpr std::size_t kMostLamps = 64;
 /// Bounds the edges of the paths that are looked along: light of longer ones is dim.
-constexpr int kMostEdges = 8;
-/// Bounds the width of an image, pixels, of which a pixel's own samples that take a likely way meet too little.
-constexpr float kMostWidth = 0.5f;
+constexpr int kMostEdges = 5;
+/// Bounds the throughput of ways that are looked along from below; of dimmer ones, some are.
+constexpr float kLeastThroughput = 1.0f / 64.0f;
 /// Bounds the throughput of likely ways from below.
 constexpr float kLikely = 0.5f;
-/// Divides the sides of pixels at the edges of mirrors.
-constexpr int kEdgeParts = 4;
+/// Bounds the width of images, pixels: a pixel's own samples meet wider ones well enough by a likely way, and by
+/// others.
+constexpr float kMostWidth = 0.5f;
+constexpr float kMostUnlikelyWidth = 16.0f;
+/// Counts the pixels of the sides of a block, with which the search begins.
+constexpr int kBlockSide = 4;
+/// Is the size of cells, pixels, down to which pixels at the edges of mirrors are divided in any case.
+constexpr float kEdgeCell = 0.25f;
 /// Bounds the size of cells from below, pixels.
 constexpr float kLeastCell = 1.0f / 64.0f;
-/// Pixels between the rays whose difference is the derivative, in sizes of the cell.
+/// Pixels between the rays whose difference is the derivative, in sizes of the cell, up to that of a pixel.
 constexpr float kDifference = 0.02f;
 /// Multiplies how far the derivative says that the way moves within a cell, as the way to the lamp is curved.
 constexpr float kMargin = 1.5f;
+/// Multiplies the margin for cells of several pixels.
+constexpr float kBlockMargin = 2.5f;
+/// Bounds the trees that the edges of mirrors are looked at with, for each pixel of the image.
+constexpr std::size_t kTreesPerPixel = 1;
 /// Counts the points of a pixel's cells that are looked at; it shows something if one of them is lit.
 constexpr std::uint32_t kLooks = 64;
 
@@ -82,37 +94,60 @@ struct EndCollector {
     void visit(const DeltaBranch& branch, NoState, const Vertex&) const {
         if (branch.path.edges > 1)
             ends.push_back({branch.numbers.key.pixel_seed, branch.path.ray.origin, branch.path.ray.direction,
-                            max_component(branch.path.throughput)});
+                            max_component(branch.path.throughput) * (kLeastThroughput / kSmallestContribution)});
     }
     [[nodiscard]] static NoState after(NoState state, const Vertex&, const BsdfSample&) { return state; }
 };
 
-/// Looks for images of lamps in one pixel after the other.
+Vec2i pixel_of(const Vec2f& film) {
+    return {static_cast<int>(std::floor(film.x)), static_cast<int>(std::floor(film.y))};
+}
+
+/// Looks for images of lamps in blocks of pixels, a row of them after the other.
 class ImageFinder {
   public:
     ImageFinder(const World& world, const TileJob& whole, int max_depth, const std::vector<LampSphere>& lamps)
         : world_(world), whole_(whole), max_depth_(std::min(max_depth, kMostEdges)), lamps_(lamps) {}
 
-    /// Adds to `images` the pixels of a row that show some.
-    void look_at_row(int y, LampImages& images) {
-        points_.clear();
-        for (int x = 0; x <= whole_.full_width; ++x)
-            for (const Vec2f& of_pixel : {Vec2f(0.0f, 0.0f), Vec2f(0.0f, 1.0f), Vec2f(0.5f, 0.5f)})
-                points_.push_back(Vec2f(static_cast<float>(x), static_cast<float>(y)) + of_pixel);
-        ways_.resize(points_.size());
-        find_mirrors();
-        for (std::size_t i = 0; i < points_.size(); ++i) ways_[i] = is_mirror_[i] != 0 ? ways_through(points_[i]) : 0;
-        for (int x = 0; x < whole_.full_width; ++x) {
-            // Those of the pixel's corners to the left, its middle, and its corners to the right.
-            const std::span<const std::uint32_t> ways = std::span(ways_).subspan(3 * static_cast<std::size_t>(x), 5);
-            const bool is_even = std::ranges::all_of(ways, [&](std::uint32_t way) { return way == ways[0]; });
-            if (!is_even || ways[0] != 0) look_at({x, y}, is_even, images);
+    /// Adds to `images` the pixels that show some in the row of blocks from `top` on.
+    void look_at_blocks(int top, LampImages& images) {
+        cells_.clear();
+        trees_ = 0;
+        const auto width = static_cast<std::size_t>(whole_.full_width);
+        const std::size_t columns = (width + kBlockSide - 1) / kBlockSide;
+        find_ways(Vec2f(0.0f, static_cast<float>(top)), columns, 1, kBlockSide);
+        const std::vector<std::uint32_t> ways = ways_;
+        std::vector<std::size_t> uneven;
+        for (std::size_t block = 0; block < columns; ++block) {
+            const FilmCell cell{{static_cast<float>(block * kBlockSide), static_cast<float>(top)}, kBlockSide};
+            if (is_even(ways, columns, block, 0))
+                divide(cell, false);
+            else
+                uneven.push_back(block);
         }
+        // Where all is edges, some are looked at, wherever they are.
+        std::ranges::sort(uneven, {}, [](std::size_t block) { return hash_u32(static_cast<std::uint32_t>(block)); });
+        for (const std::size_t block : uneven)
+            look_at_uneven({static_cast<float>(block * kBlockSide), static_cast<float>(top)},
+                           trees_ < kTreesPerPixel * width * kBlockSide);
+        collect(images);
     }
 
   private:
-    /// Finds out through which points the eye sees what mirrors or refracts.
-    void find_mirrors() {
+    /// Says what is known of a part of the film.
+    enum class Shows { Nothing, Parts, Lamp };
+
+    /// Names the ways through the corners of `columns` × `rows` squares, row by row, and after these through their
+    /// middles; 0 where there are none.
+    void find_ways(const Vec2f& corner, std::size_t columns, std::size_t rows, float size) {
+        points_.clear();
+        const auto add = [&](std::size_t x, std::size_t y, float beside) {
+            points_.push_back(corner + Vec2f(static_cast<float>(x) + beside, static_cast<float>(y) + beside) * size);
+        };
+        for (std::size_t y = 0; y <= rows; ++y)
+            for (std::size_t x = 0; x <= columns; ++x) add(x, y, 0.0f);
+        for (std::size_t y = 0; y < rows; ++y)
+            for (std::size_t x = 0; x < columns; ++x) add(x, y, 0.5f);
         const std::size_t count = points_.size();
         film_.resize(count);
         for (std::size_t i = 0; i < count; ++i) film_[i] = on_film(whole_, points_[i]);
@@ -120,46 +155,46 @@ class ImageFinder {
         hits_.assign(count, {});
         world_.generate_rays(film_, std::vector(count, Vec2f(0.5f)), std::vector(count, 0.5f), rays_);
         world_.intersect(rays_, hits_, Coherence::Coherent);
-        is_mirror_.resize(count);
+        ways_.assign(count, 0);
         for (std::size_t i = 0; i < count; ++i)
-            is_mirror_[i] = hits_[i].valid() && is_specular(*world_.material(hits_[i])) ? 1 : 0;
+            if (hits_[i].valid() && is_specular(*world_.material(hits_[i]))) {
+                find_ends(points_[i], ends_);
+                for (const DeltaEnd& end : ends_) ways_[i] = hash_combine(ways_[i], end.way);
+            }
     }
-    /// Names the ways of the ray through `film`; 0 if there are none.
-    [[nodiscard]] std::uint32_t ways_through(const Vec2f& film) {
-        find_ends(film, ends_);
-        std::uint32_t name = 0;
-        for (const DeltaEnd& end : ends_) name = hash_combine(name, end.way);
-        return name;
+    /// Returns whether the ways are the same through the corners and the middle of a square.
+    [[nodiscard]] bool is_even(const std::vector<std::uint32_t>& ways, std::size_t columns, std::size_t x,
+                               std::size_t y) const {
+        const std::size_t rows = (ways.size() - columns - 1) / (2 * columns + 1);
+        const std::size_t corner = y * (columns + 1) + x;
+        const std::uint32_t middle = ways[(rows + 1) * (columns + 1) + y * columns + x];
+        return ways[corner] == middle && ways[corner + 1] == middle && ways[corner + columns + 1] == middle &&
+               ways[corner + columns + 2] == middle;
     }
-    /// Adds `pixel` if it shows some. At an edge of a mirror it `is_even` no more, and its middle says little of it.
-    void look_at(const Vec2i& pixel, bool is_even, LampImages& images) {
-        const Vec2f corner(static_cast<float>(pixel.x), static_cast<float>(pixel.y));
-        cells_.clear();
-        const int parts = is_even ? 1 : kEdgeParts;
-        const float size = 1.0f / static_cast<float>(parts);
-        for (int part = 0; part < parts * parts; ++part)
-            divide({corner + Vec2f(static_cast<float>(part % parts), static_cast<float>(part / parts)) * size, size});
-        if (cells_.empty()) return;
-        LampImages found;
-        found.add(pixel, cells_);
-        if (shows_light(found)) images.add(found);
+    /// Looks at a block, some of whose pixels lie at the edges of mirrors, at these more closely if it `looks_closely`.
+    void look_at_uneven(const Vec2f& corner, bool looks_closely) {
+        if (!looks_closely) return divide({corner, kBlockSide}, false);
+        find_ways(corner, kBlockSide, kBlockSide, 1.0f);
+        const std::vector<std::uint32_t> ways = ways_;
+        for (std::size_t y = 0; y < kBlockSide; ++y)
+            for (std::size_t x = 0; x < kBlockSide; ++x)
+                divide({corner + Vec2f(static_cast<float>(x), static_cast<float>(y)), 1.0f},
+                       !is_even(ways, kBlockSide, x, y));
     }
-
-    /// Says what is known of a part of the film.
-    enum class Shows { Nothing, Parts, Lamp };
-
-    /// Puts the parts of `cell` that may show a lamp into the list, each about as wide as that.
-    void divide(const FilmCell& cell) {
-        const Shows shows = look_through(cell);
+    /// Puts the parts of `cell` that may show a lamp into the list, each about as wide as that. At the edge of a mirror
+    /// the middle says little of a cell.
+    void divide(const FilmCell& cell, bool is_at_edge) {
+        Shows shows = is_at_edge && cell.size > kEdgeCell ? Shows::Parts : look_through(cell);
         if (shows == Shows::Nothing) return;
-        if (shows == Shows::Lamp) return cells_.push_back(cell);
+        if (shows == Shows::Lamp && cell.size <= 1.0f) return cells_.push_back(cell);
         const float half = 0.5f * cell.size;
         for (const Vec2f& part : {Vec2f(0.0f, 0.0f), Vec2f(half, 0.0f), Vec2f(0.0f, half), Vec2f(half, half)})
-            divide({cell.corner + part, half});
+            divide({cell.corner + part, half}, is_at_edge);
     }
     [[nodiscard]] Shows look_through(const FilmCell& cell) {
         const Vec2f middle = cell.middle();
-        const float difference = kDifference * cell.size;
+        const float difference = kDifference * std::min(cell.size, 1.0f);
+        const float margin = cell.size > 1.0f ? kMargin * kBlockMargin : kMargin;
         find_ends(middle, ends_);
         if (ends_.empty()) return Shows::Nothing;
         find_ends(middle + Vec2f(difference, 0.0f), ends_right_);
@@ -170,19 +205,35 @@ class ImageFinder {
             const DeltaEnd* const below = find(ends_below_, end.way);
             if (right == nullptr || below == nullptr) continue;
             for (const LampSphere& lamp : lamps_) {
-                const Vec3f miss = missed_by(end, end, lamp);
                 if (!(dot(lamp.middle - end.origin, end.direction) > 0.0f)) continue;
+                const Vec3f miss = missed_by(end, end, lamp);
                 const float dx = length(missed_by(*right, end, lamp) - miss);
                 const float dy = length(missed_by(*below, end, lamp) - miss);
                 const float sweep = std::hypot(dx, dy) / difference;  // metres per pixel
-                const float within = kMargin * sweep * cell.size * std::numbers::sqrt2_v<float> / 2.0f;
-                const bool is_found_by_pixels = lamp.radius > kMostWidth * sweep && end.throughput > kLikely;
-                if (!(length(miss) <= lamp.radius + within) || is_found_by_pixels) continue;
+                const float within = margin * sweep * cell.size * std::numbers::sqrt2_v<float> / 2.0f;
+                const float most_width = end.throughput > kLikely ? kMostWidth : kMostUnlikelyWidth;
+                if (!(length(miss) <= lamp.radius + within) || lamp.radius > most_width * sweep) continue;
                 if (cell.size > kLeastCell && within > kMargin * 0.5f * lamp.radius) return Shows::Parts;
                 shows = Shows::Lamp;
             }
         }
         return shows;
+    }
+    /// Adds the pixels of the cells that show light to `images`.
+    void collect(LampImages& images) {
+        const auto place = [](const FilmCell& cell) {
+            const Vec2i pixel = pixel_of(cell.corner);
+            return std::pair(pixel.y, pixel.x);
+        };
+        std::ranges::stable_sort(cells_, {}, place);
+        for (std::size_t first = 0, end = 0; first < cells_.size(); first = end) {
+            while (end < cells_.size() && place(cells_[end]) == place(cells_[first])) ++end;
+            const Vec2i pixel = pixel_of(cells_[first].corner);
+            if (pixel.x >= whole_.full_width || pixel.y >= whole_.full_height) continue;
+            LampImages found;
+            found.add(pixel, std::span(cells_).subspan(first, end - first));
+            if (shows_light(found)) images.add(found);
+        }
     }
     /// Returns how far `end` passes the middle of `lamp`, metres across the way that `reference` takes.
     [[nodiscard]] static Vec3f missed_by(const DeltaEnd& end, const DeltaEnd& reference, const LampSphere& lamp) {
@@ -190,12 +241,14 @@ class ImageFinder {
         const float along = dot(to_middle, reference.direction) / dot(end.direction, reference.direction);
         return to_middle - end.direction * along;
     }
-    void find_ends(const Vec2f& film, std::vector<DeltaEnd>& ends) const {
+    void find_ends(const Vec2f& film, std::vector<DeltaEnd>& ends) {
+        ++trees_;
         ends.clear();
         EndCollector collector{ends};
         const Ray ray = world_.generate_ray(on_film(whole_, film), Vec2f(0.5f, 0.5f), 0.5f);
-        follow_deltas(world_, branch_along(world_, whole_, ray, {whole_.seed, 0}, nullptr), EndCollector::NoState{},
-                      max_depth_, collector);
+        DeltaBranch branch = branch_along(world_, whole_, ray, {whole_.seed, 0}, nullptr);
+        branch.path.throughput = Rgb(kSmallestContribution / kLeastThroughput);
+        follow_deltas(world_, branch, EndCollector::NoState{}, max_depth_, collector);
     }
     [[nodiscard]] static const DeltaEnd* find(const std::vector<DeltaEnd>& ends, std::uint32_t way) {
         const auto found = std::ranges::find(ends, way, &DeltaEnd::way);
@@ -218,18 +271,14 @@ class ImageFinder {
     int max_depth_;
     const std::vector<LampSphere>& lamps_;
     std::vector<DeltaEnd> ends_, ends_right_, ends_below_;
-    std::vector<FilmCell> cells_;
-    // Of a row.
+    std::vector<FilmCell> cells_;  ///< of a row of blocks
+    std::size_t trees_ = 0;        ///< that were followed for it
+    // Of `find_ways`.
     std::vector<Vec2f> points_, film_;
     std::vector<Ray> rays_;
     std::vector<Hit> hits_;
-    std::vector<std::uint8_t> is_mirror_;
     std::vector<std::uint32_t> ways_;
 };
-
-Vec2i pixel_of(const Vec2f& film) {
-    return {static_cast<int>(std::floor(film.x)), static_cast<int>(std::floor(film.y))};
-}
 
 }  // namespace
 
@@ -274,10 +323,10 @@ LampImages find_lamp_images(const World& world, const TileJob& whole, int max_de
     if (max_depth < 2 || !world.has_specular_surfaces() || !world.has_emitting_surfaces()) return images;
     const std::vector<LampSphere> lamps = lamp_spheres(world);
     if (lamps.empty()) return images;
-    std::vector<LampImages> rows(static_cast<std::size_t>(whole.full_height));
+    std::vector<LampImages> rows(static_cast<std::size_t>((whole.full_height + kBlockSide - 1) / kBlockSide));
     threads.parallel_for(rows.size(), [&](std::size_t row, int) {
         ImageFinder finder(world, whole, max_depth, lamps);
-        finder.look_at_row(static_cast<int>(row), rows[row]);
+        finder.look_at_blocks(static_cast<int>(row) * kBlockSide, rows[row]);
     });
     for (const LampImages& row : rows) images.add(row);
     return images;
