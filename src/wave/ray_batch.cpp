@@ -16,7 +16,7 @@ void intersect_any(const World& world, const TileJob& job, RayKind kind, const B
     world.geometry().intersect(rays, hits, is_coherent(kind) ? Coherence::Coherent : Coherence::Incoherent, form);
     counters.rays[kind] += rays.size();
     if (profile == nullptr) return;
-    profile->stamp(Stage::Intersect, kind);
+    profile->clock().stamp(Stage::Intersect, kind);
     profile->count_hits(kind, static_cast<std::uint64_t>(std::ranges::count_if(hits, &Hit::valid)));
 }
 
@@ -28,7 +28,7 @@ void occluded_any(const World& world, const TileJob& job, RayKind kind, const Ba
     world.geometry().occluded(rays, occluded, form);
     counters.rays[kind] += rays.size();
     if (profile == nullptr) return;
-    profile->stamp(Stage::Occluded, kind);
+    profile->clock().stamp(Stage::Occluded, kind);
     profile->count_hits(kind, static_cast<std::uint64_t>(std::ranges::count(occluded, kOccluded)));
 }
 

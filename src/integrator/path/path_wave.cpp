@@ -156,10 +156,10 @@ void PathWave::sample_direct_light_in_rounds(const Context& context, const Stamp
 void PathWave::shade_block(const Context& context, std::size_t first, std::size_t count, std::size_t& kept) {
     const World& world = context.world;
     WaveProfile* const profile = context.job.profile;
-    const bool is_timed = profile != nullptr && profile->start_block();
+    const bool is_timed = profile != nullptr && profile->clock().start_block();
     const auto stamp = [&](Stage stage) {
         if (is_timed) [[unlikely]]
-            profile->stamp_in_block(stage);
+            profile->clock().stamp_in_block(stage);
     };
     first_ = first;
     count_ = count;
@@ -190,7 +190,7 @@ void PathWave::shade_block(const Context& context, std::size_t first, std::size_
     for (const std::size_t k : on_hidden_) pass_hidden(context, k);
     keep_survivors(context, kept);
     stamp(Stage::Roulette);
-    if (profile != nullptr && !is_timed) profile->stamp_block();
+    if (profile != nullptr && !is_timed) profile->clock().stamp_block();
 }
 
 void PathWave::keep_survivors(const Context& context, std::size_t& kept) {
