@@ -53,7 +53,7 @@ WorldStatistics World::statistics() const {
     s.bvh_bytes =
         data.bvh->bytes() + (data.panes ? data.panes->bytes() : 0) + (data.contacts ? data.contacts->bytes() : 0);
     s.bvh_build_seconds = data.bvh->build_seconds();
-    s.bvh_quality = EmbreeScene::quality();
+    s.bvh_quality = bvh_quality();
     s.compile_phases = data.compile_phases;
     return s;
 }
