@@ -37,7 +37,7 @@ class LampsToCamera {
             ray.time = time;
             ray.alpha_key = job.connection_key(SubpathEnd::AtLight, 0, slot);
             shares_.clear();
-            if (PathWords& words = subpaths.words(); words.are_followed())
+            if (PathWords& words = subpaths.vertices().words(); words.are_followed())
                 words.end_at_camera(words.light_source(world, emission.light), shares_);
             connections.to_film(ray, slot,
                                 {.position = view->pixel,
