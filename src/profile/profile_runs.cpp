@@ -165,13 +165,13 @@ class RunMeasurement {
         double known = 0.0;
         for (std::size_t i = 0; i < kStages; ++i) {
             const auto stage = static_cast<Stage>(i);
-            double seconds = waves.seconds(stage);
+            double seconds = waves.clock().seconds(stage);
             if (stage == Stage::Splat) seconds += profile.splat_seconds();
             known += seconds;
             run.stages.push_back({std::string(kStageNames[i]), seconds});
         }
         run.stages.push_back({"other", std::max(0.0, all - known)});
-        run.timing_share = WaveProfile::seconds_per_stamp() * static_cast<double>(waves.stamps()) / all;
+        run.timing_share = StageClock::seconds_per_stamp() * static_cast<double>(waves.clock().stamps()) / all;
     }
 
     static PathsReport describe(const PathTally& tally) {
@@ -212,7 +212,7 @@ class RunMeasurement {
             if (rays[kind] == 0) continue;
             RayKindReport report{.kind = std::string(kRayKindNames[i]),
                                  .rays = rays[kind],
-                                 .seconds = waves.seconds(kind),
+                                 .seconds = waves.clock().seconds(kind),
                                  .recorded = waves.recorder(kind).ray_count(),
                                  .hit_share = share(waves.hits(kind), rays[kind])};
             replay(*setup.threads, waves.recorder(kind), kind, report);
@@ -242,7 +242,8 @@ class RunMeasurement {
                 std::vector<double> of_part(parts, 0.0);
                 threads.parallel_for(parts, [&](std::size_t part, int) {
                     for (std::size_t s = part; s < segments.size(); s += parts)
-                        of_part[part] += world_.replay(segments[s], asks_for_occlusion(kind), coherence, kForms[form]);
+                        of_part[part] +=
+                            world_.geometry().replay(segments[s], asks_for_occlusion(kind), coherence, kForms[form]);
                 });
                 seconds[form].push_back(std::accumulate(of_part.begin(), of_part.end(), 0.0));
             }

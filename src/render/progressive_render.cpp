@@ -243,7 +243,7 @@ void ProgressiveRender::render_group(std::size_t first, std::size_t size, const 
         double start = 0.0;
         if (profile != nullptr) {
             job.profile = &profile->wave(slot);
-            job.profile->skip();
+            job.profile->clock().skip();
             start = profile->now();
         }
         const std::uint64_t rays_before = worker.counters.rays.total();
@@ -253,7 +253,7 @@ void ProgressiveRender::render_group(std::size_t first, std::size_t size, const 
         is_done = 1;
         const std::uint64_t samples = camera_sample_count(job);
         if (profile != nullptr) {
-            job.profile->stamp(Stage::Film);
+            job.profile->clock().stamp(Stage::Film);
             profile->add_tile({job.rect, slot, job.first_sample, samples, start, profile->now()});
         }
         if (makes_splats) {

@@ -15,10 +15,15 @@
 
 namespace etendue {
 
+/// Returns what subpaths from `end` carry.
+[[nodiscard]] inline TransportMode mode_of(SubpathEnd end) {
+    return end == SubpathEnd::AtEye ? TransportMode::Radiance : TransportMode::Importance;
+}
+
 /// Returns how many edges the shortest way has from a light, or from a surface, to the camera by another vertex: a
 /// vertex in a medium adds none.
 [[nodiscard]] inline int edges_to_connect(const World& world) {
-    return world.has_scattering_bodies() ? 1 : 2;
+    return world.traits().has_scattering_bodies ? 1 : 2;
 }
 
 /// Holds what both subpaths of a sample share.
@@ -68,9 +73,7 @@ struct Subpath {
     bool only_deltas = true;
     bool is_direct = true;  ///< no boundary that another body hides lies between `from` and where the ray is
 
-    [[nodiscard]] TransportMode mode() const {
-        return end == SubpathEnd::AtEye ? TransportMode::Radiance : TransportMode::Importance;
-    }
+    [[nodiscard]] TransportMode mode() const { return mode_of(end); }
 };
 
 /// Describes a vertex of a subpath that can be connected to others.

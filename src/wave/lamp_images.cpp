@@ -65,9 +65,9 @@ struct LampSphere {
 
 std::vector<LampSphere> lamp_spheres(const World& world) {
     std::vector<LampSphere> spheres;
-    for (std::uint32_t light = 0; light < world.light_count(); ++light) {
-        if (!world.can_be_hit(light)) continue;
-        const std::optional<LightBounds> bounds = world.bounds_of_light(light);
+    for (std::uint32_t light = 0; light < world.lights().count(); ++light) {
+        if (!world.lights().can_be_hit(light)) continue;
+        const std::optional<LightBounds> bounds = world.lights().bounds(light);
         if (!bounds || !(bounds->power > 0.0)) continue;
         const float radius = 0.5f * length(bounds->box.size());
         if (radius > 0.0f) spheres.push_back({bounds->box.center(), radius, bounds->power});
@@ -153,11 +153,11 @@ class ImageFinder {
         for (std::size_t i = 0; i < count; ++i) film_[i] = on_film(whole_, points_[i]);
         rays_.resize(count);
         hits_.assign(count, {});
-        world_.generate_rays(film_, std::vector(count, Vec2f(0.5f)), std::vector(count, 0.5f), rays_);
-        world_.intersect(rays_, hits_, Coherence::Coherent);
+        world_.camera().generate_rays(film_, std::vector(count, Vec2f(0.5f)), std::vector(count, 0.5f), rays_);
+        world_.geometry().intersect(rays_, hits_, Coherence::Coherent);
         ways_.assign(count, 0);
         for (std::size_t i = 0; i < count; ++i)
-            if (hits_[i].valid() && is_specular(*world_.material(hits_[i]))) {
+            if (hits_[i].valid() && is_specular(*world_.materials().at(hits_[i]))) {
                 find_ends(points_[i], ends_);
                 for (const DeltaEnd& end : ends_) ways_[i] = hash_combine(ways_[i], end.way);
             }
@@ -245,7 +245,7 @@ class ImageFinder {
         ++trees_;
         ends.clear();
         EndCollector collector{ends};
-        const Ray ray = world_.generate_ray(on_film(whole_, film), Vec2f(0.5f, 0.5f), 0.5f);
+        const Ray ray = world_.camera().generate_ray(on_film(whole_, film), Vec2f(0.5f, 0.5f), 0.5f);
         DeltaBranch branch = branch_along(world_, whole_, ray, {whole_.seed, 0}, nullptr);
         branch.path.throughput = Rgb(kSmallestContribution / kLeastThroughput);
         follow_deltas(world_, branch, EndCollector::NoState{}, max_depth_, collector);
@@ -320,7 +320,7 @@ Vec2f LampImages::point(const LampPixel& pixel, Vec2f u) const {
 
 LampImages find_lamp_images(const World& world, const TileJob& whole, int max_depth, const ThreadPool& threads) {
     LampImages images;
-    if (max_depth < 2 || !world.has_specular_surfaces() || !world.has_emitting_surfaces()) return images;
+    if (max_depth < 2 || !world.traits().has_specular_surfaces || !world.traits().has_emitting_surfaces) return images;
     const std::vector<LampSphere> lamps = lamp_spheres(world);
     if (lamps.empty()) return images;
     std::vector<LampImages> rows(static_cast<std::size_t>((whole.full_height + kBlockSide - 1) / kBlockSide));
@@ -335,10 +335,10 @@ LampImages find_lamp_images(const World& world, const TileJob& whole, int max_de
 DeltaBranch branch_through(const World& world, const TileJob& job, const Vec2f& film, SampleKey key,
                            SampleTracer* tracer) {
     const SampleNumbers numbers{job.sequence, key};
-    const Vec2f lens = world.has_lens() ? numbers.pair(kLensDimension) : Vec2f(0.0f);
+    const Vec2f lens = world.traits().has_lens ? numbers.pair(kLensDimension) : Vec2f(0.0f);
     const float time =
-        world.has_motion() ? SampleNumbers{job.sequence, shared_key(job, key)}.pair(kTimeDimension).x : 0.0f;
-    Ray ray = world.generate_ray(on_film(job, film), lens, time);
+        world.traits().has_motion ? SampleNumbers{job.sequence, shared_key(job, key)}.pair(kTimeDimension).x : 0.0f;
+    Ray ray = world.camera().generate_ray(on_film(job, film), lens, time);
     ray.alpha_key = numbers.bits(kCameraAlphaDimension);
     return branch_along(world, job, ray, key, tracer);
 }
@@ -365,7 +365,7 @@ struct LampCollector {
         if (path.edges < std::max(lengths.min_depth, 2) || vertex.surface.material == nullptr ||
             !vertex.surface.material->emits)
             return;
-        const Rgb light = path.throughput * world.emission(vertex.surface, vertex.wo);
+        const Rgb light = path.throughput * world.materials().emission(vertex.surface, vertex.wo);
         if (is_black(light) || !is_finite(light)) return;
         shares.clear();
         if (words.are_followed()) words.end_at_light(way.words, words.surface_source(vertex.surface), shares);

@@ -13,10 +13,10 @@ void intersect_any(const World& world, const TileJob& job, RayKind kind, const B
                    RenderCounters& counters, QueryForm form) {
     WaveProfile* profile = job.profile;
     if (profile != nullptr) profile->record(kind, rays);
-    world.intersect(rays, hits, is_coherent(kind) ? Coherence::Coherent : Coherence::Incoherent, form);
+    world.geometry().intersect(rays, hits, is_coherent(kind) ? Coherence::Coherent : Coherence::Incoherent, form);
     counters.rays[kind] += rays.size();
     if (profile == nullptr) return;
-    profile->stamp(Stage::Intersect, kind);
+    profile->clock().stamp(Stage::Intersect, kind);
     profile->count_hits(kind, static_cast<std::uint64_t>(std::ranges::count_if(hits, &Hit::valid)));
 }
 
@@ -25,10 +25,10 @@ void occluded_any(const World& world, const TileJob& job, RayKind kind, const Ba
                   std::span<std::uint8_t> occluded, RenderCounters& counters, QueryForm form) {
     WaveProfile* profile = job.profile;
     if (profile != nullptr) profile->record(kind, rays);
-    world.occluded(rays, occluded, form);
+    world.geometry().occluded(rays, occluded, form);
     counters.rays[kind] += rays.size();
     if (profile == nullptr) return;
-    profile->stamp(Stage::Occluded, kind);
+    profile->clock().stamp(Stage::Occluded, kind);
     profile->count_hits(kind, static_cast<std::uint64_t>(std::ranges::count(occluded, kOccluded)));
 }
 

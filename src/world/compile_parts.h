@@ -7,7 +7,7 @@
 #include "image/finite.h"
 #include "image/read.h"
 #include "scene/scene_desc.h"
-#include "world/world.h"
+#include "world/world_data.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -4,7 +4,7 @@
 #include "core/bounds.h"
 #include "core/parallel.h"
 #include "core/vec.h"
-#include "world/world.h"
+#include "world/world_data.h"
 
 #include <array>
 #include <cstddef>

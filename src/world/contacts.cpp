@@ -5,7 +5,7 @@
 #include "world/cone_section.h"
 #include "world/surface_point.h"
 #include "world/triangle_point.h"
-#include "world/world.h"
+#include "world/world_data.h"
 
 #include <algorithm>
 #include <cmath>
@@ -102,12 +102,12 @@ void ContactSlot::add(const Bounds& place) {
 Contacts::Contacts(const WorldData& data, std::vector<ContactSlot> slots, std::span<const HitFilter> filters,
                    const ThreadPool& threads)
     : slots_(std::move(slots)) {
-    std::vector<EmbreeScene::CollectedSlot> collected(slots_.size());
+    std::vector<CollectedSlot> collected(slots_.size());
     for (const Instance& instance : data.instances)
         for (std::uint32_t g = 0; g < instance.geometry_count; ++g) {
             const ContactSlot& slot = slots_[instance.first_light_slot + g];
             const Geometry& geometry = data.geometries[instance.first_geometry + g];
-            EmbreeScene::CollectedSlot& those = collected[instance.first_light_slot + g];
+            CollectedSlot& those = collected[instance.first_light_slot + g];
             if (slot.reach == 0.0f) continue;
             those.is_whole = slot.is_anywhere || !instance.baked;
             if (those.is_whole) continue;
@@ -215,6 +215,25 @@ const ContactFace* face_of_body(const WorldData& data, const Contact& contact, s
     const auto found =
         std::ranges::find_if(contact.all(), [&](const ContactFace& face) { return body_of(data, face.hit) == body; });
     return found == contact.all().end() ? nullptr : &*found;
+}
+
+SurfacePoint contact_point(const WorldData& data, const Contact& contact, const ContactFace& face, const Ray& ray,
+                           const RayCone& cone) {
+    const Hit& hit = face.hit;
+    SurfacePoint point = make_surface_point(data, hit.instance, hit.geometry, hit.triangle, {hit.u, hit.v}, hit.time,
+                                            ConeSection{ray.direction, std::abs(cone.width_at(hit.t))});
+    // In the middle of all of them, so that both sides are clear.
+    float first = face.depth - face.clearance;
+    float last = face.depth + face.clearance;
+    for (const ContactFace& other : contact.all()) {
+        first = std::min(first, other.depth - other.clearance);
+        last = std::max(last, other.depth + other.clearance);
+    }
+    const Vec3f along =
+        dot(ray.direction, point.geometric_normal) > 0.0f ? point.geometric_normal : -point.geometric_normal;
+    point.position += along * (0.5f * (first + last) - face.depth);
+    point.clearance = 0.5f * (last - first);
+    return point;
 }
 
 }  // namespace etendue

@@ -22,9 +22,11 @@
 #include "core/bounds.h"
 #include "core/position_error.h"
 #include "core/ray.h"
+#include "core/ray_cone.h"
 #include "core/vec.h"
 #include "world/embree_scene.h"
 #include "world/interior.h"
+#include "world/surface_point.h"
 
 #include <algorithm>
 #include <array>
@@ -133,6 +135,10 @@ class Contacts {
 /// Finds the bodies on both sides of a contact for a ray along `direction` that comes from within `current`.
 [[nodiscard]] ContactInteriors interiors(const WorldData& data, const Contact& contact, const Interior& current,
                                          const Vec3f& direction);
+
+/// Returns the surface of `face`, which `ray` with `cone` around it has hit, in the middle of all that touch there.
+[[nodiscard]] SurfacePoint contact_point(const WorldData& data, const Contact& contact, const ContactFace& face,
+                                         const Ray& ray, const RayCone& cone);
 
 /// The face of the body with this number that a ray crosses for good: it is not entered and left again. Null if there
 /// is none.

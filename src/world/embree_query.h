@@ -4,7 +4,7 @@
 #include "core/ray.h"
 #include "core/ray_columns.h"
 #include "world/embree.h"
-#include "world/world.h"
+#include "world/hit.h"
 
 #include <algorithm>
 #include <array>

@@ -28,11 +28,11 @@ const QueryContext& context_of(const RTCFilterFunctionNArguments& args) {
 
 /// The surface that ray `i` of a packet may hit.
 Hit hit_of(const RTCFilterFunctionNArguments& args, unsigned int i) {
-    const EmbreeScene& scene = *context_of(args).scene;
-    return scene.make_hit(RTCRayN_tfar(args.ray, args.N, i), RTCHitN_u(args.hit, args.N, i),
-                          RTCHitN_v(args.hit, args.N, i), RTCHitN_primID(args.hit, args.N, i),
-                          RTCHitN_geomID(args.hit, args.N, i), RTCHitN_instID(args.hit, args.N, i, 0),
-                          RTCRayN_time(args.ray, args.N, i));
+    const EmbreeEntries& entries = context_of(args).scene->entries();
+    return entries.make_hit(RTCRayN_tfar(args.ray, args.N, i), RTCHitN_u(args.hit, args.N, i),
+                            RTCHitN_v(args.hit, args.N, i), RTCHitN_primID(args.hit, args.N, i),
+                            RTCHitN_geomID(args.hit, args.N, i), RTCHitN_instID(args.hit, args.N, i, 0),
+                            RTCRayN_time(args.ray, args.N, i));
 }
 
 /// Whether a partly transparent surface stops ray `i` of a packet, with the probability of its opacity. The decision is
@@ -73,7 +73,7 @@ void collect_hits(const RTCFilterFunctionNArguments* args) {
         Hit hit = hit_of(*args, i);
         const unsigned int instance = RTCHitN_instID(args->hit, args->N, i, 0);
         const bool is_instance = instance != RTC_INVALID_GEOMETRY_ID;
-        hit.triangle = context_of(*args).scene->collected_triangle(
+        hit.triangle = context_of(*args).scene->entries().collected_triangle(
             is_instance ? instance : RTCHitN_geomID(args->hit, args->N, i), hit.triangle);
         if (ByOpacity && !stops(*args, i, hit)) continue;
         if (collected.count < collected.hits.size()) collected.hits[collected.count++] = hit;
@@ -82,7 +82,7 @@ void collect_hits(const RTCFilterFunctionNArguments* args) {
 
 using NearVisitor = std::function<bool(std::uint32_t, std::uint32_t, std::uint32_t)>;
 struct NearQuery {
-    const EmbreeScene* scene;
+    const EmbreeEntries* entries;
     const NearVisitor* visit;
     bool is_over = false;
 };
@@ -92,7 +92,7 @@ bool visit_near(RTCPointQueryFunctionArguments* args) {
     if (query.is_over) return false;
     const bool is_instance = args->context->instStackSize > 0;
     const auto entry =
-        query.scene->resolve(is_instance ? args->context->instID[0] : args->geomID, args->geomID, is_instance);
+        query.entries->resolve(is_instance ? args->context->instID[0] : args->geomID, args->geomID, is_instance);
     query.is_over = !(*query.visit)(entry.instance, entry.geometry, args->primID);
     if (query.is_over) args->query->radius = 0.0f;
     return query.is_over;  // whether the radius has changed
@@ -106,6 +106,91 @@ bool count_memory(void* counter, ssize_t bytes, bool /*post*/) {
     memory_counter(counter).fetch_add(static_cast<std::size_t>(bytes), std::memory_order_relaxed);
     return true;
 }
+
+/// Makes Embree's geometries of ours.
+struct GeometryMaker {
+    RTCDevice device;
+    std::span<const Geometry> geometries;
+    std::span<const HitFilter> filters;  ///< of the geometries
+    bool collects;                       ///< for `EmbreeScene::collect`
+    std::deque<std::vector<std::array<std::uint32_t, 3>>>& collected_indices;
+
+    /// Returns an empty scene.
+    [[nodiscard]] RTCScene new_scene() const {
+        RTCScene scene = rtcNewScene(device);
+        rtcSetSceneBuildQuality(scene, kBuildQuality);
+        rtcSetSceneFlags(scene, kSceneFlags);
+        return scene;
+    }
+
+    /// Adds the triangles of geometry `index` to `scene`, or those that `collected` names, if it is not null.
+    void add_triangles(RTCScene scene, std::uint32_t index, const CollectedSlot* collected) const {
+        const Geometry& geometry = geometries[index];
+        RTCGeometry mesh = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+        const auto set_vertices = [&](unsigned int slot, const std::vector<Vec3f>& positions) {
+            rtcSetSharedGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, slot, RTC_FORMAT_FLOAT3, positions.data(), 0,
+                                       sizeof(Vec3f), positions.size());
+        };
+        if (geometry.motion.empty()) {
+            set_vertices(0, geometry.positions);
+        } else {
+            rtcSetGeometryTimeStepCount(mesh, static_cast<unsigned int>(geometry.motion.size()));
+            for (std::size_t i = 0; i < geometry.motion.size(); ++i)
+                set_vertices(static_cast<unsigned int>(i), geometry.motion[i].positions);
+        }
+        const std::vector<std::array<std::uint32_t, 3>>* triangles = &geometry.triangles;
+        if (collected != nullptr && !collected->is_whole) {
+            auto& indices = collected_indices.emplace_back();
+            for (const std::uint32_t triangle : collected->triangles) indices.push_back(geometry.triangles[triangle]);
+            triangles = &indices;
+        }
+        rtcSetSharedGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, triangles->data(), 0,
+                                   sizeof(std::array<std::uint32_t, 3>), triangles->size());
+        set_filters(mesh, filters[index]);
+        rtcCommitGeometry(mesh);
+        rtcAttachGeometry(scene, mesh);
+        rtcReleaseGeometry(mesh);
+    }
+
+    /// Has Embree ask about hits of `mesh` as `filter` says.
+    void set_filters(RTCGeometry mesh, const HitFilter& filter) const {
+        if (collects) {
+            rtcSetGeometryIntersectFilterFunction(mesh, filter.by_opacity ? collect_hits<true> : collect_hits<false>);
+        } else {
+            if (filter.by_opacity) rtcSetGeometryIntersectFilterFunction(mesh, filter_by_opacity);
+            if (filter.passes_shadows)
+                rtcSetGeometryOccludedFilterFunction(mesh, filter.by_opacity ? pass_opaque_panes : pass_panes);
+            else if (filter.by_opacity)
+                rtcSetGeometryOccludedFilterFunction(mesh, filter_by_opacity);
+        }
+    }
+
+    /// Returns a scene of the mesh that `instance` shares with others.
+    [[nodiscard]] RTCScene build_shared_scene(const Instance& instance) const {
+        RTCScene scene = new_scene();
+        for (std::uint32_t g = 0; g < instance.geometry_count; ++g)
+            add_triangles(scene, instance.first_geometry + g, nullptr);
+        rtcCommitScene(scene);
+        return scene;
+    }
+
+    /// Places `shared` in `scene` as `instance` stands there.
+    void add_instance(RTCScene scene, RTCScene shared, const Instance& instance,
+                      std::span<const TransformMotion> motions) const {
+        RTCGeometry placed = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
+        rtcSetGeometryInstancedScene(placed, shared);
+        const std::span<const Mat4f> here(&instance.to_world, 1);
+        const std::span<const Mat4f> steps = instance.motion == kNone ? here : std::span(motions[instance.motion]);
+        rtcSetGeometryTimeStepCount(placed, static_cast<unsigned int>(steps.size()));
+        // Matrices and not quaternions: Embree's quaternions are approximate, and differ between packets.
+        for (std::size_t i = 0; i < steps.size(); ++i)
+            rtcSetGeometryTransform(placed, static_cast<unsigned int>(i), RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR,
+                                    steps[i].getValue());
+        rtcCommitGeometry(placed);
+        rtcAttachGeometry(scene, placed);
+        rtcReleaseGeometry(placed);
+    }
+};
 
 }  // namespace
 
@@ -125,9 +210,8 @@ EmbreeScene::EmbreeScene(std::span<const Geometry> geometries, std::span<const I
         device_ = rtcNewDevice("start_threads=0,set_affinity=0");
         if (!device_) throw IoError("Embree could not be started");
         rtcSetDeviceMemoryMonitorFunction(device_, count_memory, &memory);
-        top_ = rtcNewScene(device_);
-        rtcSetSceneBuildQuality(top_, kBuildQuality);
-        rtcSetSceneFlags(top_, kSceneFlags);
+        const GeometryMaker maker{device_, geometries, filters, collects_, collected_indices_};
+        top_ = maker.new_scene();
         std::unordered_map<std::uint32_t, RTCScene> scene_of_mesh;
         for (std::size_t i = 0; i < instances.size(); ++i) {
             const Instance& instance = instances[i];
@@ -143,9 +227,8 @@ EmbreeScene::EmbreeScene(std::span<const Geometry> geometries, std::span<const I
                     if (!is_taken(g)) continue;
                     const std::uint32_t geometry = instance.first_geometry + g;
                     const CollectedSlot* slot = collects_ ? &collected_[instance.first_light_slot + g] : nullptr;
-                    add_triangles(top_, geometries[geometry], filters[geometry], slot);
-                    top_level_.push_back({index, geometry});
-                    slot_of_entry_.push_back(slot);
+                    maker.add_triangles(top_, geometry, slot);
+                    entries_.add({index, geometry}, slot);
                 }
                 continue;
             }
@@ -153,10 +236,9 @@ EmbreeScene::EmbreeScene(std::span<const Geometry> geometries, std::span<const I
             for (std::uint32_t g = 0; g < instance.geometry_count; ++g) is_any_taken = is_any_taken || is_taken(g);
             if (!is_any_taken) continue;
             RTCScene& shared = scene_of_mesh[instance.first_geometry];
-            if (!shared) shared = build_shared_scene(instance, geometries, filters);
-            add_instance(shared, instance, motions);
-            top_level_.push_back({index, instance.first_geometry});
-            slot_of_entry_.push_back(nullptr);
+            if (!shared) shared = shared_.emplace_back(maker.build_shared_scene(instance));
+            maker.add_instance(top_, shared, instance, motions);
+            entries_.add({index, instance.first_geometry}, nullptr);
         }
         rtcCommitScene(top_);
     });
@@ -173,72 +255,6 @@ EmbreeScene::~EmbreeScene() {
     for (RTCScene scene : shared_) rtcReleaseScene(scene);
     if (top_) rtcReleaseScene(top_);
     if (device_) rtcReleaseDevice(device_);
-}
-
-void EmbreeScene::add_instance(RTCScene shared, const Instance& instance,
-                               std::span<const TransformMotion> motions) const {
-    RTCGeometry placed = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
-    rtcSetGeometryInstancedScene(placed, shared);
-    const std::span<const Mat4f> here(&instance.to_world, 1);
-    const std::span<const Mat4f> steps = instance.motion == kNone ? here : std::span(motions[instance.motion]);
-    rtcSetGeometryTimeStepCount(placed, static_cast<unsigned int>(steps.size()));
-    // Matrices and not quaternions: Embree's quaternions are approximate, and differ between packets.
-    for (std::size_t i = 0; i < steps.size(); ++i)
-        rtcSetGeometryTransform(placed, static_cast<unsigned int>(i), RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR,
-                                steps[i].getValue());
-    rtcCommitGeometry(placed);
-    rtcAttachGeometry(top_, placed);
-    rtcReleaseGeometry(placed);
-}
-
-void EmbreeScene::add_triangles(RTCScene scene, const Geometry& geometry, const HitFilter& filter,
-                                const CollectedSlot* collected) {
-    RTCGeometry mesh = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-    const auto set_vertices = [&](unsigned int slot, const std::vector<Vec3f>& positions) {
-        rtcSetSharedGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, slot, RTC_FORMAT_FLOAT3, positions.data(), 0,
-                                   sizeof(Vec3f), positions.size());
-    };
-    if (geometry.motion.empty()) {
-        set_vertices(0, geometry.positions);
-    } else {
-        rtcSetGeometryTimeStepCount(mesh, static_cast<unsigned int>(geometry.motion.size()));
-        for (std::size_t i = 0; i < geometry.motion.size(); ++i)
-            set_vertices(static_cast<unsigned int>(i), geometry.motion[i].positions);
-    }
-    const std::vector<std::array<std::uint32_t, 3>>* triangles = &geometry.triangles;
-    if (collected != nullptr && !collected->is_whole) {
-        auto& indices = collected_indices_.emplace_back();
-        for (const std::uint32_t triangle : collected->triangles) indices.push_back(geometry.triangles[triangle]);
-        triangles = &indices;
-    }
-    rtcSetSharedGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, triangles->data(), 0,
-                               sizeof(std::array<std::uint32_t, 3>), triangles->size());
-    if (collects_) {
-        rtcSetGeometryIntersectFilterFunction(mesh, filter.by_opacity ? collect_hits<true> : collect_hits<false>);
-    } else {
-        if (filter.by_opacity) rtcSetGeometryIntersectFilterFunction(mesh, filter_by_opacity);
-        if (filter.passes_shadows)
-            rtcSetGeometryOccludedFilterFunction(mesh, filter.by_opacity ? pass_opaque_panes : pass_panes);
-        else if (filter.by_opacity)
-            rtcSetGeometryOccludedFilterFunction(mesh, filter_by_opacity);
-    }
-    rtcCommitGeometry(mesh);
-    rtcAttachGeometry(scene, mesh);
-    rtcReleaseGeometry(mesh);
-}
-
-RTCScene EmbreeScene::build_shared_scene(const Instance& instance, std::span<const Geometry> geometries,
-                                         std::span<const HitFilter> filters) {
-    RTCScene scene = rtcNewScene(device_);
-    rtcSetSceneBuildQuality(scene, kBuildQuality);
-    rtcSetSceneFlags(scene, kSceneFlags);
-    shared_.push_back(scene);
-    for (std::uint32_t g = 0; g < instance.geometry_count; ++g) {
-        const std::uint32_t geometry = instance.first_geometry + g;
-        add_triangles(scene, geometries[geometry], filters[geometry], nullptr);
-    }
-    rtcCommitScene(scene);
-    return scene;
 }
 
 void EmbreeScene::set_opacity(OpacityFunction function, const void* world) {
@@ -309,20 +325,12 @@ void EmbreeScene::for_each_near(const Vec3f& point, float radius, const NearVisi
     RTCPointQuery query{point.x, point.y, point.z, kMiddle, radius};
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
-    NearQuery near{this, &visit};
+    NearQuery near{&entries_, &visit};
     rtcPointQuery(top_, &query, &context, visit_near, &near);
 }
 
 bool EmbreeScene::takes_as_coherent(Coherence coherence) const {
     return coherence == Coherence::Coherent && shared_.empty() && !has_motion_;
-}
-
-Hit EmbreeScene::make_hit(float t, float u, float v, unsigned int triangle, unsigned int inner, unsigned int instance,
-                          float time) const {
-    if (inner == RTC_INVALID_GEOMETRY_ID) return {};
-    const bool is_instance = instance != RTC_INVALID_GEOMETRY_ID;
-    const TopLevelEntry entry = resolve(is_instance ? instance : inner, inner, is_instance);
-    return {t, u, v, triangle, entry.geometry & 0x7fffffffu, 0, entry.instance, time};
 }
 
 template <typename Batch>
@@ -332,8 +340,8 @@ void EmbreeScene::intersect_single(const Batch& rays, std::span<Hit> hits) const
     for (std::size_t i = 0; i < rays.size(); ++i) {
         query = make_ray_hit(rays[i], static_cast<unsigned int>(i));
         embree::intersect1(top_, context.base, query);
-        hits[i] = make_hit(query.ray.tfar, query.hit.u, query.hit.v, query.hit.primID, query.hit.geomID,
-                           query.hit.instID[0], query.ray.time);
+        hits[i] = entries_.make_hit(query.ray.tfar, query.hit.u, query.hit.v, query.hit.primID, query.hit.geomID,
+                                    query.hit.instID[0], query.ray.time);
     }
 }
 
@@ -344,9 +352,9 @@ void EmbreeScene::intersect_packets(const Batch& rays, std::span<Hit> hits, bool
         rays, [&](const PacketMask<Width>& mask, auto& packet, std::size_t first, std::size_t count) {
             embree::intersect(mask.valid, top_, context.base, coherent, packet);
             for (std::size_t lane = 0; lane < count; ++lane)
-                hits[first + lane] =
-                    make_hit(packet.ray.tfar[lane], packet.hit.u[lane], packet.hit.v[lane], packet.hit.primID[lane],
-                             packet.hit.geomID[lane], packet.hit.instID[0][lane], packet.ray.time[lane]);
+                hits[first + lane] = entries_.make_hit(packet.ray.tfar[lane], packet.hit.u[lane], packet.hit.v[lane],
+                                                       packet.hit.primID[lane], packet.hit.geomID[lane],
+                                                       packet.hit.instID[0][lane], packet.ray.time[lane]);
         });
 }
 
@@ -388,7 +396,7 @@ std::string EmbreeScene::instruction_set() const {
     return supports(RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) ? "AVX/AVX2" : "SSE";
 }
 
-std::string EmbreeScene::quality() {
+std::string bvh_quality() {
     constexpr std::string_view kQuality = kBuildQuality == RTC_BUILD_QUALITY_HIGH     ? "high"
                                           : kBuildQuality == RTC_BUILD_QUALITY_MEDIUM ? "medium"
                                                                                       : "low";

@@ -3,7 +3,7 @@
 
 #include "bsdf/bsdf.h"
 #include "world/surface_point.h"
-#include "world/world.h"
+#include "world/world_data.h"
 
 namespace etendue {
 

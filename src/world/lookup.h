@@ -2,7 +2,7 @@
 #pragma once
 
 #include "world/surface_point.h"
-#include "world/world.h"
+#include "world/world_data.h"
 
 #include <cstddef>
 

@@ -3,7 +3,7 @@
 
 #include "core/rgb.h"
 #include "world/surface_point.h"
-#include "world/world.h"
+#include "world/world_data.h"
 
 #include <cstdint>
 

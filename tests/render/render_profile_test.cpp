@@ -49,7 +49,7 @@ TEST_P(Profiled, TheImageIsTheSameAndTheFiguresAddUp) {
 
     const WaveProfile waves = profile.total();
     double seconds = profile.splat_seconds();
-    for (std::size_t i = 0; i < kStages; ++i) seconds += waves.seconds(static_cast<Stage>(i));
+    for (std::size_t i = 0; i < kStages; ++i) seconds += waves.clock().seconds(static_cast<Stage>(i));
     EXPECT_LE(seconds, kThreads * profiled.wall_seconds);
     EXPECT_GT(seconds, 0.0);
     double tracing = 0.0;
@@ -57,12 +57,13 @@ TEST_P(Profiled, TheImageIsTheSameAndTheFiguresAddUp) {
         const auto kind = static_cast<RayKind>(i);
         const std::uint64_t rays = profiled.counters.rays[kind];
         EXPECT_LE(waves.hits(kind), rays);
-        EXPECT_EQ(waves.seconds(kind) > 0.0, rays > 0) << kRayKindNames[i];
+        EXPECT_EQ(waves.clock().seconds(kind) > 0.0, rays > 0) << kRayKindNames[i];
         EXPECT_EQ(waves.recorder(kind).ray_count() > 0, rays > 0) << kRayKindNames[i];
         EXPECT_LE(waves.recorder(kind).ray_count(), std::min<std::uint64_t>(rays, kThreads * kRecorded));
-        tracing += waves.seconds(kind);
+        tracing += waves.clock().seconds(kind);
     }
-    EXPECT_NEAR(tracing, waves.seconds(Stage::Intersect) + waves.seconds(Stage::Occluded), 1e-3 * tracing);
+    EXPECT_NEAR(tracing, waves.clock().seconds(Stage::Intersect) + waves.clock().seconds(Stage::Occluded),
+                1e-3 * tracing);
 
     const std::string name = GetParam();
     EXPECT_EQ(paths_of(waves.eye_paths()), name == "light" ? 0u : profiled.counters.samples);
@@ -113,7 +114,7 @@ TEST(RenderProfile, EveryShadowRayIsOfALightSampleInMediaToo) {
     add_object(scene, sphere({0, 0, -3}, 2.0f, 16), add_material(scene, fog));
     add_object(scene, sphere({0.3f, 0.2f, -3}, 0.4f, 8), add_material(scene, emissive(Rgb(2.0f))));
     const World world = compile(std::move(scene));
-    ASSERT_TRUE(world.has_lights_in_media());
+    ASSERT_TRUE(world.traits().has_lights_in_media);
     for (const char* integrator : {"path", "bdpt"}) {
         RenderProfile profile(1, 0);
         RenderOptions options = options_for(24, 24, 16);

@@ -59,7 +59,7 @@ SceneDesc lamp_in_a_mirror() {
 /// Where the mirror shows a point of the lamp's plane, pixels.
 Vec2f image_position(const World& world, const Vec3f& point) {
     const Vec3f image{point.x, point.y, -2.0f * kMirrorDistance - point.z};
-    return world.connect_to_camera(image, {0.5f, 0.5f}, 0.0f).film * static_cast<float>(kMirrorSide);
+    return world.camera().connect(image, {0.5f, 0.5f}, 0.0f).film * static_cast<float>(kMirrorSide);
 }
 
 TileJob job_of_all(const PixelFilter& filter) {

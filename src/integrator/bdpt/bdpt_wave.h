@@ -1,9 +1,10 @@
 // A wave of eye and light subpaths, and all connections between them.
 #pragma once
 
-#include "integrator/bdpt/complete_path.h"
+#include "integrator/bdpt/bdpt_job.h"
 #include "integrator/bdpt/connection_lanes.h"
-#include "integrator/bdpt/weight_observer.h"
+#include "integrator/bdpt/light_vertices.h"
+#include "integrator/bdpt/observed_paths.h"
 #include "integrator/integrator.h"
 #include "transport/strategy_sums.h"
 #include "wave/connections.h"
@@ -22,7 +23,8 @@
 
 namespace etendue {
 
-class BdptWave final : public IntegratorScratch, private LightFinder {
+/// Traces and connects the subpaths of many samples.
+class BdptWave final : public IntegratorScratch {
   public:
     /// Samples in a wave. A vertex takes 316 bytes, its MatteEnd included, and 248 more for a lobe that was evaluated
     /// there: the ten or so of a sample stay in a cache of 2 MiB until they are connected.
@@ -45,31 +47,6 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
                std::size_t count, TileBuffer& tile, RenderCounters& counters);
 
   private:
-    struct Context : SubpathJob {
-        const IntegratorSettings& settings;
-
-        /// True if the vertex may be connected to those of other samples: each sample has a time and a wavelength of
-        /// its own.
-        [[nodiscard]] bool is_shared(const ConnectibleVertex& vertex) const {
-            return settings.cached_connections > 0 && !world.has_motion() && !vertex.is_dispersed;
-        }
-        [[nodiscard]] bool wants(int edges) const { return edges >= lengths.min_depth && edges <= lengths.max_depth; }
-        [[nodiscard]] bool wants(const Strategy& strategy) const {
-            return !settings.strategy || *settings.strategy == strategy;
-        }
-        [[nodiscard]] WeightRule rule() const { return {raised, settings.weighted}; }
-    };
-
-    // s = 0: subpaths from the eye that meet a light.
-    void on_emitter(const SubpathState& state, const SurfacePoint& point, const Vec3f& direction,
-                    const SubpathDensities& arrived) override;
-    void on_unlit(const SubpathState& state, const SurfacePoint& point, const Vec3f& direction) override;
-    void on_escape(const SubpathState& state, const Vec3f& direction) override;
-    void on_first_hits(std::span<const Ray> rays, std::span<const Hit> hits) override;
-    [[nodiscard]] bool knows_emission(const Hit& first_hit) const override { return lamps_.finds(first_hit); }
-    void add(const SubpathState& state, const Rgb& light, const StrategySums& sums, const PathLightEnd& end,
-             const AovSet::Source& source);
-
     // Connections on their way through the stages, one by one.
     struct ToLight {
         const ConnectibleVertex* vertex = nullptr;
@@ -107,60 +84,38 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
         const MatteEnd* light_end;
         float scale;
     };
-    /// A light vertex, as eye vertices look for it.
-    struct Candidate {
-        ConnectibleVertex vertex;
-        bool is_shared;
-    };
-
     /// Connects eye vertices [first, last) to points on lights that are sampled for them: s = 1.
-    void connect_to_lights(const Context& context, std::size_t first, std::size_t last);
+    void connect_to_lights(const BdptJob& job, std::size_t first, std::size_t last);
     /// Merges eye vertices with the photons of the job.
-    void merge(const Context& context);
+    void merge(const BdptJob& job);
     /// Connects light vertices [first, last) to points on the lens that are sampled for them: t = 1.
-    void connect_to_camera(const Context& context, std::size_t first, std::size_t last);
+    void connect_to_camera(const BdptJob& job, std::size_t first, std::size_t last);
     /// Connects eye vertices [first, last) to light vertices: s > 1, t > 1.
-    void connect_to_vertices(const Context& context, std::size_t first, std::size_t last);
-    /// Brings the light vertices into an order in which those of a sample are side by side, and into the cache.
-    void find_candidates(const Context& context);
-    /// Finds for `eye` all vertices of its sample's own light subpath that the cache does not have.
-    void find_own(const Context& context, const ConnectibleVertex& eye);
+    void connect_to_vertices(const BdptJob& job, std::size_t first, std::size_t last);
     /// Draws `count` vertices from the cache for `eye`, in place of all that the cache has of an average light subpath.
-    void find_cached(const Context& context, const ConnectibleVertex& eye, int count);
-    void find(const Context& context, const ConnectibleVertex& eye, const MatteEnd& eye_end,
-              const ConnectibleVertex& light, float scale);
+    void find_cached(const BdptJob& job, const ConnectibleVertex& eye, int count);
+    void find(const BdptJob& job, const ConnectibleVertex& eye, const MatteEnd& eye_end, const ConnectibleVertex& light,
+              float scale);
     void find_singly(const ConnectibleVertex& eye, const ConnectibleVertex& light, float scale);
     // With what both ends scatter: weights, and the rays that will tell.
-    void weigh(const Context& context, const ToLight& connection);
-    void weigh(const Context& context, const ToCamera& connection);
-    void weigh(const Context& context, const Between& connection);
+    void weigh(const BdptJob& job, const ToLight& connection);
+    void weigh(const BdptJob& job, const ToCamera& connection);
+    void weigh(const BdptJob& job, const Between& connection);
     // All of that at once, for those that are computed so.
-    void weigh_wide_to_lights(const Context& context);
-    void weigh_wide_to_camera(const Context& context);
-    void weigh_wide_between(const Context& context);
+    void weigh_wide_to_lights(const BdptJob& job);
+    void weigh_wide_to_camera(const BdptJob& job);
+    void weigh_wide_between(const BdptJob& job);
     /// Returns false if there is nothing to say of connections but their rays and the light that they bring.
-    [[nodiscard]] bool asks_for_each(const Context& context);
+    [[nodiscard]] bool asks_for_each(const BdptJob& job);
     /// Leaves the first `count` connections of a block, of which there is nothing else to say, to `connections`.
     static void queue_wide(const ConnectionColumns& lanes, std::size_t count, Connections& connections);
     // Leaves the rays of connections, with what they bring, to `connections`.
-    void queue(const Context& context, const ConnectibleVertex& vertex, const PathLightEnd& end, Ray ray,
+    void queue(const BdptJob& job, const ConnectibleVertex& vertex, const PathLightEnd& end, Ray ray,
                const Brought& brought, Connections& connections);
-    void queue(const Context& context, const ConnectibleVertex& vertex, const CameraView& view, Ray ray,
+    void queue(const BdptJob& job, const ConnectibleVertex& vertex, const CameraView& view, Ray ray,
                const Brought& brought, Connections& connections);
-    void queue(const Context& context, const ConnectibleVertex& eye, const ConnectibleVertex& light, Ray ray,
+    void queue(const BdptJob& job, const ConnectibleVertex& eye, const ConnectibleVertex& light, Ray ray,
                const Brought& brought, Connections& connections);
-
-    [[nodiscard]] static float weight(const IntegratorSettings& settings, const StrategySums& sums) {
-        return settings.weighted ? static_cast<float>(sums.weight()) : 1.0f;
-    }
-
-    /// Shows the weight of a path to the observer. The path leads from `end` over the subpath that ends in `light` and
-    /// back over that which ends in `eye`; either may be null.
-    void show(const SubpathJob& job, std::size_t s, float weight, const PathLightEnd& end, const PathVertex* light,
-              const PathVertex* eye, const CameraConnection& camera);
-    [[nodiscard]] PathLightEnd light_end(std::uint32_t slot) const;
-    /// Returns how the camera sees `eye`, the first vertex of a sample's eye subpath.
-    [[nodiscard]] CameraConnection camera_of(const SubpathJob& job, const PathVertex& eye) const;
 
     std::vector<CameraSample> samples_;
     std::vector<Ray> camera_rays_;
@@ -173,10 +128,7 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
     LampsToCamera lamps_to_camera_;
     VerticesToLight to_light_;
     VerticesToCamera to_camera_;
-    std::vector<Candidate> own_;            ///< sample by sample, the last vertex first
-    std::vector<std::uint32_t> own_begin_;  ///< by slot, and the end of the last
-    /// Holds the light vertices that eye vertices of any sample may be connected to, if settings ask for that.
-    std::vector<Candidate> cache_;
+    LightVertices light_vertices_;
     // Of the block at hand.
     std::vector<ToLight> to_lights_;
     std::vector<ToCamera> to_cameras_;
@@ -197,10 +149,7 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
     Connections light_connections_{RayKind::Shadow}, wide_light_connections_{RayKind::Shadow};
     Connections camera_connections_{RayKind::LightToCamera}, wide_camera_connections_{RayKind::LightToCamera};
     Connections vertex_connections_{RayKind::Connection}, wide_vertex_connections_{RayKind::Connection};
-    WeightObserver* observer_ = nullptr;  ///< sees weights; null if nobody does
-    const Context* context_ = nullptr;    ///< context of the call of `trace` under way
-    TileBuffer* tile_ = nullptr;          ///< tile of the call of `trace` under way
-    RenderCounters* counters_ = nullptr;  ///< counters of the call of `trace` under way
+    ObservedPaths observed_{eye_, light_};
 };
 
 }  // namespace etendue

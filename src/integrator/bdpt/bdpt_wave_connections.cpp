@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <span>
 #include <utility>
 
@@ -20,28 +19,28 @@ constexpr std::uint32_t kCacheDimension = 3u << 29;
 
 }  // namespace
 
-void BdptWave::connect_to_lights(const Context& context, std::size_t first, std::size_t last) {
-    const World& world = context.world;
-    WaveProfile* const profile = context.job.profile;
+void BdptWave::connect_to_lights(const BdptJob& job, std::size_t first, std::size_t last) {
+    const World& world = job.world;
+    WaveProfile* const profile = job.job.profile;
     receivers_.clear();
     choosing_.clear();
     lit_.clear();
     for (std::size_t v = first; v < last; ++v) {
         const ConnectibleVertex& vertex = to_light_[v];
-        if (!context.wants(vertex.next_edges) || !context.wants({.s = 1, .t = vertex.index + 1})) continue;
-        const MatteEnd& end = eye_.matte_end(vertex);
-        receivers_.push_back(end.exists() ? end.position : eye_.whole(vertex).position);
+        if (!job.wants(vertex.next_edges) || !job.wants({.s = 1, .t = vertex.index + 1})) continue;
+        const MatteEnd& end = eye_.vertices().matte_end(vertex);
+        receivers_.push_back(end.exists() ? end.position : eye_.vertices().whole(vertex).position);
         choosing_.push_back(to_light_.numbers(v)[0]);
         lit_.push_back(v);
     }
     choices_.resize(lit_.size());
-    world.choose_lights(receivers_, choosing_, choices_);
+    world.lights().choose(receivers_, choosing_, choices_);
     std::array<const MeshLight*, kBlock> meshes;
     std::array<Vec3f, kBlock> points;
     std::array<Vec2f, kBlock> u_triangle;
     for (std::size_t i = 0; i < lit_.size(); ++i) {
-        const bool is_wide = eye_.matte_end(to_light_[lit_[i]]).exists();
-        meshes[i] = is_wide ? world.even_mesh_light(choices_[i].light) : nullptr;
+        const bool is_wide = eye_.vertices().matte_end(to_light_[lit_[i]]).exists();
+        meshes[i] = is_wide ? world.lights().even_mesh(choices_[i].light) : nullptr;
         points[i] = receivers_[i].position;
         const auto [light, triangle, direction] = to_light_.numbers(lit_[i]);
         u_triangle[i] = triangle;
@@ -57,42 +56,43 @@ void BdptWave::connect_to_lights(const Context& context, std::size_t first, std:
         const LightTree::Choice& choice = choices_[i];
         const MeshLight* mesh = meshes[i];
         if (mesh == nullptr) {
-            to_lights_.push_back({&vertex, world.sample_light(choice, points[i], {light, triangle, direction}), {}});
+            to_lights_.push_back({&vertex, world.lights().sample(choice, points[i], {light, triangle, direction}), {}});
             continue;
         }
         const std::size_t lane = wide_to_lights_.size();
         const MeshLight::TriangleChoice& on_light = triangles[i];
         wide_to_lights_.push_back({&vertex, choice.light, on_light.triangle});
         to_light_lanes_.set_sample(lane, vertex.slot, vertex.is_seen_directly);
-        to_light_lanes_.eye.set(lane, eye_.matte_end(vertex));
+        to_light_lanes_.eye.set(lane, eye_.vertices().matte_end(vertex));
         to_light_lanes_.front.set(lane, *mesh, on_light);
         to_light_lanes_.u.set(lane, direction);
         to_light_lanes_.radiance.set(lane, mesh->radiance());
         to_light_lanes_.probability.set(lane, choice.probability);
         to_light_lanes_.choice_ratio.set(
-            lane, world.emission_probability(choice.light) / (choice.probability * on_light.gain));
+            lane, world.emitters().probability(choice.light) / (choice.probability * on_light.gain));
     }
     if (profile != nullptr) profile->use().light_samples += lit_.size();
     stamp(profile, Stage::LightSampling);
     for (ToLight& connection : to_lights_)
         if (const LightSample& light = connection.chosen.sample; !is_black(light.radiance))
-            connection.scattered = eye_.whole(*connection.vertex).evaluate_both_ways(light.wi, TransportMode::Radiance);
+            connection.scattered =
+                eye_.vertices().whole(*connection.vertex).evaluate_both_ways(light.wi, TransportMode::Radiance);
     stamp(profile, Stage::Material);
     for (const ToLight& connection : to_lights_)
-        if (!is_black(connection.scattered.f_cos)) weigh(context, connection);
-    weigh_wide_to_lights(context);
+        if (!is_black(connection.scattered.f_cos)) weigh(job, connection);
+    weigh_wide_to_lights(job);
     stamp(profile, Stage::Mis);
 }
 
-void BdptWave::weigh(const Context& context, const ToLight& connection) {
-    const PathVertex& vertex = eye_.whole(*connection.vertex);
+void BdptWave::weigh(const BdptJob& job, const ToLight& connection) {
+    const PathVertex& vertex = eye_.vertices().whole(*connection.vertex);
     const ChosenLight& chosen = connection.chosen;
     const LightSample& light = chosen.sample;
     const Scattering::TwoWayValue& value = connection.scattered;
-    const float share = weight(context.settings, sums_of_light_sample(context.mis(), vertex, chosen, value));
+    const float share = job.weight(sums_of_light_sample(job.mis(), vertex, chosen, value));
     if (share == 0.0f) return;
     const float density = light.is_delta ? chosen.expected_samples : light.pdf_solid_angle;
-    queue(context, *connection.vertex,
+    queue(job, *connection.vertex,
           {.light = chosen.light,
            .triangle = light.triangle,
            .position = vertex.position + light.wi * (std::isinf(light.distance) ? 0.0f : light.distance),
@@ -100,20 +100,20 @@ void BdptWave::weigh(const Context& context, const ToLight& connection) {
            .cos_light = light.cos_light},
           shadow_ray(vertex.origin(light.wi), light),
           {vertex.throughput * value.f_cos * light.radiance * vertex.transmittance(light.wi, light.distance) *
-               context.wavelength_weight(vertex.slot, vertex.is_dispersed) * (share / density),
+               job.wavelength_weight(vertex.slot, vertex.is_dispersed) * (share / density),
            share},
           light_connections_);
 }
 
-void BdptWave::weigh_wide_to_lights(const Context& context) {
-    to_light_lanes_.connect(wide_to_lights_.size(), context.rule());
-    if (!asks_for_each(context)) return queue_wide(to_light_lanes_, wide_to_lights_.size(), wide_light_connections_);
+void BdptWave::weigh_wide_to_lights(const BdptJob& job) {
+    to_light_lanes_.connect(wide_to_lights_.size(), job.rule());
+    if (!asks_for_each(job)) return queue_wide(to_light_lanes_, wide_to_lights_.size(), wide_light_connections_);
     for (std::size_t lane = 0; lane < wide_to_lights_.size(); ++lane) {
         const auto& [vertex, light, triangle] = wide_to_lights_[lane];
         const Brought brought = to_light_lanes_.brought(lane);
         if (is_black(brought.light)) continue;
         const Vec3f wi = to_light_lanes_.wi[lane];
-        queue(context, *vertex,
+        queue(job, *vertex,
               {.light = light,
                .triangle = triangle,
                .position = to_light_lanes_.eye[lane].position + wi * to_light_lanes_.distance[lane],
@@ -123,36 +123,32 @@ void BdptWave::weigh_wide_to_lights(const Context& context) {
     }
 }
 
-void BdptWave::queue(const Context& context, const ConnectibleVertex& vertex, const PathLightEnd& end, Ray ray,
+void BdptWave::queue(const BdptJob& job, const ConnectibleVertex& vertex, const PathLightEnd& end, Ray ray,
                      const Brought& brought, Connections& connections) {
-    ray.time = context.camera_rays[vertex.slot].time;
-    ray.alpha_key = context.connection_key(SubpathEnd::AtEye, vertex.index, vertex.slot);
+    ray.time = job.camera_rays[vertex.slot].time;
+    ray.alpha_key = job.connection_key(SubpathEnd::AtEye, vertex.index, vertex.slot);
     shares_.clear();
-    if (PathWords& words = eye_.words(); words.are_followed()) {
-        const PathVertex& whole = eye_.whole(vertex);
+    if (PathWords& words = eye_.vertices().words(); words.are_followed()) {
+        const PathVertex& whole = eye_.vertices().whole(vertex);
         words.end_at_light(whole.words, whole.event(-end.direction, TransportMode::Radiance),
-                           words.light_source(context.world, end.light), shares_);
+                           words.light_source(job.world, end.light), shares_);
     }
     connections.to_sample(ray, vertex.slot, brought.light,
                           vertex.is_seen_directly ? LightKind::Direct : LightKind::Indirect, shares_);
-    if (observer_ != nullptr) {
-        const PathVertex& whole = eye_.whole(vertex);
-        show(context, 1, brought.weight, end, nullptr, &whole, camera_of(context, whole));
-    }
+    if (observed_.are_seen()) observed_.show(job, 1, brought.weight, end, vertex.vertex);
 }
 
-void BdptWave::connect_to_camera(const Context& context, std::size_t first, std::size_t last) {
-    WaveProfile* const profile = context.job.profile;
+void BdptWave::connect_to_camera(const BdptJob& job, std::size_t first, std::size_t last) {
+    WaveProfile* const profile = job.job.profile;
     to_cameras_.clear();
     wide_to_cameras_.clear();
     for (std::size_t v = first; v < last; ++v) {
         const ConnectibleVertex& vertex = to_camera_[v];
-        if (!context.wants(vertex.next_edges) || !context.wants({.s = vertex.index + 1, .t = 1})) continue;
+        if (!job.wants(vertex.next_edges) || !job.wants({.s = vertex.index + 1, .t = 1})) continue;
         const auto [lens] = to_camera_.numbers(v);
-        const MatteEnd& end = light_.matte_end(vertex);
-        const Vec3f& position = end.exists() ? end.position : light_.whole(vertex).position;
-        const auto view =
-            view_from_camera(context.world, context.job, position, lens, context.camera_rays[vertex.slot].time);
+        const MatteEnd& end = light_.vertices().matte_end(vertex);
+        const Vec3f& position = end.exists() ? end.position : light_.vertices().whole(vertex).position;
+        const auto view = view_from_camera(job.world, job.job, position, lens, job.camera_rays[vertex.slot].time);
         if (!view) continue;
         if (!end.exists()) {
             to_cameras_.push_back({&vertex, *view, {}});
@@ -168,32 +164,31 @@ void BdptWave::connect_to_camera(const Context& context, std::size_t first, std:
     }
     stamp(profile, Stage::Mis);
     for (ToCamera& connection : to_cameras_)
-        connection.scattered =
-            light_.whole(*connection.vertex).evaluate_both_ways(connection.view.direction, TransportMode::Importance);
+        connection.scattered = light_.vertices()
+                                   .whole(*connection.vertex)
+                                   .evaluate_both_ways(connection.view.direction, TransportMode::Importance);
     stamp(profile, Stage::Material);
     for (const ToCamera& connection : to_cameras_)
-        if (!is_black(connection.scattered.f_cos)) weigh(context, connection);
-    weigh_wide_to_camera(context);
+        if (!is_black(connection.scattered.f_cos)) weigh(job, connection);
+    weigh_wide_to_camera(job);
     stamp(profile, Stage::Mis);
 }
 
-void BdptWave::weigh(const Context& context, const ToCamera& connection) {
-    const PathVertex& vertex = light_.whole(*connection.vertex);
+void BdptWave::weigh(const BdptJob& job, const ToCamera& connection) {
+    const PathVertex& vertex = light_.vertices().whole(*connection.vertex);
     const CameraView& view = connection.view;
     const Scattering::TwoWayValue& value = connection.scattered;
-    const float share =
-        weight(context.settings, sums_at_lens(context.mis(), vertex, view.direction, view.camera, value));
-    queue(context, *connection.vertex, view, connecting_ray(vertex.origin(view.direction), view.camera.lens),
+    const float share = job.weight(sums_at_lens(job.mis(), vertex, view.direction, view.camera, value));
+    queue(job, *connection.vertex, view, connecting_ray(vertex.origin(view.direction), view.camera.lens),
           {vertex.throughput * value.f_cos * vertex.transmittance(view.direction, view.distance) *
-               context.wavelength_weight(vertex.slot, vertex.is_dispersed) * (view.camera.importance_area * share),
+               job.wavelength_weight(vertex.slot, vertex.is_dispersed) * (view.camera.importance_area * share),
            share},
           camera_connections_);
 }
 
-void BdptWave::weigh_wide_to_camera(const Context& context) {
-    to_camera_lanes_.connect(wide_to_cameras_.size(), context.rule(),
-                             static_cast<float>(context.samples_per_light_path()));
-    if (!asks_for_each(context))
+void BdptWave::weigh_wide_to_camera(const BdptJob& job) {
+    to_camera_lanes_.connect(wide_to_cameras_.size(), job.rule(), static_cast<float>(job.samples_per_light_path()));
+    if (!asks_for_each(job))
         return to_camera_lanes_.for_each_wide(
             wide_to_cameras_.size(), [&](const WideConnections& connections, WideMask which, std::size_t first) {
                 wide_camera_connections_.to_film(connections, which, [&](std::size_t lane) {
@@ -204,102 +199,82 @@ void BdptWave::weigh_wide_to_camera(const Context& context) {
     for (std::size_t lane = 0; lane < wide_to_cameras_.size(); ++lane) {
         const auto& [vertex, view] = wide_to_cameras_[lane];
         if (const Brought brought = to_camera_lanes_.brought(lane); !is_black(brought.light))
-            queue(context, *vertex, view, to_camera_lanes_.ray(lane), brought, wide_camera_connections_);
+            queue(job, *vertex, view, to_camera_lanes_.ray(lane), brought, wide_camera_connections_);
     }
 }
 
-void BdptWave::queue(const Context& context, const ConnectibleVertex& vertex, const CameraView& view, Ray ray,
+void BdptWave::queue(const BdptJob& job, const ConnectibleVertex& vertex, const CameraView& view, Ray ray,
                      const Brought& brought, Connections& connections) {
-    ray.time = context.camera_rays[vertex.slot].time;
-    ray.alpha_key = context.connection_key(SubpathEnd::AtLight, vertex.index, vertex.slot);
+    ray.time = job.camera_rays[vertex.slot].time;
+    ray.alpha_key = job.connection_key(SubpathEnd::AtLight, vertex.index, vertex.slot);
     shares_.clear();
-    if (light_.words().are_followed())
-        light_.words().end_at_camera(light_.words_after(light_.whole(vertex), view.direction), shares_);
+    if (light_.vertices().words().are_followed())
+        light_.vertices().words().end_at_camera(
+            light_.vertices().words_after(light_.vertices().whole(vertex), view.direction), shares_);
     connections.to_film(ray, vertex.slot, {.position = view.pixel, .value = brought.light, .depth = view.depth},
                         vertex.index > 1 ? LightKind::Indirect : LightKind::Direct, shares_);
-    if (observer_ != nullptr)
-        show(context, static_cast<std::size_t>(vertex.index) + 1, brought.weight, light_end(vertex.slot),
-             &light_.whole(vertex), nullptr, view.camera);
+    if (observed_.are_seen()) observed_.show_to_camera(job, vertex, brought.weight, view.camera);
 }
 
-void BdptWave::connect_to_vertices(const Context& context, std::size_t first, std::size_t last) {
-    WaveProfile* const profile = context.job.profile;
+void BdptWave::connect_to_vertices(const BdptJob& job, std::size_t first, std::size_t last) {
+    WaveProfile* const profile = job.job.profile;
     between_.clear();
     for (std::size_t v = first; v < last; ++v) {
         const ConnectibleVertex& eye = to_light_[v];
-        find_own(context, eye);
-        if (context.is_shared(eye)) find_cached(context, eye, context.settings.cached_connections);
+        const bool has_cache = job.is_shared(eye);
+        const MatteEnd& eye_end = eye_.vertices().matte_end(eye);
+        for (const LightVertices::Candidate& own : light_vertices_.own(eye.slot))
+            if (!(has_cache && own.is_shared)) find(job, eye, eye_end, own.vertex, 1.0f);
+        if (has_cache) find_cached(job, eye, job.settings.cached_connections);
     }
-    weigh_wide_between(context);
+    weigh_wide_between(job);
     stamp(profile, Stage::Mis);
     for (Between& connection : between_) {
-        connection.at_eye = eye_.whole(*connection.eye).evaluate_both_ways(connection.w, TransportMode::Radiance);
+        connection.at_eye =
+            eye_.vertices().whole(*connection.eye).evaluate_both_ways(connection.w, TransportMode::Radiance);
         if (!is_black(connection.at_eye.f_cos))
             connection.at_light =
-                light_.whole(*connection.light).evaluate_both_ways(-connection.w, TransportMode::Importance);
+                light_.vertices().whole(*connection.light).evaluate_both_ways(-connection.w, TransportMode::Importance);
     }
     stamp(profile, Stage::Material);
     for (const Between& connection : between_)
-        if (!is_black(connection.at_light.f_cos)) weigh(context, connection);
+        if (!is_black(connection.at_light.f_cos)) weigh(job, connection);
     stamp(profile, Stage::Mis);
 }
 
-void BdptWave::find_candidates(const Context& context) {
-    const std::span<const ConnectibleVertex> vertices = light_.connectible_vertices();
-    cache_.clear();
-    // The number of each slot's, then where those end; as they are written, backwards, where they begin.
-    own_begin_.assign(samples_.size() + 1, 0);
-    for (const ConnectibleVertex& vertex : vertices) ++own_begin_[vertex.slot];
-    std::inclusive_scan(own_begin_.begin(), own_begin_.end(), own_begin_.begin());
-    own_.resize(own_begin_.back());
-    // Bounce by bounce, so that the last vertex of a slot comes first there.
-    for (const ConnectibleVertex& vertex : vertices) {
-        const Candidate candidate{vertex, context.is_shared(vertex)};
-        own_[--own_begin_[vertex.slot]] = candidate;
-        if (candidate.is_shared) cache_.push_back(candidate);
-    }
-}
-
-void BdptWave::find_own(const Context& context, const ConnectibleVertex& eye) {
-    const bool has_cache = context.is_shared(eye);
-    const MatteEnd& eye_end = eye_.matte_end(eye);
-    for (std::uint32_t i = own_begin_[eye.slot]; i < own_begin_[eye.slot + 1]; ++i)
-        if (!(has_cache && own_[i].is_shared)) find(context, eye, eye_end, own_[i].vertex, 1.0f);
-}
-
-void BdptWave::find_cached(const Context& context, const ConnectibleVertex& eye, int count) {
-    if (cache_.empty()) return;
-    const auto size = static_cast<float>(cache_.size());
+void BdptWave::find_cached(const BdptJob& job, const ConnectibleVertex& eye, int count) {
+    const std::span<const LightVertices::Candidate> cache = light_vertices_.cache();
+    if (cache.empty()) return;
+    const auto size = static_cast<float>(cache.size());
     const float step = size / static_cast<float>(count);
     const float scale = step / static_cast<float>(samples_.size());
     // One number for all, and equal steps from one to the next: each is as likely as any other to be drawn.
     const SampleKey key = samples_[eye.slot].key;
-    const float u = sample_2d(context.job.sequence, key, kCacheDimension + static_cast<std::uint32_t>(eye.index)).x;
-    const MatteEnd& eye_end = eye_.matte_end(eye);
+    const float u = sample_2d(job.job.sequence, key, kCacheDimension + static_cast<std::uint32_t>(eye.index)).x;
+    const MatteEnd& eye_end = eye_.vertices().matte_end(eye);
     for (int i = 0; i < count; ++i) {
         const auto drawn = static_cast<std::size_t>((static_cast<float>(i) + u) * step);
-        find(context, eye, eye_end, cache_[std::min(drawn, cache_.size() - 1)].vertex, scale);
+        find(job, eye, eye_end, cache[std::min(drawn, cache.size() - 1)].vertex, scale);
     }
 }
 
-void BdptWave::find(const Context& context, const ConnectibleVertex& eye, const MatteEnd& eye_end,
+void BdptWave::find(const BdptJob& job, const ConnectibleVertex& eye, const MatteEnd& eye_end,
                     const ConnectibleVertex& light, float scale) {
-    if (!context.wants(eye.next_edges + light.next_edges - 1) ||
-        !context.wants({.s = light.index + 1, .t = eye.index + 1}))
+    if (!job.wants(eye.next_edges + light.next_edges - 1) || !job.wants({.s = light.index + 1, .t = eye.index + 1}))
         return;
-    const MatteEnd& light_end = light_.matte_end(light);
+    const MatteEnd& light_end = light_.vertices().matte_end(light);
     if (!eye_end.exists() || !light_end.exists()) return find_singly(eye, light, scale);
     // About every other one faces away, in no order that a branch could be foretold by.
     const Vec3f w = light_end.position - eye_end.position;
     wide_between_[wide_between_count_] = {&eye, &light, &eye_end, &light_end, scale};
     wide_between_count_ += static_cast<std::size_t>(dot(w, eye_end.geometric_normal) > 0.0f) &
                            static_cast<std::size_t>(dot(w, light_end.geometric_normal) < 0.0f);
-    if (wide_between_count_ == wide_between_.size()) weigh_wide_between(context);
+    if (wide_between_count_ == wide_between_.size()) weigh_wide_between(job);
 }
 
 void BdptWave::find_singly(const ConnectibleVertex& eye_vertex, const ConnectibleVertex& light_vertex, float scale) {
-    const PathVertex& eye = eye_.whole(eye_vertex);
-    const PathVertex& light = light_.whole(light_vertex);
+    const PathVertex& eye = eye_.vertices().whole(eye_vertex);
+    const PathVertex& light = light_.vertices().whole(light_vertex);
     const Vec3f to_light = light.position - eye.position;
     if (!eye.may_scatter(to_light) || !light.may_scatter(-to_light)) return;
     const float squared = length_squared(to_light);
@@ -310,21 +285,20 @@ void BdptWave::find_singly(const ConnectibleVertex& eye_vertex, const Connectibl
     between_.push_back({.eye = &eye_vertex, .light = &light_vertex, .w = w, .squared = squared, .scale = scale});
 }
 
-void BdptWave::weigh(const Context& context, const Between& connection) {
+void BdptWave::weigh(const BdptJob& job, const Between& connection) {
     const auto& [eye_vertex, light_vertex, w, squared, scale, at_eye, at_light] = connection;
-    const PathVertex& eye = eye_.whole(*eye_vertex);
-    const PathVertex& light = light_.whole(*light_vertex);
-    const float share =
-        weight(context.settings, sums_between(context.raised, eye, light, w, squared, at_eye, at_light));
+    const PathVertex& eye = eye_.vertices().whole(*eye_vertex);
+    const PathVertex& light = light_.vertices().whole(*light_vertex);
+    const float share = job.weight(sums_between(job.raised, eye, light, w, squared, at_eye, at_light));
     queue(
-        context, *eye_vertex, *light_vertex, connecting_ray(eye.origin(w), light.origin(-w)),
+        job, *eye_vertex, *light_vertex, connecting_ray(eye.origin(w), light.origin(-w)),
         {eye.throughput * at_eye.f_cos * at_light.f_cos * light.throughput * eye.transmittance(w, std::sqrt(squared)) *
-             context.wavelength_weight(eye.slot, eye.is_dispersed || light.is_dispersed) * (scale * share / squared),
+             job.wavelength_weight(eye.slot, eye.is_dispersed || light.is_dispersed) * (scale * share / squared),
          share},
         vertex_connections_);
 }
 
-void BdptWave::weigh_wide_between(const Context& context) {
+void BdptWave::weigh_wide_between(const BdptJob& job) {
     const std::size_t count = std::exchange(wide_between_count_, 0);
     for (std::size_t lane = 0; lane < count; ++lane) {
         const WideBetween& connection = wide_between_[lane];
@@ -333,17 +307,17 @@ void BdptWave::weigh_wide_between(const Context& context) {
         between_lanes_.light.set(lane, *connection.light_end);
         between_lanes_.scale.set(lane, connection.scale);
     }
-    between_lanes_.connect(count, context.rule());
-    if (!asks_for_each(context)) return queue_wide(between_lanes_, count, wide_vertex_connections_);
+    between_lanes_.connect(count, job.rule());
+    if (!asks_for_each(job)) return queue_wide(between_lanes_, count, wide_vertex_connections_);
     for (std::size_t lane = 0; lane < count; ++lane)
         if (const Brought brought = between_lanes_.brought(lane); !is_black(brought.light))
-            queue(context, *wide_between_[lane].eye, *wide_between_[lane].light, between_lanes_.ray(lane), brought,
+            queue(job, *wide_between_[lane].eye, *wide_between_[lane].light, between_lanes_.ray(lane), brought,
                   wide_vertex_connections_);
 }
 
-bool BdptWave::asks_for_each(const Context& context) {
-    return eye_.words().are_followed() || context.world.has_motion() || context.world.has_transparency() ||
-           observer_ != nullptr;
+bool BdptWave::asks_for_each(const BdptJob& job) {
+    return eye_.vertices().words().are_followed() || job.world.traits().has_motion ||
+           job.world.traits().has_transparency || observed_.are_seen();
 }
 
 void BdptWave::queue_wide(const ConnectionColumns& lanes, std::size_t count, Connections& connections) {
@@ -352,22 +326,21 @@ void BdptWave::queue_wide(const ConnectionColumns& lanes, std::size_t count, Con
     });
 }
 
-void BdptWave::queue(const Context& context, const ConnectibleVertex& eye, const ConnectibleVertex& light, Ray ray,
+void BdptWave::queue(const BdptJob& job, const ConnectibleVertex& eye, const ConnectibleVertex& light, Ray ray,
                      const Brought& brought, Connections& connections) {
-    ray.time = context.camera_rays[eye.slot].time;
-    ray.alpha_key = context.connection_key(SubpathEnd::AtEye, eye.index, eye.slot) +
-                    context.connection_key(SubpathEnd::AtLight, light.index, light.slot);
+    ray.time = job.camera_rays[eye.slot].time;
+    ray.alpha_key = job.connection_key(SubpathEnd::AtEye, eye.index, eye.slot) +
+                    job.connection_key(SubpathEnd::AtLight, light.index, light.slot);
     shares_.clear();
-    if (eye_.words().are_followed()) {
-        const PathVertex& at_eye = eye_.whole(eye);
-        const PathVertex& at_light = light_.whole(light);
+    if (eye_.vertices().words().are_followed()) {
+        const PathVertex& at_eye = eye_.vertices().whole(eye);
+        const PathVertex& at_light = light_.vertices().whole(light);
         const Vec3f w = normalize(at_light.position - at_eye.position);
-        eye_.words().join(eye_.words_after(at_eye, w), light_.words(), light_.words_after(at_light, -w), shares_);
+        eye_.vertices().words().join(eye_.vertices().words_after(at_eye, w), light_.vertices().words(),
+                                     light_.vertices().words_after(at_light, -w), shares_);
     }
     connections.to_sample(ray, eye.slot, brought.light, LightKind::Indirect, shares_);
-    if (observer_ != nullptr)
-        show(context, static_cast<std::size_t>(light.index) + 1, brought.weight, light_end(light.slot),
-             &light_.whole(light), &eye_.whole(eye), camera_of(context, eye_.whole(eye)));
+    if (observed_.are_seen()) observed_.show_between(job, eye, light, brought.weight);
 }
 
 }  // namespace etendue

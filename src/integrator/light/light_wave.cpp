@@ -27,7 +27,7 @@ void LightWave::trace(const World& world, const TileJob& job, const PathLengths&
         find_first_hits(world, job, samples_, camera_rays_, hits_, tile);
     }
     stamp(job.profile, Stage::Generate);
-    if (world.has_lights()) trace_subpaths(world, job, lengths, tile, counters);
+    if (world.traits().has_lights) trace_subpaths(world, job, lengths, tile, counters);
     // No path from the light tells what the camera sees through: the image is opaque.
     alpha_.assign(count, 1.0f);
     accumulate(job, samples_, found_, alpha_, tile, counters);
@@ -49,7 +49,7 @@ void LightWave::trace_subpaths(const World& world, const TileJob& job, const Pat
 void LightWave::connect_vertices(const SubpathJob& job, TileBuffer& tile, RenderCounters& counters) {
     to_camera_.collect(job, SubpathEnd::AtLight, subpaths_);
     for (std::size_t i = 0; i < to_camera_.size(); ++i) {
-        const PathVertex& vertex = subpaths_.whole(to_camera_[i]);
+        const PathVertex& vertex = subpaths_.vertices().whole(to_camera_[i]);
         if (vertex.next_edges < job.lengths.min_depth) continue;
         const float time = camera_rays_[vertex.slot].time;
         const auto [lens] = to_camera_.numbers(i);
@@ -61,8 +61,9 @@ void LightWave::connect_vertices(const SubpathJob& job, TileBuffer& tile, Render
         ray.time = time;
         ray.alpha_key = job.connection_key(SubpathEnd::AtLight, vertex.index, vertex.slot);
         shares_.clear();
-        if (subpaths_.words().are_followed())
-            subpaths_.words().end_at_camera(subpaths_.words_after(vertex, view->direction), shares_);
+        if (subpaths_.vertices().words().are_followed())
+            subpaths_.vertices().words().end_at_camera(subpaths_.vertices().words_after(vertex, view->direction),
+                                                       shares_);
         connections_.to_film(
             ray, vertex.slot,
             {.position = view->pixel,

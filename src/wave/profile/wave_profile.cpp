@@ -1,9 +1,6 @@
 #include "wave/profile/wave_profile.h"
 
-#include "core/process_time.h"
-
 #include <algorithm>
-#include <numeric>
 #include <tuple>
 
 namespace etendue {
@@ -46,17 +43,8 @@ void WaveProfile::end_eye_path(PathEnding ending, const LongPath& path) {
 }
 
 void WaveProfile::add(const WaveProfile& other) {
-    stamps_ += other.stamps_;
-    if (other.scale_.is_older_than(scale_)) scale_ = other.scale_;
-    for (std::size_t i = 0; i < kStages; ++i) {
-        ticks_[i] += other.ticks_[i];
-        ticks_in_blocks_[i] += other.ticks_in_blocks_[i];
-    }
-    ticks_of_blocks_ += other.ticks_of_blocks_;
-    for (std::size_t i = 0; i < kRayKinds; ++i) {
-        ticks_of_kind_[i] += other.ticks_of_kind_[i];
-        recorders_[i].add(other.recorders_[i]);
-    }
+    clock_.add(other.clock_);
+    for (std::size_t i = 0; i < kRayKinds; ++i) recorders_[i].add(other.recorders_[i]);
     hits_.add(other.hits_);
     eye_paths_.add(other.eye_paths_);
     light_paths_.add(other.light_paths_);
@@ -66,24 +54,6 @@ void WaveProfile::add(const WaveProfile& other) {
     use_.bsdf_absorbed += other.use_.bsdf_absorbed;
     use_.phase_samples += other.use_.phase_samples;
     use_.bsdf_met_light += other.use_.bsdf_met_light;
-}
-
-double WaveProfile::seconds(Stage stage) const {
-    const auto index = static_cast<std::size_t>(stage);
-    const std::uint64_t in_blocks = std::accumulate(ticks_in_blocks_.begin(), ticks_in_blocks_.end(), std::uint64_t{0});
-    const double share =
-        in_blocks > 0 ? static_cast<double>(ticks_in_blocks_[index]) / static_cast<double>(in_blocks) : 0.0;
-    return in_seconds(static_cast<double>(ticks_[index] + ticks_in_blocks_[index]) +
-                      share * static_cast<double>(ticks_of_blocks_));
-}
-
-double WaveProfile::seconds_per_stamp() {
-    constexpr int kStamps = 100000;
-    WaveProfile profile(0);
-    // On a busy machine the clock would count what others do meanwhile.
-    const double start = thread_cpu_seconds();
-    for (int i = 0; i < kStamps; ++i) profile.stamp(Stage::Film);
-    return (thread_cpu_seconds() - start) / kStamps;
 }
 
 }  // namespace etendue

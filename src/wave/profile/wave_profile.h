@@ -2,9 +2,8 @@
 #pragma once
 
 #include "core/ray.h"
-#include "core/tick_clock.h"
 #include "wave/profile/ray_recorder.h"
-#include "wave/profile/stage.h"
+#include "wave/profile/stage_clock.h"
 #include "wave/ray_kind.h"
 
 #include <array>
@@ -12,7 +11,6 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace etendue {
@@ -67,6 +65,7 @@ struct LongPath {
     int rays = 0;
 };
 
+/// Counts what the waves of one thread do, and has the clock that times them.
 class WaveProfile {
   public:
     /// Long paths that are remembered.
@@ -75,29 +74,14 @@ class WaveProfile {
     /// `recorded_rays` is about how many rays of each kind are kept.
     explicit WaveProfile(std::size_t recorded_rays);
 
-    /// Leaves the time since the last stamp out of all stages.
-    void skip() { last_ = ticks_now(); }
-    /// Adds the time since the last stamp to `stage`.
-    void stamp(Stage stage) { ticks_[static_cast<std::size_t>(stage)] += lap(); }
-    /// Begins a block of paths. True if its stages are told apart: of every second one only, as stamps would take more
-    /// than a hundredth of the time where paths are short.
-    [[nodiscard]] bool start_block() { return tells_apart_ = !tells_apart_; }
-    /// Adds the time since the last stamp to `stage`, in a block whose stages are told apart.
-    void stamp_in_block(Stage stage) { ticks_in_blocks_[static_cast<std::size_t>(stage)] += lap(); }
-    /// Adds the time since the last stamp to the blocks whose stages are not told apart; stages share it as in the
-    /// other blocks.
-    void stamp_block() { ticks_of_blocks_ += lap(); }
-    /// Adds the time since the last stamp to `stage` and to the rays of `kind` that were traced.
-    void stamp(Stage stage, RayKind kind) {
-        const std::uint64_t elapsed = lap();
-        ticks_[static_cast<std::size_t>(stage)] += elapsed;
-        ticks_of_kind_[static_cast<std::size_t>(kind)] += elapsed;
-    }
+    /// Returns the clock that shares the thread's time among stages.
+    [[nodiscard]] StageClock& clock() { return clock_; }
+    [[nodiscard]] const StageClock& clock() const { return clock_; }
     /// Keeps some of `rays` for the replay.
     template <typename Batch>
     void record(RayKind kind, const Batch& rays) {
         recorders_[static_cast<std::size_t>(kind)].offer(rays);
-        skip();
+        clock_.skip();
     }
     /// `count` rays of a kind met something.
     void count_hits(RayKind kind, std::uint64_t count) { hits_[kind] += count; }
@@ -110,12 +94,6 @@ class WaveProfile {
     /// Adds the profile of another thread.
     void add(const WaveProfile& other);
 
-    [[nodiscard]] double seconds(Stage stage) const;
-    [[nodiscard]] double seconds(RayKind kind) const {
-        return in_seconds(ticks_of_kind_[static_cast<std::size_t>(kind)]);
-    }
-    /// Returns how many stamps were taken.
-    [[nodiscard]] std::uint64_t stamps() const { return stamps_; }
     [[nodiscard]] std::uint64_t hits(RayKind kind) const { return hits_[kind]; }
     [[nodiscard]] const PathTally& eye_paths() const { return eye_paths_; }
     [[nodiscard]] const PathTally& light_paths() const { return light_paths_; }
@@ -124,26 +102,8 @@ class WaveProfile {
     [[nodiscard]] const SampleUse& use() const { return use_; }
     [[nodiscard]] const RayRecorder& recorder(RayKind kind) const { return recorders_[static_cast<std::size_t>(kind)]; }
 
-    /// Measures how many seconds of the processor one stamp takes.
-    [[nodiscard]] static double seconds_per_stamp();
-
   private:
-    [[nodiscard]] std::uint64_t lap() {
-        const std::uint64_t now = ticks_now();
-        ++stamps_;
-        return now - std::exchange(last_, now);
-    }
-    [[nodiscard]] double in_seconds(std::uint64_t ticks) const { return in_seconds(static_cast<double>(ticks)); }
-    [[nodiscard]] double in_seconds(double ticks) const { return scale_.seconds_per_tick() * ticks; }
-
-    TickScale scale_;
-    std::uint64_t last_ = ticks_now();
-    std::uint64_t stamps_ = 0;
-    std::array<std::uint64_t, kStages> ticks_{};
-    std::array<std::uint64_t, kStages> ticks_in_blocks_{};
-    std::uint64_t ticks_of_blocks_ = 0;
-    bool tells_apart_ = false;
-    std::array<std::uint64_t, kRayKinds> ticks_of_kind_{};
+    StageClock clock_;
     RaysByKind hits_;
     PathTally eye_paths_;
     PathTally light_paths_;
@@ -155,7 +115,7 @@ class WaveProfile {
 /// Adds the time since the last stamp to `stage`, where there is a profile.
 inline void stamp(WaveProfile* profile, Stage stage) {
     if (profile != nullptr) [[unlikely]]
-        profile->stamp(stage);
+        profile->clock().stamp(stage);
 }
 
 }  // namespace etendue

@@ -18,7 +18,7 @@ class ConnectibleVertices {
     /// Collects the connectible vertices of `wave`, whose subpaths are from `end`, in their order, and draws their
     /// numbers.
     void collect(const SubpathJob& job, SubpathEnd end, const SubpathWave& wave) {
-        vertices_ = wave.connectible_vertices();
+        vertices_ = wave.vertices().connectible();
         keys_.clear();
         for (const ConnectibleVertex& vertex : vertices_) keys_.push_back(job.samples[vertex.slot].key);
         for (std::size_t kind = 0; kind < kKinds.size(); ++kind) {

@@ -28,7 +28,7 @@ class LampsToCamera {
             const float time = job.camera_rays[slot].time;
             const auto view = view_from_camera(world, job.job, emission.sample.position, lens_[slot], time);
             if (!view) continue;
-            const SurfaceEmission emitted = world.surface_emission(emission, view->direction);
+            const SurfaceEmission emitted = world.emitters().surface_emission(emission, view->direction);
             if (is_black(emitted.radiance)) continue;
             const float share = weigh(emission, view->camera, emitted.cosine);
             if (share == 0.0f) continue;
@@ -37,7 +37,7 @@ class LampsToCamera {
             ray.time = time;
             ray.alpha_key = job.connection_key(SubpathEnd::AtLight, 0, slot);
             shares_.clear();
-            if (PathWords& words = subpaths.words(); words.are_followed())
+            if (PathWords& words = subpaths.vertices().words(); words.are_followed())
                 words.end_at_camera(words.light_source(world, emission.light), shares_);
             connections.to_film(ray, slot,
                                 {.position = view->pixel,

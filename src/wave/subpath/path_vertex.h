@@ -23,7 +23,7 @@ struct PathVertex {
     Vec3f position{0.0f};                 ///< metres
     Vec3f wo{0.0f};                       ///< unit, to the vertex before
     std::optional<Scattering> surface{};  ///< none in a medium, nor yet where `matte` is given
-    const Bsdf* matte = nullptr;          ///< of a vertex with a MatteEnd, from which SubpathWave::whole makes it
+    const Bsdf* matte = nullptr;          ///< of a vertex with a MatteEnd, from which SubpathVertices::whole makes it
     Vec3f geometric_normal{0.0f};         ///< unit, on the surface's front
     float clearance = 0.0f;               ///< metres, as in SurfacePoint
     const HomogeneousMedium* outside = nullptr;  ///< medium on the front; null in vacuum
@@ -88,7 +88,7 @@ struct PathVertex {
 /// Holds what the search for connections asks of a vertex that can be connected; the search asks one vertex after the
 /// other, so that these numbers lie side by side.
 struct ConnectibleVertex {
-    std::uint32_t vertex;  ///< its place in SubpathWave::vertices
+    std::uint32_t vertex;  ///< its place in SubpathVertices::all
     std::uint32_t slot;    ///< this and the others as in PathVertex
     int index;
     int next_edges;

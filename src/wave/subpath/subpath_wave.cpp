@@ -11,6 +11,20 @@
 
 namespace etendue {
 
+namespace {
+
+/// Tells `finder` what light the subpath of `state` meets where `ray` ends, at `hit`.
+void find_light(LightFinder& finder, const SubpathState& state, const Ray& ray, const Hit& hit,
+                const ShadedSubpath& path, bool is_first) {
+    if (!hit.valid()) return finder.on_escape(state, ray.direction);
+    if (path.point.material->emits && !(is_first && finder.knows_emission(hit)))
+        finder.on_emitter(state, path.point, ray.direction, path.arrived);
+    if (path.point.material->unlit && !(path.crossing && path.crossing->is_hidden))
+        finder.on_unlit(state, path.point, ray.direction);
+}
+
+}  // namespace
+
 Wavelength SubpathJob::wavelength(std::uint32_t slot) const {
     return world.spectral_response().sample(
         sample_2d(job.sequence, shared_key(job, samples[slot].key), kSubpathWavelengthDimension).x);
@@ -19,16 +33,16 @@ Wavelength SubpathJob::wavelength(std::uint32_t slot) const {
 bool SubpathJob::needs(SubpathEnd end, SubpathDimension which) const {
     switch (which) {
         case SubpathDimension::Medium:
-            return world.has_scattering_bodies();
+            return world.traits().has_scattering_bodies;
         case SubpathDimension::LightChoice:
-            return end == SubpathEnd::AtEye ? world.chooses_lights() : world.has_lens();
+            return end == SubpathEnd::AtEye ? world.traits().chooses_lights : world.traits().has_lens;
         default:
             return true;
     }
 }
 
 std::uint32_t SubpathJob::connection_key(SubpathEnd end, int index, std::uint32_t slot) const {
-    if (!world.has_transparency()) return 0;
+    if (!world.traits().has_transparency) return 0;
     // Another one than that of the subpath's own ray.
     return ~sample_bits(samples[slot].key, subpath_dimension(end, index, SubpathDimension::Alpha));
 }
@@ -40,11 +54,7 @@ void SubpathWave::trace(const SubpathJob& job, int roulette_depth, LightFinder* 
     states_.assign(count, {});
     rays_.assign(job.camera_rays.begin(), job.camera_rays.end());
     interiors_.clear();
-    vertices_.clear();
-    connectible_vertices_.clear();
-    matte_ends_.clear();
-    words_.reset(job.job.aovs);
-    bsdf_count_ = 0;
+    vertices_.reset(job.job.aovs);
     if (end_ == SubpathEnd::AtEye)
         begin_at_eye(job);
     else
@@ -69,14 +79,12 @@ void SubpathWave::trace(const SubpathJob& job, int roulette_depth, LightFinder* 
         states_.resize(kept);
         rays_.resize(kept);
     }
-    words_of_vertices_ = words_.size();
+    vertices_.finish();
 }
 
 std::size_t SubpathWave::bytes() const {
     std::size_t bytes =
-        sizeof *this +
-        vector_bytes(states_, rays_, hits_, interiors_, emissions_, vertices_, connectible_vertices_, matte_ends_) +
-        keys_.bytes() + bsdfs_.size() * sizeof(Bsdf);
+        sizeof *this + vector_bytes(states_, rays_, hits_, interiors_, emissions_) + keys_.bytes() + vertices_.bytes();
     for (const NumberPairs* numbers :
          {&scattering_, &choices_, &medium_, &light_choice_, &triangle_, &position_, &direction_})
         bytes += numbers->bytes();
@@ -84,23 +92,25 @@ std::size_t SubpathWave::bytes() const {
 }
 
 void SubpathWave::begin_at_eye(const SubpathJob& job) {
-    if (job.world.has_bodies()) interiors_.assign(states_.size(), job.world.camera_interior());
+    PathWords& words = vertices_.words();
+    if (job.world.traits().has_bodies) interiors_.assign(states_.size(), job.world.media().camera_interior());
     for (std::size_t i = 0; i < states_.size(); ++i) {
         states_[i].slot = static_cast<std::uint32_t>(i);
         states_[i].from = rays_[i].origin;
-        if (words_.are_followed()) states_[i].words = words_.begin_at_eye();
+        if (words.are_followed()) states_[i].words = words.begin_at_eye();
     }
 }
 
 void SubpathWave::begin_at_lights(const SubpathJob& job) {
     const World& world = job.world;
+    PathWords& words = vertices_.words();
     emissions_.resize(job.samples.size());
     keys_.clear();
     for (const CameraSample& sample : job.samples) keys_.push_back(sample.key);
     const auto draw = [&](std::uint32_t which, NumberPairs& numbers) {
         numbers.draw(job.job.sequence, keys_, kFirstLightDimension + which);
     };
-    if (world.chooses_emitters())
+    if (world.traits().chooses_emitters)
         draw(kEmitterChoice, light_choice_);
     else
         light_choice_.draw_none(keys_.size());
@@ -111,7 +121,7 @@ void SubpathWave::begin_at_lights(const SubpathJob& job) {
     for (std::size_t i = 0; i < job.samples.size(); ++i) {
         const EmissionNumbers u{triangle_[i], position_[i], direction_[i]};
         const Emission& emission = emissions_[i];
-        make_in_place(emissions_[i], [&] { return world.sample_emission(light_choice_[i], u, rays_[i].time); });
+        make_in_place(emissions_[i], [&] { return world.emitters().sample(light_choice_[i], u, rays_[i].time); });
         if (job.lengths.max_depth < edges_to_connect(world) || is_black(emission.weight)) continue;
         const EmissionSample& sample = emission.sample;
         SubpathState state;
@@ -119,12 +129,12 @@ void SubpathWave::begin_at_lights(const SubpathJob& job) {
         state.roulette_scale = 1.0f / max_component(emission.weight);
         state.from = sample.position;
         state.slot = static_cast<std::uint32_t>(i);
-        if (words_.are_followed()) state.words = words_.begin_at_light(words_.light_source(world, emission.light));
+        if (words.are_followed()) state.words = words.begin_at_light(words.light_source(world, emission.light));
         state.departing = leave_light(job.mis(), emission);
         states_[kept] = state;
         rays_[kept] = emission.ray;
         rays_[kept].alpha_key = sample_bits(keys_[i], kFirstLightDimension);
-        if (world.has_bodies()) interiors_.push_back(world.light_interior(emission));
+        if (world.traits().has_bodies) interiors_.push_back(world.emitters().interior(emission));
         ++kept;
     }
     states_.resize(kept);
@@ -142,7 +152,7 @@ void SubpathWave::draw_numbers(const SubpathJob& job) {
     };
     draw(SubpathDimension::Scattering, scattering_);
     draw(SubpathDimension::Choices, choices_);
-    if (job.world.has_bodies()) draw(SubpathDimension::Medium, medium_);
+    if (job.world.traits().has_bodies) draw(SubpathDimension::Medium, medium_);
 }
 
 void SubpathWave::advance_block(const SubpathJob& job, LightFinder* finder, std::size_t first, std::size_t count,
@@ -150,7 +160,7 @@ void SubpathWave::advance_block(const SubpathJob& job, LightFinder* finder, std:
     const World& world = job.world;
     WaveProfile* const profile = job.job.profile;
     surfaces_ = 0;
-    world.fetch_triangles(std::span(hits_).subspan(first, count));
+    world.geometry().fetch_triangles(std::span(hits_).subspan(first, count));
     for (std::size_t k = 0; k < count; ++k) {
         goes_on_[k] = false;
         block_[k].lane = surfaces_;
@@ -164,7 +174,8 @@ void SubpathWave::advance_block(const SubpathJob& job, LightFinder* finder, std:
     stamp(profile, Stage::HitSetup);
     if (finder != nullptr)
         for (std::size_t k = 0; k < count; ++k)
-            if (!goes_on_[k]) find_light(*finder, first + k, block_[k]);
+            if (const std::size_t i = first + k; !goes_on_[k])
+                find_light(*finder, states_[i], rays_[i], hits_[i], block_[k], bounce_ == 1);
     stamp(profile, Stage::Emission);
     std::size_t vertices = 0;
     ends_.fill(PathVertex::kNoVertex);
@@ -191,24 +202,24 @@ bool SubpathWave::set_up(const SubpathJob& job, std::size_t i, ShadedSubpath& pa
         end_path(job, i, PathEnding::Escaped);
         return false;
     }
-    if (world.has_bodies() && scatter_in_medium(job, i)) return false;
-    path.plain = world.plain_bsdf(hits_[i]);
+    if (world.traits().has_bodies && scatter_in_medium(job, i)) return false;
+    path.plain = world.materials().plain_bsdf(hits_[i]);
     if (path.plain != nullptr) {
-        path.point.material = world.material(hits_[i]);
+        path.point.material = world.materials().at(hits_[i]);
         path.crossing.reset();
-        lanes_.set_hit(path.lane, world.hit_triangle(hits_[i]), {hits_[i].u, hits_[i].v});
+        lanes_.set_hit(path.lane, world.geometry().hit_triangle(hits_[i]), {hits_[i].u, hits_[i].v});
         lanes_.wo.set(path.lane, -rays_[i].direction);
         lanes_.albedo.set(path.lane, std::get_if<Diffuse>(path.plain)->albedo);
         lanes_.throughput.set(path.lane, states_[i].throughput);
         return true;
     }
-    make_in_place(path.point, [&] { return world.surface_point(hits_[i], rays_[i], RayCone{}); });
+    make_in_place(path.point, [&] { return world.geometry().surface_point(hits_[i], rays_[i], RayCone{}); });
     path.crossing.reset();
-    if (world.has_bodies() && world.is_boundary(path.point))
+    if (world.traits().has_bodies && world.media().is_boundary(path.point))
         path.crossing.emplace(InPlace{[&] {
             return hits_[i].in_contact
-                       ? world.contact_crossing(path.point, interiors_[i], hits_[i], rays_[i], RayCone{})
-                       : world.crossing(path.point, interiors_[i]);
+                       ? world.media().contact_crossing(path.point, interiors_[i], hits_[i], rays_[i], RayCone{})
+                       : world.media().crossing(path.point, interiors_[i]);
         }});
     return true;
 }
@@ -217,7 +228,7 @@ void SubpathWave::set_up_plain() {
     const auto is_plain = [&](std::uint8_t k) { return block_[k].plain != nullptr; };
     if (std::ranges::none_of(std::span(on_surface_.data(), surfaces_), is_plain)) return;
     lanes_.set_up_points(surfaces_);
-    lanes_.orient(surfaces_, mode());
+    lanes_.orient(surfaces_, mode_of(end_));
 }
 
 void SubpathWave::arrive_at_surfaces(const SubpathJob& job, std::size_t first) {
@@ -243,16 +254,6 @@ void SubpathWave::arrive_at_surfaces(const SubpathJob& job, std::size_t first) {
         if (states_[first + on_surface_[s]].index > 1) block_[on_surface_[s]].arrived = arrivals_[s];
 }
 
-void SubpathWave::find_light(LightFinder& finder, std::size_t i, const ShadedSubpath& path) const {
-    const SubpathState& state = states_[i];
-    const Vec3f& direction = rays_[i].direction;
-    if (!hits_[i].valid()) return finder.on_escape(state, direction);
-    if (path.point.material->emits && !(bounce_ == 1 && finder.knows_emission(hits_[i])))
-        finder.on_emitter(state, path.point, direction, path.arrived);
-    if (path.point.material->unlit && !(path.crossing && path.crossing->is_hidden))
-        finder.on_unlit(state, path.point, direction);
-}
-
 SubpathDensities SubpathWave::arrive(const SubpathJob& job, std::size_t i, const Vec3f& position, double cosine) const {
     const SubpathState& state = states_[i];
     if (state.index > 1)
@@ -260,7 +261,7 @@ SubpathDensities SubpathWave::arrive(const SubpathJob& job, std::size_t i, const
     if (end_ == SubpathEnd::AtLight)
         return arrive_from_light(job.mis(), emissions_[state.slot], state.departing, position, cosine);
     const Vec2f lens = job.samples[state.slot].lens;
-    return arrive_from_lens(job.mis(), state.departing, job.world.connect_to_camera(position, lens, rays_[i].time),
+    return arrive_from_lens(job.mis(), state.departing, job.world.camera().connect(position, lens, rays_[i].time),
                             cosine);
 }
 
@@ -270,13 +271,13 @@ void SubpathWave::sample_bsdfs(std::size_t first, std::size_t vertices) {
         ShadedSubpath& path = block_[on_surface_[v]];
         const std::size_t i = first + on_surface_[v];
         if (path.plain == nullptr) {
-            path.sample = vertices_[path.vertex].surface->sample(choices_[i].x, scattering_[i], mode());
+            path.sample = vertices_[path.vertex].surface->sample(choices_[i].x, scattering_[i], mode_of(end_));
         } else {
             lanes_.u.set(path.lane, scattering_[i]);
             any_plain = true;
         }
     }
-    if (any_plain) lanes_.sample(surfaces_, mode());
+    if (any_plain) lanes_.sample(surfaces_, mode_of(end_));
 }
 
 bool SubpathWave::scatter(const SubpathJob& job, std::size_t i, const Vec3f& position, const Rgb& weight,
@@ -302,7 +303,7 @@ bool SubpathWave::scatter_at_plain(const SubpathJob& job, std::size_t i, const S
     const std::size_t lane = path.lane;
     if (!scatter(job, i, lanes_.position[lane], lanes_.next_weight[lane], false)) return false;
     SubpathState& state = states_[i];
-    if (words_.are_followed()) follow_words(state, matte_event(vertices_[path.vertex].label));
+    if (vertices_.words().are_followed()) vertices_.follow_words(state, matte_event(vertices_[path.vertex].label));
     state.departing =
         depart(job.raised, path.arrived, lanes_.next_pdf[lane], lanes_.reverse_pdf[lane], lanes_.next_cosine[lane]);
     rays_[i].origin = lanes_.next_origin[lane];
@@ -328,13 +329,14 @@ bool SubpathWave::scatter_at_surface(const SubpathJob& job, std::size_t i, const
     const Scattering& scattering = *vertex.surface;
     vertex.is_left_by_delta = sample.is_delta;
     if (sample.is_delta) vertex.delta_reverse_ratio = sample.reverse_ratio;
-    if (words_.are_followed())
-        follow_words(state, surface_event(scattering, sample.wi, sample.is_delta, mode(), vertex.label));
+    if (vertices_.words().are_followed())
+        vertices_.follow_words(state,
+                               surface_event(scattering, sample.wi, sample.is_delta, mode_of(end_), vertex.label));
     if (end_ == SubpathEnd::AtEye && sample.is_transmission) state.roulette_scale *= sample.eta * sample.eta;
     const float cosine = abs_dot(sample.wi, point.geometric_normal);
     state.departing = sample.is_delta ? depart_by_delta(job.raised, path.arrived, vertex.delta_reverse_ratio, cosine)
                                       : depart(job.raised, path.arrived, sample.pdf_solid_angle,
-                                               scattering.reverse_pdf_solid_angle(sample.wi, mode()), cosine);
+                                               scattering.reverse_pdf_solid_angle(sample.wi, mode_of(end_)), cosine);
     ray.origin = offset_origin(point.position, point.geometric_normal, point.clearance, sample.wi);
     ray.direction = sample.wi;
     if (path.crossing) interiors_[i] = beyond(*path.crossing, point, sample.wi);
@@ -354,20 +356,20 @@ void SubpathWave::pass_pane(std::size_t i, const ShadedSubpath& path) {
 bool SubpathWave::scatter_in_medium(const SubpathJob& job, std::size_t i) {
     SubpathState& state = states_[i];
     Ray& ray = rays_[i];
-    const HomogeneousMedium* medium = job.world.medium(interiors_[i]);
+    const HomogeneousMedium* medium = job.world.media().within(interiors_[i]);
     if (medium == nullptr) return false;
     const MediumSample sample = medium->sample(state.throughput, hits_[i].t, medium_[i]);
     state.throughput *= sample.weight;
     if (!sample.scatters) return false;
     if (job.job.profile != nullptr && end_ == SubpathEnd::AtEye) ++job.job.profile->use().phase_samples;
     const Vec3f wo = -ray.direction;
-    PathVertex& vertex = store(state);
+    PathVertex& vertex = vertices_.store(state);
     vertex.position = ray.origin + ray.direction * sample.distance;
     vertex.wo = wo;
     vertex.outside = vertex.inside = medium;
     vertex.densities = arrive(job, i, vertex.position, 1.0);
     vertex.next_edges = state.edges;
-    list_connectible(state, state.edges);
+    vertices_.list_connectible(state, state.edges);
     ray.origin = vertex.position;
     ray.direction = medium->phase.sample(wo, scattering_[i]);
     // Forwards and backwards a phase function has one density.
@@ -376,14 +378,9 @@ bool SubpathWave::scatter_in_medium(const SubpathJob& job, std::size_t i) {
     state.departing = depart(job.raised, vertex.densities, phase, phase, 1.0f);
     state.lights_directly = state.only_delta;
     state.only_delta = false;
-    if (words_.are_followed()) follow_words(state, VertexEvent{});
+    if (vertices_.words().are_followed()) vertices_.follow_words(state, VertexEvent{});
     ++state.index;
     return true;
-}
-
-void SubpathWave::follow_words(SubpathState& state, const VertexEvent& event) {
-    state.words = end_ == SubpathEnd::AtEye ? words_.scatter_from_eye(state.words, event)
-                                            : words_.scatter_from_light(state.words, event);
 }
 
 void SubpathWave::end_path(const SubpathJob& job, std::size_t i, PathEnding ending) const {
@@ -411,7 +408,7 @@ void SubpathWave::keep_survivors(const SubpathJob& job, std::size_t first, std::
         const std::size_t i = first + k;
         const bool survives = choices_[i].y < survival[k];
         if (job.job.profile != nullptr && goes_on_[k] && !survives) end_path(job, i, PathEnding::Roulette);
-        if (job.world.has_transparency())
+        if (job.world.traits().has_transparency)
             rays_[i].alpha_key = sample_bits(keys_[i], subpath_dimension(end_, bounce_, SubpathDimension::Alpha));
         states_[kept] = states_[i];
         states_[kept].throughput *= 1.0f / survival[k];

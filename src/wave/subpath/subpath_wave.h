@@ -11,12 +11,12 @@
 #include "wave/profile/wave_profile.h"
 #include "wave/subpath/arrival_columns.h"
 #include "wave/subpath/matte_lanes.h"
-#include "wave/subpath/path_vertex.h"
+#include "wave/subpath/subpath_state.h"
+#include "wave/subpath/subpath_vertices.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <optional>
 #include <span>
 #include <vector>
@@ -52,25 +52,6 @@ struct SubpathJob {
     [[nodiscard]] std::uint32_t connection_key(SubpathEnd end, int index, std::uint32_t slot) const;
 };
 
-/// Holds a subpath under way; ray and interior stand in arrays of their own.
-struct SubpathState {
-    Rgb throughput{1.0f};
-    /// Multiplies the throughput for Russian roulette: eta² over the refractions of radiance, or one over what a light
-    /// began with.
-    float roulette_scale = 1.0f;
-    Vec3f from{0.0f};  ///< the vertex before
-    DepartingDensities departing;
-    WordRange words;
-    std::uint32_t slot = 0;
-    std::uint32_t last_vertex = PathVertex::kNoVertex;
-    int index = 1;  ///< index of the vertex to come
-    int edges = 1;  ///< edges of the path when its ray has hit; media, panes and hidden boundaries add none
-    bool is_dispersed = false;
-    bool only_delta = true;
-    bool lights_directly = true;  ///< every scattering but the last was a delta
-    bool is_direct = true;        ///< no boundary that another body hides lies between `from` and where the ray is
-};
-
 /// Hears what subpaths from the eye meet.
 class LightFinder {
   public:
@@ -89,7 +70,7 @@ class LightFinder {
 /// A subpath whose ray has hit a surface, between the stages of its shading.
 struct ShadedSubpath {
     SurfacePoint point;           ///< of a plain surface, its material only
-    const Bsdf* plain = nullptr;  ///< see World::plain_bsdf: shaded with others at once, in `MatteLanes`
+    const Bsdf* plain = nullptr;  ///< see Materials::plain_bsdf: shaded with others at once, in `MatteLanes`
     std::size_t lane = 0;         ///< there
     SubpathDensities arrived;
     std::optional<Crossing> crossing;
@@ -100,8 +81,9 @@ struct ShadedSubpath {
 
 class SubpathWave {
   public:
-    /// `makes_matte_ends`: whether `matte_end` will be asked.
-    SubpathWave(SubpathEnd end, bool makes_matte_ends) : end_(end), makes_matte_ends_(makes_matte_ends) {}
+    /// `makes_matte_ends`: whether `SubpathVertices::matte_end` will be asked.
+    SubpathWave(SubpathEnd end, bool makes_matte_ends)
+        : end_(end), makes_matte_ends_(makes_matte_ends), vertices_(end, makes_matte_ends) {}
 
     /// Traces the subpath of each sample. From `roulette_depth` edges on Russian roulette may end it. Vertices of
     /// former calls are gone. `finder` may be null for lights. Rays are counted in `light`.
@@ -112,23 +94,9 @@ class SubpathWave {
 
     /// Returns where the subpaths from lights began, by slot.
     [[nodiscard]] std::span<const Emission> emissions() const { return emissions_; }
-    /// Returns the vertices of all slots, in the order of their bounces; their surfaces may be missing, see `whole`.
-    [[nodiscard]] std::span<const PathVertex> vertices() const { return vertices_; }
-    /// Returns the vertices that can be connected, in the order of `vertices`.
-    [[nodiscard]] std::span<const ConnectibleVertex> connectible_vertices() const { return connectible_vertices_; }
-    /// Returns one of `vertices` with its surface, which few connections of plain matte vertices ask for.
-    [[nodiscard]] const PathVertex& whole(std::uint32_t vertex);
-    [[nodiscard]] const PathVertex& whole(const ConnectibleVertex& vertex) { return whole(vertex.vertex); }
-    /// Returns what connections need of `vertex`, if it lies on a plain matte surface in vacuum and its light is still
-    /// of all wavelengths; otherwise, or where floats do not hold its densities, an end that does not exist.
-    [[nodiscard]] const MatteEnd& matte_end(const ConnectibleVertex& vertex) const {
-        return matte_ends_[vertex.vertex];
-    }
-    /// Returns the words of the subpaths as they arrive at their vertices.
-    [[nodiscard]] PathWords& words() { return words_; }
-    /// Returns the words of a subpath that goes on from `vertex` along `w`, for a connection; they last until the next
-    /// call for this wave.
-    [[nodiscard]] WordRange words_after(const PathVertex& vertex, const Vec3f& w);
+    /// Returns the vertices of all slots, in the order of their bounces.
+    [[nodiscard]] SubpathVertices& vertices() { return vertices_; }
+    [[nodiscard]] const SubpathVertices& vertices() const { return vertices_; }
 
   private:
     void begin_at_eye(const SubpathJob& job);
@@ -146,13 +114,8 @@ class SubpathWave {
     void set_up_plain();
     /// Computes with which densities the block's subpaths arrive at surfaces.
     void arrive_at_surfaces(const SubpathJob& job, std::size_t first);
-    /// Tells `finder` what light subpath `i` meets where its ray ends.
-    void find_light(LightFinder& finder, std::size_t i, const ShadedSubpath& path) const;
     /// Stores the vertex, if the subpath may have one more; false if it ends, or only passes through.
     bool make_vertex(const SubpathJob& job, std::size_t i, ShadedSubpath& path);
-    /// Puts `vertex` where the surface is; unless that is plain, with lobes for the index `relative_ior` as in
-    /// World::bsdf.
-    void place(const World& world, const ShadedSubpath& path, float relative_ior, PathVertex& vertex);
     /// Gives the lane of the vertex just stored, which is plain, a place for its MatteEnd and `end_fewer`; false if the
     /// vertex has no such end.
     bool make_matte_end(const SubpathJob& job, const ShadedSubpath& path, const PathVertex& vertex);
@@ -176,17 +139,6 @@ class SubpathWave {
     void keep_survivors(const SubpathJob& job, std::size_t first, std::size_t count, std::size_t& kept);
     /// Tells the profile, if there is one, of the end of eye subpath `i`.
     void end_path(const SubpathJob& job, std::size_t i, PathEnding ending) const;
-    /// Takes the subpath's words past a vertex.
-    void follow_words(SubpathState& state, const VertexEvent& event);
-    /// Stores the next vertex, with what `state` knows of it.
-    PathVertex& store(SubpathState& state);
-    /// Puts the vertex just stored among those that can be connected. `state` is the subpath's before it scatters.
-    void list_connectible(const SubpathState& state, int next_edges);
-
-    [[nodiscard]] TransportMode mode() const {
-        return end_ == SubpathEnd::AtEye ? TransportMode::Radiance : TransportMode::Importance;
-    }
-
     SubpathEnd end_;
     bool makes_matte_ends_;
     int bounce_ = 0;
@@ -209,14 +161,7 @@ class SubpathWave {
     // By slot.
     NumberPairs light_choice_, triangle_, position_, direction_;  ///< of where subpaths from lights begin
     std::vector<Emission> emissions_;
-    std::vector<PathVertex> vertices_;
-    std::vector<ConnectibleVertex> connectible_vertices_;
-    std::vector<MatteEnd> matte_ends_;
-    PathWords words_;
-    std::size_t words_of_vertices_ = 0;  ///< the others are of the last connection
-    // Lobes that vertices point to; it only grows, so that they stay where they are.
-    std::deque<Bsdf> bsdfs_;
-    std::size_t bsdf_count_ = 0;
+    SubpathVertices vertices_;
 };
 
 }  // namespace etendue

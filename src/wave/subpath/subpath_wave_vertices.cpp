@@ -34,22 +34,28 @@ bool SubpathWave::make_vertex(const SubpathJob& job, std::size_t i, ShadedSubpat
         state.is_dispersed = state.is_dispersed || crossing->disperses();
         relative_ior = crossing->relative_ior(state.is_dispersed ? job.wavelength(state.slot).nm : 0.0f);
     }
-    path.vertex = static_cast<std::uint32_t>(vertices_.size());
-    PathVertex& vertex = store(state);
+    path.vertex = static_cast<std::uint32_t>(vertices_.all().size());
+    PathVertex& vertex = vertices_.store(state);
     vertex.wo = -ray.direction;
-    vertex.label = words_.label(world, point);
+    vertex.label = vertices_.words().label(world, point);
     vertex.densities = path.arrived;
     vertex.next_edges = state.edges + 1;
-    place(world, path, relative_ior, vertex);
+    if (path.plain == nullptr) {
+        vertices_.place(world, point, relative_ior, vertex);
+    } else {
+        vertex.position = lanes_.position[path.lane];
+        vertex.geometric_normal = lanes_.geometric_normal[path.lane];
+        vertex.clearance = lanes_.clearance[path.lane];
+    }
     if (vertex.is_connectible && !path.ends_here) {
         vertex.merges = merge_at(job.mis(), state.departing, vertex.position, path.arrived);
         vertex.densities = path.arrived;
     }
-    if (world.has_bodies()) {
-        vertex.outside = world.medium(crossing ? crossing->outside : interiors_[i]);
-        vertex.inside = crossing ? world.medium(crossing->inside) : vertex.outside;
+    if (world.traits().has_bodies) {
+        vertex.outside = world.media().within(crossing ? crossing->outside : interiors_[i]);
+        vertex.inside = crossing ? world.media().within(crossing->inside) : vertex.outside;
     }
-    if (vertex.is_connectible && !path.ends_here) list_connectible(state, state.edges + 1);
+    if (vertex.is_connectible && !path.ends_here) vertices_.list_connectible(state, state.edges + 1);
     if (path.plain != nullptr) {
         if (make_matte_end(job, path, vertex))
             vertex.matte = path.plain;
@@ -61,25 +67,6 @@ bool SubpathWave::make_vertex(const SubpathJob& job, std::size_t i, ShadedSubpat
     if (point.material->is_pane) return true;
     end_path(job, i, PathEnding::TooLong);
     return false;
-}
-
-void SubpathWave::place(const World& world, const ShadedSubpath& path, float relative_ior, PathVertex& vertex) {
-    if (path.plain != nullptr) {
-        vertex.position = lanes_.position[path.lane];
-        vertex.geometric_normal = lanes_.geometric_normal[path.lane];
-        vertex.clearance = lanes_.clearance[path.lane];
-        return;
-    }
-    const SurfacePoint& point = path.point;
-    vertex.position = point.position;
-    vertex.geometric_normal = point.geometric_normal;
-    vertex.clearance = point.clearance;
-    if (bsdf_count_ == bsdfs_.size()) bsdfs_.emplace_back();
-    Bsdf& storage = bsdfs_[bsdf_count_];
-    const Bsdf& bsdf = world.bsdf(point, vertex.wo, relative_ior, storage);
-    if (&bsdf == &storage) ++bsdf_count_;
-    vertex.surface.emplace(bsdf, point.shading, point.geometric_normal, vertex.wo);
-    vertex.is_connectible = vertex.surface->has_non_delta();
 }
 
 bool SubpathWave::make_matte_end(const SubpathJob& job, const ShadedSubpath& path, const PathVertex& vertex) {
@@ -96,45 +83,8 @@ bool SubpathWave::make_matte_end(const SubpathJob& job, const ShadedSubpath& pat
 void SubpathWave::store_matte_ends() {
     std::array<MatteEnd*, kBlock> ends;
     for (std::size_t lane = 0; lane < surfaces_; ++lane)
-        ends[lane] = ends_[lane] == PathVertex::kNoVertex ? nullptr : &matte_ends_[ends_[lane]];
+        ends[lane] = ends_[lane] == PathVertex::kNoVertex ? nullptr : &vertices_.matte_end_at(ends_[lane]);
     lanes_.store_ends(std::span(ends).first(surfaces_));
-}
-
-PathVertex& SubpathWave::store(SubpathState& state) {
-    PathVertex& vertex = vertices_.emplace_back();
-    if (makes_matte_ends_) matte_ends_.emplace_back();
-    vertex.throughput = state.throughput;
-    vertex.words = state.words;
-    vertex.slot = state.slot;
-    vertex.previous = state.last_vertex;
-    vertex.index = state.index;
-    vertex.is_dispersed = state.is_dispersed;
-    vertex.is_reached_directly = state.is_direct;
-    vertex.is_seen_directly = state.only_delta;
-    state.last_vertex = static_cast<std::uint32_t>(vertices_.size() - 1);
-    state.is_direct = true;
-    return vertex;
-}
-
-void SubpathWave::list_connectible(const SubpathState& state, int next_edges) {
-    connectible_vertices_.push_back({static_cast<std::uint32_t>(vertices_.size() - 1), state.slot, state.index,
-                                     next_edges, state.only_delta, state.is_dispersed});
-}
-
-const PathVertex& SubpathWave::whole(std::uint32_t index) {
-    PathVertex& vertex = vertices_[index];
-    if (vertex.matte != nullptr && !vertex.surface) {
-        const MatteEnd& end = matte_ends_[index];
-        vertex.surface.emplace(*vertex.matte, Frame::from_normal(end.normal), end.geometric_normal, vertex.wo);
-    }
-    return vertex;
-}
-
-WordRange SubpathWave::words_after(const PathVertex& vertex, const Vec3f& w) {
-    words_.shrink_to(words_of_vertices_);
-    return end_ == SubpathEnd::AtEye
-               ? words_.scatter_from_eye(vertex.words, vertex.event(w, TransportMode::Radiance))
-               : words_.scatter_from_light(vertex.words, vertex.event(w, TransportMode::Importance));
 }
 
 }  // namespace etendue

@@ -1,68 +1,11 @@
-// What is counted and timed of waves.
+// What is counted of waves.
 #include "wave/profile/wave_profile.h"
-
-#include <chrono>
-#include <thread>
 
 #include <gtest/gtest.h>
 
 namespace etendue::test {
 
 namespace {
-
-void wait() {
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-}
-
-TEST(WaveProfile, TimeBelongsToTheStageThatEnds) {
-    WaveProfile profile(0);
-    profile.skip();
-    wait();
-    profile.stamp(Stage::Textures);
-    wait();
-    profile.skip();
-    wait();
-    profile.stamp(Stage::Occluded, RayKind::Shadow);
-    EXPECT_GE(profile.seconds(Stage::Textures), 0.0019);
-    EXPECT_GE(profile.seconds(Stage::Occluded), 0.0019);
-    EXPECT_NEAR(profile.seconds(Stage::Occluded), profile.seconds(RayKind::Shadow), 1e-4);
-    EXPECT_EQ(profile.seconds(RayKind::Bounce), 0.0);
-    EXPECT_EQ(profile.seconds(Stage::Film), 0.0);
-    EXPECT_EQ(profile.stamps(), 2u) << "what is skipped is no stage";
-}
-
-TEST(WaveProfile, BlocksWhoseStagesAreNotToldApartHaveThoseOfOthers) {
-    WaveProfile profile(0);
-    profile.skip();
-    EXPECT_TRUE(profile.start_block());
-    wait();
-    profile.stamp_in_block(Stage::Numbers);
-    wait();
-    wait();
-    profile.stamp_in_block(Stage::Material);
-    const double numbers = profile.seconds(Stage::Numbers);
-    const double material = profile.seconds(Stage::Material);
-    EXPECT_FALSE(profile.start_block());
-    for (int i = 0; i < 6; ++i) wait();
-    profile.stamp_block();
-    const double of_both = profile.seconds(Stage::Numbers) + profile.seconds(Stage::Material);
-    EXPECT_GE(of_both, numbers + material + 0.0119);
-    // How long ticks are is measured anew each time.
-    constexpr double kTolerance = 0.05;
-    EXPECT_NEAR(profile.seconds(Stage::Numbers) / of_both, numbers / (numbers + material), kTolerance);
-    EXPECT_EQ(profile.seconds(Stage::Film), 0.0);
-    EXPECT_TRUE(profile.start_block());
-    EXPECT_EQ(profile.stamps(), 3u);
-    WaveProfile other(0);
-    other.add(profile);
-    EXPECT_NEAR(other.seconds(Stage::Numbers) / other.seconds(Stage::Material), numbers / material, kTolerance);
-}
-
-TEST(WaveProfile, AStampTakesLessThanAMicrosecond) {
-    const double seconds = WaveProfile::seconds_per_stamp();
-    EXPECT_GT(seconds, 0.0);
-    EXPECT_LT(seconds, 1e-6);
-}
 
 TEST(WaveProfile, PathsEndWithTheirLengths) {
     WaveProfile profile(0);

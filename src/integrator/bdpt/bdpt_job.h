@@ -1,0 +1,34 @@
+// What a wave of bidirectional path tracing is traced for.
+#pragma once
+
+#include "integrator/bdpt/matte_connections.h"
+#include "scene/integrator_settings.h"
+#include "transport/strategy_sums.h"
+#include "wave/subpath/subpath_wave.h"
+
+namespace etendue {
+
+/// Returns the weight of a path among all strategies that could have made it, if settings ask for weights.
+[[nodiscard]] inline float strategy_weight(const IntegratorSettings& settings, const StrategySums& sums) {
+    return settings.weighted ? static_cast<float>(sums.weight()) : 1.0f;
+}
+
+/// Adds to what subpaths are traced for how they are connected.
+struct BdptJob : SubpathJob {
+    const IntegratorSettings& settings;
+
+    /// True if the vertex may be connected to those of other samples: each sample has a time and a wavelength of
+    /// its own.
+    [[nodiscard]] bool is_shared(const ConnectibleVertex& vertex) const {
+        return settings.cached_connections > 0 && !world.traits().has_motion && !vertex.is_dispersed;
+    }
+    [[nodiscard]] bool wants(int edges) const { return edges >= lengths.min_depth && edges <= lengths.max_depth; }
+    [[nodiscard]] bool wants(const Strategy& strategy) const {
+        return !settings.strategy || *settings.strategy == strategy;
+    }
+    [[nodiscard]] WeightRule rule() const { return {raised, settings.weighted}; }
+    /// Returns `strategy_weight` by the settings.
+    [[nodiscard]] float weight(const StrategySums& sums) const { return strategy_weight(settings, sums); }
+};
+
+}  // namespace etendue

@@ -1,0 +1,85 @@
+#include "integrator/bdpt/met_light.h"
+
+#include "wave/aov/first_hits.h"
+#include "wave/profile/wave_profile.h"
+
+namespace etendue {
+
+namespace {
+
+/// Returns how light that a subpath from the eye meets comes to the eye.
+LightKind kind_of_light_met_by(const SubpathState& state) {
+    if (state.index == kDirectlySeen) return LightKind::Seen;
+    return state.lights_directly ? LightKind::Direct : LightKind::Indirect;
+}
+
+}  // namespace
+
+void MetLight::on_first_hits(std::span<const Ray> rays, std::span<const Hit> hits) {
+    find_first_hits(parts_.job.world, parts_.job.job, parts_.job.samples, rays, hits, parts_.tile);
+    parts_.lamps.note(parts_.job.samples, rays, hits, parts_.counters);
+}
+
+void MetLight::add(const SubpathState& state, const Rgb& light, const StrategySums& sums, const PathLightEnd& end,
+                   const AovSet::Source& source) {
+    const BdptJob& job = parts_.job;
+    PathWords& words = parts_.eye.vertices().words();
+    if (job.job.profile != nullptr && state.index > kDirectlySeen) ++job.job.profile->use().bsdf_met_light;
+    if (!job.wants({.s = 0, .t = state.index + 1})) return;
+    const float share = job.weight(sums);
+    shares_.clear();
+    if (words.are_followed()) words.end_at_light(state.words, source, shares_);
+    parts_.found.add(state.slot,
+                     state.throughput * light * job.wavelength_weight(state.slot, state.is_dispersed) * share,
+                     kind_of_light_met_by(state), shares_);
+    if (parts_.observed.are_seen() && state.index > kDirectlySeen)
+        parts_.observed.show(job, 0, share, end, state.last_vertex);
+}
+
+void MetLight::on_emitter(const SubpathState& state, const SurfacePoint& point, const Vec3f& direction,
+                          const SubpathDensities& arrived) {
+    if (state.edges < parts_.job.lengths.min_depth) return;
+    if (state.only_delta && state.edges > 1 && parts_.lamps.finds_image(parts_.job.samples[state.slot])) return;
+    const World& world = parts_.job.world;
+    const Rgb emitted = world.materials().emission(point, -direction);
+    if (is_black(emitted)) return;
+    StrategySums sums;
+    const std::uint32_t light = world.lights().at(point);
+    const float cos_light = -dot(direction, point.geometric_normal);
+    if (state.index > kDirectlySeen && light != kNone)
+        sums = sums_at_emitter(parts_.job.mis(), state.from, light, point.triangle, direction, cos_light, arrived);
+    else if (state.is_direct && light != kNone)
+        sums = sums_at_seen_emitter(parts_.job.mis(), light, arrived);
+    add(state, emitted, sums,
+        {.light = light,
+         .triangle = point.triangle,
+         .position = point.position,
+         .direction = -direction,
+         .cos_light = cos_light,
+         .is_reached_directly = state.is_direct},
+        parts_.eye.vertices().words().surface_source(point));
+}
+
+void MetLight::on_unlit(const SubpathState& state, const SurfacePoint& point, const Vec3f& direction) {
+    // Only what the eye sees directly or in mirrors shows an unlit surface; it lights nothing.
+    if (state.only_delta && state.edges >= parts_.job.lengths.min_depth)
+        add(state, parts_.job.world.materials().unlit_color(point), {},
+            {.position = point.position, .direction = -direction}, parts_.eye.vertices().words().surface_source(point));
+}
+
+void MetLight::on_escape(const SubpathState& state, const Vec3f& direction) {
+    const World& world = parts_.job.world;
+    const bool is_direct = state.index == kDirectlySeen;
+    if (is_direct && !(world.traits().has_environment && world.traits().environment_visible_to_camera)) {
+        parts_.alpha[state.slot] = 0.0f;
+        return;
+    }
+    if (!world.traits().has_environment || state.edges < parts_.job.lengths.min_depth) return;
+    StrategySums sums;
+    if (!is_direct) sums = sums_at_environment(parts_.job.mis(), state.from, direction, state.departing);
+    add(state, world.environment().radiance(direction), sums,
+        {.light = world.environment().light(), .direction = -direction, .is_reached_directly = state.is_direct},
+        parts_.eye.vertices().words().environment_source());
+}
+
+}  // namespace etendue

@@ -1,0 +1,48 @@
+// Light that subpaths from the eye meet: the strategies without a vertex from the light.
+#pragma once
+
+#include "integrator/bdpt/bdpt_job.h"
+#include "integrator/bdpt/complete_path.h"
+#include "integrator/bdpt/observed_paths.h"
+#include "wave/aov/sample_light.h"
+#include "wave/lamps_in_view.h"
+
+#include <span>
+#include <vector>
+
+namespace etendue {
+
+/// Weighs the light that the eye subpaths of a wave meet, and adds it to their samples.
+class MetLight final : public LightFinder {
+  public:
+    /// Names what light is found for, with what, and where it goes.
+    struct Parts {
+        const BdptJob& job;
+        SubpathWave& eye;
+        LampsInView& lamps;
+        ObservedPaths& observed;
+        SampleLight& found;
+        std::vector<float>& alpha;  ///< by slot, 0 where the eye sees nothing
+        TileBuffer& tile;
+        RenderCounters& counters;
+    };
+
+    explicit MetLight(const Parts& parts) : parts_(parts) {}
+
+    void on_emitter(const SubpathState& state, const SurfacePoint& point, const Vec3f& direction,
+                    const SubpathDensities& arrived) override;
+    void on_unlit(const SubpathState& state, const SurfacePoint& point, const Vec3f& direction) override;
+    void on_escape(const SubpathState& state, const Vec3f& direction) override;
+    void on_first_hits(std::span<const Ray> rays, std::span<const Hit> hits) override;
+    [[nodiscard]] bool knows_emission(const Hit& first_hit) const override { return parts_.lamps.finds(first_hit); }
+
+  private:
+    /// Adds `light` to the sample of `state`, by its weight.
+    void add(const SubpathState& state, const Rgb& light, const StrategySums& sums, const PathLightEnd& end,
+             const AovSet::Source& source);
+
+    Parts parts_;
+    std::vector<ExpressionShare> shares_;  ///< shares of expressions in the light of the path at hand
+};
+
+}  // namespace etendue

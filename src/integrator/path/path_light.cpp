@@ -1,0 +1,335 @@
+#include "integrator/path/path_light.h"
+
+#include "bsdf/gloss.h"
+#include "core/in_place.h"
+#include "core/vector_bytes.h"
+#include "transport/bodies.h"
+#include "transport/connecting_ray.h"
+#include "transport/direct_light.h"
+#include "wave/camera_wave.h"
+
+#include <algorithm>
+
+namespace etendue {
+
+namespace {
+
+/// Returns how light that a path of this `history` meets comes to the eye.
+LightKind kind_of_met_light(std::uint32_t history) {
+    if (path_history::is_seen(history)) return LightKind::Seen;
+    return (history & path_history::kIsDirect) != 0 ? LightKind::Direct : LightKind::Indirect;
+}
+
+}  // namespace
+
+void PathLight::begin(const TileJob& job, std::size_t count, RenderCounters& counters) {
+    found_.reset(count, job, counters.brightest.threshold());
+    alpha_.assign(count, 1.0f);
+}
+
+void PathLight::count_rays(std::size_t active) {
+    if (found_.counts_rays())
+        for (std::size_t i = 0; i < active; ++i) found_.count_ray(paths_.slot[i]);
+}
+
+void PathLight::trace_shadow_rays(const World& world, const TileJob& job, TileBuffer& tile, RenderCounters& counters) {
+    shadow_rays_.resolve(world, job, paths_.samples, found_, tile, counters);
+}
+
+void PathLight::finish(const TileJob& job, std::size_t count, TileBuffer& tile, RenderCounters& counters) {
+    const std::span samples = std::span(paths_.samples).first(count);
+    lamps_.note_radiance(samples, found_);
+    accumulate(job, samples, found_, alpha_, tile, counters);
+}
+
+LightReceiver PathLight::make_receiver(std::size_t k) const {
+    const ShadedPath& path = block_.paths[k];
+    if (!path.is_wide) return light_receiver(block_.lanes.position[k], *block_.singles[k].scattering);
+    const Vec3f wo = block_.lanes.wo[k];
+    const Vec3f normal = block_.lanes.normal[k];
+    LightReceiver receiver(block_.lanes.position[k],
+                           dot(block_.lanes.geometric_normal[k], wo) < 0.0f ? -normal : normal);
+    receiver.wo = wo;
+    if (path.glossy == nullptr) return receiver;
+    const Gloss gloss = gloss_of(*path.glossy, abs_dot(receiver.normal, wo));
+    receiver.glossy = gloss.share;
+    receiver.alpha = gloss.alpha;
+    return receiver;
+}
+
+void PathLight::sample(const PathContext& context, const LaneList& paths, std::uint32_t round) {
+    if (paths.empty()) return;
+    const World& world = context.world;
+    const std::size_t count = paths.size();
+    std::array<Vec2f, PathBlock::kSize> u;
+    for (std::size_t place = 0; place < count; ++place) {
+        const std::size_t k = paths[place];
+        if (!paths_.receivers.empty()) {
+            if (round == 0) paths_.receivers[block_.first + k] = make_receiver(k);
+            receivers_[place] = paths_.receivers[block_.first + k];
+        }
+        u[place] = block_.light_choice[k];
+    }
+    std::array<LightTree::Choice, PathBlock::kSize> choices;
+    world.lights().choose(std::span(receivers_).first(count), std::span(u).first(count),
+                          std::span(choices).first(count));
+    if (context.settings.light_samples > 1)
+        for (std::size_t place = 0; place < count; ++place)
+            share_estimate(choices[place],
+                           paths_.light_samples(context, block_.first + paths[place], path_history::kOnlyDelta));
+    // Places among the paths, by how their lights are sampled.
+    LaneList by_mesh;
+    LaneList by_environment;
+    LaneList singly;
+    std::array<const MeshLight*, PathBlock::kSize> meshes;
+    std::array<Vec3f, PathBlock::kSize> points;
+    for (std::size_t place = 0; place < count; ++place) {
+        const std::size_t k = paths[place];
+        const std::uint32_t light = block_.paths[k].light = choices[place].light;
+        meshes[place] = world.lights().even_mesh(light);
+        points[place] = block_.lanes.position[k];
+        u[place] = block_.light_triangle[k];
+        const bool is_mesh = meshes[place] != nullptr;
+        const bool is_environment = light == world.environment().light();
+        by_mesh.add_if(is_mesh, place);
+        by_environment.add_if(is_environment, place);
+        singly.add_if(!is_mesh && !is_environment, place);
+    }
+    std::array<MeshLight::TriangleChoice, PathBlock::kSize> triangles;
+    MeshLight::choose_triangles(std::span(meshes).first(count), points, u, triangles);
+    for (const std::size_t place : by_mesh) {
+        const std::size_t k = paths[place];
+        const MeshLight& mesh = *meshes[place];
+        block_.lanes.front.set(k, mesh, triangles[place]);
+        block_.lanes.expected_samples.set(k, choices[place].probability);
+        block_.lanes.light_radiance.set(k, mesh.radiance());
+    }
+    if (!by_mesh.empty()) {
+        for (std::size_t l = 0; l < block_.count; l += Wide::kWidth)
+            block_.lanes.u_light.store(l, block_.light_direction.load(l));
+        block_.lanes.sample_mesh_lights(block_.count);
+    }
+    if (!by_environment.empty()) {
+        const std::size_t samples = by_environment.size();
+        for (std::size_t i = 0; i < samples; ++i) u[i] = block_.light_direction[paths[by_environment[i]]];
+        world.environment().sample_light(std::span(u).first(samples), std::span(environment_samples_).first(samples));
+        for (std::size_t i = 0; i < samples; ++i) {
+            const LightTree::Choice& choice = choices[by_environment[i]];
+            ChosenLight& light = block_.lights[paths[by_environment[i]]];
+            light = {environment_samples_[i], choice.probability, choice.light};
+            light.sample.pdf_solid_angle *= choice.probability;
+        }
+    }
+    for (const std::size_t place : singly) {
+        const std::size_t k = paths[place];
+        make_in_place(block_.lights[k],
+                      [&] { return world.lights().sample(choices[place], points[place], block_.light_numbers(k)); });
+    }
+    // What is where those who ask next do not look for it.
+    for (const std::size_t place : by_mesh)
+        if (const std::size_t k = paths[place]; !block_.paths[k].is_wide) take_from_lanes(k);
+    for (const LaneList* list : {&by_environment, &singly})
+        for (const std::size_t place : *list)
+            if (const std::size_t k = paths[place]; block_.paths[k].is_wide) put_into_lanes(k);
+}
+
+void PathLight::take_from_lanes(std::size_t k) {
+    LightSample& light = block_.lights[k].sample;
+    light.wi = block_.lanes.light_wi[k];
+    light.distance = block_.lanes.light_distance[k];
+    light.end = block_.lanes.light_end[k];
+    light.pdf_solid_angle = block_.lanes.light_pdf[k];
+    light.radiance = light.pdf_solid_angle > 0.0f ? block_.lanes.light_radiance[k] : Rgb();
+    light.is_delta = false;
+}
+
+void PathLight::put_into_lanes(std::size_t k) {
+    const LightSample& light = block_.lights[k].sample;
+    block_.lanes.light_wi.set(k, light.wi);
+    block_.lanes.light_distance.set(k, light.distance);
+    block_.lanes.light_end.set(k, light.end);
+    block_.lanes.light_pdf.set(k, light.is_delta ? block_.lights[k].expected_samples : light.pdf_solid_angle);
+    block_.lanes.light_by_chance.set(k, light.is_delta ? 0.0f : 1.0f);
+    block_.lanes.light_radiance.set(k, light.radiance);
+}
+
+void PathLight::evaluate(std::size_t k) {
+    SingleShading& path = block_.singles[k];
+    const LightSample& light = block_.lights[k].sample;
+    if (!is_black(light.radiance)) path.towards_light = path.scattering->evaluate(light.wi, TransportMode::Radiance);
+}
+
+void PathLight::add_environment(const PathContext& context) {
+    const World& world = context.world;
+    const bool is_shown = world.traits().has_environment && world.traits().environment_visible_to_camera;
+    LaneList meeting;
+    std::array<Vec3f, PathBlock::kSize> directions;
+    for (const std::size_t k : block_.escaped) {
+        if (!is_shown && path_history::is_seen(paths_.history[block_.first + k])) {
+            alpha_[paths_.slot[block_.first + k]] = 0.0f;
+            continue;
+        }
+        if (!world.traits().has_environment || paths_.edges(block_.first + k) < context.settings.lengths.min_depth)
+            continue;
+        directions[meeting.size()] = paths_.direction[block_.first + k];
+        meeting.add(k);
+    }
+    if (meeting.empty()) return;
+    if (context.job.profile != nullptr && context.depth > 1)
+        context.job.profile->use().bsdf_met_light += meeting.size();
+    std::array<EnvironmentRadiance, PathBlock::kSize> met;
+    world.environment().look(std::span(directions).first(meeting.size()), std::span(met).first(meeting.size()));
+    for (std::size_t m = 0; m < meeting.size(); ++m) {
+        const std::size_t i = block_.first + meeting[m];
+        float weight = 1.0f;
+        if (const std::uint32_t samples = paths_.samples_of_met_light(context, i); samples > 0)
+            weight = met_light_weight(
+                paths_.pdf_solid_angle[i],
+                world.lights().probability(paths_.receiver(i), world.environment().light()) * met[m].pdf_solid_angle,
+                samples);
+        add(i, met[m].radiance * weight, paths_.words.environment_source());
+    }
+}
+
+void PathLight::add_emission(const PathContext& context, std::size_t k) {
+    const std::size_t i = block_.first + k;
+    const SurfacePoint& point = block_.singles[k].point;
+    if (paths_.edges(i) < context.settings.lengths.min_depth) return;
+    if (context.depth == 1 && lamps_.finds(paths_.hits[i])) return;
+    if (paths_.is(path_history::kOnlyDelta, i) && paths_.edges(i) > 1 &&
+        lamps_.finds_image(paths_.samples[paths_.slot[i]]))
+        return;
+    const Vec3f direction = paths_.direction[i];
+    const Rgb emitted = context.world.materials().emission(point, -direction);
+    if (is_black(emitted)) return;
+    if (context.job.profile != nullptr && context.depth > 1) ++context.job.profile->use().bsdf_met_light;
+    float weight = 1.0f;
+    if (const std::uint32_t samples = paths_.samples_of_met_light(context, i); samples > 0)
+        weight = met_light_weight(paths_.pdf_solid_angle[i],
+                                  context.world.lights().pdf_solid_angle(paths_.receiver(i), point, direction,
+                                                                         paths_.metres_passed(i) + paths_.hits[i].t),
+                                  samples);
+    add(i, emitted * weight, paths_.words.surface_source(point));
+}
+
+void PathLight::queue(const PathContext& context, const LaneList& paths, std::uint32_t round) {
+    block_.lanes.weigh_light(block_.count, paths_, block_.first);
+    if (context.job.profile != nullptr) context.job.profile->use().light_samples += paths.size();
+    if (paths_.words.are_followed() || context.world.traits().has_bodies) {
+        for (const std::size_t k : paths)
+            if (block_.paths[k].is_wide && block_.lanes.arrives[k] != 0.0f) queue_by_lanes(context, k, round);
+    } else {
+        queue_by_lanes(context, round);
+    }
+    for (const std::size_t k : paths)
+        if (!block_.paths[k].is_wide) queue_singly(context, k, round);
+}
+
+void PathLight::queue_by_lanes(const PathContext& context, std::uint32_t round) {
+    const bool has_transparency = context.world.traits().has_transparency;
+    for (std::size_t l = 0; l < block_.count; l += Wide::kWidth) {
+        const std::size_t i = block_.first + l;
+        std::array<std::uint32_t, Wide::kWidth> alpha_keys{};
+        if (has_transparency)
+            for (std::size_t k = l; k < std::min(l + Wide::kWidth, block_.count); ++k)
+                alpha_keys[k - l] = paths_.shadow_alpha_key(context, block_.first + k, round);
+        shadow_rays_.to_sample(
+            {.origin = block_.lanes.shadow_origin.load(l),
+             .direction = block_.lanes.shadow_direction.load(l),
+             .t_max = block_.lanes.shadow_t_max.load(l),
+             .time = paths_.time.load(i),
+             .alpha_key = WideBits::load(alpha_keys.data()),
+             .slot = paths_.slot.load(i),
+             .contribution = block_.lanes.contribution.load(l),
+             .is_direct = paths_.are(path_history::kOnlyDelta, i)},
+            block_.lanes.arrives.load(l) != Wide(0.0f) && block_.lanes.is_wide.load(l) != Wide(0.0f));
+    }
+}
+
+void PathLight::queue_singly(const PathContext& context, std::size_t k, std::uint32_t round) {
+    const SingleShading& path = block_.singles[k];
+    const LightSample& light = block_.lights[k].sample;
+    if (is_black(light.radiance) || is_black(path.towards_light.f_cos)) return;
+    const SurfacePoint& point = path.point;
+    Rgb contribution = paths_.throughput[block_.first + k] * path.towards_light.f_cos * light.radiance *
+                       light_sample_scale(block_.lights[k], path.towards_light.pdf_solid_angle);
+    if (context.world.traits().has_bodies)
+        contribution *= path.wavelength.weight * transmittance(context.world,
+                                                               path.crossing ? beyond(*path.crossing, point, light.wi)
+                                                                             : paths_.interiors[block_.first + k],
+                                                               light.distance);
+    queue(context, k, round,
+          shadow_ray(offset_origin(point.position, point.geometric_normal, point.clearance, light.wi), light),
+          contribution, block_.paths[k].light,
+          paths_.words.are_followed() ? surface_event(*path.scattering, light.wi, false, TransportMode::Radiance,
+                                                      paths_.words.label(context.world, point))
+                                      : VertexEvent{});
+}
+
+void PathLight::queue_by_lanes(const PathContext& context, std::size_t k, std::uint32_t round) {
+    Rgb contribution = block_.lanes.contribution[k];
+    if (context.world.traits().has_bodies)
+        contribution *=
+            transmittance(context.world, paths_.interiors[block_.first + k], block_.lanes.light_distance[k]);
+    Ray ray;
+    ray.origin = block_.lanes.shadow_origin[k];
+    ray.direction = block_.lanes.shadow_direction[k];
+    ray.t_max = block_.lanes.shadow_t_max[k];
+    queue(context, k, round, ray, contribution, block_.paths[k].light,
+          paths_.words.are_followed() ? block_.wide_event(context.world, paths_.words, k, block_.lanes.light_wi[k])
+                                      : VertexEvent{});
+}
+
+LightNumbers PathLight::draw_numbers(const PathContext& context, std::size_t k, std::uint32_t round) const {
+    const SampleKey key = paths_.light_sample_key(context, block_.first + k, round);
+    const auto draw = [&](BounceDimension which) {
+        return sample_2d(context.job.sequence, key, bounce_dimension(context.depth, which));
+    };
+    return {draw(kLightChoice), draw(kLightTriangle), draw(kLightDirection)};
+}
+
+void PathLight::queue_in_medium(const PathContext& context, std::size_t k, const Vec3f& position,
+                                const HomogeneousMedium& medium) {
+    const std::size_t i = block_.first + k;
+    const std::uint32_t samples = paths_.light_samples(context, i, path_history::kOnlyDelta);
+    if (context.job.profile != nullptr) context.job.profile->use().light_samples += samples;
+    for (std::uint32_t round = 0; round < samples; ++round) {
+        const LightNumbers numbers = round == 0 ? block_.light_numbers(k) : draw_numbers(context, k, round);
+        LightTree::Choice choice = context.world.lights().choose(position, numbers.light);
+        share_estimate(choice, samples);
+        const ChosenLight chosen = context.world.lights().sample(choice, position, numbers);
+        const LightSample& light = chosen.sample;
+        if (is_black(light.radiance)) continue;
+        const float phase = medium.phase.pdf_solid_angle(-paths_.direction[i], light.wi);
+        queue(context, k, round, shadow_ray(position, light),
+              paths_.throughput[i] * light.radiance * medium.transmittance(light.distance) *
+                  (phase * light_sample_scale(chosen, phase)),
+              chosen.light, VertexEvent{});
+    }
+}
+
+void PathLight::add(std::size_t i, const Rgb& light, const AovSet::Source& source) {
+    const LightKind kind = kind_of_met_light(paths_.history[i]);
+    shares_.clear();
+    if (paths_.words.are_followed()) paths_.words.end_at_light(paths_.ranges[i], source, shares_);
+    found_.add(paths_.slot[i], paths_.throughput[i] * light, kind, shares_);
+}
+
+void PathLight::queue(const PathContext& context, std::size_t k, std::uint32_t round, Ray ray, const Rgb& contribution,
+                      std::uint32_t light, const VertexEvent& event) {
+    if (is_black(contribution)) return;
+    const std::size_t i = block_.first + k;
+    shares_.clear();
+    if (paths_.words.are_followed())
+        paths_.words.end_at_light(paths_.ranges[i], event, paths_.words.light_source(context.world, light), shares_);
+    ray.time = paths_.time[i];
+    ray.alpha_key = paths_.shadow_alpha_key(context, block_.first + k, round);
+    shadow_rays_.to_sample(ray, paths_.slot[i], contribution,
+                           paths_.is(path_history::kOnlyDelta, i) ? LightKind::Direct : LightKind::Indirect, shares_);
+}
+
+std::size_t PathLight::bytes() const {
+    return found_.bytes() + lamps_.bytes() + shadow_rays_.bytes() + vector_bytes(shares_, alpha_);
+}
+
+}  // namespace etendue

@@ -1,0 +1,90 @@
+// Light that paths meet, and light that is sampled for where they are.
+#pragma once
+
+#include "core/rgb.h"
+#include "integrator/path/path_block.h"
+#include "wave/aov/sample_light.h"
+#include "wave/connections.h"
+#include "wave/lamps_in_view.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace etendue {
+
+/// Finds the light of a wave's paths: what they meet, and what is sampled for them, with the shadow rays that tell
+/// whether it arrives. Where lights are sampled more than once, shadow rays are traced before they are more than a
+/// batch and a block's.
+class PathLight {
+  public:
+    /// Both arguments have to stay where they are.
+    PathLight(WavePaths& paths, PathBlock& block) : paths_(paths), block_(block) {}
+    PathLight(const PathLight&) = delete;
+    PathLight& operator=(const PathLight&) = delete;
+
+    /// Returns the estimate of lamps in view.
+    [[nodiscard]] LampsInView& lamps() { return lamps_; }
+    /// Begins with `count` samples that have found no light yet.
+    void begin(const TileJob& job, std::size_t count, RenderCounters& counters);
+    /// Counts the next ray of all `active` paths, where limits of light ask for that.
+    void count_rays(std::size_t active);
+    /// Returns true if there are enough shadow rays for a batch.
+    [[nodiscard]] bool has_full_batch() const { return shadow_rays_.is_full(); }
+    /// Traces all shadow rays, and adds the light that arrives.
+    void trace_shadow_rays(const World& world, const TileJob& job, TileBuffer& tile, RenderCounters& counters);
+    /// Adds what the first `count` samples have found to `tile`.
+    void finish(const TileJob& job, std::size_t count, TileBuffer& tile, RenderCounters& counters);
+
+    /// Adds the light of the environment to paths of the block that have left the scene.
+    void add_environment(const PathContext& context);
+    /// Adds the light of the surface that path `k` has met.
+    void add_emission(const PathContext& context, std::size_t k);
+    /// Adds `light` that path `i` of the wave has met.
+    void add(std::size_t i, const Rgb& light, const AovSet::Source& source);
+
+    // What is done `round` after round, for another light sample of paths each time.
+    /// Samples a light for each of `paths`.
+    void sample(const PathContext& context, const LaneList& paths, std::uint32_t round);
+    /// Evaluates the BSDF of path `k`, which is not wide, towards its light sample.
+    void evaluate(std::size_t k);
+    /// Queues shadow rays from `paths` to the lights that the block has sampled.
+    void queue(const PathContext& context, const LaneList& paths, std::uint32_t round);
+    /// Samples all lights of path `k`, which `medium` has scattered at `position`, and queues the shadow rays.
+    void queue_in_medium(const PathContext& context, std::size_t k, const Vec3f& position,
+                         const HomogeneousMedium& medium);
+
+    [[nodiscard]] std::size_t bytes() const;
+
+  private:
+    /// Returns what a light is chosen for at the surface of path `k`.
+    [[nodiscard]] LightReceiver make_receiver(std::size_t k) const;
+    // The sample of path `k`, from the lanes or to them.
+    void take_from_lanes(std::size_t k);
+    void put_into_lanes(std::size_t k);
+    void queue_singly(const PathContext& context, std::size_t k, std::uint32_t round);
+    void queue_by_lanes(const PathContext& context, std::size_t k, std::uint32_t round);
+    /// Queues the shadow rays of all paths that are wide, at once, where no words are followed and there are no bodies.
+    void queue_by_lanes(const PathContext& context, std::uint32_t round);
+    /// Draws the numbers for the `round`-th light sample of path `k` alone.
+    [[nodiscard]] LightNumbers draw_numbers(const PathContext& context, std::size_t k, std::uint32_t round) const;
+    /// Queues `ray` of path `k` towards `light` with its `contribution`; `event` is how the vertex scatters towards
+    /// that light.
+    void queue(const PathContext& context, std::size_t k, std::uint32_t round, Ray ray, const Rgb& contribution,
+               std::uint32_t light, const VertexEvent& event);
+
+    WavePaths& paths_;
+    PathBlock& block_;
+    std::array<LightSample, PathBlock::kSize> environment_samples_{};  ///< light samples of the environment
+    std::array<LightReceiver, PathBlock::kSize> receivers_;            ///< what lights are chosen for, side by side
+    std::vector<ExpressionShare> shares_;  ///< shares of expressions in the contribution at hand
+    Connections shadow_rays_{RayKind::Shadow};
+    LampsInView lamps_;
+    // By slot, that is, by camera sample.
+    SampleLight found_;
+    std::vector<float> alpha_;
+};
+
+}  // namespace etendue

@@ -1,0 +1,178 @@
+#include "integrator/path/path_places.h"
+
+#include "core/in_place.h"
+
+#include <cmath>
+
+namespace etendue {
+
+void PathPlaces::set_up(const PathContext& context) {
+    const World& world = context.world;
+    for (LaneList* list : {&block_.escaped, &block_.on_emitter, &block_.on_hidden, &block_.on_surface}) list->clear();
+    LaneList has_hit;
+    for (std::size_t k = 0; k < block_.count; ++k) {
+        const bool is_valid = paths_.hits[block_.first + k].valid();
+        has_hit.add_if(is_valid, k);
+        block_.escaped.add_if(!is_valid, k);
+    }
+    for (const std::size_t k : block_.escaped) paths_.end_path(context, block_.first + k, PathEnding::Escaped);
+    for (const std::size_t k : has_hit) {
+        const std::size_t i = block_.first + k;
+        if (world.traits().has_bodies && scattering_.scatter_in_medium(context, k)) {
+            block_.lanes.goes_on.set(k, 1.0f);
+            continue;
+        }
+        const PlainSurface* const plain = block_.paths[k].plain = world.materials().plain_surface(paths_.hits[i]);
+        if (plain == nullptr && !set_up_any(context, k)) continue;
+        if (paths_.edges(i) < context.settings.lengths.max_depth ||
+            (plain == nullptr && block_.singles[k].point.material->is_pane))
+            block_.on_surface.add(k);
+        else
+            paths_.end_path(context, block_.first + k, PathEnding::TooLong);
+    }
+}
+
+bool PathPlaces::set_up_any(const PathContext& context, std::size_t k) {
+    const World& world = context.world;
+    const std::size_t i = block_.first + k;
+    set_up_singly(context, k);
+    SurfacePoint& point = block_.singles[k].point;
+    if (world.traits().has_bodies && world.media().is_boundary(point))
+        block_.singles[k].crossing.emplace(InPlace{[&] {
+            return paths_.hits[i].in_contact
+                       ? world.media().contact_crossing(point, paths_.interiors[i], paths_.hits[i], paths_.ray(i),
+                                                        paths_.cone(i))
+                       : world.media().crossing(point, paths_.interiors[i]);
+        }});
+    if (point.material->is_pane) block_.panes[k] = {paths_.receiver(i), paths_.metres_passed(i) + paths_.hits[i].t};
+    block_.on_emitter.add_if(point.material->emits, k);
+    if (block_.singles[k].crossing && block_.singles[k].crossing->is_hidden) {
+        block_.on_hidden.add(k);
+        block_.lanes.goes_on.set(k, 1.0f);
+        return false;
+    }
+    if (!point.material->unlit) return true;
+    // Only what the eye sees directly or in mirrors shows an unlit surface; it lights nothing.
+    if (paths_.is(path_history::kOnlyDelta, i) && paths_.edges(i) >= context.settings.lengths.min_depth)
+        light_.add(i, world.materials().unlit_color(point), paths_.words.surface_source(point));
+    paths_.end_path(context, block_.first + k, PathEnding::Unlit);
+    return false;
+}
+
+void PathPlaces::set_up_singly(const PathContext& context, std::size_t k) {
+    const std::size_t i = block_.first + k;
+    block_.paths[k].plain = nullptr;
+    make_in_place(block_.singles[k].point, [&] {
+        return context.world.geometry().surface_point(paths_.hits[i], paths_.ray(i), paths_.cone(i));
+    });
+    block_.singles[k].crossing.reset();
+}
+
+void PathPlaces::set_up_plain(const PathContext& context) {
+    const World& world = context.world;
+    bool any = false;
+    block_.on_texture.clear();
+    for (std::size_t l = 0; l < block_.count; l += Wide::kWidth) {
+        const Imath::Vec3<Wide> direction = paths_.direction.load(block_.first + l);
+        block_.lanes.wo.store(l, {-direction.x, -direction.y, -direction.z});
+    }
+    for (const std::size_t k : block_.on_surface) {
+        const PlainSurface* const plain = block_.paths[k].plain;
+        if (plain == nullptr) continue;
+        any = true;
+        const Hit& hit = paths_.hits[block_.first + k];
+        block_.lanes.set_hit(k, world.geometry().hit_triangle(hit), {hit.u, hit.v});
+        if (paths_.words.are_followed()) block_.singles[k].point.material = world.materials().at(hit);
+        block_.on_texture.add_if(plain->textured != nullptr, k);
+    }
+    if (any) block_.lanes.set_up_points(block_.count);
+    if (block_.on_texture.empty()) return;
+    for (const std::size_t k : block_.on_texture) {
+        const Hit& hit = paths_.hits[block_.first + k];
+        textured_.set_hit(k, world.geometry().hit_coordinates(hit, *block_.paths[k].plain),
+                          std::abs(paths_.cone(block_.first + k).width_at(hit.t)));
+    }
+    textured_.set_up(block_.lanes, block_.count);
+}
+
+void PathPlaces::look_up_textures(const PathContext& context) {
+    if (block_.on_texture.empty()) return;
+    const World& world = context.world;
+    lookups_.clear();
+    for (const std::size_t k : block_.on_texture)
+        world.materials().add_lookups(*block_.paths[k].plain, textured_.uv[k], textured_.footprint(k), lookups_);
+    lookups_.finish();
+    for (const std::size_t k : block_.on_texture) {
+        textured_lobes_[k] = world.materials().lobe(*block_.paths[k].plain, lookups_);
+        if (!textured_lobes_[k].is_plain()) set_up_singly(context, k);
+    }
+}
+
+void PathPlaces::make_scattering(const PathContext& context) {
+    const bool samples_lights = context.samples_lights() && context.world.traits().has_sampled_lights;
+    block_.on_gloss.clear();
+    block_.sampling.clear();
+    for (const std::size_t k : block_.on_surface) {
+        ShadedPath& path = block_.paths[k];
+        block_.set_wide(k, path.plain != nullptr);
+        if (path.is_wide) {
+            const PlainSurface& plain = *path.plain;
+            path.glossy = plain.textured != nullptr ? &textured_lobes_[k] : plain.untextured_lobe();
+            block_.lanes.albedo.set(k, plain.albedo);
+            if (path.glossy != nullptr && paths_.words.are_followed()) make_wide_scattering(k);
+        } else {
+            make_scattering_singly(context, k);
+        }
+        block_.lanes.is_glossy.set(k, path.glossy != nullptr ? 1.0f : 0.0f);
+        block_.on_gloss.add_if(path.glossy != nullptr, k);
+        const int edges = paths_.edges(block_.first + k) + 1;
+        block_.sampling.add_if(samples_lights && edges >= context.settings.lengths.min_depth &&
+                                   edges <= context.settings.lengths.max_depth &&
+                                   (path.is_wide || block_.singles[k].scattering->has_non_delta()),
+                               k);
+    }
+}
+
+void PathPlaces::make_wide_scattering(std::size_t k) {
+    SingleShading& single = block_.singles[k];
+    single.storage = *block_.paths[k].glossy;
+    single.scattering.emplace(single.storage,
+                              Frame{block_.lanes.tangent[k], block_.lanes.bitangent[k], block_.lanes.normal[k]},
+                              block_.lanes.geometric_normal[k], block_.lanes.wo[k]);
+}
+
+void PathPlaces::make_scattering_singly(const PathContext& context, std::size_t k) {
+    const World& world = context.world;
+    const std::size_t i = block_.first + k;
+    ShadedPath& path = block_.paths[k];
+    SingleShading& single = block_.singles[k];
+    const SurfacePoint& point = single.point;
+    const std::optional<Crossing>& crossing = single.crossing;
+    const Vec3f wo = block_.lanes.wo[k];
+    path.glossy = nullptr;
+    block_.lanes.position.set(k, point.position);
+    // Where the index depends on the wavelength, a path of all of them takes one to go on with.
+    single.wavelength = {paths_.wavelength_nm[i], Rgb(1.0f)};
+    single.chooses_wavelength = crossing && crossing->disperses() && paths_.wavelength_nm[i] == 0.0f;
+    if (single.chooses_wavelength)
+        single.wavelength = world.spectral_response().sample(
+            sample_2d(context.job.sequence, paths_.key(i), body_dimension(context.depth, kWavelength)).x);
+    const Bsdf& bsdf = world.materials().bsdf(point, wo, crossing ? crossing->relative_ior(single.wavelength.nm) : 0.0f,
+                                              single.storage);
+    const auto* diffuse = std::get_if<Diffuse>(&bsdf);
+    if (const auto* lobe = std::get_if<MetallicRoughness>(&bsdf); lobe != nullptr && lobe->is_plain() && !crossing)
+        path.glossy = lobe;
+    block_.set_wide(k, path.glossy != nullptr || (diffuse != nullptr && !crossing));
+    if (path.is_wide) {
+        block_.lanes.geometric_normal.set(k, point.geometric_normal);
+        block_.lanes.clearance.set(k, point.clearance);
+        block_.lanes.tangent.set(k, point.shading.tangent);
+        block_.lanes.bitangent.set(k, point.shading.bitangent);
+        block_.lanes.normal.set(k, point.shading.normal);
+        if (diffuse != nullptr) return block_.lanes.albedo.set(k, diffuse->albedo);
+        if (!paths_.words.are_followed()) return;
+    }
+    single.scattering.emplace(bsdf, point.shading, point.geometric_normal, wo);
+}
+
+}  // namespace etendue

@@ -1,0 +1,52 @@
+// Where surfaces and media send paths.
+#pragma once
+
+#include "integrator/path/path_light.h"
+
+#include <cstddef>
+
+namespace etendue {
+
+/// Samples how the surfaces and media that a block's paths are in scatter them, and takes the paths on.
+class PathScattering {
+  public:
+    /// All arguments have to stay where they are.
+    PathScattering(WavePaths& paths, PathBlock& block, PathLight& light)
+        : paths_(paths), block_(block), light_(light) {}
+
+    /// Evaluates towards light samples, and samples, the BSDFs of all paths that are wide and matte.
+    void evaluate_and_sample_matte();
+    /// Evaluates towards light samples, and samples, the BSDFs of all paths that are wide and glossy.
+    void evaluate_and_sample_glossy();
+    /// Samples the BSDF of path `k`, which is not wide.
+    void sample_bsdf(std::size_t k);
+
+    /// Takes path `k` through the medium that its ray is in; true if it scatters there.
+    bool scatter_in_medium(const PathContext& context, std::size_t k);
+    /// Takes path `k` through a boundary that another body hides.
+    void pass_hidden(const PathContext& context, std::size_t k);
+    /// Takes path `k` where the sample of its BSDF says; false if it ends.
+    bool scatter_at_surface(const PathContext& context, std::size_t k);
+    /// Takes all paths that are wide where the samples of their BSDFs say, at once.
+    void scatter_by_lanes(const PathContext& context);
+
+  private:
+    /// Takes path `k` straight through a pane, which is no vertex: light samples pass panes, too.
+    void pass_pane(const PathContext& context, std::size_t k);
+    /// Tells the profile, if there is one, how path `k` scattered.
+    void count_sample(const PathContext& context, std::size_t k, const BsdfSample& sample) const;
+    /// Bends the cone of path `k`, which has arrived as `arriving`, as `sample` does, before the path's ray is changed.
+    void bend_cone(const World& world, std::size_t k, const RayCone& arriving, const Vec3f& geometric_normal,
+                   const BsdfSample& sample);
+    /// Bends the cones of all paths that are wide.
+    void bend_cones(const World& world);
+    /// Returns what the lanes have sampled for path `k`, but for its direction.
+    [[nodiscard]] BsdfSample sample_of_lane(std::size_t k) const;
+
+    WavePaths& paths_;
+    PathBlock& block_;
+    PathLight& light_;
+    GlossyLanes glossy_;
+};
+
+}  // namespace etendue

@@ -1,0 +1,67 @@
+#include "wave/subpath/subpath_vertices.h"
+
+#include "core/vector_bytes.h"
+#include "transport/subpath.h"
+
+namespace etendue {
+
+void SubpathVertices::reset(const AovSet* aovs) {
+    vertices_.clear();
+    connectible_.clear();
+    matte_ends_.clear();
+    words_.reset(aovs);
+    bsdf_count_ = 0;
+}
+
+const PathVertex& SubpathVertices::whole(std::uint32_t place) {
+    PathVertex& vertex = vertices_[place];
+    if (vertex.matte != nullptr && !vertex.surface) {
+        const MatteEnd& end = matte_ends_[place];
+        vertex.surface.emplace(*vertex.matte, Frame::from_normal(end.normal), end.geometric_normal, vertex.wo);
+    }
+    return vertex;
+}
+
+WordRange SubpathVertices::words_after(const PathVertex& vertex, const Vec3f& w) {
+    words_.shrink_to(words_of_vertices_);
+    return scatter(vertex.words, vertex.event(w, mode_of(end_)));
+}
+
+PathVertex& SubpathVertices::store(SubpathState& state) {
+    PathVertex& vertex = vertices_.emplace_back();
+    if (makes_matte_ends_) matte_ends_.emplace_back();
+    vertex.throughput = state.throughput;
+    vertex.words = state.words;
+    vertex.slot = state.slot;
+    vertex.previous = state.last_vertex;
+    vertex.index = state.index;
+    vertex.is_dispersed = state.is_dispersed;
+    vertex.is_reached_directly = state.is_direct;
+    vertex.is_seen_directly = state.only_delta;
+    state.last_vertex = static_cast<std::uint32_t>(vertices_.size() - 1);
+    state.is_direct = true;
+    return vertex;
+}
+
+void SubpathVertices::list_connectible(const SubpathState& state, int next_edges) {
+    connectible_.push_back({static_cast<std::uint32_t>(vertices_.size() - 1), state.slot, state.index, next_edges,
+                            state.only_delta, state.is_dispersed});
+}
+
+void SubpathVertices::place(const World& world, const SurfacePoint& point, float relative_ior, PathVertex& vertex) {
+    vertex.position = point.position;
+    vertex.geometric_normal = point.geometric_normal;
+    vertex.clearance = point.clearance;
+    if (bsdf_count_ == bsdfs_.size()) bsdfs_.emplace_back();
+    Bsdf& storage = bsdfs_[bsdf_count_];
+    const Bsdf& bsdf = world.materials().bsdf(point, vertex.wo, relative_ior, storage);
+    if (&bsdf == &storage) ++bsdf_count_;
+    vertex.surface.emplace(bsdf, point.shading, point.geometric_normal, vertex.wo);
+    vertex.is_connectible = vertex.surface->has_non_delta();
+}
+
+std::size_t SubpathVertices::bytes() const {
+    return vector_bytes(vertices_, connectible_, matte_ends_) + bsdfs_.size() * sizeof(Bsdf);
+}
+
+}  // namespace etendue

@@ -1,0 +1,84 @@
+// What subpaths leave behind.
+#pragma once
+
+#include "bsdf/bsdf.h"
+#include "transport/dimensions.h"
+#include "wave/aov/path_words.h"
+#include "wave/subpath/matte_end.h"
+#include "wave/subpath/path_vertex.h"
+#include "wave/subpath/subpath_state.h"
+#include "world/world.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <span>
+#include <vector>
+
+namespace etendue {
+
+/// Keeps the vertices of a wave of subpaths, in the order of their bounces, with the lobes and words that they point
+/// to, and what connections of plain matte vertices need.
+class SubpathVertices {
+  public:
+    /// `makes_matte_ends`: whether `matte_end` will be asked.
+    SubpathVertices(SubpathEnd end, bool makes_matte_ends) : end_(end), makes_matte_ends_(makes_matte_ends) {}
+
+    /// Forgets all vertices; those to come have the words of `aovs`, which may be null.
+    void reset(const AovSet* aovs);
+    /// Marks the words so far as those of vertices: what comes after them is of connections.
+    void finish() { words_of_vertices_ = words_.size(); }
+
+    /// Returns all vertices; their surfaces may be missing, see `whole`.
+    [[nodiscard]] std::span<const PathVertex> all() const { return vertices_; }
+    /// Returns the vertices that can be connected, in the order of `all`.
+    [[nodiscard]] std::span<const ConnectibleVertex> connectible() const { return connectible_; }
+    /// Returns the vertex at a place in `all` with its surface, which few connections of plain matte vertices ask for.
+    [[nodiscard]] const PathVertex& whole(std::uint32_t place);
+    [[nodiscard]] const PathVertex& whole(const ConnectibleVertex& vertex) { return whole(vertex.vertex); }
+    /// Returns what connections need of `vertex`, if it lies on a plain matte surface in vacuum and its light is still
+    /// of all wavelengths; otherwise, or where floats do not hold its densities, an end that does not exist.
+    [[nodiscard]] const MatteEnd& matte_end(const ConnectibleVertex& vertex) const {
+        return matte_ends_[vertex.vertex];
+    }
+    /// Returns the words of the subpaths as they arrive at their vertices.
+    [[nodiscard]] PathWords& words() { return words_; }
+    /// Returns the words of a subpath that goes on from `vertex` along `w`, for a connection; they last until the next
+    /// call.
+    [[nodiscard]] WordRange words_after(const PathVertex& vertex, const Vec3f& w);
+
+    /// Stores the next vertex, with what `state` knows of it.
+    PathVertex& store(SubpathState& state);
+    /// Puts the vertex just stored among those that can be connected. `state` is the subpath's before it scatters.
+    void list_connectible(const SubpathState& state, int next_edges);
+    /// Puts `vertex` on the surface at `point`, with lobes for the index `relative_ior` as in Materials::bsdf.
+    void place(const World& world, const SurfacePoint& point, float relative_ior, PathVertex& vertex);
+    /// Returns the vertex at a place in `all`.
+    [[nodiscard]] PathVertex& operator[](std::uint32_t place) { return vertices_[place]; }
+    /// Returns where the matte end of the vertex at a place in `all` belongs.
+    [[nodiscard]] MatteEnd& matte_end_at(std::uint32_t place) { return matte_ends_[place]; }
+    /// Takes the words of a subpath past a vertex.
+    void follow_words(SubpathState& state, const VertexEvent& event) { state.words = scatter(state.words, event); }
+
+    [[nodiscard]] std::size_t bytes() const;
+
+  private:
+    /// Returns `words` past a vertex that scatters as `event`.
+    [[nodiscard]] WordRange scatter(const WordRange& words, const VertexEvent& event) {
+        return end_ == SubpathEnd::AtEye ? words_.scatter_from_eye(words, event)
+                                         : words_.scatter_from_light(words, event);
+    }
+
+    SubpathEnd end_;
+    bool makes_matte_ends_;
+    std::vector<PathVertex> vertices_;
+    std::vector<ConnectibleVertex> connectible_;
+    std::vector<MatteEnd> matte_ends_;
+    PathWords words_;
+    std::size_t words_of_vertices_ = 0;  ///< the others are of the last connection
+    // Lobes that vertices point to; it only grows, so that they stay where they are.
+    std::deque<Bsdf> bsdfs_;
+    std::size_t bsdf_count_ = 0;
+};
+
+}  // namespace etendue

@@ -1,0 +1,48 @@
+// What rays are asked and what they meet.
+#pragma once
+
+#include "core/vec.h"
+#include "world/geometry.h"
+
+#include <cstdint>
+
+namespace etendue {
+
+/// Holds the nearest surface along a ray, in 28 bytes.
+struct Hit {
+    float t = 0.0f;            ///< metres along the ray
+    float u = 0.0f, v = 0.0f;  ///< barycentric coordinates of the second and third vertex
+    std::uint32_t triangle = 0;
+    std::uint32_t geometry : 31 = 0;
+    std::uint32_t in_contact : 1 = 0;  ///< there are other surfaces in this place (world/contacts.h)
+    std::uint32_t instance = kNone;    ///< kNone if nothing was hit
+    float time = 0.0f;                 ///< the time of the ray: what moves is hit where it was then
+
+    [[nodiscard]] bool valid() const { return instance != kNone; }
+};
+
+/// Says what is known about the rays of a batch; decides how they are traced, not what they hit.
+enum class Coherence {
+    Coherent,    ///< neighbours have similar origins and directions: camera rays
+    Incoherent,  ///< anything else
+};
+
+/// Answer a ray that asks whether something is in the way.
+inline constexpr std::uint8_t kFree = 0, kOccluded = 1, kPassesPanes = 2;
+
+/// Says how a batch goes through Embree; the default is what measured best for its coherence, and benchmarks compare.
+enum class QueryForm { Best, Single, Packet8, Packet16 };
+
+/// Holds a triangle that was hit, with the normal that its vertices make there; zero where it is flat.
+struct HitTriangle {
+    Vec3f p0, edge1, edge2;
+    Vec3f shading_normal;
+};
+
+/// Holds the texture coordinates of a triangle's first vertex, and their differences to those of the others; zero where
+/// the triangle has none.
+struct HitCoordinates {
+    Vec2f uv0{0.0f, 0.0f}, edge1{0.0f, 0.0f}, edge2{0.0f, 0.0f};
+};
+
+}  // namespace etendue

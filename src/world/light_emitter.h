@@ -1,0 +1,68 @@
+// Light that leaves lights: where light subpaths begin.
+#pragma once
+
+#include "core/ray.h"
+#include "light/emission_sample.h"
+#include "light/light.h"
+#include "world/interior.h"
+#include "world/world_data.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace etendue {
+
+class Materials;
+class Media;
+
+/// Holds the beginning of a light subpath.
+struct Emission {
+    Ray ray;
+    Rgb weight;  ///< radiance and cosine over the densities of origin, direction and choice
+    EmissionSample sample;
+    std::uint32_t light = kNone;
+    float probability = 0;  ///< of choosing this light
+};
+
+/// Holds the emission of a point of a lamp in one direction.
+struct SurfaceEmission {
+    Rgb radiance;         ///< W/(m² sr)
+    float cosine = 0.0f;  ///< between the direction and the surface's normal, >= 0
+};
+
+/// Samples rays that leave lights, which it chooses by power, and tells how densely it does.
+class LightEmitter {
+  public:
+    /// Makes the table of powers; all arguments have to stay where they are.
+    LightEmitter(const WorldData& data, const Materials& materials, const Media& media);
+
+    /// Samples a ray that leaves a light, chosen with `u_light` in [0, 1)²; the ray has the given time.
+    [[nodiscard]] Emission sample(Vec2f u_light, const EmissionNumbers& u, float time) const;
+    /// Evaluates the light that leaves the starting point of `emission` along `direction`; black without a surface.
+    [[nodiscard]] SurfaceEmission surface_emission(const Emission& emission, const Vec3f& direction) const;
+    /// Returns the bodies that a ray starts in that leaves a light.
+    [[nodiscard]] Interior interior(const Emission& emission) const;
+
+    /// Returns the probability with which `sample` chooses the light of this index.
+    [[nodiscard]] float probability(std::uint32_t light) const { return selector_.probability(light); }
+    /// Returns the density of `direction` for rays of `sample` from a given point of the light of this index, 1/sr, or
+    /// for a light at infinity, whose direction is given, that of where they pass, 1/m² across it. `cos_light` is the
+    /// cosine between the direction and the normal of the light's front.
+    [[nodiscard]] float pdf(std::uint32_t light, const Vec3f& direction, float cos_light) const {
+        return emission_pdf(data_.lights[light], direction, cos_light, data_.bounding_sphere());
+    }
+    /// Returns the density per area, 1/m², without the choice, with which `sample` picks a point of the mesh light of
+    /// this index.
+    [[nodiscard]] float pdf_area(std::uint32_t light) const;
+
+    /// Returns the table that chooses.
+    [[nodiscard]] const LightSelector& selector() const { return selector_; }
+
+  private:
+    const WorldData& data_;
+    const Materials& materials_;
+    const Media& media_;
+    LightSelector selector_;
+};
+
+}  // namespace etendue

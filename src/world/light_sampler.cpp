@@ -1,0 +1,51 @@
+#include "world/light_sampler.h"
+
+#include "world/contacts.h"
+#include "world/materials.h"
+#include "world/mesh_emission.h"
+
+namespace etendue {
+
+LightSampler::LightSampler(const WorldData& data, const Materials& materials)
+    : data_(data), materials_(materials), tree_(data.lights, data.bounding_radius()) {}
+
+ChosenLight LightSampler::sample(const LightTree::Choice& choice, const Vec3f& point, const LightNumbers& u) const {
+    const Light& light = data_.lights[choice.light];
+    ChosenLight chosen{sample_light_compensated(light, point, u.triangle, u.direction), choice.probability,
+                       choice.light};
+    LightSample& sample = chosen.sample;
+    sample.pdf_solid_angle *= choice.probability;
+    for (const Vec3f& plane : data_.planes_of(choice.light))
+        sample.end += dot(plane, sample.wi) <= 0.0f ? plane : -plane;
+    if (!is_black(sample.radiance) && has_uneven_emission(data_, choice.light))
+        sample.radiance =
+            mesh_emission(data_, materials_, choice.light, sample.triangle, sample.barycentric, -sample.wi);
+    return chosen;
+}
+
+void LightSampler::choose(std::span<const LightReceiver> receivers, std::span<const Vec2f> u,
+                          std::span<LightTree::Choice> choices) const {
+    tree_.sample(receivers, u, choices);
+    for (const LightTree::Choice& choice : choices) __builtin_prefetch(&data_.lights[choice.light]);
+}
+
+std::uint32_t LightSampler::at(const SurfacePoint& point) const {
+    return data_.light_of_slot[slot_of(data_, point.instance, point.geometry)];
+}
+
+float LightSampler::pdf_solid_angle(const LightReceiver& from, const SurfacePoint& point, const Vec3f& direction,
+                                    float distance) const {
+    const std::uint32_t light = at(point);
+    if (light == kNone) return 0.0f;
+    const float cos_light = -dot(direction, point.geometric_normal);
+    return std::get<MeshLight>(data_.lights[light])
+               .pdf_solid_angle(point.triangle, from.position, distance, cos_light) *
+           probability(from, light);
+}
+
+float LightSampler::gain(std::uint32_t light, std::uint32_t triangle, const Vec3f& point) const {
+    const MeshLight* mesh = std::get_if<MeshLight>(&data_.lights[light]);
+    return mesh != nullptr ? mesh->gain(triangle, point) : 1.0f;
+}
+
+}  // namespace etendue

@@ -1,0 +1,113 @@
+#include "world/media.h"
+
+#include "bsdf/fresnel.h"
+#include "core/position_error.h"
+#include "light/light.h"
+#include "world/contacts.h"
+#include "world/scene_camera.h"
+#include "world/scene_geometry.h"
+
+#include <algorithm>
+#include <map>
+
+namespace etendue {
+
+namespace {
+
+/// Is the middle of the time, [0, 1], in which the shutter is open.
+constexpr float kMiddle = 0.5f;
+
+void set_indices(const WorldData& data, std::uint32_t body, Crossing& crossing) {
+    const Filling& inside = data.fillings[data.filling_of_body[body]];
+    crossing.inside_ior = inside.ior;
+    crossing.inside_dispersion = inside.dispersion;
+    if (const std::uint32_t around = crossing.outside.filling(); around != kNone) {
+        const Filling& outside = data.fillings[data.filling_of_body[around]];
+        crossing.outside_ior = outside.ior;
+        crossing.outside_dispersion = outside.dispersion;
+    }
+}
+
+}  // namespace
+
+float Crossing::relative_ior(float nm) const {
+    return dispersed_ior(inside_ior, inside_dispersion, nm) / dispersed_ior(outside_ior, outside_dispersion, nm);
+}
+
+Media::Media(const WorldData& data, const SceneGeometry& geometry, const SceneCamera& camera)
+    : data_(data), geometry_(geometry) {
+    if (data_.filling_of_body.empty()) return;
+    camera_interior_ = interior_at(camera.generate_ray({0.5f, 0.5f}, {0.5f, 0.5f}, kMiddle).origin);
+    // Where a ray starts that leaves the middle of the light on its front.
+    const EmissionNumbers front{{0.5f, 0.5f}, {0.5f, 0.5f}, {0.25f, 0.5f}};
+    for (const Light& light : data_.lights) {
+        const EmissionSample middle = sample_emission(light, front, data_.bounding_sphere());
+        light_interiors_.push_back(interior_at(middle.origin(middle.direction)));
+    }
+}
+
+Crossing Media::crossing(const SurfacePoint& point, const Interior& current) const {
+    const std::uint32_t body = data_.body_of_slot[slot_of(data_, point.instance, point.geometry)];
+    Crossing crossing{.outside = current, .inside = current};
+    crossing.outside.leave(body);
+    crossing.inside = crossing.outside;
+    crossing.inside.enter(body);
+    crossing.is_hidden = crossing.inside.filling() != body;
+    set_indices(data_, body, crossing);
+    return crossing;
+}
+
+Crossing Media::contact_crossing(SurfacePoint& point, const Interior& current, const Hit& hit, const Ray& ray,
+                                 const RayCone& cone) const {
+    const Contact contact = data_.contacts->at(data_, ray, hit);
+    const ContactInteriors around = interiors(data_, contact, current, ray.direction);
+    const std::uint32_t before = around.before.filling();
+    const std::uint32_t behind = around.behind.filling();
+    // The one of precedence bounds what fills the space.
+    const std::uint32_t body = std::min(before, behind);
+    const ContactFace* const face = before == behind ? nullptr : face_of_body(data_, contact, body);
+    if (face != nullptr) point = contact_point(data_, contact, *face, ray, cone);
+    const bool from_front = dot(ray.direction, point.geometric_normal) < 0.0f;
+    Crossing crossing{.outside = from_front ? around.before : around.behind,
+                      .inside = from_front ? around.behind : around.before,
+                      .is_hidden = face == nullptr};
+    if (!crossing.is_hidden) set_indices(data_, body, crossing);
+    return crossing;
+}
+
+const HomogeneousMedium* Media::medium_of(std::uint32_t body) const {
+    const HomogeneousMedium& medium = data_.fillings[data_.filling_of_body[body]].medium;
+    return medium.is_empty() ? nullptr : &medium;
+}
+
+Interior Media::interior_at(const Vec3f& point) const {
+    // A body that the ray leaves more often than it enters is one that it began in.
+    constexpr int kMostBoundaries = 4096;
+    std::map<std::uint32_t, int> left;
+    Ray ray;
+    ray.origin = point;
+    ray.direction = {0.0f, 1.0f, 0.0f};
+    ray.time = kMiddle;
+    for (int i = 0; i < kMostBoundaries; ++i) {
+        Hit hit;
+        geometry_.intersect({&ray, 1}, {&hit, 1}, Coherence::Incoherent, QueryForm::Single);
+        if (!hit.valid()) break;
+        const SurfacePoint surface = geometry_.surface_point(hit, ray, RayCone{});
+        if (hit.in_contact) {
+            const Contact contact = data_.contacts->at(data_, ray, hit);
+            for (const std::uint32_t body : bodies_of(data_, contact)) {
+                const auto [is_entered, is_left] = passes(data_, contact, body, ray.direction);
+                left[body] += (is_left ? 1 : 0) - (is_entered ? 1 : 0);
+            }
+        } else if (is_boundary(surface)) {
+            left[body_of(data_, hit)] += dot(ray.direction, surface.geometric_normal) > 0.0f ? 1 : -1;
+        }
+        ray.origin = offset_origin(surface.position, surface.geometric_normal, surface.clearance, ray.direction);
+    }
+    Interior interior;
+    for (const auto& [body, count] : left)
+        if (count > 0) interior.enter(body);
+    return interior;
+}
+
+}  // namespace etendue

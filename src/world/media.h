@@ -1,0 +1,58 @@
+// What fills the space between surfaces.
+#pragma once
+
+#include "core/ray.h"
+#include "core/ray_cone.h"
+#include "medium/homogeneous_medium.h"
+#include "world/body.h"
+#include "world/hit.h"
+#include "world/surface_point.h"
+#include "world/world_data.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace etendue {
+
+class SceneCamera;
+class SceneGeometry;
+
+/// Answers which bodies places are in, what media fill these, and how rays cross their boundaries.
+class Media {
+  public:
+    /// Finds the bodies that the camera and the lights are in; all arguments have to stay where they are.
+    Media(const WorldData& data, const SceneGeometry& geometry, const SceneCamera& camera);
+
+    /// Returns whether the surface is that of a body.
+    [[nodiscard]] bool is_boundary(const SurfacePoint& point) const { return point.material->filling != kNone; }
+    /// Returns what a ray from within `current` crosses at a boundary that nothing touches.
+    [[nodiscard]] Crossing crossing(const SurfacePoint& point, const Interior& current) const;
+    /// Returns what `ray`, which comes from within `current` with `cone` around it, crosses where it has hit a boundary
+    /// that others touch. `point` becomes the surface that bounds what fills the space.
+    [[nodiscard]] Crossing contact_crossing(SurfacePoint& point, const Interior& current, const Hit& hit,
+                                            const Ray& ray, const RayCone& cone) const;
+    /// Returns the medium of the body that fills the space within `interior`, null in vacuum and where that body's
+    /// medium is empty.
+    [[nodiscard]] const HomogeneousMedium* within(const Interior& interior) const {
+        return interior.is_empty() ? nullptr : medium_of(interior.filling());
+    }
+    /// Returns the bodies that `point` is in in the middle of the shutter, found by a ray through all that lies above
+    /// it.
+    [[nodiscard]] Interior interior_at(const Vec3f& point) const;
+    /// Returns the bodies that the camera is in.
+    [[nodiscard]] const Interior& camera_interior() const { return camera_interior_; }
+    /// Returns the bodies that a ray starts in that leaves the middle of the light of this index on its front; there
+    /// have to be bodies.
+    [[nodiscard]] const Interior& light_interior(std::uint32_t light) const { return light_interiors_[light]; }
+
+  private:
+    /// Returns the medium of a body, null if it has none.
+    [[nodiscard]] const HomogeneousMedium* medium_of(std::uint32_t body) const;
+
+    const WorldData& data_;
+    const SceneGeometry& geometry_;
+    Interior camera_interior_;
+    std::vector<Interior> light_interiors_;  ///< of each light; only if there are bodies
+};
+
+}  // namespace etendue

@@ -1,0 +1,74 @@
+#include "world/scene_camera.h"
+
+#include "world/motion.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <variant>
+
+namespace etendue {
+
+SceneCamera::SceneCamera(const WorldData& data, const SceneTraits& traits) : data_(data), traits_(traits) {
+    for (const Light& light : data_.lights)
+        if (const auto* mesh = std::get_if<MeshLight>(&light)) lamp_bounds_.push_back(mesh->bounds().box);
+    constexpr std::size_t kMostBounds = 1024;
+    if (lamp_bounds_.size() > kMostBounds) lamp_bounds_ = {data_.bounds};
+}
+
+Camera SceneCamera::at(float time) const {
+    return with_pose(data_.camera, CameraPose::from_matrix(transform_at(data_.camera_motion, time)));
+}
+
+Ray SceneCamera::generate_ray(Vec2f film, Vec2f lens, float time) const {
+    Ray ray = data_.camera_motion.empty() ? etendue::generate_ray(data_.camera, film, lens)
+                                          : etendue::generate_ray(at(time), film, lens);
+    ray.time = time;
+    return ray;
+}
+
+void SceneCamera::generate_rays(std::span<const Vec2f> film, std::span<const Vec2f> lens, std::span<const float> times,
+                                std::span<Ray> rays) const {
+    if (data_.camera_motion.empty()) {
+        etendue::generate_rays(data_.camera, film, lens, rays);
+        for (std::size_t i = 0; i < rays.size(); ++i) rays[i].time = times[i];
+    } else {
+        for (std::size_t i = 0; i < rays.size(); ++i) rays[i] = generate_ray(film[i], lens[i], times[i]);
+    }
+}
+
+CameraConnection SceneCamera::connect(const Vec3f& point, Vec2f lens, float time) const {
+    return data_.camera_motion.empty() ? etendue::connect(data_.camera, point, lens)
+                                       : etendue::connect(at(time), point, lens);
+}
+
+float SceneCamera::depth(const Vec3f& point, float time) const {
+    const CameraPose pose = data_.camera_motion.empty() ? pose_of(data_.camera) : pose_of(at(time));
+    return dot(point - pose.position, pose.forward);
+}
+
+bool SceneCamera::may_show_lamps(Vec2f least, Vec2f most) const {
+    if (traits_.has_motion || traits_.has_lens || traits_.has_unsampled_emitters) return traits_.has_emitting_surfaces;
+    const std::array<Vec2f, 4> corners{least, Vec2f(most.x, least.y), most, Vec2f(least.x, most.y)};
+    const Ray middle = generate_ray((least + most) * 0.5f, Vec2f(0.5f, 0.5f), 0.0f);
+    std::array<Ray, 4> rays;
+    for (std::size_t i = 0; i < rays.size(); ++i) rays[i] = generate_ray(corners[i], Vec2f(0.5f, 0.5f), 0.0f);
+    // Planes through neighbouring corners' rays, whose normals point inwards.
+    std::array<Vec3f, 4> normals;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const Ray& next = rays[(i + 1) % rays.size()];
+        const Vec3f normal = cross(rays[i].direction, next.origin + next.direction - rays[i].origin);
+        normals[i] = dot(normal, middle.origin + middle.direction - rays[i].origin) < 0.0f ? -normal : normal;
+    }
+    return std::ranges::any_of(lamp_bounds_, [&](const Bounds& box) {
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            const Vec3f& n = normals[i];
+            const Vec3f inmost{n.x < 0.0f ? box.min.x : box.max.x, n.y < 0.0f ? box.min.y : box.max.y,
+                               n.z < 0.0f ? box.min.z : box.max.z};
+            if (dot(n, inmost - rays[i].origin) < 0.0f) return false;
+        }
+        return true;
+    });
+}
+
+}  // namespace etendue

@@ -1,0 +1,67 @@
+#include "world/scene_traits.h"
+
+#include "bsdf/bsdf.h"
+#include "bsdf/ggx.h"
+#include "world/embree_scene.h"
+#include "world/light_emitter.h"
+#include "world/light_sampler.h"
+#include "world/media.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <variant>
+
+namespace etendue {
+
+bool is_specular(const Material& material) {
+    if (material.unlit) return false;
+    if (const Bsdf* constant = std::get_if<Bsdf>(&material.model)) return !has_non_delta(*constant);
+    const GltfModel& model = std::get<GltfModel>(material.model);
+    return model.roughness * model.roughness < kSmoothAlpha ||
+           (model.layers && model.layers->clearcoat > 0.0f &&
+            model.layers->clearcoat_roughness * model.layers->clearcoat_roughness < kSmoothAlpha);
+}
+
+SceneTraits find_traits(const WorldData& data, const Media& media, const LightSampler& lights,
+                        const LightEmitter& emitters) {
+    const auto has_surface = [&](const auto& is_such) {
+        return std::ranges::any_of(data.geometries,
+                                   [&](const Geometry& g) { return is_such(data.materials[g.material]); });
+    };
+    const auto has_opposites = [](const Light& light) {
+        const MeshLight* mesh = std::get_if<MeshLight>(&light);
+        return mesh != nullptr && mesh->has_opposites();
+    };
+    SceneTraits traits;
+    traits.has_textures = !data.textures.empty();
+    traits.has_panes = data.panes != nullptr;
+    traits.has_transparency =
+        std::ranges::any_of(data.materials, [](const Material& m) { return m.alpha_test != AlphaTest::Opaque; });
+    traits.has_motion = data.bvh->has_motion() || !data.camera_motion.empty();
+    traits.has_lens = has_lens(data.camera);
+    traits.has_specular_surfaces = has_surface(is_specular);
+    traits.has_unlit_surfaces = has_surface([](const Material& material) { return material.unlit; });
+    traits.has_emitting_surfaces = has_surface([](const Material& material) { return material.emits; });
+    traits.has_unsampled_emitters = data.has_unsampled_emitters;
+
+    traits.has_bodies = !data.filling_of_body.empty();
+    traits.has_scattering_bodies =
+        std::ranges::any_of(data.fillings, [](const Filling& filling) { return filling.medium.scatters(); });
+    traits.has_lights = !emitters.selector().empty();
+    traits.has_delta_lights = std::ranges::any_of(data.lights, is_delta_light);
+    traits.has_sampled_lights = !lights.tree().empty();
+    traits.chooses_lights = lights.tree().has_choice();
+    traits.chooses_lights_by_receiver =
+        lights.tree().depends_on_receiver() || std::ranges::any_of(data.lights, has_opposites);
+    traits.chooses_emitters = emitters.selector().size() > 1;
+    traits.has_environment = data.environment != kNone;
+    traits.environment_visible_to_camera = data.environment_visible;
+    if (traits.has_bodies && traits.has_sampled_lights)
+        for (std::uint32_t light = 0; light < data.lights.size(); ++light) {
+            const HomogeneousMedium* around = media.within(media.light_interior(light));
+            if (around != nullptr && around->scatters()) traits.has_lights_in_media = true;
+        }
+    return traits;
+}
+
+}  // namespace etendue
