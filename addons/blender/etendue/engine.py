@@ -109,8 +109,14 @@ class EtendueRenderEngine(bpy.types.RenderEngine):
         return True
 
     def show_progress(self, progress: Progress) -> None:
-        self.update_stats("", progress.words())
-        self.update_progress(progress.fraction if progress.phase == "render" else 0.0)
+        words = progress.words()
+        if progress.phase == "render":
+            words += f" {progress.fraction:.0%}"
+            self.update_progress(progress.fraction)
+        # Each is a line of Blender's in the background.
+        if words != getattr(self, "words", ""):
+            self.words = words
+            self.update_stats("", words)
 
     def show_preview(self, path: Path, view_layer: bpy.types.ViewLayer, size: tuple[int, int]) -> None:
         """Shows a PNG of what there is, which Blender makes linear: values end at 1 in it."""

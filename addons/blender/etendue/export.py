@@ -206,17 +206,19 @@ def find_motions(scene: Any, view_layer: Any, document: dict[str, Any]) -> tuple
 
 
 def rendered_objects(depsgraph: Any) -> tuple[dict[str, Any], set[str]]:
-    """The objects of the view layer as they are rendered, by name, and the names of all that is shown, instances too."""
-    items, shown = {}, set()
+    """The objects that are rendered, by name, those of instances too; and the names of those that stand in the view layer
+    themselves."""
+    items, single = {}, set()
     for instance in depsgraph.object_instances:
-        if instance.is_instance:
-            if instance.instance_object is not None and instance.show_self:
-                shown.add(instance.instance_object.name)
-        else:
-            items[instance.object.name] = instance.object
-            if instance.show_self:
-                shown.add(instance.object.name)
-    return items, shown
+        if not instance.show_self:
+            continue
+        item = instance.instance_object if instance.is_instance else instance.object
+        if item is None:
+            continue
+        items[item.name] = item.original.evaluated_get(depsgraph)
+        if not instance.is_instance:
+            single.add(item.name)
+    return items, single
 
 
 def is_closed(mesh: Any) -> bool:
@@ -289,24 +291,28 @@ def export_scene(scene: Any, view_layer: Any, depsgraph: Any, folder: Path, prog
         return find_motions(scene, view_layer, glb.read_glb(file)[0]) if moves else ([], {})
 
     times, motions = on_main_thread(operators, is_stopped)
-    items, shown = rendered_objects(depsgraph)
+    items, single = rendered_objects(depsgraph)
     evaluated = depsgraph.scene_eval
     camera = evaluated.camera
     materials = materials_of(items)
-    lamps = [item for name, item in items.items() if name in shown or item.type != "LIGHT"]
+    lamps = [item for name, item in items.items() if item.type == "LIGHT" and name in single]
     written = scene_settings.write(evaluated, lamps, materials,
                                    passes.sources(passes.wanted(view_layer), scene.etendue.denoise),
                                    (times[0], times[-1]) if motions else None, camera)
     document, binary = glb.read_glb(file)
     glb.ensure_camera(document, camera.name)
     glb.give_nodes_their_own(document)
-    glb.leave_out(document, shown)
+    glb.leave_out(document, items)
+    glb.set_spots(document, {item.name: scene_settings.spot_cones(item.data) for item in items.values()
+                             if item.type == "LIGHT" and item.data.type == "SPOT"})
     glb.blend(document, written.blended)
     hidden = {name for name, item in items.items() if item.type in SURFACES and not getattr(item, "visible_camera", True)}
     add_hidden_materials(written.document, glb.hide_from_camera(document, hidden))
     binary = glb.add_motion(document, binary, times, motions)
     glb.write_glb(file, document, binary)
     result = Exported(folder, gltf=document, notes=written.notes)
+    result.notes += [f"lamp '{item.name}': area lamps in instances are not brought over" for name, item in items.items()
+                     if item.type == "LIGHT" and item.data.type == "AREA" and name not in single]
     if written.world_image is not None:
         result.arguments += place_world_image(written.world_image, folder, written.document["environment"])
     # Names that the file has not are errors.

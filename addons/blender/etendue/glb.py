@@ -85,6 +85,16 @@ def leave_out(document: Document, shown: Collection[str]) -> list[str]:
     return left_out
 
 
+def set_spots(document: Document, cones: Mapping[str, tuple[float, float]]) -> None:
+    """Gives the spots of these nodes their inner and outer angles; each node has a lamp of its own."""
+    lamps = document.get("extensions", {}).get(LAMPS, {}).get("lights", [])
+    for node in document.get("nodes", []):
+        lamp = node.get("extensions", {}).get(LAMPS)
+        if lamp is not None and node.get("name") in cones:
+            inner, outer = cones[node["name"]]
+            lamps[lamp["light"]]["spot"] = {"innerConeAngle": inner, "outerConeAngle": outer}
+
+
 def blend(document: Document, materials: Collection[str]) -> None:
     """Gives these materials their alpha, which the exporter keeps for those alone that Eevee blends."""
     for material in document.get("materials", []):

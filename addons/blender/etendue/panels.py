@@ -7,14 +7,18 @@ from collections.abc import Iterator
 import bpy
 
 ENGINE = "ETENDUE"
-# Blender's panels that are for engines without settings of their own, but these, which we have otherwise.
-NOT_OURS = {"VIEWLAYER_PT_filter", "VIEWLAYER_PT_layer_passes", "RENDER_PT_simplify"}
+# Beginnings of the names of Blender's panels for all engines that show what this one does not look at.
+NOT_OURS = ("VIEWLAYER_PT_filter", "VIEWLAYER_PT_layer_passes", "VIEWLAYER_PT_freestyle", "RENDER_PT_simplify",
+            "RENDER_PT_freestyle", "RENDER_PT_stereoscopy", "RENDER_PT_gpencil", "DATA_PT_camera_stereoscopy",
+            "MATERIAL_PT_freestyle", "DATA_PT_lightprobe")
 # Panels of Eevee's and Cycles' that show what this engine reads.
 SHARED = {"EEVEE_MATERIAL_PT_context_material", "EEVEE_MATERIAL_PT_surface", "EEVEE_WORLD_PT_surface", "DATA_PT_EEVEE_light",
           "MATERIAL_PT_preview", "DATA_PT_light", "DATA_PT_spot", "DATA_PT_camera_dof", "DATA_PT_camera_dof_aperture"}
 
 
-class RenderPanel(bpy.types.Panel):
+class RenderPanel:
+    """What all of them share."""
+
     bl_space_type = "PROPERTIES"
     bl_region_type = "WINDOW"
     bl_context = "render"
@@ -30,7 +34,7 @@ class RenderPanel(bpy.types.Panel):
         return self.layout.column()
 
 
-class ETENDUE_RENDER_PT_sampling(RenderPanel):
+class ETENDUE_RENDER_PT_sampling(RenderPanel, bpy.types.Panel):
     bl_label = "Sampling"
 
     def draw(self, context: bpy.types.Context) -> None:
@@ -47,7 +51,7 @@ class ETENDUE_RENDER_PT_sampling(RenderPanel):
         column.prop(settings, "seed")
 
 
-class ETENDUE_RENDER_PT_paths(RenderPanel):
+class ETENDUE_RENDER_PT_paths(RenderPanel, bpy.types.Panel):
     bl_label = "Light Paths"
 
     def draw(self, context: bpy.types.Context) -> None:
@@ -59,7 +63,7 @@ class ETENDUE_RENDER_PT_paths(RenderPanel):
         column.prop(settings, "robust")
 
 
-class ETENDUE_RENDER_PT_caustics(RenderPanel):
+class ETENDUE_RENDER_PT_caustics(RenderPanel, bpy.types.Panel):
     bl_label = "Caustics"
 
     @classmethod
@@ -75,7 +79,7 @@ class ETENDUE_RENDER_PT_caustics(RenderPanel):
             column.prop(settings, "merge_radius")
 
 
-class ETENDUE_RENDER_PT_film(RenderPanel):
+class ETENDUE_RENDER_PT_film(RenderPanel, bpy.types.Panel):
     bl_label = "Film"
 
     def draw(self, context: bpy.types.Context) -> None:
@@ -87,7 +91,7 @@ class ETENDUE_RENDER_PT_film(RenderPanel):
         column.prop(scene.etendue, "preview")
 
 
-class ETENDUE_RENDER_PT_motion_blur(RenderPanel):
+class ETENDUE_RENDER_PT_motion_blur(RenderPanel, bpy.types.Panel):
     bl_label = "Motion Blur"
     bl_options = {"DEFAULT_CLOSED"}
 
@@ -101,7 +105,7 @@ class ETENDUE_RENDER_PT_motion_blur(RenderPanel):
         column.prop(scene.render, "motion_blur_shutter")
 
 
-class ETENDUE_VIEWLAYER_PT_passes(RenderPanel):
+class ETENDUE_VIEWLAYER_PT_passes(RenderPanel, bpy.types.Panel):
     bl_label = "Passes"
     bl_context = "view_layer"
 
@@ -120,7 +124,7 @@ class ETENDUE_VIEWLAYER_PT_passes(RenderPanel):
         column.prop(layer.etendue, "layers")
 
 
-class ETENDUE_OBJECT_PT_visibility(RenderPanel):
+class ETENDUE_OBJECT_PT_visibility(RenderPanel, bpy.types.Panel):
     bl_label = "Visibility"
     bl_context = "object"
     bl_options = {"DEFAULT_CLOSED"}
@@ -131,7 +135,7 @@ class ETENDUE_OBJECT_PT_visibility(RenderPanel):
         column.prop(item, "visible_camera", text="Camera")
 
 
-class ETENDUE_LIGHT_PT_spread(RenderPanel):
+class ETENDUE_LIGHT_PT_spread(RenderPanel, bpy.types.Panel):
     bl_label = "Spread"
     bl_context = "data"
 
@@ -143,7 +147,7 @@ class ETENDUE_LIGHT_PT_spread(RenderPanel):
         self.column().prop(context.light, "spread")
 
 
-class ETENDUE_CAMERA_PT_panorama(RenderPanel):
+class ETENDUE_CAMERA_PT_panorama(RenderPanel, bpy.types.Panel):
     bl_label = "Panorama"
     bl_context = "data"
 
@@ -174,7 +178,7 @@ def shared_panels() -> Iterator[type]:
     """Blender's panels that are to be shown with this engine, too."""
     for panel in bpy.types.Panel.__subclasses__():
         engines = getattr(panel, "COMPAT_ENGINES", ())
-        if panel.__name__ in SHARED or ("BLENDER_RENDER" in engines and panel.__name__ not in NOT_OURS):
+        if panel.__name__ in SHARED or ("BLENDER_RENDER" in engines and not panel.__name__.startswith(NOT_OURS)):
             yield panel
 
 

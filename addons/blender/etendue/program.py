@@ -19,6 +19,8 @@ PREFIXES = ("/usr/local", "/usr", "/opt/etendue", "~/.local")
 UNKNOWN = re.compile(r"^unknown key|there is no source '")
 # What stands behind the file's name in messages, `scene.glb#/nodes/3/mesh: `.
 PLACE = re.compile(r"\S*#/(nodes|meshes|materials|cameras|images|textures)/(\d+)\S*?(?=[:,\s]|$)")
+# The folder of the exported scene, of which users know nothing.
+FOLDER = re.compile(r"\S*/(?=(render\.json|scene\.glb)\b)")
 KINDS = {"nodes": "object", "meshes": "mesh", "materials": "material", "cameras": "camera", "images": "image",
          "textures": "texture"}
 MOST_ROUNDS = 4  # an unknown object hides its keys, which are told of in the next round
@@ -92,8 +94,9 @@ def without(document: Document, pointers: Iterable[str]) -> tuple[Document, list
         words = words_of(pointer)
         if words[0] == "lights" and words[-1] in ("type", "node") and len(words) == 3:
             words = words[:2]
-        if take_out(result, words):
-            dropped.append(".".join(words))
+        taken = take_out(result, words)
+        if taken is not None:
+            dropped.append(f"{words[0]}: {taken}" if words[-1].isdigit() else ".".join(words))
     for section in ("lights", "materials", "cameras", "objects"):
         entries = result.get(section)
         if isinstance(entries, dict):
@@ -110,16 +113,13 @@ def sort_key(pointer: str) -> tuple[str, int]:
     return (head, int(last)) if last.isdigit() else (pointer, -1)
 
 
-def take_out(document: Any, words: list[str]) -> bool:
-    """Removes the place from objects and lists; whether it was there."""
+def take_out(document: Any, words: list[str]) -> Any:
+    """Removes a place from objects and lists, and returns what was there, or None."""
     for word in words[:-1]:
         document = step(document, word)
-        if document is None:
-            return False
     if isinstance(document, list) and words[-1].isdigit() and int(words[-1]) < len(document):
-        del document[int(words[-1])]
-        return True
-    return isinstance(document, dict) and document.pop(words[-1], None) is not None
+        return document.pop(int(words[-1]))
+    return document.pop(words[-1], None) if isinstance(document, dict) else None
 
 
 def step(document: Any, word: str) -> Any:
@@ -137,7 +137,7 @@ def known_part(program: Path, document: Document) -> tuple[Document, list[str]]:
         if not more:
             break
         dropped += more
-    return document, dropped
+    return document, sorted(dropped)
 
 
 def with_names(message: str, gltf: Document) -> str:
@@ -151,16 +151,17 @@ def with_names(message: str, gltf: Document) -> str:
             if users:
                 return f"object '{users[0]}'"
         return f"{KINDS[kind]} '{name}'" if name else match.group(0)
-    return PLACE.sub(named, message)
+    return FOLDER.sub("", PLACE.sub(named, message))
 
 
 def messages_of(stderr: str) -> list[tuple[str, str]]:
-    """What the program has said: kinds (`error`, `warning`, `note`) and texts; lines that go on belong to the one before."""
+    """What the program has said: kinds (`error`, `warning`, `note`) and texts. Lines that go on belong to the one before;
+    those that begin with a path tell of files that were written."""
     found: list[tuple[str, str]] = []
     for line in stderr.splitlines():
         match = re.match(r"(?:\S+: )?(error|warning|note): (.*)", line)
         if match:
             found.append((match.group(1), match.group(2)))
-        elif found and line.strip():
+        elif found and line.strip() and not line.startswith("/"):
             found[-1] = (found[-1][0], f"{found[-1][1]}\n{line.strip()}")
     return found

@@ -10,6 +10,7 @@ from typing import Any
 
 REC709 = "Linear Rec.709 (sRGB)"
 HALF_PI = 0.5 * math.pi
+OLD_SHEEN, OLD_SHEEN_ROUGHNESS = 0.2, 0.3
 
 Document = dict[str, Any]
 
@@ -107,6 +108,15 @@ def lamp(light: Any, matrix: Sequence[Sequence[float]]) -> Document:
     translation, rotation, scale = placed(matrix)
     return {"type": "disk", "radius": 0.5, "translation": translation, "rotation": rotation,
             "scale": [light.size * scale[0], light.size_y * scale[1], 1.0], **result}
+
+
+def spot_cones(light: Any) -> tuple[float, float]:
+    """Inner and outer angle of a spot, from its axis. Cycles fades by a smooth step of the cosine between the rim and a
+    share `spot_blend` of the way to the axis, glTF by a square: over three quarters of that way it fades to as much light."""
+    outer = min(0.5 * light.spot_size, HALF_PI)
+    rim = math.cos(outer)
+    inner = math.acos(min(rim + 0.75 * light.spot_blend * (1.0 - rim), 1.0))
+    return min(inner, outer * (1.0 - 1e-4)), outer
 
 
 def placed(matrix: Sequence[Sequence[float]]) -> tuple[list[float], list[float], list[float]]:
@@ -341,6 +351,9 @@ def principled(material: Any, shader: Any, closed: bool, written: Written) -> Do
         ior = value_of(shader, "IOR", default=1.45)
         if ior is not None:
             result["ior"] = max(ior, 1.0)
+    coat = value_of(shader, "Clearcoat", default=0.0)
+    if coat:
+        result["clearcoat"] = 0.25 * min(coat, 1.0)  # which is what Blender before 4.0 shows of it
     result |= sheen(shader)
     stretch = value_of(shader, "Anisotropic", default=0.0)
     rough = value_of(shader, "Roughness", default=0.5)
@@ -370,7 +383,9 @@ def sheen(shader: Any) -> Document:
         base = value_of(shader, "Base Color") or [1.0, 1.0, 1.0]
         luminance = 0.2126 * base[0] + 0.7152 * base[1] + 0.0722 * base[2]
         hue = [channel / luminance if luminance > 0.0 else 1.0 for channel in base]
-        color, rough = [1.0 + (tint or 0.0) * (channel - 1.0) for channel in hue], 0.5
+        # Disney's sheen, which is that of Blender before 4.0, adds a fifth as much light as glTF's: the means of a ball
+        # under an even sky are then alike.
+        color, rough = [OLD_SHEEN * (1.0 + (tint or 0.0) * (channel - 1.0)) for channel in hue], OLD_SHEEN_ROUGHNESS
     return {"sheen_color": [min(max(weight * channel, 0.0), 1.0) for channel in color],
             "sheen_roughness": 0.5 if rough is None else min(rough, 1.0)}
 

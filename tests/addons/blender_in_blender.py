@@ -1,0 +1,90 @@
+"""What blender_render_test.py runs inside Blender: each function is called by its name, with words from the command line."""
+
+import json
+import sys
+from pathlib import Path
+
+import bpy
+import numpy
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "tools/lab"), str(ROOT / "tests/addons")]
+
+from blender import scenes  # noqa: E402
+
+
+def output(scene, path):
+    settings = scene.render.image_settings
+    settings.file_format, settings.color_depth, settings.exr_codec = "OPEN_EXR_MULTILAYER", "32", "ZIP"
+    scene.render.filepath = str(path)
+
+
+def save(name, blend, image, samples):
+    """A .blend of one of the scenes, with passes, for the command line to render."""
+    scene = scenes.build(name, (96, 72))
+    scenes.set_cycles(scene, int(samples))
+    scene.render.engine = "CYCLES"
+    scene.etendue.samples = int(samples)
+    layer = bpy.context.view_layer
+    for flag in ("use_pass_z", "use_pass_normal", "use_pass_position", "use_pass_uv", "use_pass_diffuse_direct",
+                 "use_pass_diffuse_indirect", "use_pass_diffuse_color", "use_pass_glossy_direct", "use_pass_glossy_indirect",
+                 "use_pass_transmission_direct", "use_pass_transmission_indirect", "use_pass_emit", "use_pass_environment",
+                 "use_pass_cryptomatte_object"):
+        setattr(layer, flag, True)
+    layer.etendue.use_pass_samples = True
+    layer.etendue.layers = "sun=light:Sun"
+    output(scene, image)
+    bpy.ops.wm.save_as_mainfile(filepath=blend)
+
+
+def save_simple(blend, image, change):
+    """A ball under a sky; `change` is a line of Python."""
+    scene = scenes.build("world_color", (64, 48))
+    scene.etendue.samples = 4
+    output(scene, image)
+    exec(change, {"bpy": bpy, "scene": scene, "numpy": numpy})  # pylint: disable=exec-used
+    bpy.ops.wm.save_as_mainfile(filepath=blend)
+
+
+def matte(image):
+    """Writes what the compositor's Cryptomatte node makes of the engine's layers as the image: the matte of the ball."""
+    scene = scenes.build("world_color", (64, 48))
+    scenes.set_etendue(scene, 16)
+    bpy.context.view_layer.use_pass_cryptomatte_object = True
+    scene.use_nodes = True
+    tree = scene.node_tree
+    composite = next(node for node in tree.nodes if node.type == "COMPOSITE")
+    node = tree.nodes.new("CompositorNodeCryptomatteV2")
+    bpy.ops.render.render()  # after which the node knows the layers and the names in them
+    node.matte_id = "Ball"
+    tree.links.new(node.outputs["Matte"], composite.inputs["Image"])
+    settings = scene.render.image_settings
+    settings.file_format, settings.color_depth, settings.exr_codec = "OPEN_EXR", "32", "ZIP"
+    scene.render.filepath = image
+    bpy.ops.render.render(write_still=True)
+
+
+def panels(answer):
+    """Panels that are drawn with the engine, and those of them that have errors: the draw functions run once."""
+    import addon_utils
+    bpy.context.scene.render.engine = "ETENDUE"
+    names = sorted(panel.__name__ for panel in bpy.types.Panel.__subclasses__() if "ETENDUE" in getattr(panel, "COMPAT_ENGINES", ()))
+    addon_utils.disable("etendue")
+    left = [panel.__name__ for panel in bpy.types.Panel.__subclasses__() if "ETENDUE" in getattr(panel, "COMPAT_ENGINES", ())
+            and panel.is_registered]
+    addon_utils.enable("etendue")
+    Path(answer).write_text(json.dumps({"names": names, "left": left}))
+
+
+def units():
+    """The tests that need no Blender, with the numpy of Blender."""
+    import unittest
+    import blender_addon_test
+    result = unittest.TextTestRunner(verbosity=0).run(unittest.defaultTestLoader.loadTestsFromModule(blender_addon_test))
+    if not result.wasSuccessful():
+        sys.exit(1)
+
+
+if __name__ == "__main__":
+    name, *words = sys.argv[sys.argv.index("--") + 1:]
+    globals()[name](*words)
