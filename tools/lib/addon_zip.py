@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Packs Blender's add-on: a zip that Blender installs, with the same bytes each time.
 
 addon_zip.py FOLDER OUTPUT.zip
