@@ -64,6 +64,27 @@ def matte(image):
     bpy.ops.render.render(write_still=True)
 
 
+def previews(answer):
+    """Writes the means of all images that are shown while one is rendered, the last of which is the image itself."""
+    import etendue.engine
+    scene = scenes.build("world_color", (64, 48))
+    scenes.set_etendue(scene, 20000)
+    scene.etendue.time, scene.etendue.preview = 3.0, 0.3
+    bpy.context.scene.world.node_tree.nodes["Background"].inputs["Strength"].default_value = 0.5  # below 1 everywhere
+    means, kind = [], etendue.engine.EtendueRenderEngine
+
+    def watched(show):
+        def show_and_tell(self, *words):
+            show(self, *words)
+            rect = next(item.rect for item in self.get_result().layers[0].passes if item.name == "Combined")
+            means.append(numpy.array(rect)[:, :3].mean(axis=0).tolist())
+        return show_and_tell
+
+    kind.show_preview, kind.show = watched(kind.show_preview), watched(kind.show)
+    bpy.ops.render.render()
+    Path(answer).write_text(json.dumps(means))
+
+
 def panels(answer):
     """Panels that are drawn with the engine, and those of them that have errors: the draw functions run once."""
     import addon_utils

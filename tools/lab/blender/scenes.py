@@ -328,6 +328,39 @@ def lens_shift():
     world((0.5, 0.5, 0.5))
 
 
+def around(name):
+    """Cubes on all sides of a camera that sees all around, and its settings."""
+    floor()
+    for label, place, color in (("Ahead", (0.0, 3.0, 1.0), (0.8, 0.2, 0.2)), ("Right", (3.0, 0.0, 1.5), (0.2, 0.8, 0.2)),
+                                ("Behind", (-1.0, -3.0, 2.0), (0.2, 0.2, 0.8)), ("Above", (0.5, 1.0, 4.0), (0.7, 0.7, 0.2))):
+        cube(label, place, matte(label, color))
+    item = camera((0.0, 0.0, 1.2), 0.5 * math.pi)
+    item.data.type = "PANO"
+    world((0.5, 0.5, 0.5))
+    settings = item.data if hasattr(item.data, "panorama_type") else item.data.cycles
+    settings.panorama_type = name
+    return settings
+
+
+@scene_of
+def panorama():
+    """All directions, by longitude and latitude."""
+    around("EQUIRECTANGULAR")
+
+
+@scene_of
+def fisheye():
+    """A fisheye of 200 degrees."""
+    around("FISHEYE_EQUIDISTANT").fisheye_fov = math.radians(200.0)
+
+
+@scene_of
+def fisheye_lens():
+    """An equisolid fisheye lens on its sensor."""
+    settings = around("FISHEYE_EQUISOLID")
+    settings.fisheye_fov, settings.fisheye_lens = math.radians(180.0), 10.5
+
+
 @scene_of
 def instances():
     """A collection that is placed three times, and meshes that objects share."""
@@ -429,7 +462,8 @@ def build(name, size=(128, 96)):
     scene = bpy.context.scene
     if scene.camera is None:
         camera()
-    scene.render.resolution_x, scene.render.resolution_y = size
+    square = name == "fisheye"  # the circle is an ellipse in Cycles where the image is not square
+    scene.render.resolution_x, scene.render.resolution_y = (size[1], size[1]) if square else size
     scene.render.resolution_percentage = 100
     scene.render.filter_size = 1.5
     bpy.context.view_layer.update()
