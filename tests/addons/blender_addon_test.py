@@ -292,6 +292,7 @@ class Glb(unittest.TestCase):
         animation, = document["animations"]
         self.assertEqual(animation["channels"], [{"sampler": 0, "target": {"node": 1, "path": "translation"}}])
         view = document["bufferViews"][document["accessors"][1]["bufferView"]]
+        self.assertEqual(view["byteOffset"] % 4, 0)
         self.assertEqual(struct.unpack_from("<6f", data, view["byteOffset"]), (0.0, 1.0, 2.0, 3.0, 4.0, 5.0))
         self.assertEqual((data[:5], document["buffers"][0]["byteLength"]), (b"hello", len(data)))
 
@@ -310,6 +311,8 @@ class Passes(unittest.TestCase):
                                                           "CryptoObject01", "CryptoObject02"])
         self.assertEqual(passes.sources(wanted, True), ["depth", "diffuse_direct", "diffuse_indirect", "cryptomatte_object:6",
                                                         "albedo_diffuse", "denoising"])
+        layer.pass_cryptomatte_depth = 5  # the program rounds up, and so is to be asked for as many as Blender has
+        self.assertEqual(passes.wanted(layer)[-1].source, "cryptomatte_object:6")
         self.assertEqual(wanted[4].names(), ["CryptoObject00.R", "CryptoObject00.G", "CryptoObject00.B", "CryptoObject00.A"])
 
     def test_layers_of_the_users(self):
