@@ -24,7 +24,8 @@ except ImportError:
     numpy = None
 
 ROOT = Path(__file__).resolve().parents[2]
-PROGRAM = Path(sys.argv.pop()) if len(sys.argv) > 1 and Path(sys.argv[-1]).is_file() and os.access(sys.argv[-1], os.X_OK) else None
+LAST = Path(sys.argv[-1] if len(sys.argv) > 1 else "-")
+PROGRAM = Path(sys.argv.pop()) if LAST.is_file() and os.access(LAST, os.X_OK) else None
 # Keys that the add-on writes and this program leaves out, with a warning; beginnings of their names.
 NOT_YET = ("cameras", "film.pixel_aspect", "lights.", "aovs: vector")
 
@@ -178,7 +179,8 @@ class Cameras(unittest.TestCase):
             self.assertAlmostEqual(scene_settings.sensor_of_longer_side(fake.camera(sensor_fit=fit), width, height), expected)
 
     def test_panoramas(self):
-        fisheye = fake.camera("PANO", cycles=fake.SimpleNamespace(panorama_type="FISHEYE_EQUISOLID", fisheye_fov=2.0, fisheye_lens=9.0))
+        settings = fake.SimpleNamespace(panorama_type="FISHEYE_EQUISOLID", fisheye_fov=2.0, fisheye_lens=9.0)
+        fisheye = fake.camera("PANO", cycles=settings)
         found = scene_settings.camera_settings(fisheye, scene_settings.Written())
         self.assertEqual((found["type"], found["mapping"], found["fov"], found["focal_length"]), ("fisheye", "equisolid", 2.0, 9.0))
         newer = fake.camera("PANO", panorama_type="MIRRORBALL")
@@ -445,7 +447,8 @@ class WithTheProgram(unittest.TestCase):
         scene.world = fake.world(fake.Node("BACKGROUND", {"Color": (1, 1, 1, 1), "Strength": 1.0}), visible_camera=False)
         scene.camera.data.dof.use_dof, scene.camera.data.shift_x, scene.camera.data.dof.aperture_blades = True, 0.1, 5
         lamps = [fake.item(shape or kind, fake.light(kind, shape=shape, shadow_soft_size=0.1, spread=1.0, angle=0.1), "LIGHT")
-                 for kind, shape in (("POINT", ""), ("SPOT", ""), ("SUN", ""), ("AREA", "SQUARE"), ("AREA", "DISK"), ("AREA", "ELLIPSE"))]
+                 for kind, shape in (("POINT", ""), ("SPOT", ""), ("SUN", ""), ("AREA", "SQUARE"), ("AREA", "DISK"),
+                                     ("AREA", "ELLIPSE"))]
         shaders = (fake.principled(Transmission=1.0, IOR=1.5), fake.principled(Sheen=1.0, Anisotropic=0.5, Clearcoat=1.0),
                    fake.principled(Subsurface=1.0, Subsurface_Color=(1, 1, 1, 1), Subsurface_Radius=(1, 1, 1)),
                    fake.Node("BSDF_DIFFUSE", {"Color": (1, 1, 1, 1), "Roughness": 0.5}))

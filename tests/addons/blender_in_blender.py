@@ -86,13 +86,16 @@ def previews(answer):
 
 
 def panels(answer):
-    """Panels that are drawn with the engine, and those of them that have errors: the draw functions run once."""
+    """Writes which panels are drawn with the engine, and which of them stay when it goes."""
     import addon_utils
     bpy.context.scene.render.engine = "ETENDUE"
-    names = sorted(panel.__name__ for panel in bpy.types.Panel.__subclasses__() if "ETENDUE" in getattr(panel, "COMPAT_ENGINES", ()))
+
+    def ours():
+        return [panel for panel in bpy.types.Panel.__subclasses__() if "ETENDUE" in getattr(panel, "COMPAT_ENGINES", ())]
+
+    names = sorted(panel.__name__ for panel in ours())
     addon_utils.disable("etendue")
-    left = [panel.__name__ for panel in bpy.types.Panel.__subclasses__() if "ETENDUE" in getattr(panel, "COMPAT_ENGINES", ())
-            and panel.is_registered]
+    left = [panel.__name__ for panel in ours() if panel.is_registered]
     addon_utils.enable("etendue")
     Path(answer).write_text(json.dumps({"names": names, "left": left}))
 

@@ -36,8 +36,9 @@ class InBlender(unittest.TestCase):
                             "PATH": PATH, "TMPDIR": str(self.temporary), "PYTHONDONTWRITEBYTECODE": "1"}
 
     def start(self, *words):
-        return subprocess.Popen(["blender", "--background", "--factory-startup", "--python-exit-code", "1", "--addons", "etendue",
-                                 *map(str, words)], env=self.environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        command = ["blender", "--background", "--factory-startup", "--python-exit-code", "1", "--addons", "etendue"]
+        return subprocess.Popen([*command, *map(str, words)], env=self.environment, stdout=subprocess.PIPE,
+                                stderr=subprocess.STDOUT, text=True)
 
     def blender(self, *words, code=0):
         """What it prints; fails unless it ends with this code."""
@@ -78,23 +79,21 @@ def header(path):
 
 
 class Renders(InBlender):
+    def python(self, code, image):
+        """What the code prints, inside Blender: `p(NAME)` has the pixels of a pass of the image, `p("")` of the image."""
+        before = (f"import sys, json, numpy; sys.path.insert(0, {str(ROOT / 'addons/blender')!r}); from pathlib import Path; "
+                  f"from etendue.exr import read_exr; c = read_exr(Path({str(image)!r})).channels; "
+                  "p = lambda n: numpy.stack([c[f'ViewLayer.{n}.{l}' if n else l].astype(float) for l in 'RGB']); ")
+        said = self.blender("--python-expr", f"{before} print('FOUND', json.dumps({code}))")
+        return json.loads(next(line for line in said.splitlines() if line.startswith("FOUND")).removeprefix("FOUND"))
+
     def means(self, image, *passes):
-        """Means of passes, by Blender's numpy."""
-        code = ("import sys, json; sys.path.insert(0, sys.argv[-1]); from pathlib import Path; from etendue.exr import read_exr; "
-                f"c = read_exr(Path({str(image)!r})).channels; "
-                f"print('MEANS', json.dumps({{n: [float(c[f'ViewLayer.{{n}}.{{l}}' if n else l].mean()) for l in 'RGB'] for n in {passes!r}}}))")
-        said = self.blender("--python-expr", code, "--", ROOT / "addons/blender")
-        return json.loads(next(line for line in said.splitlines() if line.startswith("MEANS")).removeprefix("MEANS"))
+        return self.python(f"{{n: p(n).mean(axis=(1, 2)).tolist() for n in {passes!r}}}", image)
 
     def difference_of_sum(self, image):
         """The largest difference between the image and the sum of its passes, as Blender's manual has it."""
-        code = ("import sys, numpy; sys.path.insert(0, sys.argv[-1]); from pathlib import Path; from etendue.exr import read_exr; "
-                f"c = read_exr(Path({str(image)!r})).channels; "
-                "p = lambda n: numpy.stack([c[f'ViewLayer.{n}.{l}'].astype(float) for l in 'RGB']); "
-                "s = p('DiffCol') * (p('DiffDir') + p('DiffInd')) + p('GlossDir') + p('GlossInd') + p('TransDir') + p('TransInd') "
-                "+ p('Emit') + p('Env'); print('LARGEST', abs(s - p('Combined')).max())")
-        said = self.blender("--python-expr", code, "--", ROOT / "addons/blender")
-        return float(next(line for line in said.splitlines() if line.startswith("LARGEST")).split()[1])
+        parts = " + ".join(f"p('{name}')" for name in ("GlossDir", "GlossInd", "TransDir", "TransInd", "Emit", "Env"))
+        return self.python(f"abs(p('DiffCol') * (p('DiffDir') + p('DiffInd')) + {parts} - p('Combined')).max()", image)
 
     def test_everything_by_the_command_line_as_cycles_renders_it(self):
         blend = self.folder / "everything.blend"

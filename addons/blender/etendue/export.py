@@ -113,7 +113,8 @@ def exporter() -> Any:
     try:
         bpy.ops.export_scene.gltf.get_rna_type()
     except (AttributeError, KeyError):
-        raise ExportError("Blender's add-on 'glTF 2.0 format' is needed and is turned off: Edit > Preferences > Add-ons") from None
+        raise ExportError("Blender's add-on 'glTF 2.0 format' is needed and is turned off: Edit > Preferences > Add-ons"
+                          ) from None
     return bpy.ops.export_scene.gltf
 
 
@@ -136,7 +137,8 @@ def moments(scene: Any) -> tuple[list[float], list[float]]:
     start, end = scene_settings.shutter(scene.render, scene.etendue.shutter_position)
     rate = scene.render.fps / scene.render.fps_base
     steps = [index / (KEYS - 1) for index in range(KEYS)]
-    return [scene.frame_current + start + step * (end - start) for step in steps], [step * (end - start) / rate for step in steps]
+    offsets = [step * (end - start) for step in steps]
+    return [scene.frame_current + start + offset for offset in offsets], [offset / rate for offset in offsets]
 
 
 def world_matrices(document: dict[str, Any]) -> list[Matrix]:
@@ -151,7 +153,8 @@ def world_matrices(document: dict[str, Any]) -> list[Matrix]:
             own = Matrix([node["matrix"][row::4] for row in range(4)])
         else:
             x, y, z, w = node.get("rotation", (0.0, 0.0, 0.0, 1.0))
-            own = Matrix.LocRotScale(node.get("translation", (0, 0, 0)), Quaternion((w, x, y, z)), Vector(node.get("scale", (1, 1, 1))))
+            own = Matrix.LocRotScale(Vector(node.get("translation", (0, 0, 0))), Quaternion((w, x, y, z)),
+                                     Vector(node.get("scale", (1, 1, 1))))
         return of(parents[number]) @ own if number in parents else own
 
     for number in range(len(nodes)):

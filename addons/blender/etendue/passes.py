@@ -76,11 +76,11 @@ def wanted(view_layer: Any) -> list[Pass]:
     own = view_layer.etendue
     result += [item for attribute, item in OWN if getattr(own, attribute, False)]
     result += extra_layers(own.layers)
-    levels = min(16, view_layer.pass_cryptomatte_depth)
+    pairs = (min(16, view_layer.pass_cryptomatte_depth) + 1) // 2
     for attribute, name, source in MATTES:
         if getattr(view_layer, attribute, False):
-            result += [Pass(f"{name}{number:02d}", "rgba", "COLOR", f"{source}:{levels + levels % 2}", f"{name}{number:02d}", "RGBA")
-                       for number in range((levels + 1) // 2)]
+            names = [f"{name}{number:02d}" for number in range(pairs)]
+            result += [Pass(layer, "rgba", "COLOR", f"{source}:{2 * pairs}", layer, "RGBA") for layer in names]
     return result
 
 

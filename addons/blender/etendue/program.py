@@ -28,7 +28,8 @@ MOST_ROUNDS = 4  # an unknown object hides its keys, which are told of in the ne
 Document = dict[str, Any]
 
 
-def find_program(preference: str = "", environment: Mapping[str, str] = os.environ, package: Path | None = None) -> Path | None:
+def find_program(preference: str = "", environment: Mapping[str, str] = os.environ,
+                 package: Path | None = None) -> Path | None:
     """The first that is there: the preference, $ETENDUE, the prefix that this add-on is installed in, the path, prefixes."""
     if preference:
         return executable(Path(os.path.expanduser(preference)))
@@ -72,8 +73,9 @@ def unknown_pointers(program: Path, document: Document) -> list[str]:
         problems = json.loads(done.stdout)["problems"]
     except (ValueError, KeyError):
         raise ProgramError(f"'{program} inspect' ended with {done.returncode}: {done.stderr.strip()[-500:]}") from None
-    return [problem["pointer"] for problem in problems
-            if problem["severity"] == "error" and problem["file"].endswith("render.json") and UNKNOWN.search(problem["message"])]
+    errors = [problem for problem in problems
+              if problem["severity"] == "error" and problem["file"].endswith("render.json")]
+    return [error["pointer"] for error in errors if UNKNOWN.search(error["message"])]
 
 
 class ProgramError(Exception):

@@ -25,7 +25,8 @@ class EtendueSceneSettings(bpy.types.PropertyGroup):
     time: FloatProperty(name="Time Limit", default=0.0, min=0.0, unit="TIME_ABSOLUTE", step=100,
                         description="Seconds after which no new pass begins; 0 for no limit")
     error: FloatProperty(name="Error", default=0.0, min=0.0, max=1.0, precision=3,
-                         description="Relative error at which the render ends: 0.05 is a clean preview, 0.01 a clean image; 0 for none")
+                         description="Relative error at which the render ends: 0.05 is a clean preview, 0.01 a clean image; "
+                                     "0 for none")
     adaptive: BoolProperty(name="Adaptive", default=True, description="Give each pixel as many samples as the error needs")
     min_samples: IntProperty(name="Min Samples", default=48, min=1, max=16777216,
                              description="Samples that every pixel gets before any is left out")
@@ -38,16 +39,19 @@ class EtendueSceneSettings(bpy.types.PropertyGroup):
                                                      ("power", "Power", "Weights by their squares")), default="balance",
                             description="How strategies of bidirectional paths are weighted")
     connections: IntProperty(name="Light Cache", default=0, min=0, max=999,
-                             description="Light vertices that each eye vertex connects to, of many samples; 0 for those of its own sample")
+                             description="Light vertices that each eye vertex connects to, of many samples; "
+                                         "0 for those of its own sample")
     merge: EnumProperty(name="Merge", items=(("sds", "Between Mirrors", "Only what no connection finds"),
                                              ("all", "All", "At every rough surface"), ("none", "None", "No merging")),
                         default="sds", description="Where eye paths take light from photons")
     merge_radius: FloatProperty(name="Radius", default=1.5, min=0.01, max=100.0,
                                 description="How far photons count in the first sample, in pixels; later samples take less")
     clamp_indirect: FloatProperty(name="Clamp Indirect", default=0.0, min=0.0,
-                                  description="Largest contribution of indirect light: fewer fireflies, and light is missing; 0 for no limit")
+                                  description="Largest contribution of indirect light: fewer fireflies, and light is missing; "
+                                              "0 for no limit")
     robust: IntProperty(name="Median of Means", default=1, min=1, max=31,
-                        description="Parts of the samples whose means the median is taken of, against fireflies; 1 for the plain mean")
+                        description="Parts of the samples whose means the median is taken of, against fireflies; "
+                                    "1 for the plain mean")
     denoise: BoolProperty(name="Denoise", default=False, description="Take out the noise when the image is finished")
     filter: EnumProperty(name="Pixel Filter", items=(("blackman-harris", "Blackman-Harris", "Smooth, without ringing"),
                                                      ("box", "Box", "Each pixel its own samples"),
@@ -62,7 +66,8 @@ class EtendueSceneSettings(bpy.types.PropertyGroup):
         default="REC709", description="Space in which light is computed; what comes back is in linear Rec.709")
     shutter_position: EnumProperty(name="Shutter Position", items=(
         ("START", "Start on Frame", "It opens at the frame"), ("CENTER", "Center on Frame", "The frame is in its middle"),
-        ("END", "End on Frame", "It closes at the frame")), default="CENTER", description="Where the frame lies in the shutter's time")
+        ("END", "End on Frame", "It closes at the frame")), default="CENTER",
+        description="Where the frame lies in the shutter's time")
     preview: FloatProperty(name="Preview Every", default=2.0, min=0.2, max=3600.0, unit="TIME_ABSOLUTE",
                            description="Seconds between two images while the render goes on")
 
