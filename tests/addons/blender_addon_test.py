@@ -67,8 +67,9 @@ class Image(unittest.TestCase):
 
 
 class Lamps(unittest.TestCase):
-    def lamp(self, kind, matrix=None, **properties):
-        return scene_settings.lamp(fake.light(kind, **properties), matrix or fake.IDENTITY)
+    def lamp(self, kind, **properties):
+        self.written = scene_settings.Written()
+        return scene_settings.lamp(fake.light(kind, **properties), "Lamp", self.written)
 
     def test_points_have_blenders_watts(self):
         self.assertEqual(self.lamp("POINT"), {"color": [1.0, 0.5, 0.25], "power": 10.0})
@@ -88,26 +89,14 @@ class Lamps(unittest.TestCase):
         self.assertEqual(self.lamp("AREA", shape="DISK", size=3.0, spread=1.0)["radius"], 1.5)
         self.assertEqual(self.lamp("AREA", spread=1.0)["spread"], 1.0)
 
-    def test_an_ellipse_stands_where_its_object_does(self):
-        # Turned by a quarter about x, at (1, 2, 3), twice as wide.
-        matrix = [[2.0, 0.0, 0.0, 1.0], [0.0, 0.0, -1.0, 2.0], [0.0, 1.0, 0.0, 3.0], [0.0, 0.0, 0.0, 1.0]]
-        ellipse = self.lamp("AREA", matrix, shape="ELLIPSE", size=1.5, size_y=0.5)
-        self.assertEqual(ellipse["translation"], [1.0, 3.0, -2.0])
-        self.assertEqual(ellipse["scale"], [3.0, 0.5, 1.0])
-        for value, expected in zip(ellipse["rotation"], (0.0, 0.0, 0.0, 1.0)):
-            self.assertAlmostEqual(abs(value), expected)
-
-    def test_rotations(self):
-        for axis in range(3):
-            for angle in (0.3, 2.0, 3.1, -1.2):
-                c, s, j, k = math.cos(angle), math.sin(angle), (axis + 1) % 3, (axis + 2) % 3
-                turn = [[float(a == b) for b in range(3)] for a in range(3)]
-                turn[j][j], turn[j][k], turn[k][j], turn[k][k] = c, -s, s, c
-                found = scene_settings.quaternion(turn)
-                expected = [0.0, 0.0, 0.0, math.cos(0.5 * angle)]
-                expected[axis] = math.sin(0.5 * angle)
-                dot = sum(a * b for a, b in zip(found, expected))
-                self.assertAlmostEqual(abs(dot), 1.0, msg=f"{axis} {angle}")
+    def test_an_ellipse_is_a_disk_at_a_scaled_node(self):
+        ellipse = self.lamp("AREA", shape="ELLIPSE", size=1.5, size_y=0.5)
+        self.assertEqual((ellipse["type"], ellipse["radius"], ellipse["node"]), ("disk", 0.5, "Lamp (ellipse)"))
+        document = {"nodes": [{"name": "Other"}, {"name": "Lamp", "children": [0]}]}
+        for name, scale in self.written.ellipses.items():
+            glb.add_scaled(document, name, ellipse["node"], scale)
+        self.assertEqual(document["nodes"][1:], [{"name": "Lamp", "children": [0, 2]},
+                                                 {"name": "Lamp (ellipse)", "scale": [1.5, 0.5, 1.0]}])
 
     def test_nodes_multiply(self):
         node = fake.Node("EMISSION", {"Color": (0.5, 1.0, 1.0, 1.0), "Strength": 3.0})

@@ -22,6 +22,7 @@ class Written:
     document: Document = field(default_factory=dict)
     world_image: Any = None
     blended: set[str] = field(default_factory=set)  # materials whose alpha the exporter may drop
+    ellipses: dict[str, tuple[float, float]] = field(default_factory=dict)  # of area lamps, by object
     notes: list[str] = field(default_factory=list)
 
 
@@ -85,7 +86,7 @@ def emission_of_nodes(light: Any) -> tuple[list[float], float]:
     return [1.0, 1.0, 1.0], 1.0
 
 
-def lamp(light: Any, matrix: Sequence[Sequence[float]]) -> Document:
+def lamp(light: Any, name: str, written: Written) -> Document:
     """An entry of `lights`. The lamp stands at the node with its object's name, which the exporter leaves in any case."""
     tint, strength = emission_of_nodes(light)
     power = light.energy * strength * 2.0 ** getattr(light, "exposure", 0.0)
@@ -105,9 +106,13 @@ def lamp(light: Any, matrix: Sequence[Sequence[float]]) -> Document:
         return {"type": "rectangle", "width": light.size, "height": height, **result}
     if light.shape == "DISK":
         return {"type": "disk", "radius": 0.5 * light.size, **result}
-    translation, rotation, scale = placed(matrix)
-    return {"type": "disk", "radius": 0.5, "translation": translation, "rotation": rotation,
-            "scale": [light.size * scale[0], light.size_y * scale[1], 1.0], **result}
+    # A disk at a node below the lamp's, which is scaled.
+    written.ellipses[name] = (light.size, light.size_y)
+    return {"type": "disk", "radius": 0.5, "node": ellipse_node(name), **result}
+
+
+def ellipse_node(name: str) -> str:
+    return f"{name} (ellipse)"
 
 
 def spot_cones(light: Any) -> tuple[float, float]:
@@ -117,30 +122,6 @@ def spot_cones(light: Any) -> tuple[float, float]:
     rim = math.cos(outer)
     inner = math.acos(min(rim + 0.75 * light.spot_blend * (1.0 - rim), 1.0))
     return min(inner, outer * (1.0 - 1e-4)), outer
-
-
-def placed(matrix: Sequence[Sequence[float]]) -> tuple[list[float], list[float], list[float]]:
-    """Translation, rotation (x, y, z, w) and scale in glTF's world, Y up, of what has this matrix in Blender's."""
-    rows = [[matrix[0][c] for c in range(4)], [matrix[2][c] for c in range(4)], [-matrix[1][c] for c in range(4)]]
-    scale = [math.sqrt(sum(rows[r][c] ** 2 for r in range(3))) or 1.0 for c in range(3)]
-    return [row[3] for row in rows], quaternion([[rows[r][c] / scale[c] for c in range(3)] for r in range(3)]), scale
-
-
-def quaternion(m: Sequence[Sequence[float]]) -> list[float]:
-    """x, y, z, w of a rotation (Shepperd's method: the largest component first)."""
-    w = m[0][0] + m[1][1] + m[2][2]
-    squares = [m[0][0] - m[1][1] - m[2][2], m[1][1] - m[0][0] - m[2][2], m[2][2] - m[0][0] - m[1][1], w]
-    largest = squares.index(max(squares))
-    root = math.sqrt(1.0 + squares[largest])
-    rest = 0.5 / root
-    if largest == 3:
-        return [(m[2][1] - m[1][2]) * rest, (m[0][2] - m[2][0]) * rest, (m[1][0] - m[0][1]) * rest, 0.5 * root]
-    i, j, k = largest, (largest + 1) % 3, (largest + 2) % 3
-    result = [0.0] * 4
-    result[i] = 0.5 * root
-    result[j], result[k] = (m[j][i] + m[i][j]) * rest, (m[k][i] + m[i][k]) * rest
-    result[3] = (m[k][j] - m[j][k]) * rest
-    return result
 
 
 # --- the world
@@ -450,7 +431,7 @@ def write(scene: Any, objects: Iterable[Any], materials: Iterable[tuple[Any, boo
     given = environment(scene.world, render.film_transparent, written)
     if given is not None:
         document["environment"] = given
-    lights = {item.name: lamp(item.data, item.matrix_world) for item in objects if item.type == "LIGHT"}
+    lights = {item.name: lamp(item.data, item.name, written) for item in objects if item.type == "LIGHT"}
     if lights:
         document["lights"] = lights
     entries = {item.name: material(item, closed, written) for item, closed in materials}

@@ -287,7 +287,7 @@ def textures():
     """A texture on metal, and one that shines. Its squares are large, since Cycles interpolates the numbers of the file
     between texels, and Etendue light."""
     floor()
-    rows, columns = numpy.indices((128, 128)) // 32
+    rows, columns = numpy.indices((512, 512)) // 128
     pixels = numpy.where(((rows + columns) % 2 == 0)[..., None], (0.9, 0.6, 0.1), (0.1, 0.2, 0.5))
     material = principled("Checker", metallic=1.0, roughness=0.4)
     tree = material.node_tree
