@@ -41,6 +41,12 @@ class Image(unittest.TestCase):
         self.assertNotIn("crop", written(scene).document)
         scene.render.use_border = True
         self.assertEqual(written(scene).document["crop"], [25, 25, 75, 50])  # y down
+        # Blender 3.4 renders 41 x 29 of 64 x 48 pixels; its numbers are of single precision.
+        scene.render.resolution_percentage, scene.render.resolution_x, scene.render.resolution_y = 100, 64, 48
+        scene.render.border_max_x, scene.render.border_min_y, scene.render.border_max_y = 0.8999999761581421, 0.2, 0.8
+        self.assertEqual(written(scene).document["crop"], [16, 10, 57, 39])
+        scene.render.resolution_x, scene.render.border_max_x = 10, 0.699999988079071
+        self.assertEqual(written(scene).document["crop"][2], 7)
 
     def test_pixels_that_are_not_square(self):
         scene = fake.scene()
@@ -201,6 +207,11 @@ class Materials(unittest.TestCase):
     def test_a_coat_before_blender_4_has_a_quarter_of_its_light(self):
         self.assertEqual(self.material(fake.principled(Clearcoat=0.8))[0], {"clearcoat": 0.2})
         self.assertEqual(self.material(fake.principled(Coat_Weight=0.8))[0], {})
+
+    def test_thin_films(self):
+        found = self.material(fake.principled(Thin_Film_Thickness=400.0, Thin_Film_IOR=1.5))[0]
+        self.assertEqual(found, {"iridescence": 1.0, "iridescence_ior": 1.5, "iridescence_thickness_minimum": 400.0,
+                                 "iridescence_thickness_maximum": 400.0})
 
     def test_anisotropy_has_the_widths_of_cycles(self):
         found = scene_settings.anisotropy(0.7, 0.4, 0.25)
@@ -438,7 +449,7 @@ class WithTheProgram(unittest.TestCase):
         lamps = [fake.item(shape or kind, fake.light(kind, shape=shape, shadow_soft_size=0.1, spread=1.0, angle=0.1), "LIGHT")
                  for kind, shape in (("POINT", ""), ("SPOT", ""), ("SUN", ""), ("AREA", "SQUARE"), ("AREA", "DISK"),
                                      ("AREA", "ELLIPSE"))]
-        shaders = (fake.principled(Transmission=1.0, IOR=1.5), fake.principled(Sheen=1.0, Anisotropic=0.5, Clearcoat=1.0),
+        shaders = (fake.principled(Transmission=1.0, IOR=1.5), fake.principled(Sheen=1.0, Anisotropic=0.5, Clearcoat=1.0, Thin_Film_Thickness=400.0),
                    fake.principled(Subsurface=1.0, Subsurface_Color=(1, 1, 1, 1), Subsurface_Radius=(1, 1, 1)),
                    fake.Node("BSDF_DIFFUSE", {"Color": (1, 1, 1, 1), "Roughness": 0.5}))
         materials = [(fake.material(f"M{index}", shader), True) for index, shader in enumerate(shaders)]

@@ -148,13 +148,13 @@ class Renders(InBlender):
 
     def test_borders_and_denoising(self):
         blend, image = self.simple("r = scene.render; r.use_border = r.use_crop_to_border = True; r.border_min_x = 0.25; "
-                                   "r.border_max_x = 0.75; scene.etendue.denoise = True; "
+                                   "r.border_max_x = 0.9; r.border_min_y = 0.2; r.border_max_y = 0.8; scene.etendue.denoise = True; "
                                    "bpy.context.view_layer.use_pass_normal = True")
         said = self.blender(blend, "-E", "ETENDUE", "-f", "1")
         self.assertNotIn("Error", said)
         channels, attributes = header(image)
-        x0, _, x1, _ = struct.unpack("<4i", attributes["dataWindow"])
-        self.assertEqual(x1 - x0 + 1, 32)
+        x0, y0, x1, y1 = struct.unpack("<4i", attributes["dataWindow"])
+        self.assertEqual((x1 - x0 + 1, y1 - y0 + 1), (41, 29))
         self.assertIn("ViewLayer.Normal.Z", channels)
 
     def test_view_layers_show_what_is_in_them(self):

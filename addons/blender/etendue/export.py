@@ -98,14 +98,19 @@ def context_of(scene: Any, view_layer: Any) -> Iterator[None]:
     if window is None:
         raise ExportError("there is no window, not even an unseen one, which Blender's glTF exporter needs")
     before = window.scene, window.view_layer
-    window.scene = scene
-    window.view_layer = view_layer
+    show_in(window, scene, view_layer)
     try:
         with bpy.context.temp_override(window=window, scene=scene, view_layer=view_layer):
             yield
     finally:
-        window.scene = before[0]
-        window.view_layer = before[1]
+        show_in(window, *before)
+
+
+def show_in(window: Any, scene: Any, view_layer: Any) -> None:
+    if window.scene != scene:
+        window.scene = scene
+    if window.view_layer != view_layer:
+        window.view_layer = view_layer
 
 
 def exporter() -> Any:

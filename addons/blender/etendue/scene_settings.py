@@ -4,6 +4,7 @@ Blender's, and needs nothing of Blender itself."""
 from __future__ import annotations
 
 import math
+import struct
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -34,13 +35,17 @@ def image_size(render: Any) -> tuple[int, int]:
 
 
 def border(render: Any) -> tuple[int, int, int, int] | None:
-    """The render border as x0, y0, x1, y1 with y down from the top, rounded as Blender does."""
+    """The render border as x0, y0, x1, y1 with y down from the top, cut as Blender does, in single precision."""
     if not render.use_border:
         return None
     width, height = image_size(render)
-    x0, x1 = (int(0.5 + x * width) for x in (render.border_min_x, render.border_max_x))
-    y0, y1 = (height - int(0.5 + y * height) for y in (render.border_max_y, render.border_min_y))
+    x0, x1 = (int(single(x * width)) for x in (render.border_min_x, render.border_max_x))
+    y0, y1 = (height - int(single(y * height)) for y in (render.border_max_y, render.border_min_y))
     return (x0, y0, max(x1, x0 + 1), max(y1, y0 + 1))
+
+
+def single(value: float) -> float:
+    return struct.unpack("<f", struct.pack("<f", value))[0]
 
 
 def shutter(render: Any, position: str) -> tuple[float, float]:
@@ -335,6 +340,10 @@ def principled(material: Any, shader: Any, closed: bool, written: Written) -> Do
     coat = value_of(shader, "Clearcoat", default=0.0)
     if coat:
         result["clearcoat"] = 0.25 * min(coat, 1.0)  # which is what Blender before 4.0 shows of it
+    film = value_of(shader, "Thin Film Thickness", default=0.0)
+    if film:
+        result |= {"iridescence": 1.0, "iridescence_ior": max(value_of(shader, "Thin Film IOR", default=1.33) or 1.33, 1.0),
+                   "iridescence_thickness_minimum": film, "iridescence_thickness_maximum": film}
     result |= sheen(shader)
     stretch = value_of(shader, "Anisotropic", default=0.0)
     rough = value_of(shader, "Roughness", default=0.5)
