@@ -439,7 +439,7 @@ class Program(unittest.TestCase):
 
 @unittest.skipIf(PROGRAM is None, "no program was given")
 class WithTheProgram(unittest.TestCase):
-    """What is written is what the program takes."""
+    """Holds what is written against the program."""
 
     def test_it_knows_every_key(self):
         scene = fake.scene(integrator="vcm", time=9.0, error=0.05, robust=7, clamp_indirect=3.0)

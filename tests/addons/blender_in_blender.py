@@ -1,4 +1,4 @@
-"""What blender_render_test.py runs inside Blender: each function is called by its name, with words from the command line."""
+"""Runs inside Blender for blender_render_test.py: a function by its name, with words from the command line."""
 
 import json
 import sys
@@ -98,6 +98,15 @@ def panels(answer):
     left = [panel.__name__ for panel in ours() if panel.is_registered]
     addon_utils.enable("etendue")
     Path(answer).write_text(json.dumps({"names": names, "left": left}))
+
+
+def install(file):
+    """Installs a zip as users do, and fails unless the engine is there then."""
+    bpy.ops.preferences.addon_install(filepath=file)
+    bpy.ops.preferences.addon_enable(module="etendue")
+    bpy.context.scene.render.engine = "ETENDUE"
+    preferences = bpy.context.preferences.addons["etendue"].preferences
+    assert preferences.keep_files is False and bpy.context.scene.etendue.integrator == "path"
 
 
 def units():

@@ -14,9 +14,11 @@ import time
 import unittest
 from pathlib import Path
 
-import fake_blender  # where the add-on is
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tools"))
 
-ROOT = fake_blender.ROOT
+from lib.addon_zip import write_zip  # noqa: E402
+
 PROGRAM = Path(sys.argv[1]).resolve() if len(sys.argv) > 1 else None
 # Blender takes the modules of the first python3 of the path; numpy is with Debian's.
 PATH = f"/usr/bin:{os.environ.get('PATH', '')}"
@@ -41,7 +43,7 @@ class InBlender(unittest.TestCase):
                                 stderr=subprocess.STDOUT, text=True)
 
     def blender(self, *words, code=0):
-        """What it prints; fails unless it ends with this code."""
+        """Returns what it prints; fails unless it ends with this code."""
         process = self.start(*words)
         said, _ = process.communicate(timeout=500)
         self.assertEqual(process.returncode, code, said[-3000:])
@@ -80,7 +82,7 @@ def header(path):
 
 class Renders(InBlender):
     def python(self, code, image):
-        """What the code prints, inside Blender: `p(NAME)` has the pixels of a pass of the image, `p("")` of the image."""
+        """Returns the value of the code inside Blender: `p(NAME)` has the pixels of a pass of the image, `p("")` of the image."""
         before = (f"import sys, json, numpy; sys.path.insert(0, {str(ROOT / 'addons/blender')!r}); from pathlib import Path; "
                   f"from etendue.exr import read_exr; c = read_exr(Path({str(image)!r})).channels; "
                   "p = lambda n: numpy.stack([c[f'ViewLayer.{n}.{l}' if n else l].astype(float) for l in 'RGB']); ")
@@ -133,7 +135,7 @@ class Renders(InBlender):
         self.inside("previews", answer)
         *shown, last = json.loads(answer.read_text())
         self.assertGreater(len(shown), 1)
-        # Of 8 bits.
+        # Previews have 8 bits.
         for preview in shown[1:]:
             for channel, expected in zip(preview, last):
                 self.assertAlmostEqual(channel / expected, 1.0, delta=0.02)
@@ -198,6 +200,13 @@ class Renders(InBlender):
 
 
 class Rest(InBlender):
+    def test_the_zip_is_an_add_on(self):
+        file = self.folder / "etendue.zip"
+        write_zip(ROOT / "addons/blender/etendue", file)
+        shutil.rmtree(self.folder / "scripts/addons/etendue")
+        self.inside("install", file)
+        self.assertTrue((self.folder / "scripts/addons/etendue/engine.py").is_file())
+
     def test_panels(self):
         answer = self.folder / "answer.json"
         said = self.inside("panels", answer)

@@ -35,7 +35,7 @@ class Ended:
     messages: list[tuple[str, str]]
 
     def error(self) -> str:
-        """What the program has said of why it ended."""
+        """Returns the errors that the program has told, or else its exit code in words."""
         errors = [text for kind, text in self.messages if kind == "error"]
         return "\n".join(errors) or f"the program ended with {self.code}"
 

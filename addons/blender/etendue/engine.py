@@ -97,7 +97,7 @@ class EtendueRenderEngine(bpy.types.RenderEngine):
 
     def run(self, command: list[Any], exported: Exported, on_preview: Callable[[Path], None] = lambda _: None,
             preview: Path | None = None, every: float = 2.0) -> bool:
-        """Whether the program has come to its end. What it says is told with the names of Blender's objects."""
+        """Returns whether the program has come to its end. Its messages are told with the names of Blender's objects."""
         ended = run([str(word) for word in command], self.test_break, self.show_progress, preview, on_preview, every,
                     progress=preview is not None)
         if ended.cancelled or self.test_break():

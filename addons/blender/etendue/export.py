@@ -168,8 +168,8 @@ def world_matrices(document: dict[str, Any]) -> list[Matrix]:
 
 
 def find_motions(scene: Any, view_layer: Any, document: dict[str, Any]) -> tuple[list[float], dict[int, glb.Motion]]:
-    """How nodes move while the shutter is open, by what Blender says of their objects at moments in between: whatever
-    moves them. Meshes that change their form do not move."""
+    """Finds how nodes move while the shutter is open, by the places that Blender gives their objects at moments in
+    between, whatever moves them. Meshes that change their form do not move."""
     nodes = document.get("nodes", [])
     names: dict[str, list[int]] = {}
     for number, node in enumerate(nodes):
@@ -230,7 +230,7 @@ def rendered_objects(depsgraph: Any) -> tuple[dict[str, Any], set[str]]:
 
 
 def is_closed(mesh: Any) -> bool:
-    """Whether every edge is between two faces."""
+    """Returns whether every edge is between two faces."""
     if len(mesh.polygons) == 0:
         return False
     edges = numpy.empty(len(mesh.loops), numpy.int32)

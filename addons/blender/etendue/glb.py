@@ -14,7 +14,7 @@ MAGIC, JSON_CHUNK, BINARY_CHUNK = 0x46546C67, 0x4E4F534A, 0x004E4942
 FLOAT, LAMPS = 5126, "KHR_lights_punctual"
 
 Document = dict[str, Any]
-# Of a node: translations, rotations (x, y, z, w) and scales, one for each moment.
+# A motion holds translations, rotations (x, y, z, w) and scales of a node, one for each moment.
 Motion = dict[str, list[tuple[float, ...]]]
 
 

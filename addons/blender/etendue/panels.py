@@ -17,7 +17,7 @@ SHARED = {"EEVEE_MATERIAL_PT_context_material", "EEVEE_MATERIAL_PT_surface", "EE
 
 
 class RenderPanel:
-    """What all of them share."""
+    """Shares place and layout among the panels of the engine."""
 
     bl_space_type = "PROPERTIES"
     bl_region_type = "WINDOW"

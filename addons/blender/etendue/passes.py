@@ -1,4 +1,4 @@
-"""Which of Blender's passes are which layers of the program. Needs nothing of Blender."""
+"""Blender's passes and the layers of the program that they are. Needs nothing of Blender."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-# What is done to the numbers on their way: nothing; Y up to Z up; by the diffuse albedo; ones.
+# Changes of the numbers on their way: none; Y up to Z up; over the diffuse albedo; ones; V up.
 AS_IS, TO_Z_UP, OVER_ALBEDO, WHITE, UV = "as is", "to z up", "over albedo", "white", "uv"
 
 

@@ -14,10 +14,10 @@ from pathlib import Path
 from typing import Any
 
 PROGRAM = "etendue"
-# Where `cmake --install` puts the program, beside the PATH.
+# Prefixes that `cmake --install` is usually given.
 PREFIXES = ("/usr/local", "/usr", "/opt/etendue", "~/.local")
 UNKNOWN = re.compile(r"^unknown key|there is no source '")
-# What stands behind the file's name in messages, `scene.glb#/nodes/3/mesh: `.
+# Places in messages, `scene.glb#/nodes/3/mesh: `.
 PLACE = re.compile(r"\S*#/(nodes|meshes|materials|cameras|images|textures)/(\d+)\S*?(?=[:,\s]|$)")
 # The folder of the exported scene, of which users know nothing.
 FOLDER = re.compile(r"\S*/(?=(render\.json|scene\.glb)\b)")
@@ -106,7 +106,7 @@ def without(document: Document, pointers: Iterable[str]) -> tuple[Document, list
                 del entries[name]
         if entries == {}:
             del result[section]
-    # What goes as a whole is told of once.
+    # Entries that go as a whole are told of once.
     return result, sorted(name for name in dropped if not any(name.startswith(f"{other}.") for other in dropped))
 
 
@@ -157,7 +157,7 @@ def with_names(message: str, gltf: Document) -> str:
 
 
 def messages_of(stderr: str) -> list[tuple[str, str]]:
-    """What the program has said: kinds (`error`, `warning`, `note`) and texts. Lines that go on belong to the one before;
+    """Splits what the program has said into kinds (`error`, `warning`, `note`) and texts. Lines that go on belong to the one before;
     those that begin with a path tell of files that were written."""
     found: list[tuple[str, str]] = []
     for line in stderr.splitlines():

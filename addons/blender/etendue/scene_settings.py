@@ -49,7 +49,7 @@ def single(value: float) -> float:
 
 
 def shutter(render: Any, position: str) -> tuple[float, float]:
-    """When the shutter opens and closes, in frames from the current one."""
+    """Returns when the shutter opens and closes, in frames from the current one."""
     length = render.motion_blur_shutter
     start = {"START": 0.0, "CENTER": -0.5 * length, "END": -length}[position]
     return start, start + length
@@ -181,7 +181,7 @@ def environment(world: Any, transparent: bool, written: Written) -> Document | N
 
 
 def world_is_visible(world: Any) -> bool:
-    """Whether the camera sees it: Blender has the switch in one place or the other."""
+    """Returns whether the camera sees it: Blender has the switch in one place or the other."""
     if hasattr(world, "visible_camera"):
         return world.visible_camera
     return getattr(getattr(world, "cycles_visibility", None), "camera", True)
