@@ -1,6 +1,6 @@
 """Tests of Etendue as a render engine in Blender, without a window: blender_render_test.py PROGRAM [TEST...]
 
-Skipped where there is no Blender."""
+Ends with 77 where there is no Blender, or one without numpy."""
 
 import json
 import os
@@ -223,7 +223,8 @@ class Rest(InBlender):
 if __name__ == "__main__":
     if PROGRAM is None or not os.access(PROGRAM, os.X_OK):
         sys.exit(__doc__)
-    if not shutil.which("blender"):
-        print("blender_render_test: Skipped\nthere is no Blender; 'apt-get install blender python3-numpy' brings it")
-        sys.exit(0)
+    numpy = ["blender", "--background", "--factory-startup", "--python-exit-code", "1", "--python-expr", "import numpy"]
+    if not shutil.which("blender") or subprocess.run(numpy, env={**os.environ, "PATH": PATH}, capture_output=True).returncode:
+        print("blender_render_test: Skipped\nthere is no Blender with numpy; 'apt-get install blender python3-numpy' brings them")
+        sys.exit(77)
     unittest.main(argv=sys.argv[:1] + sys.argv[2:])
