@@ -100,13 +100,16 @@ def panels(answer):
     Path(answer).write_text(json.dumps({"names": names, "left": left}))
 
 
-def install(file):
-    """Installs a zip as users do, and fails unless the engine is there then."""
+def install(file, program, folder):
+    """Installs a zip as users do, and renders with the preferences that they can set."""
     bpy.ops.preferences.addon_install(filepath=file)
     bpy.ops.preferences.addon_enable(module="etendue")
-    bpy.context.scene.render.engine = "ETENDUE"
     preferences = bpy.context.preferences.addons["etendue"].preferences
-    assert preferences.keep_files is False and bpy.context.scene.etendue.integrator == "path"
+    preferences.program, preferences.folder, preferences.keep_files = program, folder, True
+    scene = bpy.context.scene
+    scene.render.engine, scene.etendue.samples = "ETENDUE", 1
+    scene.render.resolution_x = scene.render.resolution_y = 16
+    bpy.ops.render.render()
 
 
 def units():

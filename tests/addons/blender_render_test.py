@@ -204,8 +204,13 @@ class Rest(InBlender):
         file = self.folder / "etendue.zip"
         write_zip(ROOT / "addons/blender/etendue", file)
         shutil.rmtree(self.folder / "scripts/addons/etendue")
-        self.inside("install", file)
+        kept = self.folder / "kept"
+        kept.mkdir()
+        self.environment["ETENDUE"] = str(self.folder / "missing")
+        self.assertIn("Etendue's files are in", self.inside("install", file, PROGRAM, kept))
         self.assertTrue((self.folder / "scripts/addons/etendue/engine.py").is_file())
+        names = {path.relative_to(kept).as_posix().partition("/")[2] for path in kept.rglob("*")}
+        self.assertLessEqual({"scene/scene.glb", "scene/render.json", "image.exr"}, names)
 
     def test_panels(self):
         answer = self.folder / "answer.json"
