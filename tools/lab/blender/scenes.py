@@ -407,6 +407,32 @@ def modifiers():
 
 
 @scene_of
+def posed():
+    """A column that an armature has bent."""
+    floor()
+    bpy.ops.object.armature_add(location=(0.0, 0.0, 0.0))
+    rig = bpy.context.object
+    bpy.ops.object.mode_set(mode="EDIT")
+    bones = rig.data.edit_bones
+    bones[0].tail = (0.0, 0.0, 1.0)
+    above = bones.new("Above")
+    above.head, above.tail, above.parent = (0.0, 0.0, 1.0), (0.0, 0.0, 2.0), bones[0]
+    bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.ops.mesh.primitive_cylinder_add(radius=0.4, depth=2.0, location=(0.0, 0.0, 1.0))
+    item = finish("Column", matte("Red", (0.7, 0.2, 0.2)))
+    for name, indices in ((rig.data.bones[0].name, [v.index for v in item.data.vertices if v.co.z < 0.0]),
+                          ("Above", [v.index for v in item.data.vertices if v.co.z > 0.0])):
+        item.vertex_groups.new(name=name).add(indices, 1.0, "REPLACE")
+    item.parent = rig
+    item.modifiers.new("Armature", "ARMATURE").object = rig
+    rig.pose.bones["Above"].rotation_mode = "XYZ"
+    rig.pose.bones["Above"].rotation_euler = (0.0, 0.0, 0.9)
+    rig.pose.bones["Above"].location = (0.5, 0.0, 0.0)
+    world((0.5, 0.5, 0.5))
+    lamp("SUN", "Sun", (0.0, 0.0, 5.0), 2.0, rotation=(0.7, 0.4, 0.0))
+
+
+@scene_of
 def visibility():
     """Objects that the camera does not see, that are not rendered, and half alpha."""
     floor()
