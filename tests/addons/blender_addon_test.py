@@ -73,9 +73,8 @@ class Image(unittest.TestCase):
 
 
 class Lamps(unittest.TestCase):
-    def lamp(self, kind, **properties):
-        self.written = scene_settings.Written()
-        return scene_settings.lamp(fake.light(kind, **properties), "Lamp", self.written)
+    def lamp(self, kind, visible=False, **properties):
+        return scene_settings.lamp(fake.item("Lamp", fake.light(kind, **properties), "LIGHT", visible_camera=visible))
 
     def test_points_have_blenders_watts(self):
         self.assertEqual(self.lamp("POINT"), {"color": [1.0, 0.5, 0.25], "power": 10.0})
@@ -92,17 +91,12 @@ class Lamps(unittest.TestCase):
         self.assertAlmostEqual(square["power"] / math.pi, 10.0 / 4.0)
         self.assertNotIn("spread", square)
         self.assertEqual(self.lamp("AREA", shape="RECTANGLE", size_y=3.0)["height"], 3.0)
-        self.assertEqual(self.lamp("AREA", shape="DISK", size=3.0, spread=1.0)["radius"], 1.5)
-        self.assertEqual(self.lamp("AREA", spread=1.0)["spread"], 1.0)
-
-    def test_an_ellipse_is_a_disk_at_a_scaled_node(self):
-        ellipse = self.lamp("AREA", shape="ELLIPSE", size=1.5, size_y=0.5)
-        self.assertEqual((ellipse["type"], ellipse["radius"], ellipse["node"]), ("disk", 0.5, "Lamp (ellipse)"))
-        document = {"nodes": [{"name": "Other"}, {"name": "Lamp", "children": [0]}]}
-        for name, scale in self.written.ellipses.items():
-            glb.add_scaled(document, name, ellipse["node"], scale)
-        self.assertEqual(document["nodes"][1:], [{"name": "Lamp", "children": [0, 2]},
-                                                 {"name": "Lamp (ellipse)", "scale": [1.5, 0.5, 1.0]}])
+        disk, ellipse = (self.lamp("AREA", shape=shape, size=3.0, size_y=2.0) for shape in ("DISK", "ELLIPSE"))
+        self.assertEqual((disk["type"], disk["width"], disk["height"]), ("disk", 3.0, 3.0))
+        self.assertEqual((ellipse["type"], ellipse["width"], ellipse["height"]), ("disk", 3.0, 2.0))
+        self.assertEqual([self.lamp("AREA", spread=spread)["spread"] for spread in (1.0, 0.001)], [1.0, math.radians(1.0)])
+        self.assertIs(square["visible_to_camera"], False)
+        self.assertNotIn("visible_to_camera", self.lamp("AREA", visible=True))
 
     def test_nodes_multiply(self):
         node = fake.Node("EMISSION", {"Color": (0.5, 1.0, 1.0, 1.0), "Strength": 3.0})

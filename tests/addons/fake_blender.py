@@ -68,8 +68,8 @@ def camera(kind="PERSP", **properties):
     return SimpleNamespace(type=kind, **{**defaults, **properties})
 
 
-def item(name, data, kind, matrix=None):
-    return SimpleNamespace(name=name, data=data, type=kind, matrix_world=matrix or IDENTITY)
+def item(name, data, kind, matrix=None, **properties):
+    return SimpleNamespace(name=name, data=data, type=kind, matrix_world=matrix or IDENTITY, **properties)
 
 
 def scene(**settings):

@@ -313,8 +313,6 @@ def export_scene(scene: Any, view_layer: Any, depsgraph: Any, folder: Path, prog
     glb.leave_out(document, items)
     glb.set_spots(document, {item.name: scene_settings.spot_cones(item.data) for item in items.values()
                              if item.type == "LIGHT" and item.data.type == "SPOT"})
-    for name, scale in written.ellipses.items():
-        glb.add_scaled(document, name, scene_settings.ellipse_node(name), scale)
     glb.blend(document, written.blended)
     hidden = {name for name, item in items.items() if item.type in SURFACES and not getattr(item, "visible_camera", True)}
     add_hidden_materials(written.document, glb.hide_from_camera(document, hidden))

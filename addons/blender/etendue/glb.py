@@ -95,16 +95,6 @@ def set_spots(document: Document, cones: Mapping[str, tuple[float, float]]) -> N
             lamps[lamp["light"]]["spot"] = {"innerConeAngle": inner, "outerConeAngle": outer}
 
 
-def add_scaled(document: Document, parent: str, name: str, scale: tuple[float, float]) -> None:
-    """Adds a node below another, which is scaled along x and y."""
-    nodes = document.get("nodes", [])
-    for node in nodes:
-        if node.get("name") == parent:
-            node.setdefault("children", []).append(len(nodes))
-            nodes.append({"name": name, "scale": [*scale, 1.0]})
-            return
-
-
 def blend(document: Document, materials: Collection[str]) -> None:
     """Gives these materials their alpha, which the exporter keeps for those alone that Eevee blends."""
     for material in document.get("materials", []):

@@ -11,6 +11,7 @@ from typing import Any
 
 REC709 = "Linear Rec.709 (sRGB)"
 HALF_PI = 0.5 * math.pi
+LEAST_SPREAD = math.radians(1.0)
 OLD_SHEEN, OLD_SHEEN_ROUGHNESS = 0.2, 0.3
 
 Document = dict[str, Any]
@@ -23,7 +24,6 @@ class Written:
     document: Document = field(default_factory=dict)
     world_image: Any = None
     blended: set[str] = field(default_factory=set)  # materials whose alpha the exporter may drop
-    ellipses: dict[str, tuple[float, float]] = field(default_factory=dict)  # of area lamps, by object
     notes: list[str] = field(default_factory=list)
 
 
@@ -91,8 +91,9 @@ def emission_of_nodes(light: Any) -> tuple[list[float], float]:
     return [1.0, 1.0, 1.0], 1.0
 
 
-def lamp(light: Any, name: str, written: Written) -> Document:
+def lamp(item: Any) -> Document:
     """An entry of `lights`. The lamp stands at the node with its object's name, which the exporter leaves in any case."""
+    light = item.data
     tint, strength = emission_of_nodes(light)
     power = light.energy * strength * 2.0 ** getattr(light, "exposure", 0.0)
     result: Document = {"color": [a * b for a, b in zip(light.color, tint)]}
@@ -100,24 +101,21 @@ def lamp(light: Any, name: str, written: Written) -> Document:
         return result | {"irradiance": power, "angle": min(light.angle, math.pi - 1e-3)}
     if light.type in ("POINT", "SPOT"):
         result["power"] = power
-        # Cycles shows no lamps to the camera.
-        return result | ({"radius": light.shadow_soft_size, "visible_to_camera": False} if light.shadow_soft_size > 0.0 else {})
+        return result | ({"radius": light.shadow_soft_size, **seen(item)} if light.shadow_soft_size > 0.0 else {})
     # Cycles' area lamps have a radiance of power / (4 area), Etendue's of power / (pi area).
-    result |= {"power": power * 0.25 * math.pi, "visible_to_camera": False}
+    result |= {"power": power * 0.25 * math.pi, **seen(item)}
     if light.spread < math.pi:
-        result["spread"] = max(light.spread, 1e-3)
+        result["spread"] = max(light.spread, LEAST_SPREAD)
     if light.shape in ("SQUARE", "RECTANGLE"):
         height = light.size if light.shape == "SQUARE" else light.size_y
         return {"type": "rectangle", "width": light.size, "height": height, **result}
-    if light.shape == "DISK":
-        return {"type": "disk", "radius": 0.5 * light.size, **result}
-    # A disk at a node below the lamp's, which is scaled.
-    written.ellipses[name] = (light.size, light.size_y)
-    return {"type": "disk", "radius": 0.5, "node": ellipse_node(name), **result}
+    height = light.size if light.shape == "DISK" else light.size_y
+    return {"type": "disk", "width": light.size, "height": height, **result}
 
 
-def ellipse_node(name: str) -> str:
-    return f"{name} (ellipse)"
+def seen(item: Any) -> Document:
+    """Lamps are hidden from the camera by default, also in Cycles."""
+    return {} if getattr(item, "visible_camera", False) else {"visible_to_camera": False}
 
 
 def spot_cones(light: Any) -> tuple[float, float]:
@@ -440,7 +438,7 @@ def write(scene: Any, objects: Iterable[Any], materials: Iterable[tuple[Any, boo
     given = environment(scene.world, render.film_transparent, written)
     if given is not None:
         document["environment"] = given
-    lights = {item.name: lamp(item.data, item.name, written) for item in objects if item.type == "LIGHT"}
+    lights = {item.name: lamp(item) for item in objects if item.type == "LIGHT"}
     if lights:
         document["lights"] = lights
     entries = {item.name: material(item, closed, written) for item, closed in materials}
