@@ -6,6 +6,9 @@ install(DIRECTORY "${ETENDUE_MANUAL}/" DESTINATION "${CMAKE_INSTALL_DATADIR}" CO
   PATTERN man EXCLUDE)
 install(DIRECTORY scenes DESTINATION "${CMAKE_INSTALL_DATADIR}/etendue" COMPONENT runtime
   PATTERN CMakeLists.txt EXCLUDE)
+install(DIRECTORY addons/blender/etendue DESTINATION "${CMAKE_INSTALL_DATADIR}/etendue/blender" COMPONENT runtime
+  PATTERN __pycache__ EXCLUDE)
+install(FILES "${ETENDUE_BLENDER_ZIP}" DESTINATION "${CMAKE_INSTALL_DATADIR}/etendue/blender" COMPONENT runtime)
 install(FILES third_party_config/ocio/config.ocio DESTINATION "${CMAKE_INSTALL_DATADIR}/etendue" COMPONENT runtime)
 install(FILES README.md CHANGELOG.md LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT runtime)
 install(DIRECTORY docs DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT runtime)
@@ -25,7 +28,7 @@ if(ETENDUE_BUILD_LIBRARY)
 endif()
 
 # All that is installed, without tests.
-add_custom_target(installable DEPENDS etendue manual scenes)
+add_custom_target(installable DEPENDS etendue manual scenes blender_addon)
 if(ETENDUE_BUILD_LIBRARY)
   add_dependencies(installable etendue_library)
 endif()

@@ -48,13 +48,15 @@ class InstallTest(unittest.TestCase):
         for file in ("bin/etendue", "include/etendue/etendue.h", "share/man/man1/etendue.1",
                      "share/man/man1/etendue-render.1", "share/bash-completion/completions/etendue",
                      "share/zsh/site-functions/_etendue", "share/fish/vendor_completions.d/etendue.fish",
-                     "share/etendue/config.ocio", "share/etendue/scenes/render.schema.json",
+                     "share/etendue/config.ocio", "share/etendue/blender/etendue/__init__.py",
+                     "share/etendue/blender/etendue/blender_manifest.toml", "share/etendue/scenes/render.schema.json",
                      "share/etendue/scenes/cornell-box/scene.gltf", "share/etendue/scenes/cornell-box/scene.bin",
                      "share/doc/etendue/README.md", "share/doc/etendue/docs/render-json.md",
                      "share/doc/etendue/examples/render_scene.cpp"):
             self.assertIn(file, files)
         for pattern in (r"lib(/[\w-]+)?/libetendue\.so\.\d+\.\d+\.\d+", r"lib(/[\w-]+)?/libetendue\.so",
-                        r"lib(/[\w-]+)?/cmake/Etendue/EtendueConfig(Version)?\.cmake"):
+                        r"lib(/[\w-]+)?/cmake/Etendue/EtendueConfig(Version)?\.cmake",
+                        r"share/etendue/blender/etendue-blender-\d+\.\d+\.\d+\.zip"):
             self.assertTrue(any(re.fullmatch(pattern, file) for file in files), pattern)
         self.assertFalse([file for file in files if file.endswith((".a", "CMakeLists.txt")) and "examples" not in file])
 

@@ -1,0 +1,184 @@
+"""GLB files: reading and writing them, and what the renderer needs otherwise than the exporter has it. Needs nothing of
+Blender."""
+
+from __future__ import annotations
+
+import copy
+import json
+import struct
+from collections.abc import Collection, Mapping
+from pathlib import Path
+from typing import Any
+
+MAGIC, JSON_CHUNK, BINARY_CHUNK = 0x46546C67, 0x4E4F534A, 0x004E4942
+FLOAT, LAMPS = 5126, "KHR_lights_punctual"
+
+Document = dict[str, Any]
+# A motion holds translations, rotations (x, y, z, w) and scales of a node, one for each moment.
+Motion = dict[str, list[tuple[float, ...]]]
+
+
+def read_glb(path: Path) -> tuple[Document, bytes]:
+    data = path.read_bytes()
+    magic, version, size = struct.unpack_from("<III", data)
+    if magic != MAGIC or version != 2 or size > len(data):
+        raise ValueError(f"{path} is no GLB file")
+    document, binary, at = {}, b"", 12
+    while at < size:
+        length, kind = struct.unpack_from("<II", data, at)
+        content = data[at + 8:at + 8 + length]
+        if kind == JSON_CHUNK:
+            document = json.loads(content)
+        elif kind == BINARY_CHUNK:
+            binary = content
+        at += 8 + length
+    return document, binary
+
+
+def write_glb(path: Path, document: Document, binary: bytes) -> None:
+    text = json.dumps(document, separators=(",", ":")).encode()
+    text += b" " * (-len(text) % 4)
+    binary += b"\0" * (-len(binary) % 4)
+    if binary:
+        document_size = document["buffers"][0]["byteLength"]
+        assert document_size <= len(binary)
+    chunks = struct.pack("<II", len(text), JSON_CHUNK) + text
+    if binary:
+        chunks += struct.pack("<II", len(binary), BINARY_CHUNK) + binary
+    path.write_bytes(struct.pack("<III", MAGIC, 2, 12 + len(chunks)) + chunks)
+
+
+def give_nodes_their_own(document: Document) -> None:
+    """Each node has a camera and a lamp of its own, with its name: the names of objects alone say then which is meant."""
+    cameras, lamps = document.get("cameras", []), document.get("extensions", {}).get(LAMPS, {}).get("lights", [])
+    own_cameras, own_lamps = [], []
+    for node in document.get("nodes", []):
+        if "camera" in node:
+            own_cameras.append({**cameras[node["camera"]], "name": node.get("name", "")})
+            node["camera"] = len(own_cameras) - 1
+        lamp = node.get("extensions", {}).get(LAMPS)
+        if lamp is not None:
+            own_lamps.append({**copy.deepcopy(lamps[lamp["light"]]), "name": node.get("name", "")})
+            lamp["light"] = len(own_lamps) - 1
+    if own_cameras:
+        document["cameras"] = own_cameras
+    if own_lamps:
+        document["extensions"][LAMPS]["lights"] = own_lamps
+
+
+def leave_out(document: Document, shown: Collection[str]) -> list[str]:
+    """Takes meshes and lamps from the nodes whose objects are not to be rendered, and returns their names; what hangs
+    below them stays."""
+    left_out = []
+    for node in document.get("nodes", []):
+        name = node.get("name", "")
+        if name in shown:
+            continue
+        extensions = node.get("extensions", {})
+        if "mesh" in node or LAMPS in extensions:
+            left_out.append(name)
+        node.pop("mesh", None)
+        node.pop("skin", None)
+        extensions.pop(LAMPS, None)
+        if not extensions:
+            node.pop("extensions", None)
+    return left_out
+
+
+def set_spots(document: Document, cones: Mapping[str, tuple[float, float]]) -> None:
+    """Gives the spots of these nodes their inner and outer angles; each node has a lamp of its own."""
+    lamps = document.get("extensions", {}).get(LAMPS, {}).get("lights", [])
+    for node in document.get("nodes", []):
+        lamp = node.get("extensions", {}).get(LAMPS)
+        if lamp is not None and node.get("name") in cones:
+            inner, outer = cones[node["name"]]
+            lamps[lamp["light"]]["spot"] = {"innerConeAngle": inner, "outerConeAngle": outer}
+
+
+def blend(document: Document, materials: Collection[str]) -> None:
+    """Gives these materials their alpha, which the exporter keeps for those alone that Eevee blends."""
+    for material in document.get("materials", []):
+        if material.get("name") in materials and material.get("alphaMode", "OPAQUE") == "OPAQUE":
+            material["alphaMode"] = "BLEND"
+
+
+def add_extras(document: Document, extras: Mapping[str, Mapping[str, Any]]) -> None:
+    """Adds to the `etendue` of the extras of nodes, by their names."""
+    for node in document.get("nodes", []):
+        given = extras.get(node.get("name", ""))
+        if given:
+            node.setdefault("extras", {})
+            node["extras"]["etendue"] = {**node["extras"].get("etendue", {}), **given}
+
+
+def add_motion(document: Document, binary: bytes, times: list[float], motions: Mapping[int, Motion]) -> bytes:
+    """Adds an animation that moves the nodes with these numbers through these moments, in place of all others. Returns
+    the binary part with its numbers."""
+    document.pop("animations", None)
+    if not motions:
+        return binary
+    data = bytearray(binary) + b"\0" * (-len(binary) % 4)
+    accessors, views = document.setdefault("accessors", []), document.setdefault("bufferViews", [])
+
+    def accessor(values: list[tuple[float, ...]], kind: str, **bounds: Any) -> int:
+        flat = [number for value in values for number in value]
+        views.append({"buffer": 0, "byteOffset": len(data), "byteLength": 4 * len(flat)})
+        data.extend(struct.pack(f"<{len(flat)}f", *flat))
+        accessors.append({"bufferView": len(views) - 1, "componentType": FLOAT, "count": len(values), "type": kind, **bounds})
+        return len(accessors) - 1
+
+    clock = accessor([(time,) for time in times], "SCALAR", min=[min(times)], max=[max(times)])
+    samplers, channels = [], []
+    for number, motion in motions.items():
+        node = document["nodes"][number]
+        if "matrix" in node:
+            del node["matrix"]
+        for path, values in motion.items():
+            samplers.append({"input": clock, "output": accessor(values, "VEC4" if path == "rotation" else "VEC3"),
+                             "interpolation": "LINEAR"})
+            channels.append({"sampler": len(samplers) - 1, "target": {"node": number, "path": path}})
+    document["animations"] = [{"name": "shutter", "samplers": samplers, "channels": channels}]
+    if document.get("buffers"):
+        document["buffers"][0]["byteLength"] = len(data)
+    else:
+        document["buffers"] = [{"byteLength": len(data)}]
+    return bytes(data)
+
+
+def hide_from_camera(document: Document, names: Collection[str]) -> dict[str, str]:
+    """Gives the meshes of these objects materials of their own. Returns which material each is a copy of, None for the
+    default one."""
+    copies: dict[int | None, int] = {}
+    origins: dict[str, str] = {}
+    materials = document.setdefault("materials", [])
+    meshes: dict[int, int] = {}
+    for node in document.get("nodes", []):
+        if node.get("name") not in names or "mesh" not in node:
+            continue
+        if node["mesh"] not in meshes:
+            mesh = copy.deepcopy(document["meshes"][node["mesh"]])
+            for primitive in mesh["primitives"]:
+                old = primitive.get("material")
+                if old not in copies:
+                    original = {} if old is None else materials[old]
+                    name = f"{original.get('name', 'default')} hidden from the camera"
+                    materials.append({**copy.deepcopy(original), "name": name})
+                    copies[old] = len(materials) - 1
+                    origins[name] = original.get("name", "")
+                primitive["material"] = copies[old]
+            document["meshes"].append(mesh)
+            meshes[node["mesh"]] = len(document["meshes"]) - 1
+        node["mesh"] = meshes[node["mesh"]]
+    if not materials:
+        del document["materials"]
+    return origins
+
+
+def ensure_camera(document: Document, name: str) -> None:
+    """Gives the node of this name a camera where the exporter knows none of its kind: a panorama."""
+    for node in document.get("nodes", []):
+        if node.get("name") == name and "camera" not in node:
+            cameras = document.setdefault("cameras", [])
+            cameras.append({"name": name, "type": "perspective", "perspective": {"yfov": 1.0, "znear": 0.1}})
+            node["camera"] = len(cameras) - 1
+            return

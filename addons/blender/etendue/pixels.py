@@ -1,0 +1,44 @@
+"""From the program's layers to Blender's passes."""
+
+from __future__ import annotations
+
+import numpy
+
+from .exr import Exr
+from .passes import AS_IS, OVER_ALBEDO, TO_Z_UP, UV, WHITE, Pass
+
+
+def planes(exr: Exr, names: list[str]) -> numpy.ndarray | None:
+    """These channels as rows from the bottom up, which Blender has; None if the file lacks one."""
+    if any(name not in exr.channels for name in names):
+        return None
+    return numpy.stack([exr.channels[name][::-1].astype(numpy.float32) for name in names], axis=-1)
+
+
+def combined(exr: Exr, transparent: bool) -> numpy.ndarray:
+    """The image. Where nothing is behind the scene, it is opaque unless the film is transparent."""
+    result = planes(exr, list("RGBA"))
+    if result is None:
+        result = numpy.concatenate([planes(exr, list("RGB")), numpy.ones((exr.height, exr.width, 1), numpy.float32)], axis=-1)
+    if not transparent:
+        result[..., 3] = 1.0
+    return result
+
+
+def pixels_of(exr: Exr, item: Pass) -> numpy.ndarray | None:
+    """The pixels of a pass, None if the file lacks its layer."""
+    if item.change == WHITE:
+        return numpy.ones((exr.height, exr.width, len(item.channels)), numpy.float32)
+    result = planes(exr, item.names())
+    if result is None or item.change == AS_IS:
+        return result
+    if item.change == TO_Z_UP:
+        return numpy.stack([result[..., 0], -result[..., 2], result[..., 1]], axis=-1)
+    if item.change == UV:
+        covered = planes(exr, ["A"])
+        covered = numpy.ones_like(result[..., :1]) if covered is None else (covered > 0.0).astype(numpy.float32)
+        # glTF counts v from the top.
+        return numpy.concatenate([result[..., :1], (1.0 - result[..., 1:]) * covered, covered], axis=-1)
+    assert item.change == OVER_ALBEDO
+    albedo = planes(exr, [f"albedo_diffuse.{letter}" for letter in "RGB"])
+    return None if albedo is None else numpy.divide(result, albedo, out=numpy.zeros_like(result), where=albedo > 1e-5)

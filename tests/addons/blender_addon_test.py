@@ -1,0 +1,486 @@
+"""Tests of the parts of Blender's add-on that need no Blender: render.json, GLB files, passes, the program as a child.
+
+Called with the program as its last argument, it also holds what is written against the program's schema."""
+
+import json
+import math
+import os
+import stat
+import struct
+import sys
+import tempfile
+import time
+import unittest
+import zipfile
+from pathlib import Path
+
+import fake_blender as fake
+from etendue import child, glb, passes, program, scene_settings
+
+try:
+    import numpy
+    from etendue import exr, pixels
+except ImportError:
+    numpy = None
+
+ROOT = Path(__file__).resolve().parents[2]
+LAST = Path(sys.argv[-1] if len(sys.argv) > 1 else "-")
+PROGRAM = Path(sys.argv.pop()) if LAST.is_file() and os.access(LAST, os.X_OK) else None
+# Keys that the add-on writes and this program leaves out, with a warning; beginnings of their names.
+NOT_YET = ("cameras", "film.pixel_aspect", "lights.", "aovs: vector")
+
+
+def written(scene=None, objects=(), materials=(), aovs=(), **more):
+    return scene_settings.write(scene or fake.scene(), objects, materials, aovs, **more)
+
+
+class Image(unittest.TestCase):
+    def test_the_size_and_the_border_are_blenders(self):
+        scene = fake.scene()
+        self.assertEqual(written(scene).document["resolution"], [100, 50])
+        self.assertNotIn("crop", written(scene).document)
+        scene.render.use_border = True
+        self.assertEqual(written(scene).document["crop"], [25, 25, 75, 50])  # y down
+        # Blender 3.4 renders 41 x 29 of 64 x 48 pixels; its numbers are of single precision.
+        scene.render.resolution_percentage, scene.render.resolution_x, scene.render.resolution_y = 100, 64, 48
+        scene.render.border_max_x, scene.render.border_min_y, scene.render.border_max_y = 0.8999999761581421, 0.2, 0.8
+        self.assertEqual(written(scene).document["crop"], [16, 10, 57, 39])
+        scene.render.resolution_x, scene.render.border_max_x = 10, 0.699999988079071
+        self.assertEqual(written(scene).document["crop"][2], 7)
+
+    def test_pixels_that_are_not_square(self):
+        scene = fake.scene()
+        scene.render.pixel_aspect_x = 1.5
+        self.assertEqual(written(scene).document["film"]["pixel_aspect"], 1.5)
+        self.assertNotIn("pixel_aspect", written().document["film"])
+
+    def test_integrators_get_what_they_look_at(self):
+        self.assertEqual(written().document["integrator"], {"type": "path", "max_depth": 12, "light_samples": 1})
+        vcm = written(fake.scene(integrator="vcm", connections=4, merge="all")).document["integrator"]
+        self.assertEqual((vcm["merge"], vcm["connections"]), ("all", "cache:4"))
+        self.assertNotIn("light_samples", vcm)
+
+    def test_what_ends_the_render(self):
+        self.assertFalse({"time", "error", "adaptive"} & set(written().document))
+        document = written(fake.scene(time=9.0, error=0.05, robust=6)).document
+        self.assertEqual((document["time"], document["error"], document["min_spp"], document["robust"]), (9.0, 0.05, 48, "mon:7"))
+
+    def test_the_shutter(self):
+        render = fake.scene().render
+        self.assertEqual(scene_settings.shutter(render, "CENTER"), (-0.25, 0.25))
+        self.assertEqual(scene_settings.shutter(render, "START"), (0.0, 0.5))
+        self.assertEqual(written(moving=(0.0, 0.02)).document["shutter"], [0.0, 0.02])
+
+
+class Lamps(unittest.TestCase):
+    def lamp(self, kind, visible=False, **properties):
+        return scene_settings.lamp(fake.item("Lamp", fake.light(kind, **properties), "LIGHT", visible_camera=visible))
+
+    def test_points_have_blenders_watts(self):
+        self.assertEqual(self.lamp("POINT"), {"color": [1.0, 0.5, 0.25], "power": 10.0})
+        soft = self.lamp("SPOT", shadow_soft_size=0.2)
+        self.assertEqual((soft["radius"], soft["visible_to_camera"]), (0.2, False))
+
+    def test_suns(self):
+        self.assertEqual(self.lamp("SUN", angle=0.01), {"color": [1.0, 0.5, 0.25], "irradiance": 10.0, "angle": 0.01})
+
+    def test_areas(self):
+        square = self.lamp("AREA", size=2.0)
+        self.assertEqual((square["type"], square["width"], square["height"]), ("rectangle", 2.0, 2.0))
+        # Radiance: power / (pi area) is to be Cycles' 10 / (4 area).
+        self.assertAlmostEqual(square["power"] / math.pi, 10.0 / 4.0)
+        self.assertNotIn("spread", square)
+        self.assertEqual(self.lamp("AREA", shape="RECTANGLE", size_y=3.0)["height"], 3.0)
+        disk, ellipse = (self.lamp("AREA", shape=shape, size=3.0, size_y=2.0) for shape in ("DISK", "ELLIPSE"))
+        self.assertEqual((disk["type"], disk["width"], disk["height"]), ("disk", 3.0, 3.0))
+        self.assertEqual((ellipse["type"], ellipse["width"], ellipse["height"]), ("disk", 3.0, 2.0))
+        self.assertEqual([self.lamp("AREA", spread=spread)["spread"] for spread in (1.0, 0.001)], [1.0, math.radians(1.0)])
+        self.assertIs(square["visible_to_camera"], False)
+        self.assertNotIn("visible_to_camera", self.lamp("AREA", visible=True))
+
+    def test_nodes_multiply(self):
+        node = fake.Node("EMISSION", {"Color": (0.5, 1.0, 1.0, 1.0), "Strength": 3.0})
+        lamp = self.lamp("POINT", use_nodes=True, node_tree=fake.SimpleNamespace(nodes=[node]))
+        self.assertEqual((lamp["power"], lamp["color"][0]), (30.0, 0.5))
+
+    def test_a_spot_has_the_light_that_cycles_gives_it(self):
+        light = fake.light("SPOT", spot_size=1.2, spot_blend=0.6)
+        inner, outer = (math.cos(angle) for angle in scene_settings.spot_cones(light))
+        smooth = outer + 0.6 * (1.0 - outer)
+        steps = 20000
+        sums = [0.0, 0.0]
+        for step in range(steps):
+            z = outer + (step + 0.5) / steps * (1.0 - outer)
+            t = min((z - outer) / (smooth - outer), 1.0)
+            sums[0] += t * t * (3.0 - 2.0 * t)
+            sums[1] += min((z - outer) / (inner - outer), 1.0) ** 2
+        self.assertAlmostEqual(sums[0] / sums[1], 1.0, places=4)
+
+
+class World(unittest.TestCase):
+    def environment(self, world, transparent=False):
+        result = scene_settings.Written()
+        return scene_settings.environment(world, transparent, result), result
+
+    def background(self, color=(0.5, 0.5, 1.0, 1.0), strength=2.0):
+        return fake.Node("BACKGROUND", {"Color": color, "Strength": strength})
+
+    def test_colours(self):
+        self.assertIsNone(self.environment(None)[0])
+        self.assertEqual(self.environment(fake.world(self.background()))[0], {"scale": 2.0, "color": [0.5, 0.5, 1.0]})
+        self.assertIs(self.environment(fake.world(self.background()), True)[0]["visible_to_camera"], False)
+        self.assertIs(self.environment(fake.world(self.background(), visible_camera=False))[0]["visible_to_camera"], False)
+
+    def test_images_are_turned_as_cycles_turns_them(self):
+        for vector_type, sign in (("POINT", 1.0), ("TEXTURE", -1.0)):
+            mapping = fake.Node("MAPPING", {"Vector": None, "Rotation": (0.0, 0.0, 0.25)}, vector_type=vector_type)
+            texture = fake.Node("TEX_ENVIRONMENT", {"Vector": mapping}, image="the image", projection="EQUIRECTANGULAR")
+            found, result = self.environment(fake.world(self.background(texture)))
+            self.assertAlmostEqual(found["rotation"], -0.5 * math.pi - sign * 0.25)
+            self.assertEqual((result.world_image, result.notes), ("the image", []))
+
+    def test_what_is_left_out_is_said(self):
+        for world in (fake.world(fake.Node("MIX_SHADER")), fake.world(self.background(fake.Node("TEX_SKY")))):
+            self.assertIn("is not brought over", self.environment(world)[1].notes[0])
+
+
+class Cameras(unittest.TestCase):
+    def test_shift_clip_and_blades(self):
+        camera = fake.camera(shift_x=0.1)
+        camera.dof.use_dof, camera.dof.aperture_blades, camera.dof.aperture_ratio = True, 6, 2.0
+        found = scene_settings.camera_settings(camera, scene_settings.Written())
+        self.assertEqual(found, {"shift": [0.1, 0.0], "clip_start": 0.1, "clip_end": 100.0, "blades": 6, "blade_rotation": 0.0,
+                                 "aperture_ratio": 2.0})
+
+    def test_depth_of_field(self):
+        self.assertEqual(scene_settings.lens(fake.camera(), fake.IDENTITY, 4, 3), {})
+        camera = fake.camera()
+        camera.dof.use_dof = True
+        camera.dof.focus_object = fake.item("Target", None, "EMPTY", [[1, 0, 0, 5], [0, 1, 0, 1], [0, 0, 1, -7], [0, 0, 0, 1]])
+        self.assertEqual(scene_settings.lens(camera, fake.IDENTITY, 4, 3),
+                         {"focus_distance": 7.0, "f_stop": 2.8, "sensor_width": 36.0})
+        camera.type = "ORTHO"
+        self.assertAlmostEqual(scene_settings.lens(camera, fake.IDENTITY, 4, 3)["lens_radius"], 0.5 / 2.8)
+
+    def test_the_sensor_is_that_of_the_longer_side(self):
+        for fit, width, height, expected in (("AUTO", 3, 4, 36.0), ("HORIZONTAL", 4, 3, 36.0), ("HORIZONTAL", 3, 4, 48.0),
+                                             ("VERTICAL", 4, 3, 32.0), ("VERTICAL", 3, 4, 24.0)):
+            self.assertAlmostEqual(scene_settings.sensor_of_longer_side(fake.camera(sensor_fit=fit), width, height), expected)
+
+    def test_panoramas(self):
+        settings = fake.SimpleNamespace(panorama_type="FISHEYE_EQUISOLID", fisheye_fov=2.0, fisheye_lens=9.0)
+        fisheye = fake.camera("PANO", cycles=settings)
+        found = scene_settings.camera_settings(fisheye, scene_settings.Written())
+        self.assertEqual((found["type"], found["mapping"], found["fov"], found["focal_length"]), ("fisheye", "equisolid", 2.0, 9.0))
+        newer = fake.camera("PANO", panorama_type="MIRRORBALL")
+        result = scene_settings.Written()
+        self.assertEqual(scene_settings.camera_settings(newer, result)["type"], "equirectangular")
+        self.assertIn("MIRRORBALL", result.notes[0])
+
+
+class Materials(unittest.TestCase):
+    def material(self, shader, closed=True):
+        result = scene_settings.Written()
+        return scene_settings.material(fake.material("M", shader), closed, result), result
+
+    def test_a_plain_surface_needs_nothing(self):
+        self.assertEqual(self.material(fake.principled(Base_Color=(1, 1, 1, 1), Roughness=0.5))[0], {})
+
+    def test_glass_is_solid_where_its_meshes_are_closed(self):
+        for name in ("Transmission", "Transmission_Weight"):
+            glass = fake.principled(IOR=1.6, **{name: 1.0})
+            self.assertEqual(self.material(glass)[0], {"solid": True, "ior": 1.6})
+            self.assertEqual(self.material(glass, closed=False)[0], {"ior": 1.6})
+
+    def test_sheen_of_both_versions(self):
+        new = fake.principled(Sheen_Weight=0.5, Sheen_Tint=(1.0, 0.5, 0.0, 1.0), Sheen_Roughness=0.3)
+        self.assertEqual(self.material(new)[0], {"sheen_color": [0.5, 0.25, 0.0], "sheen_roughness": 0.3})
+        old = fake.principled(Sheen=0.5, Sheen_Tint=0.0, Base_Color=(0.2, 0.2, 0.2, 1.0))
+        self.assertEqual(self.material(old)[0], {"sheen_color": [0.1, 0.1, 0.1], "sheen_roughness": 0.3})
+
+    def test_a_coat_before_blender_4_has_a_quarter_of_its_light(self):
+        self.assertEqual(self.material(fake.principled(Clearcoat=0.8))[0], {"clearcoat": 0.2})
+        self.assertEqual(self.material(fake.principled(Coat_Weight=0.8))[0], {})
+
+    def test_thin_films(self):
+        found = self.material(fake.principled(Thin_Film_Thickness=400.0, Thin_Film_IOR=1.5))[0]
+        self.assertEqual(found, {"iridescence": 1.0, "iridescence_ior": 1.5, "iridescence_thickness_minimum": 400.0,
+                                 "iridescence_thickness_maximum": 400.0})
+
+    def test_anisotropy_has_the_widths_of_cycles(self):
+        found = scene_settings.anisotropy(0.7, 0.4, 0.25)
+        narrow = found["roughness"] ** 2
+        wide = narrow + (1.0 - narrow) * found["anisotropy_strength"] ** 2
+        aspect = math.sqrt(1.0 - 0.9 * 0.7)
+        self.assertAlmostEqual(narrow, 0.16 * aspect)
+        self.assertAlmostEqual(wide, 0.16 / aspect)
+        self.assertAlmostEqual(found["anisotropy_rotation"], 0.5 * math.pi)
+
+    def test_wax_of_both_versions(self):
+        old = fake.principled(Subsurface=0.8, Subsurface_Color=(0.8, 0.5, 0.3, 1.0), Subsurface_Radius=(1.0, 0.2, 0.1),
+                              Roughness=0.4, Subsurface_IOR=1.4)
+        new = fake.principled(Subsurface_Weight=1.0, Base_Color=(0.8, 0.5, 0.3, 1.0), Subsurface_Radius=(1.0, 0.2, 0.1),
+                              Subsurface_Scale=0.8, Roughness=0.4, IOR=1.4)
+        for shader in (old, new):
+            body = self.material(shader)[0]["subsurface"]
+            self.assertEqual((body["albedo"], body["radius"][0], body["ior"]), ([0.8, 0.5, 0.3], 0.8, 1.4))
+        found, result = self.material(new, closed=False)
+        self.assertNotIn("subsurface", found)
+        self.assertIn("closed meshes", result.notes[0])
+
+    def test_simple_shaders(self):
+        self.assertEqual(self.material(fake.Node("BSDF_DIFFUSE", {"Color": (0.2, 0.4, 0.6, 1.0), "Roughness": 0.0}))[0],
+                         {"diffuse": {"albedo": [0.2, 0.4, 0.6]}})
+        glossy = fake.Node("BSDF_GLOSSY", {"Color": (1, 1, 1, 1), "Roughness": 0.4}, distribution="SHARP")
+        self.assertEqual(self.material(glossy)[0]["roughness"], 0.0)
+        glass = fake.Node("BSDF_GLASS", {"Color": (1, 1, 1, 1), "Roughness": 0.0, "IOR": 1.4}, distribution="GGX")
+        self.assertTrue(self.material(glass)[0]["solid"])
+        self.assertIn("in part at most", self.material(fake.Node("MIX_SHADER"))[1].notes[0])
+
+    def test_alpha_is_kept(self):
+        self.assertEqual(self.material(fake.principled(Alpha=0.5))[1].blended, {"M"})
+        self.assertEqual(self.material(fake.principled(Alpha=1.0))[1].blended, set())
+
+
+class Glb(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.file = Path(folder.name) / "a.glb"
+
+    def test_what_is_written_is_read(self):
+        document = {"asset": {"version": "2.0"}, "buffers": [{"byteLength": 5}]}
+        glb.write_glb(self.file, document, b"hello")
+        self.assertEqual(glb.read_glb(self.file), (document, b"hello\0\0\0"))
+        self.file.write_bytes(b"no glTF, but long enough")
+        with self.assertRaisesRegex(ValueError, "no GLB"):
+            glb.read_glb(self.file)
+
+    def test_nodes_get_cameras_and_lamps_of_their_own(self):
+        lamp = {glb.LAMPS: {"light": 0}}
+        document = {"cameras": [{"name": "B"}], "extensions": {glb.LAMPS: {"lights": [{"name": "data", "type": "spot"}]}},
+                    "nodes": [{"name": "A", "camera": 0}, {"name": "B", "camera": 0}, {"name": "L", "extensions": lamp},
+                              {"name": "K", "extensions": {glb.LAMPS: {"light": 0}}}]}
+        glb.give_nodes_their_own(document)
+        glb.set_spots(document, {"K": (0.1, 0.2)})
+        self.assertEqual([camera["name"] for camera in document["cameras"]], ["A", "B"])
+        lights = document["extensions"][glb.LAMPS]["lights"]
+        self.assertEqual([light["name"] for light in lights], ["L", "K"])
+        self.assertNotIn("spot", lights[0])
+        self.assertEqual(lights[1]["spot"], {"innerConeAngle": 0.1, "outerConeAngle": 0.2})
+
+    def test_what_is_not_rendered_is_left_out_and_its_children_stay(self):
+        document = {"nodes": [{"name": "A", "mesh": 0, "children": [1]}, {"name": "B", "mesh": 1}]}
+        self.assertEqual(glb.leave_out(document, {"B"}), ["A"])
+        self.assertEqual(document["nodes"], [{"name": "A", "children": [1]}, {"name": "B", "mesh": 1}])
+
+    def test_what_the_camera_does_not_see_has_materials_of_its_own(self):
+        document = {"materials": [{"name": "M"}], "meshes": [{"primitives": [{"material": 0}, {}]}],
+                    "nodes": [{"name": "A", "mesh": 0}, {"name": "B", "mesh": 0}, {"name": "C", "mesh": 0}]}
+        origins = glb.hide_from_camera(document, {"B", "C"})
+        self.assertEqual(origins, {"M hidden from the camera": "M", "default hidden from the camera": ""})
+        self.assertEqual([node["mesh"] for node in document["nodes"]], [0, 1, 1])
+        self.assertEqual(document["meshes"][0]["primitives"], [{"material": 0}, {}])
+
+    def test_motion_is_an_animation_of_bytes_behind_the_others(self):
+        document = {"buffers": [{"byteLength": 5}], "nodes": [{"name": "A"}, {"name": "B"}], "animations": [{}]}
+        data = glb.add_motion(document, b"hello", [0.0, 0.5], {1: {"translation": [(0.0, 1.0, 2.0), (3.0, 4.0, 5.0)]}})
+        animation, = document["animations"]
+        self.assertEqual(animation["channels"], [{"sampler": 0, "target": {"node": 1, "path": "translation"}}])
+        view = document["bufferViews"][document["accessors"][1]["bufferView"]]
+        self.assertEqual(view["byteOffset"] % 4, 0)
+        self.assertEqual(struct.unpack_from("<6f", data, view["byteOffset"]), (0.0, 1.0, 2.0, 3.0, 4.0, 5.0))
+        self.assertEqual((data[:5], document["buffers"][0]["byteLength"]), (b"hello", len(data)))
+
+    def test_panoramas_get_a_camera_to_change(self):
+        document = {"nodes": [{"name": "View"}]}
+        glb.ensure_camera(document, "View")
+        self.assertEqual(document["nodes"][0]["camera"], 0)
+
+
+class Passes(unittest.TestCase):
+    def test_layers_are_asked_for_once(self):
+        layer = fake.view_layer(use_pass_z=True, use_pass_diffuse_direct=True, use_pass_diffuse_indirect=True,
+                                use_pass_cryptomatte_object=True, use_pass_glossy_color=True)
+        wanted = passes.wanted(layer)
+        self.assertEqual([item.name for item in wanted], ["Depth", "DiffDir", "DiffInd", "GlossCol", "CryptoObject00",
+                                                          "CryptoObject01", "CryptoObject02"])
+        self.assertEqual(passes.sources(wanted, True), ["depth", "diffuse_direct", "diffuse_indirect", "cryptomatte_object:6",
+                                                        "albedo_diffuse", "denoising"])
+        layer.pass_cryptomatte_depth = 5  # the program rounds up, and so is to be asked for as many as Blender has
+        self.assertEqual(passes.wanted(layer)[-1].source, "cryptomatte_object:6")
+        self.assertEqual(wanted[4].names(), ["CryptoObject00.R", "CryptoObject00.G", "CryptoObject00.B", "CryptoObject00.A"])
+
+    def test_layers_of_the_users(self):
+        key, glass = passes.extra_layers("key=light:Key; glass=lpe:C T .* L;")
+        self.assertEqual((key.name, key.source, glass.names()[0]), ("key", "key=light:Key", "glass.R"))
+        with self.assertRaisesRegex(ValueError, "'depth' is no layer"):
+            list(passes.extra_layers("depth"))
+
+    def test_keys_of_mattes_are_those_of_the_specification(self):
+        # As docs/cryptomatte.md shows it, and the vectors of MurmurHash3.
+        self.assertEqual(passes.matte_key("CryptoObject"), "3ae39a5")
+        for data, seed, expected in ((b"", 1, 0x514E28B7), (b"test", 0, 0xBA6BD213), (b"Hello, world!", 0, 0xC0363E43)):
+            self.assertEqual(passes.murmur3(data, seed), expected)
+
+
+@unittest.skipIf(numpy is None, "numpy, which Blender brings, is not here")
+class Pixels(unittest.TestCase):
+    def test_an_exr_that_is_written_is_read(self):
+        with tempfile.TemporaryDirectory() as folder:
+            image = numpy.arange(24, dtype=numpy.float32).reshape(2, 4, 3)
+            exr.write_exr(Path(folder) / "a.exr", image)
+            found = exr.read_exr(Path(folder) / "a.exr")
+        self.assertEqual((found.width, found.height), (4, 2))
+        for index, letter in enumerate("RGB"):
+            self.assertTrue((found.channels[letter] == image[..., index]).all())
+
+    def exr(self, **channels):
+        rows = {name.replace("__", "."): numpy.array([[value], [value + 1.0]], numpy.float32) for name, value in channels.items()}
+        return exr.Exr(0, 0, 1, 2, rows, {})
+
+    def test_rows_go_up_and_the_film_is_opaque(self):
+        image = self.exr(R=1.0, G=2.0, B=3.0, A=-1.0)
+        self.assertEqual(pixels.combined(image, True)[0, 0].tolist(), [2.0, 3.0, 4.0, 0.0])
+        self.assertEqual(pixels.combined(image, False)[1, 0].tolist(), [1.0, 2.0, 3.0, 1.0])
+
+    def test_conventions(self):
+        _, normal = next(row for row in passes.STANDARD if row[1].name == "Normal")
+        self.assertEqual(pixels.pixels_of(self.exr(N__X=1.0, N__Y=2.0, N__Z=3.0), normal)[1, 0].tolist(), [1.0, -3.0, 2.0])
+        _, uv = next(row for row in passes.STANDARD if row[1].name == "UV")
+        self.assertEqual(pixels.pixels_of(self.exr(uv__U=0.25, uv__V=0.75, A=1.0), uv)[1, 0].tolist(), [0.25, 0.25, 1.0])
+        _, diffuse = next(row for row in passes.STANDARD if row[1].name == "DiffDir")
+        light = {f"diffuse_direct__{letter}": 3.0 for letter in "RGB"} | {f"albedo_diffuse__{letter}": 1.0 for letter in "RGB"}
+        self.assertEqual(pixels.pixels_of(self.exr(**light), diffuse)[0, 0].tolist(), [2.0, 2.0, 2.0])
+        self.assertIsNone(pixels.pixels_of(self.exr(), diffuse))
+
+
+class Program(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name).resolve()
+
+    def script(self, text, name="etendue"):
+        file = self.folder / name
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(f"#!/bin/sh\n{text}\n")
+        file.chmod(file.stat().st_mode | stat.S_IXUSR)
+        return file
+
+    def test_where_it_is_found(self):
+        there = self.script("exit 0", "prefix/bin/etendue")
+        package = self.folder / "prefix/share/etendue/blender/etendue"
+        nowhere = self.folder / "a/b/c/d/e"
+        self.assertEqual(program.find_program(environment={"PATH": ""}, package=package), there)
+        self.assertEqual(program.find_program(str(there.parent), {}, nowhere), there)
+        self.assertEqual(program.find_program("", {"ETENDUE": str(there)}, nowhere), there)
+        self.assertEqual(program.find_program("", {"PATH": str(there.parent)}, nowhere), there)
+        # Who names one wants no other.
+        self.assertIsNone(program.find_program(str(self.folder / "missing"), {"ETENDUE": str(there)}, package))
+
+    def test_unknown_keys_go_and_a_lamp_of_an_unknown_kind_as_a_whole(self):
+        document = {"lights": {"A": {"type": "disk", "color": [1, 1, 1], "radius": 1}, "B": {"radius": 1}}, "spp": 3,
+                    "aovs": ["depth", "vector", "N", "later"]}
+        left, dropped = program.without(document, ["/lights/A/type", "/lights/A/radius", "/lights/B/radius", "/aovs/1", "/aovs/3"])
+        self.assertEqual(left, {"spp": 3, "aovs": ["depth", "N"]})
+        self.assertEqual(dropped, ["aovs: later", "aovs: vector", "lights.A", "lights.B.radius"])
+
+    def test_places_get_the_names_of_objects(self):
+        gltf = {"nodes": [{"name": "Cube", "mesh": 0}], "meshes": [{"name": "data"}], "materials": [{"name": "Red"}, {}]}
+        for message, expected in (("./scene.glb#/nodes/0/mesh: it is odd", "object 'Cube': it is odd"),
+                                  ("a/scene.glb#/meshes/0/primitives/1: no", "object 'Cube': no"),
+                                  ("scene.glb#/materials/0: no", "material 'Red': no"),
+                                  ("scene.glb#/materials/1: no", "scene.glb#/materials/1: no"),
+                                  ("/tmp/x/scene.glb#/nodes/7: no", "scene.glb#/nodes/7: no"),
+                                  ("/tmp/x/render.json#/spp: no", "render.json#/spp: no")):
+            self.assertEqual(program.with_names(message, gltf), expected)
+
+    def test_messages(self):
+        said = "note: one\nerror: a.json#/spp: two\nand more\nwarning: three\n/tmp/a.exr: 4 spp\n"
+        self.assertEqual(program.messages_of(said), [("note", "one"), ("error", "a.json#/spp: two\nand more"), ("warning", "three")])
+
+    def test_progress_previews_and_the_end(self):
+        preview = self.folder / "image.preview.png"
+        done = self.script(f"""
+            trap 'touch {preview}' USR1
+            for last; do :; done
+            eval "echo '{{\\"phase\\":\\"render\\",\\"fraction\\":0.5}}' >&$last"
+            i=0
+            while [ ! -e {preview} ] && [ $i -lt 100 ]; do sleep 0.05; i=$((i + 1)); done
+            echo 'warning: odd' >&2; sleep 0.2""")
+        seen, shown = [], []
+        ended = child.run([str(done)], lambda: False, lambda progress: seen.append(progress.fraction), preview,
+                          lambda path: shown.append(path.name), 0.0)
+        self.assertEqual((ended.code, ended.cancelled, ended.messages), (0, False, [("warning", "odd")]))
+        self.assertIn(0.5, seen)
+        self.assertEqual(shown[0], "image.preview.png")
+
+    def test_stopping_ends_it_even_if_it_does_not_listen(self):
+        for text, longest in (("exec sleep 60", 1.0), ("trap '' TERM\nwhile :; do sleep 0.05; done", child.PATIENCE + 1.0)):
+            began = time.monotonic()
+            ended = child.run([str(self.script(text))], lambda: time.monotonic() - began > 0.2)
+            self.assertTrue(ended.cancelled)
+            self.assertLess(time.monotonic() - began, longest)
+
+    def test_errors(self):
+        ended = child.run([str(self.script("echo 'error: it is broken' >&2; exit 3"))], lambda: False)
+        self.assertEqual((ended.code, ended.error()), (3, "it is broken"))
+        self.assertEqual(child.Ended(-9, False, []).error(), "the program ended with -9")
+        with self.assertRaisesRegex(program.ProgramError, "cannot be started"):
+            child.run([str(self.folder / "missing")], lambda: False)
+
+
+@unittest.skipIf(PROGRAM is None, "no program was given")
+class WithTheProgram(unittest.TestCase):
+    """Holds what is written against the program."""
+
+    def test_it_knows_every_key(self):
+        scene = fake.scene(integrator="vcm", time=9.0, error=0.05, robust=7, clamp_indirect=3.0)
+        scene.render.use_border, scene.render.pixel_aspect_x = True, 1.5
+        scene.world = fake.world(fake.Node("BACKGROUND", {"Color": (1, 1, 1, 1), "Strength": 1.0}), visible_camera=False)
+        scene.camera.data.dof.use_dof, scene.camera.data.shift_x, scene.camera.data.dof.aperture_blades = True, 0.1, 5
+        lamps = [fake.item(shape or kind, fake.light(kind, shape=shape, shadow_soft_size=0.1, spread=1.0, angle=0.1), "LIGHT")
+                 for kind, shape in (("POINT", ""), ("SPOT", ""), ("SUN", ""), ("AREA", "SQUARE"), ("AREA", "DISK"),
+                                     ("AREA", "ELLIPSE"))]
+        shaders = (fake.principled(Transmission=1.0, IOR=1.5), fake.principled(Sheen=1.0, Anisotropic=0.5, Clearcoat=1.0, Thin_Film_Thickness=400.0),
+                   fake.principled(Subsurface=1.0, Subsurface_Color=(1, 1, 1, 1), Subsurface_Radius=(1, 1, 1)),
+                   fake.Node("BSDF_DIFFUSE", {"Color": (1, 1, 1, 1), "Roughness": 0.5}))
+        materials = [(fake.material(f"M{index}", shader), True) for index, shader in enumerate(shaders)]
+        layer = fake.view_layer(**{name: True for name, _ in passes.STANDARD}, **{name: True for name, _, _ in passes.MATTES},
+                                use_pass_volume=True, use_pass_caustics=True)
+        document = written(scene, lamps, materials, passes.sources(passes.wanted(layer), True), moving=(0.0, 0.02)).document
+        dropped = program.known_part(PROGRAM, document)[1]
+        self.assertEqual([name for name in dropped if not name.startswith(NOT_YET)], [])
+
+    def test_it_does_not_know_others(self):
+        document = {"spp": 1, "nonsense": 2, "aovs": ["depth", "nonsense"]}
+        left, dropped = program.known_part(PROGRAM, document)
+        self.assertEqual((left, dropped), ({"spp": 1, "aovs": ["depth"]}, ["aovs: nonsense", "nonsense"]))
+
+
+class Package(unittest.TestCase):
+    def test_the_manifest_and_the_older_form_agree(self):
+        manifest = (ROOT / "addons/blender/etendue/blender_manifest.toml").read_text()
+        source = (ROOT / "addons/blender/etendue/__init__.py").read_text()
+        version = ".".join(map(str, eval(source.split('"version": ')[1].split("),")[0] + ")")))
+        self.assertIn(f'version = "{version}"', manifest)
+        cmake = (ROOT / "CMakeLists.txt").read_text()
+        self.assertRegex(cmake, rf"VERSION {version}\b")
+
+    def test_the_zip_is_the_same_each_time_and_holds_all_of_the_add_on(self):
+        sys.path.insert(0, str(ROOT / "tools"))
+        from lib.addon_zip import write_zip
+        with tempfile.TemporaryDirectory() as folder:
+            files = [Path(folder) / name for name in ("a.zip", "b.zip")]
+            for file in files:
+                write_zip(ROOT / "addons/blender/etendue", file)
+            self.assertEqual(files[0].read_bytes(), files[1].read_bytes())
+            with zipfile.ZipFile(files[0]) as archive:
+                names = set(archive.namelist())
+        self.assertLessEqual({"etendue/__init__.py", "etendue/blender_manifest.toml", "etendue/engine.py"}, names)
+        self.assertFalse([name for name in names if "__pycache__" in name])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,235 @@
+"""Tests of Etendue as a render engine in Blender, without a window: blender_render_test.py PROGRAM [TEST...]
+
+Ends with 77 where there is no Blender, or one without numpy."""
+
+import json
+import os
+import shutil
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tools"))
+
+from lib.addon_zip import write_zip  # noqa: E402
+
+PROGRAM = Path(sys.argv[1]).resolve() if len(sys.argv) > 1 else None
+# Blender takes the modules of the first python3 of the path; numpy is with Debian's.
+PATH = f"/usr/bin:{os.environ.get('PATH', '')}"
+
+
+class InBlender(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="etendue-blender-")
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        addons = self.folder / "scripts/addons"
+        addons.mkdir(parents=True)
+        shutil.copytree(ROOT / "addons/blender/etendue", addons / "etendue", ignore=shutil.ignore_patterns("__pycache__"))
+        self.temporary = self.folder / "tmp"
+        self.temporary.mkdir()
+        self.environment = {**os.environ, "BLENDER_USER_SCRIPTS": str(self.folder / "scripts"), "ETENDUE": str(PROGRAM),
+                            "PATH": PATH, "TMPDIR": str(self.temporary), "PYTHONDONTWRITEBYTECODE": "1"}
+
+    def start(self, *words):
+        command = ["blender", "--background", "--factory-startup", "--python-exit-code", "1", "--addons", "etendue"]
+        return subprocess.Popen([*command, *map(str, words)], env=self.environment, stdout=subprocess.PIPE,
+                                stderr=subprocess.STDOUT, text=True)
+
+    def blender(self, *words, code=0):
+        """Returns what it prints; fails unless it ends with this code."""
+        process = self.start(*words)
+        said, _ = process.communicate(timeout=500)
+        self.assertEqual(process.returncode, code, said[-3000:])
+        return said
+
+    def inside(self, function, *words):
+        return self.blender("--python", ROOT / "tests/addons/blender_in_blender.py", "--", function, *words)
+
+    def simple(self, change="pass"):
+        """A .blend with a ball under a sky, and where its image goes."""
+        blend, image = self.folder / "simple.blend", self.folder / "simple_####.exr"
+        self.inside("save_simple", blend, image, change)
+        return blend, self.folder / "simple_0001.exr"
+
+    def left_over(self):
+        return [path.name for path in self.temporary.rglob("*") if "etendue-" in path.name]
+
+
+def header(path):
+    """Channels and attributes of an EXR, without numpy."""
+    data = path.read_bytes()
+    attributes, at = {}, 8
+    while data[at]:
+        end = data.index(0, at)
+        kind_end = data.index(0, end + 1)
+        size, = struct.unpack_from("<i", data, kind_end + 1)
+        attributes[data[at:end].decode()] = data[kind_end + 5:kind_end + 5 + size]
+        at = kind_end + 5 + size
+    channels, at = set(), 0
+    while attributes["channels"][at]:
+        end = attributes["channels"].index(0, at)
+        channels.add(attributes["channels"][at:end].decode())
+        at = end + 17
+    return channels, attributes
+
+
+class Renders(InBlender):
+    def python(self, code, image):
+        """Returns the value of the code inside Blender: `p(NAME)` has the pixels of a pass of the image, `p("")` of the image."""
+        before = (f"import sys, json, numpy; sys.path.insert(0, {str(ROOT / 'addons/blender')!r}); from pathlib import Path; "
+                  f"from etendue.exr import read_exr; c = read_exr(Path({str(image)!r})).channels; "
+                  "p = lambda n: numpy.stack([c[f'ViewLayer.{n}.{l}' if n else l].astype(float) for l in 'RGB']); ")
+        said = self.blender("--python-expr", f"{before} print('FOUND', json.dumps({code}))")
+        return json.loads(next(line for line in said.splitlines() if line.startswith("FOUND")).removeprefix("FOUND"))
+
+    def means(self, image, *passes):
+        return self.python(f"{{n: p(n).mean(axis=(1, 2)).tolist() for n in {passes!r}}}", image)
+
+    def difference_of_sum(self, image):
+        """The largest difference between the image and the sum of its passes, as Blender's manual has it."""
+        parts = " + ".join(f"p('{name}')" for name in ("GlossDir", "GlossInd", "TransDir", "TransInd", "Emit", "Env"))
+        return self.python(f"abs(p('DiffCol') * (p('DiffDir') + p('DiffInd')) + {parts} - p('Combined')).max()", image)
+
+    def test_everything_by_the_command_line_as_cycles_renders_it(self):
+        blend = self.folder / "everything.blend"
+        self.inside("save", "everything", blend, self.folder / "image_####.exr", "64")
+        image = self.folder / "image_0001.exr"
+        self.blender(blend, "-E", "CYCLES", "-f", "1")
+        theirs = self.means(image, "Combined")["Combined"]
+        image.unlink()
+        said = self.blender(blend, "-E", "ETENDUE", "-f", "1")
+        self.assertNotIn("Error", said)
+        self.assertNotIn("does not know", said)
+        found = self.means(image, "Combined", "DiffDir", "DiffInd", "DiffCol", "GlossDir", "GlossInd", "TransDir", "TransInd",
+                           "Emit", "Env", "sun")
+        # 64 samples of 6,912 pixels: noise below 0.5%; the diffuse lobe of the Principled BSDF and the spot's cosine make
+        # up to 2% in this scene.
+        for channel, (ours, expected) in enumerate(zip(found["Combined"], theirs)):
+            self.assertLess(abs(ours / expected - 1.0), 0.03, f"channel {channel}: {ours} and {expected}")
+        self.assertGreater(found["sun"][0], 0.01)
+        self.assertLess(self.difference_of_sum(image), 1e-3)
+        channels, attributes = header(image)
+        for name in ("Depth.Z", "Normal.X", "Position.Z", "UV.A", "Samples.X", "CryptoObject00.r", "CryptoObject02.a"):
+            self.assertIn(f"ViewLayer.{name}", channels)
+        names = [value for name, value in attributes.items() if name.startswith("cryptomatte/") and name.endswith("/name")]
+        self.assertEqual(names, [b"ViewLayer.CryptoObject"])
+        manifest = next(value for name, value in attributes.items() if name.endswith("/manifest"))
+        self.assertLessEqual({"Plastic", "Metal", "Glass", "Matte", "Floor"}, set(json.loads(manifest)))
+        self.assertEqual(self.left_over(), [])
+
+    def test_the_compositor_finds_a_matte_by_the_name_of_its_object(self):
+        image = self.folder / "matte.exr"
+        self.inside("matte", image)
+        # The ball covers 395 of 6,912 pixels.
+        self.assertAlmostEqual(self.means(image, "")[""][0], 395 / 6912, delta=0.004)
+
+    def test_the_image_is_shown_as_it_grows(self):
+        answer = self.folder / "answer.json"
+        self.inside("previews", answer)
+        *shown, last = json.loads(answer.read_text())
+        self.assertGreater(len(shown), 1)
+        # Previews have 8 bits.
+        for preview in shown[1:]:
+            for channel, expected in zip(preview, last):
+                self.assertAlmostEqual(channel / expected, 1.0, delta=0.02)
+
+    def test_frames_show_what_moves(self):
+        blend, image = self.simple("b = bpy.data.objects['Ball']; b.location.z = 0.8; b.keyframe_insert('location', frame=1); "
+                                   "b.location.z = 100.0; b.keyframe_insert('location', frame=2)")
+        self.blender(blend, "-E", "ETENDUE", "-s", "1", "-e", "2", "-a")
+        one, two = (self.means(self.folder / f"simple_000{frame}.exr", "Combined")["Combined"][0] for frame in (1, 2))
+        # The dark red of the ball is gone from 6% of the image.
+        self.assertGreater(two - one, 0.005)
+
+    def test_borders_and_denoising(self):
+        blend, image = self.simple("r = scene.render; r.use_border = r.use_crop_to_border = True; r.border_min_x = 0.25; "
+                                   "r.border_max_x = 0.9; r.border_min_y = 0.2; r.border_max_y = 0.8; scene.etendue.denoise = True; "
+                                   "bpy.context.view_layer.use_pass_normal = True")
+        said = self.blender(blend, "-E", "ETENDUE", "-f", "1")
+        self.assertNotIn("Error", said)
+        channels, attributes = header(image)
+        x0, y0, x1, y1 = struct.unpack("<4i", attributes["dataWindow"])
+        self.assertEqual((x1 - x0 + 1, y1 - y0 + 1), (41, 29))
+        self.assertIn("ViewLayer.Normal.Z", channels)
+
+    def test_view_layers_show_what_is_in_them(self):
+        blend, image = self.simple("c = bpy.data.collections.new('Away'); scene.collection.children.link(c); "
+                                   "b = bpy.data.objects['Ball']; scene.collection.objects.unlink(b); c.objects.link(b); "
+                                   "l = scene.view_layers.new('Without'); l.layer_collection.children['Away'].exclude = True; "
+                                   "[setattr(v, 'use_pass_cryptomatte_object', True) for v in scene.view_layers]")
+        self.blender(blend, "-E", "ETENDUE", "-f", "1")
+        _, attributes = header(image)
+        manifests = {}
+        for name, value in attributes.items():
+            if name.startswith("cryptomatte/") and name.endswith("/name"):
+                manifests[value.decode()] = set(json.loads(attributes[name.removesuffix("name") + "manifest"]))
+        self.assertIn("Ball", manifests["ViewLayer.CryptoObject"])
+        self.assertNotIn("Ball", manifests["Without.CryptoObject"])
+
+    def test_an_error_is_said(self):
+        for change, program, expected in (
+                ("bpy.context.view_layer.etendue.layers = 'glass=lpe:C (T'", PROGRAM, "render.json#/aovs/0: .*glass"),
+                ("bpy.context.view_layer.etendue.layers = 'depth'", PROGRAM, "'depth' is no layer"),
+                ("pass", self.folder / "missing", ".*'etendue' is not found")):
+            self.environment["ETENDUE"] = str(program)
+            blend, _ = self.simple(change)
+            self.assertRegex(self.blender(blend, "-E", "ETENDUE", "-f", "1", code=1), f"Error: {expected}")
+        self.assertEqual(self.left_over(), [])
+
+    def test_it_is_cancelled_at_once(self):
+        blend, image = self.simple("scene.etendue.samples = 1000000")
+        process = self.start(blend, "-E", "ETENDUE", "-f", "1")
+        for line in process.stdout:
+            if "Rendering" in line:
+                break
+        time.sleep(0.5)
+        began = time.monotonic()
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=60)
+        self.assertLess(time.monotonic() - began, 5.0)
+        self.assertEqual(self.left_over(), [])
+        children = subprocess.run(["pgrep", "-f", f"{PROGRAM} render .*{self.temporary}"], capture_output=True, check=False)
+        self.assertEqual(children.stdout, b"")
+
+
+class Rest(InBlender):
+    def test_the_zip_is_an_add_on(self):
+        file = self.folder / "etendue.zip"
+        write_zip(ROOT / "addons/blender/etendue", file)
+        shutil.rmtree(self.folder / "scripts/addons/etendue")
+        kept = self.folder / "kept"
+        kept.mkdir()
+        self.environment["ETENDUE"] = str(self.folder / "missing")
+        self.assertIn("Etendue's files are in", self.inside("install", file, PROGRAM, kept))
+        self.assertTrue((self.folder / "scripts/addons/etendue/engine.py").is_file())
+        names = {path.relative_to(kept).as_posix().partition("/")[2] for path in kept.rglob("*")}
+        self.assertLessEqual({"scene/scene.glb", "scene/render.json", "image.exr"}, names)
+
+    def test_panels(self):
+        answer = self.folder / "answer.json"
+        said = self.inside("panels", answer)
+        self.assertNotIn("rror", said)
+        found = json.loads(answer.read_text())
+        self.assertLessEqual({"ETENDUE_RENDER_PT_sampling", "EEVEE_MATERIAL_PT_surface", "DATA_PT_lens", "EEVEE_WORLD_PT_surface",
+                              "DATA_PT_EEVEE_light", "DATA_PT_camera_dof"}, set(found["names"]))
+        self.assertEqual(found["left"], [])
+
+    def test_what_needs_numpy(self):
+        self.inside("units")
+
+
+if __name__ == "__main__":
+    if PROGRAM is None or not os.access(PROGRAM, os.X_OK):
+        sys.exit(__doc__)
+    numpy = ["blender", "--background", "--factory-startup", "--python-exit-code", "1", "--python-expr", "import numpy"]
+    if not shutil.which("blender") or subprocess.run(numpy, env={**os.environ, "PATH": PATH}, capture_output=True).returncode:
+        print("blender_render_test: Skipped\nthere is no Blender with numpy; 'apt-get install blender python3-numpy' brings them")
+        sys.exit(77)
+    unittest.main(argv=sys.argv[:1] + sys.argv[2:])
