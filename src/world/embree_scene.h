@@ -25,6 +25,7 @@ struct QueryContext;
 struct HitFilter {
     bool by_opacity = false;      ///< hits on its partly transparent places
     bool passes_shadows = false;  ///< shadow rays pass it, and say that they did
+    bool is_hidden = false;       ///< rays with an end at the camera pass it, and say nothing
 };
 
 /// Opacity of a triangle at a point, [0, 1].
@@ -53,11 +54,15 @@ class EmbreeScene {
     /// Called once the World has its final address.
     void set_opacity(OpacityFunction function, const void* world);
 
-    void intersect(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence, QueryForm form) const;
-    void intersect(const RayColumns& rays, std::span<Hit> hits, Coherence coherence, QueryForm form) const;
+    void intersect(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence, QueryForm form,
+                   RayEnds ends = RayEnds::InScene) const;
+    void intersect(const RayColumns& rays, std::span<Hit> hits, Coherence coherence, QueryForm form,
+                   RayEnds ends = RayEnds::InScene) const;
     /// See World::occluded.
-    void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, QueryForm form) const;
-    void occluded(const RayColumns& rays, std::span<std::uint8_t> occluded, QueryForm form) const;
+    void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, QueryForm form,
+                  RayEnds ends = RayEnds::InScene) const;
+    void occluded(const RayColumns& rays, std::span<std::uint8_t> occluded, QueryForm form,
+                  RayEnds ends = RayEnds::InScene) const;
 
     /// Puts all surfaces that `ray` meets from `t_min` metres on into `hits`, in any order and as far as there is room;
     /// how many these are. The scene has to be one of `collected_slots`.
@@ -104,17 +109,18 @@ class EmbreeScene {
   private:
     // A `Batch` is a span of rays or RayColumns.
     template <typename Batch>
-    void intersect_batch(const Batch& rays, std::span<Hit> hits, Coherence coherence, QueryForm form) const;
+    void intersect_batch(const Batch& rays, std::span<Hit> hits, Coherence coherence, QueryForm form,
+                         RayEnds ends) const;
     template <typename Batch>
-    void intersect_single(const Batch& rays, std::span<Hit> hits) const;
+    void intersect_single(const Batch& rays, std::span<Hit> hits, RayEnds ends) const;
     template <std::size_t Width, typename Batch>
-    void intersect_packets(const Batch& rays, std::span<Hit> hits, bool coherent) const;
+    void intersect_packets(const Batch& rays, std::span<Hit> hits, bool coherent, RayEnds ends) const;
     template <typename Batch>
-    void occluded_batch(const Batch& rays, std::span<std::uint8_t> occluded, QueryForm form) const;
+    void occluded_batch(const Batch& rays, std::span<std::uint8_t> occluded, QueryForm form, RayEnds ends) const;
     template <typename Batch>
-    void occluded_single(const Batch& rays, std::span<std::uint8_t> occluded) const;
+    void occluded_single(const Batch& rays, std::span<std::uint8_t> occluded, RayEnds ends) const;
     template <std::size_t Width, typename Batch>
-    void occluded_packets(const Batch& rays, std::span<std::uint8_t> occluded) const;
+    void occluded_packets(const Batch& rays, std::span<std::uint8_t> occluded, RayEnds ends) const;
     template <std::size_t Width>
     [[nodiscard]] double replay_packets(std::span<const Ray> rays, QueryContext& context, bool occlusion,
                                         bool coherent) const;

@@ -137,6 +137,7 @@ World::World(WorldData data)
     has_specular_surfaces_ = has_surface(is_specular);
     has_unlit_surfaces_ = has_surface([](const Material& material) { return material.unlit; });
     has_emitting_surfaces_ = has_surface([](const Material& material) { return material.emits; });
+    hides_surfaces_ = has_surface([](const Material& material) { return !material.visible_to_camera; });
     for (const Light& light : data_->lights)
         if (const auto* mesh = std::get_if<MeshLight>(&light)) lamp_bounds_.push_back(mesh->bounds().box);
     constexpr std::size_t kMostBounds = 1024;
@@ -147,12 +148,12 @@ World::~World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 
-void World::occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, QueryForm form) const {
-    data_->bvh->occluded(rays, occluded, form);
+void World::occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, QueryForm form, RayEnds ends) const {
+    data_->bvh->occluded(rays, occluded, form, ends);
 }
 
-void World::occluded(const RayColumns& rays, std::span<std::uint8_t> occluded, QueryForm form) const {
-    data_->bvh->occluded(rays, occluded, form);
+void World::occluded(const RayColumns& rays, std::span<std::uint8_t> occluded, QueryForm form, RayEnds ends) const {
+    data_->bvh->occluded(rays, occluded, form, ends);
 }
 
 double World::replay(std::span<const Ray> rays, bool occlusion, Coherence coherence, QueryForm form) const {
@@ -238,7 +239,8 @@ Rgb World::emission(const SurfacePoint& point, const Vec3f& wo) const {
     if (!material.emits) return {};
     const bool from_back = dot(wo, point.geometric_normal) <= 0.0f;
     if (!material.emits_both_sides && from_back) return {};
-    Rgb emitted = evaluate_emission(*data_, material, point);
+    Rgb emitted =
+        evaluate_emission(*data_, material, point) * material.beam.factor(abs_dot(wo, point.geometric_normal));
     if (material.has_coat) {
         const GltfModel& model = std::get<GltfModel>(material.model);
         emitted *= evaluate_clear_coat(*data_, *model.layers, point, false).passed(abs_dot(wo, point.coat_normal));
@@ -371,6 +373,8 @@ Emission World::sample_emission(Vec2f u_light, const EmissionNumbers& u, float t
 SurfaceEmission World::surface_emission(const Emission& emission, const Vec3f& direction) const {
     const MeshLight* mesh = std::get_if<MeshLight>(&data_->lights[emission.light]);
     if (mesh == nullptr) return {};
+    const Geometry& geometry = data_->geometries[data_->emitter_of_light[emission.light].geometry];
+    if (!data_->materials[geometry.material].visible_to_camera) return {};
     const EmissionSample& sample = emission.sample;
     const LightTriangle& t = mesh->triangle(sample.triangle);
     return {mesh_emission(emission.light, sample.triangle, sample.barycentric, direction),

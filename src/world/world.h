@@ -57,6 +57,12 @@ enum class Coherence {
 /// Answers to a ray that asks whether something is in the way.
 inline constexpr std::uint8_t kFree = 0, kOccluded = 1, kPassesPanes = 2;
 
+/// Says whether rays have an end at the camera, and so pass what is hidden from it.
+enum class RayEnds {
+    InScene,
+    AtCamera,  ///< straight or through panes
+};
+
 /// How a batch goes through Embree. The default is what measured best for its coherence; benchmarks compare.
 enum class QueryForm { Best, Single, Packet8, Packet16 };
 
@@ -189,16 +195,24 @@ class World {
 
     /// Nearest hit of each ray; `hits` is as long as `rays`.
     void intersect(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence,
-                   QueryForm form = QueryForm::Best) const;
-    void intersect(const RayColumns& rays, std::span<Hit> hits, Coherence coherence,
-                   QueryForm form = QueryForm::Best) const;
+                   QueryForm form = QueryForm::Best, RayEnds ends = RayEnds::InScene) const;
+    void intersect(const RayColumns& rays, std::span<Hit> hits, Coherence coherence, QueryForm form = QueryForm::Best,
+                   RayEnds ends = RayEnds::InScene) const;
     /// kOccluded where something but panes lies within (0, t_max], else kPassesPanes or kFree; `occluded` is as long as
     /// `rays`.
-    void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, QueryForm form = QueryForm::Best) const;
-    void occluded(const RayColumns& rays, std::span<std::uint8_t> occluded, QueryForm form = QueryForm::Best) const;
+    void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, QueryForm form = QueryForm::Best,
+                  RayEnds ends = RayEnds::InScene) const;
+    void occluded(const RayColumns& rays, std::span<std::uint8_t> occluded, QueryForm form = QueryForm::Best,
+                  RayEnds ends = RayEnds::InScene) const;
     /// Share of light that passes the panes between the ends of `ray`, which may be anything along which nothing else
     /// lies.
-    [[nodiscard]] Rgb pane_transmittance(const Ray& ray) const;
+    [[nodiscard]] Rgb pane_transmittance(const Ray& ray, RayEnds ends = RayEnds::InScene) const;
+    /// True if some surface is hidden from the camera.
+    [[nodiscard]] bool hides_surfaces() const { return hides_surfaces_; }
+    /// True if the surface at `hit` is hidden from the camera.
+    [[nodiscard]] bool is_hidden_from_camera(const Hit& hit) const {
+        return hides_surfaces_ && hit.valid() && !material(hit)->visible_to_camera;
+    }
     /// True if some surface is a pane.
     [[nodiscard]] bool has_panes() const { return data_->panes != nullptr; }
     /// Seconds that bare Embree takes to trace `rays`, without what it takes to hand them over or to look at what they
@@ -341,7 +355,8 @@ class World {
     [[nodiscard]] float emission_probability(std::uint32_t light) const { return selector_.probability(light); }
     /// Samples a ray that leaves a light, chosen by power with `u_light` in [0, 1)²; the ray has the given time.
     [[nodiscard]] Emission sample_emission(Vec2f u_light, const EmissionNumbers& u, float time) const;
-    /// Evaluates the light that leaves the starting point of `emission` along `direction`; black without a surface.
+    /// Evaluates the light that leaves the starting point of `emission` along `direction`, towards the camera; black
+    /// without a surface, and where that is hidden from the camera.
     [[nodiscard]] SurfaceEmission surface_emission(const Emission& emission, const Vec3f& direction) const;
     /// True if rays can meet the light of this index by chance.
     [[nodiscard]] bool can_be_hit(std::uint32_t light) const { return !is_delta_light(data_->lights[light]); }
@@ -426,7 +441,7 @@ class World {
   private:
     /// Puts the surfaces that rays meet in place of those that they hit, where several touch.
     template <typename Batch>
-    void settle_contacts(const Batch& rays, std::span<Hit> hits) const;
+    void settle_contacts(const Batch& rays, std::span<Hit> hits, RayEnds ends) const;
     [[nodiscard]] SurfacePoint contact_point(const Contact& contact, const ContactFace& face, const Ray& ray,
                                              const RayCone& cone) const;
     void set_indices(std::uint32_t body, Crossing& crossing) const;
@@ -459,6 +474,7 @@ class World {
     bool has_specular_surfaces_ = false;
     bool has_unlit_surfaces_ = false;
     bool has_emitting_surfaces_ = false;
+    bool hides_surfaces_ = false;
     std::vector<Bounds> lamp_bounds_;  ///< of surfaces that emit, while they stay where they are
     bool has_scattering_bodies_ = false;
     bool has_lights_in_media_ = false;

@@ -13,18 +13,20 @@
 
 namespace etendue {
 
-void World::intersect(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence, QueryForm form) const {
-    data_->bvh->intersect(rays, hits, coherence, form);
-    if (data_->contacts) settle_contacts(rays, hits);
+void World::intersect(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence, QueryForm form,
+                      RayEnds ends) const {
+    data_->bvh->intersect(rays, hits, coherence, form, ends);
+    if (data_->contacts) settle_contacts(rays, hits, ends);
 }
 
-void World::intersect(const RayColumns& rays, std::span<Hit> hits, Coherence coherence, QueryForm form) const {
-    data_->bvh->intersect(rays, hits, coherence, form);
-    if (data_->contacts) settle_contacts(rays, hits);
+void World::intersect(const RayColumns& rays, std::span<Hit> hits, Coherence coherence, QueryForm form,
+                      RayEnds ends) const {
+    data_->bvh->intersect(rays, hits, coherence, form, ends);
+    if (data_->contacts) settle_contacts(rays, hits, ends);
 }
 
 template <typename Batch>
-void World::settle_contacts(const Batch& rays, std::span<Hit> hits) const {
+void World::settle_contacts(const Batch& rays, std::span<Hit> hits, RayEnds ends) const {
     for (std::size_t i = 0; i < rays.size(); ++i) {
         if (!hits[i].valid()) continue;
         const std::size_t slot = slot_of(*data_, hits[i]);
@@ -33,12 +35,14 @@ void World::settle_contacts(const Batch& rays, std::span<Hit> hits) const {
         if (!data_->contacts->may_touch(slot, ray, hits[i].t)) continue;
         const Contact contact = data_->contacts->at(*data_, ray, hits[i]);
         if (contact.count < 2) continue;
-        hits[i] = foremost(*data_, contact, ray.direction).hit;
+        // What is hidden from the camera is not what was hit, and lies in front of nothing.
+        const Hit& front = foremost(*data_, contact, ray.direction).hit;
+        if (ends == RayEnds::InScene || !is_hidden_from_camera(front)) hits[i] = front;
         hits[i].in_contact = 1;
     }
 }
 
-Rgb World::pane_transmittance(const Ray& ray) const {
+Rgb World::pane_transmittance(const Ray& ray, RayEnds ends) const {
     std::array<Hit, 16> few;
     std::vector<Hit> many;
     std::span<Hit> hits = few;
@@ -54,6 +58,7 @@ Rgb World::pane_transmittance(const Ray& ray) const {
                       [](const Hit& hit) { return std::tuple(hit.t, hit.instance, hit.geometry, hit.triangle); });
     Rgb transmittance(1.0f);
     for (const Hit& hit : hits) {
+        if (ends == RayEnds::AtCamera && is_hidden_from_camera(hit)) continue;
         const SurfacePoint point = surface_point(hit);
         Bsdf storage;
         const Vec3f wo = -ray.direction;

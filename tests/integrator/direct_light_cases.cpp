@@ -80,6 +80,24 @@ std::vector<ClosedFormCase> mesh_light_cases() {
     const double globe_factor = 0.16 / (to_globe * to_globe) / to_globe;
     cases.push_back({"globe", globe, kRho * 3.0 * globe_factor, 5e-4});
 
+    // Small enough to count as a point, so that the floor's angle to it is one.
+    const auto small_lamp = [](const BeamDesc& beam) {
+        SceneDesc scene = floor_seen_at(0.75f);
+        MaterialDesc lamp = emitter(3000.0f);
+        lamp.beam = beam;
+        add(scene, quad_facing_down({0.0f, 1.0f, kZ}, 0.01f), lamp);
+        return scene;
+    };
+    const double squared = 0.75 * 0.75 + 1.0;
+    const double intensity = 3000.0 * 1e-4;
+    const BeamDesc panel{.kind = BeamDesc::Kind::Panel, .spread = 2.0f};
+    const double slats = (std::tan(1.0) - 0.75) / (std::tan(1.0) - 1.0);
+    cases.push_back({"panel", small_lamp(panel), kRho / kPiD * intensity * slats / squared / squared, 1e-4});
+    const BeamDesc spot{.kind = BeamDesc::Kind::Spot, .inner_cone_angle = 0.3f, .outer_cone_angle = 0.9f};
+    const double cone = (1.0 / std::sqrt(squared) - std::cos(0.9)) / (std::cos(0.3) - std::cos(0.9));
+    cases.push_back(
+        {"spot_disk", small_lamp(spot), kRho / kPiD * intensity * cone * cone / squared / std::sqrt(squared), 3e-4});
+
     // Lights of very different power, so that a wrong probability of the choice shows.
     SceneDesc several = square;
     add(several, disk_facing_down({0.0f, 1.5f, kZ}, 0.3f, kSegments), emitter(7.0f));
@@ -121,11 +139,17 @@ std::vector<ClosedFormCase> punctual_light_cases() {
     add_light(sun, LightType::Directional, 3.0f, {0.0f, 5.0f, 0.0f}, {0.6f, -0.8f, 0.0f});
     cases.push_back({"directional", sun, kRho / kPiD * 3.0 * 0.8, 1e-5, {}, kFindDeltaLights});
 
+    // The whole disk is above the horizon: the irradiance is that of parallel light.
+    sun.lights.back().angle = 0.8f;
+    cases.push_back({"sun_disk", sun, kRho / kPiD * 3.0 * 0.8, 1e-4, {}, kFindDeltaLights});
+
     SceneDesc sunny_square;
     add(sunny_square, quad_facing_up({0.0f, 0.0f, 0.0f}, 2.0f), diffuse(kAlbedo));
     add_light(sunny_square, LightType::Directional, 3.0f, {0.0f, 5.0f, 0.0f}, {0.6f, -0.8f, 0.0f});
     look(sunny_square, {0.0f, 0.4f, 0.0f}, {0.0f, -1.0f, 0.0f}, 0.7f);
     cases.push_back({"directional_wide", sunny_square, kRho / kPiD * 3.0 * 0.8, 1e-5, {}, light_too(kFindDeltaLights)});
+    sunny_square.lights.back().angle = 0.8f;
+    cases.push_back({"sun_disk_wide", sunny_square, kRho / kPiD * 3.0 * 0.8, 1e-4, {}, light_too(kFindDeltaLights)});
     return cases;
 }
 

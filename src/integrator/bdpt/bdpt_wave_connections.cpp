@@ -150,6 +150,7 @@ void BdptWave::connect_to_camera(const Context& context, std::size_t first, std:
         if (!context.wants(vertex.next_edges) || !context.wants({.s = vertex.index + 1, .t = 1})) continue;
         const auto [lens] = to_camera_.numbers(v);
         const MatteEnd& end = light_.matte_end(vertex);
+        if (!end.exists() && light_.whole(vertex).is_hidden) continue;
         const Vec3f& position = end.exists() ? end.position : light_.whole(vertex).position;
         const auto view =
             view_from_camera(context.world, context.job, position, lens, context.camera_rays[vertex.slot].time);

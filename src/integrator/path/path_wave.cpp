@@ -47,6 +47,7 @@ void PathWave::trace(const World& world, const TileJob& job, const IntegratorSet
     for (int depth = 1; active_ > 0; ++depth) {
         intersect_batch(world, job, depth == 1 ? RayKind::Primary : RayKind::Bounce, paths_.rays(active_),
                         std::span(hits_).first(active_), counters);
+        if (depth > 1 && world.hides_surfaces()) look_behind_hidden(world, job, counters);
         if (light_.counts_rays())
             for (std::size_t i = 0; i < active_; ++i) light_.count_ray(paths_.slot[i]);
         if (depth == 1) {
@@ -63,6 +64,13 @@ void PathWave::trace(const World& world, const TileJob& job, const IntegratorSet
     lamps_.note_radiance(std::span(samples_).first(count), light_);
     accumulate(job, std::span(samples_).first(count), light_, alpha_, tile, counters);
     stamp(job.profile, Stage::Film);
+}
+
+void PathWave::look_behind_hidden(const World& world, const TileJob& job, RenderCounters& counters) {
+    const RayColumns rays = paths_.rays(active_);
+    for (std::size_t i = 0; i < active_; ++i)
+        if (path_history::is_seen(paths_.history[i]) && world.is_hidden_from_camera(hits_[i]))
+            hits_[i] = intersect_one(world, job, RayKind::Primary, rays[i], counters);
 }
 
 void PathWave::draw_numbers(const Context& context) {

@@ -86,6 +86,8 @@ class PathWave final : public IntegratorScratch {
         [[nodiscard]] bool samples_lights() const { return settings.light_samples > 0; }
     };
 
+    /// Traces again, as from the camera, what the eye sees through panes and is hidden from it.
+    void look_behind_hidden(const World& world, const TileJob& job, RenderCounters& counters);
     /// Draws the random numbers of the block for this bounce, many at a time.
     void draw_numbers(const Context& context);
     /// Draws the random numbers for the `round`-th light sample of the block's paths.

@@ -237,7 +237,7 @@ void focus_on_node(const RenderJson& json, SceneDesc& scene, ProblemList& proble
     const std::string& name = json.lens.focus_node;
     const SourceLocation where{json.location.file, "/focus_node"};
     if (name.empty() || !check_name(scene.nodes, "node", name, where, problems)) return;
-    const Vec3f place = std::ranges::find(scene.nodes, name, &NodeDesc::name)->position;
+    const Vec3f place = std::ranges::find(scene.nodes, name, &NodeDesc::name)->position();
     const std::string& wanted = scene.settings.camera;
     for (CameraDesc& camera : scene.cameras) {
         const Vec3f back(camera.to_world[2][0], camera.to_world[2][1], camera.to_world[2][2]);
