@@ -185,24 +185,10 @@ MaterialOverride read_material(const Json& value, const SourceLocation& where, P
     if (object.integer("priority", -kMaxPriority, kMaxPriority, priority)) result.priority = priority;
     read_factors(object, result.factors);
     if (bool solid = false; object.boolean("solid", solid)) result.solid = solid;
+    if (bool visible = true; object.boolean("visible_to_camera", visible)) result.visible_to_camera = visible;
     if (models > 1) problems.error(where, "only one of conductor, dielectric, diffuse and subsurface may be given");
     if (value.is_object() && value.empty()) problems.error(where, "says nothing of the material");
     check_combination(result, models > 0, object);
-    object.finish();
-    return result;
-}
-
-LightOverride read_light(const Json& value, const SourceLocation& where, ProblemList& problems) {
-    LightOverride result;
-    result.location = where;
-    JsonObject object(value, where, problems);
-    Rgb color;
-    float intensity = 0.0f;
-    if (object.color("color", kNotNegative, color)) result.color = color;
-    if (object.number("intensity", kNotNegative, intensity)) result.intensity = intensity;
-    object.text("ies", result.ies);
-    object.number("scale", kNotNegative, result.scale);
-    object.boolean("enabled", result.enabled);
     object.finish();
     return result;
 }

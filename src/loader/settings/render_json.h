@@ -1,6 +1,7 @@
 // render.json: what it says, before it meets the scene. Its keys are described in docs/render-json.md.
 #pragma once
 
+#include "loader/settings/light_override.h"
 #include "loader/settings/material_factors.h"
 #include "scene/scene_desc.h"
 
@@ -25,15 +26,7 @@ struct MaterialOverride {
     std::optional<EmissionOverride> emission;
     std::vector<FactorChange> factors;  ///< of the glTF material; none beside a model
     std::optional<bool> solid;          ///< the mesh bounds a body of the glTF material; none beside a model
-    SourceLocation location;
-};
-
-struct LightOverride {
-    std::optional<Rgb> color;
-    std::optional<float> intensity;
-    std::string ies;  ///< file name of a profile; not yet resolved
-    float scale = 1.0f;
-    bool enabled = true;
+    std::optional<bool> visible_to_camera;
     SourceLocation location;
 };
 
