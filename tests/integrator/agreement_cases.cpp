@@ -40,15 +40,16 @@ std::function<void(SceneDesc&)> under_beam(const BeamDesc& beam) {
     };
 }
 
-/// A room with a lamp in view that the camera does not see, and that scatters light, too.
+/// A room with a lamp and a card in view, neither of which the camera sees.
 void under_hidden_lamp(SceneDesc& scene) {
     add_ball(scene, gltf_plastic());
-    MaterialDesc lamp = gltf_plastic();
-    lamp.emissive = Rgb(1.0f);
-    lamp.emissive_strength = 4.0f;
+    MaterialDesc lamp = emissive(Rgb(4.0f));
     lamp.double_sided = true;
     lamp.visible_to_camera = false;
     add_object(scene, quad({0.45f, 0.2f, -2.2f}, {0.25f, 0, 0.1f}, {0, 0.25f, 0.05f}), add_material(scene, lamp));
+    MaterialDesc card = gltf_plastic();
+    card.visible_to_camera = false;
+    add_object(scene, quad({0.1f, -0.3f, -2.3f}, {0.3f, 0, 0.1f}, {0, 0.1f, -0.2f}), add_material(scene, card));
 }
 
 std::vector<AgreementCase> all_cases() {
