@@ -29,15 +29,15 @@ class ProfileFiles {
   public:
     ProfileFiles(SceneDesc& scene, ProblemList& problems) : scene_(scene), problems_(problems) {}
 
-    /// The profile in the file `name`; an invalid handle, reported at `where`, if it cannot be used.
-    Handle<IesProfileDesc> profile(const std::string& name, const SourceLocation& where) {
+    /// The profile in the file `name`; an invalid handle, reported at `where` with this severity, if it cannot be used.
+    Handle<IesProfileDesc> profile(const std::string& name, const SourceLocation& where, Severity severity) {
         const auto [entry, is_new] = handles_.try_emplace(name);
-        if (is_new) entry->second = read(name, where);
+        if (is_new) entry->second = read(name, where, severity);
         return entry->second;
     }
 
   private:
-    Handle<IesProfileDesc> read(const std::string& name, const SourceLocation& where) {
+    Handle<IesProfileDesc> read(const std::string& name, const SourceLocation& where, Severity severity) {
         try {
             const std::filesystem::path file = resolve_name(scene_.directory, name);
             const std::vector<unsigned char> bytes = read_bytes(file, kMaxIesBytes);
@@ -46,9 +46,12 @@ class ProfileFiles {
             scene_.inputs.push_back(file);
             return {static_cast<std::int32_t>(scene_.ies_profiles.size()) - 1};
         } catch (const IoError& error) {
-            problems_.error(where, fmt::format("'{}': {}", shown(name), error.what()));
+            problems_.add({severity, where, fmt::format("'{}': {}", shown(name), error.what())});
         } catch (const SceneError& error) {
-            for (const Problem& problem : error.problems().all()) problems_.add(problem);
+            for (Problem problem : error.problems().all()) {
+                problem.severity = std::min(problem.severity, severity);
+                problems_.add(std::move(problem));
+            }
         }
         return {};
     }
@@ -137,6 +140,15 @@ class LightChanges {
         return {change.location.file, child_pointer(change.location.pointer, key)};
     }
 
+    /// Adds an error of `change`, which is a warning where the scene file's extras say it.
+    void report(const LightOverride& change, const SourceLocation& where, std::string message) {
+        ++reported_;
+        problems_.add({severity_of(change), where, std::move(message)});
+    }
+    [[nodiscard]] static Severity severity_of(const LightOverride& change) {
+        return change.is_from_extras ? Severity::Warning : Severity::Error;
+    }
+
     [[nodiscard]] bool is_of_lamp(const std::string& name) const {
         return !name.empty() && std::ranges::find(scene_.lights, name, &LightDesc::name) != scene_.lights.end();
     }
@@ -156,9 +168,10 @@ class LightChanges {
                                                            : static_cast<std::uint32_t>(found - scene_.nodes.begin());
     }
 
-    void report_unknown(const std::string& name, const SourceLocation& where) {
+    void report_unknown(const std::string& name, const LightOverride& change) {
         if (node_of(name) != NodeDesc::kNone) {
-            problems_.error(where, fmt::format("the node '{}' has no light: give it one by a \"type\"", shown(name)));
+            report(change, change.location,
+                   fmt::format("the node '{}' has no light: give it one by a \"type\"", shown(name)));
             return;
         }
         std::set<std::string_view> names;
@@ -166,16 +179,18 @@ class LightChanges {
         names.insert(node_names_.begin(), node_names_.end());
         names.erase(std::string_view());
         const std::vector<std::string_view> sorted(names.begin(), names.end());
-        problems_.error(where, fmt::format("the scene has no light '{}'; {}", shown(name), name_hint(name, sorted)));
+        report(change, change.location,
+               fmt::format("the scene has no light '{}'; {}", shown(name), name_hint(name, sorted)));
     }
 
     [[nodiscard]] Handle<IesProfileDesc> profile_of(const LightOverride& change) {
-        return change.ies.empty() ? Handle<IesProfileDesc>{} : files_.profile(change.ies, at(change, "ies"));
+        return change.ies.empty() ? Handle<IesProfileDesc>{}
+                                  : files_.profile(change.ies, at(change, "ies"), severity_of(change));
     }
 
     void apply_to_those(const std::string& name, const LightOverride& change) {
         const std::vector<std::size_t> lamps = lamps_of(name);
-        if (lamps.empty()) return report_unknown(name, change.location);
+        if (lamps.empty()) return report_unknown(name, change);
         const Handle<IesProfileDesc> profile = profile_of(change);
         for (const std::size_t i : lamps) {
             LightDesc& light = scene_.lights[i];
@@ -188,17 +203,17 @@ class LightChanges {
             softening.visible_to_camera = change.visible_to_camera.value_or(softening.visible_to_camera);
             softening.location = change.location;
             if (softening.radius > 0.0f && light.profile)
-                problems_.error(at(change, "radius"), "a light with an IES profile shines from a point");
+                report(change, at(change, "radius"), "a light with an IES profile shines from a point");
             if (change.visible_to_camera && !(softening.radius > 0.0f))
-                problems_.error(at(change, "visible_to_camera"), "a light without a radius is never seen");
+                report(change, at(change, "visible_to_camera"), "a light without a radius is never seen");
         }
     }
 
     /// False, and an error, for what a lamp of the type of `light` does not have.
     bool fits(const LightOverride& change, const LightDesc& light) {
-        const std::size_t errors = problems_.error_count();
+        const std::size_t before = reported_;
         const auto refuse = [&](bool is_said, std::string_view key, std::string_view why) {
-            if (is_said) problems_.error(at(change, key), std::string(why));
+            if (is_said) report(change, at(change, key), std::string(why));
         };
         if (light.type == LightType::Directional) {
             refuse(!change.ies.empty(), "ies",
@@ -210,7 +225,7 @@ class LightChanges {
             refuse(change.angle.has_value(), "angle", "a light at a point has a radius, but no angle");
             refuse(change.irradiance.has_value(), "irradiance", "a light at a point has a power, but no irradiance");
         }
-        return problems_.error_count() == errors;
+        return reported_ == before;
     }
 
     /// Leaves out the lamps of the file whose place that of the document takes, and finds where that is.
@@ -243,13 +258,13 @@ class LightChanges {
             if (!node.name.empty()) names.insert(node.name);
         const std::vector<std::string_view> sorted(names.begin(), names.end());
         if (lamp.place.node.empty())
-            problems_.error(lamp.location,
-                            fmt::format("nothing says where the light is: give it a \"position\" or a \"node\", or the "
-                                        "name of one; {}",
-                                        name_hint(name, sorted)));
+            report(lamp, lamp.location,
+                   fmt::format("nothing says where the light is: give it a \"position\" or a \"node\", or the "
+                               "name of one; {}",
+                               name_hint(name, sorted)));
         else
-            problems_.error(at(lamp, "node"),
-                            fmt::format("the scene has no node '{}'; {}", shown(name), name_hint(name, sorted)));
+            report(lamp, at(lamp, "node"),
+                   fmt::format("the scene has no node '{}'; {}", shown(name), name_hint(name, sorted)));
     }
 
     [[nodiscard]] Mat4f placed(const LampPlace& place) const {
@@ -314,7 +329,7 @@ class LightChanges {
         const LightOverride& lamp = *added.lamp;
         const std::optional<Mat4f> rigid = rigid_part(added.to_world);
         if (!rigid) {
-            problems_.error(lamp.location, "the light's place is singular");
+            report(lamp, lamp.location, "the light's place is singular");
             return;
         }
         LightDesc light;
@@ -370,6 +385,7 @@ class LightChanges {
     ProfileFiles files_;
     std::vector<std::string> node_names_;  ///< by lamp, as `node_names_of_lights` has them
     std::vector<Softening> softening_;     ///< by lamp of the file
+    std::size_t reported_ = 0;             ///< how often `report` was called
 };
 
 }  // namespace

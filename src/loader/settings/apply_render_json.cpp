@@ -57,9 +57,10 @@ void apply_factors(const MaterialOverride& change, MaterialDesc& material, Probl
     for (const FactorChange& each : change.factors) {
         const std::string name(each.factor->name);
         if (material.glossiness && !each.factor->in_glossiness)
-            problems.error({change.location.file, child_pointer(change.location.pointer, name)},
-                           fmt::format("'{}' is of KHR_materials_pbrSpecularGlossiness, which has no {}",
-                                       shown(material.name), name));
+            problems.add({change.is_from_extras ? Severity::Warning : Severity::Error,
+                          {change.location.file, child_pointer(change.location.pointer, name)},
+                          fmt::format("'{}' is of KHR_materials_pbrSpecularGlossiness, which has no {}",
+                                      shown(material.name), name)});
         else
             each.apply(material);
     }
@@ -117,8 +118,8 @@ void apply_lenses(const RenderJson& json, SceneDesc& scene, ProblemList& problem
         problems.warning(json.location, "what is said of the lens is ignored: the scene has no camera");
 }
 
-/// Focuses every camera on the node that the document names, but those that it lies behind; an error if it does behind
-/// the one that is chosen.
+/// Focuses every camera on the node that the document names, but those that it lies behind; an error if it does
+/// behind the one that is chosen.
 void focus_on_node(const RenderJson& json, SceneDesc& scene, ProblemList& problems) {
     const std::string& name = json.lens.focus_node;
     const SourceLocation where{json.location.file, "/focus_node"};

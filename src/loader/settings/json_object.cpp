@@ -118,7 +118,7 @@ bool JsonObject::check_array(const Json& value, const SourceLocation& where, std
 }
 
 template <typename Number>
-bool JsonObject::read_numbers(std::string_view key, const NumberRange& range, std::span<Number> out) {
+bool JsonObject::read_each(std::string_view key, const NumberRange& range, std::span<Number> out) {
     const Json* value = member(key);
     if (value == nullptr || !check_array(*value, at(key), out.size(), "numbers")) return false;
     std::vector<Number> result(out.size());
@@ -131,29 +131,37 @@ bool JsonObject::read_numbers(std::string_view key, const NumberRange& range, st
     return true;
 }
 
+bool JsonObject::read_numbers(std::string_view key, const NumberRange& range, std::span<float> out) {
+    return read_each(key, range, out);
+}
+
+bool JsonObject::read_numbers(std::string_view key, const NumberRange& range, std::span<double> out) {
+    return read_each(key, range, out);
+}
+
 bool JsonObject::color(std::string_view key, const NumberRange& range, Rgb& out) {
     std::array<float, 3> channels{};
-    if (!read_numbers(key, range, std::span<float>(channels))) return false;
+    if (!read_numbers(key, range, channels)) return false;
     out = {channels[0], channels[1], channels[2]};
     return true;
 }
 
 bool JsonObject::vector(std::string_view key, Vec3f& out) {
     std::array<float, 3> components{};
-    if (!read_numbers(key, kAnyNumber, std::span<float>(components))) return false;
+    if (!read_numbers(key, kAnyNumber, components)) return false;
     out = {components[0], components[1], components[2]};
     return true;
 }
 
 bool JsonObject::vector(std::string_view key, Vec3d& out) {
     std::array<double, 3> components{};
-    if (!read_numbers(key, kAnyNumber, std::span<double>(components))) return false;
+    if (!read_numbers(key, kAnyNumber, components)) return false;
     out = {components[0], components[1], components[2]};
     return true;
 }
 
 bool JsonObject::quaternion(std::string_view key, std::array<double, 4>& out) {
-    return read_numbers(key, kAnyNumber, std::span<double>(out));
+    return read_numbers(key, kAnyNumber, out);
 }
 
 void JsonObject::report_unknown_name(const SourceLocation& where, std::string_view name,

@@ -97,8 +97,10 @@ class JsonObject {
     bool read_integer(const nlohmann::json* value, const SourceLocation& where, std::int64_t min, std::int64_t max,
                       std::int64_t& out);
     bool read_number(const nlohmann::json* value, const SourceLocation& where, const NumberRange& range, double& out);
+    bool read_numbers(std::string_view key, const NumberRange& range, std::span<float> out);
+    bool read_numbers(std::string_view key, const NumberRange& range, std::span<double> out);
     template <typename Number>
-    bool read_numbers(std::string_view key, const NumberRange& range, std::span<Number> out);
+    bool read_each(std::string_view key, const NumberRange& range, std::span<Number> out);
     void report_unknown_name(const SourceLocation& where, std::string_view name,
                              std::span<const std::string_view> known);
 

@@ -45,6 +45,7 @@ struct LightOverride {
     float outer_cone_angle = 0.785398163f;
     std::optional<bool> visible_to_camera;
     bool enabled = true;
+    bool is_from_extras = false;  ///< of the scene file: errors are warnings
     SourceLocation location;
 
     /// True of lamps that are surfaces whatever else is said.

@@ -13,6 +13,8 @@
 #include <string_view>
 #include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
 namespace etendue {
 
 struct EmissionOverride {
@@ -27,6 +29,7 @@ struct MaterialOverride {
     std::vector<FactorChange> factors;  ///< of the glTF material; none beside a model
     std::optional<bool> solid;          ///< the mesh bounds a body of the glTF material; none beside a model
     std::optional<bool> visible_to_camera;
+    bool is_from_extras = false;  ///< of the scene file: errors are warnings
     SourceLocation location;
 };
 
@@ -63,7 +66,12 @@ struct RenderJson {
     std::map<std::string, LightOverride> lights;
     SourceLocation location;
     std::filesystem::path file;  ///< that it was read from; empty if no file was
+    std::string document;        ///< the text of all of it
 };
+
+/// Reads one member of `materials`.
+[[nodiscard]] MaterialOverride read_material(const nlohmann::json& value, const SourceLocation& where,
+                                             ProblemList& problems);
 
 /// Parses `file`, merged with the text of another document, `given` (RFC 7386); either may be empty. All errors go to
 /// `problems`, each with its JSON pointer; members with errors keep their defaults.
