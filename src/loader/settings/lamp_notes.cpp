@@ -29,7 +29,7 @@ void note_bright_lamps(const std::map<std::string, LightOverride>& changes, cons
                        ProblemList& problems) {
     const bool is_set = std::ranges::any_of(changes, [](const auto& entry) {
         const LightOverride& change = entry.second;
-        return change.intensity || change.power || change.irradiance || change.scale != 1.0f;
+        return !change.kind && (change.intensity || change.power || change.irradiance || change.scale != 1.0f);
     });
     const Bounds bounds = compute_bounds(scene);
     if (is_set || scene.settings.light_units != LightUnits::Photometric || scene.settings.color.exposure != 0.0f ||
