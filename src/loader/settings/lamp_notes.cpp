@@ -43,7 +43,7 @@ void note_bright_lamps(const std::map<std::string, LightOverride>& changes, cons
     constexpr double kTooBright = 100.0;
     if (!(illuminance > kTooBright * kWhite)) return;
     problems.note({scene.file.string(), "/extensions/KHR_lights_punctual"},
-                  fmt::format("the lights bring about {:.2g} times what shows white: if they were watts that an "
+                  fmt::format("the lights bring about {:.0f} times what shows white: if they were watts that an "
                               "exporter has turned into lumens (Blender's Standard), --light-units radiometric "
                               "divides by 683; if not, see --exposure",
                               illuminance / kWhite));
