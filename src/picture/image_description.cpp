@@ -298,8 +298,8 @@ ImageDescription describe_settings(const SceneDesc& scene, const AovPlan& plan) 
 }
 
 void describe_camera(ImageDescription& description, const World& world) {
-    description.frame.world_to_camera = after_move(-world.origin(), world_to_camera(world.camera()));
-    description.frame.world_to_screen = after_move(-world.origin(), world_to_screen(world.camera()));
+    description.frame.world_to_camera = after_move(-world.origin(), world_to_camera(world.camera().model()));
+    description.frame.world_to_screen = after_move(-world.origin(), world_to_screen(world.camera().model()));
 }
 
 std::string to_text(const ImageDescription& description) {

@@ -13,14 +13,14 @@
 
 namespace etendue {
 
-void World::intersect(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence, QueryForm form,
-                      RayEnds ends) const {
+void SceneGeometry::intersect(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence, QueryForm form,
+                              RayEnds ends) const {
     data_->bvh->intersect(rays, hits, coherence, form, ends);
     if (data_->contacts) settle_contacts(rays, hits, ends);
 }
 
-void World::intersect(const RayColumns& rays, std::span<Hit> hits, Coherence coherence, QueryForm form,
-                      RayEnds ends) const {
+void SceneGeometry::intersect(const RayColumns& rays, std::span<Hit> hits, Coherence coherence, QueryForm form,
+                              RayEnds ends) const {
     data_->bvh->intersect(rays, hits, coherence, form, ends);
     if (data_->contacts) settle_contacts(rays, hits, ends);
 }
@@ -42,7 +42,7 @@ void World::settle_contacts(const Batch& rays, std::span<Hit> hits, RayEnds ends
     }
 }
 
-Rgb World::pane_transmittance(const Ray& ray, RayEnds ends) const {
+Rgb SceneGeometry::pane_transmittance(const Ray& ray, RayEnds ends) const {
     std::array<Hit, 16> few;
     std::vector<Hit> many;
     std::span<Hit> hits = few;
@@ -90,7 +90,7 @@ SurfacePoint World::contact_point(const Contact& contact, const ContactFace& fac
     return point;
 }
 
-Crossing World::contact_crossing(SurfacePoint& point, const Interior& current, const Hit& hit, const Ray& ray,
+Crossing Media::contact_crossing(SurfacePoint& point, const Interior& current, const Hit& hit, const Ray& ray,
                                  const RayCone& cone) const {
     const Contact contact = data_->contacts->at(*data_, ray, hit);
     const ContactInteriors around = interiors(*data_, contact, current, ray.direction);
