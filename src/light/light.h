@@ -8,6 +8,7 @@
 #include "light/mesh_light.h"
 #include "light/profile_light.h"
 #include "light/punctual_light.h"
+#include "light/sun_light.h"
 #include "sampling/alias_table.h"
 
 #include <cstdint>
@@ -18,8 +19,8 @@
 
 namespace etendue {
 
-using Light = std::variant<PointLight, SpotLight, ProfileLight, DirectionalLight, MeshLight, ConstantEnvironment,
-                           ImageEnvironment>;
+using Light = std::variant<PointLight, SpotLight, ProfileLight, DirectionalLight, SunLight, MeshLight,
+                           ConstantEnvironment, ImageEnvironment>;
 
 /// Light at `point` from a direction chosen with `u`; of a mesh, `u_triangle` chooses the triangle. Both in [0, 1)².
 [[nodiscard]] LightSample sample_light(const Light& light, const Vec3f& point, Vec2f u_triangle, Vec2f u);
@@ -37,7 +38,7 @@ void sample_environment_compensated(const Light& light, std::span<const Vec2f> u
 /// 1/sr, or at infinity the place where the ray passes once the direction is given, 1/m² across it. `cos_light`:
 /// between the direction and the geometric normal of a mesh light's front.
 [[nodiscard]] float emission_pdf(const Light& light, const Vec3f& direction, float cos_light, const SceneSphere& scene);
-/// Returns whether the light has no extent, in space or in direction, so that no ray meets it by chance.
+/// Returns whether no ray meets the light by chance: it has no extent, or is only ever sampled.
 [[nodiscard]] bool is_delta_light(const Light& light);
 /// Returns the bytes that the light holds beside itself: triangles, images and tables.
 [[nodiscard]] std::size_t light_bytes(const Light& light);

@@ -12,8 +12,8 @@
 namespace etendue {
 
 MeshLight::MeshLight(const std::vector<LightTriangle>& triangles, Rgb radiance, Rgb mean_radiance, bool two_sided,
-                     bool mirrored, bool is_uniform, const Vec3f& position_error)
-    : radiance_(radiance), mean_radiance_(mean_radiance), two_sided_(two_sided), is_uniform_(is_uniform) {
+                     bool mirrored, bool is_uniform, const Vec3f& position_error, const Beam& beam)
+    : radiance_(radiance), mean_radiance_(mean_radiance), beam_(beam), two_sided_(two_sided), is_uniform_(is_uniform) {
     std::vector<double> areas;
     areas.reserve(triangles.size());
     faces_.reserve(triangles.size());
@@ -96,14 +96,15 @@ EmissionSample MeshLight::sample_emission(const EmissionNumbers& u, const SceneS
         u_direction.x = 2.0f * u_direction.x - (back ? 1.0f : 0.0f);
         if (back) normal = -normal;
     }
-    const Vec3f local = square_to_cosine_hemisphere(u_direction);
+    const Vec3f local = beam_.sample(u_direction);
     EmissionSample sample;
     sample.direction = Frame::from_normal(normal).to_world(local);
     sample.position = face.p0 + face.edge1 * b.x + face.edge2 * b.y;
     sample.offset = normal * face.clearance;
     sample.cos_theta = local.z;
     sample.pdf_position_area = 1.0f / area_;
-    sample.pdf_direction_solid_angle = cosine_hemisphere_pdf_solid_angle(local) * (two_sided_ ? 0.5f : 1.0f);
+    sample.pdf_direction_solid_angle =
+        cosine_hemisphere_pdf_solid_angle(local) * (two_sided_ ? 0.5f : beam_.density_factor(local.z));
     if (sample.pdf_direction_solid_angle > 0.0f) sample.radiance = radiance_;
     sample.triangle = choice.index;
     sample.barycentric = b;
@@ -111,7 +112,7 @@ EmissionSample MeshLight::sample_emission(const EmissionNumbers& u, const SceneS
 }
 
 float MeshLight::emission_pdf(const Vec3f&, float cos_light, const SceneSphere&) const {
-    return any_front().emission_pdf_solid_angle(cos_light);
+    return any_front().emission_pdf_solid_angle(cos_light) * beam_.density_factor(cos_light);
 }
 
 float MeshLight::pdf_solid_angle(std::uint32_t triangle, const Vec3f& point, float distance, float cos_light) const {
@@ -119,7 +120,7 @@ float MeshLight::pdf_solid_angle(std::uint32_t triangle, const Vec3f& point, flo
 }
 
 float MeshLight::power(float) const {
-    return kPi * area_ * average(mean_radiance_) * (two_sided_ ? 2.0f : 1.0f);
+    return kPi * area_ * average(mean_radiance_) * beam_.mean_factor() * (two_sided_ ? 2.0f : 1.0f);
 }
 
 LightBounds MeshLight::bounds() const {
@@ -132,7 +133,9 @@ LightBounds MeshLight::bounds() const {
         facing += Vec3d(t.normal) * static_cast<double>(by_area_.probability(i));
     }
     EmissionCone& cone = bounds.cone;
-    cone = {.axis = Vec3f(facing.normalized()), .theta_e = 0.5 * std::numbers::pi, .two_sided = two_sided_};
+    cone = {.axis = Vec3f(facing.normalized()),
+            .theta_e = static_cast<double>(beam_.half_angle()),
+            .two_sided = two_sided_};
     if (!(facing.length() > 0.0)) cone.theta_o = std::numbers::pi;
     for (std::size_t i = 0; i < faces_.size(); ++i) {
         if (!(by_area_.probability(i) > 0.0f)) continue;

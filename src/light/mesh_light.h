@@ -11,6 +11,7 @@
 
 #include "core/ray.h"
 #include "core/vector_bytes.h"
+#include "light/beam.h"
 #include "light/emission_sample.h"
 #include "light/light_bounds.h"
 #include "light/light_sample.h"
@@ -82,9 +83,10 @@ class MeshLight {
     /// `two_sided`. `mean_radiance` is its mean over the area, for the choice between lights. Triangles without area
     /// get no samples. `mirrored`: the triangles went through a transform that turned their winding around, so that
     /// their front is where they are clockwise. `position_error`: of points of the mesh, metres per axis; shadow rays
-    /// end that far before it. 76 bytes a triangle.
+    /// end that far before it. `beam` multiplies the radiance of one-sided lights, which then are not uniform.
+    /// 76 bytes a triangle.
     MeshLight(const std::vector<LightTriangle>& triangles, Rgb radiance, Rgb mean_radiance, bool two_sided,
-              bool mirrored, bool is_uniform, const Vec3f& position_error);
+              bool mirrored, bool is_uniform, const Vec3f& position_error, const Beam& beam = {});
 
     /// Samples light at `point`: `u_triangle` chooses the triangle, `u` the point in it; both in [0, 1)².
     [[nodiscard]] LightSample sample(const Vec3f& point, Vec2f u_triangle, Vec2f u) const;
@@ -127,7 +129,7 @@ class MeshLight {
     /// a one-sided light.
     [[nodiscard]] float pdf_solid_angle(std::uint32_t triangle, const Vec3f& point, float distance,
                                         float cos_light) const;
-    /// Uniform over the area, by the cosine over the directions of each side that emits.
+    /// Uniform over the area, by the cosine over the directions of each side that emits, within the beam.
     [[nodiscard]] EmissionSample sample_emission(const EmissionNumbers& u, const SceneSphere& scene) const;
     [[nodiscard]] float emission_pdf(const Vec3f& direction, float cos_light, const SceneSphere& scene) const;
     [[nodiscard]] float power(float scene_radius) const;
@@ -185,6 +187,7 @@ class MeshLight {
     AliasTable by_area_;
     Rgb radiance_;
     Rgb mean_radiance_;
+    Beam beam_;
     float area_ = 0.0f;  ///< m²
     bool two_sided_ = false;
     bool is_uniform_ = true;

@@ -50,14 +50,6 @@ LightBounds PointLight::bounds() const {
     return bounds_of_point(position, {.theta_o = std::numbers::pi}, power(0.0f));
 }
 
-float SpotLight::falloff(float cos_angle) const {
-    // Equal cones, also those that only single precision makes equal, are a hard edge; the ramp is never over nothing.
-    if (cos_angle >= cos_inner) return 1.0f;
-    if (cos_angle <= cos_outer) return 0.0f;
-    const float ramp = (cos_angle - cos_outer) / (cos_inner - cos_outer);
-    return ramp * ramp;
-}
-
 LightSample SpotLight::sample(const Vec3f& point, Vec2f) const {
     LightSample sample = sample_position(position, point);
     if (sample.is_delta)
@@ -76,8 +68,7 @@ float SpotLight::emission_pdf(const Vec3f& direction, float, const SceneSphere&)
 }
 
 float SpotLight::power(float) const {
-    // The squared ramp integrates to a third of the solid angle between the cones.
-    return 2.0f * kPi * average(intensity) * (1.0f - cos_inner + (cos_inner - cos_outer) / 3.0f);
+    return average(intensity) * spot_solid_angle(cos_inner, cos_outer);
 }
 
 LightBounds SpotLight::bounds() const {

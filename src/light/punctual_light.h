@@ -1,6 +1,7 @@
 // Lights without extent: point, spot and directional (glTF's KHR_lights_punctual). All are deltas: no ray hits them.
 #pragma once
 
+#include "light/beam.h"
 #include "light/emission_sample.h"
 #include "light/light_bounds.h"
 #include "light/light_sample.h"
@@ -36,7 +37,7 @@ struct SpotLight {
     float cos_inner = 1.0f;
     float cos_outer = 0.7f;  ///< <= cos_inner; a hard edge if they are equal
 
-    [[nodiscard]] float falloff(float cos_angle) const;
+    [[nodiscard]] float falloff(float cos_angle) const { return spot_falloff(cos_angle, cos_inner, cos_outer); }
     [[nodiscard]] LightSample sample(const Vec3f& point, Vec2f u) const;
     [[nodiscard]] EmissionSample sample_emission(const EmissionNumbers& u, const SceneSphere& scene) const;
     [[nodiscard]] float emission_pdf(const Vec3f& direction, float cos_light, const SceneSphere& scene) const;

@@ -4,9 +4,12 @@
 #include "loader/files.h"
 #include "loader/loader.h"
 #include "loader/named_files.h"
+#include "loader/settings/apply_extras.h"
+#include "loader/settings/lamp_notes.h"
 #include "loader/settings/render_json.h"
 
 #include <algorithm>
+#include <map>
 #include <optional>
 
 #include <fmt/format.h>
@@ -149,10 +152,14 @@ void load_into(const fs::path& path, const LoadOptions& options, SceneDesc& scen
     scene.settings.frame = options.frame;
     if (options.adjust) options.adjust(scene.settings);
     loader->load(scene.file, options, scene, problems);
+    if (!scene.extras.empty()) settings = with_extras(settings.value_or(RenderJson()), scene, problems);
+    const std::map<std::string, LightOverride> lights = settings ? settings->lights : decltype(lights)();
+    note_bright_lamps(lights, scene, problems);
     if (settings) {
         if (!settings->file.empty()) scene.inputs.push_back(settings->file);
         apply_render_json(*settings, options.assets, scene, problems);
     }
+    note_area_lamps(lights, scene, problems);
     note_camera(scene, problems);
 }
 

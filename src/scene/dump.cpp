@@ -183,6 +183,10 @@ void dump_material(std::size_t index, const MaterialDesc& m, Out out) {
     fmt::format_to(out, "  normal scale {:g}, {}\n", m.normal_scale, text(m.normal_texture));
     fmt::format_to(out, "  emissive {} strength {:g}, {}\n", text(m.emissive), m.emissive_strength,
                    text(m.emissive_texture));
+    if (m.beam.kind == BeamDesc::Kind::Panel) fmt::format_to(out, "  beam of spread {:g}\n", m.beam.spread);
+    if (m.beam.kind == BeamDesc::Kind::Spot)
+        fmt::format_to(out, "  beam of cone {:g} to {:g}\n", m.beam.inner_cone_angle, m.beam.outer_cone_angle);
+    if (!m.visible_to_camera) fmt::format_to(out, "  hidden from the camera\n");
     fmt::format_to(out, "  specular {:g}, {} color {:g} {:g} {:g}, {}\n", m.specular, text(m.specular_texture),
                    m.specular_color.r, m.specular_color.g, m.specular_color.b, text(m.specular_color_texture));
     if (m.glossiness) fmt::format_to(out, "  glossiness {:g}\n", *m.glossiness);
@@ -239,6 +243,7 @@ void dump_cameras_and_lights(const SceneDesc& scene, Out out) {
         if (light.type == LightType::Spot) {
             fmt::format_to(out, " cone {:g} to {:g}", light.inner_cone_angle, light.outer_cone_angle);
         }
+        if (light.angle > 0.0f) fmt::format_to(out, " angle {:g}", light.angle);
         if (light.profile) fmt::format_to(out, " times IES profile {}", light.profile.index);
         fmt::format_to(out, ", {}\n", text(light.to_world, scene.origin));
     }

@@ -55,6 +55,7 @@ struct LightDesc {
     Handle<IesProfileDesc> profile;  ///< point and spot: how intensity depends on direction, times the spot's cone
     float inner_cone_angle = 0.0f;   ///< spot: radians from the axis to where falloff begins
     float outer_cone_angle = 0.785398163f;  ///< spot: radians from the axis to where light ends, [inner, pi/2], > 0
+    float angle = 0.0f;                     ///< directional: radians under which the disk of the sun is seen, [0, pi)
     Mat4f to_world;
     SourceLocation location;
 };

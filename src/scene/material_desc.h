@@ -113,6 +113,16 @@ struct DiffuseRoughnessDesc {
 /// Holds the model that render.json puts in the place of glTF's; empty to keep glTF's model.
 using MaterialModelDesc = std::variant<std::monostate, ConductorDesc, DielectricDesc, DiffuseDesc, SubsurfaceDesc>;
 
+/// How emission depends on the angle to the normal (light/beam.h).
+struct BeamDesc {
+    enum class Kind { Matte, Panel, Spot };
+
+    Kind kind = Kind::Matte;
+    float spread = 3.14159265f;     ///< panel: radians, full angle of the cone that light leaves into, (0, pi]
+    float inner_cone_angle = 0.0f;  ///< spot: as in LightDesc
+    float outer_cone_angle = 0.785398163f;
+};
+
 struct MaterialDesc {
     std::string name;
 
@@ -129,6 +139,8 @@ struct MaterialDesc {
     float emissive_strength =
         1.0f;  ///< KHR_materials_emissive_strength, >= 0; radiance = emissive · strength, W/(m² sr)
     TextureRef emissive_texture;  ///< sRGB
+    BeamDesc beam;                ///< of one-sided materials
+    bool visible_to_camera = true;
 
     AlphaMode alpha_mode = AlphaMode::Opaque;
     float alpha_cutoff = 0.5f;

@@ -65,7 +65,9 @@ struct NodeDesc {
     std::string name;
     std::uint32_t parent = kNone;  ///< index into SceneDesc::nodes, smaller than its own; kNone at the top
     std::uint32_t number = 0;      ///< of the node in the file
-    Vec3f position{0.0f};          ///< where it is in the middle of the shutter, from the scene's origin
+    Mat4f to_world{};              ///< in the middle of the shutter, from the scene's origin
+
+    [[nodiscard]] Vec3f position() const { return {to_world[3][0], to_world[3][1], to_world[3][2]}; }
 };
 
 /// A mesh placed in the world. Meshes used once and small ones are baked, other shared ones and those that move become

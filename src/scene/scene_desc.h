@@ -19,6 +19,16 @@
 
 namespace etendue {
 
+/// What the scene file's extras say of one of its things under the name "etendue", as render.json would.
+struct ExtrasDesc {
+    enum class Of { Material, Light, Camera, Node };
+
+    Of of = Of::Node;
+    std::string name;  ///< of the thing
+    std::string json;  ///< text of a JSON object
+    SourceLocation location;
+};
+
 struct SceneDesc {
     std::string name;                 ///< of the scene directory or file, without extension
     std::filesystem::path directory;  ///< nothing outside of it is read, but for files the command line names
@@ -42,6 +52,7 @@ struct SceneDesc {
     std::vector<IesProfileDesc> ies_profiles;
     std::vector<LightDesc> lights;
     EnvironmentDesc environment;
+    std::vector<ExtrasDesc> extras;
     RenderSettings settings;
 
     std::vector<std::string> extensions_used;     ///< by the file and understood here

@@ -106,6 +106,10 @@ void validate_material(const MaterialDesc& m, const SceneDesc& scene, ProblemLis
     in_range(m.normal_scale, -std::numeric_limits<float>::max(), kInfinity, "normal scale");
     check_range(m.emissive, 0.0, 1.0, "emissive", m.location, problems);
     in_range(m.emissive_strength, 0.0, kInfinity, "emissive strength");
+    if (m.beam.kind == BeamDesc::Kind::Panel && !(m.beam.spread > 0.0f && m.beam.spread <= kPi + 1e-6f))
+        problems.error(m.location, fmt::format("the beam's spread is {}, but must be in (0, pi]", m.beam.spread));
+    if (m.beam.kind == BeamDesc::Kind::Spot)
+        check_cones(m.beam.inner_cone_angle, m.beam.outer_cone_angle, m.location, problems);
     in_range(m.alpha_cutoff, 0.0, kInfinity, "alpha cutoff");
     in_range(m.transmission, 0.0, 1.0, "transmission");
     in_range(m.specular, 0.0, 1.0, "specular");

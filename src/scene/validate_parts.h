@@ -56,4 +56,12 @@ inline void check_range(const Rgb& value, double low, double high, std::string_v
     }
 }
 
+/// Adds an error unless these are the cone angles of a spot, radians from its axis.
+inline void check_cones(float inner, float outer, const SourceLocation& where, ProblemList& problems) {
+    if (inner >= 0.0f && inner <= outer && outer > 0.0f && outer <= 0.5f * kPi + 1e-6f) return;
+    problems.error(where, fmt::format("the spot's cone angles are {} and {}, but must satisfy 0 <= inner <= outer <= "
+                                      "pi/2, and outer > 0",
+                                      inner, outer));
+}
+
 }  // namespace etendue

@@ -100,14 +100,9 @@ void validate_lights(const SceneDesc& scene, ProblemList& problems) {
             if (light.type == LightType::Directional)
                 problems.error(where, "a directional light has no position from which an IES profile could shine");
         }
-        const float inner = light.inner_cone_angle;
-        const float outer = light.outer_cone_angle;
-        if (light.type == LightType::Spot &&
-            !(inner >= 0.0f && inner <= outer && outer > 0.0f && outer <= 0.5f * kPi + 1e-6f)) {
-            problems.error(where, fmt::format("the spot's cone angles are {} and {}, but must satisfy 0 <= inner <= "
-                                              "outer <= pi/2, and outer > 0",
-                                              inner, outer));
-        }
+        if (!(light.angle >= 0.0f && light.angle < kPi))
+            problems.error(where, fmt::format("the sun's angle is {}, but must be in [0, pi)", light.angle));
+        if (light.type == LightType::Spot) check_cones(light.inner_cone_angle, light.outer_cone_angle, where, problems);
     }
     const EnvironmentDesc& environment = scene.environment;
     if (!environment.enabled) return;

@@ -111,7 +111,7 @@ Rgb light_merged(const SubpathSample& sample, const SubpathVertex& eye, const Ph
 /// Returns the light of t = 1: `light` is connected to the lens; black if the film does not show it.
 FilmLight light_at_lens(const SubpathSample& sample, const SubpathVertex& light) {
     const World& world = sample.world();
-    if (!wants(sample, light.next_edges)) return {};
+    if (light.is_hidden_from_camera() || !wants(sample, light.next_edges)) return {};
     const Vec2f lens = sample.pair(SubpathEnd::AtLight, light.index, SubpathDimension::LightChoice);
     const auto view = view_from_lens(world, light.position, lens, sample.eye.ray.time);
     if (!view) return {};

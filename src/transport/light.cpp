@@ -33,7 +33,7 @@ std::optional<FilmLight> lamp_to_camera(const SubpathSample& sample, const Emiss
                                             transmittance(world, interior_at_light(world, emission), view->distance) *
                                             (emitted.cosine * view->camera.importance_area * share /
                                              (emission.sample.pdf_position_area * emission.probability)) *
-                                            visibility(world, ray)};
+                                            visibility(world, ray, nullptr, RayEnds::AtCamera)};
 }
 
 FilmLight vertex_to_camera(const SubpathSample& sample, const SubpathVertex& vertex, const LensView& view,
@@ -44,7 +44,8 @@ FilmLight vertex_to_camera(const SubpathSample& sample, const SubpathVertex& ver
     ray.alpha_key = sample.connection_key(SubpathEnd::AtLight, vertex.index);
     return {view.camera.film, vertex.throughput * scattered * sample.wavelength_weight(vertex.is_dispersed) *
                                   transmittance(world, vertex.interior_towards(view.direction), view.distance) *
-                                  (view.camera.importance_area * weight) * visibility(world, ray)};
+                                  (view.camera.importance_area * weight) *
+                                  visibility(world, ray, nullptr, RayEnds::AtCamera)};
 }
 
 std::vector<FilmLight> light_on_film(const World& world, const EyeSample& eye, const IntegratorSettings& settings) {
@@ -61,7 +62,7 @@ std::vector<FilmLight> light_on_film(const World& world, const EyeSample& eye, c
             keep(*lamp);
     if (lengths.max_depth < edges_to_connect(world) || is_black(subpath->emission->weight)) return found;
     for (const SubpathVertex& vertex : follow_subpath(sample, *subpath, lengths.roulette_depth)) {
-        if (vertex.next_edges < lengths.min_depth) continue;
+        if (vertex.is_hidden_from_camera() || vertex.next_edges < lengths.min_depth) continue;
         const Vec2f lens = sample.pair(SubpathEnd::AtLight, vertex.index, SubpathDimension::LightChoice);
         const auto view = view_from_lens(world, vertex.position, lens, eye.ray.time);
         if (!view) continue;

@@ -122,7 +122,8 @@ std::vector<SubpathVertex> follow_subpath(const SubpathSample& sample, Subpath s
     const World& world = sample.world();
     std::vector<SubpathVertex> vertices;
     for (int bounce = 1;; ++bounce) {
-        const Hit hit = nearest_hit(world, subpath.ray);
+        const bool is_seen = subpath.end == SubpathEnd::AtEye && subpath.index == kDirectlySeen;
+        const Hit hit = nearest_hit(world, subpath.ray, is_seen ? RayEnds::AtCamera : RayEnds::InScene);
         if (!hit.valid()) {
             if (arrive) arrive(subpath, environment_vertex(subpath.ray.direction), {});
             break;

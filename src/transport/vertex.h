@@ -42,6 +42,10 @@ struct Vertex {
     /// Returns how the surface scatters; the vertex must outlive it.
     [[nodiscard]] Scattering scattering() const { return {bsdf, surface.shading, surface.geometric_normal, wo}; }
 
+    /// True if the vertex lies on a surface that is hidden from the camera.
+    [[nodiscard]] bool is_hidden_from_camera() const {
+        return surface.material != nullptr && !surface.material->visible_to_camera;
+    }
     /// True if the vertex scatters light into directions that a light sample may have.
     [[nodiscard]] bool has_non_delta() const;
     /// Returns the share of light from `wi` that leaves along `wo`: the BSDF times the cosine, or the phase function;

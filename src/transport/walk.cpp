@@ -37,24 +37,27 @@ EyePath begin_at_eye(const World& world, const EyeSample& sample) {
         .ray = sample.ray, .cone = sample.cone, .interior = world.media().camera_interior(), .tracer = sample.tracer};
 }
 
-Hit nearest_hit(const World& world, const Ray& ray) {
+Hit nearest_hit(const World& world, const Ray& ray, RayEnds ends) {
     Hit hit;
-    world.geometry().intersect(std::span(&ray, 1), std::span(&hit, 1), Coherence::Incoherent);
+    world.geometry().intersect(std::span(&ray, 1), std::span(&hit, 1), Coherence::Incoherent, QueryForm::Best, ends);
     return hit;
 }
 
 Hit nearest_hit(const World& world, const EyePath& path) {
-    return path.tracer != nullptr ? path.tracer->nearest_hit(path.ray, path.rays) : nearest_hit(world, path.ray);
+    const Hit hit =
+        path.tracer != nullptr ? path.tracer->nearest_hit(path.ray, path.rays) : nearest_hit(world, path.ray);
+    const bool passes = path.is_seen() && world.materials().is_hidden_from_camera(hit);
+    return passes ? nearest_hit(world, path.ray, RayEnds::AtCamera) : hit;
 }
 
-Rgb visibility(const World& world, const Ray& ray, SampleTracer* tracer) {
+Rgb visibility(const World& world, const Ray& ray, SampleTracer* tracer, RayEnds ends) {
     std::uint8_t occluded = kFree;
     if (tracer != nullptr)
         occluded = tracer->occluded(ray);
     else
-        world.geometry().occluded(std::span(&ray, 1), std::span(&occluded, 1));
+        world.geometry().occluded(std::span(&ray, 1), std::span(&occluded, 1), QueryForm::Best, ends);
     if (occluded == kOccluded) return {};
-    return occluded == kPassesPanes ? world.geometry().pane_transmittance(ray) : Rgb(1.0f);
+    return occluded == kPassesPanes ? world.geometry().pane_transmittance(ray, ends) : Rgb(1.0f);
 }
 
 void pass(EyePath& path, const Vertex& vertex, std::uint32_t alpha_key) {

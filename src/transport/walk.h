@@ -76,11 +76,12 @@ struct VertexNumbers {
 [[nodiscard]] EyePath begin_at_eye(const World& world, const EyeSample& sample);
 
 /// Returns the nearest surface along `ray`.
-[[nodiscard]] Hit nearest_hit(const World& world, const Ray& ray);
+[[nodiscard]] Hit nearest_hit(const World& world, const Ray& ray, RayEnds ends = RayEnds::InScene);
 /// Returns the nearest surface along the path's ray.
 [[nodiscard]] Hit nearest_hit(const World& world, const EyePath& path);
 /// Returns the share of light, [0, 1], that passes what lies within the length of `ray`; `tracer` may be null.
-[[nodiscard]] Rgb visibility(const World& world, const Ray& ray, SampleTracer* tracer = nullptr);
+[[nodiscard]] Rgb visibility(const World& world, const Ray& ray, SampleTracer* tracer = nullptr,
+                             RayEnds ends = RayEnds::InScene);
 
 /// Follows the path's ray to where it leads. Multiplies the throughput by the transmittance of a medium on the way,
 /// times its scattering coefficient where it scatters, over the density.

@@ -13,7 +13,8 @@ void intersect_any(const World& world, const TileJob& job, RayKind kind, const B
                    RenderCounters& counters, QueryForm form) {
     WaveProfile* profile = job.profile;
     if (profile != nullptr) profile->record(kind, rays);
-    world.geometry().intersect(rays, hits, is_coherent(kind) ? Coherence::Coherent : Coherence::Incoherent, form);
+    world.geometry().intersect(rays, hits, is_coherent(kind) ? Coherence::Coherent : Coherence::Incoherent, form,
+                               ends_of(kind));
     counters.rays[kind] += rays.size();
     if (profile == nullptr) return;
     profile->clock().stamp(Stage::Intersect, kind);
@@ -25,7 +26,7 @@ void occluded_any(const World& world, const TileJob& job, RayKind kind, const Ba
                   std::span<std::uint8_t> occluded, RenderCounters& counters, QueryForm form) {
     WaveProfile* profile = job.profile;
     if (profile != nullptr) profile->record(kind, rays);
-    world.geometry().occluded(rays, occluded, form);
+    world.geometry().occluded(rays, occluded, form, ends_of(kind));
     counters.rays[kind] += rays.size();
     if (profile == nullptr) return;
     profile->clock().stamp(Stage::Occluded, kind);
@@ -33,6 +34,11 @@ void occluded_any(const World& world, const TileJob& job, RayKind kind, const Ba
 }
 
 }  // namespace
+
+RayEnds ends_of(RayKind kind) {
+    const bool at_camera = kind == RayKind::Primary || kind == RayKind::LampInView || kind == RayKind::LightToCamera;
+    return at_camera ? RayEnds::AtCamera : RayEnds::InScene;
+}
 
 void intersect_batch(const World& world, const TileJob& job, RayKind kind, std::span<const Ray> rays,
                      std::span<Hit> hits, RenderCounters& counters) {

@@ -20,6 +20,9 @@ void intersect_batch(const World& world, const TileJob& job, RayKind kind, const
 void occluded_batch(const World& world, const TileJob& job, RayKind kind, const RayColumns& rays,
                     std::span<std::uint8_t> occluded, RenderCounters& counters);
 
+/// Returns where rays of this kind have ends.
+[[nodiscard]] RayEnds ends_of(RayKind kind);
+
 /// Returns the nearest surface along `ray`, as `intersect_batch` does along many.
 [[nodiscard]] Hit intersect_one(const World& world, const TileJob& job, RayKind kind, const Ray& ray,
                                 RenderCounters& counters);

@@ -177,7 +177,9 @@ void build_bvh(const ThreadPool& threads, WorldData& data, ProblemList& problems
     filters.reserve(data.geometries.size());
     for (const Geometry& geometry : data.geometries) {
         const Material& material = data.materials[geometry.material];
-        filters.push_back({material.alpha_test != AlphaTest::Opaque, material.is_pane});
+        filters.push_back({.by_opacity = material.alpha_test != AlphaTest::Opaque,
+                           .passes_shadows = material.is_pane,
+                           .is_hidden = !material.visible_to_camera});
     }
     data.bvh = std::make_unique<EmbreeScene>(data.geometries, data.instances, data.motions, filters, threads);
     Touches touches = find_touches(data, threads);

@@ -28,7 +28,9 @@ Light compile_punctual(const LightDesc& desc, std::span<const std::shared_ptr<co
     const Vec3f position = transform_point(desc.to_world, Vec3f(0.0f));
     const Vec3f axis = normalize(transform_vector(desc.to_world, {0.0f, 0.0f, -1.0f}));
     const Rgb intensity = clamp_negative(from_rec709(desc.color)) * (desc.intensity * scale);
-    if (desc.type == LightType::Directional) return DirectionalLight{axis, intensity};
+    if (desc.type == LightType::Directional)
+        return desc.angle > 0.0f ? Light(SunLight(axis, intensity, desc.angle))
+                                 : Light(DirectionalLight{axis, intensity});
 
     const PointLight point{position, intensity};
     const SpotLight spot{position, axis, intensity, std::cos(desc.inner_cone_angle), std::cos(desc.outer_cone_angle)};
@@ -94,12 +96,12 @@ void compile_mesh_lights(std::size_t most_triangles, WorldData& data, ProblemLis
             const std::uint32_t slot = instance.first_light_slot + g;
             const bool shares_place = !data.shares_place_of_slot.empty() && data.shares_place_of_slot[slot] != 0;
             const bool uniform = !material.emission_texture.valid() && material.alpha_test == AlphaTest::Opaque &&
-                                 !material.has_coat && !shares_place;
+                                 !material.has_coat && !shares_place && material.beam.is_matte();
             // Rays from it and to it pass what touches it.
             const float reach = data.contacts ? 1.5f * data.contacts->reach(slot) : 0.0f;
             MeshLight light(world_triangles(geometry, instance), material.emission, mean_emission(data, material),
                             material.emits_both_sides, instance.mirrors, uniform,
-                            max_components(mesh_position_error(geometry, instance), Vec3f(reach)));
+                            max_components(mesh_position_error(geometry, instance), Vec3f(reach)), material.beam);
             if (!(light.area() > 0.0f)) continue;
             data.light_of_slot[slot] = static_cast<std::uint32_t>(data.lights.size());
             data.lights.emplace_back(std::move(light));

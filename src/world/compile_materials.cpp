@@ -117,6 +117,18 @@ void compile_alpha(const MaterialDesc& desc, TextureCompiler& textures, Material
     material.alpha_texture = textures.slot(desc.base_color_texture, TextureUse::Color);
 }
 
+Beam compile_beam(const BeamDesc& desc) {
+    switch (desc.kind) {
+        case BeamDesc::Kind::Panel:
+            return Beam::panel(desc.spread);
+        case BeamDesc::Kind::Spot:
+            return Beam::spot(desc.inner_cone_angle, desc.outer_cone_angle);
+        case BeamDesc::Kind::Matte:
+            break;
+    }
+    return {};
+}
+
 Material compile_material(const MaterialDesc& desc, const ColorMatrix& from_rec709, TextureCompiler& textures) {
     Material material;
     if (const auto* conductor = std::get_if<ConductorDesc>(&desc.override_model))
@@ -153,6 +165,8 @@ Material compile_material(const MaterialDesc& desc, const ColorMatrix& from_rec7
     const Rgb emission = desc.emissive * desc.emissive_strength;
     material.emits = max_component(emission) > 0.0f && !material.unlit;
     material.emits_both_sides = desc.double_sided;
+    material.beam = compile_beam(desc.beam);
+    material.visible_to_camera = desc.visible_to_camera;
     if (material.emits) {
         material.emission_texture = textures.slot(desc.emissive_texture, TextureUse::Color);
         material.emission = material.emission_texture.valid() ? emission : clamp_negative(from_rec709(emission));

@@ -31,6 +31,7 @@ struct QueryContext {
     const EmbreeScene* scene;
     const Ray* rays;  ///< or null
     const std::uint32_t* alpha_keys;
+    RayEnds ends = RayEnds::InScene;
     CollectedHits* collected = nullptr;  ///< only for `EmbreeScene::collect`
     std::uint8_t* passed = nullptr;      ///< by ray, set to kPassesPanes where one does; only where there are panes
 

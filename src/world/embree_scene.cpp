@@ -45,22 +45,33 @@ bool stops(const RTCFilterFunctionNArguments& args, unsigned int i, const Hit& h
     return to_unit_float(bits) < opacity;
 }
 
-void filter_by_opacity(const RTCFilterFunctionNArguments* args) {
+/// Lets rays pass where a surface does not stop them: all that have an end at the camera if `Hidden`, others by its
+/// opacity if `ByOpacity`.
+template <bool Hidden, bool ByOpacity>
+void let_pass(const RTCFilterFunctionNArguments* args) {
+    const bool is_hidden = Hidden && context_of(*args).ends == RayEnds::AtCamera;
     for (unsigned int i = 0; i < args->N; ++i)
-        if (args->valid[i] == -1 && !stops(*args, i, hit_of(*args, i))) args->valid[i] = 0;
+        if (args->valid[i] == -1 && (is_hidden || (ByOpacity && !stops(*args, i, hit_of(*args, i)))))
+            args->valid[i] = 0;
 }
 
 /// Lets shadow rays pass panes.
+template <bool Hidden, bool ByOpacity>
 void pass_panes(const RTCFilterFunctionNArguments* args) {
+    let_pass<Hidden, ByOpacity>(args);
     for (unsigned int i = 0; i < args->N; ++i) {
         if (args->valid[i] != -1) continue;
         args->valid[i] = 0;
         context_of(*args).passed[RTCRayN_id(args->ray, args->N, i)] = kPassesPanes;
     }
 }
-void pass_opaque_panes(const RTCFilterFunctionNArguments* args) {
-    filter_by_opacity(args);
-    pass_panes(args);
+
+/// Sets the filter functions of a geometry with these properties, of which one is true at least.
+template <bool Hidden, bool ByOpacity>
+void set_let_through(RTCGeometry mesh, bool passes_shadows) {
+    if (Hidden || ByOpacity) rtcSetGeometryIntersectFilterFunction(mesh, let_pass<Hidden, ByOpacity>);
+    rtcSetGeometryOccludedFilterFunction(mesh,
+                                         passes_shadows ? pass_panes<Hidden, ByOpacity> : let_pass<Hidden, ByOpacity>);
 }
 
 /// Notes what the ray meets and lets it pass.
@@ -156,12 +167,13 @@ struct GeometryMaker {
     void set_filters(RTCGeometry mesh, const HitFilter& filter) const {
         if (collects) {
             rtcSetGeometryIntersectFilterFunction(mesh, filter.by_opacity ? collect_hits<true> : collect_hits<false>);
-        } else {
-            if (filter.by_opacity) rtcSetGeometryIntersectFilterFunction(mesh, filter_by_opacity);
-            if (filter.passes_shadows)
-                rtcSetGeometryOccludedFilterFunction(mesh, filter.by_opacity ? pass_opaque_panes : pass_panes);
-            else if (filter.by_opacity)
-                rtcSetGeometryOccludedFilterFunction(mesh, filter_by_opacity);
+        } else if (filter.is_hidden) {
+            (filter.by_opacity ? set_let_through<true, true> : set_let_through<true, false>)(mesh,
+                                                                                             filter.passes_shadows);
+        } else if (filter.by_opacity) {
+            set_let_through<false, true>(mesh, filter.passes_shadows);
+        } else if (filter.passes_shadows) {
+            set_let_through<false, false>(mesh, true);
         }
     }
 
@@ -263,51 +275,57 @@ void EmbreeScene::set_opacity(OpacityFunction function, const void* world) {
 }
 
 template <typename Batch>
-void EmbreeScene::intersect_batch(const Batch& rays, std::span<Hit> hits, Coherence coherence, QueryForm form) const {
+void EmbreeScene::intersect_batch(const Batch& rays, std::span<Hit> hits, Coherence coherence, QueryForm form,
+                                  RayEnds ends) const {
     switch (form) {
         case QueryForm::Single:
-            intersect_single(rays, hits);
+            intersect_single(rays, hits, ends);
             break;
         case QueryForm::Packet8:
-            intersect_packets<8>(rays, hits, takes_as_coherent(coherence));
+            intersect_packets<8>(rays, hits, takes_as_coherent(coherence), ends);
             break;
         case QueryForm::Best:
         case QueryForm::Packet16:
-            intersect_packets<16>(rays, hits, takes_as_coherent(coherence));
+            intersect_packets<16>(rays, hits, takes_as_coherent(coherence), ends);
             break;
     }
 }
 
-void EmbreeScene::intersect(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence, QueryForm form) const {
-    intersect_batch(rays, hits, coherence, form);
+void EmbreeScene::intersect(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence, QueryForm form,
+                            RayEnds ends) const {
+    intersect_batch(rays, hits, coherence, form, ends);
 }
 
-void EmbreeScene::intersect(const RayColumns& rays, std::span<Hit> hits, Coherence coherence, QueryForm form) const {
-    intersect_batch(rays, hits, coherence, form);
+void EmbreeScene::intersect(const RayColumns& rays, std::span<Hit> hits, Coherence coherence, QueryForm form,
+                            RayEnds ends) const {
+    intersect_batch(rays, hits, coherence, form, ends);
 }
 
 template <typename Batch>
-void EmbreeScene::occluded_batch(const Batch& rays, std::span<std::uint8_t> occluded, QueryForm form) const {
+void EmbreeScene::occluded_batch(const Batch& rays, std::span<std::uint8_t> occluded, QueryForm form,
+                                 RayEnds ends) const {
     switch (form) {
         case QueryForm::Single:
-            occluded_single(rays, occluded);
+            occluded_single(rays, occluded, ends);
             break;
         case QueryForm::Packet8:
-            occluded_packets<8>(rays, occluded);
+            occluded_packets<8>(rays, occluded, ends);
             break;
         case QueryForm::Best:
         case QueryForm::Packet16:
-            occluded_packets<16>(rays, occluded);
+            occluded_packets<16>(rays, occluded, ends);
             break;
     }
 }
 
-void EmbreeScene::occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, QueryForm form) const {
-    occluded_batch(rays, occluded, form);
+void EmbreeScene::occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, QueryForm form,
+                           RayEnds ends) const {
+    occluded_batch(rays, occluded, form, ends);
 }
 
-void EmbreeScene::occluded(const RayColumns& rays, std::span<std::uint8_t> occluded, QueryForm form) const {
-    occluded_batch(rays, occluded, form);
+void EmbreeScene::occluded(const RayColumns& rays, std::span<std::uint8_t> occluded, QueryForm form,
+                           RayEnds ends) const {
+    occluded_batch(rays, occluded, form, ends);
 }
 
 std::size_t EmbreeScene::collect(const Ray& ray, float t_min, std::span<Hit> hits) const {
@@ -334,8 +352,9 @@ bool EmbreeScene::takes_as_coherent(Coherence coherence) const {
 }
 
 template <typename Batch>
-void EmbreeScene::intersect_single(const Batch& rays, std::span<Hit> hits) const {
+void EmbreeScene::intersect_single(const Batch& rays, std::span<Hit> hits, RayEnds ends) const {
     QueryContext context(*this, rays, false);
+    context.ends = ends;
     RTCRayHit query;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         query = make_ray_hit(rays[i], static_cast<unsigned int>(i));
@@ -346,8 +365,9 @@ void EmbreeScene::intersect_single(const Batch& rays, std::span<Hit> hits) const
 }
 
 template <std::size_t Width, typename Batch>
-void EmbreeScene::intersect_packets(const Batch& rays, std::span<Hit> hits, bool coherent) const {
+void EmbreeScene::intersect_packets(const Batch& rays, std::span<Hit> hits, bool coherent, RayEnds ends) const {
     QueryContext context(*this, rays, coherent);
+    context.ends = ends;
     for_each_packet<Width, typename Packet<Width>::RayHits>(
         rays, [&](const PacketMask<Width>& mask, auto& packet, std::size_t first, std::size_t count) {
             embree::intersect(mask.valid, top_, context.base, coherent, packet);
@@ -361,8 +381,9 @@ void EmbreeScene::intersect_packets(const Batch& rays, std::span<Hit> hits, bool
 // Embree marks occluded rays with tfar = -inf; filter functions mark those that pass panes.
 
 template <typename Batch>
-void EmbreeScene::occluded_single(const Batch& rays, std::span<std::uint8_t> occluded) const {
+void EmbreeScene::occluded_single(const Batch& rays, std::span<std::uint8_t> occluded, RayEnds ends) const {
     QueryContext context(*this, rays, false);
+    context.ends = ends;
     context.passed = occluded.data();
     if (has_panes_) std::ranges::fill(occluded, kFree);
     for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -373,8 +394,9 @@ void EmbreeScene::occluded_single(const Batch& rays, std::span<std::uint8_t> occ
 }
 
 template <std::size_t Width, typename Batch>
-void EmbreeScene::occluded_packets(const Batch& rays, std::span<std::uint8_t> occluded) const {
+void EmbreeScene::occluded_packets(const Batch& rays, std::span<std::uint8_t> occluded, RayEnds ends) const {
     QueryContext context(*this, rays, false);
+    context.ends = ends;
     context.passed = occluded.data();
     if (has_panes_) std::ranges::fill(occluded, kFree);
     for_each_packet<Width, typename Packet<Width>::Rays>(

@@ -24,6 +24,7 @@ namespace etendue {
 struct HitFilter {
     bool by_opacity = false;      ///< hits on its partly transparent places
     bool passes_shadows = false;  ///< shadow rays pass it, and say that they did
+    bool is_hidden = false;       ///< rays with an end at the camera pass it, and say nothing
 };
 
 /// Opacity of a triangle at a point, [0, 1].
@@ -46,11 +47,15 @@ class EmbreeScene {
     /// Called once the World has its final address.
     void set_opacity(OpacityFunction function, const void* world);
 
-    void intersect(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence, QueryForm form) const;
-    void intersect(const RayColumns& rays, std::span<Hit> hits, Coherence coherence, QueryForm form) const;
+    void intersect(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence, QueryForm form,
+                   RayEnds ends = RayEnds::InScene) const;
+    void intersect(const RayColumns& rays, std::span<Hit> hits, Coherence coherence, QueryForm form,
+                   RayEnds ends = RayEnds::InScene) const;
     /// See SceneGeometry::occluded.
-    void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, QueryForm form) const;
-    void occluded(const RayColumns& rays, std::span<std::uint8_t> occluded, QueryForm form) const;
+    void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, QueryForm form,
+                  RayEnds ends = RayEnds::InScene) const;
+    void occluded(const RayColumns& rays, std::span<std::uint8_t> occluded, QueryForm form,
+                  RayEnds ends = RayEnds::InScene) const;
 
     /// Puts all surfaces that `ray` meets from `t_min` metres on into `hits`, in any order and as far as there is room;
     /// how many these are. The scene has to be one of `collected_slots`.
@@ -79,17 +84,18 @@ class EmbreeScene {
   private:
     // A `Batch` is a span of rays or RayColumns.
     template <typename Batch>
-    void intersect_batch(const Batch& rays, std::span<Hit> hits, Coherence coherence, QueryForm form) const;
+    void intersect_batch(const Batch& rays, std::span<Hit> hits, Coherence coherence, QueryForm form,
+                         RayEnds ends) const;
     template <typename Batch>
-    void intersect_single(const Batch& rays, std::span<Hit> hits) const;
+    void intersect_single(const Batch& rays, std::span<Hit> hits, RayEnds ends) const;
     template <std::size_t Width, typename Batch>
-    void intersect_packets(const Batch& rays, std::span<Hit> hits, bool coherent) const;
+    void intersect_packets(const Batch& rays, std::span<Hit> hits, bool coherent, RayEnds ends) const;
     template <typename Batch>
-    void occluded_batch(const Batch& rays, std::span<std::uint8_t> occluded, QueryForm form) const;
+    void occluded_batch(const Batch& rays, std::span<std::uint8_t> occluded, QueryForm form, RayEnds ends) const;
     template <typename Batch>
-    void occluded_single(const Batch& rays, std::span<std::uint8_t> occluded) const;
+    void occluded_single(const Batch& rays, std::span<std::uint8_t> occluded, RayEnds ends) const;
     template <std::size_t Width, typename Batch>
-    void occluded_packets(const Batch& rays, std::span<std::uint8_t> occluded) const;
+    void occluded_packets(const Batch& rays, std::span<std::uint8_t> occluded, RayEnds ends) const;
     /// Whether packets of such rays are traced with Embree's coherent traversal. It pays within one level (4 to 5 times
     /// a single ray against 1.8 on the Cornell box) and costs where packets meet instances (0.8 against 1.4 on ten
     /// thousand of them).

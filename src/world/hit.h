@@ -30,6 +30,12 @@ enum class Coherence {
 /// Answer a ray that asks whether something is in the way.
 inline constexpr std::uint8_t kFree = 0, kOccluded = 1, kPassesPanes = 2;
 
+/// Says whether rays have an end at the camera, and so pass what is hidden from it.
+enum class RayEnds {
+    InScene,
+    AtCamera,  ///< straight or through panes
+};
+
 /// Says how a batch goes through Embree; the default is what measured best for its coherence, and benchmarks compare.
 enum class QueryForm { Best, Single, Packet8, Packet16 };
 

@@ -34,6 +34,8 @@ Emission LightEmitter::sample(Vec2f u_light, const EmissionNumbers& u, float tim
 SurfaceEmission LightEmitter::surface_emission(const Emission& emission, const Vec3f& direction) const {
     const MeshLight* mesh = std::get_if<MeshLight>(&data_.lights[emission.light]);
     if (mesh == nullptr) return {};
+    const Geometry& geometry = data_.geometries[data_.emitter_of_light[emission.light].geometry];
+    if (!data_.materials[geometry.material].visible_to_camera) return {};
     const EmissionSample& sample = emission.sample;
     const LightTriangle& t = mesh->triangle(sample.triangle);
     return {mesh_emission(data_, materials_, emission.light, sample.triangle, sample.barycentric, direction),

@@ -38,7 +38,8 @@ class LightEmitter {
 
     /// Samples a ray that leaves a light, chosen with `u_light` in [0, 1)²; the ray has the given time.
     [[nodiscard]] Emission sample(Vec2f u_light, const EmissionNumbers& u, float time) const;
-    /// Evaluates the light that leaves the starting point of `emission` along `direction`; black without a surface.
+    /// Evaluates the light that leaves the starting point of `emission` along `direction`, towards the camera; black
+    /// without a surface, and where that is hidden from the camera.
     [[nodiscard]] SurfaceEmission surface_emission(const Emission& emission, const Vec3f& direction) const;
     /// Returns the bodies that a ray starts in that leaves a light.
     [[nodiscard]] Interior interior(const Emission& emission) const;

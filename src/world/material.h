@@ -5,6 +5,7 @@
 #include "color/color_config.h"
 #include "core/rgb.h"
 #include "core/vec.h"
+#include "light/beam.h"
 
 #include <cstdint>
 #include <optional>
@@ -98,6 +99,9 @@ struct Material {
     TextureSlot emission_texture;
     bool emits = false;
     bool emits_both_sides = false;
+    Beam beam;  ///< of emission
+
+    bool visible_to_camera = true;  ///< false: what the camera sees straight or through panes goes on behind it
 
     AlphaTest alpha_test = AlphaTest::Opaque;
     float alpha_cutoff = 0.5f;

@@ -72,7 +72,7 @@ Rgb Materials::emission(const SurfacePoint& point, const Vec3f& wo) const {
     if (!material.emits) return {};
     const bool from_back = dot(wo, point.geometric_normal) <= 0.0f;
     if (!material.emits_both_sides && from_back) return {};
-    Rgb emitted = evaluate_emission(data_, material, point);
+    Rgb emitted = evaluate_emission(data_, material, point) * material.beam.factor(abs_dot(wo, point.geometric_normal));
     if (material.has_coat) {
         const GltfModel& model = std::get<GltfModel>(material.model);
         emitted *= evaluate_clear_coat(data_, *model.layers, point, false).passed(abs_dot(wo, point.coat_normal));

@@ -52,6 +52,10 @@ class Materials {
     [[nodiscard]] const Material* at(const Hit& hit) const {
         return &data_.materials[data_.geometries[hit.geometry].material];
     }
+    /// Returns whether the surface at `hit` is there and hidden from the camera.
+    [[nodiscard]] bool is_hidden_from_camera(const Hit& hit) const {
+        return hit.valid() && !at(hit)->visible_to_camera;
+    }
     /// Returns the index of the material of `point`, as in the description.
     [[nodiscard]] std::uint32_t index(const SurfacePoint& point) const {
         return static_cast<std::uint32_t>(point.material - data_.materials.data());

@@ -28,7 +28,8 @@ constexpr std::size_t kCachedGeometry = std::size_t{2} << 20;
 
 /// Puts the surfaces that rays meet in place of those that they hit, where several touch.
 template <typename Batch>
-void settle_contacts(const WorldData& data, const Batch& rays, std::span<Hit> hits) {
+void settle_contacts(const WorldData& data, const Materials& materials, const Batch& rays, std::span<Hit> hits,
+                     RayEnds ends) {
     for (std::size_t i = 0; i < rays.size(); ++i) {
         if (!hits[i].valid()) continue;
         const std::size_t slot = slot_of(data, hits[i]);
@@ -37,7 +38,9 @@ void settle_contacts(const WorldData& data, const Batch& rays, std::span<Hit> hi
         if (!data.contacts->may_touch(slot, ray, hits[i].t)) continue;
         const Contact contact = data.contacts->at(data, ray, hits[i]);
         if (contact.count < 2) continue;
-        hits[i] = foremost(data, contact, ray.direction).hit;
+        // What is hidden from the camera is not what was hit, and lies in front of nothing.
+        const Hit& front = foremost(data, contact, ray.direction).hit;
+        if (ends == RayEnds::InScene || !materials.is_hidden_from_camera(front)) hits[i] = front;
         hits[i].in_contact = 1;
     }
 }
@@ -51,23 +54,26 @@ SceneGeometry::SceneGeometry(const WorldData& data, const Materials& materials) 
     has_far_triangles_ = triangle_bytes() + data_.bvh->bytes() > kCachedGeometry;
 }
 
-void SceneGeometry::intersect(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence,
-                              QueryForm form) const {
-    data_.bvh->intersect(rays, hits, coherence, form);
-    if (data_.contacts) settle_contacts(data_, rays, hits);
+void SceneGeometry::intersect(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence, QueryForm form,
+                              RayEnds ends) const {
+    data_.bvh->intersect(rays, hits, coherence, form, ends);
+    if (data_.contacts) settle_contacts(data_, materials_, rays, hits, ends);
 }
 
-void SceneGeometry::intersect(const RayColumns& rays, std::span<Hit> hits, Coherence coherence, QueryForm form) const {
-    data_.bvh->intersect(rays, hits, coherence, form);
-    if (data_.contacts) settle_contacts(data_, rays, hits);
+void SceneGeometry::intersect(const RayColumns& rays, std::span<Hit> hits, Coherence coherence, QueryForm form,
+                              RayEnds ends) const {
+    data_.bvh->intersect(rays, hits, coherence, form, ends);
+    if (data_.contacts) settle_contacts(data_, materials_, rays, hits, ends);
 }
 
-void SceneGeometry::occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, QueryForm form) const {
-    data_.bvh->occluded(rays, occluded, form);
+void SceneGeometry::occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, QueryForm form,
+                             RayEnds ends) const {
+    data_.bvh->occluded(rays, occluded, form, ends);
 }
 
-void SceneGeometry::occluded(const RayColumns& rays, std::span<std::uint8_t> occluded, QueryForm form) const {
-    data_.bvh->occluded(rays, occluded, form);
+void SceneGeometry::occluded(const RayColumns& rays, std::span<std::uint8_t> occluded, QueryForm form,
+                             RayEnds ends) const {
+    data_.bvh->occluded(rays, occluded, form, ends);
 }
 
 double SceneGeometry::replay(std::span<const Ray> rays, bool occlusion, Coherence coherence, QueryForm form) const {
@@ -87,7 +93,7 @@ SurfacePoint SceneGeometry::surface_point(const Hit& hit, const Ray& ray, const 
                               ConeSection{ray.direction, std::abs(cone.width_at(hit.t))});
 }
 
-Rgb SceneGeometry::pane_transmittance(const Ray& ray) const {
+Rgb SceneGeometry::pane_transmittance(const Ray& ray, RayEnds ends) const {
     std::array<Hit, 16> few;
     std::vector<Hit> many;
     std::span<Hit> hits = few;
@@ -103,6 +109,7 @@ Rgb SceneGeometry::pane_transmittance(const Ray& ray) const {
                       [](const Hit& hit) { return std::tuple(hit.t, hit.instance, hit.geometry, hit.triangle); });
     Rgb transmittance(1.0f);
     for (const Hit& hit : hits) {
+        if (ends == RayEnds::AtCamera && materials_.is_hidden_from_camera(hit)) continue;
         const SurfacePoint point = surface_point(hit);
         Bsdf storage;
         const Vec3f wo = -ray.direction;

@@ -28,16 +28,18 @@ class SceneGeometry {
 
     /// Finds the nearest hit of each ray; `hits` is as long as `rays`.
     void intersect(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence,
-                   QueryForm form = QueryForm::Best) const;
-    void intersect(const RayColumns& rays, std::span<Hit> hits, Coherence coherence,
-                   QueryForm form = QueryForm::Best) const;
+                   QueryForm form = QueryForm::Best, RayEnds ends = RayEnds::InScene) const;
+    void intersect(const RayColumns& rays, std::span<Hit> hits, Coherence coherence, QueryForm form = QueryForm::Best,
+                   RayEnds ends = RayEnds::InScene) const;
     /// Answers kOccluded where something but panes lies within (0, t_max], else kPassesPanes or kFree; `occluded` is as
     /// long as `rays`.
-    void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, QueryForm form = QueryForm::Best) const;
-    void occluded(const RayColumns& rays, std::span<std::uint8_t> occluded, QueryForm form = QueryForm::Best) const;
+    void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, QueryForm form = QueryForm::Best,
+                  RayEnds ends = RayEnds::InScene) const;
+    void occluded(const RayColumns& rays, std::span<std::uint8_t> occluded, QueryForm form = QueryForm::Best,
+                  RayEnds ends = RayEnds::InScene) const;
     /// Returns the share of light that passes the panes between the ends of `ray`, which may be anything along which
     /// nothing else lies.
-    [[nodiscard]] Rgb pane_transmittance(const Ray& ray) const;
+    [[nodiscard]] Rgb pane_transmittance(const Ray& ray, RayEnds ends = RayEnds::InScene) const;
     /// Returns the seconds that bare Embree takes to trace `rays`, without what it takes to hand them over or to look
     /// at what they hit: the ceiling for any renderer. `occlusion`: whether they only ask if something is in the way.
     [[nodiscard]] double replay(std::span<const Ray> rays, bool occlusion, Coherence coherence, QueryForm form) const;

@@ -19,6 +19,7 @@ struct SceneTraits {
     bool has_specular_surfaces = false;   ///< some surface mirrors or refracts without any roughness
     bool has_unlit_surfaces = false;      ///< some surface shows its colour and neither scatters nor emits light
     bool has_emitting_surfaces = false;   ///< some surface emits light
+    bool hides_surfaces = false;          ///< some surface is hidden from the camera
     bool has_unsampled_emitters = false;  ///< some of these move or are beyond the most triangles that are sampled
 
     bool has_bodies = false;             ///< there is something that light can be in

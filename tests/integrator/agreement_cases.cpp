@@ -24,6 +24,26 @@ std::function<void(SceneDesc&)> under(const LightDesc& desc, const MaterialDesc&
     };
 }
 
+/// A room under a lamp that shines into a cone.
+void under_panel(SceneDesc& scene) {
+    add_ball(scene, gltf_plastic());
+    MaterialDesc lamp = emissive(Rgb(12.0f));
+    lamp.beam = {.kind = BeamDesc::Kind::Panel, .spread = 1.2f};
+    add_object(scene, quad({0.1f, 1.3f, -2.8f}, {0.3f, 0, 0}, {0, 0, 0.3f}), add_material(scene, lamp));
+}
+
+/// A room with a lamp and a card in view, neither of which the camera sees.
+void under_hidden_lamp(SceneDesc& scene) {
+    add_ball(scene, gltf_plastic());
+    MaterialDesc lamp = emissive(Rgb(4.0f));
+    lamp.double_sided = true;
+    lamp.visible_to_camera = false;
+    add_object(scene, quad({0.45f, 0.2f, -2.2f}, {0.25f, 0, 0.1f}, {0, 0.25f, 0.05f}), add_material(scene, lamp));
+    MaterialDesc card = gltf_plastic();
+    card.visible_to_camera = false;
+    add_object(scene, quad({0.1f, -0.3f, -2.3f}, {0.3f, 0, 0.1f}, {0, 0.1f, -0.2f}), add_material(scene, card));
+}
+
 std::vector<AgreementCase> all_cases() {
     MaterialDesc wax;
     wax.override_model = SubsurfaceDesc{.albedo = {0.8f, 0.6f, 0.4f}, .radius = Rgb(0.15f)};
@@ -52,6 +72,13 @@ std::vector<AgreementCase> all_cases() {
         {"PointPlastic", under(point_light())},
         {"SpotConductor", under(spot_light(), conductor(0.6f))},
         {"SunRoughGlass", under(sun_light(), glass(0.6f))},
+        {"Panel", under_panel, {.max_depth = 6}, {0, 0, kAgreementWidth, kAgreementHeight}, 16},
+        {"HiddenLamp",
+         under_hidden_lamp,
+         {.max_depth = 6},
+         {0, 0, kAgreementWidth, kAgreementHeight},
+         16,
+         {"path", "light", "bdpt", "vcm"}},
     };
     cases.push_back(
         {"TwoSidedLamp", [](SceneDesc& scene) {
@@ -145,6 +172,16 @@ std::vector<AgreementCase> all_cases() {
         add_object(scene, quad({-0.2f, -0.1f, -2.2f}, {0.3f, 0, 0.1f}, {0, 0.5f, 0}), add_material(scene, pane));
     };
     cases.push_back({"BehindPanes", behind_panes, {.max_depth = 6}, all, 128, bdpt});
+    cases.push_back(
+        {"HiddenLampBehindPane",
+         [=](SceneDesc& scene) {
+             under_hidden_lamp(scene);
+             add_object(scene, quad({0.33f, 0.15f, -1.6f}, {0.3f, 0, 0.1f}, {0, 0.3f, 0}), add_material(scene, pane));
+         },
+         {.max_depth = 6},
+         all,
+         16,
+         bdpt});
     // Of a point, path finds no light that panes reflect.
     cases.push_back({"BehindPanesOneBounce",
                      [=](SceneDesc& scene) {

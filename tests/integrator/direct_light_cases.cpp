@@ -52,6 +52,13 @@ std::vector<ClosedFormCase> mesh_light_cases() {
     const double square_factor = rectangle_form_factor(0.2, 1.2, -0.3, 0.7, 1.0);
     cases.push_back({"quad", square, kRho * 2.0 * square_factor});
 
+    // Between the camera and the floor, of which it shows as much as if it were not there.
+    SceneDesc hidden = floor_seen_at(0.0f);
+    MaterialDesc unseen = emitter(2.0f);
+    unseen.visible_to_camera = false;
+    add(hidden, quad_facing_down({0.0f, 0.2f, kZ}, 0.5f), unseen);
+    cases.push_back({"hidden_quad", hidden, kRho * 2.0 * rectangle_form_factor(-0.25, 0.25, -0.25, 0.25, 0.2)});
+
     SceneDesc behind = floor_seen_at(0.0f);
     add(behind, quad_facing_up({0.7f, 1.0f, kZ + 0.2f}, 1.0f), emitter(2.0f));
     cases.push_back({"quad_from_behind", behind, 0.0});
@@ -79,6 +86,31 @@ std::vector<ClosedFormCase> mesh_light_cases() {
     const double to_globe = std::hypot(0.75, 1.0);
     const double globe_factor = 0.16 / (to_globe * to_globe) / to_globe;
     cases.push_back({"globe", globe, kRho * 3.0 * globe_factor, 5e-4});
+
+    // Small enough to count as a point, so that the floor's angle to it is one.
+    const auto small_lamp = [](const BeamDesc& beam) {
+        SceneDesc scene = floor_seen_at(0.75f);
+        MaterialDesc lamp = emitter(3000.0f);
+        lamp.beam = beam;
+        add(scene, quad_facing_down({0.0f, 1.0f, kZ}, 0.01f), lamp);
+        return scene;
+    };
+    const double squared = 0.75 * 0.75 + 1.0;
+    const double intensity = 3000.0 * 1e-4;
+    // So small that `naive` would miss it.
+    const std::vector<std::string> all_but_naive{"path", "direct", "bdpt", "whitted"};
+    const BeamDesc panel{.kind = BeamDesc::Kind::Panel, .spread = 2.0f};
+    const double slats = (std::tan(1.0) - 0.75) / (std::tan(1.0) - 1.0);
+    cases.push_back(
+        {"panel", small_lamp(panel), kRho / kPiD * intensity * slats / squared / squared, 1e-4, {}, all_but_naive});
+    const BeamDesc spot{.kind = BeamDesc::Kind::Spot, .inner_cone_angle = 0.3f, .outer_cone_angle = 0.9f};
+    const double cone = (1.0 / std::sqrt(squared) - std::cos(0.9)) / (std::cos(0.3) - std::cos(0.9));
+    cases.push_back({"spot_disk",
+                     small_lamp(spot),
+                     kRho / kPiD * intensity * cone * cone / squared / std::sqrt(squared),
+                     3e-4,
+                     {},
+                     all_but_naive});
 
     // Lights of very different power, so that a wrong probability of the choice shows.
     SceneDesc several = square;
@@ -121,11 +153,17 @@ std::vector<ClosedFormCase> punctual_light_cases() {
     add_light(sun, LightType::Directional, 3.0f, {0.0f, 5.0f, 0.0f}, {0.6f, -0.8f, 0.0f});
     cases.push_back({"directional", sun, kRho / kPiD * 3.0 * 0.8, 1e-5, {}, kFindDeltaLights});
 
+    // The whole disk is above the horizon: the irradiance is that of parallel light.
+    sun.lights.back().angle = 0.8f;
+    cases.push_back({"sun_disk", sun, kRho / kPiD * 3.0 * 0.8, 1e-4, {}, kFindDeltaLights});
+
     SceneDesc sunny_square;
     add(sunny_square, quad_facing_up({0.0f, 0.0f, 0.0f}, 2.0f), diffuse(kAlbedo));
     add_light(sunny_square, LightType::Directional, 3.0f, {0.0f, 5.0f, 0.0f}, {0.6f, -0.8f, 0.0f});
     look(sunny_square, {0.0f, 0.4f, 0.0f}, {0.0f, -1.0f, 0.0f}, 0.7f);
     cases.push_back({"directional_wide", sunny_square, kRho / kPiD * 3.0 * 0.8, 1e-5, {}, light_too(kFindDeltaLights)});
+    sunny_square.lights.back().angle = 0.8f;
+    cases.push_back({"sun_disk_wide", sunny_square, kRho / kPiD * 3.0 * 0.8, 1e-4, {}, light_too(kFindDeltaLights)});
     return cases;
 }
 

@@ -37,6 +37,7 @@ std::vector<NamedLight> lights() {
             {"spot", SpotLight{{1, 2, 3}, axis, Rgb(2.0f), 0.9f, 0.6f}},
             {"hard spot", SpotLight{{1, 2, 3}, axis, Rgb(2.0f), 0.999f, 0.999f}},
             {"directional", DirectionalLight{axis, Rgb(0.5f)}},
+            {"sun", SunLight(axis, Rgb(0.5f), 0.4f)},
             {"mesh", mesh(false, false)},
             {"mirrored mesh", mesh(false, true)},
             {"two-sided mesh", mesh(true, false)},
@@ -98,7 +99,8 @@ TEST(Emission, BringsToAPointWhatLightSamplesSayArrives) {
 
 TEST(Emission, LightsAtInfinityStartOutsideOfTheSceneAndCoverIt) {
     for (const Light& light :
-         {Light(DirectionalLight{normalize({1, -2, 0.5f}), Rgb(1.0f)}), Light(ConstantEnvironment{Rgb(1.0f)})}) {
+         {Light(DirectionalLight{normalize({1, -2, 0.5f}), Rgb(1.0f)}),
+          Light(SunLight(normalize({1, -2, 0.5f}), Rgb(1.0f), 0.3f)), Light(ConstantEnvironment{Rgb(1.0f)})}) {
         Random random(8);
         float farthest = 0.0f;
         for (int i = 0; i < 2000; ++i) {

@@ -70,5 +70,18 @@ TEST_F(BlenderCases, CamerasHaveTheNamesOfObjects) {
     EXPECT_TRUE(has_problem(loaded.problems, Severity::Note, "the file has 3 cameras")) << listing(loaded.problems);
 }
 
+// The exporter drops the radius of lamps and the angle of suns.
+TEST_F(BlenderCases, LampsBecomeSoftByOneWord) {
+    const char* const soft = R"({"lights": {"Point": {"radius": 0.5}, "Sun": {"angle": 0.12}}})";
+    const LoadedScene loaded = inspect_scene(folder("soft_lamps"), {.settings = soft});
+    EXPECT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
+    EXPECT_FALSE(has_problem(loaded.problems, Severity::Note, "--light-units")) << "its lamps are raw numbers";
+    ASSERT_EQ(loaded.scene.lights.size(), 1u);
+    EXPECT_FLOAT_EQ(loaded.scene.lights[0].angle, 0.12f);
+    EXPECT_EQ(loaded.scene.instances.back().name, "Point");
+    // 150 W: 11.94 cd, over the disk that every side sees.
+    EXPECT_NEAR(loaded.scene.materials.back().emissive_strength, 11.93662f / (0.25f * kPi), 1e-3f);
+}
+
 }  // namespace
 }  // namespace etendue

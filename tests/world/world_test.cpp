@@ -239,6 +239,58 @@ TEST(World, UnlitSurfacesAreKnownWhereTheyAre) {
     }
 }
 
+// In every form, baked and instanced, opaque, partly transparent and a pane.
+TEST(World, RaysWithAnEndAtTheCameraPassWhatIsHiddenFromIt) {
+    MaterialDesc opaque = diffuse(Rgb(0.5f));
+    MaterialDesc veil = opaque;
+    veil.alpha_mode = AlphaMode::Blend;
+    veil.base_alpha = 0.999f;
+    MaterialDesc pane;
+    pane.transmission = 1.0f;
+    pane.roughness = 0.0f;
+    pane.metallic = 0.0f;
+    Ray ray;
+    ray.direction = {0, 0, -1};
+    ray.t_max = 2.5f;
+    for (MaterialDesc material : {opaque, veil, pane})
+        for (const bool is_instance : {false, true}) {
+            SceneDesc scene = empty_scene();
+            material.visible_to_camera = false;
+            PrimitiveDesc hidden = quad({0, 0, -2}, {1, 0, 0}, {0, 1, 0});
+            hidden.material = add_material(scene, material);
+            const auto mesh = add_mesh(scene, {hidden});
+            place(scene, mesh);
+            if (is_instance) place(scene, mesh, translation({5, 0, 0}));
+            add_object(scene, quad({0, 0, -3}, {1, 0, 0}, {0, 1, 0}), add_material(scene, opaque));
+            const World world = compile(scene);
+            EXPECT_TRUE(world.traits().hides_surfaces);
+            for (const QueryForm form : {QueryForm::Single, QueryForm::Packet8, QueryForm::Packet16}) {
+                const auto hit = [&](RayEnds ends) {
+                    Ray far = ray;
+                    far.t_max = 10.0f;
+                    Hit found;
+                    world.geometry().intersect({&far, 1}, {&found, 1}, Coherence::Coherent, form, ends);
+                    return found;
+                };
+                EXPECT_FLOAT_EQ(hit(RayEnds::InScene).t, 2.0f);
+                EXPECT_TRUE(world.materials().is_hidden_from_camera(hit(RayEnds::InScene)));
+                EXPECT_FLOAT_EQ(hit(RayEnds::AtCamera).t, 3.0f);
+                EXPECT_FALSE(world.materials().is_hidden_from_camera(hit(RayEnds::AtCamera)));
+                const auto way = [&](RayEnds ends) {
+                    std::uint8_t occluded = kFree;
+                    world.geometry().occluded({&ray, 1}, {&occluded, 1}, form, ends);
+                    return occluded;
+                };
+                EXPECT_EQ(way(RayEnds::InScene), material.transmission > 0.0f ? kPassesPanes : kOccluded);
+                EXPECT_EQ(way(RayEnds::AtCamera), kFree);
+            }
+            if (material.transmission > 0.0f) {
+                EXPECT_LT(world.geometry().pane_transmittance(ray).r, 1.0f);
+                EXPECT_EQ(world.geometry().pane_transmittance(ray, RayEnds::AtCamera), Rgb(1.0f));
+            }
+        }
+}
+
 }  // namespace
 
 }  // namespace etendue::test

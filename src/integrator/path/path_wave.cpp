@@ -30,6 +30,7 @@ void PathWave::trace(const World& world, const TileJob& job, const IntegratorSet
     for (int depth = 1; active_ > 0; ++depth) {
         intersect_batch(world, job, depth == 1 ? RayKind::Primary : RayKind::Bounce, paths_.rays(active_),
                         std::span(paths_.hits).first(active_), counters);
+        if (depth > 1 && world.traits().hides_surfaces) look_behind_hidden(world, job, counters);
         light_.count_rays(active_);
         if (depth == 1) {
             const std::span hits = std::span(paths_.hits).first(count);
@@ -43,6 +44,13 @@ void PathWave::trace(const World& world, const TileJob& job, const IntegratorSet
     }
     light_.finish(job, count, tile, counters);
     stamp(job.profile, Stage::Film);
+}
+
+void PathWave::look_behind_hidden(const World& world, const TileJob& job, RenderCounters& counters) {
+    const RayColumns rays = paths_.rays(active_);
+    for (std::size_t i = 0; i < active_; ++i)
+        if (path_history::is_seen(paths_.history[i]) && world.materials().is_hidden_from_camera(paths_.hits[i]))
+            paths_.hits[i] = intersect_one(world, job, RayKind::Primary, rays[i], counters);
 }
 
 template <typename TraceShadowRays>

@@ -6,6 +6,7 @@
 #include "loader/gltf/gltf_animation_pointer.h"
 #include "loader/gltf/gltf_buffers.h"
 #include "loader/gltf/gltf_draco.h"
+#include "loader/gltf/gltf_extras.h"
 #include "loader/gltf/gltf_meshopt.h"
 #include "loader/gltf/gltf_rules.h"
 #include "loader/gltf/gltf_shape.h"
@@ -331,6 +332,7 @@ GltfDocument read_gltf_document(const std::filesystem::path& file, ProblemList& 
     check_rules(document, result.at(""), found);
     const std::vector<PrimitiveIndices> indices = take_indices(document, result, found);
     take_images(document, result, found);
+    take_extras(document, result);
     take_animations_and_skins(document, result);
     GltfBuffers buffers = load_gltf_buffers(document, bin, result.directory, result.inputs, result.absent_buffers);
     expand_meshopt_views(document, buffers, result.absent_buffers, result.at(""), found);

@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "loader/gltf/gltf_buffers.h"
+#include "scene/scene_desc.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -50,11 +51,20 @@ struct GltfSkin {
     std::vector<int> joints;                   ///< nodes
 };
 
+/// What the extras of one thing say under the name "etendue".
+struct GltfExtras {
+    ExtrasDesc::Of of = ExtrasDesc::Of::Node;
+    std::size_t index = 0;  ///< of the thing among those of its kind
+    std::string json;
+    std::string pointer;
+};
+
 struct GltfDocument {
     tinygltf::Model model;  ///< without images, animations and skins
     std::vector<GltfImage> images;
     std::vector<GltfAnimation> animations;
     std::vector<GltfSkin> skins;
+    std::vector<GltfExtras> extras;
     std::string animatable;  ///< JSON of what animations point to; empty if none does
     std::filesystem::path directory;
     std::string file;                             ///< for messages

@@ -6,6 +6,7 @@
 #include "loader/gltf/gltf_animation_pointer.h"
 #include "loader/gltf/gltf_document.h"
 #include "loader/gltf/gltf_environment.h"
+#include "loader/gltf/gltf_extras.h"
 #include "loader/gltf/gltf_material.h"
 #include "loader/gltf/gltf_mesh.h"
 #include "loader/gltf/gltf_nodes.h"
@@ -81,6 +82,7 @@ void GltfLoader::load(const std::filesystem::path& file, const LoadOptions& opti
     read_environment(document, textures, scene, problems);
     const std::vector<MeshDeformation> deformations = read_meshes(document, accessors, scene, problems);
     read_nodes(document, accessors, deformations, sampler ? &*sampler : nullptr, settings, scene, problems);
+    read_extras(document, scene);
 }
 
 }  // namespace etendue

@@ -188,8 +188,7 @@ class Placer {
             scene_.nodes.push_back(
                 {document_.model.nodes[node].name,
                  parent == kNoParent ? NodeDesc::kNone : node_index_[static_cast<std::size_t>(parent)],
-                 static_cast<std::uint32_t>(placed.node),
-                 Vec3f(Vec3d(placed.to_world[3][0], placed.to_world[3][1], placed.to_world[3][2]))});
+                 static_cast<std::uint32_t>(placed.node), to_float(placed.to_world)});
         }
     }
 

@@ -1,15 +1,14 @@
 #include "core/shown_text.h"
 #include "image/read.h"
 #include "loader/files.h"
-#include "loader/ies/ies_file.h"
 #include "loader/json_text.h"
+#include "loader/settings/apply_lights.h"
 #include "loader/settings/json_object.h"
 #include "loader/settings/render_json.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <span>
 #include <vector>
 
@@ -58,9 +57,10 @@ void apply_factors(const MaterialOverride& change, MaterialDesc& material, Probl
     for (const FactorChange& each : change.factors) {
         const std::string name(each.factor->name);
         if (material.glossiness && !each.factor->in_glossiness)
-            problems.error({change.location.file, child_pointer(change.location.pointer, name)},
-                           fmt::format("'{}' is of KHR_materials_pbrSpecularGlossiness, which has no {}",
-                                       shown(material.name), name));
+            problems.add({change.is_from_extras ? Severity::Warning : Severity::Error,
+                          {change.location.file, child_pointer(change.location.pointer, name)},
+                          fmt::format("'{}' is of KHR_materials_pbrSpecularGlossiness, which has no {}",
+                                      shown(material.name), name)});
         else
             each.apply(material);
     }
@@ -79,124 +79,11 @@ void apply_materials(const RenderJson& json, SceneDesc& scene, ProblemList& prob
             material.override_model = change.model;
             apply_factors(change, material, problems);
             if (change.priority) apply_priority(*change.priority, change.location, material, problems);
-            if (!change.emission) continue;
-            // Colours above 1 go into the strength, which has no upper bound.
-            const float brightest = std::max(1.0f, max_component(change.emission->color));
-            material.emissive = change.emission->color / brightest;
-            material.emissive_strength = change.emission->strength * brightest;
-            material.emissive_texture = {};
+            material.visible_to_camera = change.visible_to_camera.value_or(material.visible_to_camera);
+            if (change.emission) set_emission(change.emission->color, change.emission->strength, material);
         }
     }
 }
-
-/// Reads each IES file once, however many lights name it.
-class ProfileFiles {
-  public:
-    ProfileFiles(SceneDesc& scene, ProblemList& problems) : scene_(scene), problems_(problems) {}
-
-    /// The profile in the file `name`; an invalid handle, reported at `where`, if it cannot be used.
-    Handle<IesProfileDesc> profile(const std::string& name, const SourceLocation& where) {
-        const auto [entry, is_new] = handles_.try_emplace(name);
-        if (is_new) entry->second = read(name, where);
-        return entry->second;
-    }
-
-  private:
-    Handle<IesProfileDesc> read(const std::string& name, const SourceLocation& where) {
-        try {
-            const std::filesystem::path file = resolve_name(scene_.directory, name);
-            const std::vector<unsigned char> bytes = read_bytes(file, kMaxIesBytes);
-            scene_.ies_profiles.push_back(
-                parse_ies({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, name, {file.string(), {}}));
-            scene_.inputs.push_back(file);
-            return {static_cast<std::int32_t>(scene_.ies_profiles.size()) - 1};
-        } catch (const IoError& error) {
-            problems_.error(where, fmt::format("'{}': {}", shown(name), error.what()));
-        } catch (const SceneError& error) {
-            for (const Problem& problem : error.problems().all()) problems_.add(problem);
-        }
-        return {};
-    }
-
-    SceneDesc& scene_;
-    ProblemList& problems_;
-    std::map<std::string, Handle<IesProfileDesc>> handles_;
-};
-
-void apply_light(const LightOverride& change, Handle<IesProfileDesc> profile, const SceneDesc& scene,
-                 LightDesc& light) {
-    light.color = change.color.value_or(light.color);
-    if (profile) {
-        light.profile = profile;
-        light.intensity = 1.0f;  // as measured
-    }
-    if (change.intensity) {
-        // Of a lamp with a profile it is the peak's, if that is not dark anyway.
-        const float peak =
-            light.profile ? peak_candela(scene.ies_profiles[static_cast<std::size_t>(light.profile.index)]) : 1.0f;
-        light.intensity = peak > 0.0f ? *change.intensity / peak : 0.0f;
-    }
-    light.intensity *= change.scale;
-}
-
-/// Applies what the document says of lamps, by their own names and by those of their nodes.
-class LightChanges {
-  public:
-    LightChanges(SceneDesc& scene, ProblemList& problems)
-        : scene_(scene), problems_(problems), files_(scene, problems), is_enabled_(scene.lights.size(), true) {
-        for (const std::string_view name : node_names_of_lights(scene)) node_names_.emplace_back(name);
-    }
-
-    void apply(const std::map<std::string, LightOverride>& changes) {
-        // What is said of one node comes after what is said of all that share its lamp.
-        for (const auto& [name, change] : changes)
-            if (is_of_lamp(name))
-                apply_to_those(change, [&, &lamp = name](std::size_t i) { return scene_.lights[i].name == lamp; });
-        for (const auto& [name, change] : changes) {
-            if (is_of_lamp(name)) continue;
-            if (name.empty() || std::ranges::find(node_names_, name) == node_names_.end()) {
-                report_unknown(name, change.location);
-                continue;
-            }
-            apply_to_those(change, [&, &node = name](std::size_t i) { return node_names_[i] == node; });
-        }
-        std::size_t next = 0;
-        std::erase_if(scene_.lights, [&](const LightDesc&) { return !is_enabled_[next++]; });
-    }
-
-  private:
-    [[nodiscard]] bool is_of_lamp(const std::string& name) const {
-        return !name.empty() && std::ranges::find(scene_.lights, name, &LightDesc::name) != scene_.lights.end();
-    }
-
-    void report_unknown(const std::string& name, const SourceLocation& where) {
-        std::vector<std::string_view> names = names_of(scene_.lights);
-        for (const std::string& node : node_names_)
-            if (!node.empty()) names.push_back(node);
-        problems_.error(where, fmt::format("the scene has no light '{}'; {}", shown(name), name_hint(name, names)));
-    }
-
-    void apply_to_those(const LightOverride& change, const auto& is_meant) {
-        const SourceLocation where{change.location.file, child_pointer(change.location.pointer, "ies")};
-        const Handle<IesProfileDesc> profile =
-            change.ies.empty() ? Handle<IesProfileDesc>{} : files_.profile(change.ies, where);
-        for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
-            if (!is_meant(i)) continue;
-            LightDesc& light = scene_.lights[i];
-            is_enabled_[i] = is_enabled_[i] && change.enabled;
-            if (profile && light.type == LightType::Directional)
-                problems_.error(where, "a directional light has no position from which an IES profile could shine");
-            else
-                apply_light(change, profile, scene_, light);
-        }
-    }
-
-    SceneDesc& scene_;
-    ProblemList& problems_;
-    ProfileFiles files_;
-    std::vector<std::string> node_names_;  ///< by lamp, as `node_names_of_lights` has them
-    std::vector<bool> is_enabled_;         ///< by lamp
-};
 
 constexpr float kUsualSensorWidth = 36.0f;  ///< millimetres, of 35 mm film
 
@@ -231,13 +118,13 @@ void apply_lenses(const RenderJson& json, SceneDesc& scene, ProblemList& problem
         problems.warning(json.location, "what is said of the lens is ignored: the scene has no camera");
 }
 
-/// Focuses every camera on the node that the document names, but those that it lies behind; an error if it does behind
-/// the one that is chosen.
+/// Focuses every camera on the node that the document names, but those that it lies behind; an error if it does
+/// behind the one that is chosen.
 void focus_on_node(const RenderJson& json, SceneDesc& scene, ProblemList& problems) {
     const std::string& name = json.lens.focus_node;
     const SourceLocation where{json.location.file, "/focus_node"};
     if (name.empty() || !check_name(scene.nodes, "node", name, where, problems)) return;
-    const Vec3f place = std::ranges::find(scene.nodes, name, &NodeDesc::name)->position;
+    const Vec3f place = std::ranges::find(scene.nodes, name, &NodeDesc::name)->position();
     const std::string& wanted = scene.settings.camera;
     for (CameraDesc& camera : scene.cameras) {
         const Vec3f back(camera.to_world[2][0], camera.to_world[2][1], camera.to_world[2][2]);
@@ -295,7 +182,7 @@ void apply_render_json(const RenderJson& json, std::span<const std::filesystem::
     apply_camera(json, scene, problems);
     apply_environment(json, assets, scene, problems);
     apply_materials(json, scene, problems);
-    LightChanges(scene, problems).apply(json.lights);
+    apply_lights(json.lights, scene, problems);
 }
 
 }  // namespace etendue

@@ -117,17 +117,26 @@ bool JsonObject::check_array(const Json& value, const SourceLocation& where, std
     return false;
 }
 
-bool JsonObject::read_numbers(std::string_view key, const NumberRange& range, std::span<float> out) {
+template <typename Number>
+bool JsonObject::read_each(std::string_view key, const NumberRange& range, std::span<Number> out) {
     const Json* value = member(key);
     if (value == nullptr || !check_array(*value, at(key), out.size(), "numbers")) return false;
-    std::vector<float> result(out.size());
+    std::vector<Number> result(out.size());
     for (std::size_t i = 0; i < out.size(); ++i) {
         double element = 0.0;
         if (!read_number(&(*value)[i], element_at(key, i), range, element)) return false;
-        result[i] = static_cast<float>(element);
+        result[i] = static_cast<Number>(element);
     }
     std::ranges::copy(result, out.begin());
     return true;
+}
+
+bool JsonObject::read_numbers(std::string_view key, const NumberRange& range, std::span<float> out) {
+    return read_each(key, range, out);
+}
+
+bool JsonObject::read_numbers(std::string_view key, const NumberRange& range, std::span<double> out) {
+    return read_each(key, range, out);
 }
 
 bool JsonObject::color(std::string_view key, const NumberRange& range, Rgb& out) {
@@ -145,13 +154,14 @@ bool JsonObject::vector(std::string_view key, Vec3f& out) {
 }
 
 bool JsonObject::vector(std::string_view key, Vec3d& out) {
-    const Json* value = member(key);
-    if (value == nullptr || !check_array(*value, at(key), 3, "numbers")) return false;
-    Vec3d components;
-    for (std::size_t i = 0; i < 3; ++i)
-        if (!read_number(&(*value)[i], element_at(key, i), kAnyNumber, components[static_cast<int>(i)])) return false;
-    out = components;
+    std::array<double, 3> components{};
+    if (!read_numbers(key, kAnyNumber, components)) return false;
+    out = {components[0], components[1], components[2]};
     return true;
+}
+
+bool JsonObject::quaternion(std::string_view key, std::array<double, 4>& out) {
+    return read_numbers(key, kAnyNumber, out);
 }
 
 void JsonObject::report_unknown_name(const SourceLocation& where, std::string_view name,

@@ -36,6 +36,8 @@ class JsonObject {
     bool color(std::string_view key, const NumberRange& range, Rgb& out);
     bool vector(std::string_view key, Vec3f& out);
     bool vector(std::string_view key, Vec3d& out);
+    /// The four numbers of a quaternion, x, y, z and w.
+    bool quaternion(std::string_view key, std::array<double, 4>& out);
 
     template <typename Integer>
     bool integer(std::string_view key, std::int64_t min, std::int64_t max, Integer& out) {
@@ -96,6 +98,9 @@ class JsonObject {
                       std::int64_t& out);
     bool read_number(const nlohmann::json* value, const SourceLocation& where, const NumberRange& range, double& out);
     bool read_numbers(std::string_view key, const NumberRange& range, std::span<float> out);
+    bool read_numbers(std::string_view key, const NumberRange& range, std::span<double> out);
+    template <typename Number>
+    bool read_each(std::string_view key, const NumberRange& range, std::span<Number> out);
     void report_unknown_name(const SourceLocation& where, std::string_view name,
                              std::span<const std::string_view> known);
 

@@ -1,5 +1,6 @@
 #include "loader/settings/material_factors.h"
 
+#include <algorithm>
 #include <array>
 
 namespace etendue {
@@ -112,6 +113,14 @@ void FactorChange::apply(MaterialDesc& material) const {
         factor->number(material) = std::get<float>(value);
     else
         factor->color(material) = std::get<Rgb>(value);
+}
+
+void set_emission(const Rgb& color, float strength, MaterialDesc& material) {
+    // Colours above 1 go into the strength, which has no upper bound.
+    const float brightest = std::max(1.0f, max_component(color));
+    material.emissive = color / brightest;
+    material.emissive_strength = strength * brightest;
+    material.emissive_texture = {};
 }
 
 }  // namespace etendue

@@ -30,4 +30,8 @@ struct FactorChange {
     void apply(MaterialDesc& material) const;
 };
 
+/// Gives `material` this emission, of which `color`, linear Rec.709, may be above 1, in place of its own and its
+/// texture.
+void set_emission(const Rgb& color, float strength, MaterialDesc& material);
+
 }  // namespace etendue

@@ -163,50 +163,6 @@ void check_combination(const MaterialOverride& material, bool has_model, JsonObj
     }
 }
 
-MaterialOverride read_material(const Json& value, const SourceLocation& where, ProblemList& problems) {
-    MaterialOverride result;
-    result.location = where;
-    JsonObject object(value, where, problems);
-    int models = 0;
-    const auto model = [&](std::string_view name, auto read) {
-        const Json* member = object.member(name);
-        if (member == nullptr) return;
-        result.model = read(*member, object.at(name), problems);
-        ++models;
-    };
-    model("conductor", read_conductor);
-    model("dielectric", read_dielectric);
-    model("diffuse", read_diffuse);
-    model("subsurface", read_subsurface);
-    if (const Json* member = object.member("emission")) {
-        result.emission = read_emission(*member, object.at("emission"), problems);
-    }
-    int priority = 0;
-    if (object.integer("priority", -kMaxPriority, kMaxPriority, priority)) result.priority = priority;
-    read_factors(object, result.factors);
-    if (bool solid = false; object.boolean("solid", solid)) result.solid = solid;
-    if (models > 1) problems.error(where, "only one of conductor, dielectric, diffuse and subsurface may be given");
-    if (value.is_object() && value.empty()) problems.error(where, "says nothing of the material");
-    check_combination(result, models > 0, object);
-    object.finish();
-    return result;
-}
-
-LightOverride read_light(const Json& value, const SourceLocation& where, ProblemList& problems) {
-    LightOverride result;
-    result.location = where;
-    JsonObject object(value, where, problems);
-    Rgb color;
-    float intensity = 0.0f;
-    if (object.color("color", kNotNegative, color)) result.color = color;
-    if (object.number("intensity", kNotNegative, intensity)) result.intensity = intensity;
-    object.text("ies", result.ies);
-    object.number("scale", kNotNegative, result.scale);
-    object.boolean("enabled", result.enabled);
-    object.finish();
-    return result;
-}
-
 /// May be an object in place of the name.
 constexpr std::string_view kCameraPointer = "/camera";
 
@@ -299,6 +255,36 @@ void read_document(const Json& value, ProblemList& problems, RenderJson& out) {
 
 }  // namespace
 
+MaterialOverride read_material(const Json& value, const SourceLocation& where, ProblemList& problems) {
+    MaterialOverride result;
+    result.location = where;
+    JsonObject object(value, where, problems);
+    int models = 0;
+    const auto model = [&](std::string_view name, auto read) {
+        const Json* member = object.member(name);
+        if (member == nullptr) return;
+        result.model = read(*member, object.at(name), problems);
+        ++models;
+    };
+    model("conductor", read_conductor);
+    model("dielectric", read_dielectric);
+    model("diffuse", read_diffuse);
+    model("subsurface", read_subsurface);
+    if (const Json* member = object.member("emission")) {
+        result.emission = read_emission(*member, object.at("emission"), problems);
+    }
+    int priority = 0;
+    if (object.integer("priority", -kMaxPriority, kMaxPriority, priority)) result.priority = priority;
+    read_factors(object, result.factors);
+    if (bool solid = false; object.boolean("solid", solid)) result.solid = solid;
+    if (bool visible = true; object.boolean("visible_to_camera", visible)) result.visible_to_camera = visible;
+    if (models > 1) problems.error(where, "only one of conductor, dielectric, diffuse and subsurface may be given");
+    if (value.is_object() && value.empty()) problems.error(where, "says nothing of the material");
+    check_combination(result, models > 0, object);
+    object.finish();
+    return result;
+}
+
 void aim(const CameraAim& aim, const Vec3d& origin, CameraDesc& camera) {
     const Vec3f position(aim.position - origin);
     Vec3f back = position - Vec3f(aim.look_at - origin);
@@ -330,6 +316,7 @@ RenderJson read_render_json(const std::filesystem::path& file, std::string_view 
             if (!changes.is_object()) throw SceneError(where, "the settings are no JSON object");
             document.merge_patch(changes);
         }
+        result.document = document.dump();
         read_document(document, problems, result);
     } catch (const IoError& error) {
         problems.error(result.location, error.what());

@@ -1,6 +1,7 @@
 // render.json: what it says, before it meets the scene. Its keys are described in docs/render-json.md.
 #pragma once
 
+#include "loader/settings/light_override.h"
 #include "loader/settings/material_factors.h"
 #include "scene/scene_desc.h"
 
@@ -11,6 +12,8 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <nlohmann/json_fwd.hpp>
 
 namespace etendue {
 
@@ -25,15 +28,8 @@ struct MaterialOverride {
     std::optional<EmissionOverride> emission;
     std::vector<FactorChange> factors;  ///< of the glTF material; none beside a model
     std::optional<bool> solid;          ///< the mesh bounds a body of the glTF material; none beside a model
-    SourceLocation location;
-};
-
-struct LightOverride {
-    std::optional<Rgb> color;
-    std::optional<float> intensity;
-    std::string ies;  ///< file name of a profile; not yet resolved
-    float scale = 1.0f;
-    bool enabled = true;
+    std::optional<bool> visible_to_camera;
+    bool is_from_extras = false;  ///< of the scene file: errors are warnings
     SourceLocation location;
 };
 
@@ -70,7 +66,12 @@ struct RenderJson {
     std::map<std::string, LightOverride> lights;
     SourceLocation location;
     std::filesystem::path file;  ///< that it was read from; empty if no file was
+    std::string document;        ///< the text of all of it
 };
+
+/// Reads one member of `materials`.
+[[nodiscard]] MaterialOverride read_material(const nlohmann::json& value, const SourceLocation& where,
+                                             ProblemList& problems);
 
 /// Parses `file`, merged with the text of another document, `given` (RFC 7386); either may be empty. All errors go to
 /// `problems`, each with its JSON pointer; members with errors keep their defaults.

@@ -67,6 +67,10 @@ void SubpathWave::trace(const SubpathJob& job, int roulette_depth, LightFinder* 
                              : from_camera               ? RayKind::Primary
                                                          : RayKind::Bounce;
         intersect_batch(job.world, job.job, kind, rays_, hits_, counters);
+        if (kind == RayKind::Bounce && job.world.traits().hides_surfaces)
+            for (std::size_t i = 0; i < states_.size(); ++i)
+                if (states_[i].index == kDirectlySeen && job.world.materials().is_hidden_from_camera(hits_[i]))
+                    hits_[i] = intersect_one(job.world, job.job, RayKind::Primary, rays_[i], counters);
         if (light.counts_rays())
             for (const SubpathState& state : states_) light.count_ray(state.slot);
         if (from_camera && finder != nullptr) finder->on_first_hits(rays_, hits_);

@@ -104,6 +104,15 @@ const char* const kGood[] = {
         "anisotropy": 0.9, "ior": 1, "roughness": 1}}, "c": {"diffuse": {"roughness": 1}}}})",
     R"({"materials": {"a": {"emission": {"color": [0, 5, 1], "strength": 100}}, "b": {"diffuse": {}, "emission": {}}}})",
     R"({"lights": {"a": {"color": [1, 2, 3], "intensity": 0, "scale": 2, "enabled": false}, "b": {"ies": "x.ies"}}})",
+    R"({"lights": {"a": {"type": "rectangle", "width": 2, "height": 1, "power": 5, "spread": 3.141592653589793},
+        "b": {"type": "disk", "node": "n", "radius": 1, "radiance": 2, "visible_to_camera": false},
+        "c": {"type": "disk", "width": 1, "height": 2, "power": 1, "position": [0, 1, 2], "rotation": [0, 0, 0, 1]},
+        "d": {"type": "sphere", "power": 1, "position": [0, 1, 2]}, "e": {"type": "sun", "irradiance": 3, "angle": 0.1},
+        "f": {"type": "point", "power": 1, "radius": 0.1, "position": [0, 1, 2], "look_at": [0, 0, 0], "up": [0, 0, 1]},
+        "g": {"type": "spot", "intensity": 1, "inner_cone_angle": 0.5, "outer_cone_angle": 1.5707963267948966},
+        "h": {"type": "point", "ies": "x.ies"}, "i": {"radius": 1, "visible_to_camera": false, "power": 2},
+        "j": {"angle": 0.1, "irradiance": 2}}})",
+    R"({"materials": {"a": {"visible_to_camera": false}, "b": {"diffuse": {}, "visible_to_camera": true}}})",
     R"({"materials": {"a": {"base_color": [0.5, 1, 0], "metallic": 0, "roughness": 0, "normal_scale": 1, "emissive":
         [0.5, 1, 0], "emissive_strength": 0, "alpha_cutoff": 0, "ior": 1, "specular": 0, "specular_color": [0.5, 1,
         0], "transmission": 0, "diffuse_transmission": 0, "diffuse_transmission_color": [0.5, 1, 0],
@@ -229,7 +238,14 @@ const char* const kBad[] = {
     R"({"materials": {"a": {"emission": {"power": 1}}}})",
     R"({"lights": {"a": {"intensity": -1}}})",
     R"({"lights": {"a": {"enabled": "no"}}})",
-    R"({"lights": {"a": {"radius": 1}}})",
+    R"({"lights": {"a": {"radius": -1}}})",
+    R"({"lights": {"a": {"type": "cone", "power": 1}}})",
+    R"({"lights": {"a": {"type": "rectangle", "power": 1, "width": 0}}})",
+    R"({"lights": {"a": {"type": "rectangle", "power": 1, "spread": 0.01}}})",
+    R"({"lights": {"a": {"type": "sun", "irradiance": 1, "angle": 3.2}}})",
+    R"({"lights": {"a": {"type": "point", "power": 1, "rotation": [0, 0, 1]}}})",
+    R"({"lights": {"a": {"visible_to_camera": 1}}})",
+    R"({"materials": {"a": {"visible_to_camera": 0}}})",
     R"({"lights": 3})",
 };
 
@@ -267,6 +283,36 @@ void collect_keys(const Json& document, std::set<std::string>& names) {
     if (document.is_structured()) {
         for (const Json& value : document) collect_keys(value, names);
     }
+}
+
+// What a schema could only say at length.
+TEST(RenderSchema, TheParserRefusesWhatContradictsItself) {
+    const char* const lights[] = {
+        R"({"type": "disk"})",
+        R"({"type": "sun"})",
+        R"({"type": "point"})",
+        R"({"type": "disk", "power": 1, "radiance": 1})",
+        R"({"type": "sun", "power": 1})",
+        R"({"type": "sphere", "power": 1, "width": 1})",
+        R"({"type": "sphere", "power": 1, "radius": 0})",
+        R"({"type": "disk", "power": 1, "width": 1})",
+        R"({"type": "disk", "power": 1, "width": 1, "height": 1, "radius": 1})",
+        R"({"type": "rectangle", "power": 1, "node": "a", "position": [0, 0, 0]})",
+        R"({"type": "rectangle", "power": 1, "look_at": [0, 0, 0]})",
+        R"({"type": "rectangle", "power": 1, "position": [0, 0, 0], "look_at": [0, 0, 0]})",
+        R"({"type": "rectangle", "power": 1, "position": [0, 0, 0], "look_at": [0, 1, 0], "up": [0, 2, 0]})",
+        R"({"type": "rectangle", "power": 1, "position": [0, 0, 0], "rotation": [0, 0, 0, 0]})",
+        R"({"type": "rectangle", "power": 1, "position": [0, 0, 0], "rotation": [0, 0, 0, 1], "look_at": [0, 1, 0]})",
+        R"({"type": "spot", "power": 1, "inner_cone_angle": 1, "outer_cone_angle": 0.5})",
+        R"({"type": "point", "power": 1, "visible_to_camera": false})",
+        R"({"type": "point", "ies": "x.ies", "radius": 1})",
+        R"({"type": "point", "ies": "x.ies", "power": 1})",
+        R"({"node": "a"})",
+        R"({"radiance": 1})",
+        R"({"intensity": 1, "power": 1})",
+    };
+    for (const std::string light : lights)
+        EXPECT_TRUE(problems_of(R"({"lights": {"a": )" + light + "}}").has_errors()) << light;
 }
 
 TEST(RenderSchema, EveryKeyIsInAGoodDocument) {

@@ -1,0 +1,45 @@
+#include "light/sun_light.h"
+
+#include "core/frame.h"
+#include "light/punctual_light.h"
+#include "sampling/warp.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace etendue {
+
+SunLight::SunLight(const Vec3f& direction, const Rgb& irradiance, float angle)
+    : direction_(direction),
+      // A disk that single precision closes still has directions.
+      cos_max_(std::min(std::cos(0.5f * angle), kOneMinusEpsilon)),
+      // The mean cosine to the middle, over a cap of the sphere, is (1 + cos_max) / 2.
+      perpendicular_(irradiance * (2.0f / (1.0f + cos_max_))) {}
+
+Vec3f SunLight::sample_direction(Vec2f u) const {
+    return normalize(Frame::from_normal(direction_).to_world(square_to_cone(u, cos_max_)));
+}
+
+LightSample SunLight::sample(const Vec3f&, Vec2f u) const {
+    LightSample sample;
+    sample.wi = -sample_direction(u);
+    sample.radiance = perpendicular_;
+    sample.is_delta = true;
+    return sample;
+}
+
+EmissionSample SunLight::sample_emission(const EmissionNumbers& u, const SceneSphere& scene) const {
+    EmissionSample sample = sample_emission_from_afar(sample_direction(u.direction), scene, u.position);
+    sample.radiance = perpendicular_;
+    return sample;
+}
+
+float SunLight::emission_pdf(const Vec3f&, float, const SceneSphere& scene) const {
+    return emission_from_afar_pdf_area(scene);
+}
+
+float SunLight::power(float scene_radius) const {
+    return kPi * scene_radius * scene_radius * average(perpendicular_);
+}
+
+}  // namespace etendue

@@ -1,0 +1,42 @@
+// A sun: parallel light from a disk of directions, infinitely far away.
+//
+// Each sample is of one direction within the disk, uniformly, and is a delta's: a ray that leaves the scene meets
+// nothing there, as with the lights of glTF. All strategies draw that direction with the same density, which therefore
+// is in none of theirs: the light that it brings takes the place of radiance over density.
+#pragma once
+
+#include "light/emission_sample.h"
+#include "light/light_sample.h"
+
+#include <cstddef>
+#include <optional>
+
+namespace etendue {
+
+/// Shines from within `angle` / 2 of one direction, evenly, as a disk does that is seen under this angle.
+class SunLight {
+  public:
+    /// `direction` is the unit one that it shines in; `irradiance`, W/m², that of a surface that faces it, and the same
+    /// for every `angle`, radians, (0, pi).
+    SunLight(const Vec3f& direction, const Rgb& irradiance, float angle);
+
+    [[nodiscard]] LightSample sample(const Vec3f& point, Vec2f u) const;
+    [[nodiscard]] EmissionSample sample_emission(const EmissionNumbers& u, const SceneSphere& scene) const;
+    [[nodiscard]] float emission_pdf(const Vec3f& direction, float cos_light, const SceneSphere& scene) const;
+    [[nodiscard]] float power(float scene_radius) const;
+    [[nodiscard]] static std::optional<Vec3f> point() { return std::nullopt; }
+    [[nodiscard]] static constexpr std::size_t bytes() { return 0; }
+    [[nodiscard]] static constexpr bool is_delta() { return true; }
+    [[nodiscard]] static constexpr bool is_at_infinity() { return true; }
+    [[nodiscard]] static constexpr bool is_environment() { return false; }
+
+  private:
+    /// Returns a direction that light goes in.
+    [[nodiscard]] Vec3f sample_direction(Vec2f u) const;
+
+    Vec3f direction_;
+    float cos_max_;      ///< cosine of half the angle
+    Rgb perpendicular_;  ///< W/m² across each direction, were all light from there
+};
+
+}  // namespace etendue

@@ -1,0 +1,17 @@
+// What extras (Blender's custom properties) say under the name "etendue": settings of render.json for one thing.
+#pragma once
+
+#include "loader/gltf/gltf_document.h"
+#include "scene/scene_desc.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace etendue {
+
+/// Notes in `result` all that the extras of the checked `document` say of its materials, nodes, cameras and lights.
+void take_extras(const nlohmann::json& document, GltfDocument& result);
+
+/// Finds what of the loaded `scene` the document's extras are about, and leaves out what is not shown.
+void read_extras(const GltfDocument& document, SceneDesc& scene);
+
+}  // namespace etendue

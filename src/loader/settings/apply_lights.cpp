@@ -1,0 +1,397 @@
+#include "loader/settings/apply_lights.h"
+
+#include "core/shown_text.h"
+#include "image/read.h"
+#include "loader/files.h"
+#include "loader/gltf/gltf_transform.h"
+#include "loader/ies/ies_file.h"
+#include "loader/json_text.h"
+#include "loader/settings/json_object.h"
+#include "loader/settings/lamp_surface.h"
+#include "scene/transform.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <set>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace etendue {
+
+namespace {
+
+/// Reads each IES file once, however many lights name it.
+class ProfileFiles {
+  public:
+    ProfileFiles(SceneDesc& scene, ProblemList& problems) : scene_(scene), problems_(problems) {}
+
+    /// The profile in the file `name`; an invalid handle, reported at `where` with this severity, if it cannot be used.
+    Handle<IesProfileDesc> profile(const std::string& name, const SourceLocation& where, Severity severity) {
+        const auto [entry, is_new] = handles_.try_emplace(name);
+        if (is_new) entry->second = read(name, where, severity);
+        return entry->second;
+    }
+
+  private:
+    Handle<IesProfileDesc> read(const std::string& name, const SourceLocation& where, Severity severity) {
+        try {
+            const std::filesystem::path file = resolve_name(scene_.directory, name);
+            const std::vector<unsigned char> bytes = read_bytes(file, kMaxIesBytes);
+            scene_.ies_profiles.push_back(
+                parse_ies({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, name, {file.string(), {}}));
+            scene_.inputs.push_back(file);
+            return {static_cast<std::int32_t>(scene_.ies_profiles.size()) - 1};
+        } catch (const IoError& error) {
+            problems_.add({severity, where, fmt::format("'{}': {}", shown(name), error.what())});
+        } catch (const SceneError& error) {
+            for (Problem problem : error.problems().all()) {
+                problem.severity = std::min(problem.severity, severity);
+                problems_.add(std::move(problem));
+            }
+        }
+        return {};
+    }
+
+    SceneDesc& scene_;
+    ProblemList& problems_;
+    std::map<std::string, Handle<IesProfileDesc>> handles_;
+};
+
+/// Returns how many units of lamps (candela, lux) make one of the image.
+float lamp_units(const SceneDesc& scene) {
+    return scene.settings.light_units == LightUnits::Radiometric ? kLumensPerWatt : 1.0f;
+}
+
+constexpr float kFullSphere = 4.0f * kPi;
+
+/// Gives `light` the colour, the profile and the strength of `change`.
+void apply_strength(const LightOverride& change, Handle<IesProfileDesc> profile, const SceneDesc& scene,
+                    LightDesc& light) {
+    light.color = change.color.value_or(light.color);
+    if (profile) {
+        light.profile = profile;
+        light.intensity = 1.0f;  // as measured
+    }
+    if (change.intensity) {
+        // Of a lamp with a profile it is the peak's, if that is not dark anyway.
+        const float peak =
+            light.profile ? peak_candela(scene.ies_profiles[static_cast<std::size_t>(light.profile.index)]) : 1.0f;
+        light.intensity = peak > 0.0f ? *change.intensity / peak : 0.0f;
+    }
+    if (change.power) light.intensity = *change.power / kFullSphere * lamp_units(scene);
+    if (change.irradiance) light.intensity = *change.irradiance * lamp_units(scene);
+    light.intensity *= change.scale;
+}
+
+LampShape shape_of(LampKind kind) {
+    return kind == LampKind::Rectangle ? LampShape::Rectangle
+           : kind == LampKind::Disk    ? LampShape::Disk
+                                       : LampShape::Sphere;
+}
+
+Mat4f scaled(const Vec3f& size, const Mat4f& to_world) {
+    Mat4f scaling;
+    scaling.setScale(size);
+    return scaling * to_world;
+}
+
+/// Applies what the document says of lamps.
+class LightChanges {
+  public:
+    LightChanges(SceneDesc& scene, ProblemList& problems)
+        : scene_(scene), problems_(problems), files_(scene, problems), softening_(scene.lights.size()) {
+        for (const std::string_view name : node_names_of_lights(scene)) node_names_.emplace_back(name);
+    }
+
+    void apply(const std::map<std::string, LightOverride>& changes) {
+        // What is said of one node comes after what is said of all that share its lamp.
+        for (const bool of_lamps : {true, false})
+            for (const auto& [name, change] : changes)
+                if (!change.kind && is_of_lamp(name) == of_lamps) apply_to_those(name, change);
+        std::vector<LampToAdd> added;
+        for (const auto& [name, change] : changes)
+            if (change.kind) prepare(name, change, added);
+        remove_or_soften();
+        for (const LampToAdd& lamp : added) add(lamp);
+    }
+
+  private:
+    /// What becomes of a lamp of the file.
+    struct Softening {
+        bool is_left_out = false;
+        float radius = 0.0f;
+        bool visible_to_camera = true;
+        SourceLocation location;
+    };
+
+    /// A lamp of the document in one place.
+    struct LampToAdd {
+        const std::string* name;
+        const LightOverride* lamp;
+        Mat4f to_world;
+        std::uint32_t node = NodeDesc::kNone;
+    };
+
+    [[nodiscard]] static SourceLocation at(const LightOverride& change, std::string_view key) {
+        return {change.location.file, child_pointer(change.location.pointer, key)};
+    }
+
+    /// Adds an error of `change`, which is a warning where the scene file's extras say it.
+    void report(const LightOverride& change, const SourceLocation& where, std::string message) {
+        ++reported_;
+        problems_.add({severity_of(change), where, std::move(message)});
+    }
+    [[nodiscard]] static Severity severity_of(const LightOverride& change) {
+        return change.is_from_extras ? Severity::Warning : Severity::Error;
+    }
+
+    [[nodiscard]] bool is_of_lamp(const std::string& name) const {
+        return !name.empty() && std::ranges::find(scene_.lights, name, &LightDesc::name) != scene_.lights.end();
+    }
+
+    /// Returns the lamps of this name, or those whose nodes have it.
+    [[nodiscard]] std::vector<std::size_t> lamps_of(const std::string& name) const {
+        std::vector<std::size_t> found;
+        const bool by_lamp = is_of_lamp(name);
+        for (std::size_t i = 0; i < scene_.lights.size() && !name.empty(); ++i)
+            if ((by_lamp ? scene_.lights[i].name : node_names_[i]) == name) found.push_back(i);
+        return found;
+    }
+
+    [[nodiscard]] std::uint32_t node_of(const std::string& name) const {
+        const auto found = std::ranges::find(scene_.nodes, name, &NodeDesc::name);
+        return found == scene_.nodes.end() || name.empty() ? NodeDesc::kNone
+                                                           : static_cast<std::uint32_t>(found - scene_.nodes.begin());
+    }
+
+    void report_unknown(const std::string& name, const LightOverride& change) {
+        if (node_of(name) != NodeDesc::kNone) {
+            report(change, change.location,
+                   fmt::format("the node '{}' has no light: give it one by a \"type\"", shown(name)));
+            return;
+        }
+        std::set<std::string_view> names;
+        for (const LightDesc& light : scene_.lights) names.insert(light.name);
+        names.insert(node_names_.begin(), node_names_.end());
+        names.erase(std::string_view());
+        const std::vector<std::string_view> sorted(names.begin(), names.end());
+        report(change, change.location,
+               fmt::format("the scene has no light '{}'; {}", shown(name), name_hint(name, sorted)));
+    }
+
+    [[nodiscard]] Handle<IesProfileDesc> profile_of(const LightOverride& change) {
+        return change.ies.empty() ? Handle<IesProfileDesc>{}
+                                  : files_.profile(change.ies, at(change, "ies"), severity_of(change));
+    }
+
+    void apply_to_those(const std::string& name, const LightOverride& change) {
+        const std::vector<std::size_t> lamps = lamps_of(name);
+        if (lamps.empty()) return report_unknown(name, change);
+        const Handle<IesProfileDesc> profile = profile_of(change);
+        for (const std::size_t i : lamps) {
+            LightDesc& light = scene_.lights[i];
+            Softening& softening = softening_[i];
+            softening.is_left_out = softening.is_left_out || !change.enabled;
+            if (!fits(change, light)) continue;
+            apply_strength(change, profile, scene_, light);
+            light.angle = change.angle.value_or(light.angle);
+            softening.radius = change.radius.value_or(softening.radius);
+            softening.visible_to_camera = change.visible_to_camera.value_or(softening.visible_to_camera);
+            softening.location = change.location;
+            if (softening.radius > 0.0f && light.profile)
+                report(change, at(change, "radius"), "a light with an IES profile shines from a point");
+            if (change.visible_to_camera && !(softening.radius > 0.0f))
+                report(change, at(change, "visible_to_camera"), "a light without a radius is never seen");
+        }
+    }
+
+    /// False, and an error, for what a lamp of the type of `light` does not have.
+    bool fits(const LightOverride& change, const LightDesc& light) {
+        const std::size_t before = reported_;
+        const auto refuse = [&](bool is_said, std::string_view key, std::string_view why) {
+            if (is_said) report(change, at(change, key), std::string(why));
+        };
+        if (light.type == LightType::Directional) {
+            refuse(!change.ies.empty(), "ies",
+                   "a directional light has no position from which an IES profile could shine");
+            refuse(change.radius.has_value(), "radius", "a directional light has an angle, but no radius");
+            refuse(change.power.has_value(), "power", "a directional light has an irradiance, but no power");
+            refuse(change.visible_to_camera.has_value(), "visible_to_camera", "a directional light is never seen");
+        } else {
+            refuse(change.angle.has_value(), "angle", "a light at a point has a radius, but no angle");
+            refuse(change.irradiance.has_value(), "irradiance", "a light at a point has a power, but no irradiance");
+        }
+        return reported_ == before;
+    }
+
+    /// Leaves out the lamps of the file whose place that of the document takes, and finds where that is.
+    void prepare(const std::string& name, const LightOverride& lamp, std::vector<LampToAdd>& added) {
+        const std::vector<std::size_t> replaced = lamps_of(name);
+        for (const std::size_t i : replaced) softening_[i].is_left_out = true;
+        if (!lamp.enabled) return;
+        LampToAdd one{&name, &lamp, {}};
+        if (lamp.place.position) {
+            one.to_world = placed(lamp.place);
+            added.push_back(one);
+        } else if (lamp.place.node.empty() && !replaced.empty()) {
+            for (const std::size_t i : replaced) {
+                one.to_world = scene_.lights[i].to_world;
+                one.node = node_of(scene_.lights[i].node);
+                added.push_back(one);
+            }
+        } else {
+            const std::string& node = lamp.place.node.empty() ? name : lamp.place.node;
+            one.node = node_of(node);
+            if (one.node == NodeDesc::kNone) return report_unknown_node(node, lamp);
+            one.to_world = scene_.nodes[one.node].to_world;
+            added.push_back(one);
+        }
+    }
+
+    void report_unknown_node(const std::string& name, const LightOverride& lamp) {
+        std::set<std::string_view> names;
+        for (const NodeDesc& node : scene_.nodes)
+            if (!node.name.empty()) names.insert(node.name);
+        const std::vector<std::string_view> sorted(names.begin(), names.end());
+        if (lamp.place.node.empty())
+            report(lamp, lamp.location,
+                   fmt::format("nothing says where the light is: give it a \"position\" or a \"node\", or the "
+                               "name of one; {}",
+                               name_hint(name, sorted)));
+        else
+            report(lamp, at(lamp, "node"),
+                   fmt::format("the scene has no node '{}'; {}", shown(name), name_hint(name, sorted)));
+    }
+
+    [[nodiscard]] Mat4f placed(const LampPlace& place) const {
+        if (place.look_at) {
+            CameraDesc view;
+            aim({.position = *place.position, .look_at = *place.look_at, .up = place.up}, scene_.origin, view);
+            return view.to_world;
+        }
+        Mat4f to_world = to_float(rotation_matrix(place.rotation).value_or(Mat4d()));
+        const Vec3f position(*place.position - scene_.origin);
+        for (int i = 0; i < 3; ++i) to_world[3][i] = position[i];
+        return to_world;
+    }
+
+    /// Puts surfaces in place of points that have a radius, and leaves out what is not wanted.
+    void remove_or_soften() {
+        for (std::size_t i = 0; i < softening_.size(); ++i) {
+            const Softening& softening = softening_[i];
+            if (softening.is_left_out || !(softening.radius > 0.0f)) continue;
+            const LightDesc light = scene_.lights[i];
+            add_soft(light, softening.radius, softening.visible_to_camera, node_of(light.node), softening.location);
+        }
+        std::size_t next = 0;
+        std::erase_if(scene_.lights, [&](const LightDesc&) {
+            const Softening& softening = softening_[next++];
+            return softening.is_left_out || softening.radius > 0.0f;
+        });
+    }
+
+    /// Adds a sphere in place of a point, or a disk in place of a spot, with the intensity that `light` has.
+    void add_soft(const LightDesc& light, float radius, bool visible, std::uint32_t node, const SourceLocation& where) {
+        const bool is_spot = light.type == LightType::Spot;
+        SurfaceLamp lamp{.shape = is_spot ? LampShape::Disk : LampShape::Sphere,
+                         .name = light.node.empty() ? light.name : light.node,
+                         .data_name = light.name,
+                         .node = node,
+                         .to_world = scaled(Vec3f(radius), light.to_world),
+                         .color = light.color,
+                         .visible_to_camera = visible,
+                         .location = where};
+        const auto area = static_cast<float>(lamp_area(lamp.shape, lamp.to_world));
+        const float intensity = light.intensity / lamp_units(scene_);
+        // Of a convex surface a quarter is seen from each side, in the mean over all.
+        lamp.radiance = is_spot ? intensity / area : 4.0f * intensity / area;
+        if (is_spot) {
+            lamp.beam.kind = BeamDesc::Kind::Spot;
+            lamp.beam.inner_cone_angle = light.inner_cone_angle;
+            lamp.beam.outer_cone_angle = light.outer_cone_angle;
+        }
+        add_shining(lamp);
+    }
+
+    void add(const LampToAdd& added) {
+        const LightOverride& lamp = *added.lamp;
+        if (lamp.has_own_surface())
+            add_surface(added);
+        else
+            add_punctual(added);
+    }
+
+    void add_punctual(const LampToAdd& added) {
+        const LightOverride& lamp = *added.lamp;
+        const std::optional<Mat4f> rigid = rigid_part(added.to_world);
+        if (!rigid) {
+            report(lamp, lamp.location, "the light's place is singular");
+            return;
+        }
+        LightDesc light;
+        light.name = *added.name;
+        if (added.node != NodeDesc::kNone) light.node = scene_.nodes[added.node].name;
+        light.type = lamp.kind == LampKind::Sun    ? LightType::Directional
+                     : lamp.kind == LampKind::Spot ? LightType::Spot
+                                                   : LightType::Point;
+        light.inner_cone_angle = lamp.inner_cone_angle;
+        light.outer_cone_angle = lamp.outer_cone_angle;
+        light.angle = lamp.angle.value_or(0.0f);
+        light.to_world = *rigid;
+        light.location = lamp.location;
+        apply_strength(lamp, profile_of(lamp), scene_, light);
+        if (const float radius = lamp.radius.value_or(0.0f); radius > 0.0f)
+            add_soft(light, radius, lamp.visible_to_camera.value_or(true), added.node, lamp.location);
+        else
+            scene_.lights.push_back(std::move(light));
+    }
+
+    void add_surface(const LampToAdd& added) {
+        const LightOverride& change = *added.lamp;
+        const LampShape shape = shape_of(*change.kind);
+        Vec3f size(change.radius.value_or(0.5f));
+        if (shape == LampShape::Rectangle) size = {change.width.value_or(1.0f), change.height.value_or(1.0f), 1.0f};
+        // An ellipse has half its width and height on each side of its middle.
+        if (shape == LampShape::Disk && change.width) size = {0.5f * *change.width, 0.5f * *change.height, 1.0f};
+        SurfaceLamp lamp{.shape = shape,
+                         .name = *added.name,
+                         .data_name = *added.name,
+                         .node = added.node,
+                         .to_world = scaled(size, added.to_world),
+                         .color = change.color.value_or(Rgb(1.0f)),
+                         .visible_to_camera = change.visible_to_camera.value_or(true),
+                         .location = change.location};
+        const double area = lamp_area(shape, lamp.to_world);
+        lamp.radiance =
+            change.scale * (change.radiance ? *change.radiance : *change.power / (kPi * static_cast<float>(area)));
+        if (change.spread < kPi) {
+            lamp.beam.kind = BeamDesc::Kind::Panel;
+            lamp.beam.spread = change.spread;
+        }
+        add_shining(lamp);
+    }
+
+    /// Adds `lamp` unless it is dark.
+    void add_shining(const SurfaceLamp& lamp) {
+        if (lamp.radiance > 0.0f && max_component(lamp.color) > 0.0f) add_surface_lamp(lamp, scene_);
+    }
+
+    SceneDesc& scene_;
+    ProblemList& problems_;
+    ProfileFiles files_;
+    std::vector<std::string> node_names_;  ///< by lamp, as `node_names_of_lights` has them
+    std::vector<Softening> softening_;     ///< by lamp of the file
+    std::size_t reported_ = 0;             ///< how often `report` was called
+};
+
+}  // namespace
+
+void apply_lights(const std::map<std::string, LightOverride>& changes, SceneDesc& scene, ProblemList& problems) {
+    LightChanges(scene, problems).apply(changes);
+}
+
+}  // namespace etendue

@@ -1,0 +1,60 @@
+// What render.json says of one lamp: a change of the scene file's, or a lamp of its own.
+#pragma once
+
+#include "core/error.h"
+#include "core/rgb.h"
+#include "core/vec.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace etendue {
+
+/// Kinds of lamps that render.json adds.
+enum class LampKind : std::uint8_t { Rectangle, Disk, Sphere, Sun, Point, Spot };
+
+/// Where a lamp of render.json is; nowhere said, if it has neither a node nor a position.
+struct LampPlace {
+    std::string node;  ///< name of the node that places it; empty for none
+    std::optional<Vec3d> position;
+    std::array<double, 4> rotation{0.0, 0.0, 0.0, 1.0};  ///< quaternion x, y, z, w
+    std::optional<Vec3d> look_at;                        ///< in place of the rotation
+    Vec3f up{0.0f, 1.0f, 0.0f};                          ///< not parallel to where it looks
+};
+
+struct LightOverride {
+    std::optional<LampKind> kind;  ///< none for a change of a lamp of the file
+    LampPlace place;
+    std::optional<Rgb> color;
+    std::optional<float> intensity;   ///< candela or lux
+    std::optional<float> power;       ///< W
+    std::optional<float> irradiance;  ///< W/m²
+    std::optional<float> radiance;    ///< W/(m² sr)
+    float scale = 1.0f;               ///< of any of these
+    std::string ies;                  ///< file name of a profile; not yet resolved
+    std::optional<float> radius;      ///< metres
+    std::optional<float> width;       ///< metres, given with `height`, but for rectangles
+    std::optional<float> height;      ///< metres
+    std::optional<float> angle;       ///< radians under which the disk of a sun is seen
+    float spread = kPi;               ///< radians, full angle of the cone that a panel shines into
+    float inner_cone_angle = 0.0f;    ///< as in LightDesc
+    float outer_cone_angle = 0.785398163f;
+    std::optional<bool> visible_to_camera;
+    bool enabled = true;
+    bool is_from_extras = false;  ///< of the scene file: errors are warnings
+    SourceLocation location;
+
+    /// True of lamps that are surfaces whatever else is said.
+    [[nodiscard]] bool has_own_surface() const {
+        return kind == LampKind::Rectangle || kind == LampKind::Disk || kind == LampKind::Sphere;
+    }
+};
+
+/// Reads one member of `lights`. Errors for what lamps of its kind do not have, and for what is said twice or missing.
+[[nodiscard]] LightOverride read_light(const nlohmann::json& value, const SourceLocation& where, ProblemList& problems);
+
+}  // namespace etendue

@@ -1,0 +1,200 @@
+// Lamps that render.json adds and changes.
+#include "loader/gltf/gltf_builder.h"
+#include "loader/settings/lamp_surface.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+namespace etendue {
+namespace {
+
+constexpr double kPiD = std::numbers::pi;
+
+/// A triangle of node 0, nodes "Bulb" with the point light "lamp" of 10 cd, "Star" with the sun "sun" of 2 lx and
+/// "Beam" with a spot of 5 cd, and an empty node "Area" at (1, 2, 3), twice as large, that looks along -X.
+LoadedScene load_lamps(const std::string& lights, const std::string& settings = "") {
+    GltfBuilder builder;
+    builder.add_triangle();
+    const auto node = [&](const std::string& name, int light) {
+        nlohmann::json json = {{"name", name}, {"translation", {0, 4, 0}}};
+        json["extensions"]["KHR_lights_punctual"]["light"] = light;
+        return json;
+    };
+    nlohmann::json& nodes = builder.json["nodes"];
+    nodes.push_back(node("Bulb", 0));
+    nodes.push_back(node("Star", 1));
+    nodes.push_back(node("Beam", 2));
+    nodes.push_back({{"name", "Area"},
+                     {"translation", {1, 2, 3}},
+                     {"rotation", {0, std::sqrt(0.5), 0, std::sqrt(0.5)}},
+                     {"scale", {2, 2, 2}}});
+    builder.json["scenes"][0]["nodes"] = {0, 1, 2, 3, 4};
+    builder.json["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "point"}, {"name", "lamp"}, {"intensity", 10}},
+        {{"type", "directional"}, {"name", "sun"}, {"intensity", 2}},
+        {{"type", "spot"}, {"intensity", 5}, {"spot", {{"innerConeAngle", 0.2}, {"outerConeAngle", 0.6}}}}};
+    const TempDir dir;
+    builder.write(dir);
+    dir.write("render.json", "{" + settings + R"("lights": )" + lights + "}");
+    return inspect_scene(dir.path());
+}
+
+const MaterialDesc& material_of(const SceneDesc& scene, const InstanceDesc& instance) {
+    const MeshDesc& mesh = scene.meshes.at(static_cast<std::size_t>(instance.mesh.index));
+    return scene.materials.at(static_cast<std::size_t>(mesh.primitives.at(0).material.index));
+}
+
+/// The lamp that has been added last.
+struct Added {
+    const InstanceDesc& instance;
+    const MaterialDesc& material;
+    double radiance;
+    double area;
+    Vec3f axis;  ///< unit, where its front looks
+
+    explicit Added(const SceneDesc& scene)
+        : instance(scene.instances.back()),
+          material(material_of(scene, instance)),
+          radiance(static_cast<double>(material.emissive_strength)),
+          area(0.0),
+          axis(0.0f) {
+        const PrimitiveDesc& surface = scene.meshes.at(static_cast<std::size_t>(instance.mesh.index)).primitives.at(0);
+        for (const auto& t : surface.triangles) {
+            const Vec3f p0 = transform_point(instance.to_world, surface.positions[t[0]]);
+            const Vec3f across = cross(transform_point(instance.to_world, surface.positions[t[1]]) - p0,
+                                       transform_point(instance.to_world, surface.positions[t[2]]) - p0);
+            area += 0.5 * static_cast<double>(length(across));
+            axis += across;
+        }
+        if (length(axis) > 1e-3f) axis = normalize(axis);
+    }
+    /// Of a matte surface.
+    [[nodiscard]] double power() const { return kPiD * area * radiance; }
+};
+
+TEST(Lamps, SurfacesHaveThePowerThatIsSaid) {
+    const char* const lamps[] = {
+        R"({"type": "rectangle", "width": 2, "height": 0.5, "power": 100})",
+        R"({"type": "disk", "radius": 0.7, "power": 100, "spread": 1.0})",
+        R"({"type": "disk", "width": 1, "height": 3, "power": 100})",
+        R"({"type": "sphere", "radius": 0.1, "power": 50, "scale": 2, "node": "Area"})",
+    };
+    const double areas[] = {2.0 * 0.5 * 4.0, kPiD * 0.49 * 4.0, kPiD * 0.75 * 4.0, 4.0 * kPiD * 0.01 * 4.0};
+    for (std::size_t i = 0; i < std::size(lamps); ++i) {
+        const LoadedScene loaded = load_lamps(std::string(R"({"Area": )") + lamps[i] + "}");
+        ASSERT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
+        const Added lamp(loaded.scene);
+        EXPECT_NEAR(lamp.power(), 100.0, 1e-3) << lamps[i];
+        EXPECT_NEAR(lamp.area / areas[i], 1.0, 1e-5) << "the node is twice as large: " << lamps[i];
+        EXPECT_EQ(lamp.instance.name, "Area");
+        EXPECT_TRUE(lamp.material.visible_to_camera);
+        EXPECT_EQ(loaded.scene.lights.size(), 3u);
+        if (i == 3) continue;
+        EXPECT_NEAR(lamp.axis.x, -1.0f, 1e-5f) << "along the node's -Z: " << lamps[i];
+    }
+}
+
+TEST(Lamps, FacetsAreNearWhatTheyStandFor) {
+    EXPECT_NEAR(lamp_area(LampShape::Sphere, Mat4f()), 4.0 * kPiD, 1e-9);
+    EXPECT_NEAR(lamp_area(LampShape::Disk, Mat4f()), kPiD, 1e-9);
+    const auto farthest = [](const char* lamp) {
+        const LoadedScene loaded = load_lamps(std::string(R"({"a": )") + lamp + "}");
+        EXPECT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
+        float least = 1e9f;
+        float most = 0.0f;
+        for (const Vec3f& p : loaded.scene.meshes.back().primitives.at(0).positions) {
+            if (length(p) == 0.0f) continue;
+            least = std::min(least, length(p));
+            most = std::max(most, length(p));
+        }
+        EXPECT_NEAR(least, most, 1e-6f);
+        return most;
+    };
+    EXPECT_NEAR(farthest(R"({"type": "sphere", "position": [0, 0, 0], "power": 1})"), 1.0024f, 1e-4f);
+    EXPECT_NEAR(farthest(R"({"type": "disk", "position": [0, 0, 0], "power": 1})"), 1.0008f, 1e-4f);
+}
+
+TEST(Lamps, StandWhereThePositionSaysAndLookWhereTheyAreTold) {
+    const auto axis = [](const std::string& place) {
+        const LoadedScene loaded =
+            load_lamps(R"({"a": {"type": "rectangle", "radiance": 3, "position": [1, 2, 3])" + place + "}}");
+        EXPECT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
+        const Added lamp(loaded.scene);
+        EXPECT_EQ(lamp.radiance, 3.0);
+        EXPECT_EQ(transform_point(lamp.instance.to_world, Vec3f(0.0f)), Vec3f(1, 2, 3));
+        return lamp.axis;
+    };
+    EXPECT_NEAR(axis("").z, -1.0f, 1e-6f);
+    EXPECT_NEAR(axis(R"(, "look_at": [1, 0, 3])").y, -1.0f, 1e-6f) << "straight down, too";
+    EXPECT_NEAR(axis(R"(, "look_at": [5, 2, 3], "up": [0, 0, 1])").x, 1.0f, 1e-6f);
+    EXPECT_NEAR(axis(R"(, "rotation": [0, 1, 0, 0])").z, 1.0f, 1e-6f);
+}
+
+TEST(Lamps, PointsAndSpotsKeepTheirIntensityAsSurfaces) {
+    const LoadedScene ball = load_lamps(R"({"lamp": {"radius": 0.5, "visible_to_camera": false}})");
+    ASSERT_FALSE(ball.problems.has_errors()) << listing(ball.problems);
+    EXPECT_EQ(ball.scene.lights.size(), 2u);
+    const Added sphere(ball.scene);
+    // Power over the full sphere.
+    EXPECT_NEAR(sphere.power() / (4.0 * kPiD), 10.0, 1e-4);
+    EXPECT_EQ(sphere.instance.name, "Bulb");
+    EXPECT_EQ(ball.scene.meshes.back().name, "lamp");
+    EXPECT_FALSE(sphere.material.visible_to_camera);
+    EXPECT_EQ(transform_point(sphere.instance.to_world, Vec3f(0.0f)), Vec3f(0, 4, 0));
+
+    const LoadedScene cone = load_lamps(R"({"Beam": {"radius": 0.5}})");
+    const Added disk(cone.scene);
+    EXPECT_NEAR(disk.radiance * disk.area, 5.0, 1e-5) << "along the axis";
+    EXPECT_EQ(disk.material.beam.kind, BeamDesc::Kind::Spot);
+    EXPECT_FLOAT_EQ(disk.material.beam.outer_cone_angle, 0.6f);
+
+    const LoadedScene watts = load_lamps(R"({"lamp": {"radius": 0.5}})", R"("light_units": "radiometric", )");
+    EXPECT_NEAR(Added(watts.scene).power() / (4.0 * kPiD) * 683.002, 10.0, 1e-3);
+}
+
+TEST(Lamps, SunsHaveAnAngle) {
+    const LoadedScene changed = load_lamps(R"({"sun": {"angle": 0.12}})");
+    ASSERT_FALSE(changed.problems.has_errors()) << listing(changed.problems);
+    EXPECT_FLOAT_EQ(changed.scene.lights.at(1).angle, 0.12f);
+    EXPECT_FLOAT_EQ(changed.scene.lights.at(1).intensity, 2.0f);
+    const LoadedScene added = load_lamps(
+        R"({"day": {"type": "sun", "irradiance": 3, "angle": 0.5, "position": [0, 1, 0], "look_at": [0, 0, 0]}})",
+        R"("light_units": "radiometric", )");
+    ASSERT_FALSE(added.problems.has_errors()) << listing(added.problems);
+    const LightDesc& sun = added.scene.lights.at(3);
+    EXPECT_EQ(sun.type, LightType::Directional);
+    EXPECT_FLOAT_EQ(sun.intensity, 3.0f * 683.002f) << "which the units divide by as much";
+    EXPECT_NEAR(transform_vector(sun.to_world, {0, 0, -1}).y, -1.0f, 1e-6f);
+}
+
+TEST(Lamps, OfTheDocumentTakeThePlaceOfThoseOfTheFile) {
+    const LoadedScene loaded = load_lamps(R"({"Bulb": {"type": "point", "power": 100}, "sun": {"type": "sphere",
+        "power": 3}, "Beam": {"type": "disk", "power": 1, "enabled": false}})");
+    ASSERT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
+    ASSERT_EQ(loaded.scene.lights.size(), 1u);
+    EXPECT_NEAR(loaded.scene.lights[0].intensity, 100.0 / (4.0 * kPiD), 1e-4);
+    EXPECT_EQ(transform_point(loaded.scene.lights[0].to_world, Vec3f(0.0f)), Vec3f(0, 4, 0));
+    EXPECT_EQ(Added(loaded.scene).instance.name, "sun");
+}
+
+TEST(Lamps, WhatTheyCannotBeIsSaid) {
+    const auto expect = [](const std::string& lights, const std::string& part, const std::string& pointer) {
+        const LoadedScene loaded = load_lamps(lights);
+        EXPECT_TRUE(has_problem(loaded.problems, Severity::Error, part, pointer)) << lights << listing(loaded.problems);
+    };
+    expect(R"({"Area": {"scale": 2}})", "the node 'Area' has no light", "/lights/Area");
+    expect(R"({"Aera": {"type": "disk", "power": 1}})", "did you mean 'Area'", "/lights/Aera");
+    expect(R"({"a": {"type": "disk", "power": 1, "node": "Aera"}})", "did you mean 'Area'", "/lights/a/node");
+    expect(R"({"lamp": {"angle": 1}})", "no angle", "/lights/lamp/angle");
+    expect(R"({"lamp": {"irradiance": 1}})", "no irradiance", "/lights/lamp/irradiance");
+    expect(R"({"lamp": {"visible_to_camera": true}})", "never seen", "/lights/lamp/visible_to_camera");
+    expect(R"({"sun": {"radius": 1}})", "no radius", "/lights/sun/radius");
+    expect(R"({"sun": {"power": 1}})", "no power", "/lights/sun/power");
+    expect(R"({"sun": {"visible_to_camera": false}})", "never seen", "/lights/sun/visible_to_camera");
+    expect(R"({"Area": {"type": "dsik", "power": 1}})", "did you mean 'disk'", "/lights/Area/type");
+}
+
+}  // namespace
+}  // namespace etendue
