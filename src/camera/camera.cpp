@@ -10,13 +10,15 @@ namespace etendue {
 namespace {
 
 /// Film point to the image plane at distance 1 (perspective) or to metres (orthographic), camera space, y up.
-Vec2f to_plane(Vec2f film, float half_width, float half_height) {
-    return {(2.0f * film.x - 1.0f) * half_width, (1.0f - 2.0f * film.y) * half_height};
+Vec2f to_plane(const auto& camera, Vec2f film) {
+    return {camera.center.x + (2.0f * film.x - 1.0f) * camera.half_width,
+            camera.center.y + (1.0f - 2.0f * film.y) * camera.half_height};
 }
 
 /// The inverse of `to_plane`.
-Vec2f to_film(Vec2f plane, float half_width, float half_height) {
-    return {0.5f + 0.5f * plane.x / half_width, 0.5f - 0.5f * plane.y / half_height};
+Vec2f to_film(const auto& camera, Vec2f plane) {
+    return {0.5f + 0.5f * (plane.x - camera.center.x) / camera.half_width,
+            0.5f - 0.5f * (plane.y - camera.center.y) / camera.half_height};
 }
 
 const CameraPose& pose_of(const PinholeCamera& c) {
@@ -27,6 +29,52 @@ const CameraPose& pose_of(const ThinLensCamera& c) {
 }
 const CameraPose& pose_of(const OrthographicCamera& c) {
     return c.pose;
+}
+
+ClipRange& clip_of(PinholeCamera& c) {
+    return c.clip;
+}
+ClipRange& clip_of(ThinLensCamera& c) {
+    return c.pinhole.clip;
+}
+ClipRange& clip_of(OrthographicCamera& c) {
+    return c.clip;
+}
+const ClipRange& clip_of(const PinholeCamera& c) {
+    return c.clip;
+}
+const ClipRange& clip_of(const ThinLensCamera& c) {
+    return c.pinhole.clip;
+}
+const ClipRange& clip_of(const OrthographicCamera& c) {
+    return c.clip;
+}
+
+/// How much deeper along the viewing direction a metre along `direction` leads.
+float depth_rate(const auto& camera, const Vec3f& direction) {
+    return dot(direction, pose_of(camera).forward);
+}
+
+float depth_of(const auto& camera, const Vec3f& point) {
+    return dot(point - pose_of(camera).position, pose_of(camera).forward);
+}
+
+/// The ray of `generate_ray`, from where the camera begins to show surfaces.
+Ray clipped_ray(const auto& camera, Vec2f film, Vec2f lens) {
+    Ray ray = camera.generate_ray(film, lens);
+    if (const float start = clip_of(camera).start; start > 0.0f)
+        ray.origin += ray.direction * (start / depth_rate(camera, ray.direction));
+    return ray;
+}
+
+CameraConnection clipped_connection(const auto& camera, const Vec3f& point, Vec2f lens) {
+    CameraConnection connection = camera.connect(point, lens);
+    const ClipRange& clip = clip_of(camera);
+    if (!(connection.importance_area > 0.0f) || (clip.start == 0.0f && std::isinf(clip.end))) return connection;
+    const float depth = depth_of(camera, point);
+    if (!(depth > clip.start && depth <= clip.end)) return {};
+    connection.lens += (point - connection.lens) * (clip.start / depth);
+    return connection;
 }
 
 void set_pose(PinholeCamera& c, const CameraPose& pose) {
@@ -40,13 +88,30 @@ void set_pose(OrthographicCamera& c, const CameraPose& pose) {
 }
 
 Mat4f projection(const PinholeCamera& c) {
-    return {1.0f / c.half_width, 0, 0, 0, 0, 1.0f / c.half_height, 0, 0, 0, 0, -1, -1, 0, 0, 0, 0};
+    return {1.0f / c.half_width,
+            0,
+            0,
+            0,
+            0,
+            1.0f / c.half_height,
+            0,
+            0,
+            c.center.x / c.half_width,
+            c.center.y / c.half_height,
+            -1,
+            -1,
+            0,
+            0,
+            0,
+            0};
 }
 Mat4f projection(const ThinLensCamera& c) {
     return projection(c.pinhole);
 }
 Mat4f projection(const OrthographicCamera& c) {
-    return {1.0f / c.half_width, 0, 0, 0, 0, 1.0f / c.half_height, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1};
+    return {
+        1.0f / c.half_width,         0, 0, 0, 0, 1.0f / c.half_height, 0, 0, 0, 0, -1, 0, -c.center.x / c.half_width,
+        -c.center.y / c.half_height, 0, 1};
 }
 
 }  // namespace
@@ -62,7 +127,7 @@ CameraPose CameraPose::from_matrix(const Mat4f& to_world) {
 }
 
 Ray PinholeCamera::generate_ray(Vec2f film, Vec2f) const {
-    const Vec2f p = to_plane(film, half_width, half_height);
+    const Vec2f p = to_plane(*this, film);
     Ray ray;
     ray.origin = pose.position;
     ray.direction = normalize(pose.to_world({p.x, p.y, -1.0f}));
@@ -77,22 +142,34 @@ CameraConnection PinholeCamera::connect(const Vec3f& point, Vec2f) const {
     const float distance = length(to_point);
     const Vec2f plane{dot(to_point, pose.right) / depth, dot(to_point, pose.up) / depth};
     return {.lens = pose.position,
-            .film = to_film(plane, half_width, half_height),
+            .film = to_film(*this, plane),
             .importance_area = distance / (4.0f * half_width * half_height * depth * depth * depth)};
 }
 
 float PinholeCamera::pdf_solid_angle(const Vec3f& direction) const {
     const float cos_theta = dot(direction, pose.forward);
     if (cos_theta <= 0.0f) return 0.0f;
-    const float x = dot(direction, pose.right) / cos_theta;
-    const float y = dot(direction, pose.up) / cos_theta;
+    const float x = dot(direction, pose.right) / cos_theta - center.x;
+    const float y = dot(direction, pose.up) / cos_theta - center.y;
     if (std::abs(x) > half_width || std::abs(y) > half_height) return 0.0f;
     return 1.0f / (4.0f * half_width * half_height * cos_theta * cos_theta * cos_theta);
 }
 
+Vec2f Aperture::point(Vec2f u) const {
+    if (blades == 0) {
+        const Vec2f p = square_to_disk(u);
+        return {p.x / ratio, p.y};
+    }
+    // Numbers in the middle lead to the middle of the lens, as they do for a disk.
+    const Vec2f p = square_to_regular_polygon({u.x < 0.5f ? u.x + 0.5f : u.x - 0.5f, u.y}, blades);
+    const float c = std::cos(rotation);
+    const float s = std::sin(rotation);
+    return {(c * p.x - s * p.y) / ratio, s * p.x + c * p.y};
+}
+
 Ray ThinLensCamera::generate_ray(Vec2f film, Vec2f lens) const {
-    const Vec2f p = to_plane(film, pinhole.half_width, pinhole.half_height);
-    const Vec2f l = square_to_disk(lens) * lens_radius;
+    const Vec2f p = to_plane(pinhole, film);
+    const Vec2f l = aperture.point(lens) * lens_radius;
     const CameraPose& pose = pinhole.pose;
     Ray ray;
     ray.origin = pose.position + pose.right * l.x + pose.up * l.y;
@@ -104,7 +181,7 @@ Ray ThinLensCamera::generate_ray(Vec2f film, Vec2f lens) const {
 // Seen from one point of the lens, directions have the density of the pinhole's: the plane of focus is its image plane,
 // enlarged.
 CameraConnection ThinLensCamera::connect(const Vec3f& point, Vec2f lens) const {
-    const Vec2f l = square_to_disk(lens) * lens_radius;
+    const Vec2f l = aperture.point(lens) * lens_radius;
     PinholeCamera through = pinhole;
     through.pose.position += through.pose.right * l.x + through.pose.up * l.y;
     CameraConnection connection = through.connect(point, lens);
@@ -119,7 +196,7 @@ float ThinLensCamera::pdf_solid_angle(const Vec3f& direction) const {
 }
 
 Ray OrthographicCamera::generate_ray(Vec2f film, Vec2f) const {
-    const Vec2f p = to_plane(film, half_width, half_height);
+    const Vec2f p = to_plane(*this, film);
     Ray ray;
     ray.origin = pose.position + pose.right * p.x + pose.up * p.y;
     ray.direction = pose.forward;
@@ -131,7 +208,7 @@ CameraConnection OrthographicCamera::connect(const Vec3f& point, Vec2f) const {
     const float depth = dot(to_point, pose.forward);
     if (!(depth > 0.0f)) return {};
     return {.lens = point - pose.forward * depth,
-            .film = to_film({dot(to_point, pose.right), dot(to_point, pose.up)}, half_width, half_height),
+            .film = to_film(*this, {dot(to_point, pose.right), dot(to_point, pose.up)}),
             .importance_area = 1.0f / (4.0f * half_width * half_height)};
 }
 
@@ -154,6 +231,20 @@ const CameraPose& pose_of(const Camera& camera) {
     return std::visit([](const auto& c) -> const CameraPose& { return pose_of(c); }, camera);
 }
 
+const ClipRange& clip_of(const Camera& camera) {
+    return std::visit([](const auto& c) -> const ClipRange& { return clip_of(c); }, camera);
+}
+
+Camera without_far_clip(const Camera& camera) {
+    Camera result = camera;
+    std::visit([](auto& c) { clip_of(c).end = ClipRange{}.end; }, result);
+    return result;
+}
+
+float camera_depth(const Camera& camera, const Vec3f& point) {
+    return std::visit([&](const auto& c) { return depth_of(c, point); }, camera);
+}
+
 bool has_lens(const Camera& camera) {
     return std::visit([](const auto& c) { return c.has_lens(); }, camera);
 }
@@ -165,19 +256,19 @@ Camera with_pose(const Camera& camera, const CameraPose& pose) {
 }
 
 Ray generate_ray(const Camera& camera, Vec2f film, Vec2f lens) {
-    return std::visit([&](const auto& c) { return c.generate_ray(film, lens); }, camera);
+    return std::visit([&](const auto& c) { return clipped_ray(c, film, lens); }, camera);
 }
 
 void generate_rays(const Camera& camera, std::span<const Vec2f> film, std::span<const Vec2f> lens,
                    std::span<Ray> rays) {
     const auto generate = [&](const auto& c) {
-        for (std::size_t i = 0; i < rays.size(); ++i) rays[i] = c.generate_ray(film[i], lens[i]);
+        for (std::size_t i = 0; i < rays.size(); ++i) rays[i] = clipped_ray(c, film[i], lens[i]);
     };
     std::visit(generate, camera);
 }
 
 CameraConnection connect(const Camera& camera, const Vec3f& point, Vec2f lens) {
-    return std::visit([&](const auto& c) { return c.connect(point, lens); }, camera);
+    return std::visit([&](const auto& c) { return clipped_connection(c, point, lens); }, camera);
 }
 
 float camera_pdf_solid_angle(const Camera& camera, const Vec3f& direction) {
@@ -185,7 +276,12 @@ float camera_pdf_solid_angle(const Camera& camera, const Vec3f& direction) {
 }
 
 RayCone pixel_cone(const Camera& camera, const Vec3f& direction, float pixel_area) {
-    return std::visit([&](const auto& c) { return c.pixel_cone(direction, pixel_area); }, camera);
+    const auto cone_of = [&](const auto& c) {
+        const RayCone cone = c.pixel_cone(direction, pixel_area);
+        const float start = clip_of(c).start;
+        return start > 0.0f ? cone.at(start / depth_rate(c, direction)) : cone;
+    };
+    return std::visit(cone_of, camera);
 }
 
 Mat4f world_to_camera(const Camera& camera) {

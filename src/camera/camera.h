@@ -1,8 +1,9 @@
 // Cameras: from a point on the film and one on the lens to a ray.
 //
 // To add another: a struct with `generate_ray`, `connect`, `pdf_solid_angle`, `pixel_cone` and `has_lens`, its place in
-// the variant, its pose and its projection in camera.cpp, one case in world/compile_camera.cpp, and its row in
-// tests/camera.
+// the variant, its pose, its clipping and its projection in camera.cpp, one case in world/compile_camera.cpp, and its
+// row in tests/camera. What lies nearer or farther than a camera shows is cut off for all of them alike, by the
+// functions on `Camera`.
 //
 // Film coordinates run over [0, 1)², x to the right and y down from the top left corner of the full image.
 #pragma once
@@ -11,6 +12,7 @@
 #include "core/ray_cone.h"
 #include "core/vec.h"
 
+#include <limits>
 #include <span>
 #include <variant>
 
@@ -31,6 +33,12 @@ struct CameraPose {
     }
 };
 
+/// Holds between which depths along the viewing direction a camera shows surfaces.
+struct ClipRange {
+    float start = 0.0f;                                  ///< metres, >= 0
+    float end = std::numeric_limits<float>::infinity();  ///< metres, > start
+};
+
 /// How a camera sees a point.
 struct CameraConnection {
     Vec3f lens{0.0f};        ///< where light from the point reaches the camera, world space, metres
@@ -45,6 +53,8 @@ struct PinholeCamera {
     CameraPose pose;
     float half_width = 0.5f;   ///< of the image plane at distance 1
     float half_height = 0.5f;  ///< of the image plane at distance 1
+    Vec2f center{0.0f, 0.0f};  ///< of the film on that plane, x right and y up from the viewing direction
+    ClipRange clip{};
 
     [[nodiscard]] Ray generate_ray(Vec2f film, Vec2f lens) const;
     [[nodiscard]] CameraConnection connect(const Vec3f& point, Vec2f lens) const;
@@ -54,11 +64,23 @@ struct PinholeCamera {
     [[nodiscard]] static constexpr bool has_lens() { return false; }
 };
 
-/// Perspective through a disk: what lies at the focus distance is sharp.
+/// Describes the opening of a lens, of radius 1: a disk, or a regular polygon with its corners on the circle, made
+/// narrower or wider.
+struct Aperture {
+    int blades = 0;         ///< sides of the polygon, at least 3; 0 for a disk
+    float rotation = 0.0f;  ///< radians, counter-clockwise as seen by the camera; without it, a side is on the right
+    float ratio = 1.0f;     ///< divides the width, after the rotation; > 0
+
+    /// Returns the point for `u` in [0, 1)², of uniform density over the opening.
+    [[nodiscard]] Vec2f point(Vec2f u) const;
+};
+
+/// Perspective through an aperture: what lies at the focus distance is sharp.
 struct ThinLensCamera {
     PinholeCamera pinhole;
     float lens_radius = 0.0f;     ///< metres, > 0
     float focus_distance = 1.0f;  ///< metres along the optical axis, > 0
+    Aperture aperture{};
 
     [[nodiscard]] Ray generate_ray(Vec2f film, Vec2f lens) const;
     [[nodiscard]] CameraConnection connect(const Vec3f& point, Vec2f lens) const;
@@ -74,6 +96,8 @@ struct OrthographicCamera {
     CameraPose pose;
     float half_width = 1.0f;   ///< metres
     float half_height = 1.0f;  ///< metres
+    Vec2f center{0.0f, 0.0f};  ///< of the film, metres right and up from the viewing direction
+    ClipRange clip{};
 
     [[nodiscard]] Ray generate_ray(Vec2f film, Vec2f lens) const;
     [[nodiscard]] CameraConnection connect(const Vec3f& point, Vec2f lens) const;
@@ -91,7 +115,15 @@ using Camera = std::variant<PinholeCamera, ThinLensCamera, OrthographicCamera>;
 /// `camera` with another pose.
 [[nodiscard]] Camera with_pose(const Camera& camera, const CameraPose& pose);
 
-/// The ray through film point `film`, for a lens point made from `lens` in [0, 1)². Its direction is unit length.
+/// Returns the depths that the camera shows.
+[[nodiscard]] const ClipRange& clip_of(const Camera& camera);
+/// Returns `camera` with surfaces at all depths beyond the near ones.
+[[nodiscard]] Camera without_far_clip(const Camera& camera);
+/// Returns how far `point` lies along the viewing direction, metres.
+[[nodiscard]] float camera_depth(const Camera& camera, const Vec3f& point);
+
+/// The ray through film point `film`, for a lens point made from `lens` in [0, 1)². Its direction is unit length. It
+/// begins where the camera begins to show surfaces, and does not end where it ceases to.
 [[nodiscard]] Ray generate_ray(const Camera& camera, Vec2f film, Vec2f lens);
 /// Generates a ray for each of many film and lens points, as `generate_ray` does; all spans have one length.
 void generate_rays(const Camera& camera, std::span<const Vec2f> film, std::span<const Vec2f> lens, std::span<Ray> rays);

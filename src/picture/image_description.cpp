@@ -272,6 +272,7 @@ ImageDescription describe_settings(const SceneDesc& scene, const AovPlan& plan) 
     frame.output_space = settings.color.output_space;
     frame.aces_container = settings.color.aces_container;
     frame.exposure = settings.color.exposure;
+    frame.pixel_aspect = settings.film.pixel_aspect;
     describe_lens(scene, frame);
     frame.fps = settings.fps;
     frame.frame = settings.frame;

@@ -46,6 +46,9 @@ inline constexpr std::array<std::pair<std::string_view, MissingTextures>, 2> kMi
 enum class SamplerType { Sobol, Random };
 enum class PixelFilterType { BlackmanHarris, Box, Gaussian, Mitchell };
 
+inline constexpr double kLeastPixelAspect = 0.01;
+inline constexpr double kMostPixelAspect = 100.0;
+
 struct FilmSettings {
     int width = 1024;  ///< pixels, [1, 65536]
     int height = 576;  ///< pixels, [1, 65536]
@@ -53,6 +56,10 @@ struct FilmSettings {
     std::optional<std::array<int, 4>> crop;
     PixelFilterType filter = PixelFilterType::BlackmanHarris;
     float filter_radius = 0.0f;  ///< pixels; 0 for the filter's own default
+    float pixel_aspect = 1.0f;   ///< width over height of a pixel, [kLeastPixelAspect, kMostPixelAspect]
+
+    /// Returns the width of the image over its height, as it is to be shown.
+    [[nodiscard]] float aspect() const { return pixel_aspect * static_cast<float>(width) / static_cast<float>(height); }
 };
 
 struct ColorSettings {

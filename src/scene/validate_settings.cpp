@@ -3,12 +3,15 @@
 #include "scene/validate_parts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace etendue {
 
 namespace {
 
+/// Most of a camera's shift, in views: what is beyond would be nothing but rounding.
+constexpr double kMostShift = 100.0;
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 void validate_crop(const RenderSettings& settings, ProblemList& problems) {
@@ -63,6 +66,26 @@ void validate_profile(const IesProfileDesc& profile, ProblemList& problems) {
         problems.error(where, "the IES profile has an intensity that is negative or not finite");
 }
 
+/// Checks shift, clipping and aperture.
+void check_view(const CameraDesc& camera, ProblemList& problems) {
+    const SourceLocation& where = camera.location;
+    for (const float share : {camera.shift.x, camera.shift.y})
+        check_range(static_cast<double>(share), -kMostShift, kMostShift, "shift", where, problems);
+    const ClipDesc& clip = camera.clip;
+    if (!(clip.start >= 0.0f && std::isfinite(clip.start) && clip.end > clip.start))
+        problems.error(where,
+                       fmt::format("the clipping is from {} to {}, but must be from at least 0 to more than that",
+                                   clip.start, clip.end));
+    const ApertureDesc& aperture = camera.aperture;
+    if (aperture.blades != 0 &&
+        (aperture.blades < ApertureDesc::kLeastBlades || aperture.blades > ApertureDesc::kMostBlades))
+        problems.error(where, fmt::format("blades is {}, but must be 0 or in [{}, {}]", aperture.blades,
+                                          ApertureDesc::kLeastBlades, ApertureDesc::kMostBlades));
+    if (!std::isfinite(aperture.rotation)) problems.error(where, "the rotation of the blades is not finite");
+    if (!(aperture.ratio > 0.0f && std::isfinite(aperture.ratio)))
+        problems.error(where, fmt::format("the aperture ratio is {}, but must be above 0", aperture.ratio));
+}
+
 }  // namespace
 
 void validate_cameras(const SceneDesc& scene, ProblemList& problems) {
@@ -79,6 +102,7 @@ void validate_cameras(const SceneDesc& scene, ProblemList& problems) {
         if (!(camera.focus_distance > 0.0f && std::isfinite(camera.focus_distance))) {
             problems.error(where, fmt::format("focus distance is {}, but must be above 0", camera.focus_distance));
         }
+        check_view(camera, problems);
         if (!is_invertible(camera.to_world)) {
             problems.error(where, "the camera's transform is singular, not affine or not finite");
         }

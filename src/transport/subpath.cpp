@@ -123,7 +123,9 @@ std::vector<SubpathVertex> follow_subpath(const SubpathSample& sample, Subpath s
     const World& world = sample.world();
     std::vector<SubpathVertex> vertices;
     for (int bounce = 1;; ++bounce) {
-        const Hit hit = nearest_hit(world, subpath.ray);
+        Hit hit = nearest_hit(world, subpath.ray);
+        const bool is_seen = subpath.end == SubpathEnd::AtEye && subpath.index == 1;
+        if (is_seen && world.clips_far() && world.is_too_far(subpath.ray, hit)) hit = {};
         if (!hit.valid()) {
             if (arrive) arrive(subpath, environment_vertex(subpath.ray.direction), {});
             break;

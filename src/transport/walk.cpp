@@ -43,7 +43,9 @@ Hit nearest_hit(const World& world, const Ray& ray) {
 }
 
 Hit nearest_hit(const World& world, const EyePath& path) {
-    return path.tracer != nullptr ? path.tracer->nearest_hit(path.ray, path.rays) : nearest_hit(world, path.ray);
+    const Hit hit =
+        path.tracer != nullptr ? path.tracer->nearest_hit(path.ray, path.rays) : nearest_hit(world, path.ray);
+    return world.clips_far() && path.is_seen() && world.is_too_far(path.ray, hit) ? Hit{} : hit;
 }
 
 Rgb visibility(const World& world, const Ray& ray, SampleTracer* tracer) {

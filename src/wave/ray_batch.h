@@ -5,6 +5,7 @@
 #include "wave/render_counters.h"
 #include "wave/tile_job.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -15,6 +16,13 @@ void intersect_batch(const World& world, const TileJob& job, RayKind kind, std::
                      std::span<Hit> hits, RenderCounters& counters);
 void intersect_batch(const World& world, const TileJob& job, RayKind kind, const RayColumns& rays, std::span<Hit> hits,
                      RenderCounters& counters);
+
+/// Removes the hits of rays from the camera that lie farther than the camera shows.
+inline void hide_far_hits(const World& world, std::span<const Ray> rays, std::span<Hit> hits) {
+    if (!world.clips_far()) return;
+    for (std::size_t i = 0; i < rays.size(); ++i)
+        if (world.is_too_far(rays[i], hits[i])) hits[i] = {};
+}
 
 /// 1 where something is in the way of a ray, else 0; `occluded` is as long as `rays`.
 void occluded_batch(const World& world, const TileJob& job, RayKind kind, const RayColumns& rays,

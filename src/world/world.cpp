@@ -117,6 +117,9 @@ World::World(WorldData data)
     has_scattering_bodies_ = std::any_of(data_->fillings.begin(), data_->fillings.end(),
                                          [](const Filling& f) { return f.medium.scatters(); });
     if (has_bodies()) camera_interior_ = interior_at(generate_ray({0.5f, 0.5f}, {0.5f, 0.5f}, kMiddle).origin);
+    // Without its walls, a body around the camera would have no end.
+    if (!camera_interior_.is_empty()) data_->camera = without_far_clip(data_->camera);
+    clips_far_ = !std::isinf(clip_of(data_->camera).end);
     if (has_bodies()) {
         // Where a ray starts that leaves the middle of the light on its front.
         const EmissionNumbers front{{0.5f, 0.5f}, {0.5f, 0.5f}, {0.25f, 0.5f}};
@@ -473,8 +476,11 @@ CameraConnection World::connect_to_camera(const Vec3f& point, Vec2f lens, float 
 }
 
 float World::depth(const Vec3f& point, float time) const {
-    const CameraPose pose = data_->camera_motion.empty() ? pose_of(data_->camera) : pose_of(camera_at(time));
-    return dot(point - pose.position, pose.forward);
+    return camera_depth(data_->camera_motion.empty() ? data_->camera : camera_at(time), point);
+}
+
+bool World::is_too_far(const Ray& ray, const Hit& hit) const {
+    return hit.valid() && depth(ray.origin + ray.direction * hit.t, ray.time) > clip_of(data_->camera).end;
 }
 
 float World::bounding_radius() const {

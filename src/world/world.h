@@ -409,6 +409,10 @@ class World {
     [[nodiscard]] const Camera& camera() const { return data_->camera; }
     /// False if numbers for a point on the lens mean nothing.
     [[nodiscard]] bool has_lens() const { return etendue::has_lens(data_->camera); }
+    /// Returns true if the camera shows no surface beyond some depth.
+    [[nodiscard]] bool clips_far() const { return clips_far_; }
+    /// Returns true if `hit`, which the eye sees along `ray`, lies farther than the camera shows.
+    [[nodiscard]] bool is_too_far(const Ray& ray, const Hit& hit) const;
     /// How the camera as it is at `time` sees `point` through the lens point made from `lens` in [0, 1)².
     [[nodiscard]] CameraConnection connect_to_camera(const Vec3f& point, Vec2f lens, float time) const;
     /// The ray of the camera as it is at `time`, through film point `film` and the lens point made from `lens`, all in
@@ -464,6 +468,7 @@ class World {
     bool has_lights_in_media_ = false;
     PlainSurfaces plain_surfaces_;
     Interior camera_interior_;
+    bool clips_far_ = false;
     std::vector<Interior> light_interiors_;  ///< of each light; only if there are bodies
 };
 

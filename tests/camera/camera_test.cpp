@@ -36,9 +36,18 @@ CameraPose tilted_pose() {
     return CameraPose::from_matrix(turn_x(0.4f) * turn_y(1.1f) * translation({3, -2, 5}));
 }
 
+constexpr Vec2f kCenter{0.3f, -0.2f};
+constexpr ClipRange kClip{0.4f, 9.0f};
+
 std::vector<Camera> cameras() {
     const PinholeCamera pinhole{tilted_pose(), 0.8f, 0.45f};
-    return {pinhole, ThinLensCamera{pinhole, 0.1f, 4.0f}, OrthographicCamera{tilted_pose(), 2.0f, 1.5f}};
+    const PinholeCamera shifted{tilted_pose(), 0.8f, 0.45f, kCenter, kClip};
+    return {pinhole,
+            ThinLensCamera{pinhole, 0.1f, 4.0f},
+            OrthographicCamera{tilted_pose(), 2.0f, 1.5f},
+            shifted,
+            ThinLensCamera{shifted, 0.1f, 4.0f, {.blades = 5, .rotation = 0.3f, .ratio = 1.6f}},
+            OrthographicCamera{tilted_pose(), 2.0f, 1.5f, kCenter, kClip}};
 }
 
 TEST(CameraPose, LooksAlongMinusZWithYUp) {
@@ -73,7 +82,7 @@ TEST(Camera, ConnectIsTheInverseOfGenerateRay) {
             const Vec2f film = random.next_2d() * 1.2f - Vec2f(0.1f, 0.1f);
             const Vec2f lens = random.next_2d();
             const Ray ray = generate_ray(camera, film, lens);
-            const Vec3f point = ray.origin + ray.direction * (0.5f + 10.0f * random.next());
+            const Vec3f point = ray.origin + ray.direction * (0.5f + 5.0f * random.next());
             const CameraConnection connection = connect(camera, point, lens);
             EXPECT_LT(length(connection.lens - ray.origin), 1e-5f);
             EXPECT_NEAR(connection.film.x, film.x, 1e-5f);
@@ -124,14 +133,42 @@ TEST(Camera, FilmRunsRightAndDownFromTheTopLeft) {
         const auto place = [&](Vec2f film) {
             const Ray ray = generate_ray(camera, film, middle_of_lens);
             EXPECT_NEAR(length(ray.direction), 1.0f, 1e-6f);
-            return ray.origin + ray.direction * (4.0f / dot(ray.direction, pose.forward)) - pose.position;
+            const float depth = camera_depth(camera, ray.origin);
+            return ray.origin + ray.direction * ((4.0f - depth) / dot(ray.direction, pose.forward)) - pose.position;
         };
         const Vec3f center = place({0.5f, 0.5f});
-        EXPECT_NEAR(dot(center, pose.right), 0.0f, 1e-5f);
-        EXPECT_NEAR(dot(center, pose.up), 0.0f, 1e-5f);
-        EXPECT_GT(dot(place({0.9f, 0.5f}), pose.right), 0.5f);
-        EXPECT_GT(dot(place({0.5f, 0.1f}), pose.up), 0.5f);
-        EXPECT_LT(dot(place({0.5f, 0.9f}), pose.up), -0.5f);
+        const bool is_shifted = clip_of(camera).start > 0.0f;
+        const float size = std::holds_alternative<OrthographicCamera>(camera) ? 1.0f : 4.0f;
+        const Vec2f expected = is_shifted ? kCenter * size : Vec2f(0.0f, 0.0f);
+        EXPECT_NEAR(dot(center, pose.right), expected.x, 1e-5f);
+        EXPECT_NEAR(dot(center, pose.up), expected.y, 1e-5f);
+        EXPECT_GT(dot(place({0.9f, 0.5f}) - center, pose.right), 0.5f);
+        EXPECT_GT(dot(place({0.5f, 0.1f}) - center, pose.up), 0.5f);
+        EXPECT_LT(dot(place({0.5f, 0.9f}) - center, pose.up), -0.5f);
+    }
+}
+
+// Rays begin at the near plane, and what lies before it or beyond the far one is not seen.
+TEST(Camera, ClippingIsAlongTheViewingDirection) {
+    Random random(14);
+    for (const Camera& camera : cameras()) {
+        const ClipRange clip = clip_of(camera);
+        for (int i = 0; i < 50; ++i) {
+            const Vec2f lens = random.next_2d();
+            const Ray ray = generate_ray(camera, random.next_2d(), lens);
+            EXPECT_NEAR(camera_depth(camera, ray.origin), clip.start, 1e-5f);
+            const float rate = dot(ray.direction, pose_of(camera).forward);
+            const auto is_seen = [&](float depth) {
+                const Vec3f point = ray.origin + ray.direction * ((depth - clip.start) / rate);
+                return connect(camera, point, lens).importance_area > 0.0f;
+            };
+            EXPECT_EQ(is_seen(0.39f), clip.start == 0.0f);
+            EXPECT_TRUE(is_seen(0.41f));
+            EXPECT_TRUE(is_seen(8.9f));
+            EXPECT_EQ(is_seen(9.1f), std::isinf(clip.end));
+        }
+        EXPECT_TRUE(std::isinf(clip_of(without_far_clip(camera)).end));
+        EXPECT_EQ(clip_of(without_far_clip(camera)).start, clip.start);
     }
 }
 
@@ -143,7 +180,10 @@ TEST(Pinhole, TheEdgesOfTheFilmAreTheFieldOfView) {
 }
 
 TEST(Pinhole, DirectionsHaveTheStatedDensity) {
-    const PinholeCamera shapes[] = {{tilted_pose(), 0.8f, 0.45f}, {{}, 3.0f, 2.0f}, {{}, 0.01f, 0.02f}};
+    const PinholeCamera shapes[] = {{tilted_pose(), 0.8f, 0.45f},
+                                    {{}, 3.0f, 2.0f},
+                                    {{}, 0.01f, 0.02f},
+                                    {tilted_pose(), 0.8f, 0.45f, {1.1f, -0.7f}}};
     for (const PinholeCamera& pinhole : shapes) {
         const Camera camera = pinhole;
         const auto sampler = [&](Random& random) -> std::optional<Vec3f> {
@@ -186,6 +226,32 @@ TEST(ThinLens, RaysOfAFilmPointMeetInThePlaneOfFocus) {
     EXPECT_GT(widest, 0.24f);
 }
 
+// The middle of a side is on the right, in line with Cycles, and the ratio makes the opening narrower after it has been
+// turned.
+TEST(ThinLens, TheApertureIsAsWideAsItsBladesSay) {
+    const auto extent = [](const Aperture& aperture) {
+        Random random(21);
+        Vec2f largest(0.0f, 0.0f);
+        for (int i = 0; i < 20000; ++i) {
+            const Vec2f p = aperture.point(random.next_2d());
+            EXPECT_LE(std::hypot(p.x * aperture.ratio, p.y), 1.0f + 1e-5f);
+            largest = {std::max(largest.x, p.x), std::max(largest.y, p.y)};
+        }
+        return largest;
+    };
+    // Of 20000 points, the one nearest to a corner is some 2% of the radius away from it.
+    const auto expect = [&](const Aperture& aperture, Vec2f expected) {
+        const Vec2f found = extent(aperture);
+        EXPECT_NEAR(found.x, expected.x, 0.03f / aperture.ratio);
+        EXPECT_NEAR(found.y, expected.y, 0.03f);
+    };
+    expect({}, {1.0f, 1.0f});
+    expect({.ratio = 2.0f}, {0.5f, 1.0f});
+    expect({.blades = 4}, {std::sqrt(0.5f), std::sqrt(0.5f)});
+    expect({.blades = 4, .rotation = kPi / 4.0f, .ratio = 0.5f}, {2.0f, 1.0f});
+    expect({.blades = 3}, {0.5f, std::sqrt(0.75f)});
+}
+
 TEST(Orthographic, RaysAreParallelAndFillTheRectangle) {
     const OrthographicCamera camera{tilted_pose(), 2.0f, 1.5f};
     Random random(3);
@@ -216,9 +282,13 @@ TEST(PixelCone, IsAsLargeAsThePixel) {
             const Vec3f right = at(kSide, 0.0f) - at(0.0f, 0.0f);
             const Vec3f down = at(0.0f, kSide) - at(0.0f, 0.0f);
             const float side = std::sqrt(length(cross(right, down)));
-            const RayCone cone = pixel_cone(camera, generate_ray(camera, film, {0.5f, 0.5f}).direction, kSide * kSide);
+            const Ray ray = generate_ray(camera, film, {0.5f, 0.5f});
+            const RayCone cone = pixel_cone(camera, ray.direction, kSide * kSide);
             EXPECT_NEAR(parallel ? cone.width : cone.spread, side, 5e-3f * side);
-            EXPECT_EQ(parallel ? cone.spread : cone.width, 0.0f);
+            if (parallel)
+                EXPECT_EQ(cone.spread, 0.0f);
+            else
+                EXPECT_NEAR(cone.width, side * length(ray.origin - pose_of(camera).position), 0.01f * side);
         }
     }
 }

@@ -118,6 +118,21 @@ std::vector<AgreementCase> all_cases() {
                      {.max_depth = 6},
                      {11, 13, 57, 45},
                      128});
+    // The occluder before the near plane, most of the wall and of the floor beyond the far one.
+    const auto clipped = [](SceneDesc& scene) {
+        scene.settings.film.pixel_aspect = 1.3f;
+        CameraDesc& camera = scene.cameras[0];
+        camera.shift = {0.1f, -0.05f};
+        camera.clip = {2.3f, 3.4f};
+        camera.lens_radius = 0.08f;
+        camera.focus_distance = 2.6f;
+        camera.aperture = {.blades = 5, .rotation = 0.4f, .ratio = 1.5f};
+    };
+    cases.push_back({"ShiftedClippedBlades", [=](SceneDesc& scene) {
+                         add_ball(scene, gltf_plastic());
+                         add_lamp(scene);
+                         clipped(scene);
+                     }});
     // The caustic on the floor and the shadow around it; the glass itself, which light paths cannot show, is outside.
     cases.push_back({"CausticCrop", under_lamp(glass(0.0f)), {.max_depth = 6}, {28, 38, 60, 48}, 512});
     // What the eye sees in mirrors and through smooth glass, which light tracing cannot.
@@ -145,6 +160,16 @@ std::vector<AgreementCase> all_cases() {
         add_object(scene, quad({-0.2f, -0.1f, -2.2f}, {0.3f, 0, 0.1f}, {0, 0.5f, 0}), add_material(scene, pane));
     };
     cases.push_back({"BehindPanes", behind_panes, {.max_depth = 6}, all, 128, bdpt});
+    cases.push_back({"ClippedBehindPanes",
+                     [=](SceneDesc& scene) {
+                         behind_panes(scene);
+                         clipped(scene);
+                         scene.cameras[0].clip.start = 1.0f;
+                     },
+                     {.max_depth = 4},
+                     all,
+                     64,
+                     bdpt});
     // Of a point, path finds no light that panes reflect.
     cases.push_back({"BehindPanesOneBounce",
                      [=](SceneDesc& scene) {

@@ -172,6 +172,15 @@ const Defect kDefects[] = {
          s.cameras[0].lens_radius = 0.01f;
          s.cameras[0].focus_distance = 1e30f;
      }},
+    {"ShiftFar", "shift is 101", [](SceneDesc& s) { s.cameras[0].shift.y = 101.0f; }},
+    {"ClipEmpty", "the clipping is from 2 to 2",
+     [](SceneDesc& s) {
+         s.cameras[0].clip = {2.0f, 2.0f};
+     }},
+    {"ClipFar", "the camera's clipping reaches", [](SceneDesc& s) { s.cameras[0].clip.start = 1e30f; }},
+    {"TwoBlades", "blades is 2", [](SceneDesc& s) { s.cameras[0].aperture.blades = 2; }},
+    {"NoAperture", "aperture ratio", [](SceneDesc& s) { s.cameras[0].aperture.ratio = 0.0f; }},
+    {"PixelAspectZero", "pixel_aspect", [](SceneDesc& s) { s.settings.film.pixel_aspect = 0.0f; }},
     {"LightFar", "the light reaches", [](SceneDesc& s) { s.lights[0].to_world[3][0] = 1e19f; }},
     {"LightSamplesMany", "light_samples", [](SceneDesc& s) { s.settings.integrator.light_samples = 65; }},
     {"DepthsSwapped", "min_depth", [](SceneDesc& s) { s.settings.integrator.lengths.min_depth = 99; }},

@@ -47,6 +47,10 @@ void PathWave::trace(const World& world, const TileJob& job, const IntegratorSet
     for (int depth = 1; active_ > 0; ++depth) {
         intersect_batch(world, job, depth == 1 ? RayKind::Primary : RayKind::Bounce, paths_.rays(active_),
                         std::span(hits_).first(active_), counters);
+        if (world.clips_far())
+            for (std::size_t i = 0; i < active_; ++i)
+                if (path_history::is_seen(paths_.history[i]) && world.is_too_far(paths_.ray(i), hits_[i]))
+                    hits_[i] = {};
         if (light_.counts_rays())
             for (std::size_t i = 0; i < active_; ++i) light_.count_ray(paths_.slot[i]);
         if (depth == 1) {

@@ -57,6 +57,9 @@ void SubpathWave::trace(const SubpathJob& job, int roulette_depth, LightFinder* 
                              : from_camera               ? RayKind::Primary
                                                          : RayKind::Bounce;
         intersect_batch(job.world, job.job, kind, rays_, hits_, counters);
+        if (job.world.clips_far() && end_ == SubpathEnd::AtEye)
+            for (std::size_t i = 0; i < states_.size(); ++i)
+                if (states_[i].index == 1 && job.world.is_too_far(rays_[i], hits_[i])) hits_[i] = {};
         if (light.counts_rays())
             for (const SubpathState& state : states_) light.count_ray(state.slot);
         if (from_camera && finder != nullptr) finder->on_first_hits(rays_, hits_);
