@@ -17,12 +17,26 @@ constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 void validate_crop(const RenderSettings& settings, ProblemList& problems) {
     const FilmSettings& film = settings.film;
     if (!film.crop) return;
-    const auto [x0, y0, x1, y1] = *film.crop;
-    if (x0 >= 0 && y0 >= 0 && x0 < x1 && y0 < y1 && (x1 > film.width || y1 > film.height)) {
-        problems.error(settings.at("/crop"),
-                       fmt::format("the crop window [{}, {}, {}, {}] is not inside the image of {} x {}", x0, y0, x1,
-                                   y1, film.width, film.height));
-    }
+    const PixelRect window = film.window();
+    const PixelRect around{-film.width, -film.height, 2 * film.width, 2 * film.height};
+    if (!window.empty() && intersection(window, around) != window)
+        problems.error(
+            settings.at("/crop"),
+            fmt::format("the crop window [{}, {}, {}, {}] goes farther beyond the image of {} x {} than that "
+                        "is large",
+                        window.x0, window.y0, window.x1, window.y1, film.width, film.height));
+}
+
+void validate_overscan(const RenderSettings& settings, ProblemList& problems) {
+    const FilmSettings& film = settings.film;
+    if (!(film.overscan >= 0.0f && film.overscan <= static_cast<float>(kMostSide))) return;
+    if (film.overscan >= 1.0f && film.overscan != std::trunc(film.overscan))
+        problems.error(settings.at("/film/overscan"),
+                       fmt::format("overscan is {}, but must be a whole number of pixels, or below 1", film.overscan));
+    else if (film.frame().x0 < -std::min(film.width, film.height))
+        problems.error(settings.at("/film/overscan"),
+                       fmt::format("overscan is {} pixels, more than the image of {} x {} has", -film.frame().x0,
+                                   film.width, film.height));
 }
 
 void validate_camera_name(const SceneDesc& scene, ProblemList& problems) {
@@ -176,6 +190,7 @@ void validate_settings(const SceneDesc& scene, ProblemList& problems) {
                        "strategies without weights sum to more than the image; one of them can be shown without "
                        "weights: name it as strategy");
     validate_crop(settings, problems);
+    validate_overscan(settings, problems);
     validate_camera_name(scene, problems);
     validate_variant(scene, problems);
 }

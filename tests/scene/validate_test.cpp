@@ -138,7 +138,7 @@ const Defect kDefects[] = {
     {"WidthHuge", "resolution is [65537", [](SceneDesc& s) { s.settings.film.width = 65537; }},
     {"CropOutside", "crop",
      [](SceneDesc& s) {
-         s.settings.film.crop = {{0, 0, 2000, 10}};
+         s.settings.film.crop = {{0, 0, 2100, 10}};
      }},
     {"CropEmpty", "crop",
      [](SceneDesc& s) {
@@ -172,6 +172,8 @@ const Defect kDefects[] = {
          s.cameras[0].lens_radius = 0.01f;
          s.cameras[0].focus_distance = 1e30f;
      }},
+    {"OverscanFraction", "a whole number of pixels", [](SceneDesc& s) { s.settings.film.overscan = 2.5f; }},
+    {"OverscanLarge", "more than the image", [](SceneDesc& s) { s.settings.film.overscan = 60000.0f; }},
     {"ShiftFar", "shift is 101", [](SceneDesc& s) { s.cameras[0].shift.y = 101.0f; }},
     {"ClipEmpty", "the clipping is from 2 to 2",
      [](SceneDesc& s) {
