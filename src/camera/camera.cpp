@@ -30,6 +30,12 @@ const CameraPose& pose_of(const ThinLensCamera& c) {
 const CameraPose& pose_of(const OrthographicCamera& c) {
     return c.pose;
 }
+const CameraPose& pose_of(const EquirectangularCamera& c) {
+    return c.pose;
+}
+const CameraPose& pose_of(const FisheyeCamera& c) {
+    return c.pose;
+}
 
 ClipRange& clip_of(PinholeCamera& c) {
     return c.clip;
@@ -38,6 +44,12 @@ ClipRange& clip_of(ThinLensCamera& c) {
     return c.pinhole.clip;
 }
 ClipRange& clip_of(OrthographicCamera& c) {
+    return c.clip;
+}
+ClipRange& clip_of(EquirectangularCamera& c) {
+    return c.clip;
+}
+ClipRange& clip_of(FisheyeCamera& c) {
     return c.clip;
 }
 const ClipRange& clip_of(const PinholeCamera& c) {
@@ -49,14 +61,67 @@ const ClipRange& clip_of(const ThinLensCamera& c) {
 const ClipRange& clip_of(const OrthographicCamera& c) {
     return c.clip;
 }
+const ClipRange& clip_of(const EquirectangularCamera& c) {
+    return c.clip;
+}
+const ClipRange& clip_of(const FisheyeCamera& c) {
+    return c.clip;
+}
 
-/// How much deeper along the viewing direction a metre along `direction` leads.
+bool is_panoramic(const auto&) {
+    return false;
+}
+bool is_panoramic(const EquirectangularCamera&) {
+    return true;
+}
+bool is_panoramic(const FisheyeCamera&) {
+    return true;
+}
+
+/// Returns how much deeper a metre along `direction` leads.
 float depth_rate(const auto& camera, const Vec3f& direction) {
-    return dot(direction, pose_of(camera).forward);
+    return is_panoramic(camera) ? 1.0f : dot(direction, pose_of(camera).forward);
 }
 
 float depth_of(const auto& camera, const Vec3f& point) {
-    return dot(point - pose_of(camera).position, pose_of(camera).forward);
+    const Vec3f to_point = point - pose_of(camera).position;
+    return is_panoramic(camera) ? length(to_point) : dot(to_point, pose_of(camera).forward);
+}
+
+/// Returns `v` along the axes of a pose: right, up and forward.
+Vec3f to_axes(const CameraPose& pose, const Vec3f& v) {
+    return {dot(v, pose.right), dot(v, pose.up), dot(v, pose.forward)};
+}
+
+/// Bounds sines and cosines that densities are divided by, so that these stay finite at poles.
+constexpr float kLeastSine = 1e-6f;
+
+/// The density per solid angle at a latitude of this cosine.
+float equirectangular_density(float cosine) {
+    return 1.0f / (2.0f * kPi * kPi * std::max(cosine, kLeastSine));
+}
+
+/// The angle to the viewing direction that is seen in this distance from the middle of the circle.
+float angle_at(const FisheyeCamera& camera, float radius) {
+    if (camera.mapping == FisheyeMapping::Equidistant) return radius * camera.half_angle;
+    return 2.0f * std::asin(std::min(1.0f, radius * std::sin(0.5f * camera.half_angle)));
+}
+
+/// The inverse of `angle_at`.
+float radius_at(const FisheyeCamera& camera, float angle) {
+    if (camera.mapping == FisheyeMapping::Equidistant) return angle / camera.half_angle;
+    return std::sin(0.5f * angle) / std::sin(0.5f * camera.half_angle);
+}
+
+/// The share of the film per solid angle at `angle`, which the circle must see: r dr/dθ / sin θ over the film's area.
+float fisheye_density(const FisheyeCamera& camera, float angle) {
+    const float area = 4.0f * camera.half_width * camera.half_height;
+    if (camera.mapping == FisheyeMapping::Equidistant) {
+        const float stretch = angle > 1e-3f ? angle / std::max(std::sin(angle), kLeastSine) : 1.0f;
+        return stretch / (camera.half_angle * camera.half_angle * area);
+    }
+    const float sine = std::sin(0.5f * camera.half_angle);
+    return 1.0f / (4.0f * sine * sine * area);
 }
 
 /// The ray of `generate_ray`, from where the camera begins to show surfaces.
@@ -86,32 +151,45 @@ void set_pose(ThinLensCamera& c, const CameraPose& pose) {
 void set_pose(OrthographicCamera& c, const CameraPose& pose) {
     c.pose = pose;
 }
-
-Mat4f projection(const PinholeCamera& c) {
-    return {1.0f / c.half_width,
-            0,
-            0,
-            0,
-            0,
-            1.0f / c.half_height,
-            0,
-            0,
-            c.center.x / c.half_width,
-            c.center.y / c.half_height,
-            -1,
-            -1,
-            0,
-            0,
-            0,
-            0};
+void set_pose(EquirectangularCamera& c, const CameraPose& pose) {
+    c.pose = pose;
 }
-Mat4f projection(const ThinLensCamera& c) {
+void set_pose(FisheyeCamera& c, const CameraPose& pose) {
+    c.pose = pose;
+}
+
+std::optional<Mat4f> projection(const PinholeCamera& c) {
+    return Mat4f{1.0f / c.half_width,
+                 0,
+                 0,
+                 0,
+                 0,
+                 1.0f / c.half_height,
+                 0,
+                 0,
+                 c.center.x / c.half_width,
+                 c.center.y / c.half_height,
+                 -1,
+                 -1,
+                 0,
+                 0,
+                 0,
+                 0};
+}
+std::optional<Mat4f> projection(const ThinLensCamera& c) {
     return projection(c.pinhole);
 }
-Mat4f projection(const OrthographicCamera& c) {
-    return {
+std::optional<Mat4f> projection(const OrthographicCamera& c) {
+    return Mat4f{
         1.0f / c.half_width,         0, 0, 0, 0, 1.0f / c.half_height, 0, 0, 0, 0, -1, 0, -c.center.x / c.half_width,
         -c.center.y / c.half_height, 0, 1};
+}
+
+std::optional<Mat4f> projection(const EquirectangularCamera&) {
+    return {};
+}
+std::optional<Mat4f> projection(const FisheyeCamera&) {
+    return {};
 }
 
 }  // namespace
@@ -212,6 +290,67 @@ CameraConnection OrthographicCamera::connect(const Vec3f& point, Vec2f) const {
             .importance_area = 1.0f / (4.0f * half_width * half_height)};
 }
 
+Ray EquirectangularCamera::generate_ray(Vec2f film, Vec2f) const {
+    const float longitude = (2.0f * film.x - 1.0f) * kPi;
+    const float latitude = (0.5f - film.y) * kPi;
+    const float level = std::cos(latitude);
+    Ray ray;
+    ray.origin = pose.position;
+    ray.direction =
+        normalize(pose.to_world({std::sin(longitude) * level, std::sin(latitude), -std::cos(longitude) * level}));
+    return ray;
+}
+
+CameraConnection EquirectangularCamera::connect(const Vec3f& point, Vec2f) const {
+    const Vec3f v = to_axes(pose, point - pose.position);
+    const float squared = length_squared(v);
+    if (!(squared > 0.0f)) return {};
+    const float level = std::hypot(v.x, v.z);
+    return {.lens = pose.position,
+            .film = {0.5f + 0.5f * kInvPi * std::atan2(v.x, v.z), 0.5f - kInvPi * std::atan2(v.y, level)},
+            .importance_area = equirectangular_density(level / std::sqrt(squared)) / squared};
+}
+
+float EquirectangularCamera::pdf_solid_angle(const Vec3f& direction) const {
+    const Vec3f v = to_axes(pose, direction);
+    return equirectangular_density(std::hypot(v.x, v.z));
+}
+
+Ray FisheyeCamera::generate_ray(Vec2f film, Vec2f) const {
+    const Vec2f p = to_plane(*this, film);
+    const float radius = std::hypot(p.x, p.y);
+    Ray ray;
+    ray.origin = pose.position;
+    ray.direction = pose.forward;
+    if (radius > 1.0f) {
+        ray.t_max = 0.0f;
+        return ray;
+    }
+    const float angle = angle_at(*this, radius);
+    const float across = radius > 0.0f ? std::sin(angle) / radius : 0.0f;
+    ray.direction = normalize(pose.to_world({p.x * across, p.y * across, -std::cos(angle)}));
+    return ray;
+}
+
+CameraConnection FisheyeCamera::connect(const Vec3f& point, Vec2f) const {
+    const Vec3f v = to_axes(pose, point - pose.position);
+    const float squared = length_squared(v);
+    const float across = std::hypot(v.x, v.y);
+    const float angle = std::atan2(across, v.z);
+    if (!(squared > 0.0f && angle <= half_angle)) return {};
+    const float scale = across > 0.0f ? radius_at(*this, angle) / across : 0.0f;
+    return {.lens = pose.position,
+            .film = to_film(*this, {v.x * scale, v.y * scale}),
+            .importance_area = fisheye_density(*this, angle) / squared};
+}
+
+float FisheyeCamera::pdf_solid_angle(const Vec3f& direction) const {
+    const CameraConnection connection = connect(pose.position + direction, {});
+    const Vec2f& film = connection.film;
+    const bool is_inside = film.x >= 0.0f && film.x <= 1.0f && film.y >= 0.0f && film.y <= 1.0f;
+    return is_inside ? connection.importance_area : 0.0f;
+}
+
 // A pixel's solid angle is its area on the image plane times cos³; the plane's area is the reciprocal of that density.
 RayCone PinholeCamera::pixel_cone(const Vec3f& direction, float pixel_area) const {
     const float cos_theta = std::max(0.0f, dot(direction, pose.forward));
@@ -225,6 +364,27 @@ RayCone ThinLensCamera::pixel_cone(const Vec3f& direction, float pixel_area) con
 
 RayCone OrthographicCamera::pixel_cone(const Vec3f&, float pixel_area) const {
     return {std::sqrt(4.0f * half_width * half_height * pixel_area), 0.0f};
+}
+
+RayCone EquirectangularCamera::pixel_cone(const Vec3f& direction, float pixel_area) const {
+    return {0.0f, std::sqrt(pixel_area / pdf_solid_angle(direction))};
+}
+
+RayCone FisheyeCamera::pixel_cone(const Vec3f& direction, float pixel_area) const {
+    const Vec3f v = to_axes(pose, direction);
+    return {0.0f, std::sqrt(pixel_area / fisheye_density(*this, std::atan2(std::hypot(v.x, v.y), v.z)))};
+}
+
+bool is_panoramic(const Camera& camera) {
+    return std::visit([](const auto& c) { return is_panoramic(c); }, camera);
+}
+
+bool film_wraps(const Camera& camera) {
+    return std::holds_alternative<EquirectangularCamera>(camera);
+}
+
+bool has_blind_film(const Camera& camera) {
+    return std::holds_alternative<FisheyeCamera>(camera);
 }
 
 const CameraPose& pose_of(const Camera& camera) {
@@ -291,8 +451,10 @@ Mat4f world_to_camera(const Camera& camera) {
     return to_world.inverse();
 }
 
-Mat4f world_to_screen(const Camera& camera) {
-    return world_to_camera(camera) * std::visit([](const auto& c) { return projection(c); }, camera);
+std::optional<Mat4f> world_to_screen(const Camera& camera) {
+    const std::optional<Mat4f> to_screen = std::visit([](const auto& c) { return projection(c); }, camera);
+    if (!to_screen) return {};
+    return world_to_camera(camera) * *to_screen;
 }
 
 }  // namespace etendue

@@ -13,6 +13,7 @@
 #include "core/vec.h"
 
 #include <limits>
+#include <optional>
 #include <span>
 #include <variant>
 
@@ -33,7 +34,7 @@ struct CameraPose {
     }
 };
 
-/// Holds between which depths along the viewing direction a camera shows surfaces.
+/// Holds between which depths a camera shows surfaces.
 struct ClipRange {
     float start = 0.0f;                                  ///< metres, >= 0
     float end = std::numeric_limits<float>::infinity();  ///< metres, > start
@@ -107,7 +108,47 @@ struct OrthographicCamera {
     [[nodiscard]] static constexpr bool has_lens() { return false; }
 };
 
-using Camera = std::variant<PinholeCamera, ThinLensCamera, OrthographicCamera>;
+/// All directions from a point, by longitude and latitude; depths are distances. The film goes on beyond its edges.
+struct EquirectangularCamera {
+    CameraPose pose;  ///< `forward` is in the middle of the film
+    ClipRange clip{};
+
+    [[nodiscard]] Ray generate_ray(Vec2f film, Vec2f lens) const;
+    [[nodiscard]] CameraConnection connect(const Vec3f& point, Vec2f lens) const;
+    /// Returns the density per solid angle of the ray directions for uniform film points, 1 / (2 π² cos(latitude)).
+    [[nodiscard]] float pdf_solid_angle(const Vec3f& direction) const;
+    [[nodiscard]] RayCone pixel_cone(const Vec3f& direction, float pixel_area) const;
+    [[nodiscard]] static constexpr bool has_lens() { return false; }
+};
+
+/// Says how far from the middle of a fisheye's film an angle to the viewing direction is seen.
+enum class FisheyeMapping {
+    Equidistant,  ///< as far as the angle is large
+    Equisolid,    ///< so that equal areas are equal solid angles
+};
+
+/// Directions within an angle of the viewing direction, from a point, in a circle; depths are distances. Beyond the
+/// circle the film sees nothing.
+struct FisheyeCamera {
+    CameraPose pose;
+    float half_width = 1.0f;        ///< of the film, in radii of the circle
+    float half_height = 1.0f;       ///< of the film, in radii of the circle
+    Vec2f center{0.0f, 0.0f};       ///< of the film, in radii right and up from the circle's
+    float half_angle = kPi / 2.0f;  ///< that the circle's edge sees, radians, (0, π]
+    FisheyeMapping mapping = FisheyeMapping::Equidistant;
+    ClipRange clip{};
+
+    /// Returns a ray with nowhere to go, of t_max 0, for film points beyond the circle.
+    [[nodiscard]] Ray generate_ray(Vec2f film, Vec2f lens) const;
+    [[nodiscard]] CameraConnection connect(const Vec3f& point, Vec2f lens) const;
+    /// Returns the density per solid angle of the ray directions for uniform film points, those beyond the circle
+    /// included; 0 outside the image.
+    [[nodiscard]] float pdf_solid_angle(const Vec3f& direction) const;
+    [[nodiscard]] RayCone pixel_cone(const Vec3f& direction, float pixel_area) const;
+    [[nodiscard]] static constexpr bool has_lens() { return false; }
+};
+
+using Camera = std::variant<PinholeCamera, ThinLensCamera, OrthographicCamera, EquirectangularCamera, FisheyeCamera>;
 
 [[nodiscard]] const CameraPose& pose_of(const Camera& camera);
 /// Returns whether numbers for a point on the lens mean something.
@@ -115,15 +156,23 @@ using Camera = std::variant<PinholeCamera, ThinLensCamera, OrthographicCamera>;
 /// `camera` with another pose.
 [[nodiscard]] Camera with_pose(const Camera& camera, const CameraPose& pose);
 
+/// Returns true if no plane film shows what the camera sees.
+[[nodiscard]] bool is_panoramic(const Camera& camera);
+/// Returns true if the camera sees in all directions and its film goes on beyond its edges: beyond the sides it begins
+/// anew, beyond top and bottom it goes on upside down, half a width aside.
+[[nodiscard]] bool film_wraps(const Camera& camera);
+/// Returns true if some of the film may see nothing.
+[[nodiscard]] bool has_blind_film(const Camera& camera);
 /// Returns the depths that the camera shows.
 [[nodiscard]] const ClipRange& clip_of(const Camera& camera);
 /// Returns `camera` with surfaces at all depths beyond the near ones.
 [[nodiscard]] Camera without_far_clip(const Camera& camera);
-/// Returns how far `point` lies along the viewing direction, metres.
+/// Returns how far `point` lies along the viewing direction, metres; from a panoramic camera, how far away it is.
 [[nodiscard]] float camera_depth(const Camera& camera, const Vec3f& point);
 
 /// The ray through film point `film`, for a lens point made from `lens` in [0, 1)². Its direction is unit length. It
-/// begins where the camera begins to show surfaces, and does not end where it ceases to.
+/// begins where the camera begins to show surfaces, and does not end where it ceases to. Its t_max is 0 where the film
+/// sees nothing.
 [[nodiscard]] Ray generate_ray(const Camera& camera, Vec2f film, Vec2f lens);
 /// Generates a ray for each of many film and lens points, as `generate_ray` does; all spans have one length.
 void generate_rays(const Camera& camera, std::span<const Vec2f> film, std::span<const Vec2f> lens, std::span<Ray> rays);
@@ -139,8 +188,8 @@ void generate_rays(const Camera& camera, std::span<const Vec2f> film, std::span<
 [[nodiscard]] RayCone pixel_cone(const Camera& camera, const Vec3f& direction, float pixel_area);
 
 /// World to camera space (looking along -Z), and world to screen: x and y in [-1, 1] over the image, for image
-/// metadata.
+/// metadata; panoramic cameras have no such screen.
 [[nodiscard]] Mat4f world_to_camera(const Camera& camera);
-[[nodiscard]] Mat4f world_to_screen(const Camera& camera);
+[[nodiscard]] std::optional<Mat4f> world_to_screen(const Camera& camera);
 
 }  // namespace etendue

@@ -80,6 +80,24 @@ void validate_profile(const IesProfileDesc& profile, ProblemList& problems) {
         problems.error(where, "the IES profile has an intensity that is negative or not finite");
 }
 
+/// Checks what panoramic cameras have, and says what they have not.
+void validate_panorama(const CameraDesc& camera, ProblemList& problems) {
+    const SourceLocation& where = camera.location;
+    if (camera.type != CameraType::Equirectangular && camera.type != CameraType::Fisheye) return;
+    if (camera.lens_radius > 0.0f)
+        problems.warning(where, "a panoramic camera has no depth of field: its lens radius is ignored");
+    if (camera.type == CameraType::Equirectangular) {
+        if (camera.shift != Vec2f(0.0f, 0.0f))
+            problems.error(where, "an equirectangular camera has no shift: turn it instead");
+        return;
+    }
+    constexpr float kTurn = 2.0f * kPi;
+    if (!(camera.fov > 0.0f && camera.fov <= kTurn))
+        problems.error(where, fmt::format("fov is {}, but must be in (0, 2 pi]", camera.fov));
+    if (!(camera.circle > 0.0f && std::isfinite(camera.circle)))
+        problems.error(where, fmt::format("the circle is {} of the image, but must be above 0", camera.circle));
+}
+
 /// Checks shift, clipping and aperture.
 void check_view(const CameraDesc& camera, ProblemList& problems) {
     const SourceLocation& where = camera.location;
@@ -111,6 +129,7 @@ void validate_cameras(const SceneDesc& scene, ProblemList& problems) {
         if (camera.type == CameraType::Orthographic && !(camera.ymag > 0.0f && std::isfinite(camera.ymag))) {
             problems.error(where, fmt::format("ymag is {}, but must be finite and above 0", camera.ymag));
         }
+        validate_panorama(camera, problems);
         check_range(static_cast<double>(camera.aspect_ratio), 0.0, kUnbounded, "aspect ratio", where, problems);
         check_range(static_cast<double>(camera.lens_radius), 0.0, kUnbounded, "lens radius", where, problems);
         if (!(camera.focus_distance > 0.0f && std::isfinite(camera.focus_distance))) {

@@ -168,7 +168,7 @@ void LampsInView::note_radiance(std::span<const CameraSample> samples, const Sam
     if (found_.empty()) return;
     for (std::size_t i = 0; i < samples.size(); ++i) {
         const Rgb& radiance = light.radiance(i);
-        if (is_finite(radiance) && min_component(radiance) >= 0.0f)
+        if (!samples[i].is_blind && is_finite(radiance) && min_component(radiance) >= 0.0f)
             found_by(samples[i].pixel, samples[i].key.index) = radiance;
     }
 }
@@ -205,7 +205,7 @@ void LampsInView::trace_neighbours(RenderCounters& counters) {
     hits_.resize(samples_.size());
     generate_camera_rays(*world_, *job_, positions_, samples_, rays_);
     intersect_batch(*world_, *job_, RayKind::LampInView, rays_, hits_, counters);
-    hide_far_hits(*world_, rays_, hits_);
+    hide_unseen_hits(*world_, rays_, hits_);
     for (std::size_t i = 0; i < samples_.size(); ++i)
         if (is_lamp(*world_, hits_[i])) note(samples_[i], positions_[i], rays_[i], hits_[i], nullptr);
 }
@@ -230,7 +230,7 @@ void LampsInView::look_at_middles(RenderCounters& counters) {
     hits_.resize(count);
     world_->generate_rays(film_, lens, times, rays_);
     intersect_batch(*world_, *job_, RayKind::LampInView, rays_, hits_, counters);
-    hide_far_hits(*world_, rays_, hits_);
+    hide_unseen_hits(*world_, rays_, hits_);
     middles_.assign(around_.area(), 0.0f);
     for (std::size_t i = 0; i < count; ++i)
         if (is_lamp(*world_, hits_[i]))

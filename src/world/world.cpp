@@ -448,7 +448,8 @@ void World::generate_rays(std::span<const Vec2f> film, std::span<const Vec2f> le
 }
 
 bool World::may_show_lamps(Vec2f least, Vec2f most) const {
-    if (has_motion_ || has_lens() || has_unsampled_emitters()) return has_emitting_surfaces_;
+    if (has_motion_ || has_lens() || is_panoramic(data_->camera) || has_unsampled_emitters())
+        return has_emitting_surfaces_;
     const std::array<Vec2f, 4> corners{least, Vec2f(most.x, least.y), most, Vec2f(least.x, most.y)};
     const Ray middle = generate_ray((least + most) * 0.5f, Vec2f(0.5f, 0.5f), 0.0f);
     std::array<Ray, 4> rays;

@@ -409,6 +409,10 @@ class World {
     [[nodiscard]] const Camera& camera() const { return data_->camera; }
     /// False if numbers for a point on the lens mean nothing.
     [[nodiscard]] bool has_lens() const { return etendue::has_lens(data_->camera); }
+    /// Returns true if the camera sees all around, so that its film goes on beyond its edges (see camera/camera.h).
+    [[nodiscard]] bool film_wraps() const { return etendue::film_wraps(data_->camera); }
+    /// Returns true if rays may come from parts of the film that see nothing; their t_max is 0.
+    [[nodiscard]] bool has_blind_film() const { return etendue::has_blind_film(data_->camera); }
     /// Returns true if the camera shows no surface beyond some depth.
     [[nodiscard]] bool clips_far() const { return clips_far_; }
     /// Returns true if `hit`, which the eye sees along `ray`, lies farther than the camera shows.

@@ -172,6 +172,16 @@ const Defect kDefects[] = {
          s.cameras[0].lens_radius = 0.01f;
          s.cameras[0].focus_distance = 1e30f;
      }},
+    {"FovZero", "fov is 0",
+     [](SceneDesc& s) {
+         s.cameras[0].type = CameraType::Fisheye;
+         s.cameras[0].fov = 0.0f;
+     }},
+    {"PanoramaShifted", "has no shift",
+     [](SceneDesc& s) {
+         s.cameras[0].type = CameraType::Equirectangular;
+         s.cameras[0].shift.x = 0.1f;
+     }},
     {"OverscanFraction", "a whole number of pixels", [](SceneDesc& s) { s.settings.film.overscan = 2.5f; }},
     {"OverscanLarge", "more than the image", [](SceneDesc& s) { s.settings.film.overscan = 60000.0f; }},
     {"ShiftFar", "shift is 101", [](SceneDesc& s) { s.cameras[0].shift.y = 101.0f; }},

@@ -72,6 +72,31 @@ TEST(CompileCamera, HasClippingAndAperture) {
     EXPECT_EQ(lens.aperture.ratio, 1.5f);
 }
 
+TEST(CompileCamera, FisheyesTouchTheNearerEdgesOfTheImage) {
+    SceneDesc scene = empty_scene();
+    scene.settings.film.width = 300;
+    scene.settings.film.height = 200;
+    CameraDesc& camera = scene.cameras[0];
+    camera.type = CameraType::Fisheye;
+    camera.fov = 3.0f;
+    const auto wide = std::get<FisheyeCamera>(compile_camera(scene));
+    EXPECT_FLOAT_EQ(wide.half_width, 1.5f);
+    EXPECT_FLOAT_EQ(wide.half_height, 1.0f);
+    EXPECT_EQ(wide.half_angle, 1.5f);
+    EXPECT_EQ(wide.mapping, FisheyeMapping::Equidistant);
+    scene.settings.film.width = 100;
+    camera.circle = 1.25f;
+    camera.fisheye = FisheyeType::Equisolid;
+    camera.clip.start = 0.5f;
+    const auto tall = std::get<FisheyeCamera>(compile_camera(scene));
+    EXPECT_FLOAT_EQ(tall.half_width, 0.8f);
+    EXPECT_FLOAT_EQ(tall.half_height, 1.6f);
+    EXPECT_EQ(tall.mapping, FisheyeMapping::Equisolid);
+    EXPECT_EQ(tall.clip.start, 0.5f);
+    camera.type = CameraType::Equirectangular;
+    EXPECT_EQ(std::get<EquirectangularCamera>(compile_camera(scene)).clip.start, 0.5f);
+}
+
 TEST(CompileCamera, TakesTheNamedOneAndSuggestsTheNearest) {
     SceneDesc scene = empty_scene();
     scene.cameras.emplace_back().name = "close-up";

@@ -47,7 +47,9 @@ void PathWave::trace(const World& world, const TileJob& job, const IntegratorSet
     for (int depth = 1; active_ > 0; ++depth) {
         intersect_batch(world, job, depth == 1 ? RayKind::Primary : RayKind::Bounce, paths_.rays(active_),
                         std::span(hits_).first(active_), counters);
-        if (world.clips_far())
+        if (depth == 1)
+            hide_unseen_hits(world, camera_rays, std::span(hits_).first(count));
+        else if (world.clips_far())
             for (std::size_t i = 0; i < active_; ++i)
                 if (path_history::is_seen(paths_.history[i]) && world.is_too_far(paths_.ray(i), hits_[i]))
                     hits_[i] = {};

@@ -19,6 +19,7 @@ namespace {
 
 using Json = nlohmann::json;
 
+constexpr NumberRange kFisheyeAngle{.min = 0.0, .max = 6.2831855, .open_min = true};
 constexpr float kUsualSensorWidth = 36.0f;  ///< millimetres, of 35 mm film
 
 template <typename Value>
@@ -43,6 +44,17 @@ LensSettings merged(const LensSettings& own, const LensSettings& all) {
 /// over height.
 float sensor_height(float sensor_width, float aspect) {
     return sensor_width / std::max(aspect, 1.0f);
+}
+
+/// Makes the circle of a fisheye as large as the lens makes it, if its focal length is said.
+void apply_fisheye_lens(const LensSettings& lens, float aspect, CameraDesc& camera) {
+    if (!lens.focal_length) return;
+    camera.focal_length = *lens.focal_length;
+    const float shorter = lens.sensor_width.value_or(kUsualSensorWidth) / std::max(aspect, 1.0f / aspect);
+    const float half_angle = 0.5f * camera.fov;
+    const float radius = camera.focal_length *
+                         (camera.fisheye == FisheyeType::Equisolid ? 2.0f * std::sin(0.5f * half_angle) : half_angle);
+    camera.circle = 2.0f * radius / shorter;
 }
 
 /// Applies focal length and f-number to a perspective camera.
@@ -105,6 +117,9 @@ ViewSettings read_view(JsonObject& object) {
     const auto number = [&](std::string_view key, const NumberRange& range, std::optional<float>& value) {
         if (float read = 0.0f; object.number(key, range, read)) value = read;
     };
+    if (CameraType type{}; object.choice("type", kCameraTypeNames, type)) view.type = type;
+    number("fov", kFisheyeAngle, view.fov);
+    if (FisheyeType mapping{}; object.choice("mapping", kFisheyeTypeNames, mapping)) view.mapping = mapping;
     if (Vec2f shift; object.vector("shift", shift)) view.shift = shift;
     number("clip_start", kNotNegative, view.clip_start);
     number("clip_end", kPositive, view.clip_end);
@@ -121,6 +136,9 @@ ViewSettings read_view(JsonObject& object) {
 }
 
 void apply_view(const ViewSettings& view, CameraDesc& camera) {
+    camera.type = view.type.value_or(camera.type);
+    camera.fov = view.fov.value_or(camera.fov);
+    camera.fisheye = view.mapping.value_or(camera.fisheye);
     camera.shift = view.shift.value_or(camera.shift);
     if (view.clips_as_file) camera.clip = camera.file_clip;
     camera.clip.start = view.clip_start.value_or(camera.clip.start);
@@ -172,6 +190,7 @@ void apply_camera_changes(const LensSettings& all, const std::map<std::string, C
         camera.focus_distance = lens.focus_distance.value_or(camera.focus_distance);
         const bool is_photographic = lens.f_stop || lens.focal_length || lens.sensor_width;
         if (change != nullptr) apply_view(change->view, camera);
+        if (camera.type == CameraType::Fisheye) apply_fisheye_lens(lens, scene.settings.film.aspect(), camera);
         if (is_photographic && camera.type == CameraType::Perspective)
             apply_photographic(lens, scene.settings.film.aspect(), camera);
         if (lens.focus_node.empty()) continue;

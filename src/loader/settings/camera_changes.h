@@ -27,6 +27,9 @@ struct LensSettings {
 
 /// Holds what is said of what a camera shows; nothing for what it has itself.
 struct ViewSettings {
+    std::optional<CameraType> type{};
+    std::optional<float> fov{};
+    std::optional<FisheyeType> mapping{};
     std::optional<Vec2f> shift{};
     bool clips_as_file = false;
     std::optional<float> clip_start{};

@@ -21,10 +21,6 @@ constexpr NumberRange kSurfaceIor{.min = 1.0, .max = 3.0};
 constexpr NumberRange kAnisotropy{.min = -0.999, .max = 0.999};
 constexpr std::int64_t kMaxPriority = 1'000'000;
 
-constexpr std::array<std::pair<std::string_view, CameraType>, 2> kNamedCameraTypes{{
-    {"perspective", CameraType::Perspective},
-    {"orthographic", CameraType::Orthographic},
-}};
 constexpr auto kMetals = [] {
     std::array<std::pair<std::string_view, std::string_view>, kMetalNames.size()> names{};
     for (std::size_t i = 0; i < names.size(); ++i) names[i] = {kMetalNames[i], kMetalNames[i]};
@@ -67,7 +63,6 @@ CameraDesc read_camera(const Json& value, const SourceLocation& where, CameraAim
     camera.location = where;
     JsonObject object(value, where, problems);
     object.text("name", camera.name);
-    object.choice("type", kNamedCameraTypes, camera.type);
     for (const std::string_view key : {"position", "look_at"}) {
         if (!object.has(key)) problems.error(where, fmt::format("'{}' is missing", key));
     }

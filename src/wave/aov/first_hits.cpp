@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 namespace etendue {
@@ -69,7 +70,7 @@ class FirstHit {
                 // What is behind the camera then has no place on the film.
                 const std::optional<Vec2f> first = position_on_film(0.0f);
                 const std::optional<Vec2f> last = position_on_film(1.0f);
-                const Vec2f way = first && last ? *last - *first : Vec2f(0.0f, 0.0f);
+                const Vec2f way = first && last ? way_on_film(*first, *last) : Vec2f(0.0f, 0.0f);
                 return put({way.x, way.y});
             }
         }
@@ -87,6 +88,14 @@ class FirstHit {
         if (!(view.importance_area > 0.0f)) return std::nullopt;
         return Vec2f(view.film.x * static_cast<float>(job_.full_width),
                      view.film.y * static_cast<float>(job_.full_height));
+    }
+
+    /// Returns the way from `first` to `last`, the shorter one around if the film goes on beyond its sides.
+    [[nodiscard]] Vec2f way_on_film(const Vec2f& first, const Vec2f& last) const {
+        Vec2f way = last - first;
+        const auto width = static_cast<float>(job_.full_width);
+        if (world_.film_wraps()) way.x -= width * std::round(way.x / width);
+        return way;
     }
 
     const Albedo& albedo() {

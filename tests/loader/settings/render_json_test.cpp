@@ -340,6 +340,21 @@ TEST(RenderJson, ChangesCamerasByName) {
                 4.0f, 1e-6f);
 }
 
+// Of a lens of 8 mm, an equisolid circle of 180 degrees is 4 · 8 mm · sin(45°) across.
+TEST(RenderJson, MakesPanoramasOfCameras) {
+    const LoadedScene loaded = load_lens(R"({"resolution": [300, 200], "cameras": {"main": {"type": "fisheye",
+        "mapping": "equisolid", "focal_length": 8, "sensor_width": 36}}})");
+    EXPECT_FALSE(loaded.problems.has_errors()) << listing(loaded.problems);
+    const CameraDesc& camera = loaded.scene.cameras.at(0);
+    EXPECT_EQ(camera.type, CameraType::Fisheye);
+    EXPECT_EQ(camera.fisheye, FisheyeType::Equisolid);
+    EXPECT_EQ(camera.fov, kPi);
+    EXPECT_NEAR(camera.circle, 32.0f * std::sqrt(0.5f) / 24.0f, 1e-5f);
+    const LoadedScene round = load_lens(R"({"cameras": {"main": {"type": "equirectangular"}}, "f_stop": 2,
+        "lens_radius": 0.1})");
+    EXPECT_EQ(round.scene.cameras.at(0).type, CameraType::Equirectangular);
+}
+
 TEST(RenderJson, CamerasThatAreNotThereOrNamedTwiceAreErrors) {
     const auto expect = [](const std::string& text, const std::string& message, const std::string& pointer) {
         const LoadedScene loaded = load_lens(text);
