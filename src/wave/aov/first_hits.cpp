@@ -73,6 +73,18 @@ class FirstHit {
                 const Vec2f way = first && last ? way_on_film(*first, *last) : Vec2f(0.0f, 0.0f);
                 return put({way.x, way.y});
             }
+            case FirstHitValue::Vector: {
+                const std::optional<Vec2f> first = position_on_film(0.0f);
+                const std::optional<Vec2f> middle = position_on_film(0.5f);
+                const std::optional<Vec2f> last = position_on_film(1.0f);
+                const float frames = job_.aovs->frames_of_shutter;
+                if (!first || !middle || !last || !(frames > 0.0f)) return put({0.0f, 0.0f, 0.0f, 0.0f});
+                // From half of the shutter's time to a frame; Blender's y is up.
+                const Vec2f scale(2.0f / frames, -2.0f / frames);
+                const Vec2f before = way_on_film(*middle, *first) * scale;
+                const Vec2f after = way_on_film(*last, *middle) * scale;
+                return put({before.x, before.y, after.x, after.y});
+            }
         }
     }
 
