@@ -69,7 +69,7 @@ TEST_P(CropAgreement, ACropIsThePartOfTheWhole) {
     constexpr int kCrops = 8;  // of all instances
     const auto& [name, filter] = GetParam();
     AgreementCase whole = agreement_case("LampPlastic");
-    whole.window = {-10, -6, kAgreementWidth + 10, kAgreementHeight + 6};
+    whole.window = {-2, 0, kAgreementWidth + 2, kAgreementHeight + 4};
     const World world = agreement_world(whole);
     const ThreadPool threads;
     const auto integrator = make_integrator(name, {.lengths = whole.lengths});
