@@ -50,8 +50,6 @@ enum class SamplerType { Sobol, Random };
 enum class PixelFilterType { BlackmanHarris, Box, Gaussian, Mitchell };
 
 inline constexpr int kMostSide = 65536;  ///< pixels of the width and the height of an image
-inline constexpr double kLeastPixelAspect = 0.01;
-inline constexpr double kMostPixelAspect = 100.0;
 
 struct FilmSettings {
     int width = 1024;  ///< pixels, [1, 65536]
@@ -61,7 +59,7 @@ struct FilmSettings {
     PixelFilterType filter = PixelFilterType::BlackmanHarris;
     float filter_radius = 0.0f;  ///< pixels; 0 for the filter's own default
     float overscan = 0.0f;       ///< pixels beyond each edge; below 1, a share of the image's longer side
-    float pixel_aspect = 1.0f;   ///< width over height of a pixel, [kLeastPixelAspect, kMostPixelAspect]
+    float pixel_aspect = 1.0f;   ///< width over height of a pixel, [1/64, 64]
 
     /// Returns the pixels of the image, and those of its overscan around them.
     [[nodiscard]] PixelRect frame() const {
