@@ -97,13 +97,13 @@ std::vector<Variant> make_variants(const std::filesystem::path& scene, std::span
                             ? same_world->world
                             : std::make_shared<const World>(ray_code().compile_world(
                                   std::move(prepared.scene), colors, working_space, threads, prepared.problems, {}));
-        if (request.is_for_mirrors && !variant.world->has_specular_surfaces()) continue;
+        if (request.is_for_mirrors && !variant.world->traits().has_specular_surfaces) continue;
         if (variants.empty() && !quiet)
             for (const Problem& problem : prepared.problems.all()) log_warning("{}", problem.str());
         complete(variant);
         if (!quiet)
             for (const auto& notes : {variant.integrator->ineffective_options(*variant.world),
-                                      ineffective_settings(variant.settings, variant.world->has_bodies())})
+                                      ineffective_settings(variant.settings, variant.world->traits().has_bodies)})
                 for (const std::string& note : notes) log_warning("note: {}: {}", variant.name, note);
         if (!variants.empty()) require_comparable(variants.front(), variant);
         if (!quiet)

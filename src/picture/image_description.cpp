@@ -299,8 +299,8 @@ ImageDescription describe_settings(const SceneDesc& scene, const AovPlan& plan) 
 }
 
 void describe_camera(ImageDescription& description, const World& world) {
-    description.frame.world_to_camera = after_move(-world.origin(), world_to_camera(world.camera()));
-    if (const auto to_screen = world_to_screen(world.camera()))
+    description.frame.world_to_camera = after_move(-world.origin(), world_to_camera(world.camera().model()));
+    if (const auto to_screen = world_to_screen(world.camera().model()))
         description.frame.world_to_screen = after_move(-world.origin(), *to_screen);
 }
 

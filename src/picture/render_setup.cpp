@@ -198,7 +198,7 @@ std::vector<std::string> ineffective_settings(const RenderSettings& settings, bo
 std::vector<std::string> notes_on(const World& world, const Integrator& integrator, const RenderSettings& settings) {
     std::vector<std::string> notes;
     for (std::vector<std::string> some : {integrator.unreachable_light(world), integrator.ineffective_options(world),
-                                          ineffective_settings(settings, world.has_bodies())})
+                                          ineffective_settings(settings, world.traits().has_bodies)})
         notes.insert(notes.end(), some.begin(), some.end());
     return notes;
 }

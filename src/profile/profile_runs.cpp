@@ -242,7 +242,8 @@ class RunMeasurement {
                 std::vector<double> of_part(parts, 0.0);
                 threads.parallel_for(parts, [&](std::size_t part, int) {
                     for (std::size_t s = part; s < segments.size(); s += parts)
-                        of_part[part] += world_.replay(segments[s], asks_for_occlusion(kind), coherence, kForms[form]);
+                        of_part[part] +=
+                            world_.geometry().replay(segments[s], asks_for_occlusion(kind), coherence, kForms[form]);
                 });
                 seconds[form].push_back(std::accumulate(of_part.begin(), of_part.end(), 0.0));
             }

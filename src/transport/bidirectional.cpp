@@ -28,15 +28,16 @@ Rgb light_met(const SubpathSample& sample, const Subpath& eye, const Vertex& ver
     if (eye.edges < sample.lengths.min_depth) return {};
     const Rgb throughput = eye.throughput * sample.wavelength_weight(eye.is_dispersed);
     if (vertex.kind == Vertex::Kind::Environment) {
-        if (!world.has_environment() || (is_seen && !world.environment_visible_to_camera())) return {};
+        if (!world.traits().has_environment || (is_seen && !world.traits().environment_visible_to_camera)) return {};
         StrategySums sums;
         if (!is_seen) sums = sums_at_environment(sample.mis, eye.from, direction, eye.departing);
-        return throughput * world.environment_radiance(direction) * weight(sums);
+        return throughput * world.environment().radiance(direction) * weight(sums);
     }
     const SurfacePoint& point = vertex.surface;
     Rgb light;
-    if (const Rgb emitted = point.material->emits ? world.emission(point, vertex.wo) : Rgb(); !is_black(emitted)) {
-        const std::uint32_t lamp = world.light_at(point);
+    if (const Rgb emitted = point.material->emits ? world.materials().emission(point, vertex.wo) : Rgb();
+        !is_black(emitted)) {
+        const std::uint32_t lamp = world.lights().at(point);
         StrategySums sums;
         if (!is_seen && lamp != kNone)
             sums = sums_at_emitter(sample.mis, eye.from, lamp, point.triangle, direction,
@@ -46,18 +47,18 @@ Rgb light_met(const SubpathSample& sample, const Subpath& eye, const Vertex& ver
         light += emitted * weight(sums);
     }
     // An unlit surface lights nothing.
-    if (vertex.kind == Vertex::Kind::Unlit && eye.only_deltas) light += world.unlit_color(point);
+    if (vertex.kind == Vertex::Kind::Unlit && eye.only_deltas) light += world.materials().unlit_color(point);
     return throughput * light;
 }
 
 /// Returns the light of s = 1: `eye` is connected to a light that is sampled for it.
 Rgb light_sampled(const SubpathSample& sample, const SubpathVertex& eye) {
     const World& world = sample.world();
-    if (!world.has_sampled_lights() || !wants(sample, eye.next_edges)) return {};
+    if (!world.traits().has_sampled_lights || !wants(sample, eye.next_edges)) return {};
     const auto draw = [&](SubpathDimension which) { return sample.pair(SubpathEnd::AtEye, eye.index, which); };
     const LightNumbers u{draw(SubpathDimension::LightChoice), draw(SubpathDimension::LightTriangle),
                          draw(SubpathDimension::LightDirection)};
-    const ChosenLight chosen = world.sample_light(eye.position, u);
+    const ChosenLight chosen = world.lights().sample(eye.position, u);
     const LightSample& light = chosen.sample;
     if (is_black(light.radiance)) return {};
     const auto scattered = eye.evaluate_both_ways(light.wi, TransportMode::Radiance);
@@ -78,7 +79,7 @@ Rgb light_connected(const SubpathSample& sample, const SubpathVertex& eye, const
     if (!(squared > 0.0f)) return {};
     const Vec3f w = to_light * (1.0f / std::sqrt(squared));
     // Between different media lies a boundary, which no connection passes.
-    if (world.medium(eye.interior_towards(w)) != world.medium(light.interior_towards(-w))) return {};
+    if (world.media().within(eye.interior_towards(w)) != world.media().within(light.interior_towards(-w))) return {};
     const auto at_eye = eye.evaluate_both_ways(w, TransportMode::Radiance);
     const auto at_light = light.evaluate_both_ways(-w, TransportMode::Importance);
     if (is_black(at_eye.f_cos) || is_black(at_light.f_cos)) return {};

@@ -7,7 +7,7 @@ namespace etendue {
 
 /// Returns the share of light that arrives from `distance` metres away.
 [[nodiscard]] inline Rgb transmittance(const World& world, const Interior& interior, float distance) {
-    const HomogeneousMedium* medium = world.medium(interior);
+    const HomogeneousMedium* medium = world.media().within(interior);
     return medium != nullptr ? medium->transmittance(distance) : Rgb(1.0f);
 }
 
@@ -19,7 +19,7 @@ namespace etendue {
 
 /// Returns the bodies that a ray starts in that leaves a light with `emission`.
 [[nodiscard]] inline Interior interior_at_light(const World& world, const Emission& emission) {
-    return world.has_bodies() ? world.light_interior(emission) : Interior();
+    return world.traits().has_bodies ? world.emitters().interior(emission) : Interior();
 }
 
 }  // namespace etendue

@@ -8,19 +8,19 @@ namespace etendue {
 namespace {
 
 Rgb met_environment(const World& world, const EyePath& path, const Vertex& vertex) {
-    if (!world.has_environment() || (path.is_seen() && !world.environment_visible_to_camera())) return {};
+    if (!world.traits().has_environment || (path.is_seen() && !world.traits().environment_visible_to_camera)) return {};
     const Vec3f direction = -vertex.wo;
-    const float light_pdf =
-        world.light_probability(path.last.receiver, world.environment()) * world.environment_pdf_solid_angle(direction);
-    return world.environment_radiance(direction) *
+    const float light_pdf = world.lights().probability(path.last.receiver, world.environment().light()) *
+                            world.environment().pdf_solid_angle(direction);
+    return world.environment().radiance(direction) *
            met_light_weight(path.last.pdf_solid_angle, light_pdf, path.last.samples);
 }
 
 Rgb met_emission(const World& world, const EyePath& path, const Vertex& vertex) {
-    const Rgb emitted = world.emission(vertex.surface, vertex.wo);
+    const Rgb emitted = world.materials().emission(vertex.surface, vertex.wo);
     if (is_black(emitted)) return {};
-    const float light_pdf = world.emitter_pdf_solid_angle(path.last.receiver, vertex.surface, -vertex.wo,
-                                                          path.last.passed + vertex.distance);
+    const float light_pdf = world.lights().pdf_solid_angle(path.last.receiver, vertex.surface, -vertex.wo,
+                                                           path.last.passed + vertex.distance);
     return emitted * met_light_weight(path.last.pdf_solid_angle, light_pdf, path.last.samples);
 }
 
@@ -37,7 +37,7 @@ Rgb met_light(const World& world, const EyePath& path, const Vertex& vertex) {
     if (vertex.surface.material != nullptr && vertex.surface.material->emits && !is_found_elsewhere(path, vertex))
         light += met_emission(world, path, vertex);
     // An unlit surface lights nothing.
-    if (vertex.kind == Vertex::Kind::Unlit && path.only_deltas) light += world.unlit_color(vertex.surface);
+    if (vertex.kind == Vertex::Kind::Unlit && path.only_deltas) light += world.materials().unlit_color(vertex.surface);
     return path.throughput * light;
 }
 
@@ -49,9 +49,9 @@ Rgb sampled_light(const World& world, const EyePath& path, const Vertex& vertex,
         const SampleNumbers own{numbers.sequence, light_sample_key(numbers.key, samples, round)};
         const auto draw = [&](BounceDimension which) { return own.pair(bounce_dimension(path.rays, which)); };
         const LightNumbers u_light{draw(kLightChoice), draw(kLightTriangle), draw(kLightDirection)};
-        LightTree::Choice choice = world.choose_light(receiver, u_light.light);
+        LightTree::Choice choice = world.lights().choose(receiver, u_light.light);
         share_estimate(choice, samples);
-        const ChosenLight chosen = world.sample_light(choice, vertex.position, u_light);
+        const ChosenLight chosen = world.lights().sample(choice, vertex.position, u_light);
         if (is_black(chosen.sample.radiance)) continue;
         const BsdfValue value = vertex.evaluate(chosen.sample.wi);
         light += light_contribution(world, vertex, path.throughput * vertex.wavelength.weight, chosen.sample,

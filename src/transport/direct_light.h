@@ -38,8 +38,9 @@ inline void share_estimate(LightTree::Choice& choice, std::uint32_t samples) {
 /// `direction`; 0 if no lights are sampled.
 [[nodiscard]] inline float chosen_environment_pdf(const World& world, const LightReceiver& receiver,
                                                   const Vec3f& direction) {
-    if (!world.has_sampled_lights()) return 0.0f;
-    return world.light_probability(receiver, world.environment()) * world.environment_pdf_solid_angle(direction);
+    if (!world.traits().has_sampled_lights) return 0.0f;
+    return world.lights().probability(receiver, world.environment().light()) *
+           world.environment().pdf_solid_angle(direction);
 }
 
 /// Returns the light, on its way to the eye, that the path's ray has met at `vertex` by chance.

@@ -6,7 +6,7 @@
 namespace etendue {
 
 std::optional<LensView> view_from_lens(const World& world, const Vec3f& position, Vec2f lens, float time) {
-    LensView view{.camera = world.connect_to_camera(position, lens, time)};
+    LensView view{.camera = world.camera().connect(position, lens, time)};
     if (!(view.camera.importance_area > 0.0f)) return {};
     const Vec3f to_lens = view.camera.lens - position;
     view.distance = length(to_lens);
@@ -22,7 +22,7 @@ std::optional<FilmLight> lamp_to_camera(const SubpathSample& sample, const Emiss
     const float time = sample.eye.ray.time;
     const auto view = view_from_lens(world, emission.sample.position, lens, time);
     if (!view) return {};
-    const SurfaceEmission emitted = world.surface_emission(emission, view->direction);
+    const SurfaceEmission emitted = world.emitters().surface_emission(emission, view->direction);
     if (is_black(emitted.radiance)) return {};
     const float share = weigh(*view, emitted.cosine);
     if (share == 0.0f) return {};

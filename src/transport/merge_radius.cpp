@@ -7,18 +7,19 @@ namespace etendue {
 
 Merging make_merging(const World& world, int width, int height, double light_paths, std::uint32_t sample,
                      const MergeSettings& options) {
-    if (!world.has_lights() || (options.at == MergeAt::BetweenDeltas && !world.has_specular_surfaces())) return {};
+    if (!world.traits().has_lights || (options.at == MergeAt::BetweenDeltas && !world.traits().has_specular_surfaces))
+        return {};
     // In radii of the scene. Below the least, places are known too coarsely.
     constexpr float kLeast = 1e-6f;
     constexpr float kMost = 0.02f;
     constexpr Vec2f kMiddle{0.5f, 0.5f};
-    const Ray ray = world.generate_ray(kMiddle, kMiddle, 0.5f);
+    const Ray ray = world.camera().generate_ray(kMiddle, kMiddle, 0.5f);
     MergeRadius radius{.eye = ray.origin, .pixel = camera_cone(world, width, height, ray)};
     const double shrunk = std::pow(static_cast<double>(sample) + 1.0, 0.5 * (options.alpha - 1.0));
     radius.scale =
         std::min(static_cast<float>(options.radius * shrunk), MergeRadius::kMostSlope / std::abs(radius.pixel.spread));
-    radius.least = kLeast * world.bounding_radius();
-    radius.most = kMost * world.bounding_radius();
+    radius.least = kLeast * world.geometry().bounding_radius();
+    radius.most = kMost * world.geometry().bounding_radius();
     return {.at = options.at, .radius = radius, .light_paths = light_paths};
 }
 

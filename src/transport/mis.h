@@ -110,12 +110,13 @@ struct DepartingDensities {
 /// Returns the densities along the ray of `emission`.
 [[nodiscard]] inline DepartingDensities leave_light(const MisContext& mis, const Emission& emission) {
     const EmissionSample& sample = emission.sample;
-    const bool at_infinity = mis.world.is_at_infinity(emission.light);
+    const bool at_infinity = mis.world.lights().is_at_infinity(emission.light);
     const auto position = static_cast<double>(sample.pdf_position_area);
     const auto direction = static_cast<double>(sample.pdf_direction_solid_angle);
     const auto choice = static_cast<double>(emission.probability);
-    return {.d = mis.world.can_be_hit(emission.light) ? 1.0 / mis.raised(choice * (at_infinity ? direction : position))
-                                                      : 0.0,
+    return {.d = mis.world.lights().can_be_hit(emission.light)
+                     ? 1.0 / mis.raised(choice * (at_infinity ? direction : position))
+                     : 0.0,
             .pdf_forward = at_infinity ? position : direction,
             .cosine = static_cast<double>(sample.cos_theta),
             .is_from_infinity = at_infinity};
@@ -129,11 +130,11 @@ struct DepartingDensities {
     const auto squared_distance = static_cast<double>(length_squared(position - sample.position));
     SubpathDensities arrived = departing.arrive(mis.raised, squared_distance, cos_arriving);
     // A light that is sampled for this vertex is chosen in another way than this one was, and so are its triangles.
-    auto for_vertex = static_cast<double>(mis.world.light_probability(position, emission.light) *
-                                          mis.world.light_sample_gain(emission.light, sample.triangle, position));
+    auto for_vertex = static_cast<double>(mis.world.lights().probability(position, emission.light) *
+                                          mis.world.lights().gain(emission.light, sample.triangle, position));
     auto for_emission = static_cast<double>(emission.probability);
-    if (emission.light == mis.world.environment()) {
-        for_vertex *= static_cast<double>(mis.world.environment_pdf_solid_angle(-sample.direction));
+    if (emission.light == mis.world.environment().light()) {
+        for_vertex *= static_cast<double>(mis.world.environment().pdf_solid_angle(-sample.direction));
         for_emission *= static_cast<double>(sample.pdf_direction_solid_angle);
     }
     arrived.a *= mis.raised(for_vertex / for_emission);

@@ -14,7 +14,7 @@ std::uint32_t light_samples_at(const World& world, const EyePath& path, const Ve
     const bool is_medium = vertex.kind == Vertex::Kind::Medium;
     const int edges = path.edges + (is_medium ? 0 : 1);
     const bool samples_lights = settings.light_samples > 0 && vertex.has_non_delta() &&
-                                (is_medium ? world.has_lights_in_media() : world.has_sampled_lights()) &&
+                                (is_medium ? world.traits().has_lights_in_media : world.traits().has_sampled_lights) &&
                                 edges >= settings.lengths.min_depth && edges <= settings.lengths.max_depth;
     if (!samples_lights) return 0;
     // Next-event splitting, where the eye looks.

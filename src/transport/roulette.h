@@ -50,7 +50,7 @@ struct SparedRays {
 /// Returns the rays after which Russian roulette begins where `roulette_depth` is asked for. In bodies nothing else
 /// bounds a walk: neither media nor hidden boundaries add edges.
 [[nodiscard]] inline int first_roulette(const World& world, int roulette_depth) {
-    return world.has_bodies() ? std::min(roulette_depth, kLongPath) : roulette_depth;
+    return world.traits().has_bodies ? std::min(roulette_depth, kLongPath) : roulette_depth;
 }
 
 /// Returns the chance with which a branch of Whitted's trees is followed that ends with ray number `rays` and

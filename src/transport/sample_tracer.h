@@ -14,7 +14,7 @@ class SampleTracer {
     virtual ~SampleTracer() = default;
     /// Returns what `ray` meets first, which is ray number `number` of its path; 1 comes from the camera.
     [[nodiscard]] virtual Hit nearest_hit(const Ray& ray, int number) = 0;
-    /// Returns what `World::occluded` says of `ray`.
+    /// Returns what `SceneGeometry::occluded` says of `ray`.
     [[nodiscard]] virtual std::uint8_t occluded(const Ray& ray) = 0;
     /// Returns true if another estimate finds the emission of `hit`, which the ray from the camera has met.
     [[nodiscard]] virtual bool finds_emission(const Hit& hit) const = 0;

@@ -18,7 +18,7 @@ namespace etendue {
     const float spread = sample.is_delta ? 0.0f : lobe_spread(sample.pdf_solid_angle);
     // Beside a lobe as wide as this the curvature does not show.
     if (spread >= kMaxConeSpread) return scatter_cone(arriving, spread);
-    const float front_curvature = world.mean_curvature(hit);
+    const float front_curvature = world.geometry().mean_curvature(hit);
     const float curvature = dot(direction, geometric_normal) < 0.0f ? front_curvature : -front_curvature;
     const RayCone bent =
         sample.is_transmission ? refract_cone(arriving, curvature, sample.eta) : reflect_cone(arriving, curvature);

@@ -43,8 +43,8 @@ struct LightPointPdfs {
                                                 const SubpathDensities& arrived) {
     const World& world = mis.world;
     const Raised& raised = mis.raised;
-    const double sampled = raised(static_cast<double>(pdfs.sampled * world.light_probability(from, light)));
-    const double emitted = raised(static_cast<double>(pdfs.emitted * world.emission_probability(light)));
+    const double sampled = raised(static_cast<double>(pdfs.sampled * world.lights().probability(from, light)));
+    const double emitted = raised(static_cast<double>(pdfs.emitted * world.emitters().probability(light)));
     return {.fewer_from_eye = sampled * arrived.a + emitted * arrived.b * raised(static_cast<double>(emission_pdf))};
 }
 
@@ -52,18 +52,17 @@ struct LightPointPdfs {
 [[nodiscard]] inline StrategySums sums_at_emitter(const MisContext& mis, const Vec3f& from, std::uint32_t light,
                                                   std::uint32_t triangle, const Vec3f& direction, float cos_light,
                                                   const SubpathDensities& arrived) {
-    const float pdf_area = mis.world.emitter_pdf_area(light);
-    return sums_at_light(
-        mis, from, light,
-        {.sampled = pdf_area * mis.world.light_sample_gain(light, triangle, from), .emitted = pdf_area},
-        mis.world.emission_pdf(light, -direction, cos_light), arrived);
+    const float pdf_area = mis.world.emitters().pdf_area(light);
+    return sums_at_light(mis, from, light,
+                         {.sampled = pdf_area * mis.world.lights().gain(light, triangle, from), .emitted = pdf_area},
+                         mis.world.emitters().pdf(light, -direction, cos_light), arrived);
 }
 
 /// Returns the sums for a lamp that a camera ray has met, which the strategy (1, 1) finds, too.
 [[nodiscard]] inline StrategySums sums_at_seen_emitter(const MisContext& mis, std::uint32_t light,
                                                        const SubpathDensities& arrived) {
-    return {.fewer_from_eye = mis.raised(static_cast<double>(mis.world.emitter_pdf_area(light) *
-                                                             mis.world.emission_probability(light))) *
+    return {.fewer_from_eye = mis.raised(static_cast<double>(mis.world.emitters().pdf_area(light) *
+                                                             mis.world.emitters().probability(light))) *
                               arrived.a};
 }
 
@@ -73,10 +72,10 @@ struct LightPointPdfs {
                                                       DepartingDensities departing) {
     const World& world = mis.world;
     departing.is_from_infinity = false;
-    return sums_at_light(mis, from, world.environment(),
-                         {.sampled = world.environment_pdf_solid_angle(direction),
-                          .emitted = world.environment_emission_pdf_solid_angle(direction)},
-                         world.emission_pdf(world.environment(), -direction, 1.0f),
+    return sums_at_light(mis, from, world.environment().light(),
+                         {.sampled = world.environment().pdf_solid_angle(direction),
+                          .emitted = world.environment().emission_pdf_solid_angle(direction)},
+                         world.emitters().pdf(world.environment().light(), -direction, 1.0f),
                          departing.arrive(mis.raised, 1.0, 1.0));
 }
 
@@ -88,19 +87,19 @@ template <typename AnyVertex>
     const World& world = mis.world;
     const Raised& raised = mis.raised;
     const LightSample& light = chosen.sample;
-    const float arriving = world.emission_pdf(chosen.light, -light.wi, light.cos_light) * vertex.cosine(light.wi);
+    const float arriving = world.emitters().pdf(chosen.light, -light.wi, light.cos_light) * vertex.cosine(light.wi);
     const double from_light =
         static_cast<double>(std::isinf(light.distance) ? arriving : arriving / (light.distance * light.distance));
     // The strategies with more vertices from the light have chosen it for its emission, not for this vertex, and so its
     // triangle, and the direction of an environment: its densities jump from cell to cell, and both must be of the one
     // that other strategies find the direction in.
-    auto for_emission = static_cast<double>(world.emission_probability(chosen.light));
+    auto for_emission = static_cast<double>(world.emitters().probability(chosen.light));
     auto for_vertex = static_cast<double>(chosen.expected_samples *
-                                          world.light_sample_gain(chosen.light, light.triangle, vertex.position));
+                                          world.lights().gain(chosen.light, light.triangle, vertex.position));
     float pdf_solid_angle = light.pdf_solid_angle;
-    if (chosen.light == world.environment()) {
-        for_emission *= static_cast<double>(world.environment_emission_pdf_solid_angle(light.wi));
-        pdf_solid_angle = chosen.expected_samples * world.environment_pdf_solid_angle(light.wi);
+    if (chosen.light == world.environment().light()) {
+        for_emission *= static_cast<double>(world.environment().emission_pdf_solid_angle(light.wi));
+        pdf_solid_angle = chosen.expected_samples * world.environment().pdf_solid_angle(light.wi);
         for_vertex = static_cast<double>(pdf_solid_angle);
         if (!(pdf_solid_angle > 0.0f)) return {.fewer_from_light = std::numeric_limits<double>::infinity()};
     }

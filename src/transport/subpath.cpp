@@ -17,8 +17,7 @@ SubpathDensities densities_at(const SubpathSample& sample, const Subpath& subpat
     if (subpath.end == SubpathEnd::AtLight)
         return arrive_from_light(sample.mis, *subpath.emission, subpath.departing, position, cos_arriving);
     return arrive_from_lens(sample.mis, subpath.departing,
-                            sample.world().connect_to_camera(position, sample.eye.lens, subpath.ray.time),
-                            cos_arriving);
+                            sample.world().camera().connect(position, sample.eye.lens, subpath.ray.time), cos_arriving);
 }
 
 SubpathVertex make_vertex(const Subpath& subpath, const Vertex& vertex, const SubpathDensities& densities,
@@ -94,18 +93,18 @@ bool survives_roulette(const SubpathSample& sample, Subpath& subpath, int bounce
 Subpath begin_subpath_at_eye(const SubpathSample& sample) {
     Subpath subpath;
     subpath.ray = sample.eye.ray;
-    subpath.interior = sample.world().camera_interior();
+    subpath.interior = sample.world().media().camera_interior();
     subpath.from = sample.eye.ray.origin;
     return subpath;
 }
 
 std::optional<Subpath> begin_subpath_at_light(const SubpathSample& sample) {
     const World& world = sample.world();
-    if (!world.has_lights()) return {};
+    if (!world.traits().has_lights) return {};
     const auto draw = [&](EmissionDimension which) { return sample.eye.numbers.pair(kFirstLightDimension + which); };
     Subpath subpath;
     subpath.end = SubpathEnd::AtLight;
-    const Emission emission = world.sample_emission(
+    const Emission emission = world.emitters().sample(
         draw(kEmitterChoice), {draw(kTriangle), draw(kPosition), draw(kDirection)}, sample.eye.ray.time);
     subpath.emission = emission;
     subpath.ray = emission.ray;
@@ -125,7 +124,7 @@ std::vector<SubpathVertex> follow_subpath(const SubpathSample& sample, Subpath s
     for (int bounce = 1;; ++bounce) {
         Hit hit = nearest_hit(world, subpath.ray);
         const bool is_seen = subpath.end == SubpathEnd::AtEye && subpath.index == 1;
-        if (is_seen && world.clips_far() && world.is_too_far(subpath.ray, hit)) hit = {};
+        if (is_seen && world.traits().clips_far && world.camera().is_too_far(subpath.ray, hit)) hit = {};
         if (!hit.valid()) {
             if (arrive) arrive(subpath, environment_vertex(subpath.ray.direction), {});
             break;

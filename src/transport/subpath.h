@@ -18,7 +18,7 @@ namespace etendue {
 /// Returns how many edges the shortest way has from a light, or from a surface, to the camera by another vertex: a
 /// vertex in a medium adds none.
 [[nodiscard]] inline int edges_to_connect(const World& world) {
-    return world.has_scattering_bodies() ? 1 : 2;
+    return world.traits().has_scattering_bodies ? 1 : 2;
 }
 
 /// Holds what both subpaths of a sample share.

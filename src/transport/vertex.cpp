@@ -66,7 +66,7 @@ LightReceiver light_receiver(const Vec3f& position, const Scattering& scattering
 
 std::optional<Vertex> medium_vertex(const World& world, const Ray& ray, const RayCone& cone, const Interior& interior,
                                     const Hit& hit, Rgb& throughput, Vec2f u) {
-    const HomogeneousMedium* const medium = world.medium(interior);
+    const HomogeneousMedium* const medium = world.media().within(interior);
     if (medium == nullptr) return {};
     const MediumSample sample = medium->sample(throughput, hit.t, u);
     throughput *= sample.weight;
@@ -90,11 +90,11 @@ Vertex surface_vertex(const World& world, const Ray& ray, const RayCone& cone, c
     vertex.cone = cone.at(hit.t);
     vertex.interior = interior;
     vertex.hit = hit;
-    vertex.surface = world.surface_point(hit, ray, cone);
+    vertex.surface = world.geometry().surface_point(hit, ray, cone);
     SurfacePoint& point = vertex.surface;
-    if (world.has_bodies() && world.is_boundary(point))
-        vertex.crossing =
-            hit.in_contact ? world.contact_crossing(point, interior, hit, ray, cone) : world.crossing(point, interior);
+    if (world.traits().has_bodies && world.media().is_boundary(point))
+        vertex.crossing = hit.in_contact ? world.media().contact_crossing(point, interior, hit, ray, cone)
+                                         : world.media().crossing(point, interior);
     vertex.position = point.position;
     vertex.kind = vertex.crossing && vertex.crossing->is_hidden ? Vertex::Kind::Boundary
                   : point.material->unlit                       ? Vertex::Kind::Unlit
@@ -105,8 +105,8 @@ Vertex surface_vertex(const World& world, const Ray& ray, const RayCone& cone, c
     vertex.chooses_wavelength = vertex.crossing && vertex.crossing->disperses() && nanometres == 0.0f;
     if (vertex.chooses_wavelength) vertex.wavelength = world.spectral_response().sample(u_wavelength);
     Bsdf storage;
-    vertex.bsdf = world.bsdf(point, vertex.wo,
-                             vertex.crossing ? vertex.crossing->relative_ior(vertex.wavelength.nm) : 0.0f, storage);
+    vertex.bsdf = world.materials().bsdf(
+        point, vertex.wo, vertex.crossing ? vertex.crossing->relative_ior(vertex.wavelength.nm) : 0.0f, storage);
     return vertex;
 }
 

@@ -33,19 +33,20 @@ VertexNumbers::VertexNumbers(const SampleNumbers& numbers, int depth)
       alpha_key(numbers.bits(bounce_dimension(depth, kAlpha))) {}
 
 EyePath begin_at_eye(const World& world, const EyeSample& sample) {
-    return {.ray = sample.ray, .cone = sample.cone, .interior = world.camera_interior(), .tracer = sample.tracer};
+    return {
+        .ray = sample.ray, .cone = sample.cone, .interior = world.media().camera_interior(), .tracer = sample.tracer};
 }
 
 Hit nearest_hit(const World& world, const Ray& ray) {
     Hit hit;
-    world.intersect(std::span(&ray, 1), std::span(&hit, 1), Coherence::Incoherent);
+    world.geometry().intersect(std::span(&ray, 1), std::span(&hit, 1), Coherence::Incoherent);
     return hit;
 }
 
 Hit nearest_hit(const World& world, const EyePath& path) {
     const Hit hit =
         path.tracer != nullptr ? path.tracer->nearest_hit(path.ray, path.rays) : nearest_hit(world, path.ray);
-    return world.clips_far() && path.is_seen() && world.is_too_far(path.ray, hit) ? Hit{} : hit;
+    return world.traits().clips_far && path.is_seen() && world.camera().is_too_far(path.ray, hit) ? Hit{} : hit;
 }
 
 Rgb visibility(const World& world, const Ray& ray, SampleTracer* tracer) {
@@ -53,9 +54,9 @@ Rgb visibility(const World& world, const Ray& ray, SampleTracer* tracer) {
     if (tracer != nullptr)
         occluded = tracer->occluded(ray);
     else
-        world.occluded(std::span(&ray, 1), std::span(&occluded, 1));
+        world.geometry().occluded(std::span(&ray, 1), std::span(&occluded, 1));
     if (occluded == kOccluded) return {};
-    return occluded == kPassesPanes ? world.pane_transmittance(ray) : Rgb(1.0f);
+    return occluded == kPassesPanes ? world.geometry().pane_transmittance(ray) : Rgb(1.0f);
 }
 
 void pass(EyePath& path, const Vertex& vertex, std::uint32_t alpha_key) {

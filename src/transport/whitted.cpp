@@ -30,22 +30,23 @@ Rgb branch_direct_light(const World& world, const Branch& branch, const Vertex& 
                                   {branch.path.ray.time, alpha_key, branch.path.tracer});
     };
     Rgb found;
-    if (world.has_sampled_lights()) {
-        const ChosenLight chosen =
-            world.sample_light(vertex.position, {numbers.pair(kBranchLightChoice), numbers.pair(kBranchLightTriangle),
-                                                 numbers.pair(kBranchLightDirection)});
+    if (world.traits().has_sampled_lights) {
+        const ChosenLight chosen = world.lights().sample(
+            vertex.position, {numbers.pair(kBranchLightChoice), numbers.pair(kBranchLightTriangle),
+                              numbers.pair(kBranchLightDirection)});
         const LightSample& light = chosen.sample;
-        const bool is_environment = chosen.light == world.environment();
+        const bool is_environment = chosen.light == world.environment().light();
         if (!is_black(light.radiance))
             found += contribution(
                 light, light_sample_scale(
-                           chosen, is_environment ? world.environment_emission_pdf_solid_angle(light.wi) : 0.0f));
+                           chosen, is_environment ? world.environment().emission_pdf_solid_angle(light.wi) : 0.0f));
     }
-    if (!world.has_environment()) return found;
-    const LightSample light = world.sample_environment(vertex.position, numbers.pair(kBranchEnvironmentDirection));
+    if (!world.traits().has_environment) return found;
+    const LightSample light =
+        world.environment().sample_all(vertex.position, numbers.pair(kBranchEnvironmentDirection));
     if (is_black(light.radiance)) return found;
     const float chosen_pdf = chosen_environment_pdf(world, vertex.position, light.wi);
-    return found + contribution(light, light_sample_scale({light, 1.0f, world.environment()}, chosen_pdf));
+    return found + contribution(light, light_sample_scale({light, 1.0f, world.environment().light()}, chosen_pdf));
 }
 
 /// Returns the branch that grows from `branch` as its child number `child`, without a way yet.
@@ -108,7 +109,8 @@ void Tree::follow(Branch branch) {
             (path.is_seen() ? found.seen : found.scattered) += met_light(world, path, vertex);
     };
     if (!hit.valid()) {
-        if (path.is_seen() && !(world.has_environment() && world.environment_visible_to_camera())) found.alpha = 0.0f;
+        if (path.is_seen() && !(world.traits().has_environment && world.traits().environment_visible_to_camera))
+            found.alpha = 0.0f;
         add_met_light(environment_vertex(path.ray.direction));
         return;
     }

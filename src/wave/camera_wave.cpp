@@ -59,8 +59,8 @@ void generate_few(const World& world, const TileJob& job, std::span<CameraSample
     CameraNumbers lens;
     CameraNumbers time;
     film.draw(job.sequence, samples, kFilmDimension);
-    if (world.has_lens()) lens.draw(job.sequence, samples, kLensDimension);
-    if (world.has_motion())
+    if (world.traits().has_lens) lens.draw(job.sequence, samples, kLensDimension);
+    if (world.traits().has_motion)
         time.draw(job.sequence, samples, kTimeDimension, [&](SampleKey key) { return shared_key(job, key); });
     std::array<Vec2f, CameraNumbers::kCapacity> on_film;
     std::array<Vec2f, CameraNumbers::kCapacity> on_lens;
@@ -69,16 +69,16 @@ void generate_few(const World& world, const TileJob& job, std::span<CameraSample
         const PixelFilter::Sample filtered = job.filter->sample(film[i]);
         on_film[i] = {(static_cast<float>(positions[i].x) + 0.5f + filtered.offset.x) * to_film.x,
                       (static_cast<float>(positions[i].y) + 0.5f + filtered.offset.y) * to_film.y};
-        on_lens[i] = world.has_lens() ? lens[i] : Vec2f(0.0f);
-        times[i] = world.has_motion() ? time[i].x : 0.0f;
+        on_lens[i] = world.traits().has_lens ? lens[i] : Vec2f(0.0f);
+        times[i] = world.traits().has_motion ? time[i].x : 0.0f;
         samples[i].weight = filtered.weight;
         samples[i].lens = on_lens[i];
     }
     const auto part = [&](auto& all) { return std::span(all).first(samples.size()); };
-    world.generate_rays(part(on_film), part(on_lens), part(times), rays);
+    world.camera().generate_rays(part(on_film), part(on_lens), part(times), rays);
     if (world.has_blind_film())
         for (std::size_t i = 0; i < samples.size(); ++i) samples[i].is_blind = !(rays[i].t_max > 0.0f);
-    if (!world.has_transparency()) return;
+    if (!world.traits().has_transparency) return;
     for (std::size_t i = 0; i < samples.size(); ++i)
         rays[i].alpha_key = sample_bits(samples[i].key, kCameraAlphaDimension);
 }

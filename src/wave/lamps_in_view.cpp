@@ -63,7 +63,8 @@ void for_each_pixel(const PixelRect& rect, const Visit& visit) {
         return Vec2f((static_cast<float>(x) + beside) / static_cast<float>(job.full_width),
                      (static_cast<float>(y) + beside) / static_cast<float>(job.full_height));
     };
-    return world.may_show_lamps(on_film(job.rect.x0, job.rect.y0, -reach), on_film(job.rect.x1, job.rect.y1, reach));
+    return world.camera().may_show_lamps(on_film(job.rect.x0, job.rect.y0, -reach),
+                                         on_film(job.rect.x1, job.rect.y1, reach));
 }
 
 /// Along one axis, how a place on the film is seen by the pixels around the one whose sample fell there.
@@ -95,7 +96,7 @@ class AlongAxis {
 
 bool LampsInView::is_lamp(const World& world, const Hit& hit) {
     // What touches other surfaces is told by whoever goes on from there.
-    return hit.valid() && !hit.in_contact && world.material(hit)->emits;
+    return hit.valid() && !hit.in_contact && world.materials().at(hit)->emits;
 }
 
 void LampsInView::start(const World& world, const TileJob& job, const PathLengths& lengths, bool filters_textures,
@@ -105,8 +106,8 @@ void LampsInView::start(const World& world, const TileJob& job, const PathLength
     filters_textures_ = filters_textures;
     share_ = std::move(share);
     const bool is_spelled = job.aovs != nullptr && job.aovs->speller != nullptr;
-    is_active_ = reaches_neighbours(*job.filter) && world.camera_interior().is_empty() && lengths.min_depth <= 1 &&
-                 !is_spelled && may_see_lamps(world, job);
+    is_active_ = reaches_neighbours(*job.filter) && world.media().camera_interior().is_empty() &&
+                 lengths.min_depth <= 1 && !is_spelled && may_see_lamps(world, job);
     met_.clear();
     found_.clear();
     if (!is_active_) return;
@@ -123,9 +124,9 @@ std::size_t LampsInView::bytes() const {
 }
 
 SurfacePoint LampsInView::surface_point(const Ray& ray, const Hit& hit) const {
-    const bool has_cone = filters_textures_ && world_->has_textures();
-    return world_->surface_point(hit, ray,
-                                 has_cone ? camera_cone(*world_, job_->full_width, job_->full_height, ray) : RayCone{});
+    const bool has_cone = filters_textures_ && world_->traits().has_textures;
+    return world_->geometry().surface_point(
+        hit, ray, has_cone ? camera_cone(*world_, job_->full_width, job_->full_height, ray) : RayCone{});
 }
 
 bool LampsInView::has_sample(const Vec2i& pixel, std::uint32_t sample) const {
@@ -145,7 +146,7 @@ void LampsInView::note(std::span<const CameraSample> samples, std::span<const Ra
 void LampsInView::note(const CameraSample& sample, const Vec2i& pixel, const Ray& ray, const Hit& hit,
                        RenderCounters* counters) {
     const SurfacePoint point = surface_point(ray, hit);
-    const Rgb emitted = world_->emission(point, -ray.direction);
+    const Rgb emitted = world_->materials().emission(point, -ray.direction);
     if (is_black(emitted)) return;
     const Rgb light = share_ ? emitted * share_(sample, ray, point) : emitted;
     if (!is_finite(light)) {
@@ -160,7 +161,7 @@ void LampsInView::note(const CameraSample& sample, const Vec2i& pixel, const Ray
                     .light = light,
                     .expressions = shares_.empty() ? ExpressionMask{0} : shares_.front().expressions,
                     .depth = job_->aovs != nullptr && job_->aovs->layout.is_deep
-                                 ? world_->depth(point.position, ray.time)
+                                 ? world_->camera().depth(point.position, ray.time)
                                  : 0.0f});
 }
 
@@ -228,14 +229,14 @@ void LampsInView::look_at_middles(RenderCounters& counters) {
     const std::vector<float> times(count, 0.5f);
     rays_.assign(count, {});
     hits_.resize(count);
-    world_->generate_rays(film_, lens, times, rays_);
+    world_->camera().generate_rays(film_, lens, times, rays_);
     intersect_batch(*world_, *job_, RayKind::LampInView, rays_, hits_, counters);
     hide_unseen_hits(*world_, rays_, hits_);
     middles_.assign(around_.area(), 0.0f);
     for (std::size_t i = 0; i < count; ++i)
         if (is_lamp(*world_, hits_[i]))
             middles_[index_in(around_, positions_[i])] =
-                max_component(world_->emission(surface_point(rays_[i], hits_[i]), -rays_[i].direction));
+                max_component(world_->materials().emission(surface_point(rays_[i], hits_[i]), -rays_[i].direction));
     is_even_.clear();
     for_each_pixel(job_->rect, [&](const Vec2i& pixel) { is_even_.push_back(has_even_middles(pixel) ? 1 : 0); });
 }

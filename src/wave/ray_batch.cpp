@@ -13,7 +13,7 @@ void intersect_any(const World& world, const TileJob& job, RayKind kind, const B
                    RenderCounters& counters, QueryForm form) {
     WaveProfile* profile = job.profile;
     if (profile != nullptr) profile->record(kind, rays);
-    world.intersect(rays, hits, is_coherent(kind) ? Coherence::Coherent : Coherence::Incoherent, form);
+    world.geometry().intersect(rays, hits, is_coherent(kind) ? Coherence::Coherent : Coherence::Incoherent, form);
     counters.rays[kind] += rays.size();
     if (profile == nullptr) return;
     profile->stamp(Stage::Intersect, kind);
@@ -25,7 +25,7 @@ void occluded_any(const World& world, const TileJob& job, RayKind kind, const Ba
                   std::span<std::uint8_t> occluded, RenderCounters& counters, QueryForm form) {
     WaveProfile* profile = job.profile;
     if (profile != nullptr) profile->record(kind, rays);
-    world.occluded(rays, occluded, form);
+    world.geometry().occluded(rays, occluded, form);
     counters.rays[kind] += rays.size();
     if (profile == nullptr) return;
     profile->stamp(Stage::Occluded, kind);

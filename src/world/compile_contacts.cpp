@@ -186,10 +186,10 @@ void build_bvh(const ThreadPool& threads, WorldData& data, ProblemList& problems
         touches = find_touches(data, threads);
     }
     const std::vector<Slot> slots = all_slots(data);
-    std::vector<EmbreeScene::CollectedSlot> panes(slots.size());
+    std::vector<CollectedSlot> panes(slots.size());
     for (const Slot& slot : slots)
         panes[slot.index].is_whole = data.materials[data.geometries[slot.geometry].material].is_pane;
-    if (std::ranges::any_of(panes, &EmbreeScene::CollectedSlot::is_whole))
+    if (std::ranges::any_of(panes, &CollectedSlot::is_whole))
         data.panes = std::make_unique<EmbreeScene>(data.geometries, data.instances, data.motions, filters, threads,
                                                    std::move(panes));
     if (touches.pairs.empty() && touches.is_complete) return;

@@ -102,12 +102,12 @@ void ContactSlot::add(const Bounds& place) {
 Contacts::Contacts(const WorldData& data, std::vector<ContactSlot> slots, std::span<const HitFilter> filters,
                    const ThreadPool& threads)
     : slots_(std::move(slots)) {
-    std::vector<EmbreeScene::CollectedSlot> collected(slots_.size());
+    std::vector<CollectedSlot> collected(slots_.size());
     for (const Instance& instance : data.instances)
         for (std::uint32_t g = 0; g < instance.geometry_count; ++g) {
             const ContactSlot& slot = slots_[instance.first_light_slot + g];
             const Geometry& geometry = data.geometries[instance.first_geometry + g];
-            EmbreeScene::CollectedSlot& those = collected[instance.first_light_slot + g];
+            CollectedSlot& those = collected[instance.first_light_slot + g];
             if (slot.reach == 0.0f) continue;
             those.is_whole = slot.is_anywhere || !instance.baked;
             if (those.is_whole) continue;

@@ -55,7 +55,7 @@ class EmbreeScene {
 
     void intersect(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence, QueryForm form) const;
     void intersect(const RayColumns& rays, std::span<Hit> hits, Coherence coherence, QueryForm form) const;
-    /// See World::occluded.
+    /// See SceneGeometry::occluded.
     void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, QueryForm form) const;
     void occluded(const RayColumns& rays, std::span<std::uint8_t> occluded, QueryForm form) const;
 
@@ -67,7 +67,7 @@ class EmbreeScene {
     void for_each_near(const Vec3f& point, float radius,
                        const std::function<bool(std::uint32_t, std::uint32_t, std::uint32_t)>& visit) const;
 
-    /// See World::replay.
+    /// See SceneGeometry::replay.
     [[nodiscard]] double replay(std::span<const Ray> rays, bool occlusion, Coherence coherence, QueryForm form) const;
 
     [[nodiscard]] std::size_t bytes() const { return bytes_; }

@@ -7,8 +7,8 @@
 
 namespace etendue {
 
-/// Surfaces add to it what their textures are asked for (World::add_lookups); once that is computed (`finish`), each in
-/// the same order takes its lobe from it (World::lobe).
+/// Surfaces add to it what their textures are asked for (Materials::add_lookups); once that is computed (`finish`),
+/// each in the same order takes its lobe from it (Materials::lobe).
 class PlainLookups {
   public:
     void clear() {

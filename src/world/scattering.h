@@ -63,7 +63,7 @@ class Scattering {
     }
 
     /// Returns this surface for a walk that arrives from `w`. (Of thin sheets under a coat with a normal of its own,
-    /// World::bsdf makes another lobe for the other side.)
+    /// Materials::bsdf makes another lobe for the other side.)
     [[nodiscard]] Scattering seen_from(const Vec3f& w) const {
         return {*bsdf_, surface_.frame, surface_.geometric_normal, w};
     }

@@ -13,12 +13,13 @@
 
 namespace etendue {
 
-void World::intersect(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence, QueryForm form) const {
+void SceneGeometry::intersect(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence,
+                              QueryForm form) const {
     data_->bvh->intersect(rays, hits, coherence, form);
     if (data_->contacts) settle_contacts(rays, hits);
 }
 
-void World::intersect(const RayColumns& rays, std::span<Hit> hits, Coherence coherence, QueryForm form) const {
+void SceneGeometry::intersect(const RayColumns& rays, std::span<Hit> hits, Coherence coherence, QueryForm form) const {
     data_->bvh->intersect(rays, hits, coherence, form);
     if (data_->contacts) settle_contacts(rays, hits);
 }
@@ -38,7 +39,7 @@ void World::settle_contacts(const Batch& rays, std::span<Hit> hits) const {
     }
 }
 
-Rgb World::pane_transmittance(const Ray& ray) const {
+Rgb SceneGeometry::pane_transmittance(const Ray& ray) const {
     std::array<Hit, 16> few;
     std::vector<Hit> many;
     std::span<Hit> hits = few;
@@ -85,7 +86,7 @@ SurfacePoint World::contact_point(const Contact& contact, const ContactFace& fac
     return point;
 }
 
-Crossing World::contact_crossing(SurfacePoint& point, const Interior& current, const Hit& hit, const Ray& ray,
+Crossing Media::contact_crossing(SurfacePoint& point, const Interior& current, const Hit& hit, const Ray& ray,
                                  const RayCone& cone) const {
     const Contact contact = data_->contacts->at(*data_, ray, hit);
     const ContactInteriors around = interiors(*data_, contact, current, ray.direction);

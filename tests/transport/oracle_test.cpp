@@ -67,7 +67,7 @@ std::size_t expect_all_samples_of_oracle(const World& world, const OracleRun& ru
     power.heuristic = Heuristic::Power;
     power.sequence = SampleSequence::Random;
     expect_samples_of_oracle(world, power, most);
-    if (!world.has_specular_surfaces()) return 0;
+    if (!world.traits().has_specular_surfaces) return 0;
     OracleRun merged = run;
     merged.integrator = "vcm";
     const std::size_t photons = expect_samples_of_oracle(world, merged, most);

@@ -87,7 +87,7 @@ TEST_F(CameraWave, OnlyChosenPixelsGetSamplesEachItsOwn) {
 
 TEST_F(CameraWave, RaysPassThroughTheirPixels) {
     generate(0, camera_sample_count(job_));
-    const Mat4f to_screen = world_to_screen(world_.camera()).value();
+    const Mat4f to_screen = world_to_screen(world_.camera().model()).value();
     for (std::size_t i = 0; i < rays_.size(); ++i) {
         Vec3f screen;
         to_screen.multVecMatrix(rays_[i].origin + rays_[i].direction, screen);
@@ -140,7 +140,7 @@ TEST(CameraRays, TakeUnrelatedNumbersForEachPurpose) {
         for (std::size_t i = 0; i < kSamples; ++i) {
             // Where the ray is in focus, every point of the lens sees the same place on the film.
             const Vec3f in_focus = rays[i].origin + rays[i].direction * (kFocus / -rays[i].direction.z);
-            const Vec2f film = world.connect_to_camera(in_focus, {0.5f, 0.5f}, rays[i].time).film;
+            const Vec2f film = world.camera().connect(in_focus, {0.5f, 0.5f}, rays[i].time).film;
             const double each[] = {static_cast<double>(film.x),
                                    static_cast<double>(film.y),
                                    static_cast<double>(samples[i].lens.x),

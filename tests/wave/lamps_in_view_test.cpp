@@ -47,7 +47,7 @@ struct Span {
 };
 
 std::array<Span, 2> lamp_on_film(const World& world, const Vec3f& middle = kInTheMiddle) {
-    const auto on_film = [&](const Vec3f& point) { return world.connect_to_camera(point, {0.5f, 0.5f}, 0.0f).film; };
+    const auto on_film = [&](const Vec3f& point) { return world.camera().connect(point, {0.5f, 0.5f}, 0.0f).film; };
     const Vec2f a = on_film(middle + Vec3f(-0.37f, 0.29f, 0.0f));
     const Vec2f b = on_film(middle + Vec3f(0.37f, -0.29f, 0.0f));
     constexpr double kPixels = kLampSide;
@@ -247,12 +247,12 @@ TEST(LampsInView, WeightedStrategiesOfBdptAddUpToTheLamp) {
 
 TEST(LampsInView, TilesThatNoLampLiesBehindAreLeftOut) {
     const World world = compile(lamp_in_the_dark());
-    EXPECT_TRUE(world.may_show_lamps({0.0f, 0.0f}, {1.0f, 1.0f}));
-    EXPECT_TRUE(world.may_show_lamps({0.5f, 0.5f}, {0.51f, 0.51f}));
-    EXPECT_FALSE(world.may_show_lamps({0.0f, 0.0f}, {0.2f, 1.0f}));
-    EXPECT_FALSE(world.may_show_lamps({0.0f, 0.0f}, {1.0f, 0.2f}));
-    EXPECT_FALSE(world.may_show_lamps({0.8f, 0.0f}, {1.2f, 1.0f}));
-    EXPECT_FALSE(world.may_show_lamps({0.0f, 0.8f}, {1.0f, 1.2f}));
+    EXPECT_TRUE(world.camera().may_show_lamps({0.0f, 0.0f}, {1.0f, 1.0f}));
+    EXPECT_TRUE(world.camera().may_show_lamps({0.5f, 0.5f}, {0.51f, 0.51f}));
+    EXPECT_FALSE(world.camera().may_show_lamps({0.0f, 0.0f}, {0.2f, 1.0f}));
+    EXPECT_FALSE(world.camera().may_show_lamps({0.0f, 0.0f}, {1.0f, 0.2f}));
+    EXPECT_FALSE(world.camera().may_show_lamps({0.8f, 0.0f}, {1.2f, 1.0f}));
+    EXPECT_FALSE(world.camera().may_show_lamps({0.0f, 0.8f}, {1.0f, 1.2f}));
 }
 
 }  // namespace

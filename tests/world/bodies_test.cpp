@@ -28,9 +28,9 @@ Crossing crossing_from(const World& world, float z, const Interior& interior) {
     const Ray ray{.origin = {0.01f, 0.02f, z}, .direction = {0, 0, -1}};
     const Hit hit = intersect(world, ray);
     EXPECT_TRUE(hit.valid());
-    const SurfacePoint point = world.surface_point(hit);
-    EXPECT_TRUE(world.is_boundary(point));
-    return world.crossing(point, interior);
+    const SurfacePoint point = world.geometry().surface_point(hit);
+    EXPECT_TRUE(world.media().is_boundary(point));
+    return world.media().crossing(point, interior);
 }
 
 TEST(Bodies, APointKnowsWhatItIsIn) {
@@ -38,14 +38,14 @@ TEST(Bodies, APointKnowsWhatItIsIn) {
     add_ball(scene, {0, 0, 0}, 2.0f, body(1.33f));
     add_ball(scene, {0, 0, 0.2f}, 1.0f, body(1.5f));
     const World world = compile(std::move(scene));
-    EXPECT_TRUE(world.has_bodies());
-    EXPECT_TRUE(world.interior_at({3, 0, 0}).is_empty());
-    EXPECT_TRUE(world.interior_at({0, -3, 0}).is_empty()) << "below all, on the ray's way";
-    const Interior water = world.interior_at({1.5f, 0, 0});
-    const Interior glass = world.interior_at({0, 0, 0.2f});
+    EXPECT_TRUE(world.traits().has_bodies);
+    EXPECT_TRUE(world.media().interior_at({3, 0, 0}).is_empty());
+    EXPECT_TRUE(world.media().interior_at({0, -3, 0}).is_empty()) << "below all, on the ray's way";
+    const Interior water = world.media().interior_at({1.5f, 0, 0});
+    const Interior glass = world.media().interior_at({0, 0, 0.2f});
     EXPECT_EQ(crossing_from(world, 1.6f, water).outside_ior, 1.33f);
     EXPECT_NE(water.filling(), glass.filling());
-    EXPECT_EQ(world.camera_interior().filling(), glass.filling()) << "the camera stands at the origin";
+    EXPECT_EQ(world.media().camera_interior().filling(), glass.filling()) << "the camera stands at the origin";
 }
 
 TEST(Bodies, AnInnerBoundaryIsRelativeToWhatSurroundsIt) {
@@ -101,8 +101,8 @@ TEST(Bodies, ABlendedBodyIsWholeAndAMaskedOneAThinWall) {
         SceneDesc scene = empty_scene();
         add_ball(scene, {0, 0, -3}, 1.0f, glass);
         const World world = compile(std::move(scene));
-        EXPECT_EQ(world.has_bodies(), mode == AlphaMode::Blend);
-        EXPECT_EQ(world.has_transparency(), mode == AlphaMode::Mask);
+        EXPECT_EQ(world.traits().has_bodies, mode == AlphaMode::Blend);
+        EXPECT_EQ(world.traits().has_transparency, mode == AlphaMode::Mask);
     }
 }
 
@@ -115,7 +115,7 @@ TEST(Bodies, OpaqueAndThinMaterialsHaveNone) {
     SceneDesc scene = empty_scene();
     add_ball(scene, {0, 0, -3}, 1.0f, thin);
     add_ball(scene, {0, 0, -6}, 1.0f, opaque);
-    EXPECT_FALSE(compile(std::move(scene)).has_bodies());
+    EXPECT_FALSE(compile(std::move(scene)).traits().has_bodies);
 }
 
 TEST(Bodies, EachChannelOfSubsurfaceHasItsOwnMeanFreePath) {
@@ -124,7 +124,7 @@ TEST(Bodies, EachChannelOfSubsurfaceHasItsOwnMeanFreePath) {
     wax.override_model = SubsurfaceDesc{.albedo = {0.8f, 0.5f, 0.2f}, .radius = {0.04f, 0.02f, 0.01f}};
     add_ball(scene, {0, 0, 0}, 2.0f, wax);
     const World world = compile(std::move(scene));
-    const HomogeneousMedium* medium = world.medium(world.interior_at(Vec3f(0.0f)));
+    const HomogeneousMedium* medium = world.media().within(world.media().interior_at(Vec3f(0.0f)));
     ASSERT_NE(medium, nullptr);
     const Rgb left = medium->transmittance(0.02f);
     EXPECT_NEAR(left.r, std::exp(-0.5f), 1e-5f);
@@ -154,7 +154,7 @@ std::string said_of_a_ball(const Change& change) {
     change(ball);
     add_object(scene, ball, add_material(scene, body(1.5f)));
     ProblemList problems;
-    EXPECT_TRUE(compile(std::move(scene), kGltfColorSpace, problems).has_bodies());
+    EXPECT_TRUE(compile(std::move(scene), kGltfColorSpace, problems).traits().has_bodies);
     std::string said;
     for (const Problem& problem : problems.all()) said += problem.message;
     return said;

@@ -67,15 +67,16 @@ TEST(CompileGeometry, CopiesAreWhatInstancesAre) {
         if (!of_copy.valid()) continue;
         places.insert(of_copy.instance);
         EXPECT_EQ(of_copy.instance, of_instance.instance);
-        const SurfacePoint a = instanced.surface_point(of_instance);
-        const SurfacePoint b = copied.surface_point(of_copy);
+        const SurfacePoint a = instanced.geometry().surface_point(of_instance);
+        const SurfacePoint b = copied.geometry().surface_point(of_copy);
         EXPECT_NEAR(of_copy.t, of_instance.t, 1e-4f);
         EXPECT_LT(length(a.position - b.position), 1e-4f);
         EXPECT_GT(dot(a.geometric_normal, b.geometric_normal), 0.9999f);
         // Interpolated after the transform of each vertex or before that of the point: shear tells them apart.
         EXPECT_GT(dot(a.shading.normal, b.shading.normal), 0.99f);
-        EXPECT_EQ(is_black(instanced.emission(a, -ray.direction)), is_black(copied.emission(b, -ray.direction)));
-        EXPECT_EQ(instanced.light_at(a) == kNone, copied.light_at(b) == kNone);
+        EXPECT_EQ(is_black(instanced.materials().emission(a, -ray.direction)),
+                  is_black(copied.materials().emission(b, -ray.direction)));
+        EXPECT_EQ(instanced.lights().at(a) == kNone, copied.lights().at(b) == kNone);
     }
     EXPECT_EQ(places.size(), 6u);
 }
@@ -127,7 +128,7 @@ TEST(CompileGeometry, BoundsHoldEverythingThatIsPlaced) {
     const Mat4f transforms[] = {random_transform(random, false), random_transform(random, true)};
     for (const Mat4f& m : transforms) place(scene, shared, m);
     const World world = compile(std::move(scene));
-    const Bounds& bounds = world.bounds();
+    const Bounds& bounds = world.geometry().bounds();
     const auto inside = [&](const Vec3f& p) {
         for (int axis = 0; axis < 3; ++axis)
             if (p[axis] < bounds.min[axis] - 1e-4f || p[axis] > bounds.max[axis] + 1e-4f) return false;
@@ -137,7 +138,7 @@ TEST(CompileGeometry, BoundsHoldEverythingThatIsPlaced) {
         EXPECT_TRUE(inside(p + Vec3f(4, 0, 0)));
         for (const Mat4f& m : transforms) EXPECT_TRUE(inside(transform_point(m, p)));
     }
-    EXPECT_NEAR(world.bounding_radius(), 0.5f * length(bounds.size()), 1e-5f);
+    EXPECT_NEAR(world.geometry().bounding_radius(), 0.5f * length(bounds.size()), 1e-5f);
 }
 
 }  // namespace

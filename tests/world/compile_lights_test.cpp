@@ -35,7 +35,7 @@ TEST(CompileLights, PunctualLightsTakePlaceAndAxisFromTheirNode) {
             scene.lights.push_back(light);
             const World world = compile(std::move(scene));
             const ChosenLight chosen =
-                world.sample_light(position + axis * 2.0f, {{0.5f, 0.5f}, {0.5f, 0.5f}, {0.5f, 0.5f}});
+                world.lights().sample(position + axis * 2.0f, {{0.5f, 0.5f}, {0.5f, 0.5f}, {0.5f, 0.5f}});
             EXPECT_EQ(chosen.expected_samples, 1.0f);
             EXPECT_TRUE(chosen.sample.is_delta);
             EXPECT_GT(dot(chosen.sample.wi, -axis), 0.99999f);
@@ -56,8 +56,8 @@ TEST(CompileLights, SpotsKeepTheirFullIntensityHoweverNarrow) {
             scene.lights.push_back(light);
             const World world = compile(std::move(scene));
             EXPECT_NEAR(
-                world.sample_light(Vec3f(0, 0, -1), {{0.5f, 0.5f}, {0.5f, 0.5f}, {0.5f, 0.5f}}).sample.radiance.g, 3.0f,
-                1e-3f)
+                world.lights().sample(Vec3f(0, 0, -1), {{0.5f, 0.5f}, {0.5f, 0.5f}, {0.5f, 0.5f}}).sample.radiance.g,
+                3.0f, 1e-3f)
                 << "outer " << outer << ", inner share " << inner;
         }
 }
@@ -69,7 +69,8 @@ TEST(CompileLights, RadiometricUnitsDivideLampsOnly) {
         scene.lights.push_back(punctual(type, 6.0f));
         const auto seen = [](const SceneDesc& s) {
             return compile(s)
-                .sample_light(Vec3f(0, 0, -1), {{0.5f, 0.5f}, {0.5f, 0.5f}, {0.5f, 0.5f}})
+                .lights()
+                .sample(Vec3f(0, 0, -1), {{0.5f, 0.5f}, {0.5f, 0.5f}, {0.5f, 0.5f}})
                 .sample.radiance.g;
         };
         EXPECT_FLOAT_EQ(seen(scene), 6.0f);
@@ -81,12 +82,12 @@ TEST(CompileLights, RadiometricUnitsDivideLampsOnly) {
     scene.environment.enabled = true;
     add_object(scene, quad({0, 0, -2}, {1, 0, 0}, {0, 1, 0}), add_material(scene, emissive(Rgb(3.0f))));
     const World world = compile(std::move(scene));
-    EXPECT_EQ(world.environment_radiance({0, 1, 0}), Rgb(1.0f));
+    EXPECT_EQ(world.environment().radiance({0, 1, 0}), Rgb(1.0f));
     Ray ray;
     ray.direction = {0, 0, -1};
     const Hit hit = intersect(world, ray);
     ASSERT_TRUE(hit.valid());
-    EXPECT_EQ(world.emission(world.surface_point(hit), {0, 0, 1}), Rgb(3.0f));
+    EXPECT_EQ(world.materials().emission(world.geometry().surface_point(hit), {0, 0, 1}), Rgb(3.0f));
 }
 
 TEST(CompileLights, ProfilesFollowTheAxesOfTheirLight) {
@@ -108,10 +109,10 @@ TEST(CompileLights, ProfilesFollowTheAxesOfTheirLight) {
         light.to_world[3][0] = 4.0f;
         scene.lights = {light};
         const World world = compile(scene);
-        EXPECT_TRUE(world.has_delta_lights());
+        EXPECT_TRUE(world.traits().has_delta_lights);
         const auto seen_at = [&](const Vec3f& local) {
-            return world
-                .sample_light(transform_point(light.to_world, local), {{0.5f, 0.5f}, {0.5f, 0.5f}, {0.5f, 0.5f}})
+            return world.lights()
+                .sample(transform_point(light.to_world, local), {{0.5f, 0.5f}, {0.5f, 0.5f}, {0.5f, 0.5f}})
                 .sample.radiance.g;
         };
         EXPECT_NEAR(seen_at({0, 0, -2}), 200.0f / 4.0f, 1e-2f);
@@ -128,7 +129,7 @@ TEST(CompileLights, LightsThatAreOffAreLeftOut) {
     LightDesc black = punctual(LightType::Directional, 1.0f);
     black.color = Rgb(0.0f);
     scene.lights.push_back(black);
-    EXPECT_FALSE(compile(scene).has_lights());
+    EXPECT_FALSE(compile(scene).traits().has_lights);
     scene.lights.push_back(punctual(LightType::Point, 1.0f));
     EXPECT_EQ(compile(std::move(scene)).statistics().lights, 1u);
 }
@@ -149,7 +150,7 @@ TEST(CompileLights, EmittersThatAreNotSampledAreKnown) {
     SceneDesc scene = empty_scene();
     const auto glow = add_material(scene, emissive(Rgb(1.0f)));
     for (const float x : {0.0f, 5.0f}) add_object(scene, quad({x, 0, -2}, {1, 0, 0}, {0, 1, 0}), glow);
-    EXPECT_FALSE(compile(scene).has_unsampled_emitters());
+    EXPECT_FALSE(compile(scene).traits().has_unsampled_emitters);
     // Each has two triangles.
     for (const std::size_t most : {4u, 3u, 1u}) {
         SceneDesc limited = scene;
@@ -165,7 +166,7 @@ TEST(CompileLights, EmittersThatAreNotSampledAreKnown) {
         EXPECT_EQ(problems.all().size(), most < 4 ? 1u : 0u);
     }
     scene.instances.front().motion = {Mat4f(), translation({1, 0, 0})};
-    EXPECT_TRUE(compile(scene).has_unsampled_emitters());
+    EXPECT_TRUE(compile(scene).traits().has_unsampled_emitters);
 }
 
 TEST(CompileLights, ConstantEnvironmentsAreColourTimesScale) {
@@ -174,22 +175,22 @@ TEST(CompileLights, ConstantEnvironmentsAreColourTimesScale) {
     scene.environment.color = {1.0f, 0.5f, 0.25f};
     scene.environment.scale = 4.0f;
     const World world = compile(std::move(scene));
-    ASSERT_TRUE(world.has_environment());
-    EXPECT_EQ(world.environment_radiance({0, 1, 0}), Rgb(4.0f, 2.0f, 1.0f));
-    EXPECT_NEAR(world.environment_emission_pdf_solid_angle({0, 1, 0}), 1.0f / (4.0f * kPi), 1e-6f);
+    ASSERT_TRUE(world.traits().has_environment);
+    EXPECT_EQ(world.environment().radiance({0, 1, 0}), Rgb(4.0f, 2.0f, 1.0f));
+    EXPECT_NEAR(world.environment().emission_pdf_solid_angle({0, 1, 0}), 1.0f / (4.0f * kPi), 1e-6f);
     // Beside samples of the BSDF it needs none of its own.
-    EXPECT_TRUE(world.has_lights());
-    EXPECT_FALSE(world.has_sampled_lights());
-    EXPECT_EQ(world.environment_pdf_solid_angle({0, 1, 0}), 0.0f);
-    EXPECT_EQ(world.sample_environment(Vec3f(0.0f), {0.2f, 0.7f}).radiance, Rgb(4.0f, 2.0f, 1.0f));
+    EXPECT_TRUE(world.traits().has_lights);
+    EXPECT_FALSE(world.traits().has_sampled_lights);
+    EXPECT_EQ(world.environment().pdf_solid_angle({0, 1, 0}), 0.0f);
+    EXPECT_EQ(world.environment().sample_all(Vec3f(0.0f), {0.2f, 0.7f}).radiance, Rgb(4.0f, 2.0f, 1.0f));
 }
 
 TEST(CompileLights, DisabledEnvironmentsAreNone) {
     const World world = compile(empty_scene());
-    EXPECT_FALSE(world.has_environment());
-    EXPECT_TRUE(is_black(world.environment_radiance({0, 1, 0})));
-    EXPECT_EQ(world.environment_pdf_solid_angle({0, 1, 0}), 0.0f);
-    EXPECT_EQ(world.environment_emission_pdf_solid_angle({0, 1, 0}), 0.0f);
+    EXPECT_FALSE(world.traits().has_environment);
+    EXPECT_TRUE(is_black(world.environment().radiance({0, 1, 0})));
+    EXPECT_EQ(world.environment().pdf_solid_angle({0, 1, 0}), 0.0f);
+    EXPECT_EQ(world.environment().emission_pdf_solid_angle({0, 1, 0}), 0.0f);
 }
 
 TEST(CompileLights, EnvironmentImagesAreTintedScaledAndTurned) {
@@ -207,16 +208,16 @@ TEST(CompileLights, EnvironmentImagesAreTintedScaledAndTurned) {
     const Vec3f lit = normalize(Vec3f(1, 0, -1));
     {
         const World world = compile(scene);
-        EXPECT_NEAR(world.environment_radiance(lit).r, 6.0f, 1e-4f);
-        EXPECT_NEAR(world.environment_radiance(lit).g, 3.0f, 1e-4f);
-        EXPECT_EQ(world.environment_radiance(lit).b, 0.0f);
-        EXPECT_NEAR(world.environment_radiance(-lit).r, 0.0f, 1e-4f);
+        EXPECT_NEAR(world.environment().radiance(lit).r, 6.0f, 1e-4f);
+        EXPECT_NEAR(world.environment().radiance(lit).g, 3.0f, 1e-4f);
+        EXPECT_EQ(world.environment().radiance(lit).b, 0.0f);
+        EXPECT_NEAR(world.environment().radiance(-lit).r, 0.0f, 1e-4f);
     }
     // A quarter turn counter-clockwise seen from above takes -Z to -X, and +X to -Z.
     scene.environment.rotation = kPi / 2.0f;
     const World world = compile(scene);
-    EXPECT_NEAR(world.environment_radiance(normalize(Vec3f(-1, 0, -1))).r, 6.0f, 1e-4f);
-    EXPECT_NEAR(world.environment_radiance(lit).r, 0.0f, 1e-4f);
+    EXPECT_NEAR(world.environment().radiance(normalize(Vec3f(-1, 0, -1))).r, 6.0f, 1e-4f);
+    EXPECT_NEAR(world.environment().radiance(lit).r, 0.0f, 1e-4f);
     std::filesystem::remove(file);
     EXPECT_THROW((void)compile(scene), SceneError);
 }
@@ -235,8 +236,8 @@ TEST(CompileLights, RadianceImagesAreEnvironmentsToo) {
     scene.environment.scale = 0.5f;
     scene.environment.rotation = kPi;
     const World world = compile(std::move(scene));
-    EXPECT_NEAR(world.environment_radiance(normalize(Vec3f(-1, 0, 1))).g, 4.0f, 0.05f);
-    EXPECT_NEAR(world.environment_radiance(normalize(Vec3f(1, 0, -1))).g, 0.0f, 1e-4f);
+    EXPECT_NEAR(world.environment().radiance(normalize(Vec3f(-1, 0, 1))).g, 4.0f, 0.05f);
+    EXPECT_NEAR(world.environment().radiance(normalize(Vec3f(1, 0, -1))).g, 0.0f, 1e-4f);
     std::filesystem::remove(file);
 }
 

@@ -181,8 +181,8 @@ void expect_the_same_of_columns(const World& world, std::span<const Ray> rays, C
     const ColumnsOf columns(rays);
     std::vector<Hit> hits_of_columns(rays.size());
     std::vector<std::uint8_t> occluded_of_columns(rays.size());
-    world.intersect(columns.columns(), hits_of_columns, coherence, form);
-    world.occluded(columns.columns(), occluded_of_columns, form);
+    world.geometry().intersect(columns.columns(), hits_of_columns, coherence, form);
+    world.geometry().occluded(columns.columns(), occluded_of_columns, form);
     for (std::size_t i = 0; i < rays.size(); ++i) {
         EXPECT_EQ(hits_of_columns[i].t, hits[i].t) << "ray " << i;
         EXPECT_EQ(hits_of_columns[i].u, hits[i].u) << "ray " << i;
@@ -206,7 +206,7 @@ TEST(EmbreeScene, FindsTheNearestTriangleOfASearchThroughAll) {
     for (const QueryForm form : kForms)
         for (const Coherence coherence : kCoherences) {
             std::vector<Hit> hits(rays.size());
-            world.intersect(rays, hits, coherence, form);
+            world.geometry().intersect(rays, hits, coherence, form);
             std::size_t compared = 0;
             std::size_t found = 0;
             for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -223,7 +223,7 @@ TEST(EmbreeScene, FindsTheNearestTriangleOfASearchThroughAll) {
                 ASSERT_EQ(hits[i].triangle, triangle.triangle);
                 EXPECT_NEAR(hits[i].t, expected.t, 2e-4);
 
-                const SurfacePoint point = world.surface_point(hits[i]);
+                const SurfacePoint point = world.geometry().surface_point(hits[i]);
                 const Vec3f on_ray = rays[i].origin + rays[i].direction * hits[i].t;
                 EXPECT_LT(length(point.position - on_ray), 5e-4f);
                 const auto u = static_cast<float>(expected.u);
@@ -247,9 +247,9 @@ TEST(EmbreeScene, OccludedAgreesWithTheSearchUpToTMax) {
     for (const QueryForm form : kForms)
         for (const Coherence coherence : kCoherences) {
             std::vector<std::uint8_t> results(rays.size());
-            world.occluded(rays, results, form);
+            world.geometry().occluded(rays, results, form);
             std::vector<Hit> hits(rays.size());
-            world.intersect(rays, hits, coherence, form);
+            world.geometry().intersect(rays, hits, coherence, form);
             expect_the_same_of_columns(world, rays, coherence, form, hits, results);
             std::size_t compared = 0;
             for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -284,7 +284,7 @@ TEST(EmbreeScene, ClosedSurfacesHaveNoGaps) {
     }
     std::vector<Hit> hits(rays.size());
     for (const QueryForm form : kForms) {
-        world.intersect(rays, hits, Coherence::Incoherent, form);
+        world.geometry().intersect(rays, hits, Coherence::Incoherent, form);
         EXPECT_EQ(std::ranges::count_if(hits, [](const Hit& hit) { return !hit.valid(); }), 0);
     }
 }
@@ -293,8 +293,8 @@ TEST(EmbreeScene, AnEmptyWorldIsMissed) {
     const World world = compile(empty_scene());
     EXPECT_FALSE(intersect(world, Ray{}).valid());
     EXPECT_FALSE(occluded(world, Ray{}));
-    EXPECT_TRUE(world.bounds().empty());
-    EXPECT_EQ(world.bounding_radius(), 1.0f);
+    EXPECT_TRUE(world.geometry().bounds().empty());
+    EXPECT_EQ(world.geometry().bounding_radius(), 1.0f);
 }
 
 /// Packets are filled one ahead, and the first needs a ray.
@@ -304,8 +304,8 @@ TEST(EmbreeScene, NoRaysAreNoPackets) {
     std::vector<Hit> hits;
     std::vector<std::uint8_t> occluded;
     for (const QueryForm form : kForms) {
-        world.intersect(none, hits, Coherence::Incoherent, form);
-        world.occluded(none, occluded, form);
+        world.geometry().intersect(none, hits, Coherence::Incoherent, form);
+        world.geometry().occluded(none, occluded, form);
     }
     EXPECT_TRUE(hits.empty());
 }
@@ -343,12 +343,12 @@ std::vector<Ray> keyed_rays(std::size_t count) {
 /// Share of `rays` that is stopped; fails if intersect, occluded and the forms of query do not decide alike.
 double stopped_share(const World& world, const std::vector<Ray>& rays) {
     std::vector<Hit> first(rays.size());
-    world.intersect(rays, first, Coherence::Incoherent);
+    world.geometry().intersect(rays, first, Coherence::Incoherent);
     for (const QueryForm form : kForms) {
         std::vector<Hit> hits(rays.size());
         std::vector<std::uint8_t> results(rays.size());
-        world.intersect(rays, hits, Coherence::Coherent, form);
-        world.occluded(rays, results, form);
+        world.geometry().intersect(rays, hits, Coherence::Coherent, form);
+        world.geometry().occluded(rays, results, form);
         expect_the_same_of_columns(world, rays, Coherence::Coherent, form, hits, results);
         for (std::size_t i = 0; i < rays.size(); ++i) {
             EXPECT_EQ(hits[i].valid(), first[i].valid()) << "ray " << i;

@@ -39,7 +39,8 @@ class MaterialEvaluation : public testing::Test {
         const Hit hit = intersect(world, Ray{.origin = {x, y, 0}, .direction = {0, 0, -1}});
         EXPECT_TRUE(hit.valid());
         Bsdf storage;
-        return std::get<MetallicRoughness>(world.bsdf(world.surface_point(hit), {0.0f, 0.0f, 1.0f}, 0.0f, storage));
+        return std::get<MetallicRoughness>(
+            world.materials().bsdf(world.geometry().surface_point(hit), {0.0f, 0.0f, 1.0f}, 0.0f, storage));
     }
     void TearDown() override {
         for (const std::filesystem::path& file : files_) std::filesystem::remove(file);
@@ -221,7 +222,7 @@ TEST_F(MaterialEvaluation, EmissionTexturesAreColour) {
     const World world = world_with(material);
     const auto emission_at = [&](float x) {
         const Hit hit = intersect(world, Ray{.origin = {x, 0, 0}, .direction = {0, 0, -1}});
-        return world.emission(world.surface_point(hit), {0, 0, 1});
+        return world.materials().emission(world.geometry().surface_point(hit), {0, 0, 1});
     };
     EXPECT_EQ(emission_at(-0.5f), Rgb(0.0f));
     EXPECT_NEAR(emission_at(0.5f).r, 6.0 * srgb_to_linear(188), 1e-4);
@@ -236,11 +237,11 @@ TEST_F(MaterialEvaluation, UnlitSurfacesShowTheirBaseColourAndEmitNothing) {
     material.emissive = Rgb(1.0f);
     const World world = world_with(material);
     const Hit hit = intersect(world, Ray{.direction = {0, 0, -1}});
-    const SurfacePoint point = world.surface_point(hit);
+    const SurfacePoint point = world.geometry().surface_point(hit);
     EXPECT_TRUE(point.material->unlit);
-    EXPECT_NEAR(world.unlit_color(point).g, 0.4f, 1e-6f);
-    EXPECT_TRUE(is_black(world.emission(point, {0, 0, 1})));
-    EXPECT_FALSE(world.has_lights());
+    EXPECT_NEAR(world.materials().unlit_color(point).g, 0.4f, 1e-6f);
+    EXPECT_TRUE(is_black(world.materials().emission(point, {0, 0, 1})));
+    EXPECT_FALSE(world.traits().has_lights);
 }
 
 TEST_F(MaterialEvaluation, LayersTakeTheirChannels) {
@@ -267,8 +268,8 @@ TEST_F(MaterialEvaluation, LayersTakeTheirChannels) {
     const World world = world_with(material);
     const Hit hit = intersect(world, Ray{.origin = {0.1f, 0.1f, 0}, .direction = {0, 0, -1}});
     Bsdf storage;
-    const auto& surface =
-        std::get<LayeredSurface>(world.bsdf(world.surface_point(hit), {0.0f, 0.0f, 1.0f}, 0.0f, storage));
+    const auto& surface = std::get<LayeredSurface>(
+        world.materials().bsdf(world.geometry().surface_point(hit), {0.0f, 0.0f, 1.0f}, 0.0f, storage));
     constexpr float kHalf = 128.0f / 255.0f;
     constexpr float kQuarter = 64.0f / 255.0f;
     EXPECT_NEAR(surface.coat.strength, 0.8f * kHalf, 1e-5f);
@@ -292,7 +293,7 @@ TEST_F(MaterialEvaluation, AnisotropyTurnsTheFrame) {
     surface_.tangents.assign(4, {1.0f, 0.0f, 0.0f, 1.0f});
     const World world = world_with(material);
     const Hit hit = intersect(world, Ray{.origin = {0.1f, 0.1f, 0}, .direction = {0, 0, -1}});
-    const Frame frame = world.surface_point(hit).shading;
+    const Frame frame = world.geometry().surface_point(hit).shading;
     EXPECT_NEAR(frame.tangent.x, std::cos(kPi / 6.0f), 1e-5f);
     EXPECT_NEAR(frame.tangent.y, std::sin(kPi / 6.0f), 1e-5f);
 }
@@ -304,7 +305,7 @@ TEST_F(MaterialEvaluation, ACoatDoesNotShowTheReliefBelowIt) {
     material.normal_texture.texture = texture(1, {{200, 128, 230, 255}});
     const World world = world_with(material);
     const Hit hit = intersect(world, Ray{.origin = {0.1f, 0.1f, 0}, .direction = {0, 0, -1}});
-    const SurfacePoint point = world.surface_point(hit);
+    const SurfacePoint point = world.geometry().surface_point(hit);
     EXPECT_GT(point.shading.normal.x, 0.3f);
     EXPECT_NEAR(point.coat_normal.z, 1.0f, 1e-6f);
 }
@@ -313,7 +314,8 @@ TEST_F(MaterialEvaluation, ACoatDoesNotShowTheReliefBelowIt) {
 bool is_made_for_the_point(const World& world, float relative_ior) {
     Bsdf storage;
     const Hit hit = intersect(world, Ray{.origin = {0.1f, 0.1f, 0}, .direction = {0, 0, -1}});
-    return &world.bsdf(world.surface_point(hit), {0.0f, 0.0f, 1.0f}, relative_ior, storage) == &storage;
+    return &world.materials().bsdf(world.geometry().surface_point(hit), {0.0f, 0.0f, 1.0f}, relative_ior, storage) ==
+           &storage;
 }
 
 TEST_F(MaterialEvaluation, WhatIsTheSameEverywhereIsEvaluatedOnce) {
@@ -363,7 +365,9 @@ TEST_F(MaterialEvaluation, ABodysInterfaceIsEvaluatedForWhatIsAroundIt) {
     Bsdf storage;
     const Hit hit = intersect(world, Ray{.origin = {0.1f, 0.1f, 0}, .direction = {0, 0, -1}});
     const auto ior = [&](float relative) {
-        return std::get<SmoothDielectric>(world.bsdf(world.surface_point(hit), {0, 0, 1}, relative, storage)).ior;
+        return std::get<SmoothDielectric>(
+                   world.materials().bsdf(world.geometry().surface_point(hit), {0, 0, 1}, relative, storage))
+            .ior;
     };
     EXPECT_EQ(ior(1.5f), 1.5f);
     EXPECT_EQ(ior(1.2f), 1.2f);

@@ -87,16 +87,16 @@ std::vector<Ray> rays_at(float time, std::uint32_t seed) {
 TEST(Motion, RaysHitWhatStandsThereAtTheirTime) {
     for (const std::size_t steps : kStepCounts) {
         const World moving = compile(moving_scene(steps, std::nullopt));
-        EXPECT_TRUE(moving.has_motion());
+        EXPECT_TRUE(moving.traits().has_motion);
         for (const float time : {0.0f, 0.13f, 0.5f, 0.77f, 1.0f}) {
             const World still = compile(moving_scene(steps, time));
-            EXPECT_FALSE(still.has_motion());
+            EXPECT_FALSE(still.traits().has_motion);
             const std::vector<Ray> rays = rays_at(time, 3);
             for (const QueryForm form : {QueryForm::Packet16, QueryForm::Single}) {
                 std::vector<Hit> hits(rays.size());
                 std::vector<Hit> expected(rays.size());
-                moving.intersect(rays, hits, Coherence::Incoherent, form);
-                still.intersect(rays, expected, Coherence::Incoherent, form);
+                moving.geometry().intersect(rays, hits, Coherence::Incoherent, form);
+                still.geometry().intersect(rays, expected, Coherence::Incoherent, form);
                 std::size_t compared = 0;
                 std::size_t different = 0;
                 for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -108,8 +108,8 @@ TEST(Motion, RaysHitWhatStandsThereAtTheirTime) {
                     if (!hits[i].valid()) continue;
                     ++compared;
                     EXPECT_NEAR(hits[i].t, expected[i].t, 1e-3f);
-                    const SurfacePoint point = moving.surface_point(hits[i]);
-                    const SurfacePoint reference = still.surface_point(expected[i]);
+                    const SurfacePoint point = moving.geometry().surface_point(hits[i]);
+                    const SurfacePoint reference = still.geometry().surface_point(expected[i]);
                     EXPECT_LT(length(point.position - (rays[i].origin + rays[i].direction * hits[i].t)), 1e-3f);
                     EXPECT_GT(dot(point.geometric_normal, reference.geometric_normal), 0.999f);
                     // Near a right angle to the triangle, rounding decides whether the normal is used at all.
@@ -129,8 +129,8 @@ TEST(Motion, ShadowRaysAgreeWithRays) {
         const std::vector<Ray> rays = rays_at(time, 8);
         std::vector<Hit> hits(rays.size());
         std::vector<std::uint8_t> occluded(rays.size());
-        world.intersect(rays, hits, Coherence::Incoherent);
-        world.occluded(rays, occluded);
+        world.geometry().intersect(rays, hits, Coherence::Incoherent);
+        world.geometry().occluded(rays, occluded);
         for (std::size_t i = 0; i < rays.size(); ++i) EXPECT_EQ(occluded[i] != 0, hits[i].valid());
     }
 }
@@ -163,7 +163,7 @@ TEST(Motion, SurfacesDoNotShadowThemselves) {
         ray.origin = center - ray.direction * 3.0f + random_direction(random) * 0.5f;
         const Hit hit = intersect(world, ray);
         if (!hit.valid()) continue;
-        const SurfacePoint point = world.surface_point(hit);
+        const SurfacePoint point = world.geometry().surface_point(hit);
         Vec3f wi = random_direction(random);
         if (dot(wi, point.geometric_normal) < 0.0f) wi = -wi;
         Ray leaving;
@@ -181,13 +181,13 @@ TEST(Motion, TheCameraIsWhereItIsAtTheTime) {
     SceneDesc scene = empty_scene();
     scene.cameras[0].motion = flight(6);
     const World moving = compile(scene);
-    EXPECT_TRUE(moving.has_motion());
+    EXPECT_TRUE(moving.traits().has_motion);
     for (const float time : {0.0f, 0.3f, 1.0f}) {
         scene.cameras[0].to_world = transform_at(flight(6), time);
         scene.cameras[0].motion.clear();
         const World still = compile(scene);
-        const Ray ray = moving.generate_ray({0.2f, 0.9f}, {0.5f, 0.5f}, time);
-        const Ray expected = still.generate_ray({0.2f, 0.9f}, {0.5f, 0.5f}, time);
+        const Ray ray = moving.camera().generate_ray({0.2f, 0.9f}, {0.5f, 0.5f}, time);
+        const Ray expected = still.camera().generate_ray({0.2f, 0.9f}, {0.5f, 0.5f}, time);
         EXPECT_EQ(ray.origin, expected.origin);
         EXPECT_EQ(ray.direction, expected.direction);
         EXPECT_EQ(ray.time, time);
@@ -201,7 +201,7 @@ TEST(Motion, LightsThatMoveAreLeftToChance) {
     scene.instances[0].motion = {translation({0, 0, 0}), translation({1, 0, 0})};
     ProblemList problems;
     const World world = compile(scene, "Linear Rec.709 (sRGB)", problems);
-    EXPECT_FALSE(world.has_lights());
+    EXPECT_FALSE(world.traits().has_lights);
     ASSERT_EQ(problems.all().size(), 1u);
     EXPECT_EQ(problems.all()[0].severity, Severity::Note);
     Ray ray;
@@ -211,9 +211,9 @@ TEST(Motion, LightsThatMoveAreLeftToChance) {
     ray.time = 1.0f;
     const Hit hit = intersect(world, ray);
     ASSERT_TRUE(hit.valid());
-    const SurfacePoint point = world.surface_point(hit);
-    EXPECT_EQ(world.emission(point, {0, 0, 1}), Rgb(2.0f));
-    EXPECT_EQ(world.emitter_pdf_solid_angle(ray.origin, point, ray.direction, hit.t), 0.0f);
+    const SurfacePoint point = world.geometry().surface_point(hit);
+    EXPECT_EQ(world.materials().emission(point, {0, 0, 1}), Rgb(2.0f));
+    EXPECT_EQ(world.lights().pdf_solid_angle(ray.origin, point, ray.direction, hit.t), 0.0f);
 }
 
 TEST(MotionSegment, TimesFallBetweenSteps) {

@@ -37,7 +37,7 @@ class PlainSurfaces : public testing::Test {
         return compile(std::move(scene));
     }
     static const PlainSurface* surface(const World& world) {
-        return world.plain_surface(intersect(world, {.direction = {0, 0, -1}}));
+        return world.materials().plain_surface(intersect(world, {.direction = {0, 0, -1}}));
     }
     void TearDown() override { std::filesystem::remove(png_); }
 
@@ -57,7 +57,7 @@ TEST_F(PlainSurfaces, AreMatteOrPlainMetallicRoughness) {
     ASSERT_NE(surface(matte), nullptr);
     ASSERT_NE(surface(matte)->matte, nullptr);
     EXPECT_EQ(std::get<Diffuse>(*surface(matte)->matte).albedo, Rgb(0.5f));
-    EXPECT_EQ(matte.plain_bsdf(intersect(matte, {.direction = {0, 0, -1}})), surface(matte)->matte);
+    EXPECT_EQ(matte.materials().plain_bsdf(intersect(matte, {.direction = {0, 0, -1}})), surface(matte)->matte);
 }
 
 TEST_F(PlainSurfaces, AreNotWhatMirrorsEmitsOrHasMoreLayers) {
@@ -122,21 +122,22 @@ TEST_P(PlainSurfacesWithTextures, HaveTheLobesOfTheirModelAtEveryPoint) {
         const Hit hit = intersect(world, ray);
         if (!hit.valid()) continue;
         const RayCone cone{0.0f, 0.3f * random.next()};
-        const SurfacePoint point = world.surface_point(hit, ray, cone);
-        const PlainSurface* plain = world.plain_surface(hit);
+        const SurfacePoint point = world.geometry().surface_point(hit, ray, cone);
+        const PlainSurface* plain = world.materials().plain_surface(hit);
         ASSERT_NE(plain, nullptr);
-        const HitCoordinates coordinates = world.hit_coordinates(hit, *plain);
+        const HitCoordinates coordinates = world.geometry().hit_coordinates(hit, *plain);
         const Vec2f uv = coordinates.uv0 + coordinates.edge1 * hit.u + coordinates.edge2 * hit.v;
         ASSERT_EQ(plain->texcoord, texcoord);
         const auto set = static_cast<std::size_t>(texcoord);
         ASSERT_NEAR(uv.x, point.uv[set].x, 1e-5f);
         ASSERT_NEAR(uv.y, point.uv[set].y, 1e-5f);
         lookups.clear();
-        world.add_lookups(*plain, point.uv[set], point.footprint[set], lookups);
+        world.materials().add_lookups(*plain, point.uv[set], point.footprint[set], lookups);
         lookups.finish();
-        const MetallicRoughness found = world.lobe(*plain, lookups);
+        const MetallicRoughness found = world.materials().lobe(*plain, lookups);
         Bsdf storage;
-        const auto& expected = std::get<MetallicRoughness>(world.bsdf(point, -ray.direction, 0.0f, storage));
+        const auto& expected =
+            std::get<MetallicRoughness>(world.materials().bsdf(point, -ray.direction, 0.0f, storage));
         for (const auto& [a, b] : {std::pair(found.base.r, expected.base.r), std::pair(found.base.b, expected.base.b),
                                    std::pair(found.metallic, expected.metallic), std::pair(found.f0.g, expected.f0.g),
                                    std::pair(found.alpha_x, expected.alpha_x), std::pair(found.f90, expected.f90)})

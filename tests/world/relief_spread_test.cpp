@@ -90,11 +90,11 @@ class GroovedSurface : public testing::Test {
     /// `width` is that of the ray, in texels.
     static SurfacePoint point_of(const World& world, float width) {
         const Ray ray{.origin = {0.01f, 0.01f, 0}, .direction = {0, 0, -1}};
-        return world.surface_point(intersect(world, ray), ray, {width / 32.0f, 0.0f});
+        return world.geometry().surface_point(intersect(world, ray), ray, {width / 32.0f, 0.0f});
     }
     static Bsdf lobe_of(const World& world, const SurfacePoint& point) {
         Bsdf storage;
-        return world.bsdf(point, {0, 0, 1}, 0.0f, storage);
+        return world.materials().bsdf(point, {0, 0, 1}, 0.0f, storage);
     }
     void TearDown() override { std::filesystem::remove(png_); }
 

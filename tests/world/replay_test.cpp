@@ -37,7 +37,7 @@ TEST(Replay, TakesTimeInEveryFormAndForBothQueries) {
     for (const QueryForm form : {QueryForm::Single, QueryForm::Packet8, QueryForm::Packet16})
         for (const bool occlusion : {false, true})
             for (const Coherence coherence : {Coherence::Coherent, Coherence::Incoherent})
-                EXPECT_GT(world.replay(rays, occlusion, coherence, form), 0.0);
+                EXPECT_GT(world.geometry().replay(rays, occlusion, coherence, form), 0.0);
 }
 
 TEST(Replay, IsOfTheGivenRaysAlone) {
@@ -48,8 +48,8 @@ TEST(Replay, IsOfTheGivenRaysAlone) {
     double of_few = 1.0;
     double of_many = 1.0;
     for (int i = 0; i < 20; ++i) {
-        of_few = std::min(of_few, world.replay(few, false, Coherence::Incoherent, QueryForm::Single));
-        of_many = std::min(of_many, world.replay(many, false, Coherence::Incoherent, QueryForm::Single));
+        of_few = std::min(of_few, world.geometry().replay(few, false, Coherence::Incoherent, QueryForm::Single));
+        of_many = std::min(of_many, world.geometry().replay(many, false, Coherence::Incoherent, QueryForm::Single));
     }
     EXPECT_GT(of_many, 5.0 * of_few);
 }

@@ -40,7 +40,7 @@ TEST(SurfacePoint, NormalsPointOutOfMirroredAndUnevenlyScaledSpheres) {
                 const Ray ray{.origin = from, .direction = normalize(center - from)};
                 const Hit hit = intersect(world, ray);
                 ASSERT_TRUE(hit.valid());
-                const SurfacePoint point = world.surface_point(hit);
+                const SurfacePoint point = world.geometry().surface_point(hit);
                 EXPECT_LT(length(point.position - (ray.origin + ray.direction * hit.t)), 1e-4f);
                 EXPECT_NEAR(length(point.geometric_normal), 1.0f, 1e-5f);
                 EXPECT_NEAR(length(point.shading.normal), 1.0f, 1e-5f);
@@ -60,7 +60,7 @@ TEST(SurfacePoint, NormalsThatPointBackGiveWayToTheTriangles) {
     PrimitiveDesc backwards = quad({0, 0, -1}, {1, 0, 0}, {0, 1, 0});
     for (Vec3f& n : backwards.normals) n = -n;
     const World world = world_of(empty_scene(), backwards, diffuse(Rgb(0.5f)), Mat4f(), Placement::Baked);
-    const SurfacePoint point = world.surface_point(intersect(world, Ray{.direction = {0, 0, -1}}));
+    const SurfacePoint point = world.geometry().surface_point(intersect(world, Ray{.direction = {0, 0, -1}}));
     EXPECT_EQ(point.geometric_normal, Vec3f(0, 0, 1));
     EXPECT_EQ(point.shading.normal, Vec3f(0, 0, 1));
 }
@@ -91,7 +91,7 @@ void expect_flat(const World& world, float time) {
         ray.time = time;
         const Hit hit = intersect(world, ray);
         ASSERT_TRUE(hit.valid());
-        const SurfacePoint point = world.surface_point(hit);
+        const SurfacePoint point = world.geometry().surface_point(hit);
         EXPECT_GT(dot(point.shading.normal, point.geometric_normal), 1.0f - 1e-5f);
         EXPECT_LT(dot(point.geometric_normal, ray.direction), 0.0f);
     }
@@ -113,7 +113,7 @@ TEST(SurfacePoint, AttributesAreInterpolated) {
     surface.colors = {{0, 0, 0.5f, 1}, {1, 0, 0.5f, 1}, {1, 1, 0.5f, 1}, {0, 1, 0.5f, 1}};
     const World world = world_of(empty_scene(), surface, diffuse(Rgb(0.5f)), Mat4f(), Placement::Baked);
     const Ray ray{.origin = {-0.5f, 0.2f, 0.0f}, .direction = {0, 0, -1}};
-    const SurfacePoint point = world.surface_point(intersect(world, ray));
+    const SurfacePoint point = world.geometry().surface_point(intersect(world, ray));
     EXPECT_NEAR(point.uv[0].x, 0.25f, 1e-5f);
     EXPECT_NEAR(point.uv[0].y, 0.4f, 1e-5f);
     EXPECT_NEAR(point.uv[1].x, 10.5f, 1e-4f);
@@ -138,7 +138,7 @@ class NormalMap : public testing::Test {
         const World world = world_of(std::move(scene), std::move(surface), material, to_world, placement);
         const Hit hit = intersect(world, Ray{.origin = target + front, .direction = -front});
         EXPECT_TRUE(hit.valid());
-        const SurfacePoint point = world.surface_point(hit);
+        const SurfacePoint point = world.geometry().surface_point(hit);
         EXPECT_GT(dot(point.geometric_normal, front), 0.999f);
         EXPECT_NEAR(length(point.shading.normal), 1.0f, 1e-5f);
         return point.shading.normal;

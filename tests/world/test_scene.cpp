@@ -145,13 +145,13 @@ World compile(SceneDesc scene, const std::string& working_space, ProblemList& pr
 
 Hit intersect(const World& world, const Ray& ray) {
     Hit hit;
-    world.intersect({&ray, 1}, {&hit, 1}, Coherence::Incoherent);
+    world.geometry().intersect({&ray, 1}, {&hit, 1}, Coherence::Incoherent);
     return hit;
 }
 
 bool occluded(const World& world, const Ray& ray) {
     std::uint8_t result = 0;
-    world.occluded({&ray, 1}, {&result, 1});
+    world.geometry().occluded({&ray, 1}, {&result, 1});
     return result != 0;
 }
 

@@ -60,7 +60,7 @@ TEST(TextureFootprintOfAPoint, IsWhereTheConeMeetsTheTriangle) {
         const Hit hit = intersect(world, ray);
         if (!hit.valid()) continue;
         const float width = 1e-3f;
-        const SurfacePoint point = world.surface_point(hit, ray, {width - 0.5f * hit.t, 0.5f});
+        const SurfacePoint point = world.geometry().surface_point(hit, ray, {width - 0.5f * hit.t, 0.5f});
         if (std::abs(dot(ray.direction, point.geometric_normal)) < 0.05f) continue;
         const Frame around = Frame::from_normal(ray.direction);
         for (const float phase : {0.0f, 1.0f, 2.0f, 3.0f}) {
@@ -68,7 +68,7 @@ TEST(TextureFootprintOfAPoint, IsWhereTheConeMeetsTheTriangle) {
             shifted.origin += (around.tangent * std::cos(phase) + around.bitangent * std::sin(phase)) * (0.5f * width);
             const Hit beside = intersect(world, shifted);
             if (!beside.valid() || beside.triangle != hit.triangle) continue;
-            const SurfacePoint there = world.surface_point(beside);
+            const SurfacePoint there = world.geometry().surface_point(beside);
             for (std::size_t set = 0; set < 2; ++set)
                 EXPECT_NEAR(ellipse_radius(point.footprint[set], there.uv[set] - point.uv[set]), 1.0f, 0.03f);
         }
@@ -79,12 +79,12 @@ TEST(TextureFootprintOfAPoint, IsNothingWithoutWidth) {
     const World world = placed_quad(Mat4f());
     const Ray ray{.origin = {0.2f, 0.3f, 1.0f}, .direction = {0, 0, -1}};
     const Hit hit = intersect(world, ray);
-    EXPECT_TRUE(world.surface_point(hit).footprint[0].is_point());
-    EXPECT_TRUE(world.surface_point(hit, ray, {0.0f, 0.0f}).footprint[0].is_point());
-    EXPECT_FALSE(world.surface_point(hit, ray, {0.0f, 0.01f}).footprint[0].is_point());
+    EXPECT_TRUE(world.geometry().surface_point(hit).footprint[0].is_point());
+    EXPECT_TRUE(world.geometry().surface_point(hit, ray, {0.0f, 0.0f}).footprint[0].is_point());
+    EXPECT_FALSE(world.geometry().surface_point(hit, ray, {0.0f, 0.01f}).footprint[0].is_point());
     // Behind a crossing the width is negative, and as wide.
-    EXPECT_NEAR(world.surface_point(hit, ray, {0.01f, -0.03f}).footprint[1].diameter[0].x,
-                world.surface_point(hit, ray, {0.02f, 0.0f}).footprint[1].diameter[0].x, 1e-6f);
+    EXPECT_NEAR(world.geometry().surface_point(hit, ray, {0.01f, -0.03f}).footprint[1].diameter[0].x,
+                world.geometry().surface_point(hit, ray, {0.02f, 0.0f}).footprint[1].diameter[0].x, 1e-6f);
 }
 
 TEST(TextureFootprintOfAPoint, StaysFiniteAtGrazingAngles) {
@@ -93,7 +93,7 @@ TEST(TextureFootprintOfAPoint, StaysFiniteAtGrazingAngles) {
         const Ray ray{.origin = {-0.9f, 0.05f, height}, .direction = normalize(Vec3f(1.0f, 0.0f, -height))};
         const Hit hit = intersect(world, ray);
         ASSERT_TRUE(hit.valid());
-        const TextureFootprint footprint = world.surface_point(hit, ray, {1e-3f, 0.0f}).footprint[1];
+        const TextureFootprint footprint = world.geometry().surface_point(hit, ray, {1e-3f, 0.0f}).footprint[1];
         for (const Vec2f& diameter : footprint.diameter) {
             EXPECT_TRUE(std::isfinite(diameter.x) && std::isfinite(diameter.y));
             EXPECT_LT(std::hypot(diameter.x, diameter.y), 3.0f);
@@ -108,9 +108,9 @@ TEST(MeanCurvature, OfASphereIsOneOverItsRadius) {
         add_object(scene, quad({0, 0, -20}, {9, 0, 0}, {0, 9, 0}), add_material(scene, diffuse(Rgb(0.5f))));
         const World world = compile(std::move(scene));
         const Hit ball = intersect(world, {.direction = {0, 0, -1}});
-        EXPECT_NEAR(world.mean_curvature(ball), 1.0f / radius, 0.02f / radius);
+        EXPECT_NEAR(world.geometry().mean_curvature(ball), 1.0f / radius, 0.02f / radius);
         const Hit wall = intersect(world, {.origin = {5, 5, 0}, .direction = {0, 0, -1}});
-        EXPECT_EQ(world.mean_curvature(wall), 0.0f);
+        EXPECT_EQ(world.geometry().mean_curvature(wall), 0.0f);
     }
 }
 
@@ -130,12 +130,12 @@ class TextureFiltering : public testing::Test {
     }
     static SurfacePoint point_of(const World& world, float x, float width) {
         const Ray ray{.origin = {x, 0.01f, 0}, .direction = {0, 0, -1}};
-        return world.surface_point(intersect(world, ray), ray, {width, 0.0f});
+        return world.geometry().surface_point(intersect(world, ray), ray, {width, 0.0f});
     }
     static float base_of(const World& world, float x, float width) {
         const SurfacePoint point = point_of(world, x, width);
         Bsdf storage;
-        return std::get<MetallicRoughness>(world.bsdf(point, {0, 0, 1}, 0.0f, storage)).base.g;
+        return std::get<MetallicRoughness>(world.materials().bsdf(point, {0, 0, 1}, 0.0f, storage)).base.g;
     }
     void TearDown() override { std::filesystem::remove(png_); }
 
@@ -187,8 +187,8 @@ TEST_F(TextureFiltering, EmissionAndOpacityAreNotFiltered) {
         const Hit hit = intersect(world, ray);
         if (!hit.valid()) continue;
         const Vec3f eye(0, 0, 1);
-        EXPECT_EQ(world.emission(world.surface_point(hit, ray, {0.5f, 0.0f}), eye),
-                  world.emission(world.surface_point(hit), eye));
+        EXPECT_EQ(world.materials().emission(world.geometry().surface_point(hit, ray, {0.5f, 0.0f}), eye),
+                  world.materials().emission(world.geometry().surface_point(hit), eye));
     }
     EXPECT_NE(intersect(world, {.origin = {kWhite, 0.01f, 0}, .direction = {0, 0, -1}}).valid(),
               intersect(world, {.origin = {kBlack, 0.01f, 0}, .direction = {0, 0, -1}}).valid());
@@ -280,7 +280,7 @@ TEST_F(TextureFiltering, MaterialsDoWithoutAnImageWhosePixelsAreBroken) {
     EXPECT_EQ(world.statistics().missing_textures, 1u);
     EXPECT_EQ(world.statistics().textures, 1u);
     EXPECT_NEAR(base_of(world, kWhite, 0.0f), 0.502886f, 1e-4f) << "the other texture is there";
-    EXPECT_FALSE(world.has_lights()) << "nobody knows which part of the surface shines";
+    EXPECT_FALSE(world.traits().has_lights) << "nobody knows which part of the surface shines";
     EXPECT_TRUE(warns(problems, "/images/0", "materials do without it"));
 }
 
@@ -296,7 +296,9 @@ TEST_F(TextureFiltering, ImagesThatEndEarlyAreShownAsFarAsTheyGo) {
     const auto color_at = [](const World& world, float y) {
         const Hit hit = intersect(world, {.origin = {0.01f, y, 0}, .direction = {0, 0, -1}});
         Bsdf storage;
-        return std::get<MetallicRoughness>(world.bsdf(world.surface_point(hit), {0, 0, 1}, 0.0f, storage)).base;
+        return std::get<MetallicRoughness>(
+                   world.materials().bsdf(world.geometry().surface_point(hit), {0, 0, 1}, 0.0f, storage))
+            .base;
     };
     const World whole = compile(scene);
     scene = cut_off(std::move(scene), std::filesystem::file_size(png_) / 4 * 3);  // PNGs are decoded by 8 KiB
@@ -354,7 +356,7 @@ TEST_F(TextureFiltering, TexelsThatAreNoNumbersAreCounted) {
         const World world = compile(scene, kGltfColorSpace, problems);
         const auto emission_at = [&](float x) {
             const Hit hit = intersect(world, {.origin = {x, 0.1f, 0}, .direction = {0, 0, -1}});
-            return world.emission(world.surface_point(hit), {0, 0, 1});
+            return world.materials().emission(world.geometry().surface_point(hit), {0, 0, 1});
         };
         EXPECT_EQ(emission_at(-0.25f), Rgb(65504.0f, 0.5f, 0.5f)) << budget;
         EXPECT_EQ(emission_at(0.25f), Rgb(0.5f, 0.0f, 0.0f)) << budget;

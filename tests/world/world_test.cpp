@@ -56,7 +56,8 @@ TEST(World, LightSamplesAndHitsAgree) {
         int dark = 0;
         for (int i = 0; i < 3000; ++i) {
             const Vec3f from = random_direction(random) * 1.2f;
-            const ChosenLight chosen = world.sample_light(from, {random.next_2d(), random.next_2d(), random.next_2d()});
+            const ChosenLight chosen =
+                world.lights().sample(from, {random.next_2d(), random.next_2d(), random.next_2d()});
             const LightSample& sample = chosen.sample;
             // What lies in between is another matter; start close to the sampled point.
             const float back = 0.02f * sample.distance;
@@ -64,11 +65,11 @@ TEST(World, LightSamplesAndHitsAgree) {
             const Hit hit = intersect(world, ray);
             if (!hit.valid() || std::abs(hit.t - back) > 1e-3f) continue;  // grazing an edge
             if (hit.triangle != sample.triangle) continue;                 // a neighbour, at the silhouette
-            const SurfacePoint point = world.surface_point(hit);
+            const SurfacePoint point = world.geometry().surface_point(hit);
             const float cosine = abs_dot(point.geometric_normal, sample.wi);
             if (cosine < 0.02f) continue;
-            EXPECT_EQ(world.emission(point, -sample.wi), sample.radiance);
-            const float pdf = world.emitter_pdf_solid_angle(from, point, sample.wi, sample.distance);
+            EXPECT_EQ(world.materials().emission(point, -sample.wi), sample.radiance);
+            const float pdf = world.lights().pdf_solid_angle(from, point, sample.wi, sample.distance);
             if (is_black(sample.radiance)) {
                 ++dark;
                 EXPECT_EQ(pdf, 0.0f);
@@ -96,8 +97,9 @@ TEST(World, OneSidedEmittersAreDarkBehind) {
             const Vec3f from(0.1f, 0.2f, side);
             const Hit hit = intersect(world, Ray{.origin = from, .direction = {0, 0, -side}});
             const bool lit = two_sided || side > 0.0f;
-            EXPECT_EQ(world.emission(world.surface_point(hit), {0, 0, side}), lit ? Rgb(5.0f) : Rgb(0.0f));
-            EXPECT_EQ(is_black(world.sample_light(from, {{0.5f, 0.5f}, {0.5f, 0.5f}, {0.3f, 0.6f}}).sample.radiance),
+            EXPECT_EQ(world.materials().emission(world.geometry().surface_point(hit), {0, 0, side}),
+                      lit ? Rgb(5.0f) : Rgb(0.0f));
+            EXPECT_EQ(is_black(world.lights().sample(from, {{0.5f, 0.5f}, {0.5f, 0.5f}, {0.3f, 0.6f}}).sample.radiance),
                       !lit);
         }
     }
@@ -132,7 +134,7 @@ TEST(World, BothStrategiesSeeTexturedAndTranslucentEmittersAlike) {
     Sum by_chance;
     for (int i = 0; i < kSamples; ++i) {
         const LightSample light =
-            world.sample_light(Vec3f(0.0f), {random.next_2d(), random.next_2d(), random.next_2d()}).sample;
+            world.lights().sample(Vec3f(0.0f), {random.next_2d(), random.next_2d(), random.next_2d()}).sample;
         by_light.add(is_black(light.radiance)
                          ? 0.0
                          : static_cast<double>(light.radiance.g * -light.wi.z / light.pdf_solid_angle));
@@ -142,9 +144,11 @@ TEST(World, BothStrategiesSeeTexturedAndTranslucentEmittersAlike) {
         Ray ray{.direction = {r * std::cos(phi), r * std::sin(phi), -z}};
         ray.alpha_key = static_cast<std::uint32_t>(i) * 2654435761u;
         const Hit hit = intersect(world, ray);
-        by_chance.add(hit.valid() ? static_cast<double>(world.emission(world.surface_point(hit), -ray.direction).g * z *
-                                                        2.0f * kPi)
-                                  : 0.0);
+        by_chance.add(hit.valid()
+                          ? static_cast<double>(
+                                world.materials().emission(world.geometry().surface_point(hit), -ray.direction).g * z *
+                                2.0f * kPi)
+                          : 0.0);
     }
     EXPECT_GT(by_light.mean(), 0.1);
     EXPECT_NEAR(by_light.mean(), by_chance.mean(), 4.5 * std::hypot(by_light.error(), by_chance.error()));
@@ -161,7 +165,7 @@ TEST(World, LightsAreChosenByPower) {
     constexpr int kSamples = 10'000;
     for (int i = 0; i < kSamples; ++i) {
         const ChosenLight chosen =
-            world.sample_light(Vec3f(0.0f), {random.next_2d(), random.next_2d(), random.next_2d()});
+            world.lights().sample(Vec3f(0.0f), {random.next_2d(), random.next_2d(), random.next_2d()});
         const bool is_bright = chosen.sample.wi.x > 0.0f;
         EXPECT_NEAR(chosen.expected_samples, is_bright ? 0.7425f : 0.2575f, 1e-6f);
         bright += is_bright ? 1 : 0;
@@ -208,8 +212,8 @@ TEST(World, TrianglesAreFetchedWhateverTheRaysHaveMet) {
     ASSERT_GT(std::ranges::count_if(hits, is_valid), 10);
     ASSERT_LT(std::ranges::count_if(hits, is_valid), 34);
     const std::vector<Hit> before = hits;
-    world.fetch_triangles(hits);
-    world.fetch_triangles({});
+    world.geometry().fetch_triangles(hits);
+    world.geometry().fetch_triangles({});
     for (std::size_t i = 0; i < hits.size(); ++i) EXPECT_EQ(hits[i].triangle, before[i].triangle);
 }
 
@@ -224,14 +228,14 @@ TEST(World, UnlitSurfacesAreKnownWhereTheyAre) {
     sign.unlit = true;
     const auto unlit = add_material(scene, sign);
     add_object(scene, quad({0, 0, -2}, {1, 0, 0}, {0, 1, 0}), add_material(scene, diffuse(Rgb(0.5f))));
-    EXPECT_FALSE(compile(scene).has_unlit_surfaces()) << "no surface has that material";
+    EXPECT_FALSE(compile(scene).traits().has_unlit_surfaces) << "no surface has that material";
     add_object(scene, quad({0, 0, -3}, {1, 0, 0}, {0, 1, 0}), unlit);
-    EXPECT_TRUE(compile(scene).has_unlit_surfaces());
+    EXPECT_TRUE(compile(scene).traits().has_unlit_surfaces);
     auto& override_model = scene.materials[static_cast<std::size_t>(unlit.index)].override_model;
     for (const MaterialModelDesc& model : {MaterialModelDesc(ConductorDesc{}), MaterialModelDesc(DielectricDesc{}),
                                            MaterialModelDesc(DiffuseDesc{}), MaterialModelDesc(SubsurfaceDesc{})}) {
         override_model = model;
-        EXPECT_FALSE(compile(scene).has_unlit_surfaces()) << "render.json comes first: " << model.index();
+        EXPECT_FALSE(compile(scene).traits().has_unlit_surfaces) << "render.json comes first: " << model.index();
     }
 }
 

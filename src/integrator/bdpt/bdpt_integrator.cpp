@@ -9,12 +9,12 @@ namespace etendue {
 
 std::vector<std::string> BdptIntegrator::unreachable_light(const World& world) const {
     std::vector<std::string> sentences;
-    if (settings_.strategy && !world.has_bodies() && settings_.strategy->edges() > settings_.lengths.max_depth)
+    if (settings_.strategy && !world.traits().has_bodies && settings_.strategy->edges() > settings_.lengths.max_depth)
         sentences.push_back(fmt::format(
             "the image stays black: strategy {},{} makes paths of {} edges, and the longest that are kept have {}",
             settings_.strategy->s, settings_.strategy->t, settings_.strategy->edges(), settings_.lengths.max_depth));
     const bool merges = merging_.at != MergeAt::Nothing && !settings_.strategy;
-    if (world.has_delta_lights() && world.has_specular_surfaces() && !merges)
+    if (world.traits().has_delta_lights && world.traits().has_specular_surfaces && !merges)
         sentences.emplace_back(
             "what point, spot and directional lights send through smooth glass or by way of mirrors cannot be found "
             "where the eye sees it in a mirror or through smooth glass, too; 'vcm' finds it");
@@ -22,7 +22,7 @@ std::vector<std::string> BdptIntegrator::unreachable_light(const World& world) c
 }
 
 std::vector<std::string> BdptIntegrator::ineffective_options(const World& world) const {
-    if (settings_.cached_connections == 0 || !world.has_motion()) return {};
+    if (settings_.cached_connections == 0 || !world.traits().has_motion) return {};
     return {fmt::format(
         "connections to a cache (cache:{}) have no effect where something moves while the shutter is open: each sample "
         "has a time of its own, and is connected pairwise",

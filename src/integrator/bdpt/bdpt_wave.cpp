@@ -55,7 +55,7 @@ void BdptWave::trace(const World& world, const TileJob& job, const IntegratorSet
     context_ = nullptr;
     tile_ = nullptr;
     counters_ = nullptr;
-    if (world.has_lights()) {
+    if (world.traits().has_lights) {
         light_.trace(context, spared.of_light, nullptr, found_, counters);
         if (context.wants(1) && context.wants({.s = 1, .t = 1}))
             lamps_to_camera_.connect(context, light_, camera_connections_,
@@ -72,7 +72,7 @@ void BdptWave::trace(const World& world, const TileJob& job, const IntegratorSet
         };
         for (std::size_t begin = 0; begin < to_light_.size(); begin += kBlock) {
             const std::size_t end = std::min(begin + kBlock, to_light_.size());
-            if (world.has_sampled_lights()) connect_to_lights(context, begin, end);
+            if (world.traits().has_sampled_lights) connect_to_lights(context, begin, end);
             resolve_if_full(light_connections_);
             resolve_if_full(wide_light_connections_);
             connect_to_vertices(context, begin, end);
@@ -140,11 +140,11 @@ void BdptWave::start(const World& world, const TileJob& job, const IntegratorSet
     lamps_.start(
         world, job, settings.lengths, false,
         [&world, &job, &settings, is_wanted](const CameraSample& sample, const Ray& ray, const SurfacePoint& point) {
-            const std::uint32_t light = world.light_at(point);
+            const std::uint32_t light = world.lights().at(point);
             if (!is_wanted || light == kNone) return is_wanted ? 1.0f : 0.0f;
             const SubpathJob of_sample{world, job, settings.lengths, Raised{settings.heuristic}, {}, {}};
             const SubpathDensities arrived =
-                arrive_from_lens(of_sample.mis(), {}, world.connect_to_camera(point.position, sample.lens, ray.time),
+                arrive_from_lens(of_sample.mis(), {}, world.camera().connect(point.position, sample.lens, ray.time),
                                  static_cast<double>(abs_dot(ray.direction, point.geometric_normal)));
             return weight(settings, sums_at_seen_emitter(of_sample.mis(), light, arrived));
         });
@@ -171,7 +171,7 @@ PathLightEnd BdptWave::light_end(std::uint32_t slot) const {
 CameraConnection BdptWave::camera_of(const SubpathJob& job, const PathVertex& eye) const {
     const PathVertex* first = &eye;
     while (first->previous != PathVertex::kNoVertex) first = &eye_.vertices()[first->previous];
-    return job.world.connect_to_camera(first->position, job.samples[eye.slot].lens, job.camera_rays[eye.slot].time);
+    return job.world.camera().connect(first->position, job.samples[eye.slot].lens, job.camera_rays[eye.slot].time);
 }
 
 void BdptWave::on_first_hits(std::span<const Ray> rays, std::span<const Hit> hits) {
@@ -199,10 +199,10 @@ void BdptWave::on_emitter(const SubpathState& state, const SurfacePoint& point, 
                           const SubpathDensities& arrived) {
     if (state.edges < context_->lengths.min_depth) return;
     const World& world = context_->world;
-    const Rgb emitted = world.emission(point, -direction);
+    const Rgb emitted = world.materials().emission(point, -direction);
     if (is_black(emitted)) return;
     StrategySums sums;
-    const std::uint32_t light = world.light_at(point);
+    const std::uint32_t light = world.lights().at(point);
     const float cos_light = -dot(direction, point.geometric_normal);
     if (state.index > kDirectlySeen && light != kNone)
         sums = sums_at_emitter(context_->mis(), state.from, light, point.triangle, direction, cos_light, arrived);
@@ -221,22 +221,22 @@ void BdptWave::on_emitter(const SubpathState& state, const SurfacePoint& point, 
 void BdptWave::on_unlit(const SubpathState& state, const SurfacePoint& point, const Vec3f& direction) {
     // Only what the eye sees directly or in mirrors shows an unlit surface; it lights nothing.
     if (state.only_delta && state.edges >= context_->lengths.min_depth)
-        add(state, context_->world.unlit_color(point), {}, {.position = point.position, .direction = -direction},
-            eye_.words().surface_source(point));
+        add(state, context_->world.materials().unlit_color(point), {},
+            {.position = point.position, .direction = -direction}, eye_.words().surface_source(point));
 }
 
 void BdptWave::on_escape(const SubpathState& state, const Vec3f& direction) {
     const World& world = context_->world;
     const bool is_direct = state.index == kDirectlySeen;
-    if (is_direct && !(world.has_environment() && world.environment_visible_to_camera())) {
+    if (is_direct && !(world.traits().has_environment && world.traits().environment_visible_to_camera)) {
         alpha_[state.slot] = 0.0f;
         return;
     }
-    if (!world.has_environment() || state.edges < context_->lengths.min_depth) return;
+    if (!world.traits().has_environment || state.edges < context_->lengths.min_depth) return;
     StrategySums sums;
     if (!is_direct) sums = sums_at_environment(context_->mis(), state.from, direction, state.departing);
-    add(state, world.environment_radiance(direction), sums,
-        {.light = world.environment(), .direction = -direction, .is_reached_directly = state.is_direct},
+    add(state, world.environment().radiance(direction), sums,
+        {.light = world.environment().light(), .direction = -direction, .is_reached_directly = state.is_direct},
         eye_.words().environment_source());
 }
 

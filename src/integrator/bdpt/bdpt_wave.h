@@ -51,7 +51,7 @@ class BdptWave final : public IntegratorScratch, private LightFinder {
         /// True if the vertex may be connected to those of other samples: each sample has a time and a wavelength of
         /// its own.
         [[nodiscard]] bool is_shared(const ConnectibleVertex& vertex) const {
-            return settings.cached_connections > 0 && !world.has_motion() && !vertex.is_dispersed;
+            return settings.cached_connections > 0 && !world.traits().has_motion && !vertex.is_dispersed;
         }
         [[nodiscard]] bool wants(int edges) const { return edges >= lengths.min_depth && edges <= lengths.max_depth; }
         [[nodiscard]] bool wants(const Strategy& strategy) const {

@@ -35,13 +35,13 @@ void BdptWave::connect_to_lights(const Context& context, std::size_t first, std:
         lit_.push_back(v);
     }
     choices_.resize(lit_.size());
-    world.choose_lights(receivers_, choosing_, choices_);
+    world.lights().choose(receivers_, choosing_, choices_);
     std::array<const MeshLight*, kBlock> meshes;
     std::array<Vec3f, kBlock> points;
     std::array<Vec2f, kBlock> u_triangle;
     for (std::size_t i = 0; i < lit_.size(); ++i) {
         const bool is_wide = eye_.matte_end(to_light_[lit_[i]]).exists();
-        meshes[i] = is_wide ? world.even_mesh_light(choices_[i].light) : nullptr;
+        meshes[i] = is_wide ? world.lights().even_mesh(choices_[i].light) : nullptr;
         points[i] = receivers_[i].position;
         const auto [light, triangle, direction] = to_light_.numbers(lit_[i]);
         u_triangle[i] = triangle;
@@ -57,7 +57,7 @@ void BdptWave::connect_to_lights(const Context& context, std::size_t first, std:
         const LightTree::Choice& choice = choices_[i];
         const MeshLight* mesh = meshes[i];
         if (mesh == nullptr) {
-            to_lights_.push_back({&vertex, world.sample_light(choice, points[i], {light, triangle, direction}), {}});
+            to_lights_.push_back({&vertex, world.lights().sample(choice, points[i], {light, triangle, direction}), {}});
             continue;
         }
         const std::size_t lane = wide_to_lights_.size();
@@ -70,7 +70,7 @@ void BdptWave::connect_to_lights(const Context& context, std::size_t first, std:
         to_light_lanes_.radiance.set(lane, mesh->radiance());
         to_light_lanes_.probability.set(lane, choice.probability);
         to_light_lanes_.choice_ratio.set(
-            lane, world.emission_probability(choice.light) / (choice.probability * on_light.gain));
+            lane, world.emitters().probability(choice.light) / (choice.probability * on_light.gain));
     }
     if (profile != nullptr) profile->use().light_samples += lit_.size();
     stamp(profile, Stage::LightSampling);
@@ -342,8 +342,8 @@ void BdptWave::weigh_wide_between(const Context& context) {
 }
 
 bool BdptWave::asks_for_each(const Context& context) {
-    return eye_.words().are_followed() || context.world.has_motion() || context.world.has_transparency() ||
-           observer_ != nullptr;
+    return eye_.words().are_followed() || context.world.traits().has_motion ||
+           context.world.traits().has_transparency || observer_ != nullptr;
 }
 
 void BdptWave::queue_wide(const ConnectionColumns& lanes, std::size_t count, Connections& connections) {

@@ -7,19 +7,19 @@ namespace etendue {
 
 std::vector<std::string> LightIntegrator::unreachable_light(const World& world) const {
     std::vector<std::string> sentences;
-    if (world.has_specular_surfaces())
+    if (world.traits().has_specular_surfaces)
         sentences.emplace_back(
             "what the eye sees in mirrors or through smooth glass cannot be found by paths from the light and stays "
             "black; 'path' finds it");
-    if (world.has_environment() && world.environment_visible_to_camera())
+    if (world.traits().has_environment && world.traits().environment_visible_to_camera)
         sentences.emplace_back(
             "the environment itself is not seen: paths from the light start there, and no camera can be connected to "
             "what is infinitely far away; 'path' finds it");
-    if (world.has_unlit_surfaces())
+    if (world.traits().has_unlit_surfaces)
         sentences.emplace_back(
             "unlit surfaces (KHR_materials_unlit) stay black: they show their colour to the eye and send no light that "
             "a path could start with; 'path' finds it");
-    if (world.has_unsampled_emitters())
+    if (world.traits().has_unsampled_emitters)
         sentences.emplace_back(
             "surfaces that glow and are not sampled, because they move while the shutter is open or are too many, "
             "start no paths from the light: neither they nor what they light is seen; 'path' finds it");

@@ -28,7 +28,7 @@ void LightWave::trace(const World& world, const TileJob& job, const PathLengths&
         find_first_hits(world, job, samples_, camera_rays_, hits_, tile);
     }
     stamp(job.profile, Stage::Generate);
-    if (world.has_lights()) trace_subpaths(world, job, lengths, tile, counters);
+    if (world.traits().has_lights) trace_subpaths(world, job, lengths, tile, counters);
     // No path from the light tells what the camera sees through: the image is opaque.
     alpha_.assign(count, 1.0f);
     accumulate(job, samples_, found_, alpha_, tile, counters);

@@ -11,11 +11,11 @@ std::vector<std::string> PathIntegrator::unreachable_light(const World& world) c
     std::vector<std::string> notes;
     if (leaves_out_indirect_)
         notes.emplace_back("light that two surfaces or more have scattered is left out; 'path' finds it");
-    if (world.has_delta_lights() && settings_.light_samples == 0)
+    if (world.traits().has_delta_lights && settings_.light_samples == 0)
         notes.emplace_back(
             "point, spot and directional lights are never met by chance: what they give is missing; "
             "'path' finds it");
-    else if (world.has_delta_lights() && world.has_specular_surfaces())
+    else if (world.traits().has_delta_lights && world.traits().has_specular_surfaces)
         notes.emplace_back(
             "what point, spot and directional lights send through smooth glass or by way of mirrors (their "
             "caustics) cannot be found by eye paths and is missing; 'light' finds it");
@@ -23,10 +23,12 @@ std::vector<std::string> PathIntegrator::unreachable_light(const World& world) c
 }
 
 std::vector<std::string> PathIntegrator::ineffective_options(const World& world) const {
-    if (settings_.light_samples <= 1 || (world.has_sampled_lights() && settings_.lengths.max_depth > 1)) return {};
+    if (settings_.light_samples <= 1 || (world.traits().has_sampled_lights && settings_.lengths.max_depth > 1))
+        return {};
     return {fmt::format("{} light samples have no effect: {}", settings_.light_samples,
-                        world.has_sampled_lights() ? "paths have at most 1 edge (--max-depth)"
-                                                   : "no light is sampled here, as the BSDF's samples find all best")};
+                        world.traits().has_sampled_lights
+                            ? "paths have at most 1 edge (--max-depth)"
+                            : "no light is sampled here, as the BSDF's samples find all best")};
 }
 
 std::unique_ptr<IntegratorScratch> PathIntegrator::make_scratch() const {

@@ -28,9 +28,9 @@ void PathWave::trace(const World& world, const TileJob& job, const IntegratorSet
                      std::size_t count, TileBuffer& tile, RenderCounters& counters) {
     const std::span<Ray> camera_rays = std::span(camera_rays_).first(count);
     generate_camera_rays(world, job, first, std::span(samples_).first(count), camera_rays);
-    if (world.has_bodies()) interiors_.assign(kCapacity, world.camera_interior());
-    if (world.chooses_lights_by_receiver()) receivers_.resize(kCapacity);
-    if (world.has_panes()) {
+    if (world.traits().has_bodies) interiors_.assign(kCapacity, world.media().camera_interior());
+    if (world.traits().chooses_lights_by_receiver) receivers_.resize(kCapacity);
+    if (world.traits().has_panes) {
         passed_.assign(kCapacity, 0.0f);
         panes_.resize(kBlock);
     }
@@ -38,7 +38,7 @@ void PathWave::trace(const World& world, const TileJob& job, const IntegratorSet
     if (words_.are_followed()) ranges_.assign(kCapacity, words_.begin_at_eye());
     light_.reset(count, job, counters.brightest.threshold());
     paths_.begin(camera_rays, samples_);
-    if (world.has_textures())
+    if (world.traits().has_textures)
         for (std::size_t i = 0; i < count; ++i)
             paths_.set_cone(i, camera_cone(world, job.full_width, job.full_height, camera_rays[i]));
     std::fill_n(alpha_.begin(), count, 1.0f);
@@ -49,9 +49,9 @@ void PathWave::trace(const World& world, const TileJob& job, const IntegratorSet
                         std::span(hits_).first(active_), counters);
         if (depth == 1)
             hide_unseen_hits(world, camera_rays, std::span(hits_).first(count));
-        else if (world.clips_far())
+        else if (world.traits().clips_far)
             for (std::size_t i = 0; i < active_; ++i)
-                if (path_history::is_seen(paths_.history[i]) && world.is_too_far(paths_.ray(i), hits_[i]))
+                if (path_history::is_seen(paths_.history[i]) && world.camera().is_too_far(paths_.ray(i), hits_[i]))
                     hits_[i] = {};
         if (light_.counts_rays())
             for (std::size_t i = 0; i < active_; ++i) light_.count_ray(paths_.slot[i]);
@@ -74,16 +74,17 @@ void PathWave::trace(const World& world, const TileJob& job, const IntegratorSet
 void PathWave::draw_numbers(const Context& context) {
     const std::span pixel_seeds(paths_.pixel_seed.data() + first_, count_);
     const std::span indices(paths_.index.data() + first_, count_);
-    const bool has_bodies = context.world.has_bodies();
-    const bool ends = context.depth >= context.settings.lengths.max_depth && !has_bodies && !context.world.has_panes();
+    const bool has_bodies = context.world.traits().has_bodies;
+    const bool ends =
+        context.depth >= context.settings.lengths.max_depth && !has_bodies && !context.world.traits().has_panes;
     const auto draw = [&](std::uint32_t dimension, NumberPairs& numbers, bool is_needed = true) {
         if (is_needed && !ends)
             numbers.draw(context.job.sequence, pixel_seeds, indices, dimension);
         else
             numbers.draw_none(count_);
     };
-    if (has_bodies) draw(body_dimension(context.depth, kMedium), medium_, context.world.has_scattering_bodies());
-    if (context.samples_lights() && context.world.has_sampled_lights() && !ends) draw_light_numbers(context, 0);
+    if (has_bodies) draw(body_dimension(context.depth, kMedium), medium_, context.world.traits().has_scattering_bodies);
+    if (context.samples_lights() && context.world.traits().has_sampled_lights && !ends) draw_light_numbers(context, 0);
     draw(bounce_dimension(context.depth, kBsdfDirection), bsdf_direction_);
     draw(bounce_dimension(context.depth, kChoices), choices_);
 }
@@ -111,7 +112,7 @@ void PathWave::draw_light_numbers(const Context& context, std::uint32_t round) {
     const auto draw = [&](BounceDimension which, NumberPairs& numbers) {
         numbers.draw(context.job.sequence, pixel_seeds, indices, bounce_dimension(context.depth, which));
     };
-    if (context.world.chooses_lights())
+    if (context.world.traits().chooses_lights)
         draw(kLightChoice, light_choice_);
     else
         light_choice_.draw_none(count_);
@@ -170,7 +171,7 @@ void PathWave::shade_block(const Context& context, std::size_t first, std::size_
     count_ = count;
     draw_numbers(context);
     stamp(Stage::Numbers);
-    world.fetch_triangles(std::span(hits_).subspan(first, count));
+    world.geometry().fetch_triangles(std::span(hits_).subspan(first, count));
     lanes_.start();
     set_up(context);
     set_up_plain(context);
@@ -221,13 +222,13 @@ void PathWave::keep_survivors(const Context& context, std::size_t& kept) {
                          &paths_.eta_scale, &paths_.pdf_solid_angle})
         survivors.move(*column);
     for (auto* column : {&paths_.slot, &paths_.pixel_seed, &paths_.index, &paths_.history}) survivors.move(*column);
-    if (world.has_motion()) survivors.move(paths_.time);
-    if (world.has_transparency()) survivors.move(paths_.alpha_key);
-    if (world.has_textures()) {
+    if (world.traits().has_motion) survivors.move(paths_.time);
+    if (world.traits().has_transparency) survivors.move(paths_.alpha_key);
+    if (world.traits().has_textures) {
         survivors.move(paths_.cone_width);
         survivors.move(paths_.cone_spread);
     }
-    if (world.has_bodies()) {
+    if (world.traits().has_bodies) {
         survivors.move(paths_.wavelength_nm);
         survivors.for_each([&](std::size_t from, std::size_t to) { interiors_[to] = interiors_[from]; });
     }
@@ -247,7 +248,7 @@ void PathWave::end_path(const Context& context, std::size_t k, PathEnding ending
 }
 
 std::uint32_t PathWave::alpha_key(const Context& context, std::size_t k) const {
-    if (!context.world.has_transparency()) return 0;
+    if (!context.world.traits().has_transparency) return 0;
     return sample_bits(paths_.key(first_ + k), bounce_dimension(context.depth, kAlpha));
 }
 

@@ -30,7 +30,7 @@ namespace etendue {
 
 /// Holds what all stages of shading ask of a path whose ray has hit a surface.
 struct ShadedPath {
-    const PlainSurface* plain = nullptr;        ///< see World::plain_surface
+    const PlainSurface* plain = nullptr;        ///< see Materials::plain_surface
     const MetallicRoughness* glossy = nullptr;  ///< lobe of the path, where many are evaluated at once
     std::uint32_t light = kNone;                ///< light that is sampled
     bool is_wide = false;                       ///< scattered by a lobe that is evaluated for many paths at once

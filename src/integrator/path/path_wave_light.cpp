@@ -51,7 +51,8 @@ void PathWave::sample_lights(const Context& context, const LaneList& paths, std:
         u[place] = light_choice_[k];
     }
     std::array<LightTree::Choice, kBlock> choices;
-    world.choose_lights(std::span(to_light_).first(count), std::span(u).first(count), std::span(choices).first(count));
+    world.lights().choose(std::span(to_light_).first(count), std::span(u).first(count),
+                          std::span(choices).first(count));
     if (context.settings.light_samples > 1)
         for (std::size_t place = 0; place < count; ++place)
             share_estimate(choices[place], light_samples(context, first_ + paths[place], path_history::kOnlyDelta));
@@ -64,11 +65,11 @@ void PathWave::sample_lights(const Context& context, const LaneList& paths, std:
     for (std::size_t place = 0; place < count; ++place) {
         const std::size_t k = paths[place];
         const std::uint32_t light = block_[k].light = choices[place].light;
-        meshes[place] = world.even_mesh_light(light);
+        meshes[place] = world.lights().even_mesh(light);
         points[place] = lanes_.position[k];
         u[place] = light_triangle_[k];
         const bool is_mesh = meshes[place] != nullptr;
-        const bool is_environment = light == world.environment();
+        const bool is_environment = light == world.environment().light();
         by_mesh.add_if(is_mesh, place);
         by_environment.add_if(is_environment, place);
         singly.add_if(!is_mesh && !is_environment, place);
@@ -89,7 +90,7 @@ void PathWave::sample_lights(const Context& context, const LaneList& paths, std:
     if (!by_environment.empty()) {
         const std::size_t samples = by_environment.size();
         for (std::size_t i = 0; i < samples; ++i) u[i] = light_direction_[paths[by_environment[i]]];
-        world.sample_environment_light(std::span(u).first(samples), std::span(environment_samples_).first(samples));
+        world.environment().sample_light(std::span(u).first(samples), std::span(environment_samples_).first(samples));
         for (std::size_t i = 0; i < samples; ++i) {
             const LightTree::Choice& choice = choices[by_environment[i]];
             ChosenLight& light = lights_[paths[by_environment[i]]];
@@ -99,7 +100,8 @@ void PathWave::sample_lights(const Context& context, const LaneList& paths, std:
     }
     for (const std::size_t place : singly) {
         const std::size_t k = paths[place];
-        make_in_place(lights_[k], [&] { return world.sample_light(choices[place], points[place], light_numbers(k)); });
+        make_in_place(lights_[k],
+                      [&] { return world.lights().sample(choices[place], points[place], light_numbers(k)); });
     }
     // What is where those who ask next do not look for it.
     for (const std::size_t place : by_mesh)
@@ -131,7 +133,7 @@ void PathWave::put_light_into_lanes(std::size_t k) {
 
 void PathWave::add_environment(const Context& context) {
     const World& world = context.world;
-    const bool is_shown = world.has_environment() && world.environment_visible_to_camera();
+    const bool is_shown = world.traits().has_environment && world.traits().environment_visible_to_camera;
     LaneList meeting;
     std::array<Vec3f, kBlock> directions;
     for (const std::size_t k : escaped_) {
@@ -139,7 +141,7 @@ void PathWave::add_environment(const Context& context) {
             alpha_[paths_.slot[first_ + k]] = 0.0f;
             continue;
         }
-        if (!world.has_environment() || paths_.edges(first_ + k) < context.settings.lengths.min_depth) continue;
+        if (!world.traits().has_environment || paths_.edges(first_ + k) < context.settings.lengths.min_depth) continue;
         directions[meeting.size()] = paths_.direction[first_ + k];
         meeting.add(k);
     }
@@ -147,14 +149,14 @@ void PathWave::add_environment(const Context& context) {
     if (context.job.profile != nullptr && context.depth > 1)
         context.job.profile->use().bsdf_met_light += meeting.size();
     std::array<EnvironmentRadiance, kBlock> met;
-    world.look_at_environment(std::span(directions).first(meeting.size()), std::span(met).first(meeting.size()));
+    world.environment().look(std::span(directions).first(meeting.size()), std::span(met).first(meeting.size()));
     for (std::size_t m = 0; m < meeting.size(); ++m) {
         const std::size_t i = first_ + meeting[m];
         float weight = 1.0f;
         if (const std::uint32_t samples = samples_of_met_light(context, i); samples > 0)
             weight = met_light_weight(
                 paths_.pdf_solid_angle[i],
-                world.light_probability(receiver(i), world.environment()) * met[m].pdf_solid_angle, samples);
+                world.lights().probability(receiver(i), world.environment().light()) * met[m].pdf_solid_angle, samples);
         add_light(i, met[m].radiance * weight, words_.environment_source());
     }
 }
@@ -165,21 +167,21 @@ void PathWave::add_emission(const Context& context, std::size_t k) {
     if (paths_.edges(i) < context.settings.lengths.min_depth) return;
     if (context.depth == 1 && lamps_.finds(hits_[i])) return;
     const Vec3f direction = paths_.direction[i];
-    const Rgb emitted = context.world.emission(point, -direction);
+    const Rgb emitted = context.world.materials().emission(point, -direction);
     if (is_black(emitted)) return;
     if (context.job.profile != nullptr && context.depth > 1) ++context.job.profile->use().bsdf_met_light;
     float weight = 1.0f;
     if (const std::uint32_t samples = samples_of_met_light(context, i); samples > 0)
         weight = met_light_weight(
             paths_.pdf_solid_angle[i],
-            context.world.emitter_pdf_solid_angle(receiver(i), point, direction, passed(i) + hits_[i].t), samples);
+            context.world.lights().pdf_solid_angle(receiver(i), point, direction, passed(i) + hits_[i].t), samples);
     add_light(i, emitted * weight, words_.surface_source(point));
 }
 
 void PathWave::queue_direct_light(const Context& context, const LaneList& paths, std::uint32_t round) {
     lanes_.weigh_light(count_, paths_, first_);
     if (context.job.profile != nullptr) context.job.profile->use().light_samples += paths.size();
-    if (words_.are_followed() || context.world.has_bodies()) {
+    if (words_.are_followed() || context.world.traits().has_bodies) {
         for (const std::size_t k : paths)
             if (block_[k].is_wide && lanes_.arrives[k] != 0.0f) queue_by_lanes(context, k, round);
     } else {
@@ -190,7 +192,7 @@ void PathWave::queue_direct_light(const Context& context, const LaneList& paths,
 }
 
 void PathWave::queue_by_lanes(const Context& context, std::uint32_t round) {
-    const bool has_transparency = context.world.has_transparency();
+    const bool has_transparency = context.world.traits().has_transparency;
     for (std::size_t l = 0; l < count_; l += Wide::kWidth) {
         const std::size_t i = first_ + l;
         std::array<std::uint32_t, Wide::kWidth> alpha_keys{};
@@ -216,7 +218,7 @@ void PathWave::queue_singly(const Context& context, std::size_t k, std::uint32_t
     const SurfacePoint& point = path.point;
     Rgb contribution = paths_.throughput[first_ + k] * path.towards_light.f_cos * light.radiance *
                        light_sample_scale(lights_[k], path.towards_light.pdf_solid_angle);
-    if (context.world.has_bodies())
+    if (context.world.traits().has_bodies)
         contribution *= path.wavelength.weight *
                         transmittance(context.world,
                                       path.crossing ? beyond(*path.crossing, point, light.wi) : interiors_[first_ + k],
@@ -231,7 +233,7 @@ void PathWave::queue_singly(const Context& context, std::size_t k, std::uint32_t
 
 void PathWave::queue_by_lanes(const Context& context, std::size_t k, std::uint32_t round) {
     Rgb contribution = lanes_.contribution[k];
-    if (context.world.has_bodies())
+    if (context.world.traits().has_bodies)
         contribution *= transmittance(context.world, interiors_[first_ + k], lanes_.light_distance[k]);
     Ray ray;
     ray.origin = lanes_.shadow_origin[k];
@@ -256,9 +258,9 @@ void PathWave::queue_direct_light_in_medium(const Context& context, std::size_t 
     if (context.job.profile != nullptr) context.job.profile->use().light_samples += samples;
     for (std::uint32_t round = 0; round < samples; ++round) {
         const LightNumbers numbers = round == 0 ? light_numbers(k) : light_numbers(context, k, round);
-        LightTree::Choice choice = context.world.choose_light(position, numbers.light);
+        LightTree::Choice choice = context.world.lights().choose(position, numbers.light);
         share_estimate(choice, samples);
-        const ChosenLight chosen = context.world.sample_light(choice, position, numbers);
+        const ChosenLight chosen = context.world.lights().sample(choice, position, numbers);
         const LightSample& light = chosen.sample;
         if (is_black(light.radiance)) continue;
         const float phase = medium.phase.pdf_solid_angle(-paths_.direction[i], light.wi);

@@ -23,11 +23,11 @@ void PathWave::set_up(const Context& context) {
     for (const std::size_t k : escaped_) end_path(context, k, PathEnding::Escaped);
     for (const std::size_t k : has_hit) {
         const std::size_t i = first_ + k;
-        if (world.has_bodies() && scatter_in_medium(context, k)) {
+        if (world.traits().has_bodies && scatter_in_medium(context, k)) {
             lanes_.goes_on.set(k, 1.0f);
             continue;
         }
-        const PlainSurface* const plain = block_[k].plain = world.plain_surface(hits_[i]);
+        const PlainSurface* const plain = block_[k].plain = world.materials().plain_surface(hits_[i]);
         if (plain == nullptr && !set_up_any(context, k)) continue;
         if (paths_.edges(i) < context.settings.lengths.max_depth ||
             (plain == nullptr && singles_[k].point.material->is_pane))
@@ -42,11 +42,11 @@ bool PathWave::set_up_any(const Context& context, std::size_t k) {
     const std::size_t i = first_ + k;
     set_up_singly(context, k);
     SurfacePoint& point = singles_[k].point;
-    if (world.has_bodies() && world.is_boundary(point))
+    if (world.traits().has_bodies && world.media().is_boundary(point))
         singles_[k].crossing.emplace(InPlace{[&] {
             return hits_[i].in_contact
-                       ? world.contact_crossing(point, interiors_[i], hits_[i], paths_.ray(i), paths_.cone(i))
-                       : world.crossing(point, interiors_[i]);
+                       ? world.media().contact_crossing(point, interiors_[i], hits_[i], paths_.ray(i), paths_.cone(i))
+                       : world.media().crossing(point, interiors_[i]);
         }});
     if (point.material->is_pane) panes_[k] = {receiver(i), passed(i) + hits_[i].t};
     on_emitter_.add_if(point.material->emits, k);
@@ -58,7 +58,7 @@ bool PathWave::set_up_any(const Context& context, std::size_t k) {
     if (!point.material->unlit) return true;
     // Only what the eye sees directly or in mirrors shows an unlit surface; it lights nothing.
     if (paths_.is(path_history::kOnlyDelta, i) && paths_.edges(i) >= context.settings.lengths.min_depth)
-        add_light(i, world.unlit_color(point), words_.surface_source(point));
+        add_light(i, world.materials().unlit_color(point), words_.surface_source(point));
     end_path(context, k, PathEnding::Unlit);
     return false;
 }
@@ -67,7 +67,7 @@ void PathWave::set_up_singly(const Context& context, std::size_t k) {
     const std::size_t i = first_ + k;
     block_[k].plain = nullptr;
     make_in_place(singles_[k].point,
-                  [&] { return context.world.surface_point(hits_[i], paths_.ray(i), paths_.cone(i)); });
+                  [&] { return context.world.geometry().surface_point(hits_[i], paths_.ray(i), paths_.cone(i)); });
     singles_[k].crossing.reset();
 }
 
@@ -84,15 +84,15 @@ void PathWave::set_up_plain(const Context& context) {
         if (plain == nullptr) continue;
         any = true;
         const Hit& hit = hits_[first_ + k];
-        lanes_.set_hit(k, world.hit_triangle(hit), {hit.u, hit.v});
-        if (words_.are_followed()) singles_[k].point.material = world.material(hit);
+        lanes_.set_hit(k, world.geometry().hit_triangle(hit), {hit.u, hit.v});
+        if (words_.are_followed()) singles_[k].point.material = world.materials().at(hit);
         on_texture_.add_if(plain->textured != nullptr, k);
     }
     if (any) lanes_.set_up_points(count_);
     if (on_texture_.empty()) return;
     for (const std::size_t k : on_texture_) {
         const Hit& hit = hits_[first_ + k];
-        textured_.set_hit(k, world.hit_coordinates(hit, *block_[k].plain),
+        textured_.set_hit(k, world.geometry().hit_coordinates(hit, *block_[k].plain),
                           std::abs(paths_.cone(first_ + k).width_at(hit.t)));
     }
     textured_.set_up(lanes_, count_);
@@ -103,16 +103,16 @@ void PathWave::look_up_textures(const Context& context) {
     const World& world = context.world;
     lookups_.clear();
     for (const std::size_t k : on_texture_)
-        world.add_lookups(*block_[k].plain, textured_.uv[k], textured_.footprint(k), lookups_);
+        world.materials().add_lookups(*block_[k].plain, textured_.uv[k], textured_.footprint(k), lookups_);
     lookups_.finish();
     for (const std::size_t k : on_texture_) {
-        textured_lobes_[k] = world.lobe(*block_[k].plain, lookups_);
+        textured_lobes_[k] = world.materials().lobe(*block_[k].plain, lookups_);
         if (!textured_lobes_[k].is_plain()) set_up_singly(context, k);
     }
 }
 
 void PathWave::make_scattering(const Context& context) {
-    const bool samples_lights = context.samples_lights() && context.world.has_sampled_lights();
+    const bool samples_lights = context.samples_lights() && context.world.traits().has_sampled_lights;
     on_gloss_.clear();
     sampling_.clear();
     for (const std::size_t k : on_surface_) {
@@ -159,8 +159,8 @@ void PathWave::make_scattering_singly(const Context& context, std::size_t k) {
     if (single.chooses_wavelength)
         single.wavelength = world.spectral_response().sample(
             sample_2d(context.job.sequence, paths_.key(i), body_dimension(context.depth, kWavelength)).x);
-    const Bsdf& bsdf =
-        world.bsdf(point, wo, crossing ? crossing->relative_ior(single.wavelength.nm) : 0.0f, single.storage);
+    const Bsdf& bsdf = world.materials().bsdf(point, wo, crossing ? crossing->relative_ior(single.wavelength.nm) : 0.0f,
+                                              single.storage);
     const auto* diffuse = std::get_if<Diffuse>(&bsdf);
     if (const auto* lobe = std::get_if<MetallicRoughness>(&bsdf); lobe != nullptr && lobe->is_plain() && !crossing)
         path.glossy = lobe;
@@ -213,9 +213,9 @@ void PathWave::scatter_by_lanes(const Context& context) {
     if (context.job.profile != nullptr)
         for (const std::size_t k : on_surface_)
             if (block_[k].is_wide) count_sample(context, k, sample_of_lane(k));
-    if (world.has_textures()) bend_cones(world);
+    if (world.traits().has_textures) bend_cones(world);
     lanes_.scatter(count_, paths_, first_);
-    if (!world.has_transparency() && !words_.are_followed()) return;
+    if (!world.traits().has_transparency && !words_.are_followed()) return;
     for (const std::size_t k : on_surface_) {
         if (!block_[k].is_wide || lanes_.goes_on[k] == 0.0f) continue;
         paths_.alpha_key.set(first_ + k, alpha_key(context, k));
@@ -279,7 +279,7 @@ bool PathWave::scatter_at_surface(const Context& context, std::size_t k) {
     paths_.pdf_solid_angle.set(i, sample.pdf_solid_angle);
     paths_.history.set(i, sample.is_delta ? path_history::after_delta(paths_.history[i])
                                           : path_history::after_lobe(paths_.history[i], 1));
-    if (world.has_textures()) bend_cone(world, k, arriving_cone(k), point.geometric_normal, sample);
+    if (world.traits().has_textures) bend_cone(world, k, arriving_cone(k), point.geometric_normal, sample);
     if (words_.are_followed())
         follow(k, surface_event(scattering, sample.wi, sample.is_delta, TransportMode::Radiance,
                                 words_.label(world, point)));
@@ -301,7 +301,7 @@ bool PathWave::scatter_at_surface(const Context& context, std::size_t k) {
 
 bool PathWave::scatter_in_medium(const Context& context, std::size_t k) {
     const std::size_t i = first_ + k;
-    const HomogeneousMedium* medium = context.world.medium(interiors_[i]);
+    const HomogeneousMedium* medium = context.world.media().within(interiors_[i]);
     if (medium == nullptr) return false;
     const MediumSample sample = medium->sample(paths_.throughput[i], hits_[i].t, medium_[k]);
     paths_.throughput.set(i, paths_.throughput[i] * sample.weight);
@@ -310,7 +310,7 @@ bool PathWave::scatter_in_medium(const Context& context, std::size_t k) {
 
     const Vec3f wo = -paths_.direction[i];
     const Vec3f position = paths_.origin[i] - wo * sample.distance;
-    const bool samples_lights = context.samples_lights() && context.world.has_lights_in_media();
+    const bool samples_lights = context.samples_lights() && context.world.traits().has_lights_in_media;
     if (samples_lights && paths_.edges(i) >= context.settings.lengths.min_depth)
         queue_direct_light_in_medium(context, k, position, *medium);
     const Vec3f direction = medium->phase.sample(wo, bsdf_direction_[k]);

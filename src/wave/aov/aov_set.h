@@ -70,7 +70,7 @@ struct AovSet {
     }
     /// Returns how the automaton reads the light of this index in `world`.
     [[nodiscard]] Source source_of_light(const World& world, std::uint32_t light) const {
-        const Emitter& emitter = world.emitter(light);
+        const Emitter& emitter = world.lights().emitter(light);
         if (emitter.instance != kNone) return source_of_instance(emitter.instance);
         if (emitter.lamp != kNone) return {SourceEvent::Lamp, light_label(emitter.lamp)};
         return environment_source();

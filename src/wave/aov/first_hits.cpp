@@ -32,8 +32,9 @@ class FirstHit {
           hit_(hit),
           wo_(-ray.direction),
           ray_(ray),
-          point_(world.surface_point(
-              hit, ray, world.has_textures() ? camera_cone(world, job.full_width, job.full_height, ray) : RayCone{})) {}
+          point_(world.geometry().surface_point(
+              hit, ray,
+              world.traits().has_textures ? camera_cone(world, job.full_width, job.full_height, ray) : RayCone{})) {}
 
     void append(FirstHitValue value, std::vector<float>& to) {
         const auto put = [&](std::initializer_list<float> numbers) { to.insert(to.end(), numbers); };
@@ -44,7 +45,7 @@ class FirstHit {
         };
         switch (value) {
             case FirstHitValue::Depth:
-                return put({world_.depth(point_.position, ray_.time)});
+                return put({world_.camera().depth(point_.position, ray_.time)});
             case FirstHitValue::Position: {
                 Vec3f position = point_.position;
                 if (world_.origin() != Vec3d(0.0)) position = Vec3f(Vec3d(position) + world_.origin());
@@ -65,7 +66,7 @@ class FirstHit {
             case FirstHitValue::ObjectId:
                 return put({static_cast<float>(hit_.instance + 1)});
             case FirstHitValue::MaterialId:
-                return put({static_cast<float>(world_.material_index(point_) + 1)});
+                return put({static_cast<float>(world_.materials().index(point_) + 1)});
             case FirstHitValue::Motion: {
                 // What is behind the camera then has no place on the film.
                 const std::optional<Vec2f> first = position_on_film(0.0f);
@@ -96,7 +97,7 @@ class FirstHit {
         then.time = time;
         constexpr Vec2f kMiddleOfLens{0.5f, 0.5f};
         const CameraConnection view =
-            world_.connect_to_camera(world_.surface_point(then).position, kMiddleOfLens, time);
+            world_.camera().connect(world_.geometry().surface_point(then).position, kMiddleOfLens, time);
         if (!(view.importance_area > 0.0f)) return std::nullopt;
         return Vec2f(view.film.x * static_cast<float>(job_.full_width),
                      view.film.y * static_cast<float>(job_.full_height));
@@ -115,12 +116,13 @@ class FirstHit {
         albedo_.emplace();
         if (point_.material->unlit) return *albedo_;
         float ior = 0.0f;
-        if (world_.has_bodies() && world_.is_boundary(point_))
-            ior = (hit_.in_contact ? world_.contact_crossing(point_, world_.camera_interior(), hit_, ray_, RayCone{})
-                                   : world_.crossing(point_, world_.camera_interior()))
+        if (world_.traits().has_bodies && world_.media().is_boundary(point_))
+            ior = (hit_.in_contact ? world_.media().contact_crossing(point_, world_.media().camera_interior(), hit_,
+                                                                     ray_, RayCone{})
+                                   : world_.media().crossing(point_, world_.media().camera_interior()))
                       .relative_ior(0.0f);
         Bsdf storage;
-        const Bsdf& bsdf = world_.bsdf(point_, wo_, ior, storage);
+        const Bsdf& bsdf = world_.materials().bsdf(point_, wo_, ior, storage);
         const Scattering scattering(bsdf, point_.shading, point_.geometric_normal, wo_);
         constexpr std::uint32_t kSamples = 4;
         for (std::uint32_t i = 0; i < kSamples; ++i) {
@@ -152,7 +154,7 @@ class FirstHit {
 void find_ids(const World& world, const AovSet& aovs, const Hit& hit, std::span<std::uint32_t> ids) {
     for (std::size_t m = 0; m < aovs.mattes.size(); ++m) {
         const MatteIds& matte = aovs.mattes[m];
-        ids[m] = matte.ids[matte.by_material ? world.material_index(hit) : hit.instance];
+        ids[m] = matte.ids[matte.by_material ? world.materials().index(hit) : hit.instance];
     }
 }
 
@@ -170,7 +172,7 @@ void find_first_hits(const World& world, const TileJob& job, std::span<const Cam
         if (!hits[i].valid()) continue;
         found.set_distance(i, hits[i].t);
         if (aovs.layout.is_deep)
-            found.depth(i) = world.depth(rays[i].origin + rays[i].direction * hits[i].t, rays[i].time);
+            found.depth(i) = world.camera().depth(rays[i].origin + rays[i].direction * hits[i].t, rays[i].time);
         find_ids(world, aovs, hits[i], found.ids(i));
         if (aovs.values.empty() && aovs.nearest.empty()) continue;
         FirstHit hit(world, job, samples[i], rays[i], hits[i]);

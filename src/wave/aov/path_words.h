@@ -67,7 +67,7 @@ class PathWords {
 
     /// Returns how the automaton reads the material at `point`; without meaning if words are not followed.
     [[nodiscard]] std::uint16_t label(const World& world, const SurfacePoint& point) const {
-        return automaton_ != nullptr ? automaton_->material_label(world.material_index(point)) : std::uint16_t{0};
+        return automaton_ != nullptr ? automaton_->material_label(world.materials().index(point)) : std::uint16_t{0};
     }
     [[nodiscard]] AovSet::Source surface_source(const SurfacePoint& point) const {
         return are_followed() ? aovs_->source_of_instance(point.instance) : AovSet::Source{};

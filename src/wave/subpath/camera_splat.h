@@ -25,7 +25,7 @@ struct CameraView {
 /// the window would show it.
 [[nodiscard]] inline std::optional<CameraView> view_from_camera(const World& world, const TileJob& job,
                                                                 const Vec3f& position, Vec2f lens, float time) {
-    CameraView view{.camera = world.connect_to_camera(position, lens, time)};
+    CameraView view{.camera = world.camera().connect(position, lens, time)};
     if (!(view.camera.importance_area > 0.0f)) return std::nullopt;
     view.pixel = {view.camera.film.x * static_cast<float>(job.full_width),
                   view.camera.film.y * static_cast<float>(job.full_height)};
@@ -33,7 +33,7 @@ struct CameraView {
     const Vec3f to_lens = view.camera.lens - position;
     view.distance = length(to_lens);
     view.direction = to_lens * (1.0f / view.distance);
-    if (job.aovs != nullptr && job.aovs->layout.is_deep) view.depth = world.depth(position, time);
+    if (job.aovs != nullptr && job.aovs->layout.is_deep) view.depth = world.camera().depth(position, time);
     return view;
 }
 

@@ -28,7 +28,7 @@ class LampsToCamera {
             const float time = job.camera_rays[slot].time;
             const auto view = view_from_camera(world, job.job, emission.sample.position, lens_[slot], time);
             if (!view) continue;
-            const SurfaceEmission emitted = world.surface_emission(emission, view->direction);
+            const SurfaceEmission emitted = world.emitters().surface_emission(emission, view->direction);
             if (is_black(emitted.radiance)) continue;
             const float share = weigh(emission, view->camera, emitted.cosine);
             if (share == 0.0f) continue;

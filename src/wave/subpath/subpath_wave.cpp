@@ -19,16 +19,16 @@ Wavelength SubpathJob::wavelength(std::uint32_t slot) const {
 bool SubpathJob::needs(SubpathEnd end, SubpathDimension which) const {
     switch (which) {
         case SubpathDimension::Medium:
-            return world.has_scattering_bodies();
+            return world.traits().has_scattering_bodies;
         case SubpathDimension::LightChoice:
-            return end == SubpathEnd::AtEye ? world.chooses_lights() : world.has_lens();
+            return end == SubpathEnd::AtEye ? world.traits().chooses_lights : world.traits().has_lens;
         default:
             return true;
     }
 }
 
 std::uint32_t SubpathJob::connection_key(SubpathEnd end, int index, std::uint32_t slot) const {
-    if (!world.has_transparency()) return 0;
+    if (!world.traits().has_transparency) return 0;
     // Another one than that of the subpath's own ray.
     return ~sample_bits(samples[slot].key, subpath_dimension(end, index, SubpathDimension::Alpha));
 }
@@ -57,9 +57,9 @@ void SubpathWave::trace(const SubpathJob& job, int roulette_depth, LightFinder* 
                              : from_camera               ? RayKind::Primary
                                                          : RayKind::Bounce;
         intersect_batch(job.world, job.job, kind, rays_, hits_, counters);
-        if (job.world.clips_far() && end_ == SubpathEnd::AtEye)
+        if (job.world.traits().clips_far && end_ == SubpathEnd::AtEye)
             for (std::size_t i = 0; i < states_.size(); ++i)
-                if (states_[i].index == 1 && job.world.is_too_far(rays_[i], hits_[i])) hits_[i] = {};
+                if (states_[i].index == 1 && job.world.camera().is_too_far(rays_[i], hits_[i])) hits_[i] = {};
         if (light.counts_rays())
             for (const SubpathState& state : states_) light.count_ray(state.slot);
         if (from_camera && finder != nullptr) finder->on_first_hits(rays_, hits_);
@@ -87,7 +87,7 @@ std::size_t SubpathWave::bytes() const {
 }
 
 void SubpathWave::begin_at_eye(const SubpathJob& job) {
-    if (job.world.has_bodies()) interiors_.assign(states_.size(), job.world.camera_interior());
+    if (job.world.traits().has_bodies) interiors_.assign(states_.size(), job.world.media().camera_interior());
     for (std::size_t i = 0; i < states_.size(); ++i) {
         states_[i].slot = static_cast<std::uint32_t>(i);
         states_[i].from = rays_[i].origin;
@@ -103,7 +103,7 @@ void SubpathWave::begin_at_lights(const SubpathJob& job) {
     const auto draw = [&](std::uint32_t which, NumberPairs& numbers) {
         numbers.draw(job.job.sequence, keys_, kFirstLightDimension + which);
     };
-    if (world.chooses_emitters())
+    if (world.traits().chooses_emitters)
         draw(kEmitterChoice, light_choice_);
     else
         light_choice_.draw_none(keys_.size());
@@ -114,7 +114,7 @@ void SubpathWave::begin_at_lights(const SubpathJob& job) {
     for (std::size_t i = 0; i < job.samples.size(); ++i) {
         const EmissionNumbers u{triangle_[i], position_[i], direction_[i]};
         const Emission& emission = emissions_[i];
-        make_in_place(emissions_[i], [&] { return world.sample_emission(light_choice_[i], u, rays_[i].time); });
+        make_in_place(emissions_[i], [&] { return world.emitters().sample(light_choice_[i], u, rays_[i].time); });
         if (job.lengths.max_depth < edges_to_connect(world) || is_black(emission.weight)) continue;
         const EmissionSample& sample = emission.sample;
         SubpathState state;
@@ -127,7 +127,7 @@ void SubpathWave::begin_at_lights(const SubpathJob& job) {
         states_[kept] = state;
         rays_[kept] = emission.ray;
         rays_[kept].alpha_key = sample_bits(keys_[i], kFirstLightDimension);
-        if (world.has_bodies()) interiors_.push_back(world.light_interior(emission));
+        if (world.traits().has_bodies) interiors_.push_back(world.emitters().interior(emission));
         ++kept;
     }
     states_.resize(kept);
@@ -145,7 +145,7 @@ void SubpathWave::draw_numbers(const SubpathJob& job) {
     };
     draw(SubpathDimension::Scattering, scattering_);
     draw(SubpathDimension::Choices, choices_);
-    if (job.world.has_bodies()) draw(SubpathDimension::Medium, medium_);
+    if (job.world.traits().has_bodies) draw(SubpathDimension::Medium, medium_);
 }
 
 void SubpathWave::advance_block(const SubpathJob& job, LightFinder* finder, std::size_t first, std::size_t count,
@@ -153,7 +153,7 @@ void SubpathWave::advance_block(const SubpathJob& job, LightFinder* finder, std:
     const World& world = job.world;
     WaveProfile* const profile = job.job.profile;
     surfaces_ = 0;
-    world.fetch_triangles(std::span(hits_).subspan(first, count));
+    world.geometry().fetch_triangles(std::span(hits_).subspan(first, count));
     for (std::size_t k = 0; k < count; ++k) {
         goes_on_[k] = false;
         block_[k].lane = surfaces_;
@@ -194,24 +194,24 @@ bool SubpathWave::set_up(const SubpathJob& job, std::size_t i, ShadedSubpath& pa
         end_path(job, i, PathEnding::Escaped);
         return false;
     }
-    if (world.has_bodies() && scatter_in_medium(job, i)) return false;
-    path.plain = world.plain_bsdf(hits_[i]);
+    if (world.traits().has_bodies && scatter_in_medium(job, i)) return false;
+    path.plain = world.materials().plain_bsdf(hits_[i]);
     if (path.plain != nullptr) {
-        path.point.material = world.material(hits_[i]);
+        path.point.material = world.materials().at(hits_[i]);
         path.crossing.reset();
-        lanes_.set_hit(path.lane, world.hit_triangle(hits_[i]), {hits_[i].u, hits_[i].v});
+        lanes_.set_hit(path.lane, world.geometry().hit_triangle(hits_[i]), {hits_[i].u, hits_[i].v});
         lanes_.wo.set(path.lane, -rays_[i].direction);
         lanes_.albedo.set(path.lane, std::get_if<Diffuse>(path.plain)->albedo);
         lanes_.throughput.set(path.lane, states_[i].throughput);
         return true;
     }
-    make_in_place(path.point, [&] { return world.surface_point(hits_[i], rays_[i], RayCone{}); });
+    make_in_place(path.point, [&] { return world.geometry().surface_point(hits_[i], rays_[i], RayCone{}); });
     path.crossing.reset();
-    if (world.has_bodies() && world.is_boundary(path.point))
+    if (world.traits().has_bodies && world.media().is_boundary(path.point))
         path.crossing.emplace(InPlace{[&] {
             return hits_[i].in_contact
-                       ? world.contact_crossing(path.point, interiors_[i], hits_[i], rays_[i], RayCone{})
-                       : world.crossing(path.point, interiors_[i]);
+                       ? world.media().contact_crossing(path.point, interiors_[i], hits_[i], rays_[i], RayCone{})
+                       : world.media().crossing(path.point, interiors_[i]);
         }});
     return true;
 }
@@ -263,7 +263,7 @@ SubpathDensities SubpathWave::arrive(const SubpathJob& job, std::size_t i, const
     if (end_ == SubpathEnd::AtLight)
         return arrive_from_light(job.mis(), emissions_[state.slot], state.departing, position, cosine);
     const Vec2f lens = job.samples[state.slot].lens;
-    return arrive_from_lens(job.mis(), state.departing, job.world.connect_to_camera(position, lens, rays_[i].time),
+    return arrive_from_lens(job.mis(), state.departing, job.world.camera().connect(position, lens, rays_[i].time),
                             cosine);
 }
 
@@ -357,7 +357,7 @@ void SubpathWave::pass_pane(std::size_t i, const ShadedSubpath& path) {
 bool SubpathWave::scatter_in_medium(const SubpathJob& job, std::size_t i) {
     SubpathState& state = states_[i];
     Ray& ray = rays_[i];
-    const HomogeneousMedium* medium = job.world.medium(interiors_[i]);
+    const HomogeneousMedium* medium = job.world.media().within(interiors_[i]);
     if (medium == nullptr) return false;
     const MediumSample sample = medium->sample(state.throughput, hits_[i].t, medium_[i]);
     state.throughput *= sample.weight;
@@ -414,7 +414,7 @@ void SubpathWave::keep_survivors(const SubpathJob& job, std::size_t first, std::
         const std::size_t i = first + k;
         const bool survives = choices_[i].y < survival[k];
         if (job.job.profile != nullptr && goes_on_[k] && !survives) end_path(job, i, PathEnding::Roulette);
-        if (job.world.has_transparency())
+        if (job.world.traits().has_transparency)
             rays_[i].alpha_key = sample_bits(keys_[i], subpath_dimension(end_, bounce_, SubpathDimension::Alpha));
         states_[kept] = states_[i];
         states_[kept].throughput *= 1.0f / survival[k];

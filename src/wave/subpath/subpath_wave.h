@@ -89,7 +89,7 @@ class LightFinder {
 /// A subpath whose ray has hit a surface, between the stages of its shading.
 struct ShadedSubpath {
     SurfacePoint point;           ///< of a plain surface, its material only
-    const Bsdf* plain = nullptr;  ///< see World::plain_bsdf: shaded with others at once, in `MatteLanes`
+    const Bsdf* plain = nullptr;  ///< see Materials::plain_bsdf: shaded with others at once, in `MatteLanes`
     std::size_t lane = 0;         ///< there
     SubpathDensities arrived;
     std::optional<Crossing> crossing;
@@ -151,7 +151,7 @@ class SubpathWave {
     /// Stores the vertex, if the subpath may have one more; false if it ends, or only passes through.
     bool make_vertex(const SubpathJob& job, std::size_t i, ShadedSubpath& path);
     /// Puts `vertex` where the surface is; unless that is plain, with lobes for the index `relative_ior` as in
-    /// World::bsdf.
+    /// Materials::bsdf.
     void place(const World& world, const ShadedSubpath& path, float relative_ior, PathVertex& vertex);
     /// Gives the lane of the vertex just stored, which is plain, a place for its MatteEnd and `end_fewer`; false if the
     /// vertex has no such end.

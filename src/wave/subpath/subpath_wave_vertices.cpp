@@ -45,9 +45,9 @@ bool SubpathWave::make_vertex(const SubpathJob& job, std::size_t i, ShadedSubpat
         vertex.merges = merge_at(job.mis(), state.departing, vertex.position, path.arrived);
         vertex.densities = path.arrived;
     }
-    if (world.has_bodies()) {
-        vertex.outside = world.medium(crossing ? crossing->outside : interiors_[i]);
-        vertex.inside = crossing ? world.medium(crossing->inside) : vertex.outside;
+    if (world.traits().has_bodies) {
+        vertex.outside = world.media().within(crossing ? crossing->outside : interiors_[i]);
+        vertex.inside = crossing ? world.media().within(crossing->inside) : vertex.outside;
     }
     if (vertex.is_connectible && !path.ends_here) list_connectible(state, state.edges + 1);
     if (path.plain != nullptr) {
@@ -76,7 +76,7 @@ void SubpathWave::place(const World& world, const ShadedSubpath& path, float rel
     vertex.clearance = point.clearance;
     if (bsdf_count_ == bsdfs_.size()) bsdfs_.emplace_back();
     Bsdf& storage = bsdfs_[bsdf_count_];
-    const Bsdf& bsdf = world.bsdf(point, vertex.wo, relative_ior, storage);
+    const Bsdf& bsdf = world.materials().bsdf(point, vertex.wo, relative_ior, storage);
     if (&bsdf == &storage) ++bsdf_count_;
     vertex.surface.emplace(bsdf, point.shading, point.geometric_normal, vertex.wo);
     vertex.is_connectible = vertex.surface->has_non_delta();

@@ -178,7 +178,7 @@ TEST(CachedConnectionsInMotion, AreThoseOfEachSample) {
         scene.instances.front().motion = {Mat4f(), aside};
     };
     const World world = agreement_world(moving);
-    ASSERT_TRUE(world.has_motion());
+    ASSERT_TRUE(world.traits().has_motion);
     IntegratorSettings options{.lengths = {.max_depth = 6}};
     const std::vector<float> pairwise = render_bdpt(world, options, 8, 3);
     options.cached_connections = 4;

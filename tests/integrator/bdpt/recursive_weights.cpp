@@ -43,8 +43,8 @@ class GivenPath {
 
   private:
     [[nodiscard]] bool has_light() const { return path_.end.light != kNone; }
-    [[nodiscard]] bool at_infinity() const { return job_.world.is_at_infinity(path_.end.light); }
-    [[nodiscard]] bool can_be_hit() const { return job_.world.can_be_hit(path_.end.light); }
+    [[nodiscard]] bool at_infinity() const { return job_.world.lights().is_at_infinity(path_.end.light); }
+    [[nodiscard]] bool can_be_hit() const { return job_.world.lights().can_be_hit(path_.end.light); }
     [[nodiscard]] std::size_t last() const { return path_.inner.size() - 1; }
 
     /// From vertex `i` towards the eye, unit.
@@ -135,14 +135,14 @@ class GivenPath {
                merge_at(job_.mis(), departing, vertex.position, vertex.densities);
     }
 
-    /// As World::sample_emission makes it.
+    /// As LightEmitter::sample makes it.
     [[nodiscard]] Emission emission() const {
         const World& world = job_.world;
         const PathLightEnd& end = path_.end;
-        const float pdf = world.emission_pdf(end.light, end.direction, end.cos_light);
+        const float pdf = world.emitters().pdf(end.light, end.direction, end.cos_light);
         Emission emission;
         emission.light = end.light;
-        emission.probability = world.emission_probability(end.light);
+        emission.probability = world.emitters().probability(end.light);
         emission.sample.triangle = end.triangle;
         emission.sample.position = end.position;
         emission.sample.direction = end.direction;
@@ -150,20 +150,21 @@ class GivenPath {
         if (at_infinity()) {
             emission.sample.pdf_position_area = pdf;
             if (can_be_hit())
-                emission.sample.pdf_direction_solid_angle = world.environment_emission_pdf_solid_angle(-end.direction);
+                emission.sample.pdf_direction_solid_angle =
+                    world.environment().emission_pdf_solid_angle(-end.direction);
         } else {
             emission.sample.pdf_direction_solid_angle = pdf;
-            if (can_be_hit()) emission.sample.pdf_position_area = world.emitter_pdf_area(end.light);
+            if (can_be_hit()) emission.sample.pdf_position_area = world.emitters().pdf_area(end.light);
         }
         return emission;
     }
-    /// As World::sample_light makes it for vertex 0.
+    /// As LightSampler::sample makes it for vertex 0.
     [[nodiscard]] ChosenLight chosen() const {
         const World& world = job_.world;
         const PathLightEnd& end = path_.end;
         const Vec3f& position = path_.inner.front()->position;
         ChosenLight chosen;
-        chosen.expected_samples = world.light_probability(position, end.light);
+        chosen.expected_samples = world.lights().probability(position, end.light);
         chosen.light = end.light;
         chosen.sample.wi = -end.direction;
         chosen.sample.cos_light = end.cos_light;
@@ -173,8 +174,8 @@ class GivenPath {
         const float squared = length_squared(end.position - position);
         chosen.sample.distance = std::sqrt(squared);
         if (can_be_hit())
-            chosen.sample.pdf_solid_angle = chosen.expected_samples * world.emitter_pdf_area(end.light) *
-                                            world.light_sample_gain(end.light, end.triangle, position) * squared /
+            chosen.sample.pdf_solid_angle = chosen.expected_samples * world.emitters().pdf_area(end.light) *
+                                            world.lights().gain(end.light, end.triangle, position) * squared /
                                             std::abs(end.cos_light);
         return chosen;
     }
@@ -194,7 +195,7 @@ class GivenPath {
             .weight();
     }
     [[nodiscard]] double weight_of_light_sample() const {
-        if (!job_.world.has_sampled_lights() || !scatters_freely(0) || !is_direct(0)) return 0.0;
+        if (!job_.world.traits().has_sampled_lights || !scatters_freely(0) || !is_direct(0)) return 0.0;
         const ChosenLight light = chosen();
         if (!(light.expected_samples > 0.0f)) return 0.0;
         return sums_of_light_sample(job_.mis(), eye_.vertices.front(), light, eye_.values.front()).weight();

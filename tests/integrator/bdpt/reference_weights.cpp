@@ -29,7 +29,7 @@ class Path {
           is_connected_(path.s > 0),
           from_light_(path.s > 0 ? path.s - 1 : 0),
           camera_(path.camera),
-          at_infinity_(end_.light != kNone && job.world.is_at_infinity(end_.light)) {}
+          at_infinity_(end_.light != kNone && job.world.lights().is_at_infinity(end_.light)) {}
 
     [[nodiscard]] std::size_t inner_count() const { return inner_.size(); }
 
@@ -38,17 +38,17 @@ class Path {
     [[nodiscard]] double on_light(std::size_t s) const {
         const World& world = job_.world;
         if (end_.light == kNone) return 0.0;
-        const auto chosen = static_cast<double>(s == 1 ? world.light_probability(inner_.front()->position, end_.light)
-                                                       : world.emission_probability(end_.light));
+        const auto chosen =
+            static_cast<double>(s == 1 ? world.lights().probability(inner_.front()->position, end_.light)
+                                       : world.emitters().probability(end_.light));
         // What only one direction or one point is made of has no density but that of the choice.
-        if (!world.can_be_hit(end_.light)) return chosen;
+        if (!world.lights().can_be_hit(end_.light)) return chosen;
         if (!at_infinity_) {
-            const float gain =
-                s == 1 ? world.light_sample_gain(end_.light, end_.triangle, inner_.front()->position) : 1.0f;
-            return chosen * static_cast<double>(world.emitter_pdf_area(end_.light) * gain);
+            const float gain = s == 1 ? world.lights().gain(end_.light, end_.triangle, inner_.front()->position) : 1.0f;
+            return chosen * static_cast<double>(world.emitters().pdf_area(end_.light) * gain);
         }
-        return chosen * static_cast<double>(s == 1 ? world.environment_pdf_solid_angle(-end_.direction)
-                                                   : world.environment_emission_pdf_solid_angle(-end_.direction));
+        return chosen * static_cast<double>(s == 1 ? world.environment().pdf_solid_angle(-end_.direction)
+                                                   : world.environment().emission_pdf_solid_angle(-end_.direction));
     }
 
     /// Per area, vertex `i` > 0 from the light's side. Deltas have their share of `delta` instead of a density.
@@ -57,7 +57,7 @@ class Path {
         if (end_.light == kNone) return 0.0;
         const PathVertex& vertex = *inner_[i - 1];
         if (i == 1) {
-            const auto pdf = static_cast<double>(world.emission_pdf(end_.light, end_.direction, end_.cos_light));
+            const auto pdf = static_cast<double>(world.emitters().pdf(end_.light, end_.direction, end_.cos_light));
             return pdf * cosine(vertex, end_.direction) / (at_infinity_ ? 1.0 : squared_distance(0));
         }
         const PathVertex& before = *inner_[i - 2];
@@ -73,7 +73,7 @@ class Path {
             return job_.samples_per_light_path() * static_cast<double>(camera_.importance_area) *
                    cosine(*inner_.back(), direction(inner_.size()));
         }
-        if (i == 0 && (end_.light == kNone ? false : !job_.world.can_be_hit(end_.light))) return 0.0;
+        if (i == 0 && (end_.light == kNone ? false : !job_.world.lights().can_be_hit(end_.light))) return 0.0;
         const PathVertex& before = *inner_[i];
         const double pdf = is_delta(i + 1)
                                ? delta_from_eye(i + 1)

@@ -49,7 +49,7 @@ TEST_P(SceneWeights, SumToOneAndAreThoseOfTheDefinition) {
     const World world = compile_world(std::move(desc), ColorConfig::built_in(), "ACEScg", threads, warnings);
     for (const Heuristic heuristic : {Heuristic::Power, Heuristic::Balance})
         EXPECT_GE(expect_right_weights(world, lengths, heuristic, MergeAt::Nothing, {&job, 1}, kPaths,
-                                       kShortEdge * world.bounding_radius()),
+                                       kShortEdge * world.geometry().bounding_radius()),
                   2u);
 }
 

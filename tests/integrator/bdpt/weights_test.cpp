@@ -41,7 +41,7 @@ TEST_P(BdptWeights, RecursionSaysWhatTheDefinitionSays) {
     const PixelFilter filter(FilterShape::Box);
     const TileJob jobs[] = {job_of(kWholeImage, 0, filter), job_of(kCrop, 0, filter)};
     // Of a path of so many edges, or of more where media scatter.
-    const int strategies = world.has_scattering_bodies() ? 4 : std::min(4, GetParam().lengths.max_depth + 1);
+    const int strategies = world.traits().has_scattering_bodies ? 4 : std::min(4, GetParam().lengths.max_depth + 1);
     for (const Heuristic heuristic : {Heuristic::Power, Heuristic::Balance})
         EXPECT_GE(
             expect_right_weights(world, GetParam().lengths, heuristic, MergeAt::Nothing, jobs, kPaths / 2, kShortEdge),

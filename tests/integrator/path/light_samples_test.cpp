@@ -60,7 +60,7 @@ TEST(LightSamples, OfAnEnvironmentMakeTheSameImage) {
     SceneDesc scene = agreement_scene(room);
     scene.environment.image = image.path();
     const World world = compile(std::move(scene));
-    ASSERT_TRUE(world.has_sampled_lights());
+    ASSERT_TRUE(world.traits().has_sampled_lights);
     const BlockAgreement result = compare(world, room);
     EXPECT_TRUE(result.agree()) << result.str();
 }

@@ -71,14 +71,14 @@ TEST(FirstHits, PositionsLieWhereTheirPixelsLook) {
         if (n[4] < 0.0f) continue;
         ++hits;
         const Vec3f position(n[0], n[1], n[2]);
-        const Vec2f film_point = world.connect_to_camera(position, {0.5f, 0.5f}, 0.0f).film;
+        const Vec2f film_point = world.camera().connect(position, {0.5f, 0.5f}, 0.0f).film;
         const auto column = static_cast<float>(p % kAgreementWidth);
         const std::size_t line = p / kAgreementWidth;
         const auto row = static_cast<float>(line);
         // The box filter's samples lie within their pixel.
         EXPECT_NEAR(film_point.x * kAgreementWidth, column + 0.5f, 0.501f);
         EXPECT_NEAR(film_point.y * kAgreementHeight, row + 0.5f, 0.501f);
-        EXPECT_NEAR(n[3], world.depth(position, 0.0f), 1e-4f);
+        EXPECT_NEAR(n[3], world.camera().depth(position, 0.0f), 1e-4f);
         EXPECT_GT(n[3], 0.0f);
         EXPECT_GE(n[4], 1.0f);
     }
@@ -95,7 +95,7 @@ TEST(FirstHits, NormalsFaceTheEyeAndAlbedosAreThoseOfTheMaterials) {
     const std::vector<float> means = film.resolve_values(0, 9);
     const std::vector<float> positions = film.resolve_nearest(0, 3, 0.0f);
     const std::vector<float> image = film.resolve();
-    const Vec3f eye = world.generate_ray({0.5f, 0.5f}, {0.5f, 0.5f}, 0.0f).origin;
+    const Vec3f eye = world.camera().generate_ray({0.5f, 0.5f}, {0.5f, 0.5f}, 0.0f).origin;
     std::size_t inside = 0;
     std::size_t scattering = 0;
     for (std::size_t p = 0; p < room.window.area(); ++p) {
